@@ -1,0 +1,18 @@
+# One CMake target per room; the link line is the law of who may know whom (doc/architecture.md).
+set(SPRING_WORKBENCH_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+
+# add_room(<name> [DEPENDS <rooms>...] [LIBRARIES <external libraries>...])
+# Builds src/<name>/*.cpp into the library spring_workbench_<name>.
+function(add_room name)
+  cmake_parse_arguments(ROOM "" "" "DEPENDS;LIBRARIES" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  set(target spring_workbench_${name})
+  add_library(${target} STATIC ${sources})
+  target_include_directories(${target} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+  target_compile_options(${target} PRIVATE ${SPRING_WORKBENCH_WARNINGS})
+  foreach(room ${ROOM_DEPENDS})
+    target_link_libraries(${target} PUBLIC spring_workbench_${room})
+  endforeach()
+  target_link_libraries(${target} PUBLIC ${ROOM_LIBRARIES})
+endfunction()

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+namespace spring_workbench {
+
+/// One number per deformation family of the fork.
+struct PerFamily {
+  double stretch = 0.0;
+  double bend = 0.0;
+  double torsion = 0.0;
+};
+
+/// The deformation families that are switched on (the paper's deformation DOFs, section 4). Off means rigid.
+struct ForkDofs {
+  bool stretch = true;
+  bool bend = true;
+  bool torsion = true;
+  bool operator==(const ForkDofs& o) const { return stretch == o.stretch && bend == o.bend && torsion == o.torsion; }
+};
+
+/// The spring-fork's elastic part (doc/model.md, "The spring-fork is a rod").
+struct ForkSettings {
+  std::string shape = "linear";               ///< key `shape`: the shape model's name
+  double length = 0.2;                        ///< key `fork.length` [m], > 0: rest length L
+  PerFamily stiffness{2000.0, 500.0, 5.0};    ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], > 0
+  PerFamily damping_ratio{1.0, 1.0, 1.0};     ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
+  ForkDofs dofs;                              ///< keys `fork.dofs.*`
+  double switch_off_time = 0.05;              ///< key `fork.switch_off_time` [s], > 0: time constant on which a family that
+                                              ///< is switched off while strained goes back to zero strain
+};
+
+}  // namespace spring_workbench

@@ -1,0 +1,106 @@
+#pragma once
+
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "spring_workbench/math/rigid_transform.h"
+
+namespace spring_workbench {
+
+struct Box {
+  Vector3d size;  ///< full edge lengths [m]
+};
+struct Sphere {
+  double radius;  ///< [m]
+};
+/// Axis along z, centred at the origin.
+struct Cylinder {
+  double radius;  ///< [m]
+  double length;  ///< [m]
+};
+/// Triangles in the shape's frame; shared, never changed after loading.
+struct TriangleMesh {
+  std::vector<Vector3d> vertices;                ///< [m]
+  std::vector<Eigen::Vector3i> triangles;        ///< indices into `vertices`, counter-clockwise from outside
+  std::string uri;                               ///< where it came from, for markers
+  Vector3d scale = Vector3d::Ones();             ///< already applied to `vertices`
+};
+using MeshPtr = std::shared_ptr<const TriangleMesh>;
+using Geometry = std::variant<Box, Sphere, Cylinder, MeshPtr>;
+
+/// A piece of a body, placed in the body's object frame O (axes of the URDF link, origin at the centre of mass).
+struct Shape {
+  Geometry geometry;
+  RigidTransform X_OS = RigidTransform::Identity();
+  Eigen::Vector4d color = Eigen::Vector4d(0.7, 0.7, 0.7, 1.0);  ///< r, g, b, alpha in 0 … 1
+};
+
+/// Mass [kg], and inertia tensor [kg·m²] about the centre of mass in the axes of O.
+struct MassProperties {
+  double mass = 0.0;
+  Matrix3d inertia_O = Matrix3d::Zero();
+};
+
+struct Material {
+  double friction = 0.5;                                             ///< Coulomb coefficient, ≥ 0
+  double restitution = 0.0;                                          ///< 0 … 1
+  double density = 1000.0;                                           ///< [kg/m³], > 0
+  double stiffness = std::numeric_limits<double>::infinity();        ///< [N/m], read by the spring-probe; > 0
+};
+
+/// One rigid body of the scene: a URDF link with everything that hangs on it by fixed joints.
+struct Body {
+  std::string name;                                     ///< the URDF link's name; unique in the scene
+  bool movable = false;
+  RigidTransform X_WO = RigidTransform::Identity();     ///< start pose of the object frame O in world
+  RigidTransform X_OL = RigidTransform::Identity();     ///< the URDF link frame L in O (a translation: −centre of mass)
+  MassProperties mass_properties;                       ///< zero for a body that is not movable
+  Material material;
+  std::vector<Shape> collision;
+  std::vector<Shape> visual;                            ///< the collision shapes where the URDF gives no visual
+};
+
+enum class ContactMode { none, stop, dynamic };
+
+/// Where an object has to be brought in an assembly: pose of its link frame in world, with tolerances [m, rad].
+struct Target {
+  RigidTransform X_WL = RigidTransform::Identity();
+  double position_tolerance = 0.01;
+  double angle_tolerance = 0.1;
+};
+
+/// A scene as read from a URDF and the YAML file of the same name beside it.
+struct Scene {
+  std::string name;
+  std::string path;
+  std::vector<Body> bodies;
+  double gravity = 9.81;                        ///< [m/s²], along −z of world; ≥ 0
+  double bench_height = 0.0;                    ///< z of the workbench plane in world [m]
+  Material bench_material;                      ///< the scene's defaults
+  ContactMode contact = ContactMode::stop;
+  std::string tool = "spring_fork";
+  double force_scale = 1.0;                     ///< virtual per real unit of force, > 0
+  RigidTransform X_WH_start = RigidTransform::Identity();  ///< start of the fork's handle
+  std::map<std::string, Target> targets;
+  std::vector<std::string> warnings;            ///< what was mended on loading; each names the link
+};
+
+/// Finds the folder of a ROS package, or an empty string. The core knows no ROS: a node passes rospack's answer.
+using PackageFinder = std::string (*)(const std::string& package);
+
+/// Finds packages in the colon-separated folders of ROS_PACKAGE_PATH: no ROS needed.
+std::string find_package_in_ros_package_path(const std::string& package);
+
+/// Reads a scene from a URDF file path or `package://` URI, with the YAML beside it where there is one.
+/// Throws InputError with file, field, value and rule for everything that cannot be used.
+Scene load_scene(const std::string& path_or_uri, PackageFinder find_package = find_package_in_ros_package_path);
+
+/// Index of the body called `name`, or nothing.
+std::optional<std::size_t> find_body(const Scene& scene, const std::string& name);
+
+}  // namespace spring_workbench

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spring_workbench/motion/pose_track.h"
+#include "spring_workbench/scene/scene.h"
+#include "spring_workbench/simulation/settings.h"
+
+namespace spring_workbench {
+
+/// State of one movable object, at its object frame O (centre of mass), in world axes.
+struct ObjectState {
+  std::string name;
+  RigidTransform X_WO = RigidTransform::Identity();
+  Twist V_WO_W;               ///< [m/s, rad/s]
+  bool held = false;
+  bool highlighted = false;   ///< the fork's tip is in it and the button is up
+  bool in_contact = false;
+  bool asleep = true;
+};
+
+/// State of the fork.
+struct ForkState {
+  std::string tool = "spring_fork";
+  std::string held_object;                                       ///< empty when nothing is held
+  std::string shape;
+  std::string integrator;
+  ForkDofs dofs;                                                 ///< families switched on
+  double length = 0.0;                                           ///< rest length [m]
+  PerFamily stiffness;                                           ///< [N/m, N/m, N·m/rad]
+  PerFamily damping_ratio;                                       ///< –
+  double stretch = 0.0;                                          ///< extension along the rod [m]
+  Eigen::Vector2d bend = Eigen::Vector2d::Zero();                ///< tip deflection along x and y of the handle [m]
+  double torsion = 0.0;                                          ///< twist angle [rad]
+  RigidTransform X_WH = RigidTransform::Identity();              ///< the hand
+  RigidTransform X_WH_seen = RigidTransform::Identity();         ///< the handle that the object sees (proxy of the hand)
+  RigidTransform X_WE = RigidTransform::Identity();              ///< the tip
+  Wrench tip_wrench_W;                                           ///< on the object at the tip, world axes [N, N·m]
+  Wrench handle_wrench_H;                                        ///< what the hand would feel, at and in the handle frame
+  double elastic_energy = 0.0;                                   ///< [J]
+  double kinetic_energy = 0.0;                                   ///< of the held object, in world [J]
+};
+
+enum class ContactPhase { started, persisting, ended };
+
+struct ContactState {
+  std::string object;
+  std::string other;                      ///< another object's name, or "workbench"
+  Vector3d p_W = Vector3d::Zero();        ///< [m]
+  Vector3d n_W = Vector3d::UnitZ();       ///< towards `object`
+  double depth = 0.0;                     ///< penetration [m]
+  double impulse = 0.0;                   ///< normal impulse in the last step [N·s]
+  double slip_speed = 0.0;                ///< [m/s]
+  ContactPhase phase = ContactPhase::started;
+};
+
+/// What a call of `advance` did.
+struct AdvanceReport {
+  int steps = 0;                          ///< integrator steps taken
+  double simulated_time = 0.0;            ///< [s]
+  double position_error = 0.0;            ///< largest estimate of a step's local error [m]
+  double angle_error = 0.0;               ///< [rad]
+  double energy_added = 0.0;              ///< by integration beyond what hand, gravity, damping and contact account for [J]
+  double stiffest_omega_dt = 0.0;         ///< ω·dt of the stiffest mode
+  int collision_queries = 0;
+  int guards_tripped = 0;                 ///< times a step was refused because it would not have been finite or bounded
+  std::vector<std::string> parts_run;     ///< e.g. "stretch", "gravity", "collision"
+  std::vector<std::string> parts_left_out;
+};
+
+/// What a change of the fork did to the stored energy.
+struct ChangeReport {
+  double elastic_energy_before = 0.0;  ///< [J]
+  double elastic_energy_after = 0.0;   ///< [J]
+  std::string message;                 ///< one line for the user
+};
+
+/// A scene, one hand and its tool: puts together just the parts that the scene needs, and owns time.
+/// No clock, no thread, no log, no ROS: the same calls give the same bits. NaN goes neither in nor out.
+class Simulation {
+ public:
+  /// Throws InputError when settings and scene do not fit (e.g. `grasp.object` is not in the scene).
+  Simulation(const Scene& scene, const SimulationSettings& settings);
+  ~Simulation();
+  Simulation(Simulation&&) noexcept;
+  Simulation& operator=(Simulation&&) noexcept;
+
+  const Scene& scene() const;
+  const SimulationSettings& settings() const;
+
+  /// Simulated time [s]: the first sample's stamp at first.
+  double time() const;
+
+  /// A new pose of the handle. Returns false when its stamp is not later than the newest one's (it is left out).
+  /// Throws InputError when it is not finite.
+  bool push_stylus(const PoseSample& sample);
+  /// The grasp button goes down or up at time `t` [s]; takes effect at the first step that begins at or after `t`.
+  void push_button(double t, bool pressed);
+  /// Time of the newest sample, or time() where there is none.
+  double newest_sample() const;
+
+  /// Goes from time() to `t_end` in steps of at most `settings().dynamics.step` that end at the samples.
+  AdvanceReport advance(double t_end);
+
+  /// Objects back to their start, nothing held, no sample known: for a jump of time, or on request.
+  void reset();
+  /// Lets go of the held object. False when nothing was held.
+  bool release();
+
+  // Changes while running; pose and twist of the object go on without a jump. Bad values throw InputError and change nothing.
+  ChangeReport set_dofs(const ForkDofs& dofs);
+  /// A family with 0 keeps its stiffness.
+  ChangeReport set_stiffness(const PerFamily& stiffness);
+  ChangeReport set_damping_ratio(const PerFamily& ratio);
+  /// Stiffness, damping and size from the held object's mass, size and grasp. Throws InputError when nothing is held.
+  ChangeReport calibrate();
+  /// By name; `step` [s] 0 keeps the present one.
+  void set_integrator(const std::string& name, double step);
+
+  const std::vector<ObjectState>& objects() const;
+  ForkState fork() const;
+  const std::vector<ContactState>& contacts() const;
+  /// Poses along the fork's centreline from handle to tip, in world, `count` ≥ 2 of them evenly spaced in arc length.
+  std::vector<RigidTransform> centreline(int count) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace spring_workbench
