@@ -1,0 +1,156 @@
+#include "spring_workbench/config/yaml_fields.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+namespace spring_workbench {
+namespace {
+
+std::string number_text(double value) {
+  std::ostringstream out;
+  out.precision(12);
+  out << value;
+  return out.str();
+}
+
+/// The node as the user wrote it, shortened to one line.
+std::string node_text(const YAML::Node& node) {
+  if (!node.IsDefined() || node.IsNull()) return "(nothing)";
+  std::string text = node.IsScalar() ? node.Scalar() : YAML::Dump(node);
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  constexpr std::size_t longest = 80;
+  return text.size() <= longest ? text : text.substr(0, longest) + "…";
+}
+
+std::string place(const YAML::Node& node, const std::string& where) {
+  const YAML::Mark mark = node.IsDefined() ? node.Mark() : YAML::Mark::null_mark();
+  return mark.is_null() || mark.line < 0 ? where : where + ":" + std::to_string(mark.line + 1);
+}
+
+[[noreturn]] void refuse_node(const YAML::Node& node, const std::string& where, const std::string& key,
+                              const std::string& rule) {
+  refuse(place(node, where), key, node_text(node), rule);
+}
+
+}  // namespace
+
+bool NumberRule::allows(double value) const {
+  if (std::isnan(value)) return false;
+  if (std::isinf(value)) return infinity_allowed && value > 0.0;
+  return (min_allowed ? value >= min : value > min) && value <= max;
+}
+
+std::string NumberRule::text() const {
+  constexpr double unbounded = std::numeric_limits<double>::max();
+  std::string text = "a finite number";
+  if (min > -unbounded && max < unbounded) {
+    text += std::string(" in ") + (min_allowed ? "[" : "(") + number_text(min) + ", " + number_text(max) + "]";
+  } else if (min > -unbounded) {
+    text += (min_allowed ? " >= " : " > ") + number_text(min);
+  } else if (max < unbounded) {
+    text += " <= " + number_text(max);
+  }
+  return infinity_allowed ? text + ", or .inf" : text;
+}
+
+void refuse(const std::string& where, const std::string& key, const std::string& value, const std::string& rule) {
+  throw InputError(where + ": " + key + ": " + value + " is not allowed: must be " + rule);
+}
+
+void check_number(const std::string& where, const std::string& key, double value, const NumberRule& rule) {
+  if (!rule.allows(value)) refuse(where, key, number_text(value), rule.text());
+}
+
+double read_number(const YAML::Node& node, const std::string& where, const std::string& key, const NumberRule& rule) {
+  double value = 0.0;
+  if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !rule.allows(value)) {
+    refuse_node(node, where, key, rule.text());
+  }
+  return value;
+}
+
+int read_integer(const YAML::Node& node, const std::string& where, const std::string& key, int min, int max) {
+  int value = 0;
+  if (!node.IsScalar() || !YAML::convert<int>::decode(node, value) || value < min || value > max) {
+    refuse_node(node, where, key, "an integer in [" + std::to_string(min) + ", " + std::to_string(max) + "]");
+  }
+  return value;
+}
+
+bool read_bool(const YAML::Node& node, const std::string& where, const std::string& key) {
+  bool value = false;
+  if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value)) refuse_node(node, where, key, "true or false");
+  return value;
+}
+
+std::string read_string(const YAML::Node& node, const std::string& where, const std::string& key) {
+  if (!node.IsScalar()) refuse_node(node, where, key, "a string");
+  return node.Scalar();
+}
+
+std::string read_choice(const YAML::Node& node, const std::string& where, const std::string& key,
+                        const std::vector<std::string>& choices) {
+  if (!node.IsScalar() || std::find(choices.begin(), choices.end(), node.Scalar()) == choices.end()) {
+    refuse_node(node, where, key, "one of " + join(choices));
+  }
+  return node.Scalar();
+}
+
+std::vector<double> read_numbers(const YAML::Node& node, const std::string& where, const std::string& key,
+                                 std::size_t count) {
+  const std::string rule = std::to_string(count) + " finite numbers";
+  std::vector<double> values;
+  if (node.IsSequence()) {
+    for (const YAML::Node& item : node) {
+      double value = 0.0;
+      if (!item.IsScalar() || !YAML::convert<double>::decode(item, value)) refuse_node(node, where, key, rule);
+      values.push_back(value);
+    }
+  } else if (node.IsScalar()) {
+    std::istringstream in(node.Scalar());
+    for (double value = 0.0; in >> value;) values.push_back(value);
+    if (!in.eof()) refuse_node(node, where, key, rule);
+  }
+  const bool finite = std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+  if (values.size() != count || !finite) refuse_node(node, where, key, rule);
+  return values;
+}
+
+RigidTransform read_pose(const YAML::Node& node, const std::string& where, const std::string& key) {
+  const std::vector<double> v = read_numbers(node, where, key, 7);
+  const Quaterniond q(v[6], v[3], v[4], v[5]);
+  if (!(q.norm() > 1e-6)) refuse_node(node, where, key, "x y z qx qy qz qw with a quaternion that is not zero");
+  return make_transform(q, Vector3d(v[0], v[1], v[2]));
+}
+
+void check_keys(const YAML::Node& map, const std::string& where, const std::string& prefix,
+                const std::vector<std::string>& allowed) {
+  if (!map.IsMap()) refuse_node(map, where, prefix.empty() ? "(top level)" : prefix, "a map");
+  for (const auto& entry : map) {
+    const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : YAML::Dump(entry.first);
+    if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
+      throw InputError(place(entry.first, where) + ": " + prefix + key + ": unknown key; known are " + join(allowed));
+    }
+  }
+}
+
+YAML::Node load_yaml_file(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw InputError(path + ": cannot be read: must be a readable YAML file");
+  try {
+    const YAML::Node node = YAML::Load(file);
+    return node.IsNull() ? YAML::Node(YAML::NodeType::Map) : node;
+  } catch (const YAML::Exception& e) {
+    throw InputError(path + ":" + std::to_string(e.mark.line + 1) + ": not YAML: " + e.msg);
+  }
+}
+
+std::string join(const std::vector<std::string>& words, const std::string& separator) {
+  std::string text;
+  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
+  return text;
+}
+
+}  // namespace spring_workbench
