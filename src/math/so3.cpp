@@ -69,8 +69,8 @@ Vector3d right_jacobian_rate_so3(const Vector3d& theta, const Vector3d& theta_do
   // Derivatives of b and c with respect to θ²: b' = (a − 2b)/(2θ²), c' = (b − 3c)/(2θ²).
   double b_prime, c_prime;
   if (t < 1e-2) {
-    b_prime = -1.0 / 24.0 * (1.0 - t / 15.0 * (1.0 - t * 3.0 / 112.0));
-    c_prime = -1.0 / 120.0 * (1.0 - t / 21.0 * (1.0 - t / 48.0));
+    b_prime = -1.0 / 24.0 * (1.0 - t / 15.0 * (1.0 - t * 3.0 / 112.0 * (1.0 - t * 2.0 / 135.0)));
+    c_prime = -1.0 / 120.0 * (1.0 - t / 21.0 * (1.0 - t / 48.0 * (1.0 - t * 2.0 / 165.0)));
   } else {
     b_prime = (k.a - 2.0 * k.b) / (2.0 * t);
     c_prime = (k.b - 3.0 * k.c) / (2.0 * t);
