@@ -40,8 +40,8 @@ VolumeProperties mesh_properties(const TriangleMesh& mesh) {
   for (const Vector3d& v : mesh.vertices) box.extend(v);
   const Vector3d middle = box.center();
   double volume = 0.0;
-  Vector3d first = Vector3d::Zero();    // ∫ x
-  Matrix3d second = Matrix3d::Zero();   // ∫ x xᵀ
+  Vector3d first = Vector3d::Zero();   // ∫ x
+  Matrix3d second = Matrix3d::Zero();  // ∫ x xᵀ
   for (const Eigen::Vector3i& t : mesh.triangles) {
     Matrix3d corners;
     for (int k = 0; k < 3; ++k) corners.col(k) = mesh.vertices[static_cast<std::size_t>(t[k])] - middle;
@@ -83,19 +83,18 @@ double cylinder_reach(const Cylinder& c, const RigidTransform& X) {
 
 /// Largest distance of a point of the shape from the origin of the frame that `X` places it in.
 double reach(const Geometry& geometry, const RigidTransform& X) {
-  return std::visit(
-      Overloaded{[&](const Box& b) {
-                   const Vector3d centre = X.linear().transpose() * X.translation();
-                   return (centre.cwiseAbs() + 0.5 * b.size).norm();
-                 },
-                 [&](const Sphere& s) { return X.translation().norm() + s.radius; },
-                 [&](const Cylinder& c) { return cylinder_reach(c, X); },
-                 [&](const MeshPtr& m) {
-                   double farthest = 0.0;
-                   for (const Vector3d& v : m->vertices) farthest = std::max(farthest, (X * v).norm());
-                   return farthest;
-                 }},
-      geometry);
+  return std::visit(Overloaded{[&](const Box& b) {
+                                 const Vector3d centre = X.linear().transpose() * X.translation();
+                                 return (centre.cwiseAbs() + 0.5 * b.size).norm();
+                               },
+                               [&](const Sphere& s) { return X.translation().norm() + s.radius; },
+                               [&](const Cylinder& c) { return cylinder_reach(c, X); },
+                               [&](const MeshPtr& m) {
+                                 double farthest = 0.0;
+                                 for (const Vector3d& v : m->vertices) farthest = std::max(farthest, (X * v).norm());
+                                 return farthest;
+                               }},
+                    geometry);
 }
 
 }  // namespace
@@ -109,32 +108,30 @@ VolumeProperties volume_properties(const Geometry& geometry) {
 }
 
 bool contains(const Geometry& geometry, const Vector3d& p_S) {
-  return std::visit(
-      Overloaded{[&](const Box& b) { return (p_S.cwiseAbs().array() <= 0.5 * b.size.array()).all(); },
-                 [&](const Sphere& s) { return p_S.norm() <= s.radius; },
-                 [&](const Cylinder& c) {
-                   return std::hypot(p_S.x(), p_S.y()) <= c.radius && std::abs(p_S.z()) <= 0.5 * c.length;
-                 },
-                 [&](const MeshPtr& m) { return winding_number(*m, p_S) > 0.5; }},
-      geometry);
+  return std::visit(Overloaded{[&](const Box& b) { return (p_S.cwiseAbs().array() <= 0.5 * b.size.array()).all(); },
+                               [&](const Sphere& s) { return p_S.norm() <= s.radius; },
+                               [&](const Cylinder& c) {
+                                 return std::hypot(p_S.x(), p_S.y()) <= c.radius && std::abs(p_S.z()) <= 0.5 * c.length;
+                               },
+                               [&](const MeshPtr& m) { return winding_number(*m, p_S) > 0.5; }},
+                    geometry);
 }
 
 Eigen::AlignedBox3d bounding_box(const Geometry& geometry, const RigidTransform& X_AS) {
   const Vector3d p = X_AS.translation();
-  return std::visit(
-      Overloaded{[&](const Box& b) { return box_around(p, X_AS.linear().cwiseAbs() * (0.5 * b.size)); },
-                 [&](const Sphere& s) { return box_around(p, Vector3d::Constant(s.radius)); },
-                 [&](const Cylinder& c) {
-                   const Vector3d axis = X_AS.linear().col(2);
-                   const Vector3d rim = (1.0 - axis.array().square()).max(0.0).sqrt().matrix();
-                   return box_around(p, 0.5 * c.length * axis.cwiseAbs() + c.radius * rim);
-                 },
-                 [&](const MeshPtr& m) {
-                   Eigen::AlignedBox3d box;
-                   for (const Vector3d& v : m->vertices) box.extend(Vector3d(X_AS * v));
-                   return box;
-                 }},
-      geometry);
+  return std::visit(Overloaded{[&](const Box& b) { return box_around(p, X_AS.linear().cwiseAbs() * (0.5 * b.size)); },
+                               [&](const Sphere& s) { return box_around(p, Vector3d::Constant(s.radius)); },
+                               [&](const Cylinder& c) {
+                                 const Vector3d axis = X_AS.linear().col(2);
+                                 const Vector3d rim = (1.0 - axis.array().square()).max(0.0).sqrt().matrix();
+                                 return box_around(p, 0.5 * c.length * axis.cwiseAbs() + c.radius * rim);
+                               },
+                               [&](const MeshPtr& m) {
+                                 Eigen::AlignedBox3d box;
+                                 for (const Vector3d& v : m->vertices) box.extend(Vector3d(X_AS * v));
+                                 return box;
+                               }},
+                    geometry);
 }
 
 Eigen::AlignedBox3d bounding_box(const Body& body) {

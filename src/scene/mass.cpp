@@ -1,10 +1,9 @@
 #include "mass.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <sstream>
-
-#include <Eigen/Eigenvalues>
 
 #include "mesh_file.h"
 #include "spring_workbench/config/yaml_fields.h"
@@ -79,8 +78,8 @@ std::string inertia_defect(const RigidMass& mass, const std::vector<Shape>& shap
   return "";
 }
 
-RigidMass mended_mass(const RigidMass& given, const std::vector<Shape>& shapes, double density, const std::string& where,
-                      std::vector<std::string>& warnings) {
+RigidMass mended_mass(const RigidMass& given, const std::vector<Shape>& shapes, double density,
+                      const std::string& where, std::vector<std::string>& warnings) {
   if (!(given.mass > 0.0)) {
     const RigidMass solid = solid_mass(shapes, density, where, warnings);
     if (!(solid.mass > 0.0)) refuse(where, "mass", "0", "> 0, or the movable body must have a shape with a volume");

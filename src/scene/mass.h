@@ -29,9 +29,9 @@ RigidMass solid_mass(const std::vector<Shape>& shapes, double density, const std
 /// principal moments must obey the triangle inequality, and the radius of gyration must not reach beyond the shapes.
 std::string inertia_defect(const RigidMass& mass, const std::vector<Shape>& shapes);
 
-/// The mass of a movable body: as the URDF has it where that is possible, otherwise mended from the shapes, with a warning.
-/// Throws InputError naming `where` when it cannot be mended.
-RigidMass mended_mass(const RigidMass& given, const std::vector<Shape>& shapes, double density, const std::string& where,
-                      std::vector<std::string>& warnings);
+/// The mass of a movable body: as the URDF has it where that is possible, otherwise mended from the shapes, with a
+/// warning. Throws InputError naming `where` when it cannot be mended.
+RigidMass mended_mass(const RigidMass& given, const std::vector<Shape>& shapes, double density,
+                      const std::string& where, std::vector<std::string>& warnings);
 
 }  // namespace spring_workbench

@@ -1,14 +1,14 @@
 #include "mesh_file.h"
 
-#include <algorithm>
-#include <array>
-#include <filesystem>
-#include <set>
-
-#include <assimp/Importer.hpp>
 #include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <filesystem>
+#include <set>
 
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/scene/geometry.h"
@@ -18,7 +18,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool starts_with(const std::string& text, const std::string& start) { return text.compare(0, start.size(), start) == 0; }
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
 
 std::string package_file(const std::string& name, PackageFinder find_package, const std::string& where,
                          const std::string& key) {

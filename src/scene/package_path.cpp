@@ -1,8 +1,8 @@
+#include <tinyxml.h>
+
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
-
-#include <tinyxml.h>
 
 #include "spring_workbench/scene/scene.h"
 

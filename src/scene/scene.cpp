@@ -82,8 +82,8 @@ class SceneLoader {
     const std::string folder = fs::path(path_).parent_path().string();
     const UrdfFile urdf = read_urdf(resolve_file(*entry.urdf, folder, find_package_, entry.where, key));
     const auto material = [&](const std::string&) { return entry.material; };
-    std::vector<Body> bodies = build_bodies(urdf, entry.X_WL.value_or(RigidTransform::Identity()), material, meshes_,
-                                            scene_.warnings);
+    std::vector<Body> bodies =
+        build_bodies(urdf, entry.X_WL.value_or(RigidTransform::Identity()), material, meshes_, scene_.warnings);
     if (bodies.size() != 1 || is_bench_scene(urdf)) {
       refuse(entry.where, key, *entry.urdf, "the URDF of one object (one body, root not world or workbench)");
     }

@@ -92,8 +92,8 @@ void for_each_entry(const YAML::Node& map, const std::string& path, const std::s
 
 SceneFile read_scene_file(const std::string& path) {
   const YAML::Node map = load_yaml_file(path);
-  check_keys(map, path, "", {"gravity", "contact", "tool", "force_scale", "bench_height", "defaults", "objects", "targets",
-                             "start"});
+  check_keys(map, path, "",
+             {"gravity", "contact", "tool", "force_scale", "bench_height", "defaults", "objects", "targets", "start"});
   SceneFile file;
   read_settings(map, path, file.settings);
   for_each_entry(map, path, "objects", [&](const std::string& name, const YAML::Node& node) {

@@ -19,7 +19,8 @@ RigidTransform to_transform(const urdf::Pose& pose, const std::string& where) {
   return make_transform(rotation, p);
 }
 
-/// A body to be: its first link and the links that hang on it by fixed joints, each with its pose in the first link's frame.
+/// A body to be: its first link and the links that hang on it by fixed joints, each with its pose in the first link's
+/// frame.
 struct LinkGroup {
   const urdf::Link* first = nullptr;
   bool movable = false;
@@ -41,8 +42,7 @@ class Grouping {
 
  private:
   bool carries_mass(const urdf::Link& root) {
-    const bool mass =
-        file_.unreadable_inertials.count(root.name) > 0 || (root.inertial && root.inertial->mass != 0.0);
+    const bool mass = file_.unreadable_inertials.count(root.name) > 0 || (root.inertial && root.inertial->mass != 0.0);
     if (!mass) warnings_.push_back(file_.where(root.name) + ": the root has no mass: the body is fixed");
     return mass;
   }
@@ -57,8 +57,7 @@ class Grouping {
     const bool on_bench = is_bench_scene(file_) && link == file_.model->getRoot().get();
     for (const urdf::LinkSharedPtr& child : link->child_links) {
       const urdf::Joint& joint = *child->parent_joint;
-      const RigidTransform X_LC =
-          X_LK * to_transform(joint.parent_to_joint_origin_transform, file_.where(child->name));
+      const RigidTransform X_LC = X_LK * to_transform(joint.parent_to_joint_origin_transform, file_.where(child->name));
       const bool floats = joint.type == urdf::Joint::FLOATING;
       if (!floats && joint.type != urdf::Joint::FIXED) {
         warnings_.push_back(file_.where(child->name) + ": joint '" + joint.name +
@@ -83,7 +82,9 @@ class Grouping {
 class BodyBuilder {
  public:
   BodyBuilder(const UrdfFile& file, MeshCache& meshes, std::vector<std::string>& warnings)
-      : file_(file), folder_(std::filesystem::path(file.path).parent_path().string()), meshes_(meshes),
+      : file_(file),
+        folder_(std::filesystem::path(file.path).parent_path().string()),
+        meshes_(meshes),
         warnings_(warnings) {}
 
   Body build(const LinkGroup& group, const Material& material) {
@@ -155,14 +156,11 @@ class BodyBuilder {
     for (const urdf::VisualSharedPtr& visual : link.visual_array) {
       shapes.push_back(make_shape(link, *visual->geometry, X_LK, visual->origin));
       if (visual->material && visual->material->texture_filename.empty()) {
-        shapes.back().color = color(visual->material->color);
+        const urdf::Color& c = visual->material->color;  // urdfdom takes 0 … 1 only
+        shapes.back().color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
       }
     }
     return shapes;
-  }
-
-  static Eigen::Vector4d color(const urdf::Color& c) {
-    return Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>().cwiseMax(0.0).cwiseMin(1.0);
   }
 
   Shape make_shape(const urdf::Link& link, const urdf::Geometry& geometry, const RigidTransform& X_LK,
@@ -192,7 +190,8 @@ class BodyBuilder {
         check_number(where, "cylinder length", c.length, positive());
         return Cylinder{c.radius, c.length};
       }
-      case urdf::Geometry::MESH: break;
+      case urdf::Geometry::MESH:
+        break;
     }
     const auto& m = static_cast<const urdf::Mesh&>(geometry);
     return meshes_.load(m.filename, Vector3d(m.scale.x, m.scale.y, m.scale.z), folder_, where);

@@ -1,14 +1,14 @@
 #include "urdf_file.h"
 
+#include <console_bridge/console.h>
+#include <tinyxml.h>
+#include <urdf_parser/urdf_parser.h>
+
 #include <algorithm>
 #include <array>
 #include <fstream>
 #include <mutex>
 #include <sstream>
-
-#include <console_bridge/console.h>
-#include <tinyxml.h>
-#include <urdf_parser/urdf_parser.h>
 
 #include "spring_workbench/config/input_error.h"
 
@@ -66,7 +66,8 @@ ParseResult parse(const TiXmlDocument& document) {
   return result;
 }
 
-/// urdfdom's first complaint about an element of a link, or nothing. Materials may be defined elsewhere: they are left out.
+/// urdfdom's first complaint about an element of a link, or nothing. Materials may be defined elsewhere: they are left
+/// out.
 std::string complaint_about(TiXmlElement element) {
   while (TiXmlElement* material = element.FirstChildElement("material")) element.RemoveChild(material);
   TiXmlElement link("link");
@@ -159,15 +160,15 @@ UrdfFile read_urdf_file(const std::string& path) {
   file.path = path;
   if (TiXmlElement* robot = document.FirstChildElement("robot")) {
     for (TiXmlElement* link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
-      if (link->Attribute("name") == nullptr) continue;  // urdfdom refuses it below
+      if (link->Attribute("name") == nullptr) throw InputError(place(path, link->Row()) + ": link: name is missing");
       file.link_lines[link->Attribute("name")] = link->Row();
       try_elements(*link, file);
     }
   }
   ParseResult result = parse(document);
   if (!result.model) {
-    throw InputError(path + ": not a URDF: " +
-                     (result.complaints.empty() ? "refused without a reason" : result.complaints.front()));
+    throw InputError(
+        path + ": not a URDF: " + (result.complaints.empty() ? "refused without a reason" : result.complaints.front()));
   }
   file.model = result.model;
   for (const std::string& complaint : result.complaints) file.warnings.push_back(path + ": " + complaint);

@@ -1,12 +1,12 @@
 #pragma once
 
+#include <urdf_model/model.h>
+
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
-
-#include <urdf_model/model.h>
 
 namespace spring_workbench {
 
@@ -23,9 +23,9 @@ struct UrdfFile {
   std::string where(const std::string& link) const;
 };
 
-/// Reads a URDF. urdfdom stops reading a link at the first element that it does not understand and says so on the console
-/// only: each inertial, visual and collision is therefore tried by itself first, and what urdfdom does not know is taken
-/// out with a warning. Throws InputError with urdfdom's reason for everything else that it refuses.
+/// Reads a URDF. urdfdom stops reading a link at the first element that it does not understand and says so on the
+/// console only: each inertial, visual and collision is therefore tried by itself first, and what urdfdom does not know
+/// is taken out with a warning. Throws InputError with urdfdom's reason for everything else that it refuses.
 UrdfFile read_urdf_file(const std::string& path);
 
 }  // namespace spring_workbench
