@@ -1,6 +1,7 @@
 #pragma once
 
 #include <deque>
+#include <limits>
 
 #include "spring_workbench/math/rigid_transform.h"
 
@@ -22,8 +23,9 @@ struct MotionState {
 /// The motion between two neighbouring samples: cubic Hermite in position and in rotation vector (see doc/model.md).
 class MotionSegment {
  public:
-  /// Rests at `X` for ever.
-  explicit MotionSegment(const RigidTransform& X);
+  /// Rests at `X` from `begin` to `end` [s]; for ever where they are not given.
+  explicit MotionSegment(const RigidTransform& X, double begin = -std::numeric_limits<double>::infinity(),
+                         double end = std::numeric_limits<double>::infinity());
   /// From sample `a` to sample `b` (`a.t < b.t`) with the velocities at both; linear part in world axes,
   /// `w_*_B` the body rates in the body's own axes.
   MotionSegment(const PoseSample& a, const Vector3d& v_a, const Vector3d& w_a_B, const PoseSample& b,
@@ -35,30 +37,65 @@ class MotionSegment {
   MotionState at(double t) const;
 
  private:
-  // …
+  /// `u (c[0] + u (c[1] + u c[2]))` for u = 0 … 1 over the segment: what a vector adds to its value at the start.
+  struct Cubic {
+    Vector3d c[3] = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+    static Cubic hermite(const Vector3d& change, const Vector3d& slope_a, const Vector3d& slope_b);
+    Vector3d value(double u) const { return u * (c[0] + u * (c[1] + u * c[2])); }
+    Vector3d first(double u) const { return c[0] + u * (2.0 * c[1] + u * 3.0 * c[2]); }
+    Vector3d second(double u) const { return 2.0 * c[1] + u * 6.0 * c[2]; }
+  };
+
+  RigidTransform X_a_;
+  double begin_;
+  double end_;
+  bool moving_;
+  Cubic position_;  ///< world axes [m]
+  Cubic rotation_;  ///< rotation vector from the pose at the start, in its axes [rad]
 };
 
 /// The samples of one tracked frame, interpolated so that the motion passes through each of them and is C¹.
-/// The velocity at a sample comes from three neighbouring samples; it is fixed when the first segment that uses it is asked
-/// for, so that a live track (newest sample: one-sided) stays C¹ as well.
+/// The velocity at a sample comes from it and its two neighbours (at an end of the motion: from the chord to the only
+/// one); it is fixed when the first segment that uses it is asked for, so that a live track, whose newest sample is an
+/// end, stays C¹ as well.
 class PoseTrack {
  public:
   /// `dropout_after` [s]: a gap between samples longer than this holds the last pose at zero velocity until the next
   /// sample, where the motion goes on from the new pose.
   explicit PoseTrack(double dropout_after = 0.5);
 
-  /// Adds a sample. Returns false, and leaves it out, when its stamp is not later than the newest one's.
-  /// Throws InputError when the sample is not finite.
+  /// Adds a sample. Returns false, and leaves it out, when its stamp is not later than the newest one's by at least
+  /// half a nanosecond. Throws InputError when the sample is not finite, is out of any range (|t| > 1e12 s, |p| > 1e9
+  /// m) or its linear part is no rotation.
   bool push(const PoseSample& sample);
 
   bool empty() const;
   double begin() const;  ///< time of the oldest sample still held [s]
   double end() const;    ///< time of the newest sample [s]
   /// The segment that starts at or contains `t`, begin() ≤ t. At or after end(): at rest at the newest pose.
+  /// The reference is good until the next call of a function that is not const.
+  /// Throws std::logic_error when the track is empty or `t` lies before begin().
   const MotionSegment& segment(double t);
   /// Forgets samples that no segment at or after `t` needs.
   void forget_before(double t);
   void clear();
+
+ private:
+  struct Node {
+    PoseSample sample;
+    bool velocity_fixed = false;
+    Vector3d v_W = Vector3d::Zero();  ///< [m/s]
+    Vector3d w_B = Vector3d::Zero();  ///< body rates [rad/s]
+  };
+
+  bool joined(std::size_t k) const;          ///< sample k + 1 exists and follows sample k without a dropout
+  const Node& with_velocity(std::size_t k);  ///< sample k must be joined to a neighbour
+  MotionSegment make_segment(std::size_t k);
+
+  double dropout_after_;
+  std::deque<Node> nodes_;
+  MotionSegment current_;  ///< the segment asked for last
+  bool current_valid_ = false;
 };
 
 }  // namespace spring_workbench

@@ -1,0 +1,124 @@
+#include "spring_workbench/motion/pose_track.h"
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+
+#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double kShortestInterval = 0.5e-9;  // [s] half of what ROS time resolves
+constexpr double kFarthestTime = 1e12;        // [s]
+constexpr double kFarthestPosition = 1e9;     // [m]
+constexpr double kRotationTolerance = 1e-6;
+
+void check_sample(const PoseSample& sample) {
+  check_number("tracked pose", "t", sample.t, between(-kFarthestTime, kFarthestTime));
+  const std::string where = "tracked pose at t = " + std::to_string(sample.t) + " s";
+  const char* const axes[] = {"x", "y", "z"};
+  for (int i = 0; i < 3; ++i) {
+    check_number(where, axes[i], sample.X.translation()[i], between(-kFarthestPosition, kFarthestPosition));
+  }
+  const Matrix3d R = sample.X.linear();
+  const double defect = (R.transpose() * R - Matrix3d::Identity()).norm();
+  if (!(defect < kRotationTolerance && R.determinant() > 0.0)) {  // also where it is not a number
+    std::ostringstream text;
+    text << R.format(Eigen::IOFormat(6, Eigen::DontAlignCols, " ", "; "));
+    refuse(where, "rotation", text.str(), "a right-handed orthonormal matrix");
+  }
+}
+
+/// Derivative at 0 of the parabola through (0, 0), (s_1, x_1) and (s_2, x_2).
+Vector3d parabola_slope(double s_1, const Vector3d& x_1, double s_2, const Vector3d& x_2) {
+  return (s_2 / s_1 * x_1 - s_1 / s_2 * x_2) / (s_2 - s_1);
+}
+
+Vector3d displacement(const PoseSample& from, const PoseSample& to) {
+  return to.X.translation() - from.X.translation();
+}
+
+Vector3d rotation_vector(const PoseSample& from, const PoseSample& to) {
+  return log_so3(from.X.linear().transpose() * to.X.linear());
+}
+
+}  // namespace
+
+PoseTrack::PoseTrack(double dropout_after) : dropout_after_(dropout_after), current_(RigidTransform::Identity()) {
+  NumberRule rule = positive();
+  rule.infinity_allowed = true;
+  check_number("tracked pose", "dropout_after", dropout_after, rule);
+}
+
+bool PoseTrack::push(const PoseSample& sample) {
+  check_sample(sample);
+  if (!nodes_.empty() && !(sample.t - end() >= kShortestInterval)) return false;
+  nodes_.emplace_back();
+  nodes_.back().sample = sample;
+  current_valid_ = false;
+  return true;
+}
+
+bool PoseTrack::empty() const { return nodes_.empty(); }
+double PoseTrack::begin() const { return nodes_.front().sample.t; }
+double PoseTrack::end() const { return nodes_.back().sample.t; }
+
+const MotionSegment& PoseTrack::segment(double t) {
+  if (current_valid_ && current_.begin() <= t && t < current_.end()) return current_;
+  if (nodes_.empty() || !(t >= begin())) throw std::logic_error("PoseTrack::segment: no sample at or before this time");
+  const auto later = std::upper_bound(nodes_.begin(), nodes_.end(), t,
+                                      [](double time, const Node& node) { return time < node.sample.t; });
+  current_ = make_segment(static_cast<std::size_t>(later - nodes_.begin()) - 1);
+  current_valid_ = true;
+  return current_;
+}
+
+void PoseTrack::forget_before(double t) {
+  // The segment at t may still need the sample before its own for its velocities.
+  while (nodes_.size() > 2 && nodes_[2].sample.t <= t) nodes_.pop_front();
+}
+
+void PoseTrack::clear() {
+  nodes_.clear();
+  current_valid_ = false;
+}
+
+bool PoseTrack::joined(std::size_t k) const {
+  return k + 1 < nodes_.size() && nodes_[k + 1].sample.t - nodes_[k].sample.t <= dropout_after_;
+}
+
+MotionSegment PoseTrack::make_segment(std::size_t k) {
+  const PoseSample& a = nodes_[k].sample;
+  if (k + 1 == nodes_.size()) return MotionSegment(a.X, a.t);
+  if (!joined(k)) return MotionSegment(a.X, a.t, nodes_[k + 1].sample.t);
+  const Node& node_a = with_velocity(k);
+  const Node& node_b = with_velocity(k + 1);
+  return MotionSegment(node_a.sample, node_a.v_W, node_a.w_B, node_b.sample, node_b.v_W, node_b.w_B);
+}
+
+const PoseTrack::Node& PoseTrack::with_velocity(std::size_t k) {
+  Node& node = nodes_[k];
+  if (node.velocity_fixed) return node;
+  const bool has_before = k > 0 && joined(k - 1);
+  const bool has_after = joined(k);
+  const PoseSample& here = node.sample;
+  if (has_before && has_after) {
+    const PoseSample& before = nodes_[k - 1].sample;
+    const PoseSample& after = nodes_[k + 1].sample;
+    const double s_1 = before.t - here.t;
+    const double s_2 = after.t - here.t;
+    node.v_W = parabola_slope(s_1, displacement(here, before), s_2, displacement(here, after));
+    node.w_B = parabola_slope(s_1, rotation_vector(here, before), s_2, rotation_vector(here, after));
+  } else {  // an end: the chord
+    const PoseSample& other = nodes_[has_before ? k - 1 : k + 1].sample;
+    const double s = other.t - here.t;
+    node.v_W = displacement(here, other) / s;
+    node.w_B = rotation_vector(here, other) / s;
+  }
+  node.velocity_fixed = true;
+  return node;
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,77 @@
+#include "spring_workbench/tracker/scripted_source.h"
+
+#include <algorithm>
+
+#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double kFarthestTime = 1e6;  // [s]
+constexpr double kClosest = 1e-9;      // [s] samples are not closer than ROS time resolves
+
+/// What stands at `key`, or an empty node, which the readers refuse.
+YAML::Node required(const YAML::Node& map, const std::string& key) {
+  const YAML::Node node = map[key];
+  return node.IsDefined() ? node : YAML::Node();
+}
+
+StylusSample read_waypoint(const YAML::Node& node, const std::string& path, const std::string& name) {
+  check_keys(node, path, name + ".", {"t", "pose", "button"});
+  StylusSample waypoint;
+  waypoint.t = read_number(required(node, "t"), path, name + ".t", between(-kFarthestTime, kFarthestTime));
+  waypoint.X = read_pose(required(node, "pose"), path, name + ".pose");
+  if (node["button"]) waypoint.button = read_bool(node["button"], path, name + ".button");
+  return waypoint;
+}
+
+/// Goes from 0 to 1 while u does, at rest at both ends.
+double minimum_jerk(double u) { return u * u * u * (10.0 + u * (-15.0 + 6.0 * u)); }
+
+}  // namespace
+
+ScriptedSource::ScriptedSource(const std::string& path) {
+  const YAML::Node script = load_yaml_file(path);
+  check_keys(script, path, "", {"rate", "waypoints"});
+  rate_ = read_number(required(script, "rate"), path, "rate", between(0.1, 1e4));
+  const YAML::Node list = script["waypoints"];
+  if (!list.IsDefined() || !list.IsSequence() || list.size() == 0) {
+    throw InputError(path + ": waypoints: must be a list of at least one {t, pose, button}");
+  }
+  double first = 0.0;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string name = "waypoints[" + std::to_string(i) + "]";
+    StylusSample waypoint = read_waypoint(list[i], path, name);
+    if (i == 0) first = waypoint.t;
+    waypoint.t -= first;
+    if (i > 0 && !(waypoint.t - waypoints_.back().t > kClosest)) {
+      throw InputError(path + ":" + std::to_string(list[i].Mark().line + 1) + ": " + name +
+                       ".t: " + list[i]["t"].Scalar() + " is not allowed: must be later than the waypoint before");
+    }
+    waypoints_.push_back(waypoint);
+  }
+}
+
+std::optional<StylusSample> ScriptedSource::next() {
+  if (over_) return std::nullopt;
+  const double last = waypoints_.back().t;
+  const double t = static_cast<double>(next_++) / rate_;
+  over_ = t > last - kClosest;
+  return at(over_ ? last : t);
+}
+
+StylusSample ScriptedSource::at(double t) const {
+  const auto later = std::upper_bound(waypoints_.begin(), waypoints_.end(), t,
+                                      [](double time, const StylusSample& w) { return time < w.t; });
+  const StylusSample& a = *(later - 1);
+  StylusSample sample = a;
+  sample.t = t;
+  if (later == waypoints_.end()) return sample;
+  const double s = minimum_jerk((t - a.t) / (later->t - a.t));
+  sample.X.translation() += s * (later->X.translation() - a.X.translation());
+  sample.X.linear() = a.X.linear() * exp_so3(s * log_so3(a.X.linear().transpose() * later->X.linear()));
+  return sample;
+}
+
+}  // namespace spring_workbench

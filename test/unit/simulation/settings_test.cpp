@@ -1,0 +1,176 @@
+#include "spring_workbench/simulation/settings.h"
+
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <set>
+#include <string>
+
+#include "spring_workbench/config/input_error.h"
+
+namespace spring_workbench {
+namespace {
+
+std::string refusal(const std::string& yaml, SimulationSettings& settings) {
+  try {
+    apply_settings(YAML::Load(yaml), "some.yaml", settings);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+/// A value that the key allows and that is not its default, as YAML.
+std::string other_value(const SettingDescription& d) {
+  if (d.type == "bool") return d.default_value == "true" ? "false" : "true";
+  if (d.type == "int") return std::to_string(std::stoi(d.default_value) + 1);
+  if (d.type == "double") return "0.7123";
+  if (d.type == "double list") return "[0.1, 0.2, 0.3, 0, 0, 0, 1]";
+  const std::string one_of = "one of ";
+  if (d.allowed.rfind(one_of, 0) != 0) return "some_name";
+  return d.allowed.substr(d.allowed.find_last_of(' ') + 1);
+}
+
+/// Everything that a settings struct holds, as text.
+std::string fingerprint(const SimulationSettings& s) {
+  std::ostringstream out;
+  out.precision(17);
+  out << s.tool << '|' << s.contact << '|' << s.gravity << '|' << s.force_scale << '|' << s.dynamics.integrator << '|'
+      << s.dynamics.step << '|' << s.dynamics.inertia << '|' << s.fork.shape << '|' << s.fork.length << '|';
+  for (const PerFamily& p : {s.fork.stiffness, s.fork.damping_ratio}) {
+    out << p.stretch << '|' << p.bend << '|' << p.torsion << '|';
+  }
+  out << s.fork.dofs.stretch << s.fork.dofs.bend << s.fork.dofs.torsion << '|' << s.fork.switch_off_time << '|'
+      << s.grasp.calibrate << s.grasp.start_follow << '|' << s.grasp.object << '|' << s.grasp.release << '|';
+  if (s.grasp.X_OE) out << s.grasp.X_OE->matrix();
+  out << '|' << s.dropout_after << '|' << s.bisection_levels;
+  return out.str();
+}
+
+TEST(Settings, EveryKeySetsAFieldOfItsOwn) {
+  std::set<std::string> outcomes = {fingerprint(SimulationSettings())};
+  for (const SettingDescription& d : setting_descriptions()) {
+    SimulationSettings settings;
+    const std::string yaml = d.key + ": " + other_value(d);
+    ASSERT_EQ(refusal(yaml, settings), "") << yaml;
+    EXPECT_TRUE(outcomes.insert(fingerprint(settings)).second) << d.key << " changes nothing, or what another key sets";
+  }
+  EXPECT_EQ(outcomes.size(), 27u) << "one field of the structs has no key, or fingerprint() does not know it";
+}
+
+TEST(Settings, EveryDefaultThatIsAValueIsAllowed) {
+  for (const SettingDescription& d : setting_descriptions()) {
+    EXPECT_FALSE(d.meaning.empty() || d.unit.empty() || d.allowed.empty() || d.default_value.empty()) << d.key;
+    if (contains(d.default_value, " ")) continue;  // says where the default comes from
+    SimulationSettings settings;
+    EXPECT_EQ(refusal(d.key + ": " + d.default_value, settings), "");
+    EXPECT_EQ(fingerprint(settings), fingerprint(SimulationSettings())) << d.key;
+  }
+}
+
+TEST(Settings, NestedAndDottedKeysAreTheSame) {
+  const std::string spellings[] = {
+      "fork: {length: 0.3, stiffness: {bend: 77.0}}\ngrasp: {object: box}",
+      "fork.length: 0.3\nfork.stiffness.bend: 77.0\ngrasp.object: box",
+      "fork: {length: 0.3, stiffness.bend: 77.0}\ngrasp.object: box",
+      "fork.stiffness: {bend: 77.0}\nfork: {length: 0.3}\ngrasp: {object: box}",
+  };
+  SimulationSettings expected;
+  expected.fork.length = 0.3;
+  expected.fork.stiffness.bend = 77.0;
+  expected.grasp.object = "box";
+  for (const std::string& yaml : spellings) {
+    SimulationSettings settings;
+    EXPECT_EQ(refusal(yaml, settings), "");
+    EXPECT_EQ(fingerprint(settings), fingerprint(expected)) << yaml;
+  }
+}
+
+TEST(Settings, APoseIsAListOrAString) {
+  SimulationSettings list, text;
+  ASSERT_EQ(refusal("grasp.tip_in_object: [0.1, 0, -0.2, 0, 0, 2, 0]", list), "");
+  ASSERT_EQ(refusal("grasp.tip_in_object: 0.1 0 -0.2 0 0 2 0", text), "");
+  EXPECT_EQ(fingerprint(list), fingerprint(text));
+  ASSERT_TRUE(list.grasp.X_OE);
+  EXPECT_EQ(list.grasp.X_OE->translation(), Vector3d(0.1, 0.0, -0.2));
+}
+
+struct Bad {
+  const char* yaml;
+  const char* key;
+  const char* value;
+};
+
+TEST(Settings, BadInputNamesPlaceKeyValueAndRuleAndChangesNothing) {
+  const Bad table[] = {
+      {"fork:\n  stiffness: {bend: -3}", "fork.stiffness.bend", "-3"},
+      {"fork:\n  stiffness: {bend: .nan}", "fork.stiffness.bend", "nan"},
+      {"fork:\n  stiffness: {bend: .inf}", "fork.stiffness.bend", "inf"},
+      {"fork:\n  stiffness: {bend: stiff}", "fork.stiffness.bend", "stiff"},
+      {"fork:\n  stiffness: {bend: [1, 2]}", "fork.stiffness.bend", "[1, 2]"},
+      {"fork:\n  stiffness: {bend: }", "fork.stiffness.bend", "(nothing)"},
+      {"fork:\n  damping: {torsion: 11}", "fork.damping.torsion", "11"},
+      {"fork:\n  length: 0", "fork.length", "0"},
+      {"fork:\n  dofs: {bend: maybe}", "fork.dofs.bend", "maybe"},
+      {"fork:\n  switch_off_time: 0", "fork.switch_off_time", "0"},
+      {"\nstep: 0", "step", "0"},
+      {"\nstep: 2", "step", "2"},
+      {"\nintegrator: euler", "integrator", "euler"},
+      {"\nshape: quintic", "shape", "quintic"},
+      {"\ncontact: hard", "contact", "hard"},
+      {"\ntool: hammer", "tool", "hammer"},
+      {"\ninertia: none", "inertia", "none"},
+      {"\nrelease: gently", "release", "gently"},
+      {"\ngravity: -9.81", "gravity", "-9.81"},
+      {"\nforce_scale: 0", "force_scale", "0"},
+      {"\ndropout_after: 0", "dropout_after", "0"},
+      {"\nbisection_levels: 0", "bisection_levels", "0"},
+      {"\nbisection_levels: 8.5", "bisection_levels", "8.5"},
+      {"\ngrasp.object: [a]", "grasp.object", "[a]"},
+      {"\ngrasp.tip_in_object: 0 0 0 0 0 0 0", "grasp.tip_in_object", "0 0 0 0 0 0 0"},
+      {"\ngrasp.tip_in_object: 0 0 0 1", "grasp.tip_in_object", "0 0 0 1"},
+      {"\ngrasp.tip_in_object: [.nan, 0, 0, 0, 0, 0, 1]", "grasp.tip_in_object", "nan"},
+  };
+  for (const Bad& bad : table) {
+    SimulationSettings settings;
+    settings.fork.length = 0.123;
+    const std::string before = fingerprint(settings);
+    const std::string message = refusal(std::string("start.follow: true\n") + bad.yaml, settings);
+    const std::string start = std::string("some.yaml:3: ") + bad.key + ": ";
+    EXPECT_EQ(message.substr(0, start.size()), start) << bad.yaml;
+    EXPECT_TRUE(contains(message, bad.value)) << message;
+    EXPECT_TRUE(contains(message, "is not allowed: must be ")) << message;
+    EXPECT_FALSE(contains(message, "\n")) << message;
+    EXPECT_EQ(fingerprint(settings), before) << "all or none: " << bad.yaml;
+  }
+}
+
+TEST(Settings, UnknownKeysAreRefusedNamingTheKnown) {
+  for (const std::string yaml : {"stepp: 0.01", "fork: {lenght: 0.3}", "fork: 3", "step: {size: 0.01}", "rate: 50"}) {
+    SimulationSettings settings;
+    const std::string message = refusal(yaml, settings);
+    EXPECT_EQ(message.rfind("some.yaml:1: ", 0), 0u) << message;
+    EXPECT_TRUE(contains(message, "unknown key; known are ")) << message;
+    for (const SettingDescription& d : setting_descriptions()) EXPECT_TRUE(contains(message, d.key));
+  }
+}
+
+TEST(Settings, AKeyGivenTwiceIsRefused) {
+  SimulationSettings settings;
+  EXPECT_TRUE(contains(refusal("fork.length: 0.3\nfork: {length: 0.4}", settings), "fork.length"));
+  EXPECT_EQ(settings.fork.length, SimulationSettings().fork.length);
+}
+
+TEST(Settings, WhatIsNotAMapIsRefusedAndAnEmptyMapChangesNothing) {
+  SimulationSettings settings;
+  for (const std::string yaml : {"3", "[1, 2]", "step"})
+    EXPECT_TRUE(contains(refusal(yaml, settings), "a map")) << yaml;
+  EXPECT_EQ(refusal("{}", settings), "");
+  EXPECT_EQ(refusal("fork: {}", settings), "");
+  EXPECT_EQ(fingerprint(settings), fingerprint(SimulationSettings()));
+}
+
+}  // namespace
+}  // namespace spring_workbench
