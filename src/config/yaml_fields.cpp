@@ -24,6 +24,9 @@ std::string node_text(const YAML::Node& node) {
   return text.size() <= longest ? text : text.substr(0, longest) + "…";
 }
 
+/// yaml-cpp throws when a node that is not there is asked for its kind.
+bool is_scalar(const YAML::Node& node) { return node.IsDefined() && node.IsScalar(); }
+
 std::string place(const YAML::Node& node, const std::string& where) {
   const YAML::Mark mark = node.IsDefined() ? node.Mark() : YAML::Mark::null_mark();
   return mark.is_null() || mark.line < 0 ? where : where + ":" + std::to_string(mark.line + 1);
@@ -65,7 +68,7 @@ void check_number(const std::string& where, const std::string& key, double value
 
 double read_number(const YAML::Node& node, const std::string& where, const std::string& key, const NumberRule& rule) {
   double value = 0.0;
-  if (!node.IsScalar() || !YAML::convert<double>::decode(node, value) || !rule.allows(value)) {
+  if (!is_scalar(node) || !YAML::convert<double>::decode(node, value) || !rule.allows(value)) {
     refuse_node(node, where, key, rule.text());
   }
   return value;
@@ -73,7 +76,7 @@ double read_number(const YAML::Node& node, const std::string& where, const std::
 
 int read_integer(const YAML::Node& node, const std::string& where, const std::string& key, int min, int max) {
   int value = 0;
-  if (!node.IsScalar() || !YAML::convert<int>::decode(node, value) || value < min || value > max) {
+  if (!is_scalar(node) || !YAML::convert<int>::decode(node, value) || value < min || value > max) {
     refuse_node(node, where, key, "an integer in [" + std::to_string(min) + ", " + std::to_string(max) + "]");
   }
   return value;
@@ -81,18 +84,18 @@ int read_integer(const YAML::Node& node, const std::string& where, const std::st
 
 bool read_bool(const YAML::Node& node, const std::string& where, const std::string& key) {
   bool value = false;
-  if (!node.IsScalar() || !YAML::convert<bool>::decode(node, value)) refuse_node(node, where, key, "true or false");
+  if (!is_scalar(node) || !YAML::convert<bool>::decode(node, value)) refuse_node(node, where, key, "true or false");
   return value;
 }
 
 std::string read_string(const YAML::Node& node, const std::string& where, const std::string& key) {
-  if (!node.IsScalar()) refuse_node(node, where, key, "a string");
+  if (!is_scalar(node)) refuse_node(node, where, key, "a string");
   return node.Scalar();
 }
 
 std::string read_choice(const YAML::Node& node, const std::string& where, const std::string& key,
                         const std::vector<std::string>& choices) {
-  if (!node.IsScalar() || std::find(choices.begin(), choices.end(), node.Scalar()) == choices.end()) {
+  if (!is_scalar(node) || std::find(choices.begin(), choices.end(), node.Scalar()) == choices.end()) {
     refuse_node(node, where, key, "one of " + join(choices));
   }
   return node.Scalar();
@@ -102,13 +105,13 @@ std::vector<double> read_numbers(const YAML::Node& node, const std::string& wher
                                  std::size_t count) {
   const std::string rule = std::to_string(count) + " finite numbers";
   std::vector<double> values;
-  if (node.IsSequence()) {
+  if (node.IsDefined() && node.IsSequence()) {
     for (const YAML::Node& item : node) {
       double value = 0.0;
       if (!item.IsScalar() || !YAML::convert<double>::decode(item, value)) refuse_node(node, where, key, rule);
       values.push_back(value);
     }
-  } else if (node.IsScalar()) {
+  } else if (is_scalar(node)) {
     std::istringstream in(node.Scalar());
     for (double value = 0.0; in >> value;) values.push_back(value);
     if (!in.eof()) refuse_node(node, where, key, rule);
@@ -127,7 +130,7 @@ RigidTransform read_pose(const YAML::Node& node, const std::string& where, const
 
 void check_keys(const YAML::Node& map, const std::string& where, const std::string& prefix,
                 const std::vector<std::string>& allowed) {
-  if (!map.IsMap()) refuse_node(map, where, prefix.empty() ? "(top level)" : prefix, "a map");
+  if (!map.IsDefined() || !map.IsMap()) refuse_node(map, where, prefix.empty() ? "(top level)" : prefix, "a map");
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : YAML::Dump(entry.first);
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {

@@ -15,8 +15,8 @@ VolumeProperties volume_properties(const Geometry& geometry);
 /// Whether the point `p_S` [m] (in the shape's frame) lies inside the closed shape. Meshes by winding number.
 bool contains(const Geometry& geometry, const Vector3d& p_S);
 
-/// Axis-aligned box of a shape in its own frame.
-Eigen::AlignedBox3d bounding_box(const Geometry& geometry);
+/// Smallest axis-aligned box of a shape in the frame A that `X_AS` places it in; by default in its own frame.
+Eigen::AlignedBox3d bounding_box(const Geometry& geometry, const RigidTransform& X_AS = RigidTransform::Identity());
 
 /// Axis-aligned box of a body's collision shapes in its object frame O; empty where it has none.
 Eigen::AlignedBox3d bounding_box(const Body& body);

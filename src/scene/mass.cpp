@@ -1,0 +1,96 @@
+#include "mass.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "mesh_file.h"
+#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/scene/geometry.h"
+
+namespace spring_workbench {
+namespace {
+
+/// Inertia of a point of mass `mass` at `p`, about the origin.
+Matrix3d point_inertia(double mass, const Vector3d& p) {
+  return mass * (p.squaredNorm() * Matrix3d::Identity() - p * p.transpose());
+}
+
+RigidMass shape_mass(const Shape& shape, double density, const std::string& where, std::vector<std::string>& warnings) {
+  VolumeProperties volume = volume_properties(shape.geometry);
+  const MeshPtr* mesh = std::get_if<MeshPtr>(&shape.geometry);
+  if (mesh != nullptr && !is_closed(**mesh)) {
+    const Eigen::AlignedBox3d box = bounding_box(shape.geometry);
+    volume = volume_properties(Box{box.sizes()});
+    volume.centre = box.center();
+    warnings.push_back(where + ": mesh " + (*mesh)->uri + " is not closed: its bounding box's volume is taken");
+  }
+  return transformed(shape.X_OS, {density * volume.volume, volume.centre, density * volume.inertia_per_density});
+}
+
+/// Largest distance of a point of the shapes from `centre`.
+double farthest_point(const std::vector<Shape>& shapes, const Vector3d& centre) {
+  Body body;
+  body.collision = shapes;
+  for (Shape& shape : body.collision) shape.X_OS.pretranslate(-centre);
+  return bounding_radius(body);
+}
+
+std::string number(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
+
+}  // namespace
+
+RigidMass transformed(const RigidTransform& X_AB, const RigidMass& mass_B) {
+  const Matrix3d R = X_AB.linear();
+  return {mass_B.mass, X_AB * mass_B.centre, R * mass_B.inertia * R.transpose()};
+}
+
+RigidMass sum(const RigidMass& a, const RigidMass& b) {
+  const double mass = a.mass + b.mass;
+  if (!(mass > 0.0)) return {};
+  const Vector3d centre = (a.mass * a.centre + b.mass * b.centre) / mass;
+  return {mass, centre,
+          a.inertia + b.inertia + point_inertia(a.mass, a.centre - centre) + point_inertia(b.mass, b.centre - centre)};
+}
+
+RigidMass solid_mass(const std::vector<Shape>& shapes, double density, const std::string& where,
+                     std::vector<std::string>& warnings) {
+  RigidMass total;
+  for (const Shape& shape : shapes) total = sum(total, shape_mass(shape, density, where, warnings));
+  return total;
+}
+
+std::string inertia_defect(const RigidMass& mass, const std::vector<Shape>& shapes) {
+  const Vector3d moments = Eigen::SelfAdjointEigenSolver<Matrix3d>(mass.inertia, Eigen::EigenvaluesOnly).eigenvalues();
+  constexpr double rounding = 1e-6;  // of figures as people write them
+  if (!(moments[0] > 1e-9 * moments[2])) return "is not positive definite";
+  if (moments[0] + moments[1] < (1.0 - rounding) * moments[2]) return "breaks the triangle inequality";
+  const double gyration = std::sqrt(moments[2] / mass.mass);
+  const double size = farthest_point(shapes, mass.centre);
+  if (!shapes.empty() && gyration > (1.0 + rounding) * size) {
+    return "is a placeholder (radius of gyration " + number(gyration) + " m, the shape ends at " + number(size) + " m)";
+  }
+  return "";
+}
+
+RigidMass mended_mass(const RigidMass& given, const std::vector<Shape>& shapes, double density,
+                      const std::string& where, std::vector<std::string>& warnings) {
+  if (!(given.mass > 0.0)) {
+    const RigidMass solid = solid_mass(shapes, density, where, warnings);
+    if (!(solid.mass > 0.0)) refuse(where, "mass", "0", "> 0, or the movable body must have a shape with a volume");
+    return solid;
+  }
+  const std::string defect = inertia_defect(given, shapes);
+  if (defect.empty()) return given;
+  const RigidMass solid = solid_mass(shapes, density, where, warnings);
+  if (!(solid.mass > 0.0)) refuse(where, "inertia", "one that " + defect, "possible, or the body must have a shape");
+  warnings.push_back(where + ": inertia " + defect + ": its shape's is taken");
+  return {given.mass, given.centre, solid.inertia * (given.mass / solid.mass)};
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,184 @@
+#include "mesh_file.h"
+
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <algorithm>
+#include <array>
+#include <assimp/Importer.hpp>
+#include <filesystem>
+#include <set>
+
+#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/scene/geometry.h"
+
+namespace spring_workbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool starts_with(const std::string& text, const std::string& start) {
+  return text.compare(0, start.size(), start) == 0;
+}
+
+std::string package_file(const std::string& name, PackageFinder find_package, const std::string& where,
+                         const std::string& key) {
+  const std::string rest = name.substr(std::string("package://").size());
+  const std::string package = rest.substr(0, rest.find('/'));
+  const std::string folder = find_package(package);
+  if (folder.empty()) refuse(where, key, name, "in a package that can be found");
+  return folder + rest.substr(package.size());
+}
+
+std::string lower_extension(const std::string& path) {
+  std::string extension = fs::path(path).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  return extension;
+}
+
+void append(const aiMesh& part, const std::string& where, TriangleMesh& mesh) {
+  const std::size_t first = mesh.vertices.size();
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const aiVector3D& v = part.mVertices[i];
+    mesh.vertices.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+  }
+  for (unsigned i = 0; i < part.mNumFaces; ++i) {
+    const aiFace& face = part.mFaces[i];
+    if (face.mNumIndices != 3) continue;  // points and lines
+    Eigen::Vector3i triangle;
+    for (unsigned k = 0; k < 3; ++k) {
+      if (face.mIndices[k] >= part.mNumVertices) {
+        refuse(where, "vertex index", std::to_string(face.mIndices[k]), "below the number of vertices");
+      }
+      triangle[k] = static_cast<int>(first + face.mIndices[k]);
+    }
+    mesh.triangles.push_back(triangle);
+  }
+}
+
+/// Axes as in the file: ROS ignores Collada's up axis; its unit counts.
+TriangleMesh read_triangles(const std::string& path, const std::string& where) {
+  Assimp::Importer importer;
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (scene == nullptr) refuse(where, "mesh", path, std::string("readable: ") + importer.GetErrorString());
+  std::size_t triangles = 0;
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) triangles += scene->mMeshes[i]->mNumFaces;
+  if (triangles > most_triangles) {
+    refuse(where, "triangles", std::to_string(triangles), "at most " + std::to_string(most_triangles));
+  }
+  TriangleMesh mesh;
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], where, mesh);
+  return mesh;
+}
+
+struct LessByCoordinates {
+  bool operator()(const Vector3d& a, const Vector3d& b) const {
+    return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+  }
+};
+
+/// Equal vertices become one; vertices of no triangle go.
+void merge_vertices(TriangleMesh& mesh) {
+  std::map<Vector3d, int, LessByCoordinates> index_of;
+  std::vector<Vector3d> vertices;
+  for (Eigen::Vector3i& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const Vector3d& v = mesh.vertices[static_cast<std::size_t>(t[k])];
+      const auto [place, is_new] = index_of.emplace(v, static_cast<int>(vertices.size()));
+      if (is_new) vertices.push_back(v);
+      t[k] = place->second;
+    }
+  }
+  mesh.vertices = std::move(vertices);
+}
+
+void check_indices(const TriangleMesh& mesh, const std::string& where) {
+  const int count = static_cast<int>(mesh.vertices.size());
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      if (t[k] < 0 || t[k] >= count) {
+        refuse(where, "vertex index", std::to_string(t[k]), "below the number of vertices");
+      }
+      if (!mesh.vertices[static_cast<std::size_t>(t[k])].allFinite()) {
+        refuse(where, "vertex", "a number that is not finite", "finite");
+      }
+    }
+  }
+}
+
+bool is_flat(const TriangleMesh& mesh, const Eigen::Vector3i& t) {
+  const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
+  return (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() == 0.0;
+}
+
+}  // namespace
+
+std::string resolve_file(const std::string& name, const std::string& folder, PackageFinder find_package,
+                         const std::string& where, const std::string& key) {
+  std::string path;
+  if (starts_with(name, "package://")) {
+    path = package_file(name, find_package, where, key);
+  } else if (starts_with(name, "file://")) {
+    path = name.substr(std::string("file://").size());
+  } else {
+    path = (fs::path(folder) / name).string();
+  }
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) refuse(where, key, name, "a file that is there (looked for " + path + ")");
+  return fs::absolute(path).lexically_normal().string();
+}
+
+TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& where) {
+  check_indices(mesh, where);
+  mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(),
+                                      [&](const Eigen::Vector3i& t) { return is_flat(mesh, t); }),
+                       mesh.triangles.end());
+  if (mesh.triangles.empty()) refuse(where, "triangles", "0", "at least one that is not flat");
+  merge_vertices(mesh);
+  const MeshPtr view(&mesh, [](const TriangleMesh*) {});
+  if (volume_properties(view).volume < 0.0) {
+    for (Eigen::Vector3i& t : mesh.triangles) std::swap(t[1], t[2]);
+  }
+  return mesh;
+}
+
+bool is_closed(const TriangleMesh& mesh) {
+  std::multiset<std::pair<int, int>> open;  // directed edges that wait for their opposite
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const std::pair<int, int> edge(t[k], t[(k + 1) % 3]);
+      const auto opposite = open.find({edge.second, edge.first});
+      if (opposite != open.end()) {
+        open.erase(opposite);
+      } else {
+        open.insert(edge);
+      }
+    }
+  }
+  return open.empty();
+}
+
+MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale, const std::string& folder,
+                        const std::string& where) {
+  if (!scale.allFinite() || scale.prod() == 0.0) refuse(where, "mesh scale", name, "finite and not zero");
+  const std::string path = resolve_file(name, folder, find_package_, where, "mesh");
+  MeshPtr& mesh = meshes_[{path, scale.x(), scale.y(), scale.z()}];
+  if (mesh) return mesh;
+  static const std::array<std::string, 3> formats = {".stl", ".obj", ".dae"};
+  if (std::find(formats.begin(), formats.end(), lower_extension(path)) == formats.end()) {
+    refuse(where, "mesh", name, "an STL, OBJ or DAE file");
+  }
+  const std::string mesh_where = where + ": " + name;
+  TriangleMesh loaded = read_triangles(path, mesh_where);
+  for (Vector3d& v : loaded.vertices) v = v.cwiseProduct(scale);
+  loaded = clean_mesh(std::move(loaded), mesh_where);
+  loaded.uri = starts_with(name, "package://") ? name : "file://" + path;
+  loaded.scale = scale;
+  mesh = std::make_shared<const TriangleMesh>(std::move(loaded));
+  return mesh;
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "spring_workbench/scene/scene.h"
+
+namespace spring_workbench {
+
+/// The path that a file name in a scene means: `package://`, `file://`, absolute, or relative to `folder`.
+/// Throws InputError naming `where`, `key` and the name where there is no such file.
+std::string resolve_file(const std::string& name, const std::string& folder, PackageFinder find_package,
+                         const std::string& where, const std::string& key);
+
+/// Largest number of triangles of a mesh.
+constexpr std::size_t most_triangles = 1000000;
+
+/// Makes a mesh fit for use: equal vertices become one, flat triangles go, a mesh that is inside out is turned.
+/// Throws InputError naming `where` for bad indices, values that are not finite, or no triangle left.
+TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& where);
+
+/// Whether every edge has a triangle on both sides, in opposite directions: only then a mesh has a volume.
+bool is_closed(const TriangleMesh& mesh);
+
+/// Loads STL, OBJ and DAE files, each once.
+class MeshCache {
+ public:
+  explicit MeshCache(PackageFinder find_package) : find_package_(find_package) {}
+
+  /// The mesh called `name` in a URDF in `folder`, times `scale`. Throws InputError naming `where`.
+  MeshPtr load(const std::string& name, const Vector3d& scale, const std::string& folder, const std::string& where);
+
+ private:
+  PackageFinder find_package_;
+  std::map<std::tuple<std::string, double, double, double>, MeshPtr> meshes_;
+};
+
+}  // namespace spring_workbench

@@ -1,0 +1,128 @@
+#include "spring_workbench/scene/scene.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "mesh_file.h"
+#include "scene_file.h"
+#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/scene/geometry.h"
+#include "urdf_bodies.h"
+#include "urdf_file.h"
+
+namespace spring_workbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> body_names(const Scene& scene) {
+  std::vector<std::string> names;
+  for (const Body& body : scene.bodies) names.push_back(body.name);
+  return names;
+}
+
+double lowest_point(const Body& body) {
+  double lowest = std::numeric_limits<double>::infinity();
+  for (const Shape& shape : body.collision.empty() ? body.visual : body.collision) {
+    lowest = std::min(lowest, bounding_box(shape.geometry, body.X_WO * shape.X_OS).min().z());
+  }
+  return lowest;
+}
+
+/// Lifts or lowers an object's bodies until the first one lies on the bench, when that one is movable.
+void lay_on_bench(double bench_height, std::vector<Body>& bodies) {
+  if (bodies.empty() || !bodies.front().movable) return;
+  const double lowest = lowest_point(bodies.front());
+  if (!std::isfinite(lowest)) return;  // no shape
+  for (Body& body : bodies) body.X_WO.pretranslate(Vector3d(0.0, 0.0, bench_height - lowest));
+}
+
+/// Puts a scene together from its URDF, the YAML beside it and the URDFs that this names.
+class SceneLoader {
+ public:
+  SceneLoader(const std::string& path, PackageFinder find_package)
+      : path_(path), find_package_(find_package), meshes_(find_package) {}
+
+  Scene load() {
+    const fs::path yaml = fs::path(path_).replace_extension(".yaml");
+    if (fs::exists(yaml)) file_ = read_scene_file(yaml.string());
+    scene_ = file_.settings;
+    scene_.name = fs::path(path_).stem().string();
+    scene_.path = path_;
+    add_urdf();
+    for (const auto& [name, entry] : file_.objects) {
+      if (entry.urdf) add_object(name, entry);
+    }
+    check_names();
+    return std::move(scene_);
+  }
+
+ private:
+  Material material_of(const std::string& body) const {
+    const auto entry = file_.objects.find(body);
+    return entry != file_.objects.end() ? entry->second.material : scene_.bench_material;
+  }
+
+  UrdfFile read_urdf(const std::string& path) {
+    UrdfFile urdf = read_urdf_file(path);
+    scene_.warnings.insert(scene_.warnings.end(), urdf.warnings.begin(), urdf.warnings.end());
+    return urdf;
+  }
+
+  void add_urdf() {
+    const UrdfFile urdf = read_urdf(path_);
+    scene_.bodies = build_bodies(
+        urdf, RigidTransform::Identity(), [this](const std::string& body) { return material_of(body); }, meshes_,
+        scene_.warnings);
+    if (!is_bench_scene(urdf)) lay_on_bench(scene_.bench_height, scene_.bodies);
+  }
+
+  void add_object(const std::string& name, const ObjectEntry& entry) {
+    const std::string key = "objects." + name + ".urdf";
+    const std::string folder = fs::path(path_).parent_path().string();
+    const UrdfFile urdf = read_urdf(resolve_file(*entry.urdf, folder, find_package_, entry.where, key));
+    const auto material = [&](const std::string&) { return entry.material; };
+    std::vector<Body> bodies =
+        build_bodies(urdf, entry.X_WL.value_or(RigidTransform::Identity()), material, meshes_, scene_.warnings);
+    if (bodies.size() != 1 || is_bench_scene(urdf)) {
+      refuse(entry.where, key, *entry.urdf, "the URDF of one object (one body, root not world or workbench)");
+    }
+    if (find_body(scene_, name)) refuse(entry.where, "objects." + name, name, "a name that is not in the scene's URDF");
+    if (!entry.X_WL) lay_on_bench(scene_.bench_height, bodies);
+    bodies.front().name = name;
+    scene_.bodies.push_back(std::move(bodies.front()));
+  }
+
+  void check_names() const {
+    const std::string rule = "a body of the scene: " + join(body_names(scene_));
+    for (const auto& [name, entry] : file_.objects) {
+      if (!find_body(scene_, name)) refuse(entry.where, "objects", name, rule);
+    }
+    for (const auto& [name, where] : file_.targets) {
+      const auto body = find_body(scene_, name);
+      if (!body || !scene_.bodies[*body].movable) refuse(where, "targets", name, "movable and " + rule);
+    }
+  }
+
+  std::string path_;
+  PackageFinder find_package_;
+  MeshCache meshes_;
+  SceneFile file_;
+  Scene scene_;
+};
+
+}  // namespace
+
+Scene load_scene(const std::string& path_or_uri, PackageFinder find_package) {
+  const std::string path = resolve_file(path_or_uri, "", find_package, "scene", "path");
+  return SceneLoader(path, find_package).load();
+}
+
+std::optional<std::size_t> find_body(const Scene& scene, const std::string& name) {
+  const auto body =
+      std::find_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& b) { return b.name == name; });
+  if (body == scene.bodies.end()) return std::nullopt;
+  return static_cast<std::size_t>(body - scene.bodies.begin());
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spring_workbench/scene/scene.h"
+
+namespace spring_workbench {
+
+/// One entry of a scene file's `objects:`.
+struct ObjectEntry {
+  std::string where;  ///< "<file>:<line>"
+  Material material;
+  std::optional<std::string> urdf;     ///< another object's own URDF, as written
+  std::optional<RigidTransform> X_WL;  ///< where that stands; absent: it lies on the bench at x = y = 0
+};
+
+/// The YAML beside a URDF. Defaults are those of `Scene`, `Material` and `Target`.
+struct SceneFile {
+  Scene settings;  ///< everything but name, path, bodies and warnings
+  std::map<std::string, ObjectEntry> objects;
+  std::map<std::string, std::string> targets;  ///< name → "<file>:<line>"
+};
+
+/// Reads it. Throws InputError with file:line, key, value and rule; unknown keys are refused.
+SceneFile read_scene_file(const std::string& path);
+
+}  // namespace spring_workbench

@@ -1,0 +1,178 @@
+#include "urdf_file.h"
+
+#include <console_bridge/console.h>
+#include <tinyxml.h>
+#include <urdf_parser/urdf_parser.h>
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+
+#include "spring_workbench/config/input_error.h"
+
+namespace spring_workbench {
+namespace {
+
+std::string one_line(std::string text) {
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// Keeps what urdfdom says on the console while it lives. The console's handler is global: one reader at a time.
+class ConsoleCapture : private console_bridge::OutputHandler {
+ public:
+  ConsoleCapture() : lock_(mutex()), previous_(console_bridge::getOutputHandler()) {
+    console_bridge::useOutputHandler(this);
+  }
+  ~ConsoleCapture() override { console_bridge::useOutputHandler(previous_); }
+  ConsoleCapture(const ConsoleCapture&) = delete;
+  ConsoleCapture& operator=(const ConsoleCapture&) = delete;
+
+  const std::vector<std::string>& messages() const { return messages_; }
+
+ private:
+  static std::mutex& mutex() {
+    static std::mutex one;
+    return one;
+  }
+  void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_WARN) messages_.push_back(one_line(text));
+  }
+
+  std::lock_guard<std::mutex> lock_;
+  console_bridge::OutputHandler* previous_;
+  std::vector<std::string> messages_;
+};
+
+struct ParseResult {
+  std::shared_ptr<urdf::ModelInterface> model;
+  std::vector<std::string> complaints;
+};
+
+ParseResult parse(const TiXmlDocument& document) {
+  TiXmlPrinter printer;
+  document.Accept(&printer);
+  const ConsoleCapture console;
+  ParseResult result;
+  try {
+    result.model = urdf::parseURDF(printer.Str());
+    result.complaints = console.messages();
+  } catch (const std::exception& e) {
+    result.model.reset();
+    result.complaints = {one_line(e.what())};
+  }
+  return result;
+}
+
+/// urdfdom's first complaint about an element of a link, or nothing. Materials may be defined elsewhere: they are left
+/// out.
+std::string complaint_about(TiXmlElement element) {
+  while (TiXmlElement* material = element.FirstChildElement("material")) element.RemoveChild(material);
+  TiXmlElement link("link");
+  link.SetAttribute("name", "link");
+  link.InsertEndChild(element);
+  TiXmlElement robot("robot");
+  robot.SetAttribute("name", "robot");
+  robot.InsertEndChild(link);
+  TiXmlDocument document;
+  document.InsertEndChild(robot);
+  const ParseResult result = parse(document);
+  return result.complaints.empty() ? "" : result.complaints.front();
+}
+
+std::string place(const std::string& path, int line) { return line > 0 ? path + ":" + std::to_string(line) : path; }
+
+const TiXmlElement* shape_of(const TiXmlElement& element) {
+  const TiXmlElement* geometry = element.FirstChildElement("geometry");
+  return geometry != nullptr ? geometry->FirstChildElement() : nullptr;
+}
+
+bool is_urdf_shape(const TiXmlElement* shape) {
+  static const std::array<std::string, 4> known = {"box", "cylinder", "mesh", "sphere"};
+  return shape != nullptr && std::find(known.begin(), known.end(), shape->ValueStr()) != known.end();
+}
+
+std::optional<double> mass_of(const TiXmlElement& inertial) {
+  const TiXmlElement* mass = inertial.FirstChildElement("mass");
+  const char* text = mass != nullptr ? mass->Attribute("value") : nullptr;
+  if (text == nullptr) return std::nullopt;
+  std::istringstream in(text);
+  in.imbue(std::locale::classic());
+  double value = 0.0;
+  if (!(in >> value) || !(value > 0.0)) return std::nullopt;
+  return value;
+}
+
+/// Takes an element that urdfdom cannot read out of its link, with a warning; refuses a known shape with bad values.
+void take_out(TiXmlElement& link, TiXmlElement& element, const std::string& complaint, UrdfFile& file) {
+  const std::string name = link.Attribute("name");
+  const std::string where = place(file.path, element.Row()) + ": link '" + name + "': ";
+  const std::string kind = element.ValueStr();
+  if (kind == "inertial") {
+    file.unreadable_inertials[name] = mass_of(element);
+    file.warnings.push_back(where + "inertial cannot be read (" + complaint + "): its shape's is taken");
+  } else {
+    const TiXmlElement* shape = shape_of(element);
+    if (is_urdf_shape(shape)) throw InputError(where + kind + ": " + complaint);
+    const std::string what = shape != nullptr ? "shape '" + shape->ValueStr() + "'" : "shape missing";
+    file.warnings.push_back(where + kind + " left out: " + what + ", must be box, cylinder, mesh or sphere");
+  }
+  link.RemoveChild(&element);
+}
+
+void try_elements(TiXmlElement& link, UrdfFile& file) {
+  for (const char* kind : {"inertial", "visual", "collision"}) {
+    TiXmlElement* next = nullptr;
+    for (TiXmlElement* element = link.FirstChildElement(kind); element != nullptr; element = next) {
+      next = element->NextSiblingElement(kind);
+      const std::string complaint = complaint_about(*element);
+      if (!complaint.empty()) take_out(link, *element, complaint, file);
+    }
+  }
+}
+
+TiXmlDocument load_xml(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::ostringstream text;
+  if (!in || !(text << in.rdbuf())) {
+    throw InputError(path + ": cannot be read: must be a URDF file");
+  }
+  TiXmlDocument document;
+  document.Parse(text.str().c_str());
+  if (document.Error()) {
+    throw InputError(place(path, document.ErrorRow()) + ": not XML: " + one_line(document.ErrorDesc()));
+  }
+  return document;
+}
+
+}  // namespace
+
+std::string UrdfFile::where(const std::string& link) const {
+  const auto line = link_lines.find(link);
+  return place(path, line != link_lines.end() ? line->second : 0) + ": link '" + link + "'";
+}
+
+UrdfFile read_urdf_file(const std::string& path) {
+  TiXmlDocument document = load_xml(path);
+  UrdfFile file;
+  file.path = path;
+  if (TiXmlElement* robot = document.FirstChildElement("robot")) {
+    for (TiXmlElement* link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
+      if (link->Attribute("name") == nullptr) throw InputError(place(path, link->Row()) + ": link: name is missing");
+      file.link_lines[link->Attribute("name")] = link->Row();
+      try_elements(*link, file);
+    }
+  }
+  ParseResult result = parse(document);
+  if (!result.model) {
+    throw InputError(
+        path + ": not a URDF: " + (result.complaints.empty() ? "refused without a reason" : result.complaints.front()));
+  }
+  file.model = result.model;
+  for (const std::string& complaint : result.complaints) file.warnings.push_back(path + ": " + complaint);
+  return file;
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,462 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <thread>
+
+#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/scene/scene.h"
+#include "support/temporary_folder.h"
+
+namespace spring_workbench {
+namespace {
+
+using test_support::TemporaryFolder;
+
+const std::string floating_joint =
+    "<joint name='j' type='floating'><parent link='world'/><child link='part'/><origin xyz='1 2 3' rpy='0 0 "
+    "0.5'/></joint>";
+const std::string unit_box = "<collision><geometry><box size='0.2 0.2 0.2'/></geometry></collision>";
+
+std::string inertial(const std::string& mass, const std::string& moments) {
+  std::istringstream in(moments);
+  std::string xx, yy, zz;
+  in >> xx >> yy >> zz;
+  return "<inertial><mass value='" + mass + "'/><inertia ixx='" + xx + "' iyy='" + yy + "' izz='" + zz +
+         "' ixy='0' ixz='0' iyz='0'/></inertial>";
+}
+
+class LoadScene : public testing::Test {
+ protected:
+  /// A bench with one movable link `part`.
+  Scene load_part(const std::string& link_content, const std::string& yaml = "") {
+    return load("<link name='world'/><link name='part'>" + link_content + "</link>" + floating_joint, yaml);
+  }
+  Scene load(const std::string& robot_content, const std::string& yaml = "") {
+    folder_.write("scene.urdf", "<robot name='test'>\n" + robot_content + "\n</robot>\n");
+    folder_.write("scene.yaml", yaml);
+    return load_scene(folder_.path("scene.urdf"));
+  }
+  std::string refusal(const std::string& robot_content, const std::string& yaml = "") {
+    try {
+      load(robot_content, yaml);
+    } catch (const InputError& e) {
+      EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
+      return e.what();
+    }
+    return "(loaded)";
+  }
+  std::string part_refusal(const std::string& link_content, const std::string& yaml = "") {
+    return refusal("<link name='world'/><link name='part'>" + link_content + "</link>" + floating_joint, yaml);
+  }
+  void write_mesh(const std::string& name, const std::string& text) { folder_.write(name, text); }
+
+  TemporaryFolder folder_;
+};
+
+testing::AssertionResult has(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "'" << part << "' is not in: " << text;
+}
+testing::AssertionResult warned(const Scene& scene, const std::string& part) {
+  std::string all;
+  for (const std::string& warning : scene.warnings) all += warning + "\n";
+  return has(all, part);
+}
+
+TEST_F(LoadScene, TheObjectFrameIsTheCentreOfMassInTheAxesOfTheLink) {
+  const Scene scene = load_part(
+      "<inertial><origin xyz='0.01 0.02 0.03' rpy='0.3 0.2 0.1'/><mass value='2'/>"
+      "<inertia ixx='0.01' iyy='0.02' izz='0.025' ixy='0' ixz='0' iyz='0'/></inertial>" +
+      unit_box);
+  EXPECT_TRUE(scene.warnings.empty());
+  ASSERT_EQ(scene.bodies.size(), 1u);
+  const Body& body = scene.bodies[0];
+  EXPECT_TRUE(body.movable);
+  const RigidTransform X_WL = make_transform(Quaterniond(Eigen::AngleAxisd(0.5, Vector3d::UnitZ())), Vector3d(1, 2, 3));
+  EXPECT_TRUE((body.X_WO * body.X_OL).isApprox(X_WL, 1e-12));
+  EXPECT_TRUE(body.X_OL.translation().isApprox(Vector3d(-0.01, -0.02, -0.03)));
+  EXPECT_TRUE(body.X_OL.linear().isIdentity());
+  EXPECT_TRUE(body.collision[0].X_OS.translation().isApprox(Vector3d(-0.01, -0.02, -0.03)));
+  // rpy: about fixed x, then y, then z.
+  const Matrix3d R = (Eigen::AngleAxisd(0.1, Vector3d::UnitZ()) * Eigen::AngleAxisd(0.2, Vector3d::UnitY()) *
+                      Eigen::AngleAxisd(0.3, Vector3d::UnitX()))
+                         .toRotationMatrix();
+  const Matrix3d expected = R * Vector3d(0.01, 0.02, 0.025).asDiagonal() * R.transpose();
+  EXPECT_TRUE(body.mass_properties.inertia_O.isApprox(expected, 1e-9));
+}
+
+TEST_F(LoadScene, WithoutInertialMassIsVolumeTimesDensity) {
+  const Scene scene = load_part(unit_box, "{defaults: {density: 500}, objects: {part: {density: 2000}}}");
+  EXPECT_NEAR(scene.bodies[0].mass_properties.mass, 16.0, 1e-12);
+  const Matrix3d expected = 16.0 * 0.04 / 6.0 * Matrix3d::Identity();
+  EXPECT_TRUE(scene.bodies[0].mass_properties.inertia_O.isApprox(expected, 1e-12));
+  EXPECT_EQ(scene.bench_material.density, 500.0);
+}
+
+/// A body cut into links on fixed joints has the mass properties of the whole.
+TEST_F(LoadScene, FixedJointsMergeLinksIntoOneBody) {
+  const std::string half = "<collision><geometry><box size='0.1 0.2 0.3'/></geometry></collision>";
+  const Scene cut = load("<link name='world'/><link name='part'>" + half + "</link><link name='other'>" + half +
+                         "</link>" + floating_joint +
+                         "<joint name='f' type='fixed'><parent link='part'/><child link='other'/><origin xyz='0.1 0 0' "
+                         "rpy='0 0 3.14159265358979'/>"
+                         "</joint>");
+  ASSERT_EQ(cut.bodies.size(), 1u);
+  const Body& body = cut.bodies[0];
+  EXPECT_EQ(body.collision.size(), 2u);
+  EXPECT_NEAR(body.mass_properties.mass, 12.0, 1e-12);
+  EXPECT_TRUE(body.X_OL.translation().isApprox(Vector3d(-0.05, 0, 0), 1e-12));
+  const Vector3d expected = 12.0 / 12.0 * Vector3d(0.04 + 0.09, 0.04 + 0.09, 0.04 + 0.04);
+  EXPECT_TRUE(body.mass_properties.inertia_O.isApprox(Matrix3d(expected.asDiagonal()), 1e-9));
+}
+
+TEST_F(LoadScene, InertialsOfMergedLinksAddUpByTheParallelAxisTheorem) {
+  const std::string ball = inertial("1.5", "0.002 0.002 0.002");
+  const std::string shape = "<collision><geometry><sphere radius='0.1'/></geometry></collision>";
+  const Scene scene =
+      load("<link name='world'/><link name='part'>" + ball + shape + "</link><link name='other'>" + ball + shape +
+           "</link>" + floating_joint +
+           "<joint name='f' type='fixed'><parent link='part'/><child link='other'/><origin xyz='0 0.4 0'/></joint>");
+  const double across = 2 * 0.002 + 2 * 1.5 * 0.04;
+  EXPECT_NEAR(scene.bodies[0].mass_properties.mass, 3.0, 1e-12);
+  EXPECT_TRUE(scene.bodies[0].mass_properties.inertia_O.isApprox(Matrix3d(Vector3d(across, 0.004, across).asDiagonal()),
+                                                                 1e-12));
+}
+
+TEST_F(LoadScene, ALinkFixedToTheBenchIsAFixedBody) {
+  const Scene scene = load(
+      "<link name='workbench'/><link name='wall'>" + unit_box + "</link><link name='top'>" + unit_box +
+      "</link><joint name='a' type='fixed'><parent link='workbench'/><child link='wall'/><origin xyz='1 0 0'/></joint>"
+      "<joint name='b' type='fixed'><parent link='wall'/><child link='top'/><origin xyz='0 0 0.5'/></joint>");
+  ASSERT_EQ(scene.bodies.size(), 1u);
+  EXPECT_EQ(scene.bodies[0].name, "wall");
+  EXPECT_FALSE(scene.bodies[0].movable);
+  EXPECT_EQ(scene.bodies[0].mass_properties.mass, 0.0);
+  EXPECT_TRUE(scene.bodies[0].X_WO.translation().isApprox(Vector3d(1, 0, 0)));
+  EXPECT_TRUE(scene.bodies[0].collision[1].X_OS.translation().isApprox(Vector3d(0, 0, 0.5)));
+}
+
+TEST_F(LoadScene, OtherJointsAreHeldAtZeroWithAWarning) {
+  for (const std::string type : {"revolute", "prismatic", "continuous", "planar"}) {
+    const Scene scene = load("<link name='world'/><link name='part'>" + unit_box + "</link><link name='arm'>" +
+                             unit_box + "</link>" + floating_joint + "<joint name='hinge' type='" + type +
+                             "'><parent link='part'/><child link='arm'/><axis xyz='0 0 1'/>"
+                             "<limit effort='1' velocity='1' lower='-1' upper='1'/></joint>");
+    EXPECT_EQ(scene.bodies.size(), 1u);
+    EXPECT_TRUE(warned(scene, "link 'arm': joint 'hinge'"));
+  }
+}
+
+TEST_F(LoadScene, AnObjectByItselfLiesOnTheBench) {
+  const std::string tilted =
+      "<collision><origin xyz='0 0 0.7' rpy='0.4 0.3 0'/><geometry><cylinder radius='0.1' length='0.3'/>"
+      "</geometry></collision>";
+  const Scene scene =
+      load("<link name='mug'>" + inertial("1", "0.01 0.01 0.01") + tilted + "</link>", "bench_height: 0.25");
+  ASSERT_EQ(scene.bodies.size(), 1u);
+  EXPECT_TRUE(scene.bodies[0].movable);
+  const Shape& shape = scene.bodies[0].collision[0];
+  EXPECT_NEAR(bounding_box(shape.geometry, scene.bodies[0].X_WO * shape.X_OS).min().z(), 0.25, 1e-12);
+  EXPECT_NEAR(scene.bodies[0].X_WO.translation().x(), 0.0, 1e-15);
+}
+
+TEST_F(LoadScene, ARootWithoutMassIsFixed) {
+  EXPECT_FALSE(load("<link name='table'>" + unit_box + "</link>").bodies[0].movable);
+  const Scene massless = load("<link name='table'>" + inertial("0", "1 1 1") + unit_box + "</link>");
+  EXPECT_FALSE(massless.bodies[0].movable);
+  EXPECT_TRUE(warned(massless, "link 'table': the root has no mass"));
+}
+
+// ---- what real files get wrong
+
+TEST_F(LoadScene, ImpossibleInertiaIsReplacedByTheShapes) {
+  for (const auto& [moments, reason] :
+       std::vector<std::pair<std::string, std::string>>{{"1 1 1", "placeholder"},
+                                                        {"0 0 0", "positive definite"},
+                                                        {"-0.01 0.01 0.01", "positive definite"},
+                                                        {"0.001 0.001 0.01", "triangle inequality"}}) {
+    const Scene scene = load_part(inertial("0.5", moments) + unit_box);
+    EXPECT_TRUE(warned(scene, "link 'part'"));
+    EXPECT_TRUE(warned(scene, reason));
+    EXPECT_EQ(scene.bodies[0].mass_properties.mass, 0.5);
+    const Matrix3d expected = 0.5 * 0.04 / 6.0 * Matrix3d::Identity();
+    EXPECT_TRUE(scene.bodies[0].mass_properties.inertia_O.isApprox(expected, 1e-12)) << moments;
+  }
+}
+
+TEST_F(LoadScene, TheRadiusOfGyrationMayReachTheShapesEndAndNoFurther) {
+  const double size = 0.1 * std::sqrt(3.0);
+  const auto with_radius = [&](double radius) {
+    const std::string moment = std::to_string(100.0 * radius * radius);
+    return load_part(inertial("100", moment + " " + moment + " " + moment) + unit_box).warnings.size();
+  };
+  EXPECT_EQ(with_radius(0.99 * size), 0u);
+  EXPECT_EQ(with_radius(1.01 * size), 1u);
+}
+
+TEST_F(LoadScene, AnInertialThatUrdfdomDropsTakesNothingElseWithIt) {
+  const Scene scene = load_part("<inertial><mass value='2'/></inertial>" + unit_box + unit_box);
+  EXPECT_TRUE(warned(scene, "link 'part': inertial cannot be read"));
+  EXPECT_EQ(scene.bodies[0].collision.size(), 2u);
+  EXPECT_EQ(scene.bodies[0].mass_properties.mass, 2.0);
+  const Matrix3d expected = 2.0 * 0.04 / 6.0 * Matrix3d::Identity();
+  EXPECT_TRUE(scene.bodies[0].mass_properties.inertia_O.isApprox(expected, 1e-12));
+  EXPECT_NEAR(load_part("<inertial><mass value='nan'/></inertial>" + unit_box).bodies[0].mass_properties.mass, 8.0,
+              1e-12);
+}
+
+TEST_F(LoadScene, AnUnknownShapeIsToldAndTakesNothingElseWithIt) {
+  const Scene scene =
+      load_part("<collision><geometry><capsule radius='1' length='1'/></geometry></collision><collision/>" + unit_box);
+  EXPECT_TRUE(warned(scene, "link 'part': collision left out: shape 'capsule'"));
+  EXPECT_TRUE(warned(scene, "shape missing"));
+  EXPECT_EQ(scene.bodies[0].collision.size(), 1u);
+}
+
+TEST_F(LoadScene, MassThatIsNotPositiveComesFromTheShapeOrIsRefused) {
+  for (const std::string mass : {"0", "-3"}) {
+    const Scene scene = load_part(inertial(mass, "1 1 1") + unit_box);
+    EXPECT_TRUE(warned(scene, "link 'part': mass"));
+    EXPECT_NEAR(scene.bodies[0].mass_properties.mass, 8.0, 1e-12);
+    EXPECT_TRUE(has(part_refusal(inertial(mass, "1 1 1")), "link 'part': mass"));
+  }
+  EXPECT_TRUE(has(part_refusal(""), "link 'part': mass"));
+}
+
+// ---- refusals
+
+TEST_F(LoadScene, DegenerateSizesAreRefused) {
+  for (const std::string shape :
+       {"<box size='0 1 1'/>", "<box size='1 -1 1'/>", "<box size='1 nan 1'/>", "<box size='1 1'/>",
+        "<sphere radius='0'/>", "<sphere radius='-1'/>", "<sphere/>", "<sphere radius='1e999'/>",
+        "<cylinder radius='0' length='1'/>", "<cylinder radius='1' length='-1'/>", "<mesh/>",
+        "<mesh filename='not_there.stl'/>"}) {
+    const std::string message = part_refusal("<collision><geometry>" + shape + "</geometry></collision>");
+    EXPECT_TRUE(has(message, "scene.urdf:")) << shape;
+    EXPECT_TRUE(has(message, "link 'part'")) << shape;
+  }
+}
+
+TEST_F(LoadScene, WhatUrdfdomRefusesIsRefusedWithItsReasonAndNothingOnTheConsole) {
+  testing::internal::CaptureStderr();
+  testing::internal::CaptureStdout();
+  EXPECT_TRUE(has(refusal("<link name='a'/><link name='b'/>"), "Two root links"));
+  EXPECT_TRUE(has(refusal("<link name='a'/><link name='a'/>"), "not unique"));
+  EXPECT_TRUE(has(refusal(""), "No link elements"));
+  EXPECT_TRUE(has(refusal("<link name='world'>"), "scene.urdf:"));
+  EXPECT_TRUE(has(refusal("<link/>"), "name"));
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+  EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+TEST_F(LoadScene, AFileThatIsNotThereIsRefused) {
+  EXPECT_THROW(load_scene(folder_.path("nothing.urdf")), InputError);
+  EXPECT_THROW(load_scene(folder_.path("")), InputError);
+  EXPECT_THROW(load_scene("package://no_such_package/scene.urdf"), InputError);
+}
+
+// ---- meshes
+
+const std::string tetrahedron_obj = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+
+TEST_F(LoadScene, AMeshIsScaledAndClosed) {
+  write_mesh("t.obj", tetrahedron_obj);
+  const Scene scene =
+      load_part("<collision><geometry><mesh filename='t.obj' scale='0.1 0.2 0.3'/></geometry></collision>");
+  EXPECT_NEAR(scene.bodies[0].mass_properties.mass, 1000.0 * 0.006 / 6.0, 1e-6);
+  const MeshPtr mesh = std::get<MeshPtr>(scene.bodies[0].collision[0].geometry);
+  EXPECT_EQ(mesh->vertices.size(), 4u);
+  EXPECT_EQ(mesh->uri, "file://" + folder_.path("t.obj"));
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
+TEST_F(LoadScene, AMirroredOrInsideOutMeshStillHasItsVolume) {
+  write_mesh("t.obj", tetrahedron_obj);
+  write_mesh("inside_out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
+  for (const std::string mesh : {"filename='t.obj' scale='-1 1 1'", "filename='inside_out.obj'"}) {
+    const Scene scene = load_part("<collision><geometry><mesh " + mesh + "/></geometry></collision>");
+    EXPECT_NEAR(volume_properties(scene.bodies[0].collision[0].geometry).volume, 1.0 / 6.0, 1e-7);
+  }
+}
+
+TEST_F(LoadScene, StlAndObjOfOneShapeAreOneShape) {
+  write_mesh("t.obj", tetrahedron_obj);
+  const std::vector<Vector3d> v = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  std::ostringstream stl;
+  stl << "solid t\n";
+  for (const Eigen::Vector3i& t :
+       {Eigen::Vector3i(0, 2, 1), Eigen::Vector3i(0, 1, 3), Eigen::Vector3i(0, 3, 2), Eigen::Vector3i(1, 2, 3)}) {
+    stl << "facet normal 0 0 0\nouter loop\n";
+    for (int k = 0; k < 3; ++k) stl << "vertex " << v[static_cast<std::size_t>(t[k])].transpose() << "\n";
+    stl << "endloop\nendfacet\n";
+  }
+  stl << "endsolid t\n";
+  write_mesh("t.stl", stl.str());
+  const auto mass = [&](const std::string& file) {
+    return load_part("<collision><geometry><mesh filename='" + file + "'/></geometry></collision>")
+        .bodies[0]
+        .mass_properties;
+  };
+  EXPECT_TRUE(mass("t.stl").inertia_O.isApprox(mass("t.obj").inertia_O, 1e-6));
+}
+
+TEST_F(LoadScene, AnOpenMeshCountsAsItsBoxWithAWarning) {
+  write_mesh("open.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\n");
+  const Scene scene = load_part("<collision><geometry><mesh filename='open.obj'/></geometry></collision>");
+  EXPECT_NEAR(scene.bodies[0].mass_properties.mass, 1000.0, 1e-9);
+  EXPECT_TRUE(warned(scene, "link 'part': mesh"));
+}
+
+TEST_F(LoadScene, DegenerateMeshesAreRefused) {
+  write_mesh("flat.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
+  write_mesh("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+  write_mesh("nan.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  write_mesh("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+  write_mesh("empty.stl", "");
+  write_mesh("text.dae", "no XML\n");
+  write_mesh("mesh.txt", tetrahedron_obj);
+  for (const std::string name :
+       {"flat.obj", "index.obj", "nan.obj", "points.obj", "empty.stl", "text.dae", "mesh.txt"}) {
+    EXPECT_TRUE(has(part_refusal("<collision><geometry><mesh filename='" + name + "'/></geometry></collision>"), name));
+  }
+  write_mesh("t.obj", tetrahedron_obj);
+  EXPECT_TRUE(
+      has(part_refusal("<collision><geometry><mesh filename='t.obj' scale='0 1 1'/></geometry></collision>"), "scale"));
+}
+
+TEST_F(LoadScene, MoreThanAMillionTrianglesAreRefused) {
+  std::ofstream stl(folder_.path("big.stl"), std::ios::binary);
+  const std::uint32_t count = 1000001;
+  stl << std::string(80, ' ');
+  stl.write(reinterpret_cast<const char*>(&count), sizeof count);
+  const std::vector<char> triangle(50, 0);
+  for (std::uint32_t i = 0; i < count; ++i) stl.write(triangle.data(), 50);
+  stl.close();
+  EXPECT_TRUE(has(part_refusal("<collision><geometry><mesh filename='big.stl'/></geometry></collision>"), "1000000"));
+}
+
+TEST_F(LoadScene, PackagesAreFoundByTheFinderAndInRosPackagePath) {
+  write_mesh("some_package/package.xml", "<package><name>some_package</name></package>");
+  write_mesh("some_package/meshes/t.obj", tetrahedron_obj);
+  const std::string mesh =
+      "<collision><geometry><mesh filename='package://some_package/meshes/t.obj'/></geometry></collision>";
+  EXPECT_TRUE(has(part_refusal(mesh), "package"));
+  const char* before = std::getenv("ROS_PACKAGE_PATH");
+  const std::string saved = before != nullptr ? before : "";
+  setenv("ROS_PACKAGE_PATH", ("/nowhere:" + folder_.path("")).c_str(), 1);
+  EXPECT_EQ(std::get<MeshPtr>(load_part(mesh).bodies[0].collision[0].geometry)->uri,
+            "package://some_package/meshes/t.obj");
+  EXPECT_EQ(find_package_in_ros_package_path("other_package"), "");
+  setenv("ROS_PACKAGE_PATH", folder_.path("some_package").c_str(), 1);
+  EXPECT_NE(find_package_in_ros_package_path("some_package"), "");
+  setenv("ROS_PACKAGE_PATH", saved.c_str(), 1);
+}
+
+TEST_F(LoadScene, ColoursComeFromTheMaterials) {
+  const Scene scene = load_part(unit_box +
+                                "<visual><geometry><sphere radius='0.1'/></geometry><material name='red'>"
+                                "<color rgba='0.5 0.25 0.75 0.125'/></material></visual>");
+  ASSERT_EQ(scene.bodies[0].visual.size(), 1u);
+  EXPECT_TRUE(scene.bodies[0].visual[0].color.isApprox(Eigen::Vector4d(0.5, 0.25, 0.75, 0.125)));
+  EXPECT_EQ(load_part(unit_box).bodies[0].visual.size(), 1u);
+}
+
+// ---- the YAML file
+
+TEST_F(LoadScene, TheYamlSaysWhatUrdfHasNoWordFor) {
+  const Scene scene = load_part(unit_box, R"(
+gravity: 1.62
+contact: none
+tool: spring_probe
+force_scale: 2.5
+bench_height: -0.1
+defaults: {friction: 0.7, restitution: 0.2, density: 800, material_stiffness: 1000}
+objects:
+  part: {friction: 0.1, material_stiffness: .inf}
+targets:
+  part: {pose: [1, 2, 3, 0, 0, 0, 2], position_tolerance: 0.02, angle_tolerance: 0.3}
+start: {handle: [0.1, 0.2, 0.3, 1, 0, 0, 0]}
+)");
+  EXPECT_EQ(scene.gravity, 1.62);
+  EXPECT_EQ(scene.contact, ContactMode::none);
+  EXPECT_EQ(scene.tool, "spring_probe");
+  EXPECT_EQ(scene.force_scale, 2.5);
+  EXPECT_EQ(scene.bench_height, -0.1);
+  EXPECT_EQ(scene.bench_material.friction, 0.7);
+  EXPECT_EQ(scene.bench_material.stiffness, 1000.0);
+  EXPECT_EQ(scene.bodies[0].material.friction, 0.1);
+  EXPECT_EQ(scene.bodies[0].material.restitution, 0.2);
+  EXPECT_TRUE(std::isinf(scene.bodies[0].material.stiffness));
+  EXPECT_TRUE(scene.targets.at("part").X_WL.translation().isApprox(Vector3d(1, 2, 3)));
+  EXPECT_TRUE(scene.targets.at("part").X_WL.linear().isIdentity());
+  EXPECT_EQ(scene.targets.at("part").angle_tolerance, 0.3);
+  EXPECT_TRUE(scene.X_WH_start.linear().isApprox(Matrix3d(Vector3d(1, -1, -1).asDiagonal())));
+  EXPECT_EQ(scene.name, "scene");
+}
+
+TEST_F(LoadScene, BadYamlIsRefusedWithLineAndKey) {
+  for (const auto& [yaml, place, key] : std::vector<std::tuple<std::string, std::string, std::string>>{
+           {"gravity: -1", ":1:", "gravity"},
+           {"gravity: .nan", ":1:", "gravity"},
+           {"\n\nspeed: 1", ":3:", "speed"},
+           {"contact: yes", ":1:", "contact"},
+           {"tool: fork", ":1:", "tool"},
+           {"force_scale: 0", ":1:", "force_scale"},
+           {"defaults: {density: 0}", ":1:", "defaults.density"},
+           {"defaults: {restitution: 1.5}", ":1:", "defaults.restitution"},
+           {"defaults: {colour: red}", ":1:", "defaults.colour"},
+           {"objects:\n  part: {friction: -0.1}", ":2:", "objects.part.friction"},
+           {"objects:\n  nobody: {friction: 0.1}", ":2:", "nobody"},
+           {"objects: [1, 2]", ":1:", "objects"},
+           {"objects:\n  part: {pose: [0, 0, 0, 0, 0, 0, 1]}", ":2:", "objects.part.pose"},
+           {"objects:\n  mug: {urdf: nothing.urdf}", ":2:", "objects.mug.urdf"},
+           {"targets:\n  nobody: {pose: [0, 0, 0, 0, 0, 0, 1]}", ":2:", "nobody"},
+           {"targets:\n  part: {position_tolerance: 1}", ":", "targets.part.pose"},
+           {"targets:\n  part: {pose: [0, 0, 0, 0, 0, 0, 0]}", ":2:", "targets.part.pose"},
+           {"start: {hand: 1}", ":1:", "start.hand"},
+           {"a: [", ":", "YAML"}}) {
+    const std::string message = part_refusal(unit_box, yaml);
+    EXPECT_TRUE(has(message, "scene.yaml" + place)) << yaml;
+    EXPECT_TRUE(has(message, key)) << yaml;
+  }
+}
+
+TEST_F(LoadScene, TheYamlAddsObjectsByTheirOwnUrdf) {
+  write_mesh("mug.urdf",
+             "<robot name='m'><link name='base'>" + inertial("1", "0.01 0.01 0.01") + unit_box + "</link></robot>");
+  const Scene scene = load_part(unit_box,
+                                "objects:\n  cup: {urdf: mug.urdf, pose: [0.5, 0, 1, 0, 0, 0, 1], friction: 0.9}\n"
+                                "  mug: {urdf: mug.urdf}\n");
+  ASSERT_EQ(scene.bodies.size(), 3u);
+  const Body& cup = scene.bodies[*find_body(scene, "cup")];
+  EXPECT_TRUE(cup.movable);
+  EXPECT_EQ(cup.material.friction, 0.9);
+  EXPECT_TRUE((cup.X_WO * cup.X_OL).translation().isApprox(Vector3d(0.5, 0, 1)));
+  EXPECT_NEAR(scene.bodies[*find_body(scene, "mug")].X_WO.translation().z(), 0.1, 1e-12);
+  EXPECT_FALSE(find_body(scene, "base"));
+}
+
+TEST_F(LoadScene, TwoObjectsOfOneNameAreRefused) {
+  write_mesh("mug.urdf",
+             "<robot name='m'><link name='base'>" + inertial("1", "0.01 0.01 0.01") + unit_box + "</link></robot>");
+  EXPECT_TRUE(has(part_refusal(unit_box, "objects: {part: {urdf: mug.urdf}}"), "part"));
+}
+
+TEST_F(LoadScene, LoadsTheSameFromManyThreads) {
+  load_part("<inertial><mass value='2'/></inertial>" + unit_box);
+  std::vector<std::thread> threads;
+  std::array<std::size_t, 8> warnings{};
+  for (std::size_t& count : warnings) {
+    threads.emplace_back([&] { count = load_scene(folder_.path("scene.urdf")).warnings.size(); });
+  }
+  for (std::thread& thread : threads) thread.join();
+  for (const std::size_t count : warnings) EXPECT_EQ(count, 1u);
+}
+
+}  // namespace
+}  // namespace spring_workbench
