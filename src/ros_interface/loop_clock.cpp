@@ -1,9 +1,9 @@
 #include "spring_workbench/ros_interface/loop_clock.h"
 
+#include <ros/init.h>
+
 #include <chrono>
 #include <thread>
-
-#include <ros/init.h>
 
 namespace spring_workbench {
 namespace {
@@ -29,8 +29,8 @@ double loop_time() {
 
 void sleep_until_loop_time(double t) {
   if (ros::Time::isSimTime()) return sleep_until_simulated(t);
-  std::this_thread::sleep_until(steady_clock::time_point(
-      std::chrono::duration_cast<steady_clock::duration>(duration<double>(t))));
+  std::this_thread::sleep_until(
+      steady_clock::time_point(std::chrono::duration_cast<steady_clock::duration>(duration<double>(t))));
 }
 
 }  // namespace spring_workbench

@@ -14,7 +14,8 @@ void take_frame(YAML::Node& map, const std::string& where, const std::string& ke
   const YAML::Node node = take(map, key);
   if (!node) return;
   value = read_string(node, where, key);
-  if (value.empty() || value.front() == '/') refuse(where, key, "\"" + value + "\"", "a frame name without a leading /");
+  if (value.empty() || value.front() == '/')
+    refuse(where, key, "\"" + value + "\"", "a frame name without a leading /");
 }
 
 }  // namespace

@@ -39,8 +39,8 @@ std::optional<TransformFault> find_fault(const geometry_msgs::TransformStamped& 
   const geometry_msgs::Quaternion& q = transform.transform.rotation;
   const std::string place = "tf " + transform.header.frame_id + " -> " + transform.child_frame_id + ": ";
   if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-    return TransformFault{"not finite", place + "translation: (" + number(p.x) + ", " + number(p.y) + ", " + number(p.z) +
-                                            ") is not allowed: must be three finite numbers"};
+    return TransformFault{"not finite", place + "translation: (" + number(p.x) + ", " + number(p.y) + ", " +
+                                            number(p.z) + ") is not allowed: must be three finite numbers"};
   }
   const std::string rotation =
       place + "rotation: (" + number(q.x) + ", " + number(q.y) + ", " + number(q.z) + ", " + number(q.w) + ")";

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include <geometry_msgs/Point.h>
 #include <geometry_msgs/Pose.h>
 #include <geometry_msgs/TransformStamped.h>
@@ -9,6 +7,8 @@
 #include <geometry_msgs/Vector3.h>
 #include <geometry_msgs/Wrench.h>
 #include <ros/time.h>
+
+#include <string>
 
 #include "spring_workbench/Contacts.h"
 #include "spring_workbench/ForkState.h"

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <string>
-
 #include <XmlRpcValue.h>
 #include <ros/node_handle.h>
 #include <yaml-cpp/yaml.h>
+
+#include <string>
 
 #include "spring_workbench/simulation/settings.h"
 
@@ -19,13 +19,14 @@ YAML::Node private_parameters(const ros::NodeHandle& private_node);
 
 /// Private parameters of the node `manipulation`: these, and every key of `setting_descriptions()`.
 struct ManipulationParameters {
-  std::string scene;                          ///< `scene`, required: a URDF's path or package:// URI
-  double rate = 100.0;                        ///< `rate` [Hz], 1 … 2000: of the physics loop and of all messages but markers
-  double marker_rate = 30.0;                  ///< `marker_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with
-  double max_age = 1.0;                       ///< `max_age` [s], > 0: samples stamped further from now are left out
-  std::string world_frame = "world";          ///< `world_frame`: frame of all that is published
-  std::string workbench_frame = "workbench";  ///< `workbench_frame`: put at the origin of world unless /tf_static says else
-  std::string stylus_frame = "stylus";        ///< `stylus_frame`: the child frame on /tf that is the handle of the tool
+  std::string scene;                  ///< `scene`, required: a URDF's path or package:// URI
+  double rate = 100.0;                ///< `rate` [Hz], 1 … 2000: of the physics loop and of all messages but markers
+  double marker_rate = 30.0;          ///< `marker_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with
+  double max_age = 1.0;               ///< `max_age` [s], > 0: samples stamped further from now are left out
+  std::string world_frame = "world";  ///< `world_frame`: frame of all that is published
+  std::string workbench_frame =
+      "workbench";                      ///< `workbench_frame`: put at the origin of world unless /tf_static says else
+  std::string stylus_frame = "stylus";  ///< `stylus_frame`: the child frame on /tf that is the handle of the tool
   SimulationSettings simulation;
 };
 

@@ -4,9 +4,10 @@
 
 namespace spring_workbench {
 
-/// Says how far to simulate: one sample interval behind the tracker as long as samples come, so that every segment of the
-/// hand's motion is known before it is walked; and on past the newest sample, the hand held at rest, once they have
-/// stopped for longer than `dropout_after`. Needs no common clock with the tracker: only intervals of the local one count.
+/// Says how far to simulate: one sample interval behind the tracker as long as samples come, so that every segment of
+/// the hand's motion is known before it is walked; and on past the newest sample, the hand held at rest, once they have
+/// stopped for longer than `dropout_after`. Needs no common clock with the tracker: only intervals of the local one
+/// count.
 class PlayoutClock {
  public:
   /// `dropout_after` [s], > 0.

@@ -1,16 +1,16 @@
 #pragma once
 
+#include <ros/ros.h>
+#include <sensor_msgs/Joy.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
+
 #include <map>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <variant>
 #include <vector>
-
-#include <ros/ros.h>
-#include <sensor_msgs/Joy.h>
-#include <tf2/buffer_core.h>
-#include <tf2_msgs/TFMessage.h>
 
 #include "spring_workbench/motion/pose_track.h"
 #include "spring_workbench/ros_interface/parameters.h"
@@ -35,13 +35,13 @@ using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton>;
 
 /// What came in so far.
 struct InputStatistics {
-  std::size_t samples = 0;                     ///< used
-  std::size_t dropouts = 0;                    ///< gaps longer than `dropout_after`
-  std::size_t restarts = 0;                    ///< times ROS time jumped back
-  std::map<std::string, std::size_t> left_out; ///< by reason
-  double interval = 0.0;                       ///< between the newest two samples [s]
-  double age = 0.0;                            ///< of the newest sample when it came, by its stamp [s]
-  double newest_arrival = 0.0;                 ///< local time [s]
+  std::size_t samples = 0;                      ///< used
+  std::size_t dropouts = 0;                     ///< gaps longer than `dropout_after`
+  std::size_t restarts = 0;                     ///< times ROS time jumped back
+  std::map<std::string, std::size_t> left_out;  ///< by reason
+  double interval = 0.0;                        ///< between the newest two samples [s]
+  double age = 0.0;                             ///< of the newest sample when it came, by its stamp [s]
+  double newest_arrival = 0.0;                  ///< local time [s]
 };
 
 /// Why a transform from outside cannot be used: reason and one line for the log. Empty when it can.
@@ -51,8 +51,8 @@ struct TransformFault {
 };
 std::optional<TransformFault> find_fault(const geometry_msgs::TransformStamped& transform);
 
-/// Listens to /tf, /tf_static and stylus/joy, and keeps what came, in order, until it is taken. What cannot be used is left
-/// out, counted by reason and told in one throttled line.
+/// Listens to /tf, /tf_static and stylus/joy, and keeps what came, in order, until it is taken. What cannot be used is
+/// left out, counted by reason and told in one throttled line.
 class StylusInput {
  public:
   StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters);
@@ -78,8 +78,8 @@ class StylusInput {
   bool workbench_known_ = false;
   std::vector<StylusEvent> events_;
   InputStatistics statistics_;
-  ros::Time zero_;        ///< of the epoch; zero before the first input
-  ros::Time newest_;      ///< stamp of the newest sample of the epoch; zero before it
+  ros::Time zero_;    ///< of the epoch; zero before the first input
+  ros::Time newest_;  ///< stamp of the newest sample of the epoch; zero before it
   ros::Time last_now_;
   bool pressed_ = false;
   ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;
