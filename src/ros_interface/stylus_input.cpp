@@ -1,5 +1,7 @@
 #include "spring_workbench/ros_interface/stylus_input.h"
 
+#include <tf2/exceptions.h>
+
 #include <cmath>
 #include <sstream>
 #include <utility>
