@@ -27,8 +27,6 @@ class StrainRod final : public ShapeModel {
     Vector3d slope = Vector3d::Zero();
   };
   LinearStrain curvature(const StrainVector& q) const;
-  /// Rotation from arc length `s0` to `s1` = s0 + h.
-  Quaterniond turn(const LinearStrain& k, double s0, double h) const;
   /// Upper bound of the angle through which the rod is turned [rad].
   double turned_angle(const LinearStrain& k) const;
   int pieces(double angle) const;

@@ -105,7 +105,7 @@ TEST_P(EveryShape, BadLengthIsRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::ValuesIn(shape_model_names()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& instance) { return instance.param; });
 
 TEST(ShapeModel, UnknownNameIsRefusedWithTheKnownOnes) {
   try {
