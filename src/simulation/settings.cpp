@@ -212,7 +212,7 @@ std::vector<SettingDescription> setting_descriptions() {
 }
 
 void apply_settings(const YAML::Node& values, const std::string& where, SimulationSettings& settings) {
-  if (!values.IsMap()) refuse(where, "(top level)", YAML::Dump(values), "a map");
+  if (!values.IsMap()) refuse(where, "(top level)", "what is given", "a map of settings");
   std::vector<KeyAndValue> flat;
   flatten(values, where, "", flat);
   SimulationSettings changed = settings;
