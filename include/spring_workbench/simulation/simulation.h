@@ -11,7 +11,7 @@
 namespace spring_workbench {
 
 /// State of one movable object, at its object frame O (centre of mass), in world axes.
-struct ObjectState {
+struct BodyState {
   std::string name;
   RigidTransform X_WO = RigidTransform::Identity();
   Twist V_WO_W;               ///< [m/s, rad/s]
@@ -22,7 +22,7 @@ struct ObjectState {
 };
 
 /// State of the fork.
-struct ForkState {
+struct ToolState {
   std::string tool = "spring_fork";
   std::string held_object;                                       ///< empty when nothing is held
   std::string shape;
@@ -119,8 +119,8 @@ class Simulation {
   /// By name; `step` [s] 0 keeps the present one.
   void set_integrator(const std::string& name, double step);
 
-  const std::vector<ObjectState>& objects() const;
-  ForkState fork() const;
+  const std::vector<BodyState>& objects() const;
+  ToolState fork() const;
   const std::vector<ContactState>& contacts() const;
   /// Poses along the fork's centreline from handle to tip, in world, `count` ≥ 2 of them evenly spaced in arc length.
   std::vector<RigidTransform> centreline(int count) const;

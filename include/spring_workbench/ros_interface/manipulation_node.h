@@ -1,0 +1,52 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "spring_workbench/ros_interface/diagnostics.h"
+#include "spring_workbench/ros_interface/parameters.h"
+#include "spring_workbench/ros_interface/services.h"
+#include "spring_workbench/ros_interface/simulation_runner.h"
+#include "spring_workbench/ros_interface/state_publisher.h"
+#include "spring_workbench/ros_interface/stylus_input.h"
+
+namespace spring_workbench {
+
+/// The node `manipulation`: tf and buttons in; physics in its own thread, on the steady clock or, under `use_sim_time`,
+/// on ROS time; states, markers and reports out. Call `ros::spin()` beside it.
+class ManipulationNode {
+ public:
+  /// Reads parameters and scene. Throws InputError when one cannot be used.
+  ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  ~ManipulationNode();
+  ManipulationNode(const ManipulationNode&) = delete;
+  ManipulationNode& operator=(const ManipulationNode&) = delete;
+
+ private:
+  void run_physics();
+  void run_cycle(double due);
+  void count(const CycleReport& report, bool deadline_missed);
+  void on_every_second(const ros::WallTimerEvent&);
+  void place_workbench();
+
+  const ManipulationParameters parameters_;
+  SimulationRunner runner_;
+  StylusInput input_;
+  StatePublisher publisher_;
+  Services services_;
+  ManipulationDiagnostics diagnostics_;
+  std::mutex loop_mutex_;
+  LoopStatistics loop_;
+  bool workbench_placed_ = false;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  ros::Publisher diagnostics_publisher_;
+  ros::WallTimer every_second_;
+  std::atomic<bool> stop_{false};
+  std::thread physics_;
+};
+
+}  // namespace spring_workbench

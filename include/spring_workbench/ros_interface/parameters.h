@@ -1,0 +1,39 @@
+#pragma once
+
+#include <XmlRpcValue.h>
+#include <ros/node_handle.h>
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+
+#include "spring_workbench/simulation/settings.h"
+
+namespace spring_workbench {
+
+/// A value of the parameter server as YAML: the same readers serve files, command lines and parameters.
+/// Throws InputError for what YAML has no word for (dates, binary data), naming `key`.
+YAML::Node to_yaml(const XmlRpc::XmlRpcValue& value, const std::string& key);
+
+/// All private parameters of a node as one YAML map; empty where there are none.
+YAML::Node private_parameters(const ros::NodeHandle& private_node);
+
+/// Private parameters of the node `manipulation`: these, and every key of `setting_descriptions()`.
+struct ManipulationParameters {
+  std::string scene;                  ///< `scene`, required: a URDF's path or package:// URI
+  double rate = 100.0;                ///< `rate` [Hz], 1 … 2000: of the physics loop and of all messages but markers
+  double marker_rate = 30.0;          ///< `marker_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with
+  double max_age = 1.0;               ///< `max_age` [s], > 0: samples stamped further from now are left out
+  std::string world_frame = "world";  ///< `world_frame`: frame of all that is published
+  std::string workbench_frame =
+      "workbench";                      ///< `workbench_frame`: put at the origin of world unless /tf_static says else
+  std::string stylus_frame = "stylus";  ///< `stylus_frame`: the child frame on /tf that is the handle of the tool
+  SimulationSettings simulation;
+};
+
+/// Reads the map of private parameters. Throws InputError with `where`, key, value and rule.
+ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters, const std::string& where);
+
+/// Takes the entry `key` out of the map; an undefined node where there is none.
+YAML::Node take(YAML::Node& map, const std::string& key);
+
+}  // namespace spring_workbench

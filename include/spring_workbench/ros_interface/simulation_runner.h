@@ -1,0 +1,56 @@
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "spring_workbench/ros_interface/playout_clock.h"
+#include "spring_workbench/ros_interface/stylus_input.h"
+#include "spring_workbench/simulation/simulation.h"
+
+namespace spring_workbench {
+
+/// What one cycle of the physics loop did.
+struct CycleReport {
+  AdvanceReport advance;
+  double wall_time = 0.0;  ///< [s], by the steady clock
+  bool leapt = false;      ///< time leapt and the simulation was started anew
+};
+
+/// The simulation with the lock that keeps physics, services and publishers apart, fed with the stylus' events.
+class SimulationRunner {
+ public:
+  /// Throws InputError when scene and settings do not fit.
+  SimulationRunner(const Scene& scene, const SimulationSettings& settings);
+
+  /// Feeds the events, then simulates as far as the tracker's samples allow at local time `now` [s].
+  CycleReport cycle(const std::vector<StylusEvent>& events, double now);
+
+  /// Objects back to their start, nothing held; goes on with the next sample.
+  void restart();
+  /// Another scene, with the settings as they are now. Throws InputError, and keeps the old one, when it does not fit.
+  void load(const Scene& scene);
+
+  /// Calls `use(Simulation&)` while nobody else does.
+  template <typename Use>
+  auto locked(Use&& use) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return use(*simulation_);
+  }
+  /// Stamp of the simulated time; `now` before the first sample.
+  ros::Time stamp(const ros::Time& now) const;
+
+ private:
+  void apply(const NewEpoch& epoch);
+  void apply(const StylusPose& pose);
+  void apply(const StylusButton& button);
+  void start_anew();
+
+  mutable std::mutex mutex_;
+  std::unique_ptr<Simulation> simulation_;
+  PlayoutClock playout_;
+  ros::Time zero_;           ///< of the stylus' times
+  bool has_sample_ = false;  ///< since the last start
+};
+
+}  // namespace spring_workbench

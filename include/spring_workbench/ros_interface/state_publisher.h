@@ -1,0 +1,42 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <string>
+
+#include "spring_workbench/ros_interface/markers.h"
+#include "spring_workbench/ros_interface/parameters.h"
+#include "spring_workbench/ros_interface/simulation_runner.h"
+
+namespace spring_workbench {
+
+/// Sends what the simulation shows: /tf, ~objects, ~fork, ~wrench, ~contacts, ~markers and ~steps.
+/// Messages are made only while somebody listens; /tf is sent when the simulated time has gone on.
+class StatePublisher {
+ public:
+  StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters);
+
+  /// Call once per cycle of the physics loop. `stamp`: the simulated time; `now` [s]: local time.
+  void publish(const Simulation& simulation, const ros::Time& stamp, double now);
+  void publish_steps(const CycleReport& report, const std::string& integrator, const ros::Time& stamp,
+                     bool deadline_missed);
+
+ private:
+  void publish_transforms(const Simulation& simulation, const ToolState& tool, const ros::Time& stamp);
+  void publish_tool(const ToolState& tool, const std_msgs::Header& header);
+  void publish_contacts(const Simulation& simulation, const std_msgs::Header& header);
+  void publish_markers(const Simulation& simulation, const std_msgs::Header& header, double now);
+
+  std::string world_frame_;
+  double marker_period_;  ///< [s]
+  double next_markers_ = 0.0;
+  ros::Time last_transforms_;
+  bool had_contacts_ = false;
+  MarkerBuilder markers_;
+  tf2_ros::TransformBroadcaster transforms_;
+  ros::Publisher objects_publisher_, fork_publisher_, wrench_publisher_, contacts_publisher_, markers_publisher_,
+      steps_publisher_;
+};
+
+}  // namespace spring_workbench

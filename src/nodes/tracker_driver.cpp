@@ -1,0 +1,17 @@
+#include "spring_workbench/ros_interface/tracker_driver.h"
+
+#include <ros/ros.h>
+
+#include "spring_workbench/config/input_error.h"
+
+/// The tracker as tf frames and buttons. Exit status 2: bad parameters or motion file.
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "tracker_driver");
+  try {
+    spring_workbench::TrackerDriver(ros::NodeHandle(), ros::NodeHandle("~")).run();
+  } catch (const spring_workbench::InputError& error) {
+    ROS_FATAL_STREAM(error.what());
+    return 2;
+  }
+  return 0;
+}

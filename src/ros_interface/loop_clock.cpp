@@ -1,0 +1,36 @@
+#include "spring_workbench/ros_interface/loop_clock.h"
+
+#include <ros/init.h>
+
+#include <chrono>
+#include <thread>
+
+namespace spring_workbench {
+namespace {
+
+using std::chrono::duration;
+using std::chrono::steady_clock;
+
+void sleep_until_simulated(double t) {
+  constexpr std::chrono::milliseconds poll(1);
+  const auto give_up = steady_clock::now() + std::chrono::milliseconds(100);
+  const double begin = loop_time();
+  for (double now = begin; now >= begin && now < t && steady_clock::now() < give_up && ros::ok(); now = loop_time()) {
+    std::this_thread::sleep_for(poll);
+  }
+}
+
+}  // namespace
+
+double loop_time() {
+  if (ros::Time::isSimTime()) return ros::Time::now().toSec();
+  return duration<double>(steady_clock::now().time_since_epoch()).count();
+}
+
+void sleep_until_loop_time(double t) {
+  if (ros::Time::isSimTime()) return sleep_until_simulated(t);
+  std::this_thread::sleep_until(
+      steady_clock::time_point(std::chrono::duration_cast<steady_clock::duration>(duration<double>(t))));
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,92 @@
+#include "spring_workbench/ros_interface/manipulation_node.h"
+
+#include <ros/package.h>
+
+#include <algorithm>
+
+#include "spring_workbench/ros_interface/conversions.h"
+#include "spring_workbench/ros_interface/loop_clock.h"
+
+namespace spring_workbench {
+namespace {
+
+Scene load_and_tell(const std::string& path) {
+  Scene scene = load_scene(path, ros::package::getPath);
+  for (const std::string& warning : scene.warnings) ROS_WARN_STREAM(warning);
+  ROS_INFO("scene %s: %zu bodies", scene.name.c_str(), scene.bodies.size());
+  return scene;
+}
+
+}  // namespace
+
+ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : parameters_(read_manipulation_parameters(private_parameters(private_node), private_node.getNamespace())),
+      runner_(load_and_tell(parameters_.scene), parameters_.simulation),
+      input_(node, parameters_),
+      publisher_(private_node, parameters_),
+      services_(private_node, runner_),
+      diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
+      diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
+      every_second_(node.createWallTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
+      physics_([this] { run_physics(); }) {}
+
+ManipulationNode::~ManipulationNode() {
+  stop_ = true;
+  physics_.join();
+}
+
+void ManipulationNode::run_physics() {
+  const double period = 1.0 / parameters_.rate;
+  double due = loop_time();
+  while (!stop_ && ros::ok()) {
+    run_cycle(due);
+    const double now = loop_time();
+    const bool on_time = due + period > now && due <= now + period;  // else the cycle was late, or the clock jumped
+    due = on_time ? due + period : now + period;
+    sleep_until_loop_time(due);
+  }
+}
+
+void ManipulationNode::run_cycle(double due) {
+  const double now = loop_time();
+  const CycleReport report = runner_.cycle(input_.take_events(), now);
+  const ros::Time stamp = runner_.stamp(ros::Time::now());
+  runner_.locked([&](const Simulation& simulation) { publisher_.publish(simulation, stamp, now); });
+  const bool deadline_missed = loop_time() > std::max(due, now) + 1.0 / parameters_.rate;
+  const std::string integrator = runner_.locked([](const Simulation& s) { return s.settings().dynamics.integrator; });
+  publisher_.publish_steps(report, integrator, stamp, deadline_missed);
+  count(report, deadline_missed);
+}
+
+void ManipulationNode::count(const CycleReport& report, bool deadline_missed) {
+  if (report.leapt) ROS_WARN("time leapt: starting anew");
+  const std::lock_guard<std::mutex> lock(loop_mutex_);
+  ++loop_.cycles;
+  loop_.deadlines_missed += deadline_missed ? 1 : 0;
+  loop_.guards_tripped += static_cast<std::size_t>(report.advance.guards_tripped);
+  loop_.leaps += report.leapt ? 1 : 0;
+  loop_.longest_cycle = std::max(loop_.longest_cycle, report.wall_time);
+}
+
+void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
+  place_workbench();
+  LoopStatistics loop;
+  {
+    const std::lock_guard<std::mutex> lock(loop_mutex_);
+    loop = loop_;
+  }
+  diagnostic_msgs::DiagnosticArray message;
+  message.header.stamp = ros::Time::now();
+  message.status = diagnostics_.report(input_.statistics(), loop, loop_time());
+  diagnostics_publisher_.publish(message);
+}
+
+void ManipulationNode::place_workbench() {
+  if (workbench_placed_ || parameters_.workbench_frame == parameters_.world_frame) return;
+  workbench_placed_ = true;
+  if (input_.workbench_known()) return;
+  static_transforms_.sendTransform(
+      to_transform(RigidTransform::Identity(), parameters_.world_frame, parameters_.workbench_frame, ros::Time::now()));
+}
+
+}  // namespace spring_workbench

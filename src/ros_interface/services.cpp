@@ -1,0 +1,117 @@
+#include "spring_workbench/ros_interface/services.h"
+
+#include <ros/package.h>
+
+#include <cstdio>
+
+#include "spring_workbench/config/yaml_fields.h"
+
+namespace spring_workbench {
+namespace {
+
+/// Runs the change and turns bad input into an answer.
+template <typename Response, typename Change>
+bool answer(Response& response, Change&& change) {
+  try {
+    change();
+    response.success = true;
+  } catch (const InputError& error) {
+    response.success = false;
+    response.message = error.what();
+    ROS_WARN_STREAM(error.what());
+  }
+  return true;
+}
+
+template <typename Response>
+void fill(const ChangeReport& report, Response& response) {
+  response.message = report.message;
+  response.elastic_energy_before = report.elastic_energy_before;
+  response.elastic_energy_after = report.elastic_energy_after;
+}
+
+std::string energies(const ChangeReport& report) {
+  char text[80];
+  std::snprintf(text, sizeof text, "; elastic energy %.6g J -> %.6g J", report.elastic_energy_before,
+                report.elastic_energy_after);
+  return text;
+}
+
+}  // namespace
+
+Services::Services(ros::NodeHandle private_node, SimulationRunner& runner) : runner_(runner) {
+  servers_ = {private_node.advertiseService("set_dofs", &Services::set_dofs, this),
+              private_node.advertiseService("set_stiffness", &Services::set_stiffness, this),
+              private_node.advertiseService("set_damping", &Services::set_damping, this),
+              private_node.advertiseService("set_integrator", &Services::set_integrator, this),
+              private_node.advertiseService("load_scene", &Services::load_scene, this),
+              private_node.advertiseService("calibrate", &Services::calibrate, this),
+              private_node.advertiseService("reset", &Services::reset, this),
+              private_node.advertiseService("release", &Services::release, this)};
+}
+
+bool Services::set_dofs(SetForkDofs::Request& request, SetForkDofs::Response& response) {
+  const ForkDofs dofs{request.stretch != 0, request.bend != 0, request.torsion != 0};
+  return answer(response, [&] { fill(runner_.locked([&](Simulation& s) { return s.set_dofs(dofs); }), response); });
+}
+
+bool Services::set_stiffness(SetForkStiffness::Request& request, SetForkStiffness::Response& response) {
+  const PerFamily stiffness{request.stretch, request.bend, request.torsion};
+  return answer(response,
+                [&] { fill(runner_.locked([&](Simulation& s) { return s.set_stiffness(stiffness); }), response); });
+}
+
+bool Services::set_damping(SetForkDamping::Request& request, SetForkDamping::Response& response) {
+  const PerFamily ratio{request.stretch, request.bend, request.torsion};
+  return answer(response,
+                [&] { fill(runner_.locked([&](Simulation& s) { return s.set_damping_ratio(ratio); }), response); });
+}
+
+bool Services::set_integrator(SetIntegrator::Request& request, SetIntegrator::Response& response) {
+  return answer(response, [&] {
+    if (request.tolerance != 0.0) {
+      refuse("set_integrator", "tolerance", std::to_string(request.tolerance), "0: these integrators take fixed steps");
+    }
+    runner_.locked([&](Simulation& s) {
+      s.set_integrator(request.name, request.step);
+      response.message =
+          s.settings().dynamics.integrator + ", steps of at most " + std::to_string(s.settings().dynamics.step) + " s";
+    });
+  });
+}
+
+bool Services::load_scene(LoadScene::Request& request, LoadScene::Response& response) {
+  return answer(response, [&] {
+    const Scene scene = spring_workbench::load_scene(request.scene, ros::package::getPath);
+    runner_.load(scene);
+    response.message = scene.name + ": " + std::to_string(scene.bodies.size()) + " bodies";
+    if (!scene.warnings.empty()) response.message += "; " + join(scene.warnings, "; ");
+  });
+}
+
+bool Services::calibrate(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [&] {
+    const ChangeReport report = runner_.locked([](Simulation& s) { return s.calibrate(); });
+    response.message = report.message + energies(report);
+  });
+}
+
+bool Services::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [&] {
+    runner_.restart();
+    response.message = "all objects are back at their start";
+  });
+}
+
+bool Services::release(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [&] {
+    const std::string held = runner_.locked([](Simulation& s) {
+      const std::string name = s.fork().held_object;
+      return s.release() ? name : std::string();
+    });
+    if (held.empty()) throw InputError("release: nothing is held: must be called while an object is held");
+    response.message = "released " + held;
+  });
+}
+
+}  // namespace spring_workbench

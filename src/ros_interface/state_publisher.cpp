@@ -1,0 +1,98 @@
+#include "spring_workbench/ros_interface/state_publisher.h"
+
+#include <geometry_msgs/WrenchStamped.h>
+
+#include "spring_workbench/ros_interface/conversions.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr uint32_t queue = 10;
+const char* const handle_frame = "fork_handle";
+const char* const tip_frame = "fork_tip";
+
+}  // namespace
+
+StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters)
+    : world_frame_(parameters.world_frame),
+      marker_period_(1.0 / parameters.marker_rate),
+      objects_publisher_(private_node.advertise<ObjectStates>("objects", queue)),
+      fork_publisher_(private_node.advertise<ForkState>("fork", queue)),
+      wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", queue)),
+      contacts_publisher_(private_node.advertise<Contacts>("contacts", queue)),
+      markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", queue)),
+      steps_publisher_(private_node.advertise<StepReport>("steps", queue)) {}
+
+void StatePublisher::publish(const Simulation& simulation, const ros::Time& stamp, double now) {
+  std_msgs::Header header;
+  header.frame_id = world_frame_;
+  header.stamp = stamp;
+  const ToolState tool = simulation.fork();
+  publish_transforms(simulation, tool, stamp);
+  if (objects_publisher_.getNumSubscribers() > 0) {
+    ObjectStates message = to_message(simulation.objects());
+    message.header = header;
+    objects_publisher_.publish(message);
+  }
+  publish_tool(tool, header);
+  publish_contacts(simulation, header);
+  publish_markers(simulation, header, now);
+}
+
+void StatePublisher::publish_transforms(const Simulation& simulation, const ToolState& tool, const ros::Time& stamp) {
+  if (stamp.isZero() || stamp == last_transforms_) return;
+  last_transforms_ = stamp;
+  std::vector<geometry_msgs::TransformStamped> transforms{to_transform(tool.X_WH, world_frame_, handle_frame, stamp),
+                                                          to_transform(tool.X_WE, world_frame_, tip_frame, stamp)};
+  for (const BodyState& object : simulation.objects()) {
+    const Body& body = simulation.scene().bodies[*find_body(simulation.scene(), object.name)];
+    transforms.push_back(to_transform(object.X_WO * body.X_OL, world_frame_, object.name, stamp));
+  }
+  transforms_.sendTransform(transforms);
+}
+
+void StatePublisher::publish_tool(const ToolState& tool, const std_msgs::Header& header) {
+  if (fork_publisher_.getNumSubscribers() > 0) {
+    ForkState message = to_message(tool);
+    message.header = header;
+    fork_publisher_.publish(message);
+  }
+  if (wrench_publisher_.getNumSubscribers() > 0) {
+    geometry_msgs::WrenchStamped message;
+    message.header.stamp = header.stamp;
+    message.header.frame_id = handle_frame;
+    message.wrench = to_wrench(tool.handle_wrench_H);
+    wrench_publisher_.publish(message);
+  }
+}
+
+void StatePublisher::publish_contacts(const Simulation& simulation, const std_msgs::Header& header) {
+  const bool has_contacts = !simulation.contacts().empty();
+  if (has_contacts || had_contacts_) {
+    Contacts message = to_message(simulation.contacts());
+    message.header = header;
+    contacts_publisher_.publish(message);
+  }
+  had_contacts_ = has_contacts;
+}
+
+void StatePublisher::publish_markers(const Simulation& simulation, const std_msgs::Header& header, double now) {
+  const bool wait = now < next_markers_ && now > next_markers_ - marker_period_;  // a clock that went back waits not
+  if (wait || markers_publisher_.getNumSubscribers() == 0) return;
+  next_markers_ = now + marker_period_;
+  markers_publisher_.publish(markers_.build(simulation, header));
+}
+
+void StatePublisher::publish_steps(const CycleReport& report, const std::string& integrator, const ros::Time& stamp,
+                                   bool deadline_missed) {
+  if (steps_publisher_.getNumSubscribers() == 0) return;
+  StepReport message = to_message(report.advance);
+  message.header.frame_id = world_frame_;
+  message.header.stamp = stamp;
+  message.wall_time = report.wall_time;
+  message.integrator = integrator;
+  message.deadline_missed = deadline_missed;
+  steps_publisher_.publish(message);
+}
+
+}  // namespace spring_workbench
