@@ -1,0 +1,153 @@
+#include "triangle_contacts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+namespace spring_workbench {
+namespace {
+
+double deepest(const Polygon& polygon, const Triangle& face) {
+  double depth = 0.0;
+  for (const Vector3d& p : polygon) depth = std::max(depth, face.n.dot(face.corners[0] - p));
+  return depth;
+}
+
+/// Edge k of a triangle with the directions that point from it into its two faces.
+struct Edge {
+  Vector3d start, along, into_face, into_neighbour;
+  bool convex;
+};
+
+Edge edge_of(const Triangle& t, std::size_t k) {
+  Edge edge;
+  edge.start = t.corners[k];
+  edge.along = t.corners[(k + 1) % 3] - t.corners[k];
+  edge.into_face = t.n.cross(edge.along);
+  edge.into_neighbour = edge.along.cross(t.neighbour_normals[k]);
+  constexpr double flat = 1e-6;
+  edge.convex = edge.into_neighbour.dot(t.n) < -flat * edge.along.norm();
+  return edge;
+}
+
+/// Whether the edge's solid lies wholly on the side of the edge that `n` points away from.
+bool is_extreme(const Edge& edge, const Vector3d& n) {
+  const double slack = 1e-9 * edge.along.norm();
+  return n.dot(edge.into_face) <= slack && n.dot(edge.into_neighbour) <= slack;
+}
+
+/// Contact of two convex edges that cross each other within their lengths.
+std::optional<ContactPoint> edge_contact(const Edge& own, const Edge& other) {
+  Vector3d n = own.along.cross(other.along);
+  const double size = n.norm();
+  if (!(size > 1e-6 * own.along.norm() * other.along.norm())) return std::nullopt;
+  n /= size;
+  if (!is_extreme(other, n)) n = -n;
+  if (!is_extreme(other, n) || !is_extreme(own, -n)) return std::nullopt;
+  const Vector3d between = other.start - own.start;
+  const Vector3d cross = own.along.cross(other.along);
+  const double s = between.cross(other.along).dot(cross) / (size * size);
+  const double t = between.cross(own.along).dot(cross) / (size * size);
+  const double depth = between.dot(n);
+  if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0 || !(depth > 0.0)) return std::nullopt;
+  return ContactPoint{0, other.start + t * other.along, n, depth};
+}
+
+/// Ways in which two triangles may be in contact: on the other's face, on the own face, or on edges.
+struct Ways {
+  Polygon own_part, other_part;
+  std::vector<ContactPoint> deepest;  // of each way: first the two faces, then edges
+};
+
+Ways find_ways(const Triangle& own, const Triangle& other) {
+  Ways ways{part_behind(own, other), part_behind(other, own), {}};
+  ways.deepest.push_back({0, other.corners[0], other.n, deepest(ways.own_part, other)});
+  ways.deepest.push_back({0, own.corners[0], -own.n, deepest(ways.other_part, own)});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Edge own_edge = edge_of(own, i);
+    for (std::size_t j = 0; own_edge.convex && j < 3; ++j) {
+      const Edge other_edge = edge_of(other, j);
+      if (!other_edge.convex) continue;
+      const std::optional<ContactPoint> contact = edge_contact(own_edge, other_edge);
+      if (contact) ways.deepest.push_back(*contact);
+    }
+  }
+  return ways;
+}
+
+/// Of the ways that go about as well along `n` as the best one, the least deep; nothing where all lie across.
+std::optional<std::size_t> choose_way(const std::vector<ContactPoint>& ways, const Vector3d& n) {
+  constexpr double across = 0.5, as_good = 0.1;
+  double best = across;
+  for (const ContactPoint& way : ways) {
+    if (way.depth > 0.0) best = std::max(best, n.dot(way.n_W));
+  }
+  std::optional<std::size_t> chosen;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    if (!(ways[i].depth > 0.0) || n.dot(ways[i].n_W) < std::max(across, best - as_good)) continue;
+    if (!chosen || ways[i].depth < ways[*chosen].depth) chosen = i;
+  }
+  return chosen;
+}
+
+/// Keeps a point of each group that lies furthest in a direction.
+void keep_extremes(const std::vector<ContactPoint>& group, std::vector<ContactPoint>& kept) {
+  const Vector3d n = group.front().n_W;
+  const Vector3d u = n.unitOrthogonal(), v = n.cross(u);
+  const std::size_t first = kept.size();
+  const auto keep = [&](const ContactPoint& contact) {
+    constexpr double same_place = 1e-7;  // m
+    const bool known = std::any_of(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.end(),
+                                   [&](const auto& k) { return (k.p_W - contact.p_W).norm() < same_place; });
+    if (!known) kept.push_back(contact);
+  };
+  keep(*std::max_element(group.begin(), group.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; }));
+  for (int i = 0; i < 8; ++i) {
+    const double angle = 2.0 * std::acos(-1.0) * (i + 0.31) / 8.0;  // off the axes, along which points often tie
+    const Vector3d direction = std::cos(angle) * u + std::sin(angle) * v;
+    keep(*std::max_element(group.begin(), group.end(),
+                           [&](const auto& a, const auto& b) { return direction.dot(a.p_W) < direction.dot(b.p_W); }));
+  }
+}
+
+}  // namespace
+
+void append_triangle_contacts(const Triangle& own, const Triangle& other, const Vector3d& n_W, double tolerance,
+                              std::vector<ContactPoint>& contacts) {
+  const Ways ways = find_ways(own, other);
+  const std::optional<std::size_t> chosen = choose_way(ways.deepest, n_W);
+  if (!chosen) return;
+  const auto add = [&](const ContactPoint& contact) {
+    if (contact.depth > tolerance) contacts.push_back(contact);
+  };
+  if (*chosen == 0) {
+    for (const Vector3d& p : ways.own_part) {
+      const double depth = other.n.dot(other.corners[0] - p);
+      add({0, p + depth * other.n, other.n, depth});
+    }
+  } else if (*chosen == 1) {
+    for (const Vector3d& p : ways.other_part) add({0, p, -own.n, own.n.dot(own.corners[0] - p)});
+  } else {
+    add(ways.deepest[*chosen]);
+  }
+}
+
+void thin_out(std::size_t first, std::vector<ContactPoint>& contacts) {
+  constexpr double same_normal = 0.9998;  // cos 1°
+  std::vector<std::vector<ContactPoint>> groups;
+  for (std::size_t i = first; i < contacts.size(); ++i) {
+    const auto group = std::find_if(groups.begin(), groups.end(),
+                                    [&](const auto& g) { return g.front().n_W.dot(contacts[i].n_W) > same_normal; });
+    if (group != groups.end()) {
+      group->push_back(contacts[i]);
+    } else {
+      groups.push_back({contacts[i]});
+    }
+  }
+  contacts.resize(first);
+  for (const std::vector<ContactPoint>& group : groups) keep_extremes(group, contacts);
+}
+
+}  // namespace spring_workbench
