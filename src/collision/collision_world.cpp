@@ -12,7 +12,7 @@
 #include "narrow_phase.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/scene/geometry.h"
-#include "triangle_contacts.h"
+#include "thin_out.h"
 
 namespace spring_workbench {
 namespace {

@@ -49,6 +49,7 @@ struct Pair {
 struct Patch {
   std::optional<Vector3d> reference;
   Vector3d area = Vector3d::Zero();
+  bool met = false;  // some pair is in contact along the area vector
 };
 
 }  // namespace
@@ -70,7 +71,12 @@ void append_surface_contacts(const PlacedSurface& own, const PlacedSurface& othe
     patch.area += 0.5 * (pair.crossing.begin - *patch.reference).cross(pair.crossing.end - pair.crossing.begin);
   }
   for (const Pair& pair : placed) {
-    append_triangle_contacts(pair.own, pair.other, patches[pair.patch].area.normalized(), tolerance, contacts);
+    Patch& patch = patches[pair.patch];
+    patch.met |= append_triangle_contacts(pair.own, pair.other, patch.area.normalized(), tolerance, contacts);
+  }
+  for (const Pair& pair : placed) {  // a patch that pushes nowhere on the whole, such as a wedge: each pair by itself
+    if (patches[pair.patch].met) continue;
+    append_triangle_contacts(pair.own, pair.other, std::nullopt, tolerance, contacts);
   }
 }
 

@@ -13,7 +13,7 @@
 #include "sphere_contacts.h"
 #include "surface.h"
 #include "swallowed.h"
-#include "triangle_contacts.h"
+#include "thin_out.h"
 
 namespace spring_workbench {
 namespace {

@@ -58,67 +58,52 @@ std::optional<ContactPoint> edge_contact(const Edge& own, const Edge& other) {
 /// Ways in which two triangles may be in contact: on the other's face, on the own face, or on edges.
 struct Ways {
   Polygon own_part, other_part;
-  std::vector<ContactPoint> deepest;  // of each way: first the two faces, then edges
+  std::array<ContactPoint, 2 + 9> deepest = {};  // of each way: first the two faces, then edges
+  std::size_t count = 0;
+
+  void add(const ContactPoint& contact) { deepest[count++] = contact; }
 };
 
 Ways find_ways(const Triangle& own, const Triangle& other) {
-  Ways ways{part_behind(own, other), part_behind(other, own), {}};
-  ways.deepest.push_back({0, other.corners[0], other.n, deepest(ways.own_part, other)});
-  ways.deepest.push_back({0, own.corners[0], -own.n, deepest(ways.other_part, own)});
+  Ways ways{part_behind(own, other), part_behind(other, own)};
+  ways.add({0, other.corners[0], other.n, deepest(ways.own_part, other)});
+  ways.add({0, own.corners[0], -own.n, deepest(ways.other_part, own)});
   for (std::size_t i = 0; i < 3; ++i) {
     const Edge own_edge = edge_of(own, i);
     for (std::size_t j = 0; own_edge.convex && j < 3; ++j) {
       const Edge other_edge = edge_of(other, j);
       if (!other_edge.convex) continue;
       const std::optional<ContactPoint> contact = edge_contact(own_edge, other_edge);
-      if (contact) ways.deepest.push_back(*contact);
+      if (contact) ways.add(*contact);
     }
   }
   return ways;
 }
 
 /// Of the ways that go about as well along `n` as the best one, the least deep; nothing where all lie across.
-std::optional<std::size_t> choose_way(const std::vector<ContactPoint>& ways, const Vector3d& n) {
+std::optional<std::size_t> choose_way(const Ways& ways, const std::optional<Vector3d>& n) {
   constexpr double across = 0.5, as_good = 0.1;
+  const auto goes_along = [&](const ContactPoint& way) { return n ? n->dot(way.n_W) : 1.0; };
   double best = across;
-  for (const ContactPoint& way : ways) {
-    if (way.depth > 0.0) best = std::max(best, n.dot(way.n_W));
+  for (std::size_t i = 0; i < ways.count; ++i) {
+    if (ways.deepest[i].depth > 0.0) best = std::max(best, goes_along(ways.deepest[i]));
   }
   std::optional<std::size_t> chosen;
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    if (!(ways[i].depth > 0.0) || n.dot(ways[i].n_W) < std::max(across, best - as_good)) continue;
-    if (!chosen || ways[i].depth < ways[*chosen].depth) chosen = i;
+  for (std::size_t i = 0; i < ways.count; ++i) {
+    const ContactPoint& way = ways.deepest[i];
+    if (!(way.depth > 0.0) || goes_along(way) < std::max(across, best - as_good)) continue;
+    if (!chosen || way.depth < ways.deepest[*chosen].depth) chosen = i;
   }
   return chosen;
 }
 
-/// Keeps a point of each group that lies furthest in a direction.
-void keep_extremes(const std::vector<ContactPoint>& group, std::vector<ContactPoint>& kept) {
-  const Vector3d n = group.front().n_W;
-  const Vector3d u = n.unitOrthogonal(), v = n.cross(u);
-  const std::size_t first = kept.size();
-  const auto keep = [&](const ContactPoint& contact) {
-    constexpr double same_place = 1e-7;  // m
-    const bool known = std::any_of(kept.begin() + static_cast<std::ptrdiff_t>(first), kept.end(),
-                                   [&](const auto& k) { return (k.p_W - contact.p_W).norm() < same_place; });
-    if (!known) kept.push_back(contact);
-  };
-  keep(*std::max_element(group.begin(), group.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; }));
-  for (int i = 0; i < 8; ++i) {
-    const double angle = 2.0 * std::acos(-1.0) * (i + 0.31) / 8.0;  // off the axes, along which points often tie
-    const Vector3d direction = std::cos(angle) * u + std::sin(angle) * v;
-    keep(*std::max_element(group.begin(), group.end(),
-                           [&](const auto& a, const auto& b) { return direction.dot(a.p_W) < direction.dot(b.p_W); }));
-  }
-}
-
 }  // namespace
 
-void append_triangle_contacts(const Triangle& own, const Triangle& other, const Vector3d& n_W, double tolerance,
-                              std::vector<ContactPoint>& contacts) {
+bool append_triangle_contacts(const Triangle& own, const Triangle& other, const std::optional<Vector3d>& n_W,
+                              double tolerance, std::vector<ContactPoint>& contacts) {
   const Ways ways = find_ways(own, other);
-  const std::optional<std::size_t> chosen = choose_way(ways.deepest, n_W);
-  if (!chosen) return;
+  const std::optional<std::size_t> chosen = choose_way(ways, n_W);
+  if (!chosen) return false;
   const auto add = [&](const ContactPoint& contact) {
     if (contact.depth > tolerance) contacts.push_back(contact);
   };
@@ -132,22 +117,7 @@ void append_triangle_contacts(const Triangle& own, const Triangle& other, const 
   } else {
     add(ways.deepest[*chosen]);
   }
-}
-
-void thin_out(std::size_t first, std::vector<ContactPoint>& contacts) {
-  constexpr double same_normal = 0.9998;  // cos 1°
-  std::vector<std::vector<ContactPoint>> groups;
-  for (std::size_t i = first; i < contacts.size(); ++i) {
-    const auto group = std::find_if(groups.begin(), groups.end(),
-                                    [&](const auto& g) { return g.front().n_W.dot(contacts[i].n_W) > same_normal; });
-    if (group != groups.end()) {
-      group->push_back(contacts[i]);
-    } else {
-      groups.push_back({contacts[i]});
-    }
-  }
-  contacts.resize(first);
-  for (const std::vector<ContactPoint>& group : groups) keep_extremes(group, contacts);
+  return true;
 }
 
 }  // namespace spring_workbench

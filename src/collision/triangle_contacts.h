@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "placed_triangle.h"
@@ -12,11 +13,8 @@ namespace spring_workbench {
 /// surfaces meet on the whole (see contact_patches.h), and of the ways that go along with it the least deep is taken.
 /// Points deeper than `tolerance` [m] are appended, without `other`; those on a face span the common part of the two
 /// triangles.
-void append_triangle_contacts(const Triangle& own, const Triangle& other, const Vector3d& n_W, double tolerance,
-                              std::vector<ContactPoint>& contacts);
-
-/// Of the contacts from index `first` on, keeps of each group of nearly equal normals the deepest point and those that
-/// lie furthest out in eight directions: what a hundred points support, these do.
-void thin_out(std::size_t first, std::vector<ContactPoint>& contacts);
+/// False where every way goes across `n_W`; without it, the least deep of all is taken.
+bool append_triangle_contacts(const Triangle& own, const Triangle& other, const std::optional<Vector3d>& n_W,
+                              double tolerance, std::vector<ContactPoint>& contacts);
 
 }  // namespace spring_workbench

@@ -411,6 +411,34 @@ TEST(Pairs, InTheHollowOfABowlNothingIsTouched) {
   }
 }
 
+TEST(Pairs, ARodThroughAPlateTouchesIt) {
+  // No corner of one is in the other, and the two curves push in opposite directions.
+  for (const auto& [own, other] : std::vector<std::pair<Geometry, Geometry>>{
+           {box_mesh(Vector3d(0.02, 0.02, 1.0)), Box{Vector3d(0.4, 0.4, 0.01)}},
+           {Cylinder{0.01, 1.0}, Box{Vector3d(0.4, 0.4, 0.01)}},
+           {Box{Vector3d(0.02, 0.02, 1.0)}, box_mesh(Vector3d(0.4, 0.4, 0.01))}}) {
+    const CollisionWorld world(scene_of({body_of(own), body_of(other)}));
+    EXPECT_TRUE(world.touches(0, at(Vector3d(0.03, 0.05, 0.0)), 1e-3));
+  }
+}
+
+TEST(Pairs, ABodyWedgedBetweenTwoWallsOfOneMeshTouchesThem) {
+  TriangleMesh walls = *box_mesh(Vector3d(0.1, 0.4, 0.4), at(Vector3d(-0.1, 0.0, 0.0)));
+  const MeshPtr right = box_mesh(Vector3d(0.1, 0.4, 0.4), at(Vector3d(0.1, 0.0, 0.0)));
+  for (const Eigen::Vector3i& t : right->triangles) walls.triangles.emplace_back(t + Eigen::Vector3i::Constant(8));
+  walls.vertices.insert(walls.vertices.end(), right->vertices.begin(), right->vertices.end());
+  const Geometry both = std::make_shared<const TriangleMesh>(walls);
+  const CollisionWorld world(scene_of({body_of(Box{Vector3d(0.1 + 2e-4, 0.1, 0.1)}), body_of(both)}));
+  int left_points = 0, right_points = 0;
+  for (const ContactPoint& c : contacts(world, 0, RigidTransform::Identity())) {
+    EXPECT_NEAR(c.depth, 1e-4, 1e-9);
+    left_points += c.n_W.x() > 0.99;
+    right_points += c.n_W.x() < -0.99;
+  }
+  EXPECT_GE(left_points, 4);
+  EXPECT_GE(right_points, 4);
+}
+
 TEST(Pairs, EveryPieceOfABodyCountsAndItsOwnPiecesDoNot) {
   Body two = body_of(Box{Vector3d::Constant(0.1)});
   two.collision.push_back(Shape{Box{Vector3d::Constant(0.1)}});
