@@ -1,0 +1,80 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spring_workbench/math/rigid_transform.h"
+#include "spring_workbench/rod/settings.h"
+
+namespace spring_workbench {
+
+/// Most strain coordinates that a shape model has.
+constexpr int max_strain_coordinates = 6;
+
+using StrainVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_strain_coordinates, 1>;
+using StrainMatrix =
+    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_strain_coordinates, max_strain_coordinates>;
+using StrainJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_strain_coordinates>;
+
+/// Where the fork's tip E is in the handle frame H and how it moves with the strain; all vectors in the axes of H.
+struct TipKinematics {
+  Matrix3d R_HE = Matrix3d::Identity();
+  Vector3d p_HE = Vector3d::Zero();                 ///< [m]
+  StrainJacobian angular;                           ///< tip's angular velocity = angular · q̇
+  StrainJacobian linear;                            ///< tip's velocity = linear · q̇
+  Vector3d angular_bias = Vector3d::Zero();         ///< angular acceleration = angular · q̈ + angular_bias [rad/s²]
+  Vector3d linear_bias = Vector3d::Zero();          ///< acceleration = linear · q̈ + linear_bias [m/s²]
+};
+
+/// Which of the strain coordinates belong to which family: [begin, begin + count).
+struct CoordinateRange {
+  int begin = 0;
+  int count = 0;
+};
+
+/// How the fork's spring part is curved by a few strain coordinates q (doc/model.md, "Shape models"; paper, section 4).
+/// Clamped to the handle at H, straight along z of H for q = 0. Immutable; knows no time and no mass.
+class ShapeModel {
+ public:
+  virtual ~ShapeModel() = default;
+
+  virtual std::string name() const = 0;
+  /// Number of strain coordinates: bend first, then torsion, then stretch.
+  virtual int size() const = 0;
+  virtual CoordinateRange bend() const = 0;
+  CoordinateRange torsion() const { return {size() - 2, 1}; }
+  CoordinateRange stretch() const { return {size() - 1, 1}; }
+
+  /// Diagonal of the stiffness matrix K, `U = ½ qᵀ K q` [J], for the families' stiffness [N/m, N/m, N·m/rad].
+  virtual StrainVector stiffness(const PerFamily& k) const = 0;
+
+  /// The tip for strain `q` and strain rate `q_dot`; both of length size().
+  virtual void tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const = 0;
+
+  /// Extension of the rod [m] and twist angle [rad].
+  virtual double extension(const StrainVector& q) const = 0;
+  virtual double twist(const StrainVector& q) const = 0;
+
+  /// Pose of the rod's section at arc length `s` of the rest shape, 0 ≤ s ≤ length(), in H.
+  virtual RigidTransform section(const StrainVector& q, double s) const = 0;
+
+  /// Whether the strain is one that a rod can have: finite, not turned inside out, not wound up beyond `max_turns`.
+  virtual bool admissible(const StrainVector& q) const = 0;
+
+  double length() const { return length_; }
+
+ protected:
+  explicit ShapeModel(double length) : length_(length) {}
+
+ private:
+  double length_;  ///< [m]
+};
+
+/// The names that `make_shape_model` knows.
+const std::vector<std::string>& shape_model_names();
+
+/// `name` one of shape_model_names(), `length` [m] > 0. Throws InputError otherwise.
+std::shared_ptr<const ShapeModel> make_shape_model(const std::string& name, double length);
+
+}  // namespace spring_workbench

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "spring_workbench/rod/shape_model.h"
+
+namespace spring_workbench {
+
+/// Six springs between handle and tip, without a curve (doc/model.md, `bushing`). q = (dx, dy, φx, φy, φz, dz) [m, rad]
+/// with tip position (0, 0, L) + d and tip rotation exp(φ).
+class Bushing final : public ShapeModel {
+ public:
+  explicit Bushing(double length) : ShapeModel(length) {}
+
+  std::string name() const override { return "bushing"; }
+  int size() const override { return 6; }
+  CoordinateRange bend() const override { return {0, 4}; }
+  StrainVector stiffness(const PerFamily& k) const override;
+  void tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const override;
+  double extension(const StrainVector& q) const override { return q[5]; }
+  double twist(const StrainVector& q) const override { return q[4]; }
+  RigidTransform section(const StrainVector& q, double s) const override;
+  bool admissible(const StrainVector& q) const override;
+};
+
+}  // namespace spring_workbench

@@ -1,0 +1,184 @@
+#include "spring_workbench/rod/shape_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double L = 0.3;
+
+StrainVector random_strain(const ShapeModel& shape, std::mt19937& random, double size) {
+  std::uniform_real_distribution<double> uniform(-size, size);
+  StrainVector q(shape.size());
+  for (int i = 0; i < q.size(); ++i) q[i] = uniform(random);
+  const bool bushing = shape.name() == "bushing";
+  if (!bushing) q.head(shape.size() - 1) /= L;
+  return q;
+}
+
+StrainVector zero(const ShapeModel& shape) { return StrainVector::Zero(shape.size()); }
+
+RigidTransform tip_pose(const ShapeModel& shape, const StrainVector& q) {
+  TipKinematics tip;
+  shape.tip(q, zero(shape), tip);
+  RigidTransform X = RigidTransform::Identity();
+  X.linear() = tip.R_HE;
+  X.translation() = tip.p_HE;
+  return X;
+}
+
+class EveryShape : public testing::TestWithParam<std::string> {
+ protected:
+  std::shared_ptr<const ShapeModel> shape = make_shape_model(GetParam(), L);
+  std::mt19937 random{7};
+};
+
+TEST_P(EveryShape, UnstrainedRodIsStraight) {
+  const RigidTransform X = tip_pose(*shape, zero(*shape));
+  EXPECT_LT((X.translation() - L * Vector3d::UnitZ()).norm(), 1e-15);
+  EXPECT_LT((X.linear() - Matrix3d::Identity()).norm(), 1e-15);
+}
+
+TEST_P(EveryShape, SectionAtTheEndIsTheTip) {
+  for (int trial = 0; trial < 50; ++trial) {
+    const StrainVector q = random_strain(*shape, random, 0.9);
+    const RigidTransform tip = tip_pose(*shape, q), end = shape->section(q, L);
+    EXPECT_LT((tip.translation() - end.translation()).norm(), 1e-10 * L);
+    EXPECT_LT((tip.linear() - end.linear()).norm(), 1e-9);
+  }
+}
+
+TEST_P(EveryShape, VelocityAndAccelerationAreDerivativesOfThePose) {
+  constexpr double h = 1e-4;
+  for (int trial = 0; trial < 50; ++trial) {
+    const StrainVector q = random_strain(*shape, random, 0.8), v = random_strain(*shape, random, 0.8);
+    const StrainVector a = random_strain(*shape, random, 0.8);
+    const auto at = [&](double t) { return StrainVector(q + t * v + 0.5 * t * t * a); };
+    TipKinematics tip;
+    shape->tip(q, v, tip);
+    const RigidTransform X0 = tip_pose(*shape, q);
+    // Richardson-extrapolated central differences.
+    const auto difference = [&](double step, Vector3d& velocity, Vector3d& acceleration, Vector3d& rate) {
+      const RigidTransform Xp = tip_pose(*shape, at(step)), Xm = tip_pose(*shape, at(-step));
+      velocity = (Xp.translation() - Xm.translation()) / (2.0 * step);
+      acceleration = (Xp.translation() - 2.0 * X0.translation() + Xm.translation()) / (step * step);
+      rate = log_so3(Xp.linear() * Xm.linear().transpose()) / (2.0 * step);
+    };
+    Vector3d v1, a1, w1, v2, a2, w2;
+    difference(h, v1, a1, w1);
+    difference(2.0 * h, v2, a2, w2);
+    EXPECT_LT((tip.linear * v - (4.0 * v1 - v2) / 3.0).norm(), 1e-9);
+    EXPECT_LT((tip.angular * v - (4.0 * w1 - w2) / 3.0).norm(), 1e-9);
+    EXPECT_LT((tip.linear * a + tip.linear_bias - (4.0 * a1 - a2) / 3.0).norm(), 1e-6);
+    // Angular acceleration: derivative of the angular velocity along the motion.
+    TipKinematics after, before;
+    shape->tip(at(h), v + h * a, after);
+    shape->tip(at(-h), v - h * a, before);
+    const Vector3d alpha = (after.angular * (v + h * a) - before.angular * (v - h * a)) / (2.0 * h);
+    EXPECT_LT((tip.angular * a + tip.angular_bias - alpha).norm(), 1e-6);
+  }
+}
+
+TEST_P(EveryShape, SmallDeflectionFollowsTheStiffness) {
+  // k_bend is transverse tip force over tip deflection, k_torsion moment over twist, k_stretch force over extension.
+  const PerFamily k{3000.0, 700.0, 9.0};
+  const StrainVector K = shape->stiffness(k);
+  TipKinematics tip;
+  shape->tip(zero(*shape), zero(*shape), tip);
+  const StrainVector compliance = K.cwiseInverse();
+  const StrainMatrix S = StrainMatrix(compliance.asDiagonal());
+  EXPECT_NEAR((tip.linear * S * tip.linear.transpose())(0, 0), 1.0 / k.bend, 1e-12 / k.bend);
+  EXPECT_NEAR((tip.linear * S * tip.linear.transpose())(1, 1), 1.0 / k.bend, 1e-12 / k.bend);
+  EXPECT_NEAR((tip.linear * S * tip.linear.transpose())(2, 2), 1.0 / k.stretch, 1e-12 / k.stretch);
+  EXPECT_NEAR((tip.angular * S * tip.angular.transpose())(2, 2), 1.0 / k.torsion, 1e-12 / k.torsion);
+}
+
+TEST_P(EveryShape, BadLengthIsRefused) {
+  EXPECT_THROW(make_shape_model(GetParam(), 0.0), InputError);
+  EXPECT_THROW(make_shape_model(GetParam(), std::nan("")), InputError);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::ValuesIn(shape_model_names()),
+                         [](const auto& instance) { return instance.param; });
+
+TEST(ShapeModel, UnknownNameIsRefusedWithTheKnownOnes) {
+  try {
+    make_shape_model("spaghetti", L);
+    FAIL();
+  } catch (const InputError& e) {
+    EXPECT_NE(std::string(e.what()).find("spaghetti"), std::string::npos);
+    EXPECT_NE(std::string(e.what()).find("linear"), std::string::npos);
+  }
+}
+
+TEST(StrainRod, EndMomentRollsItIntoAFullCircle) {
+  for (const char* name : {"constant", "linear"}) {
+    const auto shape = make_shape_model(name, L);
+    StrainVector q = zero(*shape);
+    q[shape->bend().count / 2] = 2.0 * M_PI / L;
+    const RigidTransform X = tip_pose(*shape, q);
+    EXPECT_LT(X.translation().norm(), 1e-9 * L) << name;
+    EXPECT_LT((X.linear() - Matrix3d::Identity()).norm(), 1e-12) << name;
+  }
+}
+
+TEST(StrainRod, TipMatchesManyHelices) {
+  // A thousand pieces of constant strain each, with Richardson extrapolation of their second-order error.
+  const auto shape = make_shape_model("linear", L);
+  std::mt19937 random(3);
+  for (int trial = 0; trial < 5; ++trial) {
+    const StrainVector q = random_strain(*shape, random, 2.0);
+    const auto helices = [&](int n) {
+      Matrix3d R = Matrix3d::Identity();
+      Vector3d p = Vector3d::Zero();
+      const double h = L / n;
+      for (int i = 0; i < n; ++i) {
+        const double sigma = 2.0 * (i + 0.5) / n - 1.0;
+        const Vector3d k(q[0] + sigma * q[1], q[2] + sigma * q[3], q[4]);
+        const Matrix3d half = exp_so3(0.5 * h * k);
+        p += h / 6.0 * (1.0 + q[5]) * (R.col(2) + 4.0 * (R * half).col(2) + (R * half * half).col(2));
+        R = R * half * half;
+      }
+      return p;
+    };
+    const Vector3d fine = helices(2000), coarse = helices(1000);
+    EXPECT_LT((tip_pose(*shape, q).translation() - (4.0 * fine - coarse) / 3.0).norm(), 2e-10 * L);
+  }
+}
+
+TEST(StrainRod, CentrelineKeepsItsLength) {
+  const auto shape = make_shape_model("linear", L);
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 10; ++trial) {
+    StrainVector q = random_strain(*shape, random, 1.5);
+    q[5] = 0.1;
+    double length = 0.0;
+    constexpr int n = 400;
+    for (int i = 0; i < n; ++i) {
+      length += (shape->section(q, L * (i + 1) / n).translation() - shape->section(q, L * i / n).translation()).norm();
+    }
+    EXPECT_NEAR(length, 1.1 * L, 1e-5 * L);
+  }
+}
+
+TEST(StrainRod, WoundUpOrCrushedIsNotAdmissible) {
+  const auto shape = make_shape_model("linear", L);
+  StrainVector q = zero(*shape);
+  EXPECT_TRUE(shape->admissible(q));
+  q[5] = -1.0;
+  EXPECT_FALSE(shape->admissible(q));
+  q = zero(*shape);
+  q[0] = 1000.0 / L;
+  EXPECT_FALSE(shape->admissible(q));
+  q[0] = std::nan("");
+  EXPECT_FALSE(shape->admissible(q));
+}
+
+}  // namespace
+}  // namespace spring_workbench
