@@ -147,6 +147,8 @@ YAML::Node load_yaml_file(const std::string& path) {
     return node.IsNull() ? YAML::Node(YAML::NodeType::Map) : node;
   } catch (const YAML::Exception& e) {
     throw InputError(path + ":" + std::to_string(e.mark.line + 1) + ": not YAML: " + e.msg);
+  } catch (const std::ios_base::failure&) {  // a folder
+    throw InputError(path + ": cannot be read: must be a readable YAML file");
   }
 }
 

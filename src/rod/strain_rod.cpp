@@ -26,7 +26,7 @@ class PieceRotation {
   /// `a` = h k(middle), `b` = h² dk/ds: the strain over the piece of length h is (a + b u) / h for u = −½ … ½.
   PieceRotation(const Vector3d& a, const Vector3d& b) {
     const double angle = a.norm() + 0.5 * b.norm();
-    terms_ = angle < 1.0 ? 11 : angle < 2.0 ? 14 : most_terms;
+    terms_ = angle < 0.5 ? 13 : angle < 1.2 ? 16 : most_terms;
     coefficients_[0] << 0.0, 0.0, 0.0, 1.0;
     coefficients_[1] = 0.5 * times(coefficients_[0], a);
     for (int n = 1; n + 1 < terms_; ++n) {
@@ -39,7 +39,7 @@ class PieceRotation {
   Quaterniond at(double u) const { return from_start_ * at_middle(u); }
 
  private:
-  static constexpr int most_terms = 20;
+  static constexpr int most_terms = 21;
   using Coefficients = Eigen::Vector4d;  // x, y, z, w
 
   static Coefficients times(const Coefficients& q, const Vector3d& v) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/rod/shape_model.h"
 
 namespace spring_workbench {
 namespace {
@@ -113,7 +114,7 @@ std::vector<Field> fork_fields() {
   const NumberRule stiffness = between(1e-9, 1e15);
   const NumberRule ratio = between(0.0, 10.0);
   return {
-      choice("shape", {"linear", "constant"}, "the fork's shape model: how its curvature may vary along it",
+      choice("shape", shape_model_names(), "the fork's shape model: how its curvature may vary along it",
              [](S& s) -> std::string& { return s.fork.shape; }),
       number("fork.length", "m", between(1e-4, 1e3), "rest length", [](S& s) -> double& { return s.fork.length; }),
       number("fork.stiffness.stretch", "N/m", stiffness, "axial force per extension",
@@ -212,7 +213,7 @@ std::vector<SettingDescription> setting_descriptions() {
 }
 
 void apply_settings(const YAML::Node& values, const std::string& where, SimulationSettings& settings) {
-  if (!values.IsMap()) refuse(where, "(top level)", YAML::Dump(values), "a map");
+  if (!values.IsMap()) refuse(where, "(top level)", "what is given", "a map of settings");
   std::vector<KeyAndValue> flat;
   flatten(values, where, "", flat);
   SimulationSettings changed = settings;

@@ -1,5 +1,6 @@
 #include "spring_workbench/tracker/motion_file.h"
 
+#include <cmath>
 #include <fstream>
 #include <locale>
 #include <sstream>
@@ -34,6 +35,9 @@ long double read_word(const std::string& word, const std::string& where, const s
   if (!is_number || !rule.allows(static_cast<double>(value))) refuse(where, field, word.substr(0, 40), rule.text());
   return value;
 }
+
+/// To ROS time's resolution, correctly rounded: the same stamps give the same bits wherever time starts, and in a bag.
+double whole_nanoseconds(long double seconds) { return static_cast<double>(std::round(seconds * 1e9L)) / 1e9; }
 
 struct Line {
   long double stamp;
@@ -84,7 +88,7 @@ std::vector<StylusSample> read_motion_file(const std::string& path) {
       first_stamp = line.stamp;
     }
     samples.push_back(line.sample);
-    samples.back().t = static_cast<double>(line.stamp - first_stamp);
+    samples.back().t = whole_nanoseconds(line.stamp - first_stamp);
   }
   if (file.bad()) throw InputError(path + ": cannot be read: must be a readable motion file");
   if (samples.empty()) throw InputError(path + ": no samples: must have a line of t x y z qx qy qz qw [button]");

@@ -11,17 +11,11 @@ namespace {
 constexpr double kFarthestTime = 1e6;  // [s]
 constexpr double kClosest = 1e-9;      // [s] samples are not closer than ROS time resolves
 
-/// What stands at `key`, or an empty node, which the readers refuse.
-YAML::Node required(const YAML::Node& map, const std::string& key) {
-  const YAML::Node node = map[key];
-  return node.IsDefined() ? node : YAML::Node();
-}
-
 StylusSample read_waypoint(const YAML::Node& node, const std::string& path, const std::string& name) {
   check_keys(node, path, name + ".", {"t", "pose", "button"});
   StylusSample waypoint;
-  waypoint.t = read_number(required(node, "t"), path, name + ".t", between(-kFarthestTime, kFarthestTime));
-  waypoint.X = read_pose(required(node, "pose"), path, name + ".pose");
+  waypoint.t = read_number(node["t"], path, name + ".t", between(-kFarthestTime, kFarthestTime));
+  waypoint.X = read_pose(node["pose"], path, name + ".pose");
   if (node["button"]) waypoint.button = read_bool(node["button"], path, name + ".button");
   return waypoint;
 }
@@ -34,7 +28,7 @@ double minimum_jerk(double u) { return u * u * u * (10.0 + u * (-15.0 + 6.0 * u)
 ScriptedSource::ScriptedSource(const std::string& path) {
   const YAML::Node script = load_yaml_file(path);
   check_keys(script, path, "", {"rate", "waypoints"});
-  rate_ = read_number(required(script, "rate"), path, "rate", between(0.1, 1e4));
+  rate_ = read_number(script["rate"], path, "rate", between(0.1, 1e4));
   const YAML::Node list = script["waypoints"];
   if (!list.IsDefined() || !list.IsSequence() || list.size() == 0) {
     throw InputError(path + ": waypoints: must be a list of at least one {t, pose, button}");

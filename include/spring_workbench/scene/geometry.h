@@ -4,7 +4,8 @@
 
 namespace spring_workbench {
 
-/// Volume [m³], centre and inertia of a closed shape of uniform density, in the shape's own frame; exact for every kind.
+/// Volume [m³], centre and inertia of a closed shape of uniform density, in the shape's own frame; exact for every
+/// kind.
 struct VolumeProperties {
   double volume = 0.0;
   Vector3d centre = Vector3d::Zero();

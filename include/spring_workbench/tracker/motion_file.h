@@ -9,7 +9,8 @@
 namespace spring_workbench {
 
 /// Reads lines of `t x y z qx qy qz qw [button]` (s, m, unit quaternion, 0 or 1), the format of the TUM benchmarks; `#`
-/// starts a comment, empty lines are skipped, all lines have a button or none has. Quaternions with a norm in [0.5, 2]
+/// starts a comment, empty lines are skipped, all lines have a button or none has. Times are rounded to ns.
+/// Quaternions with a norm in [0.5, 2]
 /// are normalised. Throws InputError with file:line, field, value and rule for everything else.
 std::vector<StylusSample> read_motion_file(const std::string& path);
 

@@ -2,24 +2,41 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <random>
 #include <string>
 
 #include "spring_workbench/config/input_error.h"
-#include "support/temporary_file.h"
+#include "support/temporary_folder.h"
 
 namespace spring_workbench {
 namespace {
 
-std::string refusal(const std::string& path) {
+std::vector<StylusSample> read_text(const std::string& text) {
+  const test_support::TemporaryFolder folder;
+  folder.write("hand.tum", text);
+  return read_motion_file(folder.path("hand.tum"));
+}
+
+std::string refusal_of_file(const std::string& path) {
   try {
     read_motion_file(path);
   } catch (const InputError& e) {
     return e.what();
   }
   return "";
+}
+
+/// The message that follows the file's name, where a file with this text is refused.
+std::string refusal(const std::string& text) {
+  const test_support::TemporaryFolder folder;
+  folder.write("hand.tum", text);
+  const std::string path = folder.path("hand.tum");
+  const std::string message = refusal_of_file(path);
+  EXPECT_EQ(message.rfind(path, 0), 0u) << message;
+  return message.size() > path.size() ? message.substr(path.size()) : "";
 }
 
 TEST(MotionFile, ReadsWhatWasWritten) {
@@ -29,7 +46,7 @@ TEST(MotionFile, ReadsWhatWasWritten) {
   std::string text = "# t x y z qx qy qz qw button\n";
   for (int i = 0; i < 500; ++i) {
     StylusSample sample;
-    sample.t = 0.02 * i + 0.001 * uniform(engine) * (i > 0);
+    sample.t = std::round(2e7 * i + 1e6 * uniform(engine) * (i > 0)) / 1e9;
     const Quaterniond q = Quaterniond(uniform(engine), uniform(engine), uniform(engine), 2.0).normalized();
     sample.X = make_transform(q, Vector3d(uniform(engine), uniform(engine), uniform(engine)));
     sample.button = uniform(engine) > 0.0;
@@ -41,8 +58,7 @@ TEST(MotionFile, ReadsWhatWasWritten) {
     if (i % 7 == 0) text += "\n   \n#\n";
     written.push_back(sample);
   }
-  const TemporaryFile file(text, ".tum");
-  const std::vector<StylusSample> read = read_motion_file(file.path());
+  const std::vector<StylusSample> read = read_text(text);
   ASSERT_EQ(read.size(), written.size());
   for (std::size_t i = 0; i < read.size(); ++i) {
     EXPECT_EQ(read[i].t, written[i].t);
@@ -54,21 +70,19 @@ TEST(MotionFile, ReadsWhatWasWritten) {
 
 /// Stamps since 1970 keep their nanoseconds; repeated and backward ones are kept.
 TEST(MotionFile, TimesAreRelativeToTheFirstStamp) {
-  const TemporaryFile file(
+  const auto samples = read_text(
       "1520530753.382632017 1 2 3 0 0 0 1\n1520530753.382632018 1 2 3 0 0 0 1\n"
       "1520530753.382632018 1 2 3 0 0 0 1\n1520530752.382632017 1 2 3 0 0 0 1\n");
-  const auto samples = read_motion_file(file.path());
   ASSERT_EQ(samples.size(), 4u);
   EXPECT_EQ(samples[0].t, 0.0);
-  EXPECT_NEAR(samples[1].t, 1e-9, 3e-10);
+  EXPECT_EQ(samples[1].t, 1e-9);
   EXPECT_EQ(samples[2].t, samples[1].t);
-  EXPECT_NEAR(samples[3].t, -1.0, 3e-10);
+  EXPECT_EQ(samples[3].t, -1.0);
   EXPECT_EQ(samples[3].X.translation(), Vector3d(1, 2, 3));
 }
 
 TEST(MotionFile, QuaternionsWithinReasonAreNormalised) {
-  const TemporaryFile file("0 0 0 0 0 0 0.9 0.9\n1 0 0 0 0 0 -0.5 -0.5\n");
-  for (const StylusSample& sample : read_motion_file(file.path())) {
+  for (const StylusSample& sample : read_text("0 0 0 0 0 0 0.9 0.9\n1 0 0 0 0 0 -0.5 -0.5\n")) {
     EXPECT_LT((sample.X.linear() * Vector3d::UnitX() - Vector3d::UnitY()).norm(), 1e-15);
   }
 }
@@ -95,21 +109,19 @@ TEST(MotionFile, BadLinesNameFileLineFieldValueAndRule) {
       {"1 0 0 0 0 0 0 1 1", "line: 9 fields is not allowed: must be 8 as in the lines before"},
   };
   for (const Bad& bad : table) {
-    const TemporaryFile file(std::string("# comment\n0 0 0 0 0 0 0 1\n") + bad.line + "\n2 0 0 0 0 0 0 1\n");
-    const std::string start = file.path() + ":3: " + bad.expected;
-    EXPECT_EQ(refusal(file.path()).substr(0, start.size()), start);
+    const std::string text = std::string("# comment\n0 0 0 0 0 0 0 1\n") + bad.line + "\n2 0 0 0 0 0 0 1\n";
+    const std::string start = std::string(":3: ") + bad.expected;
+    EXPECT_EQ(refusal(text).substr(0, start.size()), start);
   }
-  const TemporaryFile button("0 0 0 0 0 0 0 1 0\n1 0 0 0 0 0 0 1 2\n");
-  EXPECT_EQ(refusal(button.path()), button.path() + ":2: button: 2 is not allowed: must be 0 or 1");
+  EXPECT_EQ(refusal("0 0 0 0 0 0 0 1 0\n1 0 0 0 0 0 0 1 2\n"), ":2: button: 2 is not allowed: must be 0 or 1");
 }
 
 TEST(MotionFile, AFileWithoutSamplesIsRefused) {
   for (const char* text : {"", "\n\n", "# only a comment"}) {
-    const TemporaryFile file(text);
-    EXPECT_EQ(refusal(file.path()).rfind(file.path() + ": no samples", 0), 0u);
+    EXPECT_EQ(refusal(text).rfind(": no samples", 0), 0u);
   }
-  EXPECT_EQ(refusal("/nonexistent/a.tum").rfind("/nonexistent/a.tum: cannot be read", 0), 0u);
-  EXPECT_EQ(refusal("/tmp").rfind("/tmp: ", 0), 0u) << "a folder is no file";
+  EXPECT_EQ(refusal_of_file("/nonexistent/a.tum").rfind("/nonexistent/a.tum: cannot be read", 0), 0u);
+  EXPECT_EQ(refusal_of_file("/tmp").rfind("/tmp: ", 0), 0u) << "a folder is no file";
 }
 
 TEST(RecordedSource, GivesEverySampleOnce) {

@@ -8,14 +8,15 @@
 
 #include "spring_workbench/config/input_error.h"
 #include "spring_workbench/math/so3.h"
-#include "support/temporary_file.h"
+#include "support/temporary_folder.h"
 
 namespace spring_workbench {
 namespace {
 
 std::vector<StylusSample> all_samples(const std::string& yaml) {
-  const TemporaryFile file(yaml, ".yaml");
-  const auto source = open_motion(file.path());
+  const test_support::TemporaryFolder folder;
+  folder.write("script.yaml", yaml);
+  const auto source = open_motion(folder.path("script.yaml"));
   std::vector<StylusSample> samples;
   while (const auto sample = source->next()) samples.push_back(*sample);
   return samples;
@@ -88,15 +89,17 @@ TEST(ScriptedSource, BadScriptsNameFileLineFieldAndRule) {
        ":4: waypoints[1].t: 0 is not allowed: must be later than"},
       {"rate: [", ":1: not YAML"},
   };
+  const test_support::TemporaryFolder folder;
+  const std::string path = folder.path("script.yaml");
   for (const Bad& bad : table) {
-    const TemporaryFile file(bad.yaml, ".yaml");
+    folder.write("script.yaml", bad.yaml);
     std::string message;
     try {
-      ScriptedSource source(file.path());
+      ScriptedSource source(path);
     } catch (const InputError& e) {
       message = e.what();
     }
-    const std::string start = file.path() + bad.expected;
+    const std::string start = path + bad.expected;
     EXPECT_EQ(message.substr(0, start.size()), start) << bad.yaml;
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   }

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <array>
+#include <memory>
+
+#include "spring_workbench/motion/pose_track.h"
+#include "spring_workbench/rod/shape_model.h"
+
+namespace spring_workbench {
+
+/// The rigid body that hangs on the tip: object frame O (centre of mass) and tip frame E.
+struct BodyInertia {
+  double mass = 1.0;                                  ///< [kg], > 0
+  Matrix3d inertia_O = Matrix3d::Identity();          ///< about the centre of mass, axes of O [kg·m²], positive definite
+  RigidTransform X_OE = RigidTransform::Identity();   ///< the grasp G
+};
+
+/// What the moving handle does to the equations at one moment, in the axes of the handle frame H.
+struct HandleForcing {
+  double t = 0.0;                                 ///< [s]
+  RigidTransform X_WH = RigidTransform::Identity();
+  Vector3d v_WH_W = Vector3d::Zero();             ///< [m/s], world axes
+  Vector3d angular_velocity = Vector3d::Zero();   ///< [rad/s]
+  Vector3d angular_acceleration = Vector3d::Zero();
+  Vector3d acceleration_less_gravity = Vector3d::Zero();  ///< of the origin of H [m/s²]
+};
+
+/// State of the held body in the strain coordinates that are active.
+struct StrainState {
+  StrainVector q;      ///< strain
+  StrainVector q_dot;  ///< strain rate [1/s]
+};
+
+/// The equation of motion of doc/model.md for a rigid body on a rod on a moving handle, in the active coordinates:
+/// `M(q) q̈ = −K q − D q̇ − (inertial, gravity and contact forces)`. A family that is off has no coordinates; one that is
+/// being switched off follows a prescribed motion to zero and has none either.
+class HeldBody {
+ public:
+  /// `gravity` [m/s²] along −z of world.
+  HeldBody(std::shared_ptr<const ShapeModel> shape, const BodyInertia& body, double gravity);
+
+  const ShapeModel& shape() const { return *shape_; }
+  const BodyInertia& body() const { return body_; }
+  /// Grows by every change of the equations: what an integrator has derived from them is good for one version.
+  long version() const { return version_; }
+  /// Grows by every change of the external wrench, which leaves the equations' linear part as it is.
+  long load_version() const { return load_version_; }
+
+  /// Stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio (Kelvin–Voigt; doc/model.md) per family.
+  void set_springs(const PerFamily& stiffness, const PerFamily& damping_ratio);
+  /// Damping coefficients outright, per family, the unit of its stiffness times s: `D = (c / k) K`.
+  void set_springs_and_dampers(const PerFamily& stiffness, const PerFamily& damping);
+  /// Moment of inertia about the fork's axis through the grasp [kg·m²].
+  double axial_inertia() const;
+
+  /// Switches families. One that goes off while strained follows, from time `t` [s] on, the critically damped return with
+  /// the time constant `return_time` [s]; `full` is the state in all coordinates at `t`. Returns the new active state:
+  /// pose and twist of the body do not change.
+  StrainState set_dofs(const ForkDofs& dofs, double t, double return_time, const StrainState& full);
+  /// Drops prescribed motions that have come to zero by time `t`. True when one was dropped.
+  bool drop_finished_returns(double t);
+  /// Whether every coordinate that is not active rests at zero.
+  bool returning() const { return returning_ > 0; }
+
+  /// A constant wrench on the body at its centre of mass, world axes (contact). Zero at first.
+  void set_external_wrench(const Wrench& wrench_W);
+  const Wrench& external_wrench() const { return external_W_; }
+
+  int size() const { return active_count_; }  ///< number of active coordinates
+  StrainState zero_state() const;
+  StrainVector stiffness() const;  ///< diagonal of K, active coordinates
+  StrainVector damping() const;    ///< diagonal of D, active coordinates
+
+  HandleForcing forcing(const MotionSegment& handle, double t) const;
+  /// q̈ of the active coordinates.
+  StrainVector acceleration(const HandleForcing& handle, const StrainVector& q, const StrainVector& q_dot) const;
+  /// Mass matrix M(q) of the active coordinates at time `t` (which matters while a family returns).
+  StrainMatrix mass_matrix(double t, const StrainVector& q) const;
+  /// Active state at time `t` in all coordinates of the shape model.
+  StrainState full_state(double t, const StrainState& state) const;
+
+  /// Pose, velocity and, where `q_ddot` is given, acceleration of the object frame O, in world axes.
+  MotionState object(const HandleForcing& handle, const StrainState& state, const StrainVector* q_ddot = nullptr) const;
+  /// Jacobian of the object's velocity [linear; angular], axes of H, in the active coordinates: 6 × size().
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates> object_jacobian(double t,
+                                                                                         const StrainVector& q) const;
+  /// The strain rate that comes nearest, in kinetic energy, to the object's twist (world axes) for the strain `q`.
+  StrainVector project_twist(const HandleForcing& handle, const StrainVector& q, const Twist& V_WO_W) const;
+
+  double elastic_energy(double t, const StrainState& state) const;  ///< [J]
+  double kinetic_energy(const Twist& V_WO_W, const Matrix3d& R_WO) const;  ///< [J]
+
+ private:
+  enum class Mode { active, off, returning };
+  struct Return {
+    double t0 = 0.0, time_constant = 1.0, q0 = 0.0, rate0 = 0.0;
+  };
+  struct Kinematics {
+    TipKinematics tip;
+    Vector3d r_EO;           ///< from tip to centre of mass, axes of H
+    Vector3d p_HO;           ///< axes of H
+    Matrix3d R_HO;
+    StrainJacobian linear;   ///< of O
+    Vector3d linear_bias;    ///< of O
+    Vector3d angular_bias;
+    StrainVector q, q_dot;   ///< all coordinates
+  };
+  void kinematics(double t, const StrainVector& q, const StrainVector& q_dot, Kinematics& k) const;
+  void prescribed(double t, StrainVector& q, StrainVector& q_dot, StrainVector& q_ddot) const;
+  StrainMatrix mass_matrix(const Kinematics& k, Matrix3d& I_H) const;
+  void changed();
+
+  std::shared_ptr<const ShapeModel> shape_;
+  BodyInertia body_;
+  Vector3d p_OE_, p_EO_;  ///< grasp in O; centre of mass in E
+  double gravity_;
+  long version_ = 0;
+  long load_version_ = 0;
+  StrainVector K_, D_;  ///< all coordinates
+  std::array<Mode, max_strain_coordinates> mode_;
+  std::array<Return, max_strain_coordinates> return_;
+  std::array<int, max_strain_coordinates> active_;  ///< indices of the active coordinates
+  int active_count_ = 0;
+  int returning_ = 0;
+  Wrench external_W_;
+};
+
+}  // namespace spring_workbench

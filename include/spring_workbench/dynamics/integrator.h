@@ -1,0 +1,47 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spring_workbench/dynamics/held_body.h"
+
+namespace spring_workbench {
+
+/// What one step says of itself.
+struct StepEstimate {
+  StrainVector q_error;    ///< estimate of the step's local error in the active coordinates
+  double omega_dt = 0.0;   ///< frequency of the stiffest mode [rad/s] times the step; 0 where the method does not know it
+};
+
+/// One way to carry the held body's state over a step (doc/model.md, "Integrators"). An integrator may keep what it has
+/// derived from the equations and the last step; it notices by HeldBody::version() when that is out of date.
+/// No allocation in a step.
+class Integrator {
+ public:
+  virtual ~Integrator() = default;
+
+  virtual std::string name() const = 0;
+  /// Order of accuracy for smooth motions.
+  virtual int order() const = 0;
+
+  /// Carries `state` from `t` to `t + h` [s], h > 0; `handle` must cover that time.
+  virtual StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+                            StrainState& state) = 0;
+
+  /// How the state at the end of the step depends on a constant generalised force Q over the step, to first order:
+  /// Δq = response.q Q, Δq̇ = response.q_dot Q. For contact.
+  struct Response {
+    StrainMatrix q, q_dot;
+  };
+  /// From the implicit midpoint rule unless a method knows better.
+  virtual Response response(const HeldBody& body, double t, double h, const StrainState& state);
+};
+
+/// The names that `make_integrator` knows.
+const std::vector<std::string>& integrator_names();
+
+/// Throws InputError for a name that is not in integrator_names().
+std::unique_ptr<Integrator> make_integrator(const std::string& name);
+
+}  // namespace spring_workbench

@@ -1,0 +1,104 @@
+#include "csv_rows.h"
+
+#include <locale>
+#include <sstream>
+
+namespace spring_workbench::replay {
+namespace {
+
+/// One line of a CSV file.
+class Row {
+ public:
+  Row() {
+    line_.imbue(std::locale::classic());
+    line_.precision(17);
+  }
+  Row& add(double value) {
+    separate();
+    line_ << value;
+    return *this;
+  }
+  Row& add(const Eigen::Ref<const Eigen::VectorXd>& values) {
+    for (Eigen::Index i = 0; i < values.size(); ++i) add(values[i]);
+    return *this;
+  }
+  Row& add(const RigidTransform& X) {
+    Quaterniond q(X.linear());
+    if (q.w() < 0.0) q.coeffs() = -q.coeffs();
+    return add(X.translation()).add(q.coeffs());
+  }
+  /// Quoted where it has to be (RFC 4180).
+  Row& add(const std::string& text) {
+    separate();
+    if (text.find_first_of(",\"\r\n") == std::string::npos) {
+      line_ << text;
+      return *this;
+    }
+    line_ << '"';
+    for (const char c : text) line_ << (c == '"' ? "\"\"" : std::string(1, c));
+    line_ << '"';
+    return *this;
+  }
+  std::string end() const { return line_.str() + "\n"; }
+
+ private:
+  void separate() {
+    if (!empty_) line_ << ',';
+    empty_ = false;
+  }
+  std::ostringstream line_;
+  bool empty_ = true;
+};
+
+void add_pose_names(const std::string& prefix, Row& row) {
+  for (const char* name : {"x", "y", "z", "qx", "qy", "qz", "qw"}) row.add(prefix + name);
+}
+
+void add_wrench_names(const std::string& prefix, Row& row) {
+  for (const char* name : {"fx", "fy", "fz", "mx", "my", "mz"}) row.add(prefix + name);
+}
+
+}  // namespace
+
+std::string object_header() {
+  Row row;
+  row.add(std::string("t")).add(std::string("object"));
+  add_pose_names("", row);
+  for (const char* name : {"vx", "vy", "vz", "wx", "wy", "wz"}) row.add(std::string(name));
+  return row.end();
+}
+
+std::string object_rows(double t, const Simulation& simulation) {
+  std::string rows;
+  for (const auto& object : simulation.objects()) {
+    Row row;
+    row.add(t).add(object.name).add(object.X_WO).add(object.V_WO_W.linear).add(object.V_WO_W.angular);
+    rows += row.end();
+  }
+  return rows;
+}
+
+std::string fork_header() {
+  Row row;
+  for (const char* name : {"t", "fork", "tool", "held", "stretch", "bend_x", "bend_y", "torsion"}) {
+    row.add(std::string(name));
+  }
+  for (const char* frame : {"handle_", "seen_", "tip_"}) add_pose_names(frame, row);
+  for (const char* frame : {"tip_", "handle_"}) add_wrench_names(frame, row);
+  row.add(std::string("elastic_energy")).add(std::string("kinetic_energy"));
+  return row.end();
+}
+
+std::string fork_row(double t, const Simulation& simulation) {
+  const auto fork = simulation.fork();
+  Row row;
+  row.add(t).add(std::string("fork")).add(fork.tool).add(fork.held_object);
+  row.add(fork.stretch).add(fork.bend).add(fork.torsion);
+  row.add(fork.X_WH).add(fork.X_WH_seen).add(fork.X_WE);
+  row.add(fork.tip_wrench_W.force).add(fork.tip_wrench_W.moment);
+  row.add(fork.handle_wrench_H.force).add(fork.handle_wrench_H.moment);
+  row.add(fork.elastic_energy).add(fork.kinetic_energy);
+  return row.end();
+}
+
+}  // namespace spring_workbench::replay

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+
+#include "spring_workbench/simulation/simulation.h"
+
+namespace spring_workbench::replay {
+
+// The lines of RUN.csv and RUN.fork.csv, as `help_text()` describes them. Numbers have 17 significant digits and a
+// point, whatever the locale; of the two quaternions of a rotation the one with qw ≥ 0 is written.
+
+std::string object_header();
+std::string object_rows(double t, const Simulation& simulation);  ///< a line per movable object
+std::string fork_header();
+std::string fork_row(double t, const Simulation& simulation);
+
+}  // namespace spring_workbench::replay

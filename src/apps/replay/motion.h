@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spring_workbench/tracker/stylus_source.h"
+
+namespace spring_workbench::replay {
+
+struct ButtonEvent {
+  double t = 0.0;  ///< [s]
+  bool pressed = false;
+};
+
+/// A recorded hand. Times in s from the first sample; stamps as recorded, also repeated and backward ones.
+struct Motion {
+  std::vector<PoseSample> samples;   ///< never empty
+  std::vector<ButtonEvent> buttons;  ///< changes of the grasp button, which starts up
+};
+
+/// Notes that the button is down or up from `t` on; what is no change, or lies before the last change, is put right.
+void add_button(double t, bool pressed, std::vector<ButtonEvent>& buttons);
+
+/// Everything that the source has.
+Motion read_motion(StylusSource& source);
+
+/// The transforms `parent` → `child` of a bag, and button 0 of stylus/joy. Throws InputError.
+Motion read_bag(const std::string& path, const std::string& parent, const std::string& child);
+
+}  // namespace spring_workbench::replay

@@ -1,0 +1,166 @@
+#include "options.h"
+
+#include <getopt.h>
+#include <yaml-cpp/yaml.h>
+
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "spring_workbench/config/yaml_fields.h"
+
+namespace spring_workbench::replay {
+namespace {
+
+const char* const kWhere = "command line";
+
+/// Applies `values`: the key `rate` here, all others to the settings of the simulation.
+void apply(const YAML::Node& values, const std::string& where, Options& options) {
+  if (!values.IsMap()) refuse(where, "(top level)", "what is given", "a map of settings");
+  YAML::Node settings(YAML::NodeType::Map);
+  for (const auto& entry : values) {
+    if (entry.first.IsScalar() && entry.first.Scalar() == "rate") {
+      options.rate = read_number(entry.second, where, "rate", between(1e-3, 1e6));
+    } else {
+      settings.force_insert(entry.first, entry.second);
+    }
+  }
+  apply_settings(settings, where, options.settings);
+}
+
+void apply_assignment(const std::string& assignment, Options& options) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0) refuse(kWhere, "--set", assignment, "key=value");
+  YAML::Node values(YAML::NodeType::Map);
+  values[assignment.substr(0, equals)] = assignment.substr(equals + 1);
+  apply(values, kWhere, options);
+}
+
+void set_once(const std::string& option, const char* value, std::string& field) {
+  if (!field.empty()) refuse(kWhere, option, value, "given once");
+  if (*value == '\0') refuse(kWhere, option, "(nothing)", "a path or a name");
+  field = value;
+}
+
+void check_complete(const Options& options) {
+  if (options.scene.empty()) refuse(kWhere, "--scene", "(nothing)", "the path of a scene's URDF");
+  if (options.motion.empty() == options.bag.empty()) {
+    refuse(kWhere, "--motion, --bag", options.bag.empty() ? "none of both" : "both", "one of both");
+  }
+  if (options.out.empty()) refuse(kWhere, "--out", "(nothing)", "the path of the CSV file to write");
+}
+
+/// The word on which getopt_long has just stopped.
+std::string stopped_at(int argc, char** argv) { return optind > 0 && optind <= argc ? argv[optind - 1] : ""; }
+
+}  // namespace
+
+Options parse_options(int argc, char** argv) {
+  enum Code { help = 1, scene, motion, bag, parent, child, settings, set, out };
+  const option known[] = {
+      {"help", no_argument, nullptr, help},
+      {"scene", required_argument, nullptr, scene},
+      {"motion", required_argument, nullptr, motion},
+      {"bag", required_argument, nullptr, bag},
+      {"parent", required_argument, nullptr, parent},
+      {"child", required_argument, nullptr, child},
+      {"settings", required_argument, nullptr, settings},
+      {"set", required_argument, nullptr, set},
+      {"out", required_argument, nullptr, out},
+      {nullptr, 0, nullptr, 0},
+  };
+  Options options;
+  std::string settings_path, parent_frame, child_frame;
+  std::vector<std::string> assignments;
+  opterr = 0;
+  for (int code; (code = getopt_long(argc, argv, ":", known, nullptr)) != -1;) {
+    switch (code) {
+      case help:
+        options.help = true;
+        return options;
+      case scene:
+        set_once("--scene", optarg, options.scene);
+        break;
+      case motion:
+        set_once("--motion", optarg, options.motion);
+        break;
+      case bag:
+        set_once("--bag", optarg, options.bag);
+        break;
+      case parent:
+        set_once("--parent", optarg, parent_frame);
+        break;
+      case child:
+        set_once("--child", optarg, child_frame);
+        break;
+      case settings:
+        set_once("--settings", optarg, settings_path);
+        break;
+      case set:
+        assignments.push_back(optarg);
+        break;
+      case out:
+        set_once("--out", optarg, options.out);
+        break;
+      case ':':
+        refuse(kWhere, stopped_at(argc, argv), "(nothing)", "followed by a value");
+      default:
+        refuse(kWhere, "option", stopped_at(argc, argv), "one of those that --help lists");
+    }
+  }
+  if (optind < argc) refuse(kWhere, "argument", argv[optind], "an option that --help lists");
+  check_complete(options);
+  if (!parent_frame.empty()) options.parent = parent_frame;
+  if (!child_frame.empty()) options.child = child_frame;
+  if (!settings_path.empty()) apply(load_yaml_file(settings_path), settings_path, options);
+  for (const std::string& assignment : assignments) apply_assignment(assignment, options);
+  return options;
+}
+
+std::string help_text() {
+  std::ostringstream text;
+  text << R"(The simulation without ROS master or clock, from a recorded hand to CSV: same input, same bytes out.
+
+replay --scene SCENE.urdf (--motion FILE | --bag FILE.bag) [--settings FILE.yaml] [--set key=value ...] --out RUN.csv
+
+  --scene     a scene: path or package:// URI of a URDF; the YAML file of the same name beside it is read too
+  --motion    the hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints
+  --bag       the hand from a bag: its transforms --parent -> --child (default workbench -> stylus) of any topic but
+              /tf_static, and button 0 of stylus/joy
+  --settings  a YAML file of the keys below
+  --set       one key; may be given several times; wins over --settings
+  --out       writes RUN.csv and RUN.fork.csv; nothing is written when something fails
+
+Times are in s from the motion's first sample. Without a button in the motion, nothing is held unless grasp.object says
+so; with grasp.object the buttons are not looked at.
+
+RUN.csv, a line per output time and movable object (world, centre of mass; m, -, m/s, rad/s):
+  t,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz
+RUN.fork.csv, a line per output time:
+  t,fork,tool,held                          [s], the fork's name, its tool, the object held
+  stretch,bend_x,bend_y,torsion             [m, m, m, rad] strain, seen at the tip
+  handle_x,...,handle_qw                    the hand in world
+  seen_x,...,seen_qw                        the handle that the object sees (differs where the object cannot follow)
+  tip_x,...,tip_qw                          the tip in world
+  tip_fx,tip_fy,tip_fz,tip_mx,tip_my,tip_mz          [N, N*m] on the object, at the tip, world axes
+  handle_fx,...,handle_mz                            [N, N*m] what the hand would feel, handle axes
+  elastic_energy,kinetic_energy             [J] of the fork; of the held object
+
+The last line on standard output is one JSON object: steps, simulated_time and wall_time and time_per_step [s], outputs,
+samples, samples_left_out (stamps that are not later than the one before), position_error [m] and angle_error [rad] (the
+largest estimate of a step's local error), energy_drift [J] (added by integration beyond hand, gravity, damping and
+contact), stiffest_omega_dt, contacts (pairs that came into contact, as seen at the output times), collision_queries,
+guards_tripped, parts_run, parts_left_out.
+Exit status: 0 done; 2 bad arguments or input, with one line on standard error.
+
+Keys (unit; allowed; default): meaning
+  rate (Hz; a finite number in [0.001, 1e+06]; 50): output times per second
+)";
+  for (const SettingDescription& d : setting_descriptions()) {
+    text << "  " << d.key << " (" << d.unit << "; " << d.allowed << "; " << d.default_value << "): " << d.meaning
+         << "\n";
+  }
+  return text.str();
+}
+
+}  // namespace spring_workbench::replay

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <string>
+
+#include "spring_workbench/simulation/settings.h"
+
+namespace spring_workbench::replay {
+
+/// What the command line asks for.
+struct Options {
+  bool help = false;
+  std::string scene;                 ///< path or package:// URI of a URDF
+  std::string motion;                ///< path; empty where `bag` is given
+  std::string bag;                   ///< path; empty where `motion` is given
+  std::string parent = "workbench";  ///< frames of the stylus' transform in the bag
+  std::string child = "stylus";
+  std::string out;     ///< path of the CSV file of the objects
+  double rate = 50.0;  ///< output times per second [Hz]
+  SimulationSettings settings;
+};
+
+/// Reads the command line, and the settings file that it names. Throws InputError for everything that cannot be used.
+Options parse_options(int argc, char** argv);
+
+/// What `--help` prints.
+std::string help_text();
+
+}  // namespace spring_workbench::replay

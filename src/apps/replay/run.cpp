@@ -1,0 +1,69 @@
+#include "run.h"
+
+#include <chrono>
+#include <iostream>
+
+#include "csv_rows.h"
+#include "output_file.h"
+#include "spring_workbench/scene/scene.h"
+
+namespace spring_workbench::replay {
+namespace {
+
+constexpr double kTimeTolerance = 1e-9;  // [s] an output time this much after the motion's end is still given
+
+Motion load_motion(const Options& options) {
+  if (!options.bag.empty()) return read_bag(options.bag, options.parent, options.child);
+  return read_motion(*open_motion(options.motion));
+}
+
+/// RUN.csv → RUN.fork.csv
+std::string fork_path(const std::string& path) {
+  const std::string ending = ".csv";
+  const bool has_ending =
+      path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+  return (has_ending ? path.substr(0, path.size() - ending.size()) : path) + ".fork.csv";
+}
+
+Simulation make_simulation(const Options& options) {
+  const Scene scene = load_scene(options.scene);
+  for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
+  return Simulation(scene, options.settings);
+}
+
+void push_motion(const Motion& motion, bool with_buttons, Simulation& simulation, Summary& summary) {
+  for (const PoseSample& sample : motion.samples) {
+    ++summary.samples;
+    if (!simulation.push_stylus(sample)) ++summary.samples_left_out;
+  }
+  if (!with_buttons) return;
+  for (const ButtonEvent& event : motion.buttons) simulation.push_button(event.t, event.pressed);
+}
+
+}  // namespace
+
+Summary run(const Options& options) {
+  const Motion motion = load_motion(options);
+  Simulation simulation = make_simulation(options);
+  OutputFile objects(options.out);
+  OutputFile fork(fork_path(options.out));
+  objects.write(object_header());
+  fork.write(fork_header());
+
+  Summary summary;
+  push_motion(motion, options.settings.grasp.object.empty(), simulation, summary);
+  const double end = simulation.newest_sample() + kTimeTolerance;
+  const auto started = std::chrono::steady_clock::now();
+  for (double t = 0.0; t <= end; t = ++summary.outputs / options.rate) {
+    summary.add(simulation.advance(t));
+    summary.add_contacts(simulation.contacts());
+    objects.write(object_rows(t, simulation));
+    fork.write(fork_row(t, simulation));
+  }
+  summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  fork.commit();
+  objects.commit();
+  return summary;
+}
+
+}  // namespace spring_workbench::replay

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <utility>
+
+#include "spring_workbench/simulation/simulation.h"
+
+namespace spring_workbench::replay {
+
+/// What a whole run did.
+class Summary {
+ public:
+  int samples = 0;           ///< of the motion
+  int samples_left_out = 0;  ///< for their stamps
+  int outputs = 0;           ///< output times
+  double wall_time = 0.0;    ///< [s]
+
+  void add(const AdvanceReport& report);
+  /// Counts the pairs in contact now that were not at the call before.
+  void add_contacts(const std::vector<ContactState>& contacts);
+  /// One line of JSON, as `help_text()` describes it.
+  std::string json() const;
+
+ private:
+  using Pair = std::pair<std::string, std::string>;
+
+  AdvanceReport total_;
+  int contacts_ = 0;
+  std::set<Pair> touching_;
+  std::set<std::string> parts_run_, parts_left_out_;
+};
+
+}  // namespace spring_workbench::replay

@@ -1,0 +1,245 @@
+#include "spring_workbench/collision/collision_world.h"
+
+#include <fcl/broadphase/broadphase_dynamic_AABB_tree.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/narrowphase/collision_object.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "bench_contacts.h"
+#include "narrow_phase.h"
+#include "spring_workbench/math/so3.h"
+#include "spring_workbench/scene/geometry.h"
+#include "thin_out.h"
+
+namespace spring_workbench {
+namespace {
+
+/// An axis-aligned box as an object of FCL's broadphase.
+class BoxObject {
+ public:
+  explicit BoxObject(std::size_t piece)
+      : box_(std::make_shared<fcl::Boxd>(1.0, 1.0, 1.0)), object_(std::make_unique<fcl::CollisionObjectd>(box_)) {
+    object_->setUserData(reinterpret_cast<void*>(piece));
+  }
+
+  void place(const Eigen::AlignedBox3d& around) {
+    box_->side = around.sizes();
+    box_->computeLocalAABB();
+    object_->setTranslation(around.center());
+    object_->computeAABB();
+  }
+  fcl::CollisionObjectd* get() const { return object_.get(); }
+  static std::size_t piece_of(const fcl::CollisionObjectd* object) {
+    return reinterpret_cast<std::size_t>(object->getUserData());
+  }
+
+ private:
+  std::shared_ptr<fcl::Boxd> box_;
+  std::unique_ptr<fcl::CollisionObjectd> object_;
+};
+
+/// One shape of a body.
+struct Piece {
+  std::size_t body;
+  Geometry geometry;
+  RigidTransform X_OS;
+  RigidTransform X_WS;
+  std::size_t solid;  // in the narrow phase
+  BoxObject in_broadphase;
+  Eigen::AlignedBox3d extent;  // in the shape's frame
+
+  /// A box around the piece placed at `X`; for a mesh around its own box, so that its size does not matter.
+  Eigen::AlignedBox3d box_at(const RigidTransform& X) const {
+    if (!std::holds_alternative<MeshPtr>(geometry)) return bounding_box(geometry, X);
+    return bounding_box(Box{extent.sizes()}, X * Eigen::Translation3d(extent.center()));
+  }
+};
+
+/// A body's pieces, and how far they reach from its origin.
+struct PieceRange {
+  std::size_t begin, end;
+  double radius;
+};
+
+RigidTransform between(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& turn, double fraction) {
+  RigidTransform X;
+  X.linear() = X0.linear() * exp_so3(fraction * turn);
+  X.translation() = X0.translation() + fraction * (X1.translation() - X0.translation());
+  X.makeAffine();
+  return X;
+}
+
+Vector3d turn_between(const RigidTransform& X0, const RigidTransform& X1) {
+  return log_so3(X0.linear().transpose() * X1.linear());
+}
+
+Eigen::AlignedBox3d grown(Eigen::AlignedBox3d box, double by) {
+  box.min().array() -= by;
+  box.max().array() += by;
+  return box;
+}
+
+/// Memory of the broadphase's callback.
+struct Neighbours {
+  std::size_t body;  // whose own pieces do not count
+  const std::vector<Piece>* pieces;
+  std::vector<std::size_t>* found;
+};
+
+bool note_neighbour(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* data) {
+  const Neighbours& query = *static_cast<Neighbours*>(data);
+  // One of the two is the query's own box, which has no piece; FCL does not say which.
+  for (const fcl::CollisionObjectd* object : {a, b}) {
+    const std::size_t piece = BoxObject::piece_of(object);
+    if (piece < query.pieces->size() && (*query.pieces)[piece].body != query.body) query.found->push_back(piece);
+  }
+  return false;
+}
+
+}  // namespace
+
+struct CollisionWorld::Impl {
+  std::vector<Piece> pieces;
+  std::vector<PieceRange> bodies;
+  double bench_height;
+  NarrowPhase narrow;
+  fcl::DynamicAABBTreeCollisionManagerd broadphase;
+  BoxObject probe{bench};
+  // Scratch memory of the queries.
+  std::vector<std::size_t> near;
+  std::vector<ContactPoint> found;
+
+  explicit Impl(const Scene& scene) : bench_height(scene.bench_height) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(i, scene.bodies[i]);
+    for (Piece& piece : pieces) broadphase.registerObject(piece.in_broadphase.get());
+    broadphase.setup();
+  }
+
+  void add(std::size_t index, const Body& body) {
+    const std::size_t begin = pieces.size();
+    for (const Shape& shape : body.collision) {
+      pieces.push_back({index, shape.geometry, shape.X_OS, body.X_WO * shape.X_OS, narrow.add(shape.geometry),
+                        BoxObject(pieces.size()), bounding_box(shape.geometry)});
+      pieces.back().in_broadphase.place(pieces.back().box_at(pieces.back().X_WS));
+    }
+    bodies.push_back({begin, pieces.size(), bounding_radius(body)});
+  }
+
+  void place(std::size_t body, const RigidTransform& X_WO) {
+    for (std::size_t i = bodies[body].begin; i < bodies[body].end; ++i) {
+      pieces[i].X_WS = X_WO * pieces[i].X_OS;
+      pieces[i].in_broadphase.place(pieces[i].box_at(pieces[i].X_WS));
+      broadphase.update(pieces[i].in_broadphase.get());
+    }
+  }
+
+  /// Pieces of other bodies whose boxes come into `box`, in the order of their indices, into `near`.
+  void find_near(std::size_t body, const Eigen::AlignedBox3d& box) {
+    near.clear();
+    probe.place(box);
+    Neighbours query{body, &pieces, &near};
+    broadphase.collide(probe.get(), &query, note_neighbour);
+    std::sort(near.begin(), near.end());
+  }
+
+  /// Contacts of one piece placed at `X_WS`, appended to `found`. With `first_only` it ends with the first piece in
+  /// contact.
+  void find(const Piece& piece, const RigidTransform& X_WS, double tolerance, bool first_only) {
+    const Eigen::AlignedBox3d box = piece.box_at(X_WS);
+    if (bench_height - box.min().z() > tolerance) {
+      const std::size_t first = found.size();
+      append_bench_contacts(piece.geometry, X_WS, bench_height, tolerance, found);
+      if (first_only && found.size() > first) return;
+      constexpr std::size_t many = 8;
+      if (found.size() - first > many) thin_out(first, found);
+    }
+    find_near(piece.body, grown(box, std::max(0.0, -tolerance)));
+    for (const std::size_t i : near) {
+      const std::size_t first = found.size();
+      narrow.append_contacts(piece.solid, X_WS, pieces[i].solid, pieces[i].X_WS, tolerance, found);
+      for (std::size_t k = first; k < found.size(); ++k) found[k].other = pieces[i].body;
+      if (first_only && found.size() > first) return;
+    }
+  }
+
+  void find_all(std::size_t body, const RigidTransform& X_WO, double tolerance, bool first_only) {
+    found.clear();
+    for (std::size_t i = bodies[body].begin; i < bodies[body].end; ++i) {
+      find(pieces[i], X_WO * pieces[i].X_OS, tolerance, first_only);
+      if (first_only && !found.empty()) return;
+    }
+  }
+
+  /// Around a piece on the whole way: the boxes at both ends, and what the arc between adds to them, which is at most
+  /// r θ²/8 for a point at r (the error of linear interpolation); or the ball around the body, where that is less.
+  Eigen::AlignedBox3d swept_box(const Piece& piece, const RigidTransform& X0, const RigidTransform& X1) const {
+    const double radius = bodies[piece.body].radius;
+    const double angle = turn_between(X0, X1).norm();
+    const Eigen::AlignedBox3d ends = piece.box_at(X0 * piece.X_OS).merged(piece.box_at(X1 * piece.X_OS));
+    Eigen::AlignedBox3d ball(X0.translation());
+    ball.extend(Vector3d(X1.translation()));
+    return grown(ends, radius * angle * angle / 8.0).intersection(grown(ball, radius));
+  }
+};
+
+CollisionWorld::CollisionWorld(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+CollisionWorld::~CollisionWorld() = default;
+CollisionWorld::CollisionWorld(CollisionWorld&&) noexcept = default;
+CollisionWorld& CollisionWorld::operator=(CollisionWorld&&) noexcept = default;
+
+void CollisionWorld::set_pose(std::size_t body, const RigidTransform& X_WO) { impl_->place(body, X_WO); }
+
+bool CollisionWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                               double margin) const {
+  const PieceRange& range = impl_->bodies[body];
+  for (std::size_t i = range.begin; i < range.end; ++i) {
+    const Eigen::AlignedBox3d box = grown(impl_->swept_box(impl_->pieces[i], X0_WO, X1_WO), margin);
+    if (box.min().z() < impl_->bench_height) return true;
+    impl_->find_near(body, box);
+    if (!impl_->near.empty()) return true;
+  }
+  return false;
+}
+
+bool CollisionWorld::touches(std::size_t body, const RigidTransform& X_WO, double tolerance) const {
+  impl_->find_all(body, X_WO, tolerance, true);
+  return !impl_->found.empty();
+}
+
+void CollisionWorld::find_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance,
+                                   std::vector<ContactPoint>& contacts) const {
+  impl_->find_all(body, X_WO, tolerance, false);
+  contacts.insert(contacts.end(), impl_->found.begin(), impl_->found.end());
+}
+
+SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                                  double tolerance, double resolution, int levels) const {
+  const Vector3d turn = turn_between(X0_WO, X1_WO);
+  const double way = (X1_WO.translation() - X0_WO.translation()).norm() + impl_->bodies[body].radius * turn.norm();
+  if (!(resolution > 0.0) || !std::isfinite(way)) throw std::invalid_argument("sweep: resolution or poses");
+  if (!may_touch(body, X0_WO, X1_WO, std::max(0.0, -tolerance))) return {};
+  const auto touches_at = [&](double fraction) {
+    return touches(body, between(X0_WO, X1_WO, turn, fraction), tolerance);
+  };
+  if (touches_at(0.0)) return {true, 0.0, 0.0};
+  const double pieces = std::max(1.0, std::ceil(way / resolution));
+  double free = 0.0;
+  for (double piece = 1.0; piece <= pieces; piece += 1.0) {
+    double touching = piece / pieces;
+    if (!touches_at(touching)) {
+      free = touching;
+      continue;
+    }
+    for (int level = 0; level < levels; ++level) {
+      const double middle = 0.5 * (free + touching);
+      (touches_at(middle) ? touching : free) = middle;
+    }
+    return {true, free, touching};
+  }
+  return {};
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,159 @@
+#include "narrow_phase.h"
+
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/geometry/shape/box.h>
+#include <fcl/geometry/shape/sphere.h>
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/narrowphase/collision.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "contact_patches.h"
+#include "sphere_contacts.h"
+#include "surface.h"
+#include "swallowed.h"
+#include "thin_out.h"
+
+namespace spring_workbench {
+namespace {
+
+using Triangles = fcl::BVHModel<fcl::OBBRSSd>;
+
+std::unique_ptr<Triangles> make_triangles(const TriangleMesh& mesh) {
+  std::vector<fcl::Triangle> triangles;
+  for (const Eigen::Vector3i& t : mesh.triangles) {
+    triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
+                           static_cast<std::size_t>(t[2]));
+  }
+  auto model = std::make_unique<Triangles>();
+  model->beginModel();
+  model->addSubModel(mesh.vertices, triangles);
+  model->endModel();
+  return model;
+}
+
+fcl::CollisionRequestd which_triangles() {
+  constexpr std::size_t all = std::numeric_limits<int>::max();
+  return fcl::CollisionRequestd(all, false);
+}
+
+/// How far from `q` along `n` the box ends, in the box's frame; 0 where `q` is outside already.
+double way_out(const Box& box, const Vector3d& q, const Vector3d& n) {
+  double way = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 3; ++i) {
+    if (n[i] == 0.0) continue;
+    way = std::min(way, ((n[i] > 0.0 ? 0.5 : -0.5) * box.size[i] - q[i]) / n[i]);
+  }
+  return std::max(way, 0.0);
+}
+
+}  // namespace
+
+struct NarrowPhase::Solid {
+  Geometry geometry;
+  std::shared_ptr<const Surface> surface;  // none for a sphere
+  std::unique_ptr<Triangles> triangles;
+};
+
+/// FCL's answer, kept between queries for its memory.
+struct NarrowPhase::Fcl {
+  fcl::CollisionResultd result;
+  std::vector<int> touched;
+  std::vector<std::pair<int, int>> pairs;
+};
+
+NarrowPhase::NarrowPhase() : fcl_(std::make_unique<Fcl>()) {}
+NarrowPhase::~NarrowPhase() = default;
+
+std::size_t NarrowPhase::add(const Geometry& geometry) {
+  Solid solid{geometry, make_surface(geometry), nullptr};
+  if (solid.surface) solid.triangles = make_triangles(*solid.surface->mesh);
+  solids_.push_back(std::move(solid));
+  return solids_.size() - 1;
+}
+
+void NarrowPhase::append_contacts(std::size_t own_index, const RigidTransform& X_WA, std::size_t other_index,
+                                  const RigidTransform& X_WB, double tolerance, std::vector<ContactPoint>& contacts) {
+  const Solid& own = solids_[own_index];
+  const Solid& other = solids_[other_index];
+  const std::size_t first = contacts.size();
+  if (std::holds_alternative<Sphere>(own.geometry)) {
+    sphere_and(own, X_WA, other, X_WB, tolerance, contacts);
+  } else if (std::holds_alternative<Sphere>(other.geometry)) {
+    sphere_and(other, X_WB, own, X_WA, tolerance, contacts);
+    turn_round(first, contacts);
+  } else if (std::holds_alternative<Box>(own.geometry) && std::holds_alternative<Box>(other.geometry)) {
+    boxes(own, X_WA, other, X_WB, tolerance, contacts);
+  } else {
+    surfaces(own, X_WA, other, X_WB, tolerance, contacts);
+  }
+}
+
+void NarrowPhase::sphere_and(const Solid& sphere, const RigidTransform& X_WS, const Solid& other,
+                             const RigidTransform& X_WB, double tolerance, std::vector<ContactPoint>& contacts) {
+  const double radius = std::get<Sphere>(sphere.geometry).radius;
+  const Vector3d centre_W = X_WS.translation();
+  if (!std::holds_alternative<MeshPtr>(other.geometry)) {
+    append_sphere_contact(radius, centre_W, other.geometry, X_WB, tolerance, contacts);
+    return;
+  }
+  const fcl::Sphered reached(radius + std::max(0.0, -tolerance));
+  fcl_->result.clear();
+  fcl::collide(other.triangles.get(), X_WB, &reached, X_WS, which_triangles(), fcl_->result);
+  fcl_->touched.clear();
+  for (std::size_t i = 0; i < fcl_->result.numContacts(); ++i) {
+    fcl_->touched.push_back(static_cast<int>(fcl_->result.getContact(i).b1));
+  }
+  append_sphere_triangle_contacts(radius, centre_W, *other.surface, X_WB, fcl_->touched, tolerance, contacts);
+  if (fcl_->touched.empty()) {
+    append_swallowed(sphere.geometry, X_WS, other.geometry, {*other.surface, X_WB}, tolerance, contacts);
+  }
+}
+
+/// FCL clips two boxes into up to eight points with one normal. A negative tolerance is met by growing the other box.
+void NarrowPhase::boxes(const Solid& own, const RigidTransform& X_WA, const Solid& other, const RigidTransform& X_WB,
+                        double tolerance, std::vector<ContactPoint>& contacts) {
+  const double grown = std::max(0.0, -tolerance);
+  const Box reached{std::get<Box>(other.geometry).size + Vector3d::Constant(2.0 * grown)};
+  const fcl::Boxd a(std::get<Box>(own.geometry).size), b(reached.size);
+  constexpr std::size_t most_points = 16;
+  fcl_->result.clear();
+  fcl::collide(&a, X_WA, &b, X_WB, fcl::CollisionRequestd(most_points, true), fcl_->result);
+  for (std::size_t i = 0; i < fcl_->result.numContacts(); ++i) {
+    const fcl::Contactd& contact = fcl_->result.getContact(i);
+    const Vector3d n_W = -contact.normal;  // FCL's points from own to other
+    const double depth = contact.penetration_depth - grown;
+    if (!(depth > tolerance)) continue;
+    // FCL's point is in between, and where two edges are nearly parallel it may lie off both.
+    const Vector3d half = 0.5 * reached.size;
+    const Vector3d p_B = (X_WB.inverse() * contact.pos).cwiseMin(half).cwiseMax(-half);
+    const double way = way_out(reached, p_B, X_WB.linear().transpose() * n_W);
+    contacts.push_back({0, X_WB * p_B + (way - grown) * n_W, n_W, depth});
+  }
+}
+
+void NarrowPhase::surfaces(const Solid& own, const RigidTransform& X_WA, const Solid& other, const RigidTransform& X_WB,
+                           double tolerance, std::vector<ContactPoint>& contacts) {
+  const std::size_t first = contacts.size();
+  const PlacedSurface own_surface{*own.surface, X_WA};
+  const PlacedSurface other_surface{*other.surface, X_WB};
+  fcl_->result.clear();
+  fcl::collide(own.triangles.get(), X_WA, other.triangles.get(), X_WB, which_triangles(), fcl_->result);
+  if (fcl_->result.isCollision()) {
+    fcl_->pairs.clear();
+    for (std::size_t i = 0; i < fcl_->result.numContacts(); ++i) {
+      const fcl::Contactd& pair = fcl_->result.getContact(i);
+      fcl_->pairs.emplace_back(static_cast<int>(pair.b1), static_cast<int>(pair.b2));
+    }
+    append_surface_contacts(own_surface, other_surface, fcl_->pairs, tolerance, contacts);
+    thin_out(first, contacts);
+    return;
+  }
+  append_swallowed(own.geometry, X_WA, other.geometry, other_surface, tolerance, contacts);
+  if (contacts.size() > first) return;
+  append_swallowed(other.geometry, X_WB, own.geometry, own_surface, tolerance, contacts);
+  turn_round(first, contacts);
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "spring_workbench/collision/collision_world.h"
+
+namespace spring_workbench {
+
+/// Contact of two shapes. FCL says which shapes and which of their triangles meet. Where, how deep and in which
+/// direction is taken from it for two boxes only (held against the separating axis theorem in the tests); elsewhere its
+/// normals and depths come from GJK/EPA, are one point at most and change sign or face from pose to pose. So spheres
+/// are done by closed formulas, and everything else, cylinders as prisms, by the triangles that meet.
+class NarrowPhase {
+ public:
+  NarrowPhase();
+  ~NarrowPhase();
+  NarrowPhase(const NarrowPhase&) = delete;
+  NarrowPhase& operator=(const NarrowPhase&) = delete;
+
+  /// Prepares a shape; returns its index.
+  std::size_t add(const Geometry& geometry);
+
+  /// Appends the contacts of shape `own` with shape `other` that are deeper than `tolerance` [m], without `other`'s
+  /// index.
+  void append_contacts(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
+                       double tolerance, std::vector<ContactPoint>& contacts);
+
+ private:
+  struct Solid;
+  struct Fcl;
+
+  void sphere_and(const Solid& sphere, const RigidTransform& X_WS, const Solid& other, const RigidTransform& X_WB,
+                  double tolerance, std::vector<ContactPoint>& contacts);
+  void boxes(const Solid& own, const RigidTransform& X_WA, const Solid& other, const RigidTransform& X_WB,
+             double tolerance, std::vector<ContactPoint>& contacts);
+  void surfaces(const Solid& own, const RigidTransform& X_WA, const Solid& other, const RigidTransform& X_WB,
+                double tolerance, std::vector<ContactPoint>& contacts);
+
+  std::vector<Solid> solids_;
+  std::unique_ptr<Fcl> fcl_;
+};
+
+}  // namespace spring_workbench

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "surface.h"
+
+namespace spring_workbench {
+
+/// A surface placed in the world.
+struct PlacedSurface {
+  const Surface& surface;
+  const RigidTransform& X_WS;
+};
+
+/// One triangle in the world.
+struct Triangle {
+  std::array<Vector3d, 3> corners;
+  Vector3d n;                                 ///< unit, outward
+  std::array<Vector3d, 3> neighbour_normals;  ///< across the edge k → k+1; `n` where there is none
+};
+
+Triangle place(const PlacedSurface& placed, int index);
+
+/// A convex polygon that is cut by planes; a triangle cut by four has seven corners at most.
+class Polygon {
+ public:
+  explicit Polygon(const std::array<Vector3d, 3>& triangle);
+
+  /// Keeps the part with n·x ≤ n·p.
+  void cut(const Vector3d& n, const Vector3d& p);
+
+  const Vector3d* begin() const { return points_.data(); }
+  const Vector3d* end() const { return points_.data() + size_; }
+
+ private:
+  std::array<Vector3d, 8> points_;
+  std::size_t size_;
+};
+
+/// The part of `cut` that is behind the plane of `face` and over its area.
+Polygon part_behind(const Triangle& cut, const Triangle& face);
+
+/// Where two triangles cross: from `begin` to `end`, with the solid behind `own` to be seen on the left by who stands
+/// on `other`. Both ends are equal where they do not cross.
+struct Crossing {
+  Vector3d begin = Vector3d::Zero();
+  Vector3d end = Vector3d::Zero();
+};
+Crossing crossing(const Triangle& own, const Triangle& other);
+
+}  // namespace spring_workbench

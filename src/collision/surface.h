@@ -1,0 +1,30 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "spring_workbench/scene/scene.h"
+
+namespace spring_workbench {
+
+/// Triangles of a shape with what contact between triangles needs: normals and neighbours.
+struct Surface {
+  MeshPtr mesh;
+  std::vector<Vector3d> normals;               ///< unit, outward; one per triangle
+  std::vector<std::array<int, 3>> neighbours;  ///< triangle across the edge k → k+1, or −1
+
+  const Vector3d& corner(int triangle, int k) const {
+    const Eigen::Vector3i& t = mesh->triangles[static_cast<std::size_t>(triangle)];
+    return mesh->vertices[static_cast<std::size_t>(t[k])];
+  }
+  const Vector3d& normal(int triangle) const { return normals[static_cast<std::size_t>(triangle)]; }
+};
+
+/// The surface of a box, a cylinder (as a prism of `cylinder_sides` sides through its rims' points) or a mesh.
+/// Nothing for a sphere.
+std::shared_ptr<const Surface> make_surface(const Geometry& geometry);
+
+constexpr int cylinder_sides = 48;
+
+}  // namespace spring_workbench

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "placed_triangle.h"
+#include "spring_workbench/collision/collision_world.h"
+
+namespace spring_workbench {
+
+/// Contact of a triangle of this body's surface with one of the other's that it crosses: along the normal of either one
+/// or of two crossing convex edges. Which of these it is cannot be told from two triangles alone: `n_W` is how the
+/// surfaces meet on the whole (see contact_patches.h), and of the ways that go along with it the least deep is taken.
+/// Points deeper than `tolerance` [m] are appended, without `other`; those on a face span the common part of the two
+/// triangles.
+/// False where every way goes across `n_W`; without it, the least deep of all is taken.
+bool append_triangle_contacts(const Triangle& own, const Triangle& other, const std::optional<Vector3d>& n_W,
+                              double tolerance, std::vector<ContactPoint>& contacts);
+
+}  // namespace spring_workbench

@@ -1,0 +1,110 @@
+#include "spring_workbench/dynamics/integrator.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+#include "integrators.h"
+#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/dynamics/damped_oscillator.h"
+
+namespace spring_workbench {
+
+const std::vector<std::string>& integrator_names() {
+  static const std::vector<std::string> names = {"exponential", "closed_form", "rk4", "semi_implicit_euler"};
+  return names;
+}
+
+std::unique_ptr<Integrator> make_integrator(const std::string& name) {
+  if (name == "exponential") return std::make_unique<Exponential>();
+  if (name == "closed_form") return std::make_unique<ClosedForm>();
+  if (name == "rk4") return std::make_unique<RungeKutta4>();
+  if (name == "semi_implicit_euler") return std::make_unique<SemiImplicitEuler>();
+  refuse("dynamics", "integrator", name, "one of " + join(integrator_names()));
+}
+
+Integrator::Response Integrator::response(const HeldBody& body, double t, double h, const StrainState& state) {
+  StrainMatrix A = body.mass_matrix(t, state.q);
+  A.diagonal() += h * body.damping() + h * h * body.stiffness();
+  Response r;
+  r.q_dot = h * A.llt().solve(StrainMatrix::Identity(body.size(), body.size()));
+  r.q = h * r.q_dot;
+  return r;
+}
+
+StrainVector LastAcceleration::get(const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
+  const bool same = version_ == body.version() && load_version_ == body.load_version() && t_ == handle.t && state_.q == state.q && state_.q_dot == state.q_dot &&
+                    handle_acceleration_ == handle.acceleration_less_gravity &&
+                    handle_angular_acceleration_ == handle.angular_acceleration;
+  return same ? q_ddot_ : body.acceleration(handle, state.q, state.q_dot);
+}
+
+void LastAcceleration::keep(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
+                            const StrainVector& q_ddot) {
+  version_ = body.version();
+  load_version_ = body.load_version();
+  t_ = handle.t;
+  handle_acceleration_ = handle.acceleration_less_gravity;
+  handle_angular_acceleration_ = handle.angular_acceleration;
+  state_ = state;
+  q_ddot_ = q_ddot;
+}
+
+StepEstimate SemiImplicitEuler::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+                                     StrainState& state) {
+  const StrainVector a = last_.get(body, body.forcing(handle, t), state);
+  state.q_dot += h * a;
+  state.q += h * state.q_dot;
+  const HandleForcing end = body.forcing(handle, t + h);
+  const StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
+  last_.keep(body, end, state, a_end);
+  return {h * h / 6.0 * (4.0 * a - a_end)};  // h² a against h² (2 a + a_end) / 6
+}
+
+StepEstimate RungeKutta4::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+                               StrainState& state) {
+  const StrainState s0 = state;
+  const StrainVector a1 = last_.get(body, body.forcing(handle, t), s0);
+  const HandleForcing middle = body.forcing(handle, t + 0.5 * h);
+  const HandleForcing end = body.forcing(handle, t + h);
+  const StrainVector v2 = s0.q_dot + 0.5 * h * a1;
+  const StrainVector a2 = body.acceleration(middle, s0.q + 0.5 * h * s0.q_dot, v2);
+  const StrainVector v3 = s0.q_dot + 0.5 * h * a2;
+  const StrainVector a3 = body.acceleration(middle, s0.q + 0.5 * h * v2, v3);
+  const StrainVector v4 = s0.q_dot + h * a3;
+  const StrainVector a4 = body.acceleration(end, s0.q + h * v3, v4);
+  state.q = s0.q + h / 6.0 * (s0.q_dot + 2.0 * v2 + 2.0 * v3 + v4);
+  state.q_dot = s0.q_dot + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
+  const StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
+  last_.keep(body, end, state, a_end);
+  return {h / 6.0 * (v4 - state.q_dot)};  // against the method of order three that ends in the new slope
+}
+
+StepEstimate ClosedForm::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+                              StrainState& state) {
+  const StrainVector a = last_.get(body, body.forcing(handle, t), state);
+  const StrainMatrix M = body.mass_matrix(t, state.q);
+  const StrainVector K = body.stiffness(), D = body.damping();
+  StrainVector held(body.size());  // what is left of the acceleration beside the coordinate's own spring and damper
+  StrainVector per_force(body.size());
+  for (int i = 0; i < body.size(); ++i) {
+    const double omega_squared = K[i] / M(i, i), two_alpha = D[i] / M(i, i);
+    const OscillatorStep s = damped_oscillator(0.5 * two_alpha, omega_squared, h);
+    held[i] = a[i] + two_alpha * state.q_dot[i] + omega_squared * state.q[i];
+    const double q = state.q[i], v = state.q_dot[i];
+    state.q[i] = s.xx * q + s.xv * v + s.xg * held[i];
+    state.q_dot[i] = s.vx * q + s.vv * v + s.vg * held[i];
+    per_force[i] = s.xg;
+  }
+  const HandleForcing end = body.forcing(handle, t + h);
+  const StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
+  last_.keep(body, end, state, a_end);
+  StepEstimate estimate;
+  estimate.q_error = StrainVector(body.size());
+  for (int i = 0; i < body.size(); ++i) {
+    const double held_end = a_end[i] + D[i] / M(i, i) * state.q_dot[i] + K[i] / M(i, i) * state.q[i];
+    estimate.q_error[i] = per_force[i] / 3.0 * (held_end - held[i]);  // a ramp instead of a constant
+  }
+  return estimate;
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,170 @@
+#include "spring_workbench/config/yaml_fields.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "support/temporary_folder.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::string message_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const InputError& e) {
+    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << "one line";
+    return e.what();
+  }
+  return "";
+}
+
+testing::AssertionResult names(const std::string& message, const std::vector<std::string>& parts) {
+  for (const std::string& part : parts) {
+    if (message.find(part) == std::string::npos)
+      return testing::AssertionFailure() << part << " is not in: " << message;
+  }
+  return testing::AssertionSuccess();
+}
+
+YAML::Node node(const std::string& text) { return YAML::Load(text); }
+
+TEST(NumberRule, AllowsWhatItSaysAndNeverNan) {
+  for (const NumberRule& rule : {any_number(), positive(), not_negative(), between(-1.0, 2.0)}) {
+    EXPECT_FALSE(rule.allows(std::nan("")));
+    EXPECT_FALSE(rule.allows(infinity));
+    EXPECT_FALSE(rule.allows(-infinity));
+  }
+  EXPECT_TRUE(any_number().allows(-1e300));
+  EXPECT_FALSE(positive().allows(0.0));
+  EXPECT_TRUE(positive().allows(std::numeric_limits<double>::denorm_min()));
+  EXPECT_TRUE(not_negative().allows(0.0));
+  EXPECT_FALSE(not_negative().allows(-1e-300));
+  EXPECT_TRUE(between(-1.0, 2.0).allows(-1.0));
+  EXPECT_TRUE(between(-1.0, 2.0).allows(2.0));
+  EXPECT_FALSE(between(-1.0, 2.0).allows(2.0000001));
+  NumberRule stiffness = positive();
+  stiffness.infinity_allowed = true;
+  EXPECT_TRUE(stiffness.allows(infinity));
+  EXPECT_FALSE(stiffness.allows(-infinity));
+  EXPECT_FALSE(stiffness.allows(std::nan("")));
+}
+
+TEST(NumberRule, SaysWhatItAllows) {
+  EXPECT_EQ(any_number().text(), "a finite number");
+  EXPECT_EQ(positive().text(), "a finite number > 0");
+  EXPECT_EQ(not_negative().text(), "a finite number >= 0");
+  EXPECT_EQ(between(1e-6, 1.0).text(), "a finite number in [1e-06, 1]");
+}
+
+TEST(YamlFields, ReadNumbersOfEverySpelling) {
+  for (const auto& [text, value] : std::vector<std::pair<std::string, double>>{
+           {"1.5", 1.5}, {"-2", -2.0}, {"1e3", 1000.0}, {"2.0e+4", 20000.0}, {".5", 0.5}}) {
+    EXPECT_EQ(read_number(node(text), "file", "key", any_number()), value);
+  }
+  NumberRule rule = positive();
+  rule.infinity_allowed = true;
+  EXPECT_EQ(read_number(node(".inf"), "file", "key", rule), infinity);
+}
+
+TEST(YamlFields, RefuseWithPlaceKeyValueAndRule) {
+  for (const std::string text :
+       {"-1", "0", ".nan", ".inf", "-.inf", "abc", "[1]", "{a: 1}", "1e999", "1 2", "''", "~"}) {
+    const YAML::Node map = node("first: 1\nkey: " + text);
+    const std::string message = message_of([&] { read_number(map["key"], "file.yaml", "some.key", positive()); });
+    EXPECT_TRUE(names(message, {"file.yaml:2: some.key: ", "is not allowed: must be a finite number > 0"})) << text;
+  }
+  EXPECT_TRUE(names(message_of([] { check_number("command line", "step", std::nan(""), positive()); }),
+                    {"command line: step: nan", "> 0"}));
+  EXPECT_NO_THROW(check_number("command line", "step", 1.0, positive()));
+}
+
+TEST(YamlFields, AFieldThatIsNotThereIsRefusedNotACrash) {
+  const YAML::Node map = node("a: 1");
+  const YAML::Node& constant = map;
+  EXPECT_NE(message_of([&] { read_number(constant["b"], "f", "b", any_number()); }), "");
+  EXPECT_NE(message_of([&] { read_integer(constant["b"], "f", "b", 0, 1); }), "");
+  EXPECT_NE(message_of([&] { read_bool(constant["b"], "f", "b"); }), "");
+  EXPECT_NE(message_of([&] { read_string(constant["b"], "f", "b"); }), "");
+  EXPECT_NE(message_of([&] { read_choice(constant["b"], "f", "b", {"x"}); }), "");
+  EXPECT_NE(message_of([&] { read_numbers(constant["b"], "f", "b", 2); }), "");
+  EXPECT_NE(message_of([&] { read_pose(constant["b"], "f", "b"); }), "");
+  EXPECT_NE(message_of([&] { check_keys(constant["b"], "f", "b.", {"x"}); }), "");
+}
+
+TEST(YamlFields, IntegersStayIntegers) {
+  EXPECT_EQ(read_integer(node("8"), "f", "k", 1, 30), 8);
+  for (const std::string text : {"0", "31", "8.5", "x", "99999999999", "[8]"}) {
+    EXPECT_TRUE(
+        names(message_of([&] { read_integer(node(text), "f", "k", 1, 30); }), {"k: ", "an integer in [1, 30]"}));
+  }
+}
+
+TEST(YamlFields, BoolsStringsAndChoices) {
+  EXPECT_TRUE(read_bool(node("true"), "f", "k"));
+  EXPECT_FALSE(read_bool(node("off"), "f", "k"));
+  EXPECT_TRUE(names(message_of([] { read_bool(node("2"), "f", "k"); }), {"2", "true or false"}));
+  EXPECT_EQ(read_string(node("a b"), "f", "k"), "a b");
+  EXPECT_TRUE(names(message_of([] { read_string(node("[a]"), "f", "k"); }), {"k: [a]"}));
+  EXPECT_EQ(read_choice(node("stop"), "f", "k", {"none", "stop"}), "stop");
+  EXPECT_TRUE(names(message_of([] { read_choice(node("halt"), "f", "k", {"none", "stop"}); }), {"halt", "none, stop"}));
+}
+
+TEST(YamlFields, NumbersAsListOrString) {
+  const std::vector<double> expected = {1.0, -2.5, 3e4};
+  EXPECT_EQ(read_numbers(node("[1, -2.5, 3e4]"), "f", "k", 3), expected);
+  EXPECT_EQ(read_numbers(node("1 -2.5 3e4"), "f", "k", 3), expected);
+  for (const std::string text : {"[1, 2]", "[1, 2, 3, 4]", "1 2", "1 2 3 4", "1 2 x", "[1, 2, .nan]", "[1, 2, .inf]",
+                                 "[1, 2, [3]]", "{a: 1}", "~"}) {
+    EXPECT_TRUE(names(message_of([&] { read_numbers(node(text), "f", "k", 3); }), {"k: ", "3 finite numbers"})) << text;
+  }
+}
+
+TEST(YamlFields, PosesAreNormalisedAndAZeroQuaternionIsRefused) {
+  const RigidTransform X = read_pose(node("[1, 2, 3, 0, 0, 2, 2]"), "f", "k");
+  EXPECT_TRUE(X.translation().isApprox(Vector3d(1, 2, 3)));
+  EXPECT_TRUE((X.linear() * Vector3d::UnitX()).isApprox(Vector3d::UnitY()));
+  EXPECT_TRUE(names(message_of([] { read_pose(node("[1, 2, 3, 0, 0, 0, 0]"), "f", "k"); }), {"quaternion"}));
+  EXPECT_TRUE(names(message_of([] { read_pose(node("[1, 2, 3]"), "f", "k"); }), {"7 finite numbers"}));
+}
+
+TEST(YamlFields, UnknownKeysAreRefusedWithTheKnownOnes) {
+  const YAML::Node map = node("a: 1\nbb: 2");
+  EXPECT_NO_THROW(check_keys(map, "f", "", {"a", "bb", "c"}));
+  EXPECT_TRUE(names(message_of([&] {
+                      check_keys(map, "f", "top.", {"a", "c"});
+                    }),
+                    {"f:2: top.bb: unknown key", "a, c"}));
+  EXPECT_TRUE(names(message_of([&] { check_keys(node("[1]"), "f", "", {}); }), {"a map"}));
+  EXPECT_TRUE(names(message_of([&] { check_keys(node("[1, 2]: 3"), "f", "", {"a"}); }), {"unknown key"}));
+}
+
+TEST(YamlFields, LongValuesAreCutInMessages) {
+  const std::string message = message_of([] { read_bool(node(std::string(10000, 'x')), "f", "k"); });
+  EXPECT_LT(message.size(), 200u);
+}
+
+TEST(LoadYamlFile, GivesFileAndLineOfWhatIsNotYaml) {
+  const test_support::TemporaryFolder folder;
+  folder.write("good.yaml", "a: 1\n");
+  folder.write("empty.yaml", "");
+  folder.write("bad.yaml", "a: 1\nb: [1, 2\nc: 3\n");
+  EXPECT_EQ(load_yaml_file(folder.path("good.yaml"))["a"].as<int>(), 1);
+  EXPECT_TRUE(load_yaml_file(folder.path("empty.yaml")).IsMap());
+  EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("bad.yaml")); }), {"bad.yaml:", "not YAML"}));
+  EXPECT_TRUE(
+      names(message_of([&] { load_yaml_file(folder.path("nothing.yaml")); }), {"nothing.yaml", "cannot be read"}));
+  EXPECT_NE(message_of([&] { load_yaml_file(folder.path("")); }), "") << "a folder";
+}
+
+TEST(Join, PutsSeparatorsBetween) {
+  EXPECT_EQ(join({}), "");
+  EXPECT_EQ(join({"a"}), "a");
+  EXPECT_EQ(join({"a", "b", "c"}, "/"), "a/b/c");
+}
+
+}  // namespace
+}  // namespace spring_workbench
