@@ -1,5 +1,7 @@
 #include <ros/ros.h>
 
+#include <iostream>
+
 #include "spring_workbench/config/input_error.h"
 #include "spring_workbench/ros_interface/manipulation_node.h"
 
@@ -10,7 +12,7 @@ int main(int argc, char** argv) {
     const spring_workbench::ManipulationNode node(ros::NodeHandle(), ros::NodeHandle("~"));
     ros::spin();
   } catch (const spring_workbench::InputError& error) {
-    ROS_FATAL_STREAM(error.what());
+    std::cerr << error.what() << std::endl;
     return 2;
   }
   return 0;

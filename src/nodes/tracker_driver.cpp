@@ -2,6 +2,8 @@
 
 #include <ros/ros.h>
 
+#include <iostream>
+
 #include "spring_workbench/config/input_error.h"
 
 /// The tracker as tf frames and buttons. Exit status 2: bad parameters or motion file.
@@ -10,7 +12,7 @@ int main(int argc, char** argv) {
   try {
     spring_workbench::TrackerDriver(ros::NodeHandle(), ros::NodeHandle("~")).run();
   } catch (const spring_workbench::InputError& error) {
-    ROS_FATAL_STREAM(error.what());
+    std::cerr << error.what() << std::endl;
     return 2;
   }
   return 0;

@@ -8,27 +8,21 @@
 #include "spring_workbench/ros_interface/loop_clock.h"
 
 namespace spring_workbench {
-namespace {
-
-Scene load_and_tell(const std::string& path) {
-  Scene scene = load_scene(path, ros::package::getPath);
-  for (const std::string& warning : scene.warnings) ROS_WARN_STREAM(warning);
-  ROS_INFO("scene %s: %zu bodies", scene.name.c_str(), scene.bodies.size());
-  return scene;
-}
-
-}  // namespace
-
 ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : parameters_(read_manipulation_parameters(private_parameters(private_node), private_node.getNamespace())),
-      runner_(load_and_tell(parameters_.scene), parameters_.simulation),
+      runner_(load_scene(parameters_.scene, ros::package::getPath), parameters_.simulation),
       input_(node, parameters_),
       publisher_(private_node, parameters_),
       services_(private_node, runner_),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
       every_second_(node.createWallTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
-      physics_([this] { run_physics(); }) {}
+      physics_([this] { run_physics(); }) {
+  runner_.locked([](const Simulation& simulation) {
+    for (const std::string& warning : simulation.scene().warnings) ROS_WARN_STREAM(warning);
+    ROS_INFO("scene %s: %zu bodies", simulation.scene().name.c_str(), simulation.scene().bodies.size());
+  });
+}
 
 ManipulationNode::~ManipulationNode() {
   stop_ = true;

@@ -113,7 +113,7 @@ class Drawing {
 
   void draw_fork() {
     constexpr int centreline_points = 65;
-    constexpr double thickness = 0.10, body = 0.55;  // of the handle, in parts of the fork's length
+    constexpr double thickness = 0.12, body = 0.55;  // of the handle, in parts of the fork's length
     const double L = tool_.length;
     Marker& fork = add("fork", 0, Marker::TRIANGLE_LIST, RigidTransform::Identity(), fork_color);
     for (const Vector3d& p : fork_mesh(simulation_.centreline(centreline_points), L, ForkLook())) {

@@ -179,7 +179,11 @@ double StylusInput::seconds(const ros::Time& stamp) {
 
 void StylusInput::leave_out(const std::string& reason, const std::string& line) {
   ++statistics_.left_out[reason];
-  ROS_WARN_STREAM_THROTTLE(5.0, line << "; left out");
+  const ros::WallTime now = ros::WallTime::now();
+  const auto told = told_.find(reason);
+  if (told != told_.end() && now - told->second < ros::WallDuration(5.0)) return;
+  told_[reason] = now;
+  ROS_WARN_STREAM(line << "; left out");
 }
 
 }  // namespace spring_workbench

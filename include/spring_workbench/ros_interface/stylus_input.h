@@ -78,8 +78,9 @@ class StylusInput {
   bool workbench_known_ = false;
   std::vector<StylusEvent> events_;
   InputStatistics statistics_;
-  ros::Time zero_;    ///< of the epoch; zero before the first input
-  ros::Time newest_;  ///< stamp of the newest sample of the epoch; zero before it
+  std::map<std::string, ros::WallTime> told_;  ///< when a reason to leave a sample out was last logged
+  ros::Time zero_;                             ///< of the epoch; zero before the first input
+  ros::Time newest_;                           ///< stamp of the newest sample of the epoch; zero before it
   ros::Time last_now_;
   bool pressed_ = false;
   ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;

@@ -15,13 +15,13 @@ void add_tube(const std::vector<Vector3d>& path, double radius, int sides, Trian
 
 /// How the fork is drawn, in parts of its rest length.
 struct ForkLook {
-  int turns = 14;            ///< of the coil
+  int turns = 12;            ///< of the coil
   double coil_begin = 0.06;  ///< where along the rod the coil begins
   double coil_end = 0.80;    ///< and where it ends; the prongs follow
-  double coil_radius = 0.065;
-  double wire_radius = 0.011;
-  double prong_gap = 0.05;  ///< of the outer prongs from the axis
-  double prong_radius = 0.011;
+  double coil_radius = 0.08;
+  double wire_radius = 0.014;
+  double prong_gap = 0.06;  ///< of the outer prongs from the axis
+  double prong_radius = 0.014;
 };
 
 /// The fork as a coil spring around the rod's centreline with three prongs at the tip. `centreline`: at least two poses

@@ -1,0 +1,282 @@
+#!/usr/bin/python3
+"""The node `manipulation` by its topics and services: scenes/single_box, a hand on its own clock."""
+import math
+import sys
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import WrenchStamped
+from spring_workbench.msg import Contact, Contacts, ForkState, ObjectStates, StepReport
+from spring_workbench.srv import LoadScene, SetForkDamping, SetForkDofs, SetForkStiffness, SetIntegrator
+from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
+from visualization_msgs.msg import Marker, MarkerArray
+
+from stack import (DEADLINE, DOWN, Hand, Listener, diagnostic_values, diagnostics_listener, product, quaternion,
+                   stylus_transform, wait_for)
+
+NAN = float("nan")
+LENGTH, MASS, GRAVITY = 0.2, 1.0, 9.81
+IN_BOX = (0.03, 0.0, 0.02 + LENGTH)   # the tip is 3 cm beside the centre of the box
+LIFTED = (0.03, 0.0, 0.30 + LENGTH)
+
+
+class Manipulation(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.services = {}
+        for name, kind in [("set_dofs", SetForkDofs), ("set_stiffness", SetForkStiffness), ("set_damping", SetForkDamping),
+                           ("set_integrator", SetIntegrator), ("load_scene", LoadScene), ("calibrate", Trigger),
+                           ("reset", Trigger), ("release", Trigger)]:
+            rospy.wait_for_service("manipulation/" + name, DEADLINE)
+            cls.services[name] = rospy.ServiceProxy("manipulation/" + name, kind)
+        cls.objects = Listener("manipulation/objects", ObjectStates)
+        cls.fork = Listener("manipulation/fork", ForkState)
+        cls.wrench = Listener("manipulation/wrench", WrenchStamped)
+        cls.contacts = Listener("manipulation/contacts", Contacts)
+        cls.steps = Listener("manipulation/steps", StepReport)
+        cls.tf = Listener("/tf", TFMessage)
+        cls.diagnostics = diagnostics_listener()
+        cls.hand = Hand()
+        cls.hand.wait_for_node()
+
+    def setUp(self):
+        """A box at its start, a new hand above it, the fork as it comes."""
+        self.call("load_scene", "package://spring_workbench/scenes/single_box.urdf")
+        self.call("set_dofs", True, True, True)
+        self.call("set_stiffness", 2000.0, 500.0, 5.0)
+        self.call("set_damping", 1.0, 1.0, 1.0)
+        self.hand.position, self.hand.rotation, self.hand.pressed = (0.03, 0.0, 0.4), DOWN, False
+        self.hand.run(0.2)
+
+    def call(self, service, *arguments):
+        answer = self.services[service](*arguments)
+        self.assertTrue(answer.success, answer.message)
+        return answer
+
+    def refused(self, service, *arguments):
+        """The one line with which a call is refused."""
+        answer = self.services[service](*arguments)
+        self.assertFalse(answer.success)
+        self.assertTrue(answer.message)
+        self.assertNotIn("\n", answer.message)
+        return answer.message
+
+    def box(self, message=None):
+        return (message or self.objects.next()).objects[0]
+
+    def grasp(self):
+        self.hand.move(IN_BOX, DOWN, 0.5)
+        self.hand.run(0.1)
+        self.assertTrue(self.box().highlighted)
+        self.hand.pressed = True
+        self.hand.run(0.2)
+        self.assertEqual(self.fork.next().held_object, "box")
+        self.assertTrue(self.box().held)
+
+    def lift(self, rotation=DOWN):
+        """Grasps 3 cm beside the centre, lifts, turns, and waits until all is at rest."""
+        self.grasp()
+        self.hand.move(LIFTED, DOWN, 1.0)
+        if rotation is not DOWN:
+            self.hand.move(LIFTED, rotation, 1.0)
+        self.hand.run(2.0)
+
+    def test_lifts_and_feels_the_weight(self):
+        self.lift()
+        box, fork, wrench = self.box(), self.fork.next(), self.wrench.next()
+        self.assertGreater(box.pose.position.z, 0.2)
+        self.assertLess(abs(fork.tip_wrench.force.z - MASS * GRAVITY), 1e-3 * MASS * GRAVITY)
+        self.assertEqual(wrench.header.frame_id, "fork_handle")
+        self.assertLess(abs(wrench.wrench.force.z - MASS * GRAVITY), 0.05 * MASS * GRAVITY)  # z points down
+        self.assertGreater(fork.stretch, 0.0)
+        self.assertGreater(fork.elastic_energy, 0.0)
+        self.assertLess(fork.kinetic_energy, 1e-9)
+
+    def test_frames_and_reports(self):
+        self.lift()
+        frames = {t.child_frame_id: t for m in self.tf.messages for t in m.transforms if t.header.frame_id == "world"}
+        self.assertLessEqual({"box", "fork_handle", "fork_tip"}, set(frames))
+        box = self.box()  # of the single box, link frame and centre-of-mass frame are one
+        self.assertAlmostEqual(frames["box"].transform.translation.z, box.pose.position.z, delta=1e-6)
+        step = next(m for m in reversed(self.steps.messages) if m.steps > 0)
+        self.assertGreater(step.simulated_time, 0.0)
+        self.assertEqual(step.integrator, "exponential")
+        self.assertIn("stretch", " ".join(step.parts_run))
+        values = wait_for(lambda: diagnostic_values(self.diagnostics.messages, "physics loop"), "diagnostics")
+        self.assertEqual(values["guards tripped"], "0")
+        self.assertAlmostEqual(float(diagnostic_values(self.diagnostics.messages, "tracker input")["rate [Hz]"]), 50.0,
+                               delta=1.0)
+
+    def test_contacts_start_and_end(self):
+        seen = len(self.contacts.messages)
+        self.grasp()
+        self.hand.move((0.03, 0.0, 0.01 + LENGTH), DOWN, 0.5)  # presses the box on the bench
+        self.hand.move(LIFTED, DOWN, 1.0)
+        self.hand.run(0.5)
+        messages = self.contacts.messages[seen:]
+        phases = [c.phase for m in messages for c in m.contacts if c.object == "box" and c.other == "workbench"]
+        self.assertIn(Contact.STARTED, phases)
+        self.assertIn(Contact.ENDED, phases)
+        self.assertFalse(messages[-1].contacts)
+        for contact in (c for m in messages for c in m.contacts):
+            self.assertAlmostEqual(contact.normal.z, 1.0, delta=1e-6)
+
+    def test_markers_are_sent_while_somebody_listens(self):
+        markers = Listener("manipulation/markers", MarkerArray)
+        array = self.run_until(markers)
+        names = {m.ns for m in array.markers}
+        self.assertLessEqual({"workbench", "box", "fork"}, names)
+        self.assertNotIn(Marker.DELETEALL, [m.action for m in array.markers])
+        markers.subscriber.unregister()
+
+    def run_until(self, listener):
+        def one():
+            self.hand.run(0.05)
+            return listener.last
+        return wait_for(one, "a message")
+
+    def switch(self, service, *arguments):
+        """Changes the fork while the clock stands: the same moment just before and just after."""
+        before_box, before = self.box(), self.fork.next()
+        answer = self.call(service, *arguments)
+        after_box, after = self.box(), self.fork.next()
+        self.assertEqual(before.header.stamp, after.header.stamp)
+        for a, b in [(before_box.pose.position, after_box.pose.position)]:
+            self.assertLess(math.dist((a.x, a.y, a.z), (b.x, b.y, b.z)), 1e-9)
+        a, b = before_box.pose.orientation, after_box.pose.orientation
+        self.assertLess(abs(1.0 - abs(a.x * b.x + a.y * b.y + a.z * b.z + a.w * b.w)), 1e-12)
+        self.assertAlmostEqual(answer.elastic_energy_before, before.elastic_energy, delta=1e-9)
+        self.assertAlmostEqual(answer.elastic_energy_after, after.elastic_energy, delta=1e-9)
+        return answer, before, after
+
+    def test_switching_while_held_and_twisted(self):
+        level = product(quaternion((1, 0, 0), math.pi / 2), (0.0, 0.0, 0.0, 1.0))  # the fork is level: the box twists it
+        self.lift(level)
+        twist = self.fork.next().torsion
+        self.assertGreater(abs(twist), 0.01)
+        self.switch("set_dofs", True, True, False)
+        self.hand.run(2.0)
+        off = self.fork.next()
+        self.assertEqual((off.torsion_on, off.stretch_on, off.bend_on), (False, True, True))
+        self.assertLess(abs(off.torsion), 1e-6)
+        self.switch("set_dofs", True, True, True)
+        self.hand.run(3.0)
+        self.assertAlmostEqual(self.fork.next().torsion, twist, delta=1e-3 * abs(twist))
+        answer, before, after = self.switch("set_stiffness", 0.0, 250.0, 0.0)
+        self.assertEqual((after.stretch_stiffness, after.bend_stiffness, after.torsion_stiffness), (2000.0, 250.0, 5.0))
+        self.assertLess(answer.elastic_energy_after, answer.elastic_energy_before)
+        answer, before, after = self.switch("set_damping", 0.5, 0.6, 0.7)
+        self.assertEqual((after.stretch_damping_ratio, after.bend_damping_ratio, after.torsion_damping_ratio),
+                         (0.5, 0.6, 0.7))
+        self.assertEqual(answer.elastic_energy_after, answer.elastic_energy_before)
+        self.hand.run(0.5)
+        self.assertEqual(self.fork.next().held_object, "box")
+
+    def test_every_integrator_holds_the_box(self):
+        self.lift()
+        resting = self.box().pose.position.z
+        for name, step in [("closed_form", 0.01), ("rk4", 1e-3), ("semi_implicit_euler", 1e-4), ("exponential", 0.02)]:
+            self.call("set_integrator", name, step, 0.0)
+            self.hand.run(1.0)
+            self.assertEqual(self.fork.next().integrator, name)
+            self.assertAlmostEqual(self.box().pose.position.z, resting, delta=2e-3)
+
+    def test_calibrates_and_releases(self):
+        self.assertIn("held", self.refused("calibrate"))
+        self.assertIn("held", self.refused("release"))
+        self.lift()
+        before = self.fork.next()
+        self.call("calibrate")
+        after = self.fork.next()
+        self.assertNotEqual(before.stretch_stiffness, after.stretch_stiffness)
+        self.call("release")
+        self.hand.run(0.2)
+        self.assertEqual(self.fork.next().held_object, "")
+        self.assertFalse(self.box().held)
+
+    def test_reset_brings_all_back(self):
+        self.lift()
+        self.call("reset")
+        box, fork = self.box(), self.fork.next()
+        self.assertAlmostEqual(box.pose.position.z, 0.02, delta=1e-12)
+        self.assertEqual(fork.held_object, "")
+
+    def test_bad_calls_change_nothing(self):
+        self.lift()
+        before = self.fork.next()
+        for service, arguments, words in [
+                ("set_stiffness", (NAN, 0.0, 0.0), ("stretch", "nan")),
+                ("set_stiffness", (0.0, -1.0, 0.0), ("bend", "-1")),
+                ("set_stiffness", (0.0, 0.0, math.inf), ("torsion", "inf")),
+                ("set_damping", (0.0, 11.0, 0.0), ("bend", "11")),
+                ("set_damping", (NAN, 1.0, 1.0), ("stretch", "nan")),
+                ("set_integrator", ("magic", 0.0, 0.0), ("magic", "exponential")),
+                ("set_integrator", ("rk4", -1.0, 0.0), ("step", "-1")),
+                ("set_integrator", ("rk4", 0.0, 1e-3), ("tolerance",)),
+                ("load_scene", ("/nowhere/to/be/found.urdf",), ("/nowhere/to/be/found.urdf",)),
+                ("load_scene", ("package://no_such_package/a.urdf",), ("no_such_package",)),
+                ("load_scene", ("package://spring_workbench/package.xml",), ("package.xml",))]:
+            line = self.refused(service, *arguments)
+            for word in words:
+                self.assertIn(word, line)
+        after = self.fork.next()
+        self.assertEqual(before.header.stamp, after.header.stamp)
+        before.header.seq = after.header.seq = 0
+        self.assertEqual(before, after)
+        self.hand.run(0.2)
+        self.assertEqual(self.fork.next().held_object, "box")
+
+    def test_bad_transforms_are_left_out(self):
+        self.lift()
+        self.hand.run(1.5)
+        count = lambda reason: int(diagnostic_values(self.diagnostics.messages, "tracker input").get(
+            "left out: " + reason, "0"))
+        reasons = {"not finite": stylus_transform(self.hand.now(), (NAN, 0, 0), DOWN),
+                   "zero quaternion": stylus_transform(self.hand.now(), (0, 0, 0), (0, 0, 0, 0)),
+                   "stamp not later": stylus_transform(self.hand.now() - rospy.Duration(0.1), (0, 0, 0), DOWN),
+                   "too old": stylus_transform(self.hand.now() - rospy.Duration(50), (0, 0, 0), DOWN),
+                   "from the future": stylus_transform(self.hand.now() + rospy.Duration(50), (0, 0, 0), DOWN),
+                   "unknown frame": stylus_transform(self.hand.now() + rospy.Duration(0.001), (0, 0, 0), DOWN)}
+        reasons["unknown frame"].header.frame_id = "moon"
+        before = {reason: count(reason) for reason in reasons}
+        resting = self.box().pose.position
+        for transform in reasons.values():
+            self.hand.send(transform)
+        for reason in reasons:
+            wait_for(lambda: count(reason) == before[reason] + 1, "one more sample left out: " + reason)
+        self.hand.run(0.3)
+        now = self.box().pose.position
+        self.assertLess(math.dist((resting.x, resting.y, resting.z), (now.x, now.y, now.z)), 1e-6)
+
+    def test_goes_on_at_rest_when_samples_stop(self):
+        self.lift()
+        stop = self.hand.now()
+        self.hand.run(2.0, samples=False)
+        state = self.objects.next(lambda m: (m.header.stamp - stop).to_sec() > 1.5, "the simulation to go on")
+        self.assertTrue(state.objects[0].held)
+        self.hand.run(0.5)
+        self.assertEqual(self.fork.next().held_object, "box")
+
+    def test_starts_anew_when_time_jumps_back(self):
+        self.lift()
+        self.hand.tick -= round(30.0 / Hand.STEP)
+        self.hand.pressed = False
+        self.hand.run(0.5)
+        box = self.box()
+        self.assertFalse(box.held)
+        self.assertAlmostEqual(box.pose.position.z, 0.02, delta=1e-9)
+        self.lift()
+        self.assertGreater(self.box().pose.position.z, 0.2)
+
+    def test_every_scene_loads(self):
+        for scene, bodies in [("single_box", 1), ("mini_world", 7)]:
+            self.call("load_scene", "package://spring_workbench/scenes/%s.urdf" % scene)
+            self.hand.run(0.2)
+            self.assertEqual(len(self.objects.next().objects), bodies)
+
+
+if __name__ == "__main__":
+    rospy.init_node("manipulation_test")
+    rostest.rosrun("spring_workbench", "manipulation_test", Manipulation, sys.argv)

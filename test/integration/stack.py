@@ -1,0 +1,133 @@
+"""What the integration tests share: a hand on its own clock, and waiting with a deadline."""
+import math
+import time
+
+import rospy
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import TransformStamped
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import Joy
+from tf2_msgs.msg import TFMessage
+
+DEADLINE = 60.0  # [s] of wall time; far more than anything here takes
+
+
+def wait_for(condition, what, deadline=DEADLINE):
+    """The condition's value as soon as it is true; an AssertionError after the deadline."""
+    end = time.monotonic() + deadline
+    while time.monotonic() < end:
+        value = condition()
+        if value:
+            return value
+        time.sleep(0.01)
+    raise AssertionError("waited %g s in vain for %s" % (deadline, what))
+
+
+class Listener:
+    """Keeps all messages of a topic."""
+
+    def __init__(self, topic, kind):
+        self.messages = []
+        self.subscriber = rospy.Subscriber(topic, kind, self.messages.append, queue_size=1000)
+
+    @property
+    def last(self):
+        return self.messages[-1] if self.messages else None
+
+    def next(self, condition=lambda message: True, what="a message"):
+        """The first message from now on that fulfils the condition."""
+        seen = len(self.messages)
+        return wait_for(lambda: next((m for m in self.messages[seen:] if condition(m)), None),
+                        "%s on %s" % (what, self.subscriber.name))
+
+
+def diagnostic_values(messages, name_part):
+    """Key -> value of the newest status whose name contains the part."""
+    for message in reversed(messages):
+        for status in message.status:
+            if name_part in status.name:
+                return {v.key: v.value for v in status.values}
+    return {}
+
+
+def diagnostics_listener():
+    return Listener("/diagnostics", DiagnosticArray)
+
+
+def quaternion(axis, angle):
+    s = math.sin(0.5 * angle)
+    return (axis[0] * s, axis[1] * s, axis[2] * s, math.cos(0.5 * angle))
+
+
+def product(a, b):
+    ax, ay, az, aw = a
+    bx, by, bz, bw = b
+    return (aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
+            aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz)
+
+
+DOWN = (1.0, 0.0, 0.0, 0.0)  # the fork points down
+
+
+def stylus_transform(stamp, position, rotation):
+    transform = TransformStamped()
+    transform.header.stamp = stamp
+    transform.header.frame_id = "workbench"
+    transform.child_frame_id = "stylus"
+    p, q = transform.transform.translation, transform.transform.rotation
+    p.x, p.y, p.z = position
+    q.x, q.y, q.z, q.w = rotation
+    return transform
+
+
+class Hand:
+    """A hand that owns the ROS clock: the clock runs, and samples of the stylus come, only while it moves or rests."""
+
+    STEP = 0.005  # [s] of the clock
+    SAMPLE = 4    # steps between samples
+    SPEED = 3.0   # of the clock against the wall
+
+    def __init__(self, start=100.0, position=(0.0, 0.0, 0.4), rotation=DOWN):
+        self.tick = round(start / self.STEP)
+        self.position, self.rotation, self.pressed = position, rotation, False
+        self.clock = rospy.Publisher("/clock", Clock, queue_size=100)
+        self.tf = rospy.Publisher("/tf", TFMessage, queue_size=100)
+        self.joy = rospy.Publisher("stylus/joy", Joy, queue_size=100)
+
+    def now(self):
+        return rospy.Time.from_sec(self.tick * self.STEP)
+
+    def wait_for_node(self):
+        wait_for(lambda: self.tf.get_num_connections() > 0 and self.joy.get_num_connections() > 0 and
+                 self.clock.get_num_connections() > 1, "the node to listen")
+
+    def run(self, seconds, samples=True):
+        """Lets the clock run, the stylus at rest."""
+        self.move(self.position, self.rotation, seconds, samples)
+
+    def move(self, position, rotation, seconds, samples=True):
+        """Moves evenly from where it is, the rotation by way of normalised interpolation."""
+        steps = max(1, round(seconds / self.STEP))
+        from_position, from_rotation = self.position, self.rotation
+        for k in range(1, steps + 1):
+            u = k / steps
+            u = u * u * (3 - 2 * u)
+            self.position = tuple(a + u * (b - a) for a, b in zip(from_position, position))
+            q = [a + u * (b - a) for a, b in zip(from_rotation, rotation)]
+            norm = math.sqrt(sum(x * x for x in q))
+            self.rotation = tuple(x / norm for x in q)
+            self.tick += 1
+            if samples and self.tick % self.SAMPLE == 0:
+                self.send(stylus_transform(self.now(), self.position, self.rotation))
+                self.send_button()
+            self.clock.publish(Clock(self.now()))
+            time.sleep(self.STEP / self.SPEED)
+
+    def send(self, transform):
+        self.tf.publish(TFMessage([transform]))
+
+    def send_button(self):
+        joy = Joy()
+        joy.header.stamp = self.now()
+        joy.buttons = [1 if self.pressed else 0, 0]
+        self.joy.publish(joy)

@@ -1,0 +1,70 @@
+#include "spring_workbench/ros_interface/playout_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+namespace spring_workbench {
+namespace {
+
+constexpr double dropout_after = 0.5;
+
+TEST(PlayoutClock, NothingToDoBeforeTheFirstSample) {
+  EXPECT_EQ(PlayoutClock(dropout_after).target(123.0), -std::numeric_limits<double>::infinity());
+}
+
+TEST(PlayoutClock, RegularSamplesAreFollowedOneIntervalBehind) {
+  PlayoutClock clock(dropout_after);
+  const double interval = 0.02, latency = 0.0137, offset = 1000.0;  // of the tracker's clock
+  for (int k = 0; k < 500; ++k) {
+    const double t = interval * k, arrival = t + latency - offset;
+    clock.sample(t, arrival);
+    for (const double part : {0.0, 0.3, 0.99}) {
+      const double expected = k == 0 ? 0.0 : t - interval + part * interval;
+      EXPECT_NEAR(clock.target(arrival + part * interval), expected, 1e-9);
+    }
+  }
+}
+
+TEST(PlayoutClock, NeverPassesTheNewestSampleWhileSamplesCome) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> interval(0.001, 0.2), delay(0.0, 0.2), wait(0.0, dropout_after);
+  for (int run = 0; run < 200; ++run) {
+    PlayoutClock clock(dropout_after);
+    double t = 0.0, arrival = 0.0;
+    for (int k = 0; k < 50; ++k) {
+      t += interval(random);
+      arrival = std::max(arrival, t + delay(random));
+      clock.sample(t, arrival);
+      EXPECT_LE(clock.target(arrival + wait(random)), t);
+    }
+  }
+}
+
+TEST(PlayoutClock, GoesOnWithTheLocalClockAfterADropout) {
+  PlayoutClock clock(dropout_after);
+  clock.sample(0.00, 10.00);
+  clock.sample(0.02, 10.02);
+  const double first = clock.target(10.02 + dropout_after + 0.001);
+  EXPECT_GT(first, 0.02);
+  EXPECT_NEAR(clock.target(10.02 + dropout_after + 2.001) - first, 2.0, 1e-12);
+}
+
+TEST(PlayoutClock, ALocalClockThatGoesBackStandsStill) {
+  PlayoutClock clock(dropout_after);
+  clock.sample(0.00, 10.00);
+  clock.sample(0.02, 10.02);
+  EXPECT_EQ(clock.target(3.0), clock.target(10.02));
+}
+
+TEST(PlayoutClock, ClearForgetsAll) {
+  PlayoutClock clock(dropout_after);
+  clock.sample(0.00, 10.00);
+  clock.clear();
+  EXPECT_FALSE(std::isfinite(clock.target(11.0)));
+}
+
+}  // namespace
+}  // namespace spring_workbench
