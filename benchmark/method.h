@@ -29,9 +29,6 @@ class Method {
   /// What `setting` of run() means: the largest step [s], or a relative tolerance.
   virtual Knob knob() const { return Knob::step; }
 
-  /// Whether the method can express the scene.
-  virtual bool supports(const Scenario&) const { return true; }
-
   /// Whether its own law is that of `Scenario` in this scene. Where it is not (its rotation is parametrised in another
   /// way), its error is taken against its own solution at a tiny step.
   virtual bool has_scene_law(const Scenario&) const { return true; }
@@ -42,11 +39,12 @@ class Method {
 
 using MethodPtr = std::unique_ptr<Method>;
 
-/// run() in a child process, `repeats` times: an engine that aborts, hangs or runs wild does not take the report along.
-/// The wall time is the least of the repeats. Not finite when the child died or took longer than `time_limit` [s].
+/// run() in a child process: an engine that aborts, hangs or runs wild does not take the report along. Repeated up to
+/// `repeats` times, as long as that takes less than half a second; the wall time is the least. Not finite when the
+/// child died or took longer than `time_limit` [s]. The caller must have no other threads.
 RunResult run_isolated(const Method& method, const Scenario& scene, double setting, int repeats, double time_limit);
 
-/// Whether all outputs are there, finite and within 1000 m or rad.
-bool is_bounded(const Scenario& scene, const std::vector<Vector3d>& outputs);
+/// Whether an output is finite and within 1000 m or rad.
+bool is_bounded(const Vector3d& output);
 
 }  // namespace spring_workbench::benchmark
