@@ -29,8 +29,9 @@ std::string document(const Scenario& scene, const std::string& disabled, const s
   // B turns about the vertical: its weight does not enter.
   const double gravity = scene.kind == SceneKind::torsion ? 0.0 : scene.gravity;
   return "<mujoco><compiler angle=\"radian\" inertiafromgeom=\"false\" boundmass=\"0\" boundinertia=\"0\"/>"
-         "<option gravity=" + vector(Vector3d(0.0, 0.0, -gravity)) + "><flag contact=\"disable\" " + disabled +
-         "/></option><worldbody>" + world + "</worldbody>" + rest + "</mujoco>";
+         "<option gravity=" +
+         vector(Vector3d(0.0, 0.0, -gravity)) + "><flag contact=\"disable\" " + disabled + "/></option><worldbody>" +
+         world + "</worldbody>" + rest + "</mujoco>";
 }
 
 const char* single_joint(const Scenario& scene) { return scene.kind == SceneKind::stretch ? "slide" : "hinge"; }
@@ -64,10 +65,9 @@ std::string mujoco_joint_model(const Scenario& scene) {
     hand = joint.str() + inertial(1.0, Vector3d::Ones(), Vector3d::Zero());
     springs = spring_joint(scene, scene.single_coordinate());
   }
-  return document(scene, "constraint=\"disable\"",
-                  "<body>" + hand + "<body>" + springs + inertial(scene.mass, scene.inertia, scene.p_EO) +
-                      "</body></body>",
-                  "");
+  return document(
+      scene, "constraint=\"disable\"",
+      "<body>" + hand + "<body>" + springs + inertial(scene.mass, scene.inertia, scene.p_EO) + "</body></body>", "");
 }
 
 std::string mujoco_weld_model(const Scenario& scene) {

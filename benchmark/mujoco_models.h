@@ -7,7 +7,7 @@
 namespace spring_workbench::benchmark {
 
 /// Mass [kg], inertia [kg m²] or armature of the driven hand: its acceleration is wrong by the object's share of this.
-constexpr double kMujocoHandInertia = 1e9;
+constexpr double kMujocoHandInertia = 1e12;
 
 /// MJCF: the object alone, on a slide (A), a hinge (B) or a free joint (C).
 std::string mujoco_object_model(const Scenario& scene);

@@ -1,7 +1,10 @@
 #include <mujoco/mujoco.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 #include <stdexcept>
 
 #include "benchmark/held_body.h"
@@ -38,7 +41,11 @@ class MujocoWorld {
 
   mjModel& model() { return *model_; }
   mjData& data() { return *data_; }
-  void step() { mj_step(model_, data_); }
+  /// One step from time `t`, which MuJoCo would otherwise sum up with rounding errors.
+  void step(double t) {
+    data_->time = t;
+    mj_step(model_, data_);
+  }
 
   /// Whether MuJoCo reset the state because it was no longer finite or bounded.
   bool was_reset() const {
@@ -97,7 +104,7 @@ class MujocoForce : public Method {
     current_ = &spring;
     mjcb_passive = scene.kind == SceneKind::six_dof ? &push_body : &push_single;
     RunResult result = stepping_loop(
-        scene, step, [&](double, double) { world.step(); },
+        scene, step, [&](double t, double) { world.step(t); },
         [&](double) -> Vector3d {
           const mjData& data = world.data();
           if (world.was_reset()) return not_a_result();
@@ -145,7 +152,7 @@ class MujocoJoints : public Method {
         scene, step,
         [&](double t, double) {
           drive_hand(scene, t, data);
-          world.step();
+          world.step(t);
         },
         [&](double t) { return world.was_reset() ? not_a_result() : output(scene, t, data); });
   }
@@ -180,9 +187,10 @@ class MujocoJoints : public Method {
   mjtIntegrator integrator_;
 };
 
-/// A weld to a mocap body in direct mode: one stiffness and damping over mass for all six rows, that of the axis along
-/// the fork in A, about it in B, and of the bend in C. MuJoCo's mocap bodies have no velocity, so the damping acts on
-/// the absolute velocity, and the object lags behind the hand at every step size.
+/// A weld to a mocap body in direct mode, as a spring: solref has one stiffness and damping over mass for all six rows,
+/// that of the bend in C, and `torquescale` the ratio of turning to moving. The stiffness along the fork is not its
+/// own. MuJoCo's mocap bodies have no velocity, so the damping acts on the absolute velocity, and the object lags
+/// behind the hand at every step size.
 class MujocoWeld : public Method {
  public:
   std::string name() const override { return "mujoco_weld"; }
@@ -201,7 +209,7 @@ class MujocoWeld : public Method {
           const Quaterniond q(hand.R_WT);
           Eigen::Map<Vector3d>{data.mocap_pos} = hand.p_WT;
           Eigen::Map<Eigen::Vector4d>{data.mocap_quat} = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
-          world.step();
+          world.step(t);
         },
         [&](double) -> Vector3d {
           if (world.was_reset()) return not_a_result();
@@ -213,15 +221,17 @@ class MujocoWeld : public Method {
 
  private:
   static void set_coupling(const Scenario& scene, mjModel& model) {
-    const bool torsion = scene.kind == SceneKind::torsion;
-    const int i = torsion ? 5 : (scene.kind == SceneKind::stretch ? 2 : 0);
-    const double inertia = torsion ? scene.inertia.z() : scene.mass;
+    const int i = scene.kind == SceneKind::six_dof ? 0 : scene.single_coordinate();
+    const int turning = scene.kind == SceneKind::six_dof ? 3 : scene.single_coordinate();
+    // A row's pull is solref times the body's mass. The turning rows hold half the angle.
+    const double torque_scale = 2.0 * std::sqrt(scene.stiffness[turning] / scene.stiffness[i]);
     const double impedance = 1e-4;  // MuJoCo's least: the weld is then a spring, and gravity is felt whole
-    model.eq_solref[0] = -scene.stiffness[i] / inertia;
-    model.eq_solref[1] = -scene.damping[i] / inertia;
+    model.eq_solref[0] = -scene.stiffness[i] / scene.mass;
+    model.eq_solref[1] = -scene.damping[i] / scene.mass;
     model.eq_solimp[0] = impedance;
     model.eq_solimp[1] = impedance;
-    const std::array<mjtNum, mjNEQDATA> data{-scene.p_EO.x(), -scene.p_EO.y(), -scene.p_EO.z(), 0, 0, 0, 1, 0, 0, 0, 1};
+    const Vector3d anchor = -scene.p_EO;
+    const std::array<mjtNum, mjNEQDATA> data{anchor.x(), anchor.y(), anchor.z(), 0, 0, 0, 1, 0, 0, 0, torque_scale};
     std::copy(data.begin(), data.end(), model.eq_data);  // anchor in the object, in the hand, relative turn, scale
   }
 };

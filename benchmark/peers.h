@@ -13,8 +13,8 @@ std::vector<MethodPtr> hand_written_peers();
 /// SUNDIALS CVODE as a general solver, by tolerance.
 std::vector<MethodPtr> cvode_peers();
 
-/// Bullet, double precision: the spring as an explicit force, and the 6-DOF spring 2 constraint to a kinematic hand with
-/// its silent stiffness limit on (its default) and off.
+/// Bullet, double precision: the spring as an explicit force, and the 6-DOF spring 2 constraint to a kinematic hand
+/// with its silent stiffness limit on (its default) and off.
 std::vector<MethodPtr> bullet_peers();
 
 /// MuJoCo: the spring as a passive force (Euler, RK4), joints with springs and dampers on a driven hand (Euler with
