@@ -50,8 +50,10 @@ void set_single_spring(double k, Scenario& scene) {
 
 }  // namespace
 
-Scenario stretch_scene(double k, double damping_ratio) {
+Scenario stretch_scene(double k, double damping_ratio, double mass) {
   Scenario scene = cube_scene(damping_ratio);
+  scene.inertia *= mass / scene.mass;
+  scene.mass = mass;
   scene.name = "A";
   scene.kind = SceneKind::stretch;
   set_single_spring(k, scene);
@@ -66,7 +68,7 @@ Scenario torsion_scene(double k, double damping_ratio) {
   return scene;
 }
 
-Scenario six_dof_scene(double stiffness_factor, double damping_ratio) {
+Scenario six_dof_scene(double stiffness_factor, double damping_ratio, double mass) {
   const Vector3d size(0.2, 0.1, 0.05);
   const double k_bend = 2000.0 * stiffness_factor;
   const double k_stretch = 5000.0 * stiffness_factor;
@@ -75,7 +77,7 @@ Scenario six_dof_scene(double stiffness_factor, double damping_ratio) {
   scene.name = "C";
   scene.kind = SceneKind::six_dof;
   scene.stiffness_factor = stiffness_factor;
-  scene.mass = 5.0;
+  scene.mass = mass;
   const Vector3d squares = size.cwiseAbs2();
   scene.inertia = scene.mass / 12.0 * (Vector3d::Constant(squares.sum()) - squares);
   scene.p_EO = Vector3d(0.08, 0.0, 0.0);

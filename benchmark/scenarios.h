@@ -48,8 +48,8 @@ struct Scenario {
   double single_inertia() const { return kind == SceneKind::stretch ? mass : inertia.z(); }
 };
 
-/// Scene A: 10 kg on a vertical spring-damper of stiffness `k` [N/m]; the hand at z = 0.1 sin(2π t).
-Scenario stretch_scene(double k, double damping_ratio = 1.0);
+/// Scene A: 10 kg, or another mass, on a vertical spring-damper of stiffness `k` [N/m]; the hand at z = 0.1 sin(2π t).
+Scenario stretch_scene(double k, double damping_ratio = 1.0, double mass = 10.0);
 
 /// Scene B: 0.05 kg m² on a torsion spring-damper of stiffness `k` [N·m/rad]; hand twist 0.8 sin(2π 1.5 t) rad.
 Scenario torsion_scene(double k, double damping_ratio = 1.0);
@@ -58,7 +58,8 @@ Scenario torsion_scene(double k, double damping_ratio = 1.0);
 /// k = 2000, 2000, 5000 N/m and 20 N·m/rad on all three rotations, times `stiffness_factor`. Hand: position
 /// 0.15 sin(2π f t + ψ) m with f = 1, 1.3, 1.7 Hz and ψ = 0, 1, 2 rad along x, y, z; rotation Rx(α) Ry(β) with
 /// α = 0.6 sin(2π 1.1 t), β = 0.6 sin(2π 1.4 t + 1) rad.
-Scenario six_dof_scene(double stiffness_factor, double damping_ratio = 1.0);
+/// The box may have another mass.
+Scenario six_dof_scene(double stiffness_factor, double damping_ratio = 1.0, double mass = 5.0);
 
 /// Pose and velocity of the tip's rest frame T.
 struct HandState {
