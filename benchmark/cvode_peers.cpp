@@ -9,11 +9,14 @@ namespace {
 
 class Cvode : public Method {
  public:
-  std::string name() const override { return "cvode"; }
+  explicit Cvode(CvodeCoordinates coordinates) : coordinates_(coordinates) {}
+  std::string name() const override {
+    return coordinates_ == CvodeCoordinates::world ? "cvode_world" : "cvode_deflection";
+  }
   Knob knob() const override { return Knob::tolerance; }
 
   RunResult run(const Scenario& scene, double tolerance) const override {
-    CvodeSolver solver(scene);
+    CvodeSolver solver(scene, coordinates_);
     RunResult result;
     const auto start = std::chrono::steady_clock::now();
     try {
@@ -26,13 +29,17 @@ class Cvode : public Method {
     for (const Vector3d& output : result.outputs) result.finite = result.finite && is_bounded(output);
     return result;
   }
+
+ private:
+  CvodeCoordinates coordinates_;
 };
 
 }  // namespace
 
 std::vector<MethodPtr> cvode_peers() {
   std::vector<MethodPtr> peers;
-  peers.push_back(std::make_unique<Cvode>());
+  peers.push_back(std::make_unique<Cvode>(CvodeCoordinates::world));
+  peers.push_back(std::make_unique<Cvode>(CvodeCoordinates::deflection));
   return peers;
 }
 

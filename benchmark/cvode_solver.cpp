@@ -9,35 +9,13 @@
 #include <stdexcept>
 #include <string>
 
-#include "benchmark/reference_solution.h"
-
 namespace spring_workbench::benchmark {
 namespace {
 
-int single_right_side(realtype t, N_Vector y_vector, N_Vector rate_vector, void* data) {
-  const auto& scene = *static_cast<const Scenario*>(data);
-  const realtype* y = N_VGetArrayPointer(y_vector);
-  realtype* rate = N_VGetArrayPointer(rate_vector);
-  const int i = scene.single_coordinate();
-  const double gravity = scene.kind == SceneKind::stretch ? scene.gravity : 0.0;
-  rate[0] = y[1];
-  rate[1] = -(scene.stiffness[i] * y[0] + scene.damping[i] * y[1]) / scene.single_inertia() - gravity -
-            scalar_hand(scene, t).acceleration;
-  return 0;
-}
-
-int bushing_right_side(realtype t, N_Vector y_vector, N_Vector rate_vector, void* data) {
-  const auto& scene = *static_cast<const Scenario*>(data);
-  const realtype* y = N_VGetArrayPointer(y_vector);
-  BushingState state;
-  state.q = Eigen::Map<const Vector6d>(y);
-  state.q_dot = Eigen::Map<const Vector6d>(y + 6);
-  if (!state.q.allFinite() || state.q.tail<3>().norm() > 6.0) return 1;  // recoverable: try a smaller step
-  Eigen::Map<Vector6d> q_dot(N_VGetArrayPointer(rate_vector));
-  Eigen::Map<Vector6d> q_ddot(N_VGetArrayPointer(rate_vector) + 6);
-  q_dot = state.q_dot;
-  q_ddot = bushing_acceleration(scene, t, state);
-  return 0;
+int right_side(realtype t, N_Vector y, N_Vector rate, void* problem) {
+  const bool fine =
+      static_cast<const CvodeProblem*>(problem)->rates(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rate));
+  return fine ? 0 : 1;  // 1: try a smaller step
 }
 
 void require(int status, const char* call) {
@@ -49,16 +27,18 @@ void ignore_message(int, const char*, const char*, char*, void*) {}
 }  // namespace
 
 struct CvodeSolver::Impl {
-  explicit Impl(const Scenario& given) : scene(given), size(given.kind == SceneKind::six_dof ? 12 : 2) {
+  Impl(const Scenario& given, CvodeCoordinates coordinates)
+      : scene(given), problem(make_cvode_problem(given, coordinates)) {
+    const sunindextype size = problem->size();
     require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
     y = N_VNew_Serial(size, context);
     absolute_tolerance = N_VNew_Serial(size, context);
     matrix = SUNDenseMatrix(size, size, context);
     linear_solver = SUNLinSol_Dense(y, matrix, context);
     cvode = CVodeCreate(CV_BDF, context);
-    N_VConst(0.0, y);
-    require(CVodeInit(cvode, size == 2 ? single_right_side : bushing_right_side, 0.0, y), "CVodeInit");
-    require(CVodeSetUserData(cvode, &scene), "CVodeSetUserData");
+    problem->start(N_VGetArrayPointer(y));
+    require(CVodeInit(cvode, right_side, 0.0, y), "CVodeInit");
+    require(CVodeSetUserData(cvode, problem.get()), "CVodeSetUserData");
     require(CVodeSetErrHandlerFn(cvode, ignore_message, nullptr), "CVodeSetErrHandlerFn");
     require(CVodeSetMaxNumSteps(cvode, 10000000), "CVodeSetMaxNumSteps");
     require(CVodeSetLinearSolver(cvode, linear_solver, matrix), "CVodeSetLinearSolver");
@@ -73,27 +53,8 @@ struct CvodeSolver::Impl {
     SUNContext_Free(&context);
   }
 
-  void set_tolerance(double tolerance) {
-    const Vector6d scale = deflection_scale(scene);
-    realtype* atol = N_VGetArrayPointer(absolute_tolerance);
-    const int half = static_cast<int>(size) / 2;
-    for (int i = 0; i < half; ++i) {
-      atol[i] = tolerance * scale[half == 1 ? scene.single_coordinate() : i];
-      atol[half + i] = 10.0 * atol[i];
-    }
-    require(CVodeSVtolerances(cvode, tolerance, absolute_tolerance), "CVodeSVtolerances");
-  }
-
-  Vector3d output(double t) const {
-    const realtype* values = N_VGetArrayPointer(y);
-    if (size == 2) return Vector3d(0.0, 0.0, scalar_hand(scene, t).value + values[0]);
-    BushingState state;
-    state.q = Eigen::Map<const Vector6d>(values);
-    return body_state(scene, hand_state(scene, t), state).p_WO;
-  }
-
   Scenario scene;
-  sunindextype size;
+  std::unique_ptr<CvodeProblem> problem;
   SUNContext context = nullptr;
   N_Vector y = nullptr;
   N_Vector absolute_tolerance = nullptr;
@@ -102,19 +63,23 @@ struct CvodeSolver::Impl {
   void* cvode = nullptr;
 };
 
-CvodeSolver::CvodeSolver(const Scenario& scene) : impl_(std::make_unique<Impl>(scene)) {}
+CvodeSolver::CvodeSolver(const Scenario& scene, CvodeCoordinates coordinates)
+    : impl_(std::make_unique<Impl>(scene, coordinates)) {}
 CvodeSolver::~CvodeSolver() = default;
 
 std::vector<Vector3d> CvodeSolver::solve(double tolerance) {
   Impl& s = *impl_;
-  N_VConst(0.0, s.y);
+  double* y = N_VGetArrayPointer(s.y);
+  s.problem->start(y);
   require(CVodeReInit(s.cvode, 0.0, s.y), "CVodeReInit");
-  s.set_tolerance(tolerance);
+  s.problem->tolerance_scale(N_VGetArrayPointer(s.absolute_tolerance));
+  N_VScale(tolerance, s.absolute_tolerance, s.absolute_tolerance);
+  require(CVodeSVtolerances(s.cvode, tolerance, s.absolute_tolerance), "CVodeSVtolerances");
   std::vector<Vector3d> outputs;
   for (const double end : output_times(s.scene)) {
     double reached = 0.0;
     if (end > 0.0) require(CVode(s.cvode, end, s.y, &reached, CV_NORMAL), "CVode");
-    outputs.push_back(s.output(end));
+    outputs.push_back(s.problem->output(end, y));
   }
   return outputs;
 }

@@ -3,21 +3,20 @@
 #include <memory>
 #include <vector>
 
-#include "benchmark/held_body.h"
+#include "benchmark/cvode_problem.h"
 
 namespace spring_workbench::benchmark {
 
-/// SUNDIALS CVODE (BDF, Newton, dense Jacobian by differences) on the scene in Lagrange's coordinates: (q, q̇) of the
-/// bushing in scene C, deflection and rate in A and B.
+/// SUNDIALS CVODE (BDF, Newton, dense Jacobian by differences) on a scene.
 class CvodeSolver {
  public:
-  explicit CvodeSolver(const Scenario& scene);
+  CvodeSolver(const Scenario& scene, CvodeCoordinates coordinates);
   ~CvodeSolver();
   CvodeSolver(const CvodeSolver&) = delete;
   CvodeSolver& operator=(const CvodeSolver&) = delete;
 
-  /// Outputs at output_times(scene), from the scene's start. Relative tolerance as given; absolute: the same times the
-  /// static deflection's scale, and for rates that times the stiffest frequency's inverse time, at most 1.
+  /// Outputs at output_times(scene), from the scene's start. Relative tolerance as given; absolute: the same times 1 in
+  /// world coordinates, and times the static deflection's scale in the others.
   /// Throws std::runtime_error when CVODE gives up.
   std::vector<Vector3d> solve(double tolerance);
 

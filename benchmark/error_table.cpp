@@ -21,10 +21,11 @@ ErrorTablePlan error_table_plan(bool quick) {
     plan.tolerances = {1e-4, 1e-6, 1e-8, 1e-10};
     plan.own_solution_steps = 64;
   } else {
-    for (int n = 1; n <= 8192; n *= 2) plan.steps_per_output.push_back(n);
+    for (int n = 1; n <= 4096; n *= 2) plan.steps_per_output.push_back(n);
     plan.tolerances = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11};
-    plan.own_solution_steps = 1024;
+    plan.own_solution_steps = 512;
     plan.repeats = 5;
+    plan.time_limit = 20.0;
   }
   return plan;
 }

@@ -14,7 +14,7 @@ struct ErrorTablePlan {
   std::vector<int> steps_per_output;  ///< methods with a step take output_interval divided by these
   std::vector<double> tolerances;     ///< methods with a tolerance
   int own_solution_steps = 0;         ///< steps per output of the coarsest of the three runs of own_solution()
-  double longest_run = 1.0;           ///< settings beyond the first that takes longer are left out [s]
+  double longest_run = 0.5;           ///< settings beyond the first that takes longer are left out [s]
   int repeats = 1;                    ///< runs of which the fastest counts
   double time_limit = 60.0;           ///< of a run [s]
 };

@@ -13,7 +13,7 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr double kBound = 1000.0;   // m or rad
-constexpr double kRepeatFor = 0.5;  // s
+constexpr double kRepeatFor = 0.1;  // s
 
 /// What goes through the pipe before the outputs.
 struct Header {

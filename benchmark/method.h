@@ -40,8 +40,8 @@ class Method {
 using MethodPtr = std::unique_ptr<Method>;
 
 /// run() in a child process: an engine that aborts, hangs or runs wild does not take the report along. Repeated up to
-/// `repeats` times, as long as that takes less than half a second; the wall time is the least. Not finite when the
-/// child died or took longer than `time_limit` [s]. The caller must have no other threads.
+/// `repeats` times, as long as that takes less than a tenth of a second; the wall time is the least. Not finite when
+/// the child died or took longer than `time_limit` [s]. The caller must have no other threads.
 RunResult run_isolated(const Method& method, const Scenario& scene, double setting, int repeats, double time_limit);
 
 /// Whether an output is finite and within 1000 m or rad.

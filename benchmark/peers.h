@@ -10,7 +10,8 @@ namespace spring_workbench::benchmark {
 /// What a competent programmer writes by hand: semi-implicit Euler and RK4 with the spring as a force.
 std::vector<MethodPtr> hand_written_peers();
 
-/// SUNDIALS CVODE as a general solver, by tolerance.
+/// SUNDIALS CVODE as a general solver, by tolerance: on the object's pose in world as everybody else keeps it, and on
+/// the deflection, with tolerances that know its size.
 std::vector<MethodPtr> cvode_peers();
 
 /// Bullet, double precision: the spring as an explicit force, and the 6-DOF spring 2 constraint to a kinematic hand
