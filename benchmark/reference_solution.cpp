@@ -33,9 +33,10 @@ ReferenceSolution reference_from_outputs(const Scenario& scene, std::vector<Vect
 
 ReferenceSolution reference_solution(const Scenario& scene) {
   if (scene.kind == SceneKind::six_dof) {
-    const double tolerance = 1e-12;
-    return reference_from_outputs(scene, CvodeSolver(scene, CvodeCoordinates::deflection).solve(tolerance),
-                                  1e2 * tolerance);
+    CvodeSolver solver(scene, CvodeCoordinates::deflection);
+    ReferenceSolution reference = reference_from_outputs(scene, solver.solve(1e-12), 0.0);
+    reference.uncertainty = output_error(scene, reference, solver.solve(1e-11));
+    return reference;
   }
   std::vector<Vector3d> outputs;
   for (const double t : output_times(scene)) outputs.push_back(exact_output(scene, t));

@@ -14,7 +14,8 @@ struct ReferenceSolution {
 };
 
 /// Scenes A and B: the exact solution. Scene C: SUNDIALS CVODE (BDF, dense) on `bushing_acceleration`, rtol 1e-12,
-/// atol 1e-12 of the static deflection's scale. Throws std::runtime_error when CVODE gives up.
+/// atol 1e-12 of the static deflection's scale; its uncertainty is the distance from the same at 1e-11. Throws
+/// std::runtime_error when CVODE gives up.
 ReferenceSolution reference_solution(const Scenario& scene);
 
 /// A reference from given outputs: adds the largest deflection.
