@@ -58,7 +58,7 @@ class OdeWorld {
     const HandState hand = hand_state(scene_, t), next = hand_state(scene_, t + h);
     const Matrix3d R_WO = rotation(object_);
     const Vector3d p_WE = position(object_) - R_WO * scene_.p_EO;
-    place_hand(hand, next, 2.0 * p_WE - position(object_), h);
+    place_hand(hand, next, p_WE, h);
     const Vector3d d = hand.R_WT.transpose() * (p_WE - hand.p_WT);
     set_rows(linear_, d, h);
     set_rows(angular_, log_so3(hand.R_WT.transpose() * R_WO), h);
@@ -97,11 +97,15 @@ class OdeWorld {
     }
   }
 
-  /// The hand's body at t, its reference point at `p`, with the velocity that takes it exactly to its pose at t + h.
-  void place_hand(const HandState& now, const HandState& next, const Vector3d& p, double h) {
-    const Vector3d in_hand = now.R_WT.transpose() * (p - now.p_WT);
-    const Vector3d v = (next.p_WT + next.R_WT * in_hand - p) / h;
+  /// The hand's body at t, with its frame where the tip at `p_WE` is half way to the object's, and the velocity by
+  /// which the hand's point at the tip and its rotation come exactly to where they are at t + h.
+  void place_hand(const HandState& now, const HandState& next, const Vector3d& p_WE, double h) {
+    const Vector3d p_TE = now.R_WT.transpose() * (p_WE - now.p_WT);
+    const Vector3d v_tip = (next.p_WT + next.R_WT * p_TE - p_WE) / h;
     const Vector3d w = now.R_WT * log_so3(now.R_WT.transpose() * next.R_WT) / h;
+    const Vector3d from_tip = p_WE - position(object_);
+    const Vector3d p = p_WE + from_tip;
+    const Vector3d v = v_tip + w.cross(from_tip);
     dBodySetPosition(hand_, p.x(), p.y(), p.z());
     set_rotation(hand_, now.R_WT);
     dBodySetLinearVel(hand_, v.x(), v.y(), v.z());
