@@ -119,6 +119,7 @@ void HeldBody::prescribed(double t, StrainVector& q, StrainVector& q_dot, Strain
 }
 
 void HeldBody::set_external_wrench(const Wrench& wrench_W) {
+  if (wrench_W.force == external_W_.force && wrench_W.moment == external_W_.moment) return;
   external_W_ = wrench_W;
   ++load_version_;
 }

@@ -1,0 +1,248 @@
+#include "contact_stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double touching = 1e-6;          ///< [m]; what is not deeper is free
+constexpr double probe_depth = 1e-4;       ///< [m] by which the body is pushed to see what it touches
+constexpr double same_point = 2e-3;        ///< [m]; contacts nearer to each other are one
+constexpr double sweep_resolution = 2e-3;  ///< [m] between the poses that a sweep looks at
+constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
+constexpr int most_hits = 6;               ///< cuts of one step at new contacts
+constexpr int most_solutions = 8;          ///< solutions of one piece of a step, each about the last
+
+/// Where a row's point of the body, fixed in the object frame at `X0`, is when the body is at `X1`.
+Vector3d moved(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& p_W) {
+  return X1 * (X0.inverse() * p_W);
+}
+
+}  // namespace
+
+ContactStepper::ContactStepper(const Scene& scene, CollisionWorld& collision, int bisection_levels)
+    : scene_(scene), collision_(collision), levels_(bisection_levels) {}
+
+double ContactStepper::friction(std::size_t body, std::size_t other) const {
+  const Material& b = other == CollisionWorld::bench ? scene_.bench_material : scene_.bodies[other].material;
+  return std::sqrt(scene_.bodies[body].material.friction * b.friction);
+}
+
+void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance,
+                                  std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
+  std::vector<ContactPoint> found;
+  collision_.find_contacts(body, X_WO, tolerance, found);
+  ++outcome.queries;
+  for (const ContactPoint& point : found) {
+    const auto same = std::find_if(rows.begin(), rows.end(), [&](const ContactRow& row) {
+      return row.point.other == point.other && row.point.n_W.dot(point.n_W) > 0.99 &&
+             (row.point.p_W - point.p_W).norm() < same_point;
+    });
+    ContactRow& row = same == rows.end() ? rows.emplace_back() : *same;
+    row.point = point;
+    row.friction = friction(body, point.other);
+    row.gap = -point.depth;
+  }
+}
+
+void ContactStepper::refresh(const SteppedBody& body, std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
+  if (rows.empty()) return;
+  const std::vector<ContactRow> before = std::move(rows);
+  rows.clear();
+  const RigidTransform X_WO = body.object().X;
+  std::vector<Vector3d> directions;
+  for (const ContactRow& row : before) {
+    const Vector3d& n = row.point.n_W;
+    const bool known = std::any_of(directions.begin(), directions.end(), [&](const Vector3d& d) { return d.dot(n) > 0.99; });
+    if (known) continue;
+    directions.push_back(n);
+    RigidTransform pushed = X_WO;
+    pushed.translation() -= probe_depth * n;
+    std::vector<ContactRow> seen;
+    add_contacts(body.index(), pushed, touching, seen, outcome);
+    for (ContactRow& row_seen : seen) {
+      if (row_seen.point.n_W.dot(n) < 0.9) continue;
+      row_seen.gap += probe_depth * row_seen.point.n_W.dot(n);
+      row_seen.point.depth = -row_seen.gap;
+      rows.push_back(row_seen);
+    }
+  }
+  // Loads of the last step are where the search for the new ones starts.
+  for (ContactRow& row : rows) {
+    for (const ContactRow& old : before) {
+      if (old.point.other == row.point.other && old.point.n_W.dot(row.point.n_W) > 0.99 &&
+          (old.point.p_W - row.point.p_W).norm() < 5.0 * same_point) {
+        row.load_W = old.load_W;
+        break;
+      }
+    }
+  }
+}
+
+void ContactStepper::collide(SteppedBody& body, std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
+  const MotionState s = body.object();
+  std::vector<ContactRow> impulses;
+  for (const ContactRow& row : rows) {
+    ContactRow impulse = row;
+    impulse.lever_W = row.point.p_W - s.X.translation();
+    impulse.load_W.setZero();
+    const Vector3d v = s.velocity.linear + s.velocity.angular.cross(impulse.lever_W);
+    const double approach = v.dot(row.point.n_W);
+    const Material& a = scene_.bodies[body.index()].material;
+    const Material& b =
+        row.point.other == CollisionWorld::bench ? scene_.bench_material : scene_.bodies[row.point.other].material;
+    const double restitution = approach < -rest_speed ? std::sqrt(a.restitution * b.restitution) : 0.0;
+    impulse.gap = (1.0 + restitution) * approach;
+    impulse.slip_W = v - approach * row.point.n_W;
+    impulses.push_back(impulse);
+  }
+  solve_contacts(body.mobility(), impulses);
+  const Wrench total = total_load(impulses);
+  body.add_impulse(total);
+  outcome.impulse_W += total.force;
+}
+
+bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector<ContactRow>& rows,
+                                        ContactOutcome& outcome) const {
+  const RigidTransform X0 = body.object().X;
+  body.remember();
+  std::vector<ContactRow> work = rows;
+  std::vector<double> gap_at_start;
+  for (ContactRow& row : work) {
+    row.lever_W = row.point.p_W - X0.translation();
+    gap_at_start.push_back(row.gap);
+  }
+  for (int solution = 0; solution < most_solutions; ++solution) {
+    body.go_back();
+    if (!body.advance(h, total_load(work))) break;
+    const RigidTransform X1 = body.object().X;
+    // Gap and slip at the end under the loads assumed.
+    double worst = 0.0;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      ContactRow& row = work[i];
+      const Vector3d start = X0.translation() + row.lever_W;
+      const Vector3d way = moved(X0, X1, start) - start;
+      row.gap = gap_at_start[i] + way.dot(row.point.n_W);
+      row.slip_W = way - row.point.n_W * way.dot(row.point.n_W);
+      row.point.p_W = start + way;
+      worst = std::min(worst, row.gap);
+    }
+    // Contacts that come into being on the way.
+    std::vector<ContactRow> seen;
+    add_contacts(body.index(), X1, touching, seen, outcome);
+    for (ContactRow& row : seen) {
+      const bool known = std::any_of(work.begin(), work.end(), [&](const ContactRow& w) {
+        return w.point.other == row.point.other && w.point.n_W.dot(row.point.n_W) > 0.99 && w.gap < 10.0 * touching &&
+               (w.point.p_W - row.point.p_W).norm() < 5.0 * same_point;
+      });
+      if (known) continue;
+      const Vector3d start = moved(X1, X0, row.point.p_W);
+      const Vector3d way = row.point.p_W - start;
+      row.lever_W = start - X0.translation();
+      row.slip_W = way - row.point.n_W * way.dot(row.point.n_W);
+      gap_at_start.push_back(row.gap - way.dot(row.point.n_W));
+      worst = std::min(worst, row.gap);
+      work.push_back(row);
+    }
+    std::vector<ContactRow> assumed = work;
+    body.go_back();
+    const Matrix6d C = body.compliance(h);
+    solve_contacts(C, work);
+    // Done when solving again would not move the body.
+    double change = 0.0;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      change = std::max(change, (C.topLeftCorner<3, 3>() * (work[i].load_W - assumed[i].load_W)).norm());
+    }
+    if (worst > -touching && change < 0.1 * touching) {
+      if (!body.advance(h, total_load(assumed))) break;
+      rows = std::move(assumed);
+      return true;
+    }
+  }
+  body.go_back();
+  return false;
+}
+
+void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) {
+  double left = h;
+  refresh(body, rows, outcome);
+  for (int hit = 0; hit <= most_hits && left > 1e-9 * h; ++hit) {
+    const RigidTransform X0 = body.object().X;
+    body.remember();
+    if (!body.advance(left, Wrench())) {
+      body.go_back();
+      body.stay(left);
+      outcome.held_back = true;
+      left = 0.0;
+      break;
+    }
+    const RigidTransform candidate = body.object().X;
+    if (rows.empty()) {
+      if (!collision_.may_touch(body.index(), X0, candidate, 2.0 * touching)) {
+        left = 0.0;
+        break;
+      }
+      const SweepResult sweep =
+          collision_.sweep(body.index(), X0, candidate, touching, sweep_resolution, levels_);
+      ++outcome.queries;
+      if (!sweep.hit) {
+        left = 0.0;
+        break;
+      }
+      // Up to the contact, then on with it.
+      body.go_back();
+      const double free = sweep.free_fraction * left;
+      if (free > 0.0 && !body.advance(free, Wrench())) body.stay(free);
+      left -= free;
+      RigidTransform probe = body.object().X;
+      add_contacts(body.index(), candidate, touching, rows, outcome);
+      const std::vector<ContactRow> deep = std::move(rows);
+      rows.clear();
+      // The contacts of the touching pose: their normals are good where the penetration is small.
+      const double a = sweep.touching_fraction;
+      RigidTransform touch;
+      touch.linear() = X0.linear() * exp_so3(a * log_so3(X0.linear().transpose() * candidate.linear()));
+      touch.translation() = X0.translation() + a * (candidate.translation() - X0.translation());
+      touch.makeAffine();
+      add_contacts(body.index(), touch, touching, rows, outcome);
+      if (rows.empty()) rows = deep;
+      for (ContactRow& row : rows) {
+        const Vector3d here = moved(touch, probe, row.point.p_W);
+        row.gap = std::max(0.0, row.gap + (here - row.point.p_W).dot(row.point.n_W));
+        row.point.p_W = here;
+      }
+    } else {
+      body.go_back();
+    }
+    collide(body, rows, outcome);
+    // In pieces short enough for contacts found at a piece's end to have good normals.
+    const double travel = (candidate.translation() - X0.translation()).norm();
+    const int pieces = std::clamp(static_cast<int>(std::ceil(travel / (5.0 * sweep_resolution))), 1, 20);
+    bool free = true;
+    for (int i = 0; i < pieces && free; ++i) {
+      const double dt = left / pieces;
+      if (i > 0) {
+        refresh(body, rows, outcome);
+        if (rows.empty()) {
+          left -= i * dt;
+          free = false;
+          break;
+        }
+        collide(body, rows, outcome);
+      }
+      if (!advance_in_contact(body, dt, rows, outcome)) {
+        body.stay(dt);
+        outcome.held_back = true;
+      }
+      if (i + 1 == pieces) left = 0.0;
+    }
+  }
+  for (const ContactRow& row : rows) outcome.impulse_W += h * row.load_W;
+  rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap > probe_depth; }), rows.end());
+  outcome.rows = rows;
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "spring_workbench/collision/collision_world.h"
+#include "stepped_body.h"
+
+namespace spring_workbench {
+
+/// What contact did in a step.
+struct ContactOutcome {
+  std::vector<ContactRow> rows;   ///< the contacts at the end of the step; `load_W` [N]
+  Vector3d impulse_W = Vector3d::Zero();
+  int queries = 0;
+  bool held_back = false;         ///< nothing fitted and the body was stopped
+};
+
+/// Contact mode `stop` (doc/model.md; the paper's section 5): the candidate step is swept, cut at the first contact by
+/// bisection, and goes on from there under contact loads that keep the body out of the others, which do not move.
+class ContactStepper {
+ public:
+  ContactStepper(const Scene& scene, CollisionWorld& collision, int bisection_levels);
+
+  /// Carries the body over `h` [s]. `rows`: its contacts at the end of the last step; replaced by those at the end of this.
+  void step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome);
+
+ private:
+  double friction(std::size_t body, std::size_t other) const;
+  /// Contacts of the last step that are still there, with their gaps at the present pose.
+  void refresh(const SteppedBody& body, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
+  /// Adds contacts found with the body at `X_WO`; gaps as they are there.
+  void add_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance, std::vector<ContactRow>& rows,
+                    ContactOutcome& outcome) const;
+  /// Takes away the speed with which the contacts approach (perfectly inelastic but for the restitution).
+  void collide(SteppedBody& body, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
+  /// Goes `h` on under loads that leave the rows' gaps closed or open. False when it did not come out free.
+  bool advance_in_contact(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
+
+  const Scene& scene_;
+  CollisionWorld& collision_;
+  int levels_;
+};
+
+}  // namespace spring_workbench

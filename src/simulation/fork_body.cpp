@@ -1,0 +1,183 @@
+#include "fork_body.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double return_time = 0.05;          ///< [s] on which the proxy comes back to the hand
+constexpr double no_offset = 1e-9;            ///< [m, rad]; the proxy has come back
+constexpr double proxy_share = 1e-4;          ///< of a free body's compliance, beside coordinates that can follow in part
+constexpr double largest_distance = 1e6;      ///< [m]; an object further away is not one to go on with
+
+RigidTransform shrunk(const RigidTransform& offset, double factor) {
+  RigidTransform X;
+  X.linear() = exp_so3(factor * log_so3(offset.linear()));
+  X.translation() = factor * offset.translation();
+  X.makeAffine();
+  return X;
+}
+
+}  // namespace
+
+ForkBody::ForkBody(std::size_t index, HeldBody held, std::unique_ptr<Integrator> integrator, double t)
+    : index_(index),
+      held_(std::move(held)),
+      integrator_(std::move(integrator)),
+      hand_(RigidTransform::Identity()) {
+  state_.t = t;
+  state_.strain = held_.zero_state();
+}
+
+void ForkBody::set_hand(const MotionSegment& hand, double t) {
+  hand_ = hand;
+  state_.t = t;
+}
+
+RigidTransform ForkBody::hand_pose() const { return hand_.at(state_.t).X; }
+
+HandleForcing ForkBody::handle() const {
+  if (!state_.behind) return held_.forcing(hand_, state_.t);
+  return held_.forcing(MotionSegment(state_.offset * hand_pose()), state_.t);
+}
+
+MotionState ForkBody::object() const { return held_.object(handle(), state_.strain); }
+
+MotionState ForkBody::object_with_acceleration() const {
+  const HandleForcing h = handle();
+  if (held_.size() == 0) {
+    const StrainVector none(0);
+    return held_.object(h, state_.strain, &none);
+  }
+  const StrainVector a = held_.acceleration(h, state_.strain.q, state_.strain.q_dot);
+  return held_.object(h, state_.strain, &a);
+}
+
+Matrix6d ForkBody::proxy_compliance(double h) const {
+  Matrix6d P = Matrix6d::Zero();
+  if (held_.size() == max_strain_coordinates) return P;
+  const Matrix3d R = object().X.linear();
+  const double share = held_.size() == 0 ? 1.0 : proxy_share;
+  P.topLeftCorner<3, 3>().diagonal().setConstant(share * h * h / held_.body().mass);
+  P.bottomRightCorner<3, 3>() = share * h * h * R * held_.body().inertia_O.inverse() * R.transpose();
+  return P;
+}
+
+RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
+  const RigidTransform returned =
+      state_.behind ? shrunk(state_.offset, std::exp(-h / return_time)) : RigidTransform::Identity();
+  if (contact_W.force.isZero(0.0) && contact_W.moment.isZero(0.0)) return returned;
+  Vector6d wrench;
+  wrench << contact_W.force, contact_W.moment;
+  const Vector6d given_way = proxy_compliance(h) * wrench;
+  // A rotation about the object's centre of mass and a translation.
+  const Vector3d centre = object().X.translation();
+  RigidTransform X = RigidTransform::Identity();
+  X.linear() = exp_so3(given_way.tail<3>());
+  X.translation() = centre - X.linear() * centre + given_way.head<3>();
+  return X * returned;
+}
+
+MotionSegment ForkBody::seen_motion(double h, const RigidTransform& offset_end) const {
+  const PoseSample begin{state_.t, state_.offset * hand_pose()};
+  const PoseSample end{state_.t + h, offset_end * hand_.at(state_.t + h).X};
+  const Vector3d v = (end.X.translation() - begin.X.translation()) / h;
+  const Vector3d w = log_so3(begin.X.linear().transpose() * end.X.linear()) / h;
+  return MotionSegment(begin, v, w, end, v, w);
+}
+
+bool ForkBody::advance(double h, const Wrench& contact_W) {
+  const RigidTransform offset = next_offset(h, contact_W);
+  const bool behind = (offset.matrix() - RigidTransform::Identity().matrix()).cwiseAbs().maxCoeff() > no_offset;
+  const bool as_hand = !behind && !state_.behind;
+  const MotionSegment motion = as_hand ? hand_ : seen_motion(h, offset);
+  StrainState next = state_.strain;
+  if (held_.size() > 0) {
+    held_.set_external_wrench(contact_W);
+    const StepEstimate e = integrator_->step(held_, motion, state_.t, h, next);
+    const StrainState full = held_.full_state(state_.t + h, next);
+    const bool fine = held_.shape().admissible(full.q) && next.q_dot.allFinite() &&
+                      (full.q.norm() + full.q_dot.norm()) < 1e12;
+    if (!fine) return false;
+    const auto J = held_.object_jacobian(state_.t + h, next.q);
+    estimates_.position = std::max(estimates_.position, (J.topRows<3>() * e.q_error).norm());
+    estimates_.angle = std::max(estimates_.angle, (J.bottomRows<3>() * e.q_error).norm());
+    estimates_.omega_dt = std::max(estimates_.omega_dt, e.omega_dt);
+    ++estimates_.steps;
+  }
+  state_.t += h;
+  state_.strain = next;
+  state_.behind = behind;
+  state_.offset = behind ? offset : RigidTransform::Identity();
+  if (held_.returning() && held_.drop_finished_returns(state_.t) && held_.size() == 0) state_.strain = held_.zero_state();
+  return hand_pose().translation().norm() < largest_distance;
+}
+
+void ForkBody::remember() { remembered_ = state_; }
+
+void ForkBody::go_back() { state_ = remembered_; }
+
+Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates> ForkBody::jacobian_W() const {
+  auto J = held_.object_jacobian(state_.t, state_.strain.q);
+  const Matrix3d R_WH = handle().X_WH.linear();
+  for (int i = 0; i < J.cols(); ++i) {
+    J.col(i).head<3>() = (R_WH * J.col(i).head<3>()).eval();
+    J.col(i).tail<3>() = (R_WH * J.col(i).tail<3>()).eval();
+  }
+  return J;
+}
+
+StrainMatrix ForkBody::inverse_mass() const {
+  return held_.mass_matrix(state_.t, state_.strain.q)
+      .llt()
+      .solve(StrainMatrix::Identity(held_.size(), held_.size()));
+}
+
+Matrix6d ForkBody::compliance(double h) const {
+  Matrix6d C = proxy_compliance(h);
+  if (held_.size() > 0) {
+    const auto J = jacobian_W();
+    C += J * integrator_->response(held_, state_.t, h, state_.strain).q * J.transpose();
+  }
+  return C;
+}
+
+Matrix6d ForkBody::mobility() const {
+  if (held_.size() == 0) return Matrix6d::Zero();
+  const auto J = jacobian_W();
+  return J * inverse_mass() * J.transpose();
+}
+
+void ForkBody::add_impulse(const Wrench& impulse_W) {
+  if (held_.size() == 0) return;
+  Vector6d impulse;
+  impulse << impulse_W.force, impulse_W.moment;
+  state_.strain.q_dot += inverse_mass() * (jacobian_W().transpose() * impulse);
+}
+
+void ForkBody::take_twist(const Twist& V_WO_W) {
+  state_.strain.q_dot = held_.project_twist(handle(), state_.strain.q, V_WO_W);
+}
+
+void ForkBody::stay(double h) {
+  // The seen handle stays where it is, whatever the hand does next, and the strain with it.
+  state_.strain.q_dot.setZero();
+  const RigidTransform seen = state_.offset * hand_pose();
+  state_.t += h;
+  state_.offset = seen * hand_pose().inverse();
+  state_.behind = true;
+}
+
+ForkBody::Estimates ForkBody::take_estimates() {
+  const Estimates e = estimates_;
+  estimates_ = Estimates();
+  return e;
+}
+
+}  // namespace spring_workbench

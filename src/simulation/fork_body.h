@@ -1,0 +1,75 @@
+#pragma once
+
+#include <memory>
+
+#include "spring_workbench/dynamics/integrator.h"
+#include "stepped_body.h"
+
+namespace spring_workbench {
+
+/// The body on the fork: strain coordinates, the hand's motion, and, where the coordinates cannot follow what a contact
+/// asks, a handle that stays behind the hand as its proxy (doc/model.md, "When the coordinates cannot follow").
+class ForkBody final : public SteppedBody {
+ public:
+  ForkBody(std::size_t index, HeldBody held, std::unique_ptr<Integrator> integrator, double t);
+
+  std::size_t index() const override { return index_; }
+  MotionState object() const override;
+  bool advance(double h, const Wrench& contact_W) override;
+  void remember() override;
+  void go_back() override;
+  Matrix6d compliance(double h) const override;
+  Matrix6d mobility() const override;
+  void add_impulse(const Wrench& impulse_W) override;
+  void stay(double h) override;
+
+  /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
+  void set_hand(const MotionSegment& hand, double t);
+  /// Sets strain rates so that the object's twist comes as near as it can to this one.
+  void take_twist(const Twist& V_WO_W);
+
+  HeldBody& held() { return held_; }
+  const HeldBody& held() const { return held_; }
+  const StrainState& state() const { return state_.strain; }
+  void set_state(const StrainState& state) { state_.strain = state; }
+  void set_integrator(std::unique_ptr<Integrator> integrator) { integrator_ = std::move(integrator); }
+  const Integrator& integrator() const { return *integrator_; }
+
+  double time() const { return state_.t; }
+  HandleForcing handle() const;        ///< the handle that the object sees, at present
+  RigidTransform hand_pose() const;    ///< the hand itself
+  /// Acceleration of the object at present.
+  MotionState object_with_acceleration() const;
+
+  // What the steps since the last call said.
+  struct Estimates {
+    double position = 0.0, angle = 0.0, omega_dt = 0.0;
+    int steps = 0;
+  };
+  Estimates take_estimates();
+
+ private:
+  struct State {
+    double t = 0.0;
+    StrainState strain;
+    bool behind = false;                                   ///< the seen handle is not where the hand is
+    RigidTransform offset = RigidTransform::Identity();    ///< seen handle = offset · hand, in world
+  };
+  /// How the proxy gives way to a wrench at the centre of mass over a step; zero while the coordinates can follow.
+  Matrix6d proxy_compliance(double h) const;
+  /// The proxy's offset at the end of a step under the wrench.
+  RigidTransform next_offset(double h, const Wrench& contact_W) const;
+  /// The seen handle's motion over a step that ends with this offset.
+  MotionSegment seen_motion(double h, const RigidTransform& offset_end) const;
+  StrainMatrix inverse_mass() const;
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates> jacobian_W() const;
+
+  std::size_t index_;
+  HeldBody held_;
+  std::unique_ptr<Integrator> integrator_;
+  MotionSegment hand_;
+  State state_, remembered_;
+  Estimates estimates_;
+};
+
+}  // namespace spring_workbench

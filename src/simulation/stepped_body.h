@@ -1,0 +1,33 @@
+#pragma once
+
+#include "contact_solver.h"
+#include "spring_workbench/motion/pose_track.h"
+
+namespace spring_workbench {
+
+/// A body that contact can carry over a step again and again until its load fits: the held body on its fork, or a free one.
+class SteppedBody {
+ public:
+  virtual ~SteppedBody() = default;
+
+  virtual std::size_t index() const = 0;  ///< in the scene
+  /// Pose and velocity of the object frame at present, world axes.
+  virtual MotionState object() const = 0;
+
+  /// Goes `h` [s] on under a constant wrench at the centre of mass, world axes; false where the result is not one to go on
+  /// from (not finite, or out of bounds), and then nothing has changed.
+  virtual bool advance(double h, const Wrench& contact_W) = 0;
+  /// The state to come back to, and coming back to it.
+  virtual void remember() = 0;
+  virtual void go_back() = 0;
+
+  /// How a constant wrench over a step of `h` changes the displacement at its end; 6 × 6 [linear; angular].
+  virtual Matrix6d compliance(double h) const = 0;
+  /// How an impulse changes the velocity.
+  virtual Matrix6d mobility() const = 0;
+  virtual void add_impulse(const Wrench& impulse_W) = 0;
+  /// Lets `h` [s] pass at rest where it is: the way out when nothing else fits.
+  virtual void stay(double h) = 0;
+};
+
+}  // namespace spring_workbench
