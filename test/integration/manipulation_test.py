@@ -96,8 +96,9 @@ class Manipulation(unittest.TestCase):
         self.assertLess(fork.kinetic_energy, 1e-9)
 
     def test_frames_and_reports(self):
-        seen = len(self.steps.messages)
         self.lift()
+        seen = len(self.steps.messages)
+        self.hand.run(0.5)
         frames = {t.child_frame_id: t for m in self.tf.messages for t in m.transforms if t.header.frame_id == "world"}
         self.assertLessEqual({"box", "fork_handle", "fork_tip"}, set(frames))
         box = self.box()  # of the single box, link frame and centre-of-mass frame are one
@@ -180,7 +181,7 @@ class Manipulation(unittest.TestCase):
     def test_every_integrator_holds_the_box(self):
         self.lift()
         resting = self.box().pose.position.z
-        for name, step in [("closed_form", 1e-3), ("rk4", 1e-3), ("semi_implicit_euler", 1e-4), ("exponential", 0.02)]:
+        for name, step in [("closed_form", 0.01), ("rk4", 1e-3), ("semi_implicit_euler", 1e-3), ("exponential", 0.02)]:
             self.call("set_integrator", name, step, 0.0)
             self.hand.run(1.0)
             self.assertEqual(self.fork.next().integrator, name)
