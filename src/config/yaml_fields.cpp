@@ -141,14 +141,16 @@ void check_keys(const YAML::Node& map, const std::string& where, const std::stri
 
 YAML::Node load_yaml_file(const std::string& path) {
   std::ifstream file(path);
-  if (!file) throw InputError(path + ": cannot be read: must be a readable YAML file");
+  std::ostringstream text;
+  if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();  // of an empty file nothing can be copied
+  if (!file.is_open() || file.bad() || text.fail()) {
+    throw InputError(path + ": cannot be read: must be a readable YAML file");
+  }
   try {
-    const YAML::Node node = YAML::Load(file);
+    const YAML::Node node = YAML::Load(text.str());
     return node.IsNull() ? YAML::Node(YAML::NodeType::Map) : node;
   } catch (const YAML::Exception& e) {
     throw InputError(path + ":" + std::to_string(e.mark.line + 1) + ": not YAML: " + e.msg);
-  } catch (const std::ios_base::failure&) {  // a folder
-    throw InputError(path + ": cannot be read: must be a readable YAML file");
   }
 }
 

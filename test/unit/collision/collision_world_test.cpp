@@ -439,6 +439,77 @@ TEST(Pairs, ABodyWedgedBetweenTwoWallsOfOneMeshTouchesThem) {
   EXPECT_GE(right_points, 4);
 }
 
+/// A slab with its top face, z = 0, cut into n × n squares.
+MeshPtr cut_slab(double size, double thickness, int n) {
+  TriangleMesh mesh;
+  const double step = size / n;
+  for (const double z : {0.0, -thickness}) {
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; j <= n; ++j) mesh.vertices.emplace_back(i * step - 0.5 * size, j * step - 0.5 * size, z);
+    }
+  }
+  const int layer = (n + 1) * (n + 1);
+  const auto index = [&](int i, int j) { return i * (n + 1) + j; };
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const int a = index(i, j), b = index(i + 1, j), c = index(i + 1, j + 1), d = index(i, j + 1);
+      test_support::add_quad(mesh, a, b, c, d);
+      test_support::add_quad(mesh, a + layer, d + layer, c + layer, b + layer);
+    }
+    const auto side = [&](int from, int to) { test_support::add_quad(mesh, to, from, from + layer, to + layer); };
+    side(index(i, 0), index(i + 1, 0));
+    side(index(i + 1, n), index(i, n));
+    side(index(0, i + 1), index(0, i));
+    side(index(n, i), index(n, i + 1));
+  }
+  return std::make_shared<const TriangleMesh>(mesh);
+}
+
+TEST(Pairs, HowFinelyAFloorIsCutDoesNotShow) {
+  Random random(14);
+  for (const int n : {1, 7, 25}) {
+    const MeshPtr floor = cut_slab(0.4, 0.05, n);
+    ASSERT_NEAR(volume_properties(floor).volume, 0.4 * 0.4 * 0.05, 1e-12);
+    for (int i = 0; i < 20; ++i) {
+      const Box box = random_box(random);
+      for (const Geometry& shape : {Geometry(box), Geometry(box_mesh(box.size)), Geometry(Cylinder{0.03, 0.05})}) {
+        const bool upright = i % 2 == 0;
+        if (!upright && std::holds_alternative<Cylinder>(shape)) continue;  // its prism ends a little earlier
+        const CollisionWorld world(scene_of({body_of(shape), body_of(floor)}));
+        RigidTransform X = random.pose(0.05);
+        if (upright) X.linear() = Eigen::AngleAxisd(random.number(-3, 3), Vector3d::UnitZ()).toRotationMatrix();
+        const double depth = std::pow(10.0, random.number(-6.0, -3.3));
+        X.translation().z() += -depth - bounding_box(shape, X).min().z();
+        const auto found = contacts(world, 0, X);
+        ASSERT_FALSE(found.empty());
+        EXPECT_LE(found.size(), 9u);
+        EXPECT_GT(deepest(found).depth, 0.5 * depth);
+        for (const ContactPoint& c : found) {
+          EXPECT_GT(c.n_W.z(), upright ? 1.0 - 1e-12 : 0.999);  // a face of the box that is nearly flush may be taken
+          EXPECT_LT(c.depth, depth * (1.0 + 1e-6));
+        }
+      }
+    }
+  }
+}
+
+TEST(Pairs, TwoFineSpheresTouchAsSpheresDo) {
+  Random random(15);
+  const MeshPtr ball = sphere_mesh(0.05, 30);
+  const CollisionWorld world(scene_of({body_of(ball), body_of(ball)}));
+  for (int i = 0; i < 40; ++i) {
+    RigidTransform X = random.pose(0.0);
+    const Vector3d n = random.direction();
+    X.translation() = (0.1 - 5e-4) * n;
+    const auto found = contacts(world, 0, X);
+    ASSERT_FALSE(found.empty());
+    for (const ContactPoint& c : found) {
+      EXPECT_GT(c.n_W.dot(n), 0.97);
+      EXPECT_LT(c.depth, 6e-4);
+    }
+  }
+}
+
 TEST(Pairs, EveryPieceOfABodyCountsAndItsOwnPiecesDoNot) {
   Body two = body_of(Box{Vector3d::Constant(0.1)});
   two.collision.push_back(Shape{Box{Vector3d::Constant(0.1)}});

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+
+#include "benchmark/held_body.h"
+
+namespace spring_workbench::benchmark {
+
+/// A scene as a system of first-order equations for a general solver.
+class CvodeProblem {
+ public:
+  virtual ~CvodeProblem() = default;
+
+  virtual int size() const = 0;
+
+  /// State at t = 0 into `y`.
+  virtual void start(double* y) const = 0;
+
+  /// Scale of the absolute tolerance of each entry into `scale`.
+  virtual void tolerance_scale(double* scale) const = 0;
+
+  /// Rates into `rate`; false where the state is out of the equations' range.
+  virtual bool rates(double t, const double* y, double* rate) const = 0;
+
+  /// The output of the scene, as in RunResult.
+  virtual Vector3d output(double t, const double* y) const = 0;
+};
+
+enum class CvodeCoordinates {
+  deflection,  ///< (q, q̇) of the bushing: tolerances act on the deflection
+  world        ///< pose and velocity of the object in world, as a user keeps them: tolerances act on the position
+};
+
+std::unique_ptr<CvodeProblem> make_cvode_problem(const Scenario& scene, CvodeCoordinates coordinates);
+
+}  // namespace spring_workbench::benchmark

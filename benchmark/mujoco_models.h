@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "benchmark/scenarios.h"
+
+namespace spring_workbench::benchmark {
+
+/// Mass [kg], inertia [kg m²] or armature of the driven hand: its acceleration is wrong by the object's share of this.
+constexpr double kMujocoHandInertia = 1e12;
+
+/// MJCF: the object alone, on a slide (A), a hinge (B) or a free joint (C).
+std::string mujoco_object_model(const Scenario& scene);
+
+/// MJCF: a hand on a slide, a hinge or a free joint, and on it the object by joints with the scene's springs.
+std::string mujoco_joint_model(const Scenario& scene);
+
+/// MJCF: a mocap hand and the object on a free joint, welded.
+std::string mujoco_weld_model(const Scenario& scene);
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,251 @@
+#include <mujoco/mujoco.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+#include "benchmark/held_body.h"
+#include "benchmark/mujoco_models.h"
+#include "benchmark/peers.h"
+#include "benchmark/single_spring.h"
+#include "benchmark/stepping_loop.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+/// A compiled model and its data, with the time step of a run.
+class MujocoWorld {
+ public:
+  MujocoWorld(const std::string& xml, const Scenario& scene, double step) {
+    mju_user_warning = [](const char*) {};  // else MuJoCo writes a log file into the working directory
+    auto files = std::make_unique<mjVFS>();
+    mj_defaultVFS(files.get());
+    mj_makeEmptyFileVFS(files.get(), "model.xml", static_cast<int>(xml.size()));
+    std::memcpy(files->filedata[0], xml.data(), xml.size());
+    std::array<char, 500> error{};
+    model_ = mj_loadXML("model.xml", files.get(), error.data(), static_cast<int>(error.size()));
+    mj_deleteVFS(files.get());
+    if (model_ == nullptr) throw std::runtime_error(std::string("MuJoCo: ") + error.data());
+    model_->opt.timestep = scene.output_interval / steps_per_output(scene, step);
+    data_ = mj_makeData(model_);
+  }
+  ~MujocoWorld() {
+    mj_deleteData(data_);
+    mj_deleteModel(model_);
+  }
+  MujocoWorld(const MujocoWorld&) = delete;
+  MujocoWorld& operator=(const MujocoWorld&) = delete;
+
+  mjModel& model() { return *model_; }
+  mjData& data() { return *data_; }
+  /// One step from time `t`, which MuJoCo would otherwise sum up with rounding errors.
+  void step(double t) {
+    data_->time = t;
+    mj_step(model_, data_);
+  }
+
+  /// Whether MuJoCo reset the state because it was no longer finite or bounded.
+  bool was_reset() const {
+    return data_->warning[mjWARN_BADQPOS].number + data_->warning[mjWARN_BADQVEL].number +
+               data_->warning[mjWARN_BADQACC].number >
+           0;
+  }
+
+ private:
+  mjModel* model_ = nullptr;
+  mjData* data_ = nullptr;
+};
+
+Vector3d not_a_result() { return Vector3d::Constant(std::numeric_limits<double>::quiet_NaN()); }
+
+void write_free_joint(const Vector3d& p, const Matrix3d& R, const Vector3d& v_W, const Vector3d& w_body, mjtNum* qpos,
+                      mjtNum* qvel) {
+  const Quaterniond q(R);
+  Eigen::Map<Vector3d>{qpos} = p;
+  Eigen::Map<Eigen::Vector4d>{qpos + 3} = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
+  Eigen::Map<Vector3d>{qvel} = v_W;
+  Eigen::Map<Vector3d>{qvel + 3} = w_body;
+}
+
+BodyState read_free_joint(const mjData& data) {
+  BodyState body;
+  body.p_WO = Eigen::Map<const Vector3d>(data.qpos);
+  body.R_WO = Quaterniond(data.qpos[3], data.qpos[4], data.qpos[5], data.qpos[6]).normalized();
+  body.v_WO_W = Eigen::Map<const Vector3d>(data.qvel);
+  body.w_WO_O = Eigen::Map<const Vector3d>(data.qvel + 3);
+  return body;
+}
+
+/// The start of an object with one coordinate (A, B) or a free joint (C).
+void write_start(const Scenario& scene, mjData& data) {
+  if (scene.kind == SceneKind::six_dof) {
+    const BodyState start = start_state(scene);
+    write_free_joint(start.p_WO, start.R_WO.toRotationMatrix(), start.v_WO_W, start.w_WO_O, data.qpos, data.qvel);
+  } else {
+    data.qpos[0] = scalar_hand(scene, 0.0).value;
+    data.qvel[0] = scalar_hand(scene, 0.0).rate;
+  }
+}
+
+/// The scene's law as a passive force in MuJoCo's callback, so that Runge-Kutta sees it at each of its stages.
+class MujocoForce : public Method {
+ public:
+  explicit MujocoForce(mjtIntegrator integrator) : integrator_(integrator) {}
+  std::string name() const override { return integrator_ == mjINT_RK4 ? "mujoco_rk4" : "mujoco_euler"; }
+
+  RunResult run(const Scenario& scene, double step) const override {
+    MujocoWorld world(mujoco_object_model(scene), scene, step);
+    world.model().opt.integrator = integrator_;
+    write_start(scene, world.data());
+    const SingleSpring spring(scene);
+    current_ = &spring;
+    mjcb_passive = scene.kind == SceneKind::six_dof ? &push_body : &push_single;
+    RunResult result = stepping_loop(
+        scene, step, [&](double t, double) { world.step(t); },
+        [&](double) -> Vector3d {
+          const mjData& data = world.data();
+          if (world.was_reset()) return not_a_result();
+          if (scene.kind == SceneKind::six_dof) return Eigen::Map<const Vector3d>(data.qpos);
+          return Vector3d(0.0, 0.0, data.qpos[0]);
+        });
+    mjcb_passive = nullptr;
+    return result;
+  }
+
+ private:
+  static void push_single(const mjModel*, mjData* data) {
+    data->qfrc_passive[0] += current_->force(data->time, data->qpos[0], data->qvel[0]);
+  }
+
+  static void push_body(const mjModel*, mjData* data) {
+    const BodyLoad load =
+        bushing_load(current_->scene, hand_state(current_->scene, data->time), read_free_joint(*data));
+    Eigen::Map<Vector3d>{data->qfrc_passive} += load.force_W;
+    Eigen::Map<Vector3d>{data->qfrc_passive + 3} += load.moment_O;
+  }
+
+  static const SingleSpring* current_;
+  mjtIntegrator integrator_;
+};
+
+const SingleSpring* MujocoForce::current_ = nullptr;
+
+/// Joints with stiffness and damping between a hand and the object. The hand is a body that is so heavy that the object
+/// does not move it, set to its exact pose and velocity before each step and driven with its exact acceleration.
+/// Rotation: three hinges, so the law is not the scene's in C.
+class MujocoJoints : public Method {
+ public:
+  explicit MujocoJoints(mjtIntegrator integrator) : integrator_(integrator) {}
+  std::string name() const override {
+    return integrator_ == mjINT_EULER ? "mujoco_joints_euler" : "mujoco_joints_implicit";
+  }
+  bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
+
+  RunResult run(const Scenario& scene, double step) const override {
+    MujocoWorld world(mujoco_joint_model(scene), scene, step);
+    world.model().opt.integrator = integrator_;
+    mjData& data = world.data();
+    return stepping_loop(
+        scene, step,
+        [&](double t, double) {
+          drive_hand(scene, t, data);
+          world.step(t);
+        },
+        [&](double t) { return world.was_reset() ? not_a_result() : output(scene, t, data); });
+  }
+
+ private:
+  static void drive_hand(const Scenario& scene, double t, mjData& data) {
+    if (scene.kind != SceneKind::six_dof) {
+      const ScalarMotion hand = scalar_hand(scene, t);
+      data.qpos[0] = hand.value;
+      data.qvel[0] = hand.rate;
+      data.qfrc_applied[0] = kMujocoHandInertia * hand.acceleration;
+      return;
+    }
+    const HandState hand = hand_state(scene, t);
+    const HandAcceleration acceleration = hand_acceleration(scene, t);
+    write_free_joint(hand.p_WT, hand.R_WT, hand.v_WT_W, hand.w_WT_T, data.qpos, data.qvel);
+    Eigen::Map<Vector3d>{data.qfrc_applied} =
+        kMujocoHandInertia * (acceleration.a_WT_W + scene.gravity * Vector3d::UnitZ());
+    Eigen::Map<Vector3d>{data.qfrc_applied + 3} = kMujocoHandInertia * acceleration.alpha_WT_T;
+  }
+
+  static Vector3d output(const Scenario& scene, double t, const mjData& data) {
+    if (scene.kind != SceneKind::six_dof) return Vector3d(0.0, 0.0, scalar_hand(scene, t).value + data.qpos[1]);
+    const mjtNum* q = data.qpos + 7;
+    const HandState hand = hand_state(scene, t);
+    const Matrix3d R_TE = (Eigen::AngleAxisd(q[3], Vector3d::UnitX()) * Eigen::AngleAxisd(q[4], Vector3d::UnitY()) *
+                           Eigen::AngleAxisd(q[5], Vector3d::UnitZ()))
+                              .toRotationMatrix();
+    return hand.p_WT + hand.R_WT * (Vector3d(q[0], q[1], q[2]) + R_TE * scene.p_EO);
+  }
+
+  mjtIntegrator integrator_;
+};
+
+/// A weld to a mocap body in direct mode, as a spring: solref has one stiffness and damping over mass for all six rows,
+/// that of the bend in C, and `torquescale` the ratio of turning to moving. The stiffness along the fork is not its
+/// own. MuJoCo's mocap bodies have no velocity, so the damping acts on the absolute velocity, and the object lags
+/// behind the hand at every step size.
+class MujocoWeld : public Method {
+ public:
+  std::string name() const override { return "mujoco_weld"; }
+  bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
+
+  RunResult run(const Scenario& scene, double step) const override {
+    MujocoWorld world(mujoco_weld_model(scene), scene, step);
+    mjData& data = world.data();
+    const BodyState start = start_state(scene);
+    write_free_joint(start.p_WO, start.R_WO.toRotationMatrix(), start.v_WO_W, start.w_WO_O, data.qpos, data.qvel);
+    set_coupling(scene, world.model());
+    return stepping_loop(
+        scene, step,
+        [&](double t, double) {
+          const HandState hand = hand_state(scene, t);
+          const Quaterniond q(hand.R_WT);
+          Eigen::Map<Vector3d>{data.mocap_pos} = hand.p_WT;
+          Eigen::Map<Eigen::Vector4d>{data.mocap_quat} = Eigen::Vector4d(q.w(), q.x(), q.y(), q.z());
+          world.step(t);
+        },
+        [&](double) -> Vector3d {
+          if (world.was_reset()) return not_a_result();
+          const BodyState body = read_free_joint(data);
+          if (scene.kind != SceneKind::torsion) return body.p_WO;
+          return Vector3d(0.0, 0.0, 2.0 * std::atan2(body.R_WO.z(), body.R_WO.w()));
+        });
+  }
+
+ private:
+  static void set_coupling(const Scenario& scene, mjModel& model) {
+    const int i = scene.kind == SceneKind::six_dof ? 0 : scene.single_coordinate();
+    const int turning = scene.kind == SceneKind::six_dof ? 3 : scene.single_coordinate();
+    // A row's pull is solref times the body's mass. The turning rows hold half the angle.
+    const double torque_scale = 2.0 * std::sqrt(scene.stiffness[turning] / scene.stiffness[i]);
+    const double impedance = 1e-4;  // MuJoCo's least: the weld is then a spring, and gravity is felt whole
+    model.eq_solref[0] = -scene.stiffness[i] / scene.mass;
+    model.eq_solref[1] = -scene.damping[i] / scene.mass;
+    model.eq_solimp[0] = impedance;
+    model.eq_solimp[1] = impedance;
+    const Vector3d anchor = -scene.p_EO;
+    const std::array<mjtNum, mjNEQDATA> data{anchor.x(), anchor.y(), anchor.z(), 0, 0, 0, 1, 0, 0, 0, torque_scale};
+    std::copy(data.begin(), data.end(), model.eq_data);  // anchor in the object, in the hand, relative turn, scale
+  }
+};
+
+}  // namespace
+
+std::vector<MethodPtr> mujoco_peers() {
+  std::vector<MethodPtr> peers;
+  peers.push_back(std::make_unique<MujocoForce>(mjINT_EULER));
+  peers.push_back(std::make_unique<MujocoForce>(mjINT_RK4));
+  peers.push_back(std::make_unique<MujocoJoints>(mjINT_EULER));
+  peers.push_back(std::make_unique<MujocoJoints>(mjINT_IMPLICIT));
+  peers.push_back(std::make_unique<MujocoWeld>());
+  return peers;
+}
+
+}  // namespace spring_workbench::benchmark

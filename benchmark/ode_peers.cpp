@@ -1,0 +1,157 @@
+#include <ode/ode.h>
+
+#include <cmath>
+
+#include "benchmark/held_body.h"
+#include "benchmark/peers.h"
+#include "benchmark/stepping_loop.h"
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+void set_rotation(dBodyID body, const Matrix3d& R) {
+  const Quaterniond q(R);
+  const dQuaternion values = {q.w(), q.x(), q.y(), q.z()};
+  dBodySetQuaternion(body, values);
+}
+
+Matrix3d rotation(dBodyID body) {
+  const dReal* R = dBodyGetRotation(body);  // rows of four
+  Matrix3d m;
+  m << R[0], R[1], R[2], R[4], R[5], R[6], R[8], R[9], R[10];
+  return m;
+}
+
+Vector3d position(dBodyID body) { return Eigen::Map<const Vector3d>(dBodyGetPosition(body)); }
+
+/// The object on a kinematic hand by a linear and an angular motor, whose rows are implicit spring-dampers: ODE's
+/// ERP = h k / (h k + c) and CFM = 1 / (h k + c), as target velocity −(ERP/h) x and CFM per axis.
+///
+/// ODE's linear motor holds the material points half way between the two bodies' centres. The hand is kinematic, so its
+/// body frame may be anywhere: it is put where half way is the tip.
+class OdeWorld {
+ public:
+  explicit OdeWorld(const Scenario& scene)
+      : scene_(scene), world_(dWorldCreate()), hand_(dBodyCreate(world_)), object_(dBodyCreate(world_)) {
+    dWorldSetGravity(world_, 0.0, 0.0, scene.kind == SceneKind::torsion ? 0.0 : -scene.gravity);
+    dMass mass;
+    dMassSetParameters(&mass, scene.mass, 0, 0, 0, scene.inertia.x(), scene.inertia.y(), scene.inertia.z(), 0, 0, 0);
+    dBodySetMass(object_, &mass);
+    dBodySetKinematic(hand_);
+    const BodyState start = start_state(scene);
+    const Matrix3d R = start.R_WO.toRotationMatrix();
+    const Vector3d w = R * start.w_WO_O;
+    dBodySetPosition(object_, start.p_WO.x(), start.p_WO.y(), start.p_WO.z());
+    set_rotation(object_, R);
+    dBodySetLinearVel(object_, start.v_WO_W.x(), start.v_WO_W.y(), start.v_WO_W.z());
+    dBodySetAngularVel(object_, w.x(), w.y(), w.z());
+    set_rotation(hand_, hand_state(scene, 0.0).R_WT);
+    add_motor(dJointCreateLMotor(world_, nullptr), 0, dJointSetLMotorParam, linear_);
+    add_motor(dJointCreateAMotor(world_, nullptr), 3, dJointSetAMotorParam, angular_);
+  }
+  ~OdeWorld() { dWorldDestroy(world_); }
+  OdeWorld(const OdeWorld&) = delete;
+  OdeWorld& operator=(const OdeWorld&) = delete;
+
+  void step(double t, double h) {
+    const HandState hand = hand_state(scene_, t), next = hand_state(scene_, t + h);
+    const Matrix3d R_WO = rotation(object_);
+    const Vector3d p_WE = position(object_) - R_WO * scene_.p_EO;
+    place_hand(hand, next, p_WE, h);
+    const Vector3d d = hand.R_WT.transpose() * (p_WE - hand.p_WT);
+    set_rows(linear_, d, h);
+    set_rows(angular_, log_so3(hand.R_WT.transpose() * R_WO), h);
+    dWorldStep(world_, h);
+  }
+
+  Vector3d output() const {
+    if (scene_.kind != SceneKind::torsion) return position(object_);
+    const Matrix3d R = rotation(object_);
+    return Vector3d(0.0, 0.0, std::atan2(R(1, 0), R(0, 0)));
+  }
+
+ private:
+  struct Motor {
+    dJointID joint = nullptr;
+    void (*set)(dJointID, int, dReal) = nullptr;
+    int rows = 0;
+    int coordinate[3] = {0, 0, 0};  ///< of each row, as an index of q
+  };
+
+  /// A motor with a row for each of the three coordinates from `first` on that has a spring, axes fixed to the hand.
+  void add_motor(dJointID joint, int first, void (*set)(dJointID, int, dReal), Motor& motor) {
+    motor.joint = joint;
+    motor.set = set;
+    for (int i = first; i < first + 3; ++i) {
+      if (scene_.stiffness[i] > 0.0) motor.coordinate[motor.rows++] = i;
+    }
+    const bool is_linear = first == 0;
+    dJointAttach(joint, hand_, object_);
+    if (!is_linear) dJointSetAMotorMode(joint, dAMotorUser);
+    (is_linear ? dJointSetLMotorNumAxes : dJointSetAMotorNumAxes)(joint, motor.rows);
+    for (int row = 0; row < motor.rows; ++row) {
+      const Vector3d axis = rotation(hand_) * Vector3d::Unit(motor.coordinate[row] % 3);
+      (is_linear ? dJointSetLMotorAxis : dJointSetAMotorAxis)(joint, row, 1, axis.x(), axis.y(), axis.z());
+      set(joint, dParamFMax + dParamGroup * row, dInfinity);
+    }
+  }
+
+  /// The hand's body at t, with its frame where the tip at `p_WE` is half way to the object's, and the velocity by
+  /// which the hand's point at the tip and its rotation come exactly to where they are at t + h.
+  void place_hand(const HandState& now, const HandState& next, const Vector3d& p_WE, double h) {
+    const Vector3d p_TE = now.R_WT.transpose() * (p_WE - now.p_WT);
+    const Vector3d v_tip = (next.p_WT + next.R_WT * p_TE - p_WE) / h;
+    const Vector3d w = now.R_WT * log_so3(now.R_WT.transpose() * next.R_WT) / h;
+    const Vector3d from_tip = p_WE - position(object_);
+    const Vector3d p = p_WE + from_tip;
+    const Vector3d v = v_tip + w.cross(from_tip);
+    dBodySetPosition(hand_, p.x(), p.y(), p.z());
+    set_rotation(hand_, now.R_WT);
+    dBodySetLinearVel(hand_, v.x(), v.y(), v.z());
+    dBodySetAngularVel(hand_, w.x(), w.y(), w.z());
+  }
+
+  /// Spring-damper rows for the deflection `x`, which ODE counts as the hand's motion against the object's.
+  void set_rows(const Motor& motor, const Vector3d& x, double h) const {
+    for (int row = 0; row < motor.rows; ++row) {
+      const int i = motor.coordinate[row];
+      const double softness = 1.0 / (h * scene_.stiffness[i] + scene_.damping[i]);
+      motor.set(motor.joint, dParamVel + dParamGroup * row, scene_.stiffness[i] * softness * x[i % 3]);
+      motor.set(motor.joint, dParamCFM + dParamGroup * row, softness);
+    }
+  }
+
+  Scenario scene_;
+  dWorldID world_;
+  dBodyID hand_, object_;
+  Motor linear_, angular_;
+};
+
+class OdeErpCfm : public Method {
+ public:
+  std::string name() const override { return "ode_erp_cfm"; }
+  bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
+
+  RunResult run(const Scenario& scene, double step) const override {
+    dInitODE2(0);
+    RunResult result;
+    {
+      OdeWorld world(scene);
+      result = stepping_loop(
+          scene, step, [&](double t, double h) { world.step(t, h); }, [&](double) { return world.output(); });
+    }
+    dCloseODE();
+    return result;
+  }
+};
+
+}  // namespace
+
+std::vector<MethodPtr> ode_peers() {
+  std::vector<MethodPtr> peers;
+  peers.push_back(std::make_unique<OdeErpCfm>());
+  return peers;
+}
+
+}  // namespace spring_workbench::benchmark

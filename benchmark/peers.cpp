@@ -1,0 +1,46 @@
+#include "benchmark/peers.h"
+
+#include <iterator>
+
+namespace spring_workbench::benchmark {
+namespace {
+
+void append(std::vector<MethodPtr> more, std::vector<MethodPtr>& methods) {
+  methods.insert(methods.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+}  // namespace
+
+Peers all_peers() {
+  Peers peers;
+  append(hand_written_peers(), peers.methods);
+  append(cvode_peers(), peers.methods);
+  peers.found.push_back("CVODE " SPRING_WORKBENCH_CVODE_VERSION);
+#ifdef SPRING_WORKBENCH_BULLET_VERSION
+  append(bullet_peers(), peers.methods);
+  peers.found.push_back("Bullet " SPRING_WORKBENCH_BULLET_VERSION);
+#else
+  peers.not_found.push_back("Bullet in double precision (libbullet-dev)");
+#endif
+#ifdef SPRING_WORKBENCH_MUJOCO_VERSION
+  append(mujoco_peers(), peers.methods);
+  peers.found.push_back("MuJoCo " SPRING_WORKBENCH_MUJOCO_VERSION);
+#else
+  peers.not_found.push_back("MuJoCo (libmujoco-dev)");
+#endif
+#ifdef SPRING_WORKBENCH_ODE_VERSION
+  append(ode_peers(), peers.methods);
+  peers.found.push_back("ODE " SPRING_WORKBENCH_ODE_VERSION);
+#else
+  peers.not_found.push_back("ODE (libode-dev)");
+#endif
+#ifdef SPRING_WORKBENCH_DART_VERSION
+  append(dart_peers(), peers.methods);
+  peers.found.push_back("DART " SPRING_WORKBENCH_DART_VERSION);
+#else
+  peers.not_found.push_back("DART (libdart-dev)");
+#endif
+  return peers;
+}
+
+}  // namespace spring_workbench::benchmark

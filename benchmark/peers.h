@@ -1,0 +1,39 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmark/method.h"
+
+namespace spring_workbench::benchmark {
+
+/// What a competent programmer writes by hand: semi-implicit Euler and RK4 with the spring as a force.
+std::vector<MethodPtr> hand_written_peers();
+
+/// SUNDIALS CVODE as a general solver, by tolerance: on the object's pose in world as everybody else keeps it, and on
+/// the deflection, with tolerances that know its size.
+std::vector<MethodPtr> cvode_peers();
+
+/// Bullet, double precision: the spring as an explicit force, and the 6-DOF spring 2 constraint to a kinematic hand
+/// with its silent stiffness limit on (its default) and off.
+std::vector<MethodPtr> bullet_peers();
+
+/// MuJoCo: the spring as a passive force (Euler, RK4), joints with springs and dampers on a driven hand (Euler with
+/// implicit joint damping, implicit), and a weld to a mocap body.
+std::vector<MethodPtr> mujoco_peers();
+
+/// ODE: motors whose target velocity and CFM make an implicit spring-damper of given stiffness and damping.
+std::vector<MethodPtr> ode_peers();
+
+/// DART: implicit joint springs on a driven hand.
+std::vector<MethodPtr> dart_peers();
+
+/// The peers that were found when this was configured, and those that were not.
+struct Peers {
+  std::vector<MethodPtr> methods;
+  std::vector<std::string> found;      ///< engine and version
+  std::vector<std::string> not_found;  ///< engine and the Debian package that brings it
+};
+Peers all_peers();
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,55 @@
+#include "benchmark/reference_solution.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "benchmark/cvode_solver.h"
+#include "benchmark/exact_oscillator.h"
+
+namespace spring_workbench::benchmark {
+
+Vector6d deflection_scale(const Scenario& scene) {
+  const double load = scene.mass * scene.gravity;
+  const double moment = scene.inertia.maxCoeff() + load * scene.p_EO.norm();
+  Vector6d scale = Vector6d::Ones();
+  for (int i = 0; i < 6; ++i) {
+    if (scene.stiffness[i] > 0.0) scale[i] = (i < 3 ? load : moment) / scene.stiffness[i];
+  }
+  return scale.cwiseMin(1.0);
+}
+
+ReferenceSolution reference_from_outputs(const Scenario& scene, std::vector<Vector3d> outputs, double uncertainty) {
+  ReferenceSolution reference;
+  const std::vector<double> times = output_times(scene);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i] < scene.settled_after) continue;
+    const double deflection = (outputs[i] - rigid_output(scene, times[i])).norm();
+    reference.largest_deflection = std::max(reference.largest_deflection, deflection);
+  }
+  reference.outputs = std::move(outputs);
+  reference.uncertainty = uncertainty;
+  return reference;
+}
+
+ReferenceSolution reference_solution(const Scenario& scene) {
+  if (scene.kind == SceneKind::six_dof) {
+    CvodeSolver solver(scene, CvodeCoordinates::deflection);
+    ReferenceSolution reference = reference_from_outputs(scene, solver.solve(1e-12), 0.0);
+    reference.uncertainty = output_error(scene, reference, solver.solve(1e-11));
+    return reference;
+  }
+  std::vector<Vector3d> outputs;
+  for (const double t : output_times(scene)) outputs.push_back(exact_output(scene, t));
+  return reference_from_outputs(scene, std::move(outputs), 1e-15);
+}
+
+double output_error(const Scenario& scene, const ReferenceSolution& reference, const std::vector<Vector3d>& outputs) {
+  double error = 0.0;
+  const std::vector<double> times = output_times(scene);
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    if (times[i] >= scene.settled_after) error = std::max(error, (outputs[i] - reference.outputs[i]).norm());
+  }
+  return error;
+}
+
+}  // namespace spring_workbench::benchmark

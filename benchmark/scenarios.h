@@ -1,0 +1,102 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spring_workbench/math/rigid_transform.h"
+
+namespace spring_workbench::benchmark {
+
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+
+enum class SceneKind {
+  stretch,  ///< A: one coordinate, the extension along the fork's axis
+  torsion,  ///< B: one coordinate, the twist about the fork's axis
+  six_dof   ///< C: all six coordinates of the bushing
+};
+
+/// A body held by the `bushing` of doc/model.md, on a hand that moves as an analytic function of time.
+///
+/// Frames: `W` world, z up; `T` the tip's rest frame, which the hand carries (the handle frame H moved by `length`
+/// along its z axis); `E` the tip, inserted in the object; `O` the object's centre of mass, with the axes of E and of
+/// the inertia tensor. Coordinates `q = (d, φ)`: E has the pose `p = d`, `R = exp(φ)` in T.
+///
+/// Law: `U = ½ Σ stiffness_i q_i²`, viscous generalised force `−damping_i q̇_i` (on the extension, not on the absolute
+/// velocity), gravity along −z of W. Damping is that of doc/model.md with ζ per family:
+/// `c_stretch = 2 ζ √(m k_stretch)`, `c_bend = 2 ζ √(m k_bend)`, on the slopes `(c_bend / k_bend) k_slope`,
+/// `c_torsion = 2 ζ √(I_a k_torsion)`, `I_a` the moment of inertia about the fork's axis through the grasp.
+/// Start: zero strain and zero strain rate, so the object moves with the hand at t = 0.
+struct Scenario {
+  std::string name;  ///< "A", "B" or "C"
+  SceneKind kind = SceneKind::six_dof;
+  double stiffness_factor = 1.0;          ///< over the scene's nominal stiffness (A: 1e4 N/m, B: 1e4 N·m/rad)
+  double mass = 1.0;                      ///< [kg]
+  Vector3d inertia = Vector3d::Ones();    ///< about and in O, principal [kg m²]
+  Vector3d p_EO = Vector3d::Zero();       ///< centre of mass seen from the tip [m]
+  double length = 0.2;                    ///< L of the fork [m]: where H is; the motion does not depend on it
+  double damping_ratio = 1.0;             ///< ζ of every family
+  Vector6d stiffness = Vector6d::Zero();  ///< of dx, dy, dz [N/m], φx, φy, φz [N·m/rad]; unused ones are 0
+  Vector6d damping = Vector6d::Zero();    ///< of dx, dy, dz [N·s/m], φx, φy, φz [N·m·s/rad]
+  double gravity = 9.81;                  ///< [m/s²]
+  double duration = 4.0;                  ///< [s]
+  double output_interval = 0.02;          ///< [s]; outputs at 0, 0.02, …, duration
+  double settled_after = 0.1;             ///< errors are measured after this time [s]
+
+  /// The one coordinate of scenes A and B as an index of q: 2 or 5.
+  int single_coordinate() const { return kind == SceneKind::stretch ? 2 : 5; }
+  /// Mass or moment of inertia that goes with the one coordinate of scenes A and B [kg, kg m²].
+  double single_inertia() const { return kind == SceneKind::stretch ? mass : inertia.z(); }
+};
+
+/// Scene A: 10 kg, or another mass, on a vertical spring-damper of stiffness `k` [N/m]; the hand at z = 0.1 sin(2π t).
+Scenario stretch_scene(double k, double damping_ratio = 1.0, double mass = 10.0);
+
+/// Scene B: 0.05 kg m² on a torsion spring-damper of stiffness `k` [N·m/rad]; hand twist 0.8 sin(2π 1.5 t) rad.
+Scenario torsion_scene(double k, double damping_ratio = 1.0);
+
+/// Scene C: a 5 kg box 0.2 × 0.1 × 0.05 m gripped so that its centre is 0.08 m along its long axis from the tip;
+/// k = 2000, 2000, 5000 N/m and 20 N·m/rad on all three rotations, times `stiffness_factor`. Hand: position
+/// 0.15 sin(2π f t + ψ) m with f = 1, 1.3, 1.7 Hz and ψ = 0, 1, 2 rad along x, y, z; rotation Rx(α) Ry(β) with
+/// α = 0.6 sin(2π 1.1 t), β = 0.6 sin(2π 1.4 t + 1) rad.
+/// The box may have another mass.
+Scenario six_dof_scene(double stiffness_factor, double damping_ratio = 1.0, double mass = 5.0);
+
+/// Pose and velocity of the tip's rest frame T.
+struct HandState {
+  Matrix3d R_WT = Matrix3d::Identity();
+  Vector3d p_WT = Vector3d::Zero();
+  Vector3d v_WT_W = Vector3d::Zero();  ///< [m/s]
+  Vector3d w_WT_T = Vector3d::Zero();  ///< angular velocity in T's axes [rad/s]
+};
+
+/// Acceleration of T.
+struct HandAcceleration {
+  Vector3d a_WT_W = Vector3d::Zero();      ///< of its origin [m/s²]
+  Vector3d alpha_WT_T = Vector3d::Zero();  ///< angular, in T's axes [rad/s²]
+};
+
+HandState hand_state(const Scenario& scene, double t);
+HandAcceleration hand_acceleration(const Scenario& scene, double t);
+
+/// The same for the handle frame H, `length` behind T along the fork's axis.
+HandState handle_state(const Scenario& scene, double t);
+HandAcceleration handle_acceleration(const Scenario& scene, double t);
+
+/// The one moving coordinate of the hand in scenes A and B: height [m] or twist [rad], with two derivatives.
+struct ScalarMotion {
+  double value = 0.0;
+  double rate = 0.0;
+  double acceleration = 0.0;
+};
+ScalarMotion scalar_hand(const Scenario& scene, double t);
+
+/// Output times: 0, output_interval, …, duration.
+std::vector<double> output_times(const Scenario& scene);
+
+/// Number of equal steps in an output interval for a largest step of `step` [s].
+int steps_per_output(const Scenario& scene, double step);
+
+/// What errors are relative to: the hand's amplitude, 0.1 m, 0.8 rad or 0.15 m.
+double hand_amplitude(const Scenario& scene);
+
+}  // namespace spring_workbench::benchmark
