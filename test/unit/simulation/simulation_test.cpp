@@ -141,6 +141,33 @@ TEST(Simulation, PressedOnTheBenchItStaysOutsideAndTheForkTakesUpTheDifference) 
   EXPECT_LT(simulation.objects()[0].V_WO_W.linear.norm(), 1e-4);
 }
 
+TEST(Simulation, ContactsStartPersistAndEndHoweverLongACallLasts) {
+  for (double call : {0.02, 0.1, 0.5}) {
+    Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
+    push_move(simulation, 0.0, 1.0, above, above - Vector3d(0.0, 0.0, 0.02));
+    push_move(simulation, 1.02, 2.0, above - Vector3d(0.0, 0.0, 0.02), above + Vector3d(0.0, 0.0, 0.1));
+    simulation.push_button(0.0, true);
+    int started = 0, ended = 0;
+    bool touching = false;
+    for (double t = call; t < 2.0 + 1e-9; t += call) {
+      simulation.advance(t);
+      bool starts = false, ends = false, persists = false;
+      for (const ContactState& c : simulation.contacts()) {
+        starts = starts || c.phase == ContactPhase::started;
+        ends = ends || c.phase == ContactPhase::ended;
+        persists = persists || c.phase == ContactPhase::persisting;
+      }
+      EXPECT_FALSE(starts && persists);
+      EXPECT_EQ(persists || ends, touching) << t;
+      touching = starts || persists;
+      started += starts;
+      ended += ends;
+    }
+    EXPECT_EQ(started, 1) << call;
+    EXPECT_EQ(ended, 1) << call;
+  }
+}
+
 TEST(Simulation, RigidForkLeavesTheHandleBehindInsteadOfPushingThrough) {
   SimulationSettings set = settings();
   set.fork.dofs = {false, false, false};
