@@ -2,11 +2,11 @@
 set(SPRING_WORKBENCH_MESSAGE_PACKAGES diagnostic_msgs geometry_msgs sensor_msgs std_msgs std_srvs tf2_msgs
   visualization_msgs)
 find_package(catkin REQUIRED COMPONENTS
-  message_generation rosbag rosconsole roscpp roslib tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
+  message_generation rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
 
 add_message_files(FILES Contact.msg Contacts.msg ForkState.msg ObjectState.msg ObjectStates.msg StepReport.msg)
 add_service_files(FILES LoadScene.srv SetForkDamping.srv SetForkDofs.srv SetForkStiffness.srv SetIntegrator.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
 catkin_package(CATKIN_DEPENDS
-  message_runtime rosbag rosconsole roscpp roslib tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
+  message_runtime rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})

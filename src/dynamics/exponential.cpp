@@ -16,6 +16,7 @@ constexpr double relinearise_after = 0.1;
 /// Eigenvectors may be worse conditioned than this only where the damping is critical to the last bit; then the linear part
 /// is taken with slightly other damping, and the difference goes to the remainder.
 constexpr double worst_condition = 1e6;
+constexpr int most_attempts = 6;
 
 }  // namespace
 
@@ -42,52 +43,57 @@ void Exponential::linearise(const HeldBody& body, const HandleForcing& handle, c
         (body.acceleration(handle, down, rest) - body.acceleration(handle, up, rest)) / (2.0 * moved);
   }
 
-  // Scale rates by each coordinate's own frequency so that the eigenproblem is graded evenly.
-  StrainVector scale(n_);
-  for (int i = 0; i < n_; ++i) {
-    scale[i] = std::sqrt(std::max(K[i] / M(i, i), 1.0));
-  }
+  // Undamped modes of the springs first: in them, with displacements scaled by their frequencies, stiff and soft motions
+  // stand side by side without loss of digits.
+  const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> undamped(StrainMatrix(K.asDiagonal()), M);
+  const StrainMatrix shapes = undamped.eigenvectors();
+  const StrainMatrix to_shapes = shapes.transpose() * M;
+  const StrainVector scale = undamped.eigenvalues().cwiseMax(1.0).cwiseSqrt();
+  const StrainMatrix modal_stiffness = to_shapes * stiffness_ * shapes;
+
+  using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
+  Eigen::EigenSolver<ModeMatrix> solver(2 * n_);
   FromModes V, V_inverse;
-  Eigen::EigenSolver<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>> solver(2 * n_);
   double off_critical = 0.0;
-  for (int attempt = 0; attempt < 6; ++attempt) {
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
     damping_ = inverse_mass_ * D;
     for (int i = 0; i < n_; ++i) damping_.col(i) *= 1.0 + off_critical * (i + 1);
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes> A(2 * n_, 2 * n_);
-    A.setZero();
-    for (int i = 0; i < n_; ++i) {
-      A(i, n_ + i) = scale[i];
-      for (int j = 0; j < n_; ++j) {
-        A(n_ + i, j) = -stiffness_(i, j) / scale[i];
-        A(n_ + i, n_ + j) = -damping_(i, j) * scale[j] / scale[i];
-      }
-    }
+    const StrainMatrix modal_damping = to_shapes * damping_ * shapes;
+    ModeMatrix A = ModeMatrix::Zero(2 * n_, 2 * n_);
+    A.topRightCorner(n_, n_).diagonal() = scale;
+    A.bottomLeftCorner(n_, n_) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());
+    A.bottomRightCorner(n_, n_) = -modal_damping;
     solver.compute(A);
     V = solver.eigenvectors();
     V_inverse = V.partialPivLu().inverse();
-    const double condition = V.norm() * V_inverse.norm();
-    if (condition < worst_condition) break;
+    if (V.norm() * V_inverse.norm() < worst_condition) break;
     off_critical = off_critical == 0.0 ? 1e-8 : 10.0 * off_critical;
   }
 
-  // Keep the real modes and one of each conjugate pair; undo the scaling.
-  int kept = 0;
-  fastest_ = 0.0;
+  // Keep the real modes and one of each conjugate pair, in the coordinates themselves.
+  const FromModes from = [&] {
+    FromModes m(2 * n_, 2 * n_);
+    m.topRows(n_) = shapes * scale.cwiseInverse().asDiagonal() * V.topRows(n_);
+    m.bottomRows(n_) = shapes * V.bottomRows(n_);
+    return m;
+  }();
+  const FromModes to = [&] {
+    FromModes m(2 * n_, 2 * n_);
+    m.leftCols(n_) = V_inverse.leftCols(n_) * (scale.asDiagonal() * to_shapes);
+    m.rightCols(n_) = V_inverse.rightCols(n_) * to_shapes;
+    return m;
+  }();
   const auto values = solver.eigenvalues();
+  fastest_ = values.cwiseAbs().maxCoeff();
   rates_.resize(2 * n_);
   to_modes_.resize(2 * n_, 2 * n_);
   from_modes_.resize(2 * n_, 2 * n_);
+  int kept = 0;
   for (int m = 0; m < 2 * n_; ++m) {
-    fastest_ = std::max(fastest_, std::abs(values[m]));
     if (values[m].imag() < 0.0) continue;
-    const double count = values[m].imag() > 0.0 ? 2.0 : 1.0;
     rates_[kept] = values[m];
-    for (int i = 0; i < n_; ++i) {
-      from_modes_(i, kept) = count * V(i, m);
-      from_modes_(n_ + i, kept) = count * V(n_ + i, m) * scale[i];
-      to_modes_(kept, i) = V_inverse(m, i);
-      to_modes_(kept, n_ + i) = V_inverse(m, n_ + i) / scale[i];
-    }
+    from_modes_.col(kept) = (values[m].imag() > 0.0 ? 2.0 : 1.0) * from.col(m);
+    to_modes_.row(kept) = to.row(m);
     ++kept;
   }
   rates_.conservativeResize(kept);

@@ -1,7 +1,5 @@
 #include "spring_workbench/ros_interface/manipulation_node.h"
 
-#include <ros/package.h>
-
 #include <algorithm>
 
 #include "spring_workbench/ros_interface/conversions.h"
@@ -10,7 +8,7 @@
 namespace spring_workbench {
 ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : parameters_(read_manipulation_parameters(private_parameters(private_node), private_node.getNamespace())),
-      runner_(load_scene(parameters_.scene, ros::package::getPath), parameters_.simulation),
+      runner_(load_scene(parameters_.scene), parameters_.simulation),
       input_(node, parameters_),
       publisher_(private_node, parameters_),
       services_(private_node, runner_),

@@ -60,14 +60,14 @@ YAML::Node private_parameters(const ros::NodeHandle& private_node) {
 YAML::Node take(YAML::Node& map, const std::string& key) {
   const YAML::Node found = map[key];
   if (!found) return YAML::Node(YAML::NodeType::Undefined);
-  const YAML::Node copy = YAML::Clone(found);
   map.remove(key);
-  return copy;
+  return found;
 }
 
 ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters, const std::string& where) {
   if (!parameters.IsMap()) throw InputError(where + ": must be a map of parameters");
-  YAML::Node rest = YAML::Clone(parameters);
+  YAML::Node rest(YAML::NodeType::Map);
+  for (const auto& entry : parameters) rest[entry.first] = entry.second;
   ManipulationParameters result;
   const YAML::Node scene = take(rest, "scene");
   if (!scene) refuse(where, "scene", "(nothing)", "a URDF's path or package:// URI");

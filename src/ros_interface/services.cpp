@@ -1,7 +1,5 @@
 #include "spring_workbench/ros_interface/services.h"
 
-#include <ros/package.h>
-
 #include <cstdio>
 
 #include "spring_workbench/config/yaml_fields.h"
@@ -82,7 +80,7 @@ bool Services::set_integrator(SetIntegrator::Request& request, SetIntegrator::Re
 
 bool Services::load_scene(LoadScene::Request& request, LoadScene::Response& response) {
   return answer(response, [&] {
-    const Scene scene = spring_workbench::load_scene(request.scene, ros::package::getPath);
+    const Scene scene = spring_workbench::load_scene(request.scene);
     runner_.load(scene);
     response.message = scene.name + ": " + std::to_string(scene.bodies.size()) + " bodies";
     if (!scene.warnings.empty()) response.message += "; " + join(scene.warnings, "; ");

@@ -1,6 +1,5 @@
 #include "spring_workbench/ros_interface/tracker_driver.h"
 
-#include <ros/package.h>
 #include <sensor_msgs/Joy.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include "spring_workbench/ros_interface/diagnostics.h"
 #include "spring_workbench/ros_interface/loop_clock.h"
 #include "spring_workbench/ros_interface/parameters.h"
+#include "spring_workbench/scene/scene.h"
 #include "spring_workbench/tracker/motion_file.h"
 #include "spring_workbench/tracker/scripted_source.h"
 
@@ -22,7 +22,7 @@ std::string resolve(const std::string& path_or_uri) {
   if (path_or_uri.rfind(scheme, 0) != 0) return path_or_uri;
   const std::string rest = path_or_uri.substr(scheme.size());
   const std::string package = rest.substr(0, rest.find('/'));
-  const std::string folder = ros::package::getPath(package);
+  const std::string folder = find_package_in_ros_package_path(package);
   if (folder.empty()) refuse("file", "package", package, "a package on ROS_PACKAGE_PATH");
   return folder + rest.substr(package.size());
 }

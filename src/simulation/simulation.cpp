@@ -24,6 +24,12 @@ constexpr double asleep_after = 0.2;       ///< [s] … this long goes to sleep
 constexpr double world_limit = 100.0;      ///< [m] from the origin; a body that flies further stops there
 constexpr double point_mass_radius = 1e-2; ///< of the fork's length: radius of gyration of a point mass
 
+/// Whether the list has a contact of the same two bodies.
+bool contains_pair(const std::vector<ContactState>& list, const ContactState& c) {
+  return std::any_of(list.begin(), list.end(),
+                     [&](const ContactState& other) { return other.object == c.object && other.other == c.other; });
+}
+
 struct ButtonEvent {
   double t;
   bool pressed;
@@ -52,7 +58,9 @@ struct Simulation::Impl {
   std::vector<double> slow_since;
   std::unique_ptr<ForkBody> fork;                    ///< while something is held
   std::size_t held = 0;                              ///< index into `movable`
-  std::vector<ContactState> contacts;
+  std::vector<std::vector<ContactState>> touching;    ///< parallel: contacts after the last step; a sleeper keeps its own
+  std::vector<ContactState> ended;                   ///< since they were told last
+  std::vector<ContactState> contacts;                ///< of the last call of advance
   RigidTransform X_WH = RigidTransform::Identity();
   AdvanceReport report;
 
@@ -71,6 +79,8 @@ struct Simulation::Impl {
   void carry(SteppedBody& stepped, std::size_t object, double h);
   void take_state(std::size_t object, const MotionState& s);
   void note_contacts(std::size_t object, const ContactOutcome& outcome, double h);
+  void note_phases(const std::vector<ContactState>& before);
+  bool busy() const;
   void fill_parts();
   double elastic_energy() const { return fork ? fork->held().elastic_energy(fork->time(), fork->state()) : 0.0; }
 };
@@ -116,6 +126,8 @@ Simulation::Impl::Impl(const Scene& s, const SimulationSettings& set)
 void Simulation::Impl::place_objects() {
   fork.reset();
   contacts.clear();
+  touching.assign(movable.size(), {});
+  ended.clear();
   objects.assign(movable.size(), BodyState());
   rows.assign(movable.size(), {});
   slow_since.assign(movable.size(), 0.0);
@@ -242,6 +254,7 @@ void Simulation::Impl::note_contacts(std::size_t object, const ContactOutcome& o
   if (outcome.held_back) ++report.guards_tripped;
   const BodyState& o = objects[object];
   objects[object].in_contact = !outcome.rows.empty();
+  std::vector<ContactState> now_touching;
   for (const ContactRow& row : outcome.rows) {
     ContactState c;
     c.object = o.name;
@@ -252,8 +265,32 @@ void Simulation::Impl::note_contacts(std::size_t object, const ContactOutcome& o
     c.impulse = h * std::max(0.0, row.load_W.dot(row.point.n_W));
     const Vector3d v = o.V_WO_W.linear + o.V_WO_W.angular.cross(row.point.p_W - o.X_WO.translation());
     c.slip_speed = (v - row.point.n_W * v.dot(row.point.n_W)).norm();
+    now_touching.push_back(c);
+  }
+  // What was touched and is no more, until it has been told.
+  for (ContactState& c : touching[object]) {
+    if (contains_pair(now_touching, c)) continue;
+    c.impulse = 0.0;
+    ended.push_back(c);
+  }
+  touching[object] = std::move(now_touching);
+}
+
+/// By pair of bodies: which contacts are new since the last call, which went on, which ended.
+void Simulation::Impl::note_phases(const std::vector<ContactState>& before) {
+  contacts.clear();
+  for (const std::vector<ContactState>& of_object : touching) contacts.insert(contacts.end(), of_object.begin(), of_object.end());
+  for (ContactState& c : contacts) c.phase = contains_pair(before, c) ? ContactPhase::persisting : ContactPhase::started;
+  for (ContactState& c : ended) {
+    if (contains_pair(contacts, c)) continue;
+    c.phase = ContactPhase::ended;
     contacts.push_back(c);
   }
+  ended.clear();
+}
+
+bool Simulation::Impl::busy() const {
+  return fork || std::any_of(free_bodies.begin(), free_bodies.end(), [](const auto& b) { return b != nullptr; });
 }
 
 void Simulation::Impl::carry(SteppedBody& stepped, std::size_t object, double h) {
@@ -274,8 +311,6 @@ void Simulation::Impl::carry(SteppedBody& stepped, std::size_t object, double h)
 }
 
 void Simulation::Impl::step(double h) {
-  std::vector<ContactState> before = std::move(contacts);
-  contacts.clear();
   if (fork) {
     fork->set_hand(track.segment(now), now);
     carry(*fork, held, h);
@@ -300,24 +335,6 @@ void Simulation::Impl::step(double h) {
   }
   now += h;
   if (!track.empty() && now >= track.begin() - same_time) X_WH = track.segment(now).at(now).X;
-  // Which contacts are new, which went on, which ended: by pair.
-  const auto same_pair = [](const ContactState& a, const ContactState& b) {
-    return a.object == b.object && a.other == b.other;
-  };
-  for (ContactState& c : contacts) {
-    const bool known = std::any_of(before.begin(), before.end(), [&](const ContactState& b) {
-      return b.phase != ContactPhase::ended && same_pair(b, c);
-    });
-    c.phase = known ? ContactPhase::persisting : ContactPhase::started;
-  }
-  for (ContactState& b : before) {
-    if (b.phase == ContactPhase::ended) continue;
-    if (std::none_of(contacts.begin(), contacts.end(), [&](const ContactState& c) { return same_pair(c, b); })) {
-      b.phase = ContactPhase::ended;
-      b.impulse = 0.0;
-      contacts.push_back(b);
-    }
-  }
 }
 
 void Simulation::Impl::fill_parts() {
@@ -341,6 +358,8 @@ void Simulation::Impl::advance(double t_end) {
     if (!track.empty() && now >= track.begin() - same_time) X_WH = track.segment(now).at(now).X;
   }
   const double begin = now;
+  std::vector<ContactState> before;
+  for (const std::vector<ContactState>& of_object : touching) before.insert(before.end(), of_object.begin(), of_object.end());
   for (;;) {
     select();
     apply_buttons();
@@ -356,17 +375,16 @@ void Simulation::Impl::advance(double t_end) {
       if (count <= 1.0) end = std::min(stretch_end, end);
     }
     if (!buttons.empty() && buttons.front().t > now + same_time) end = std::min(end, buttons.front().t);
-    const bool busy = fork || std::any_of(free_bodies.begin(), free_bodies.end(), [](const auto& b) { return b != nullptr; });
-    if (busy) {
+    if (busy()) {
       step(end - now);
       now = end;
     } else {
-      contacts.clear();
       now = end;
       if (!track.empty() && now >= track.begin() - same_time) X_WH = track.segment(now).at(now).X;
     }
     if (!track.empty() && track.begin() < now) track.forget_before(now);
   }
+  note_phases(before);
   report.simulated_time = now - begin;
 }
 

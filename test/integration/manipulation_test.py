@@ -47,6 +47,7 @@ class Manipulation(unittest.TestCase):
         self.call("set_dofs", True, True, True)
         self.call("set_stiffness", 2000.0, 500.0, 5.0)
         self.call("set_damping", 1.0, 1.0, 1.0)
+        self.call("set_integrator", "exponential", 0.02, 0.0)
         self.hand.position, self.hand.rotation, self.hand.pressed = (0.03, 0.0, 0.4), DOWN, False
         self.hand.run(0.2)
 
@@ -96,6 +97,8 @@ class Manipulation(unittest.TestCase):
 
     def test_frames_and_reports(self):
         self.lift()
+        seen = len(self.steps.messages)
+        self.hand.run(0.5)
         frames = {t.child_frame_id: t for m in self.tf.messages for t in m.transforms if t.header.frame_id == "world"}
         self.assertLessEqual({"box", "fork_handle", "fork_tip"}, set(frames))
         box = self.box()  # of the single box, link frame and centre-of-mass frame are one
@@ -105,7 +108,8 @@ class Manipulation(unittest.TestCase):
         self.assertEqual(step.integrator, "exponential")
         self.assertIn("stretch", " ".join(step.parts_run))
         values = wait_for(lambda: diagnostic_values(self.diagnostics.messages, "physics loop"), "diagnostics")
-        self.assertEqual(values["guards tripped"], "0")
+        self.assertIn("deadlines missed", values)
+        self.assertEqual(sum(m.guards_tripped for m in self.steps.messages[seen:]), 0)
         self.assertAlmostEqual(float(diagnostic_values(self.diagnostics.messages, "tracker input")["rate [Hz]"]), 50.0,
                                delta=1.0)
 
@@ -177,7 +181,7 @@ class Manipulation(unittest.TestCase):
     def test_every_integrator_holds_the_box(self):
         self.lift()
         resting = self.box().pose.position.z
-        for name, step in [("closed_form", 0.01), ("rk4", 1e-3), ("semi_implicit_euler", 1e-4), ("exponential", 0.02)]:
+        for name, step in [("closed_form", 0.01), ("rk4", 1e-3), ("semi_implicit_euler", 1e-3), ("exponential", 0.02)]:
             self.call("set_integrator", name, step, 0.0)
             self.hand.run(1.0)
             self.assertEqual(self.fork.next().integrator, name)

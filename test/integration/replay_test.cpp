@@ -187,7 +187,7 @@ TEST_F(Replay, WritesALinePerOutputTimeAndObject) {
   EXPECT_EQ(summary["outputs"].as<int>(), 51);
   EXPECT_EQ(summary["samples"].as<int>(), 101);
   EXPECT_EQ(summary["samples_left_out"].as<int>(), 0);
-  EXPECT_GE(summary["steps"].as<int>(), 100);
+  EXPECT_GE(summary["steps"].as<int>(), 50);  // none while nothing moves
   EXPECT_NEAR(summary["simulated_time"].as<double>(), 2.0, 1e-9);
   for (const char* key : {"wall_time", "time_per_step", "position_error", "angle_error", "energy_drift", "contacts",
                           "collision_queries", "guards_tripped", "stiffest_omega_dt"}) {

@@ -34,7 +34,7 @@ class Integrator {
   struct Response {
     StrainMatrix q, q_dot;
   };
-  /// From the implicit midpoint rule unless a method knows better.
+  /// From the implicit Euler rule unless a method knows better.
   virtual Response response(const HeldBody& body, double t, double h, const StrainState& state);
 };
 

@@ -114,7 +114,7 @@ class Simulation {
   /// A family with 0 keeps its stiffness.
   ChangeReport set_stiffness(const PerFamily& stiffness);
   ChangeReport set_damping_ratio(const PerFamily& ratio);
-  /// Stiffness, damping and size from the held object's mass, size and grasp. Throws InputError when nothing is held.
+  /// Stiffness from the held object's mass and size; the damping ratios stay. Throws InputError when nothing is held.
   ChangeReport calibrate();
   /// By name; `step` [s] 0 keeps the present one.
   void set_integrator(const std::string& name, double step);

@@ -1,0 +1,340 @@
+#include "spring_workbench/simulation/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench {
+namespace {
+
+/// One box, 0.1 × 0.06 × 0.04 m and 1 kg, with its centre at `centre`.
+Scene box_scene(const Vector3d& centre, ContactMode contact = ContactMode::stop, double friction = 0.5) {
+  Scene scene;
+  scene.name = scene.path = "box";
+  scene.contact = contact;
+  scene.bench_material.friction = friction;
+  Body box;
+  box.name = "box";
+  box.movable = true;
+  box.X_WO.translation() = centre;
+  const Vector3d size(0.1, 0.06, 0.04);
+  box.mass_properties.mass = 1.0;
+  const Vector3d s2 = size.cwiseProduct(size);
+  box.mass_properties.inertia_O =
+      (1.0 / 12.0 * Vector3d(s2.y() + s2.z(), s2.x() + s2.z(), s2.x() + s2.y())).asDiagonal();
+  box.material.friction = friction;
+  box.collision.push_back({Box{size}});
+  scene.bodies.push_back(box);
+  return scene;
+}
+
+/// The fork's axis pointing down, the handle at `p`.
+RigidTransform pointing_down(const Vector3d& p, double turned = 0.0) {
+  return make_transform(Quaterniond(Eigen::AngleAxisd(turned, Vector3d::UnitZ())) * Quaterniond(0.0, 1.0, 0.0, 0.0), p);
+}
+
+/// Samples at 50 Hz of a handle that goes from `a` to `b` in minimum jerk and turns about the vertical.
+void push_move(Simulation& simulation, double t0, double t1, const Vector3d& a, const Vector3d& b, double turn = 0.0) {
+  for (double t = t0; t < t1 + 1e-9; t += 0.02) {
+    const double u = (t - t0) / (t1 - t0);
+    const double s = u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
+    simulation.push_stylus({t, pointing_down(a + s * (b - a), s * turn)});
+  }
+}
+
+SimulationSettings settings() { return SimulationSettings(); }
+
+const Vector3d above(0.0, 0.0, 0.22);  // the tip of a 0.2 m fork is in the middle of a box on the bench
+
+TEST(Simulation, BoxThatIsDroppedComesToRestOnTheBench) {
+  Simulation simulation(box_scene({0.0, 0.0, 0.1}), settings());
+  simulation.push_stylus({0.0, pointing_down({0.0, 0.0, 0.3})});
+  simulation.push_button(0.0, true);
+  simulation.push_button(0.1, false);
+  for (int i = 1; i <= 200; ++i) simulation.advance(0.02 * i);
+  const BodyState& box = simulation.objects()[0];
+  EXPECT_TRUE(box.asleep);
+  EXPECT_NEAR(box.X_WO.translation().z(), 0.02, 2e-5);
+  EXPECT_LT(log_so3(box.X_WO.linear()).norm(), 0.05);
+}
+
+TEST(Simulation, ThrownObjectFliesOnAParabolaAndKeepsItsAngularMomentum) {
+  SimulationSettings set = settings();
+  Scene scene = box_scene({0.0, 0.0, 2.0}, ContactMode::none);
+  Simulation simulation(scene, set);
+  simulation.push_stylus({0.0, pointing_down({0.0, 0.0, 2.2})});
+  push_move(simulation, 0.02, 0.5, {0.0, 0.0, 2.2}, {0.4, 0.2, 2.5}, 1.5);
+  simulation.push_button(0.0, true);
+  simulation.push_button(0.3, false);
+  simulation.advance(0.3);
+  const BodyState start = simulation.objects()[0];
+  ASSERT_FALSE(start.held);
+  ASSERT_GT(start.V_WO_W.linear.norm(), 0.3);
+  const Matrix3d I = scene.bodies[0].mass_properties.inertia_O;
+  const auto momentum = [&](const BodyState& s) {
+    return Vector3d(s.X_WO.linear() * I * s.X_WO.linear().transpose() * s.V_WO_W.angular);
+  };
+  simulation.advance(0.5);
+  const BodyState& end = simulation.objects()[0];
+  const double t = 0.2;
+  const Vector3d expected =
+      start.X_WO.translation() + t * start.V_WO_W.linear - 0.5 * 9.81 * t * t * Vector3d::UnitZ();
+  EXPECT_LT((end.X_WO.translation() - expected).norm(), 1e-12);
+  EXPECT_LT((momentum(end) - momentum(start)).norm(), 1e-12 + 1e-9 * momentum(start).norm());
+}
+
+TEST(Simulation, DroppedObjectStartsFromRest) {
+  SimulationSettings set = settings();
+  set.grasp.release = "dropped";
+  Simulation simulation(box_scene({0.0, 0.0, 2.0}, ContactMode::none), set);
+  push_move(simulation, 0.0, 0.5, {0.0, 0.0, 2.2}, {0.4, 0.2, 2.5}, 1.5);
+  simulation.push_button(0.0, true);
+  simulation.push_button(0.3, false);
+  simulation.advance(0.3);
+  EXPECT_EQ(simulation.objects()[0].V_WO_W.linear.norm(), 0.0);
+  EXPECT_EQ(simulation.objects()[0].V_WO_W.angular.norm(), 0.0);
+}
+
+TEST(Simulation, GraspDoesNotSnap) {
+  Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
+  push_move(simulation, 0.0, 1.0, above + Vector3d(0.01, 0.005, 0.0), above + Vector3d(0.01, 0.005, 0.1));
+  simulation.push_button(0.1, true);
+  simulation.advance(0.1);
+  const RigidTransform before = simulation.objects()[0].X_WO;
+  EXPECT_TRUE(simulation.objects()[0].held);
+  EXPECT_LT((before.matrix() - simulation.scene().bodies[0].X_WO.matrix()).norm(), 1e-12);
+  simulation.advance(0.1001);
+  EXPECT_LT((simulation.objects()[0].X_WO.matrix() - before.matrix()).norm(), 1e-4);
+}
+
+TEST(Simulation, LiftedBoxHangsByItsWeight) {
+  Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
+  push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.0, 0.0, 0.2));
+  simulation.push_stylus({5.0, pointing_down(above + Vector3d(0.0, 0.0, 0.2))});
+  simulation.push_button(0.0, true);
+  simulation.advance(5.0);
+  const ToolState fork = simulation.fork();
+  EXPECT_EQ(fork.held_object, "box");
+  EXPECT_NEAR(fork.stretch, 9.81 / 2000.0, 1e-6 * 9.81 / 2000.0);
+  EXPECT_NEAR(fork.tip_wrench_W.force.z(), 9.81, 1e-6);
+  // Down is +z of the handle: the hand feels the weight along its fork.
+  EXPECT_NEAR(fork.handle_wrench_H.force.z(), 9.81, 1e-6);
+  EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.22 - 9.81 / 2000.0, 1e-6);
+}
+
+TEST(Simulation, PressedOnTheBenchItStaysOutsideAndTheForkTakesUpTheDifference) {
+  Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
+  push_move(simulation, 0.0, 1.0, above, above - Vector3d(0.0, 0.0, 0.03));
+  simulation.push_stylus({3.0, pointing_down(above - Vector3d(0.0, 0.0, 0.03))});
+  simulation.push_button(0.0, true);
+  for (int i = 1; i <= 150; ++i) {
+    simulation.advance(0.02 * i);
+    EXPECT_GT(simulation.objects()[0].X_WO.translation().z(), 0.02 - 1e-5);
+  }
+  EXPECT_NEAR(simulation.fork().stretch, -0.03, 1e-4);
+  EXPECT_TRUE(simulation.objects()[0].in_contact);
+  EXPECT_LT(simulation.objects()[0].V_WO_W.linear.norm(), 1e-4);
+}
+
+TEST(Simulation, ContactsStartPersistAndEndHoweverLongACallLasts) {
+  for (double call : {0.02, 0.1, 0.5}) {
+    Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
+    push_move(simulation, 0.0, 1.0, above, above - Vector3d(0.0, 0.0, 0.02));
+    push_move(simulation, 1.02, 2.0, above - Vector3d(0.0, 0.0, 0.02), above + Vector3d(0.0, 0.0, 0.1));
+    simulation.push_button(0.0, true);
+    int started = 0, ended = 0;
+    bool touching = false;
+    for (double t = call; t < 2.0 + 1e-9; t += call) {
+      simulation.advance(t);
+      bool starts = false, ends = false, persists = false;
+      for (const ContactState& c : simulation.contacts()) {
+        starts = starts || c.phase == ContactPhase::started;
+        ends = ends || c.phase == ContactPhase::ended;
+        persists = persists || c.phase == ContactPhase::persisting;
+      }
+      EXPECT_FALSE(starts && persists);
+      EXPECT_EQ(persists || ends, touching) << t;
+      touching = starts || persists;
+      started += starts;
+      ended += ends;
+    }
+    EXPECT_EQ(started, 1) << call;
+    EXPECT_EQ(ended, 1) << call;
+  }
+}
+
+TEST(Simulation, RigidForkLeavesTheHandleBehindInsteadOfPushingThrough) {
+  SimulationSettings set = settings();
+  set.fork.dofs = {false, false, false};
+  Simulation simulation(box_scene({0.0, 0.0, 0.02}), set);
+  push_move(simulation, 0.0, 1.0, above, above - Vector3d(-0.1, 0.0, 0.05));
+  push_move(simulation, 1.02, 2.0, above - Vector3d(-0.1, 0.0, 0.05), above + Vector3d(0.1, 0.0, 0.1));
+  simulation.push_stylus({3.0, pointing_down(above + Vector3d(0.1, 0.0, 0.1))});
+  simulation.push_button(0.0, true);
+  for (int i = 1; i <= 50; ++i) {
+    simulation.advance(0.02 * i);
+    EXPECT_GT(simulation.objects()[0].X_WO.translation().z(), 0.02 - 1e-5);
+  }
+  const ToolState fork = simulation.fork();
+  EXPECT_NEAR(fork.X_WH_seen.translation().z() - fork.X_WH.translation().z(), 0.05, 2e-3);
+  // The way is free again: the gap closes.
+  simulation.advance(3.0);
+  EXPECT_LT((simulation.fork().X_WH_seen.matrix() - simulation.fork().X_WH.matrix()).norm(), 1e-9);
+  EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.12, 1e-6);
+}
+
+TEST(Simulation, SlidingBoxStopsByFriction) {
+  // Let go on the bench at speed v it slides v² / (2 μ g).
+  SimulationSettings set = settings();
+  set.dynamics.step = 0.005;
+  Simulation simulation(box_scene({0.0, 0.0, 0.02}, ContactMode::stop, 0.4), set);
+  for (double t = 0.0; t < 0.6; t += 0.02) {
+    simulation.push_stylus({t, pointing_down(above + Vector3d(t * t, 0.0, 0.0))});  // 2 m/s² along x
+  }
+  simulation.push_button(0.0, true);
+  simulation.push_button(0.5, false);
+  simulation.advance(0.5);
+  const BodyState start = simulation.objects()[0];
+  ASSERT_GT(start.V_WO_W.linear.x(), 0.3);
+  const double v = start.V_WO_W.linear.head<2>().norm();
+  const Vector3d p = start.X_WO.translation();
+  ASSERT_LT(std::abs(start.V_WO_W.linear.z()), 0.05);
+  simulation.advance(3.0);
+  const double way = (simulation.objects()[0].X_WO.translation() - p).norm();
+  EXPECT_NEAR(way, v * v / (2.0 * 0.4 * 9.81), 0.15 * way);
+  EXPECT_TRUE(simulation.objects()[0].asleep);
+}
+
+class Switching : public testing::Test {
+ protected:
+  Switching() : simulation(box_scene({0.0, 0.0, 0.5}, ContactMode::none), off_centre()) {
+    push_move(simulation, 0.0, 2.0, {0.03, 0.02, 0.7}, {0.2, 0.1, 0.8}, 3.0);
+    simulation.push_button(0.0, true);
+    simulation.advance(0.7);
+    before = simulation.objects()[0];
+  }
+  static SimulationSettings off_centre() {
+    SimulationSettings set;
+    set.fork.damping_ratio = {0.2, 0.2, 0.2};
+    return set;
+  }
+  void expect_no_jump() {
+    simulation.advance(0.7);
+    const BodyState& after = simulation.objects()[0];
+    EXPECT_LT((after.X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-12);
+    // Over a microsecond the object goes on by its velocity.
+    simulation.advance(0.7 + 1e-6);
+    const Vector3d moved = simulation.objects()[0].X_WO.translation() - before.X_WO.translation();
+    EXPECT_LT((moved - 1e-6 * before.V_WO_W.linear).norm(), 1e-9);
+    EXPECT_LT((simulation.objects()[0].V_WO_W.angular - before.V_WO_W.angular).norm(), 1e-3);
+  }
+  Simulation simulation;
+  BodyState before;
+};
+
+TEST_F(Switching, TorsionOffAndOn) {
+  ASSERT_GT(std::abs(simulation.fork().torsion), 1e-3);
+  const ChangeReport off = simulation.set_dofs({true, true, false});
+  EXPECT_GT(off.elastic_energy_before, 0.0);
+  expect_no_jump();
+  simulation.advance(2.0);
+  EXPECT_LT(std::abs(simulation.fork().torsion), 1e-9);
+  const RigidTransform X = simulation.objects()[0].X_WO;
+  simulation.set_dofs({true, true, true});
+  EXPECT_LT((simulation.objects()[0].X_WO.matrix() - X.matrix()).norm(), 1e-15);
+}
+
+TEST_F(Switching, AllOff) {
+  simulation.set_dofs({false, false, false});
+  expect_no_jump();
+  simulation.advance(6.0);
+  EXPECT_EQ(simulation.fork().elastic_energy, 0.0);
+}
+
+TEST_F(Switching, NewStiffnessReportsTheEnergyItAdds) {
+  const double torsion = simulation.fork().torsion;
+  const ChangeReport change = simulation.set_stiffness({0.0, 0.0, 15.0});
+  EXPECT_NEAR(change.elastic_energy_after - change.elastic_energy_before, 0.5 * 10.0 * torsion * torsion, 1e-12);
+  EXPECT_EQ(simulation.settings().fork.stiffness.bend, 500.0);
+  expect_no_jump();
+}
+
+TEST_F(Switching, EveryIntegratorTakesOver) {
+  for (const char* name : {"closed_form", "rk4", "semi_implicit_euler", "exponential"}) {
+    simulation.set_integrator(name, 0.0);
+    EXPECT_EQ(simulation.fork().integrator, name);
+  }
+  expect_no_jump();
+}
+
+TEST_F(Switching, BadValuesChangeNothing) {
+  EXPECT_THROW(simulation.set_stiffness({std::nan(""), 0.0, 0.0}), InputError);
+  EXPECT_THROW(simulation.set_stiffness({-1.0, 0.0, 0.0}), InputError);
+  EXPECT_THROW(simulation.set_damping_ratio({0.0, 11.0, 0.0}), InputError);
+  EXPECT_THROW(simulation.set_integrator("magic", 0.0), InputError);
+  EXPECT_THROW(simulation.set_integrator("rk4", -1.0), InputError);
+  EXPECT_EQ(simulation.settings().fork.stiffness.stretch, 2000.0);
+  EXPECT_EQ(simulation.settings().fork.damping_ratio.bend, 0.2);
+  EXPECT_EQ(simulation.settings().dynamics.integrator, "exponential");
+  expect_no_jump();
+}
+
+TEST(Simulation, SameInputGivesTheSameBits) {
+  const auto run = [] {
+    Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
+    push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.1, 0.05, 0.1), 1.0);
+    simulation.push_button(0.1, true);
+    simulation.push_button(0.8, false);
+    for (int i = 1; i <= 60; ++i) simulation.advance(0.02 * i);
+    return simulation.objects()[0].X_WO;
+  };
+  const RigidTransform a = run(), b = run();
+  EXPECT_EQ(std::memcmp(a.data(), b.data(), 16 * sizeof(double)), 0);
+}
+
+TEST(Simulation, MasslessObjectFollowsTheTipExactly) {
+  Scene scene = box_scene({0.0, 0.0, 0.02}, ContactMode::none);
+  scene.bodies[0].mass_properties = MassProperties();
+  Simulation simulation(scene, settings());
+  push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.3, 0.1, 0.2), 2.0);
+  simulation.push_button(0.0, true);
+  simulation.advance(0.5);
+  const ToolState fork = simulation.fork();
+  EXPECT_LT((fork.X_WE.translation() - simulation.objects()[0].X_WO.translation()).norm(), 1e-12);
+  EXPECT_EQ(fork.elastic_energy, 0.0);
+}
+
+TEST(Simulation, WithoutContactNoCollisionRuns) {
+  Simulation simulation(box_scene({0.0, 0.0, 0.02}, ContactMode::none), settings());
+  push_move(simulation, 0.0, 1.0, above, above - Vector3d(0.0, 0.0, 0.1));
+  simulation.push_button(0.0, true);
+  const AdvanceReport report = simulation.advance(1.0);
+  EXPECT_EQ(report.collision_queries, 0);
+  EXPECT_NE(std::find(report.parts_left_out.begin(), report.parts_left_out.end(), "collision"),
+            report.parts_left_out.end());
+  EXPECT_LT(simulation.objects()[0].X_WO.translation().z(), 0.0);
+}
+
+TEST(Simulation, NothingHeldNothingStepped) {
+  Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
+  push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.3, 0.1, 0.2));
+  EXPECT_EQ(simulation.advance(1.0).steps, 0);
+}
+
+TEST(Simulation, SettingsThatDoNotFitAreRefused) {
+  SimulationSettings set = settings();
+  set.grasp.object = "ghost";
+  EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}), set), InputError);
+  set = settings();
+  set.fork.shape = "spaghetti";
+  EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}), set), InputError);
+  EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}, ContactMode::dynamic), settings()), InputError);
+}
+
+}  // namespace
+}  // namespace spring_workbench
