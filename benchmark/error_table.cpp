@@ -126,19 +126,24 @@ void write_row(const ErrorRow& row, std::ostream& out) {
   out << ',' << row.finite << '\n';
 }
 
-void write_error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan, std::ostream& out,
-                       std::ostream& progress) {
+std::vector<ErrorRow> write_error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan,
+                                        std::ostream& out, std::ostream& progress) {
   write_header(out);
+  std::vector<ErrorRow> all;
   std::size_t done = 0;
   for (const Scenario& scene : plan.scenes) {
     const ReferenceSolution reference = reference_solution(scene);
     for (const Method* method : methods) {
       progress << '[' << ++done << '/' << plan.scenes.size() * methods.size() << "] " << scene.name << " × "
                << scene.stiffness_factor << ' ' << method->name() << std::endl;
-      for (const ErrorRow& row : error_rows(*method, scene, reference, plan)) write_row(row, out);
+      for (const ErrorRow& row : error_rows(*method, scene, reference, plan)) {
+        write_row(row, out);
+        all.push_back(row);
+      }
       out.flush();
     }
   }
+  return all;
 }
 
 }  // namespace spring_workbench::benchmark

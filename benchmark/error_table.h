@@ -51,8 +51,8 @@ std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, co
 void write_header(std::ostream& out);
 void write_row(const ErrorRow& row, std::ostream& out);
 
-/// Everything, as CSV to `out` as it comes; progress to `progress`.
-void write_error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan, std::ostream& out,
-                       std::ostream& progress);
+/// Everything, as CSV to `out` as it comes; progress to `progress`. Returns the rows.
+std::vector<ErrorRow> write_error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan,
+                                        std::ostream& out, std::ostream& progress);
 
 }  // namespace spring_workbench::benchmark
