@@ -15,7 +15,7 @@ constexpr double relinearise_after = 0.1;
 
 /// Eigenvectors may be worse conditioned than this only where the damping is critical to the last bit; then the linear part
 /// is taken with slightly other damping, and the difference goes to the remainder.
-constexpr double worst_condition = 1e6;
+constexpr double worst_condition = 1e5;
 constexpr int most_attempts = 6;
 
 }  // namespace
@@ -53,7 +53,9 @@ void Exponential::linearise(const HeldBody& body, const HandleForcing& handle, c
 
   using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
   Eigen::EigenSolver<ModeMatrix> solver(2 * n_);
-  FromModes V, V_inverse;
+  // In real columns, a conjugate pair as its real and imaginary part: so V⁻¹ is that of what is kept of the pair, with no
+  // more error than its condition makes; of two complex rows that only rounding tells apart, one alone is worth nothing.
+  ModeMatrix V(2 * n_, 2 * n_), V_inverse;
   double off_critical = 0.0;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     damping_ = inverse_mass_ * D;
@@ -64,21 +66,28 @@ void Exponential::linearise(const HeldBody& body, const HandleForcing& handle, c
     A.bottomLeftCorner(n_, n_) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());
     A.bottomRightCorner(n_, n_) = -modal_damping;
     solver.compute(A);
-    V = solver.eigenvectors();
+    const FromModes vectors = solver.eigenvectors();
+    for (int m = 0; m < 2 * n_; ++m) {
+      if (solver.eigenvalues()[m].imag() < 0.0) {
+        V.col(m) = vectors.col(m - 1).imag();
+      } else {
+        V.col(m) = vectors.col(m).real();
+      }
+    }
     V_inverse = V.partialPivLu().inverse();
     if (V.norm() * V_inverse.norm() < worst_condition) break;
     off_critical = off_critical == 0.0 ? 1e-8 : 10.0 * off_critical;
   }
 
   // Keep the real modes and one of each conjugate pair, in the coordinates themselves.
-  const FromModes from = [&] {
-    FromModes m(2 * n_, 2 * n_);
+  const ModeMatrix from = [&] {
+    ModeMatrix m(2 * n_, 2 * n_);
     m.topRows(n_) = shapes * scale.cwiseInverse().asDiagonal() * V.topRows(n_);
     m.bottomRows(n_) = shapes * V.bottomRows(n_);
     return m;
   }();
-  const FromModes to = [&] {
-    FromModes m(2 * n_, 2 * n_);
+  const ModeMatrix to = [&] {
+    ModeMatrix m(2 * n_, 2 * n_);
     m.leftCols(n_) = V_inverse.leftCols(n_) * (scale.asDiagonal() * to_shapes);
     m.rightCols(n_) = V_inverse.rightCols(n_) * to_shapes;
     return m;
@@ -92,8 +101,13 @@ void Exponential::linearise(const HeldBody& body, const HandleForcing& handle, c
   for (int m = 0; m < 2 * n_; ++m) {
     if (values[m].imag() < 0.0) continue;
     rates_[kept] = values[m];
-    from_modes_.col(kept) = (values[m].imag() > 0.0 ? 2.0 : 1.0) * from.col(m);
-    to_modes_.row(kept) = to.row(m);
+    const bool pair = values[m].imag() > 0.0;
+    from_modes_.col(kept) = from.col(m).cast<Complex>();
+    to_modes_.row(kept) = to.row(m).cast<Complex>();
+    if (pair) {
+      from_modes_.col(kept) += Complex(0.0, 1.0) * from.col(m + 1);
+      to_modes_.row(kept) -= Complex(0.0, 1.0) * to.row(m + 1);
+    }
     ++kept;
   }
   rates_.conservativeResize(kept);

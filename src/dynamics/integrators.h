@@ -91,7 +91,7 @@ class Exponential final : public Integrator {
   StrainMatrix stiffness_, damping_;  ///< frozen M⁻¹K and M⁻¹D, the loads' own stiffness included
   StrainMatrix inverse_mass_;
   ModeVector rates_;                  ///< eigenvalues; one of each conjugate pair
-  FromModes to_modes_, from_modes_;   ///< state ↔ modes; a pair counts twice in from_modes_
+  FromModes to_modes_, from_modes_;   ///< state ↔ modes, state = Re(from_modes_ z)
   double fastest_ = 0.0;
   std::array<ModeStep, most_modes> mode_step_;
   LastAcceleration last_;

@@ -2,6 +2,7 @@
 
 #include <tf2/exceptions.h>
 
+#include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
@@ -12,6 +13,7 @@ namespace spring_workbench {
 namespace {
 
 constexpr double smallest_quaternion = 1e-6;
+constexpr double furthest = 1e6;  // [m]
 
 std::string frame(const std::string& name) { return !name.empty() && name.front() == '/' ? name.substr(1) : name; }
 
@@ -43,6 +45,10 @@ std::optional<TransformFault> find_fault(const geometry_msgs::TransformStamped& 
   if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
     return TransformFault{"not finite", place + "translation: (" + number(p.x) + ", " + number(p.y) + ", " +
                                             number(p.z) + ") is not allowed: must be three finite numbers"};
+  }
+  if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > furthest) {
+    return TransformFault{"too far", place + "translation: (" + number(p.x) + ", " + number(p.y) + ", " + number(p.z) +
+                                         ") is not allowed: must be within " + number(furthest) + " m"};
   }
   const std::string rotation =
       place + "rotation: (" + number(q.x) + ", " + number(q.y) + ", " + number(q.z) + ", " + number(q.w) + ")";

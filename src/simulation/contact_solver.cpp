@@ -12,12 +12,6 @@ namespace {
 constexpr int most_sweeps = 200;
 constexpr double small_change = 1e-10;  ///< of the largest load: the sweeps end
 
-Vector6d wrench_at_centre(const ContactRow& row, const Vector3d& force) {
-  Vector6d w;
-  w << force, row.lever_W.cross(force);
-  return w;
-}
-
 /// Keeps the load inside its friction cone: presses only, and tangential ≤ μ normal.
 Vector3d into_cone(const Vector3d& load, const Vector3d& n, double friction) {
   const double normal = load.dot(n);
@@ -31,33 +25,47 @@ Vector3d into_cone(const Vector3d& load, const Vector3d& n, double friction) {
 }  // namespace
 
 void solve_contacts(const Matrix6d& compliance, std::vector<ContactRow>& rows) {
-  // motion = what the load adds to the body's motion beyond the load assumed at the start.
+  // How each row's point answers to a force there, and how the body does.
+  struct Answer {
+    Matrix3d point;
+    Eigen::Matrix<double, 6, 3> body;
+    double normal, tangential;
+    bool gives_way;
+  };
+  std::vector<Answer> answers;
+  for (const ContactRow& row : rows) {
+    Eigen::Matrix<double, 3, 6> to_point;
+    to_point << Matrix3d::Identity(), -skew(row.lever_W);
+    Answer a;
+    a.body = compliance * to_point.transpose();
+    a.point = to_point * a.body;
+    a.normal = row.point.n_W.dot(a.point * row.point.n_W);
+    const double scale = a.point.trace();
+    a.tangential = std::max(0.5 * (scale - a.normal), 1e-12 * scale);
+    a.gives_way = scale > 0.0 && a.normal > 1e-12 * scale;
+    answers.push_back(a);
+  }
+  // What the loads add to the body's motion beyond those assumed at the start.
   Vector6d motion = Vector6d::Zero();
   for (int sweep = 0; sweep < most_sweeps; ++sweep) {
     double largest = 0.0, change = 0.0;
-    for (ContactRow& row : rows) {
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ContactRow& row = rows[i];
+      const Answer& a = answers[i];
+      if (!a.gives_way) continue;
       const Vector3d& n = row.point.n_W;
       const Vector3d at_point = motion.head<3>() + motion.tail<3>().cross(row.lever_W);
-      Eigen::Matrix<double, 3, 6> to_point;
-      to_point << Matrix3d::Identity(), -skew(row.lever_W);
-      const Matrix3d W = to_point * compliance * to_point.transpose();
-      const double gap = row.gap + n.dot(at_point);
-      const double W_nn = n.dot(W * n);
-      const double scale = W.trace();
-      if (!(scale > 0.0) || W_nn < 1e-12 * scale) continue;  // nothing here can give way
-      Vector3d load = row.load_W;
-      load -= gap / W_nn * n;
+      Vector3d load = row.load_W - (row.gap + n.dot(at_point)) / a.normal * n;
       if (row.friction > 0.0) {
         // One step against the slip that is left, then back into the cone.
-        const Vector3d slip = row.slip_W + at_point - n * n.dot(at_point) + (W * (load - row.load_W) - n * n.dot(W * (load - row.load_W)));
-        const double W_tt = std::max(0.5 * (W.trace() - W_nn), 1e-12 * scale);
-        load -= (slip - n * n.dot(slip)) / W_tt;
+        const Vector3d slip = row.slip_W + at_point + a.point * (load - row.load_W);
+        load -= (slip - n * n.dot(slip)) / a.tangential;
       } else {
         load = n * n.dot(load);
       }
       load = into_cone(load, n, row.friction);
       const Vector3d step = load - row.load_W;
-      motion += compliance * wrench_at_centre(row, step);
+      motion += a.body * step;
       row.load_W = load;
       largest = std::max(largest, load.norm());
       change = std::max(change, step.norm());

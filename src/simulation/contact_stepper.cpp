@@ -9,6 +9,7 @@ namespace spring_workbench {
 namespace {
 
 constexpr double touching = 1e-6;          ///< [m]; what is not deeper is free
+constexpr double slack = 0.5 * touching;   ///< [m] left to a body between two others that leave it no room
 constexpr double probe_depth = 1e-4;       ///< [m] by which the body is pushed to see what it touches
 constexpr double same_point = 2e-3;        ///< [m]; contacts nearer to each other are one
 constexpr double sweep_resolution = 2e-3;  ///< [m] between the poses that a sweep looks at
@@ -150,6 +151,7 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
     std::vector<ContactRow> assumed = work;
     body.go_back();
     const Matrix6d C = body.compliance(h);
+    for (ContactRow& row : work) row.gap += slack;
     solve_contacts(C, work);
     // Done when solving again would not move the body.
     double change = 0.0;

@@ -109,7 +109,7 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
     estimates_.position = std::max(estimates_.position, (J.topRows<3>() * e.q_error).norm());
     estimates_.angle = std::max(estimates_.angle, (J.bottomRows<3>() * e.q_error).norm());
     estimates_.omega_dt = std::max(estimates_.omega_dt, e.omega_dt);
-    ++estimates_.steps;
+    if (!held_.returning()) state_.energy_added += added_energy(motion, h, state_.strain, next);
   }
   state_.t += h;
   state_.strain = next;
@@ -117,6 +117,44 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   state_.offset = behind ? offset : RigidTransform::Identity();
   if (held_.returning() && held_.drop_finished_returns(state_.t) && held_.size() == 0) state_.strain = held_.zero_state();
   return hand_pose().translation().norm() < largest_distance;
+}
+
+double ForkBody::added_energy(const MotionSegment& motion, double h, const StrainState& begin,
+                              const StrainState& end) const {
+  const double t = state_.t;
+  const double m = held_.body().mass;
+  const StrainVector D = held_.damping();
+  double energy = 0.0, power = 0.0;
+  const auto look = [&](double at, const StrainState& s, const StrainVector& q_ddot) {
+    const HandleForcing handle = held_.forcing(motion, at);
+    const MotionState o = held_.object(handle, s, &q_ddot);
+    const Wrench& contact = held_.external_wrench();
+    const Matrix3d I_W = o.X.linear() * held_.body().inertia_O * o.X.linear().transpose();
+    const Vector3d up(0.0, 0.0, held_.gravity());
+    const Vector3d& w = o.velocity.angular;
+    const Vector3d force = m * (o.acceleration.linear + up) - contact.force;  // of the rod on the object
+    const Vector3d moment = I_W * o.acceleration.angular + w.cross(I_W * w) - contact.moment;
+    const Vector3d arm = o.X.translation() - handle.X_WH.translation();
+    energy = held_.elastic_energy(at, s) + held_.kinetic_energy(o.velocity, o.X.linear()) + m * up.dot(o.X.translation());
+    power = force.dot(handle.v_WH_W) + (moment + arm.cross(force)).dot(handle.X_WH.linear() * handle.angular_velocity) +
+            contact.force.dot(o.velocity.linear) + contact.moment.dot(w) - s.q_dot.dot(D.cwiseProduct(s.q_dot));
+  };
+  const StrainVector a0 = held_.acceleration(held_.forcing(motion, t), begin.q, begin.q_dot);
+  const StrainVector a1 = held_.acceleration(held_.forcing(motion, t + h), end.q, end.q_dot);
+  // The quintic through both ends, in the middle.
+  StrainState middle;
+  middle.q = 0.5 * (begin.q + end.q) + 5.0 / 32.0 * h * (begin.q_dot - end.q_dot) + h * h / 64.0 * (a0 + a1);
+  middle.q_dot = 15.0 / 8.0 / h * (end.q - begin.q) - 7.0 / 16.0 * (begin.q_dot + end.q_dot) + h / 32.0 * (a1 - a0);
+  const StrainVector a_middle =
+      held_.acceleration(held_.forcing(motion, t + 0.5 * h), middle.q, middle.q_dot);
+  look(t, begin, a0);
+  const double energy_begin = energy;
+  double work = power;
+  look(t + 0.5 * h, middle, a_middle);
+  work += 4.0 * power;
+  look(t + h, end, a1);
+  work += power;
+  return energy - energy_begin - h / 6.0 * work;
 }
 
 void ForkBody::remember() { remembered_ = state_; }

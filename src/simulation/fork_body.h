@@ -41,10 +41,14 @@ class ForkBody final : public SteppedBody {
   /// Acceleration of the object at present.
   MotionState object_with_acceleration() const;
 
+  /// Energy [J] that integration has added since the grasp: what the object and the fork have gained beyond the work of
+  /// hand, gravity, contact and damping. That work is a three-point quadrature over each step, so the figure means
+  /// something where the step resolves the motion (ω·dt below about 1). While a family returns to zero nothing is added.
+  double energy_added() const { return state_.energy_added; }
+
   // What the steps since the last call said.
   struct Estimates {
     double position = 0.0, angle = 0.0, omega_dt = 0.0;
-    int steps = 0;
   };
   Estimates take_estimates();
 
@@ -54,6 +58,7 @@ class ForkBody final : public SteppedBody {
     StrainState strain;
     bool behind = false;                                   ///< the seen handle is not where the hand is
     RigidTransform offset = RigidTransform::Identity();    ///< seen handle = offset · hand, in world
+    double energy_added = 0.0;                             ///< [J]
   };
   /// How the proxy gives way to a wrench at the centre of mass over a step; zero while the coordinates can follow.
   Matrix6d proxy_compliance(double h) const;
@@ -62,6 +67,8 @@ class ForkBody final : public SteppedBody {
   /// The seen handle's motion over a step that ends with this offset.
   MotionSegment seen_motion(double h, const RigidTransform& offset_end) const;
   StrainMatrix inverse_mass() const;
+  /// Energy added (see energy_added()) by a step of `h` from `begin` to `end` along the handle's `motion`.
+  double added_energy(const MotionSegment& motion, double h, const StrainState& begin, const StrainState& end) const;
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates> jacobian_W() const;
 
   std::size_t index_;

@@ -21,6 +21,7 @@ namespace {
 constexpr double same_time = 1e-9;         ///< [s]; stamps nearer to each other are one
 constexpr double asleep_speed = 2e-3;      ///< [m/s]; a body in contact that stays slower …
 constexpr double asleep_after = 0.2;       ///< [s] … this long goes to sleep
+constexpr double support_gap = 1e-4;       ///< [m]; what is nearer below carries
 constexpr double world_limit = 100.0;      ///< [m] from the origin; a body that flies further stops there
 constexpr double point_mass_radius = 1e-2; ///< of the fork's length: radius of gyration of a point mass
 
@@ -74,6 +75,7 @@ struct Simulation::Impl {
   void select();
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow);
   void let_go(bool thrown);
+  void wake_what_lies_on(std::size_t object);
   HeldBody make_held(std::size_t object, const RigidTransform& X_OE) const;
   void calibrate_for(std::size_t object);
   void carry(SteppedBody& stepped, std::size_t object, double h);
@@ -193,7 +195,29 @@ void Simulation::Impl::grasp(std::size_t object, const std::optional<RigidTransf
   objects[object].held = true;
   objects[object].highlighted = false;
   objects[object].asleep = false;
+  wake_what_lies_on(object);
   take_state(object, fork->object());
+}
+
+/// Sleepers that rest on `object`, and on one another, are free to fall.
+void Simulation::Impl::wake_what_lies_on(std::size_t object) {
+  if (!collision) return;
+  std::vector<ContactPoint> found;
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    if (i == object || !objects[i].asleep || objects[i].held || !(body(i).mass_properties.mass > 0.0)) continue;
+    RigidTransform lowered = objects[i].X_WO;
+    lowered.translation().z() -= support_gap;
+    found.clear();
+    collision->find_contacts(movable[i], lowered, 0.0, found);
+    const bool rests_on_it = std::any_of(found.begin(), found.end(), [&](const ContactPoint& c) {
+      return c.other == movable[object] && c.n_W.z() > 0.1;
+    });
+    if (!rests_on_it) continue;
+    free_bodies[i] = std::make_unique<FreeBody>(movable[i], body(i), scene.gravity, objects[i].X_WO, Twist());
+    slow_since[i] = now;
+    objects[i].asleep = false;
+    wake_what_lies_on(i);
+  }
 }
 
 void Simulation::Impl::let_go(bool thrown) {
@@ -312,8 +336,10 @@ void Simulation::Impl::carry(SteppedBody& stepped, std::size_t object, double h)
 
 void Simulation::Impl::step(double h) {
   if (fork) {
+    const double added_before = fork->energy_added();
     fork->set_hand(track.segment(now), now);
     carry(*fork, held, h);
+    report.energy_added += fork->energy_added() - added_before;
     const ForkBody::Estimates e = fork->take_estimates();
     report.position_error = std::max(report.position_error, e.position);
     report.angle_error = std::max(report.angle_error, e.angle);
@@ -325,7 +351,11 @@ void Simulation::Impl::step(double h) {
     BodyState& o = objects[i];
     o.asleep = false;
     const double speed = o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * bounding_radius(body(i));
-    if (!o.in_contact || speed > asleep_speed) slow_since[i] = now + h;
+    const bool on_something_awake = std::any_of(touching[i].begin(), touching[i].end(), [&](const ContactState& c) {
+      return std::any_of(objects.begin(), objects.end(),
+                         [&](const BodyState& other) { return other.name == c.other && !other.asleep; });
+    });
+    if (!o.in_contact || on_something_awake || speed > asleep_speed) slow_since[i] = now + h;
     const bool away = o.X_WO.translation().norm() > world_limit;
     if (away || now + h - slow_since[i] > asleep_after) {
       free_bodies[i].reset();

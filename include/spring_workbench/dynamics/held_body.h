@@ -41,6 +41,7 @@ class HeldBody {
 
   const ShapeModel& shape() const { return *shape_; }
   const BodyInertia& body() const { return body_; }
+  double gravity() const { return gravity_; }  ///< [m/s²]
   /// Grows by every change of the equations: what an integrator has derived from them is good for one version.
   long version() const { return version_; }
   /// Grows by every change of the external wrench, which leaves the equations' linear part as it is.

@@ -62,7 +62,8 @@ struct AdvanceReport {
   double simulated_time = 0.0;            ///< [s]
   double position_error = 0.0;            ///< largest estimate of a step's local error [m]
   double angle_error = 0.0;               ///< [rad]
-  double energy_added = 0.0;              ///< by integration beyond what hand, gravity, damping and contact account for [J]
+  double energy_added = 0.0;              ///< to the held object and the fork, beyond the work of hand, gravity, damping
+                                          ///< and contact [J]; means something where stiffest_omega_dt is below about 1
   double stiffest_omega_dt = 0.0;         ///< ω·dt of the stiffest mode
   int collision_queries = 0;
   int guards_tripped = 0;                 ///< times a step was refused because it would not have been finite or bounded

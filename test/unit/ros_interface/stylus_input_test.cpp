@@ -35,6 +35,7 @@ TEST(FindFault, NamesFrameFieldValueAndRuleInOneLine) {
                                 {transform(inf, 0, 0, 0, 1), "not finite", "translation", "inf"},
                                 {transform(0, nan, 0, 0, 1), "not finite", "rotation", "nan"},
                                 {transform(0, 0, inf, 0, 1), "not finite", "rotation", "inf"},
+                                {transform(1e10, 0, 0, 0, 1), "too far", "translation", "1e+10"},
                                 {transform(0, 0, 0, 0, 0), "zero quaternion", "rotation", "(0, 0, 0, 0)"}};
   for (const Case& c : cases) {
     const auto fault = find_fault(c.transform);

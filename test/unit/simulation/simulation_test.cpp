@@ -188,6 +188,26 @@ TEST(Simulation, RigidForkLeavesTheHandleBehindInsteadOfPushingThrough) {
   EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.12, 1e-6);
 }
 
+TEST(Simulation, WhatLiesOnAGraspedObjectWakes) {
+  Scene scene = box_scene({0.0, 0.0, 0.02});
+  Body upper = scene.bodies[0];
+  upper.name = "upper";
+  upper.X_WO.translation() << 0.03, 0.0, 0.06;
+  Body beside = upper;
+  beside.name = "beside";
+  beside.X_WO.translation() << 0.2, 0.0, 0.02;
+  scene.bodies.push_back(upper);
+  scene.bodies.push_back(beside);
+  Simulation simulation(scene, settings());
+  simulation.push_stylus({0.0, pointing_down(above - Vector3d(0.04, 0.0, 0.0))});
+  simulation.push_button(0.0, true);
+  simulation.advance(0.1);
+  EXPECT_TRUE(simulation.objects()[0].held);
+  EXPECT_FALSE(simulation.objects()[1].asleep);
+  EXPECT_TRUE(simulation.objects()[2].asleep);
+  EXPECT_NEAR(simulation.objects()[1].X_WO.translation().z(), 0.06, 1e-5);
+}
+
 TEST(Simulation, SlidingBoxStopsByFriction) {
   // Let go on the bench at speed v it slides v² / (2 μ g).
   SimulationSettings set = settings();
@@ -295,6 +315,22 @@ TEST(Simulation, SameInputGivesTheSameBits) {
   };
   const RigidTransform a = run(), b = run();
   EXPECT_EQ(std::memcmp(a.data(), b.data(), 16 * sizeof(double)), 0);
+}
+
+TEST(Simulation, EnergyAddedIsTheIntegratorsErrorAndFallsWithTheStep) {
+  const auto added = [](const char* integrator, double step) {
+    SimulationSettings set = settings();
+    set.dynamics.integrator = integrator;
+    set.dynamics.step = step;
+    set.fork.stiffness = {200.0, 60.0, 1.0};
+    Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), set);
+    push_move(simulation, 0.0, 1.0, {0.02, 0.0, 1.2}, {0.3, 0.1, 1.4}, 1.0);
+    simulation.push_button(0.0, true);
+    return std::abs(simulation.advance(1.0).energy_added);
+  };
+  EXPECT_LT(added("exponential", 0.002), 1e-6);
+  EXPECT_GT(added("semi_implicit_euler", 2e-4), 1e-6);  // it is seen where it is there
+  EXPECT_NEAR(added("semi_implicit_euler", 2e-4) / added("semi_implicit_euler", 1e-4), 2.0, 0.3);
 }
 
 TEST(Simulation, MasslessObjectFollowsTheTipExactly) {

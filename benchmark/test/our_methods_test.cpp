@@ -1,0 +1,70 @@
+#include "benchmark/our_methods.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "benchmark/reference_solution.h"
+#include "spring_workbench/dynamics/integrator.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr const char* kFineHand = "_fine_hand";
+
+bool has_fine_hand(const Method& method) { return method.name().find(kFineHand) != std::string::npos; }
+
+double order_of(const Method& method) {
+  return make_integrator(method.name().substr(0, method.name().find(kFineHand)))->order();
+}
+
+double error_at(const Method& method, const Scenario& scene, int steps_per_interval) {
+  const RunResult run = method.run(scene, scene.output_interval / steps_per_interval);
+  return run.finite ? output_error(scene, reference_solution(scene), run.outputs) : 1e300;
+}
+
+TEST(OurMethods, EveryIntegratorIsThereWithBothHands) {
+  const std::vector<MethodPtr> methods = our_methods();
+  EXPECT_EQ(methods.size(), 2 * integrator_names().size());
+  for (const std::string& name : integrator_names()) {
+    for (const std::string& wanted : {name, name + kFineHand}) {
+      EXPECT_EQ(std::count_if(methods.begin(), methods.end(), [&](const auto& m) { return m->name() == wanted; }), 1);
+    }
+  }
+}
+
+TEST(OurMethods, EachConvergesToTheReferencesWithItsOrder) {
+  for (const Scenario& scene : {stretch_scene(1e3), torsion_scene(10.0), six_dof_scene(1.0)}) {
+    for (const MethodPtr& method : our_methods()) {
+      if (!has_fine_hand(*method)) continue;
+      const double order = order_of(*method);
+      const int steps = order < 2.0 ? 32 : (scene.kind == SceneKind::six_dof ? 8 : 4);
+      const double coarse = error_at(*method, scene, steps), fine = error_at(*method, scene, 2 * steps);
+      EXPECT_LT(coarse, 5e-3) << method->name() << " in " << scene.name;
+      EXPECT_NEAR(std::log2(coarse / fine), order, 0.3) << method->name() << " in " << scene.name;
+    }
+  }
+}
+
+TEST(OurMethods, ExponentialHasNoErrorBesideTheHandsInOneCoordinateWhateverStiffnessStepAndDamping) {
+  std::vector<Scenario> scenes;
+  for (const double zeta : {0.1, 1.0, 3.0}) {
+    for (int decade = 0; decade <= 8; ++decade) {
+      scenes.push_back(stretch_scene(std::pow(10.0, decade), zeta));
+      scenes.push_back(torsion_scene(std::pow(10.0, decade - 1), zeta));
+    }
+  }
+  for (const MethodPtr& method : our_methods()) {
+    if (method->name() != "exponential") continue;
+    for (const Scenario& scene : scenes) {
+      for (const int steps : {1, 3, 16}) {
+        EXPECT_LT(error_at(*method, scene, steps), 1e-5 * hand_amplitude(scene))
+            << scene.name << " × " << scene.stiffness_factor << ", zeta " << scene.damping_ratio << ", " << steps;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spring_workbench::benchmark
