@@ -117,8 +117,10 @@ std::string base64(const std::string& bytes) {
 std::string html_page(const PageContents& contents) {
   std::ostringstream out;
   out << kHead << "<h1>Error against run time</h1>\n";
-  out << "<p>Scenes A (stretch), B (torsion) and C (six coordinates): a held body on a spring on a moving hand; times a "
-         "factor on the stiffness. Every method at every step or tolerance: its largest error over the hand's amplitude, "
+  out << "<p>Scenes A (stretch), B (torsion) and C (six coordinates): a held body on a spring on a moving hand; times "
+         "a "
+         "factor on the stiffness. Every method at every step or tolerance: its largest error over the hand's "
+         "amplitude, "
          "and the run time of its stepping loop.</p>\n<ul>\n";
   for (const RunFact& fact : contents.facts) {
     out << "<li>" << escaped(fact.name) << ": " << escaped(fact.value) << "</li>\n";

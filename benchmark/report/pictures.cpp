@@ -38,8 +38,9 @@ std::vector<std::string> draw_pictures(const std::string& csv, const std::vector
   }
   for (const std::string& scene : scenes) {
     const std::string picture = std::filesystem::path(folder) / ("error_against_run_time_" + scene + ".png");
-    if (!run({"python3", script(), csv, picture, scene})) {
-      std::cerr << "report: no picture of scene " << scene << ": python3 with matplotlib (python3-matplotlib) draws it\n";
+    if (!run({SPRING_WORKBENCH_PYTHON, script(), csv, picture, scene})) {
+      std::cerr << "report: no picture of scene " << scene
+                << ": python3 with matplotlib (python3-matplotlib) draws it\n";
       continue;
     }
     pictures.push_back(picture);
