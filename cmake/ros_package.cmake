@@ -1,6 +1,8 @@
 # catkin: what the package leans on, its messages and services.
 set(SPRING_WORKBENCH_MESSAGE_PACKAGES diagnostic_msgs geometry_msgs sensor_msgs std_msgs std_srvs tf2_msgs
   visualization_msgs)
+# catkin writes the tests' environment while it is found, and leaves out of it the folders that are not there yet.
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages ${CMAKE_BINARY_DIR}/devel/lib/pkgconfig)
 find_package(catkin REQUIRED COMPONENTS
   message_generation rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
 
