@@ -83,7 +83,7 @@ void ContactStepper::refresh(const SteppedBody& body, std::vector<ContactRow>& r
   }
 }
 
-void ContactStepper::collide(SteppedBody& body, std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
+void ContactStepper::collide(SteppedBody& body, const std::vector<ContactRow>& rows) const {
   const MotionState s = body.object();
   std::vector<ContactRow> impulses;
   for (const ContactRow& row : rows) {
@@ -101,9 +101,7 @@ void ContactStepper::collide(SteppedBody& body, std::vector<ContactRow>& rows, C
     impulses.push_back(impulse);
   }
   solve_contacts(body.mobility(), impulses);
-  const Wrench total = total_load(impulses);
-  body.add_impulse(total);
-  outcome.impulse_W += total.force;
+  body.add_impulse(total_load(impulses));
 }
 
 bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector<ContactRow>& rows,
@@ -219,7 +217,7 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
     } else {
       body.go_back();
     }
-    collide(body, rows, outcome);
+    collide(body, rows);
     // In pieces short enough for contacts found at a piece's end to have good normals.
     const double travel = (candidate.translation() - X0.translation()).norm();
     const int pieces = std::clamp(static_cast<int>(std::ceil(travel / (5.0 * sweep_resolution))), 1, 20);
@@ -233,7 +231,7 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
           free = false;
           break;
         }
-        collide(body, rows, outcome);
+        collide(body, rows);
       }
       if (!advance_in_contact(body, dt, rows, outcome)) {
         body.stay(dt);
@@ -242,7 +240,10 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
       if (i + 1 == pieces) left = 0.0;
     }
   }
-  for (const ContactRow& row : rows) outcome.impulse_W += h * row.load_W;
+  if (left > 1e-9 * h) {  // more new contacts than cuts: no time is lost
+    body.stay(left);
+    outcome.held_back = true;
+  }
   rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap > probe_depth; }), rows.end());
   outcome.rows = rows;
 }

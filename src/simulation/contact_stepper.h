@@ -10,7 +10,6 @@ namespace spring_workbench {
 /// What contact did in a step.
 struct ContactOutcome {
   std::vector<ContactRow> rows;   ///< the contacts at the end of the step; `load_W` [N]
-  Vector3d impulse_W = Vector3d::Zero();
   int queries = 0;
   bool held_back = false;         ///< nothing fitted and the body was stopped
 };
@@ -32,7 +31,7 @@ class ContactStepper {
   void add_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance, std::vector<ContactRow>& rows,
                     ContactOutcome& outcome) const;
   /// Takes away the speed with which the contacts approach (perfectly inelastic but for the restitution).
-  void collide(SteppedBody& body, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
+  void collide(SteppedBody& body, const std::vector<ContactRow>& rows) const;
   /// Goes `h` on under loads that leave the rows' gaps closed or open. False when it did not come out free.
   bool advance_in_contact(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
 

@@ -60,7 +60,7 @@ class HeldBody {
   StrainState set_dofs(const ForkDofs& dofs, double t, double return_time, const StrainState& full);
   /// Drops prescribed motions that have come to zero by time `t`. True when one was dropped.
   bool drop_finished_returns(double t);
-  /// Whether every coordinate that is not active rests at zero.
+  /// Whether a family that was switched off is still on its way to zero strain.
   bool returning() const { return returning_ > 0; }
 
   /// A constant wrench on the body at its centre of mass, world axes (contact). Zero at first.
