@@ -1,5 +1,6 @@
 #include "spring_workbench/dynamics/step_control.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -30,11 +31,12 @@ Sizes sizes(const HeldBody& body, double t, const StrainVector& q, const StrainV
   return {(J.topRows<3>() * error).norm(), (J.bottomRows<3>() * error).norm()};
 }
 
-/// The strain to which a rate swings, in the mode that it would be.
-StrainVector swing(const LinearisedMotion& motion, const StrainVector& rate) {
-  const double kinetic = rate.dot(motion.M * rate), elastic = std::abs(rate.dot(motion.K * rate));
-  return kinetic < elastic * longest_swing * longest_swing ? StrainVector(std::sqrt(kinetic / elastic) * rate)
-                                                           : StrainVector(longest_swing * rate);
+/// From rates to the strain that they swing to, mode by mode.
+StrainMatrix swing_of(const LinearisedMotion& motion) {
+  const StrainMatrix K = 0.5 * (motion.K + motion.K.transpose());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> modes(K, motion.M);
+  const StrainVector period = modes.eigenvalues().cwiseAbs().cwiseMax(1.0 / (longest_swing * longest_swing)).cwiseSqrt();
+  return modes.eigenvectors() * period.cwiseInverse().asDiagonal() * modes.eigenvectors().transpose() * motion.M;
 }
 
 double radius_of_gyration(const BodyInertia& body) { return std::sqrt(0.5 * body.inertia_O.trace() / body.mass); }
@@ -128,6 +130,7 @@ bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
   int rejected = 0;
   const HandleForcing begin = span.body.forcing(span.handle, t);
   const LinearisedMotion motion(span.body, begin, state, span.body.acceleration(begin, state.q, state.q_dot));
+  const StrainMatrix swing = swing_of(motion);
   while (end - t > 1e-9 * h) {
     const double left = end - t;
     const double dt = memory.next_h > 0.95 * left ? left : memory.next_h;
@@ -142,7 +145,7 @@ bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
     if (fine) {
       carry_deviation(motion, dt, error);
       const auto amplitude = [&](const StrainVector& q, const StrainVector& q_dot) {
-        return std::hypot(span.length(t + dt, next.q, q), span.length(t + dt, next.q, swing(motion, q_dot)));
+        return std::hypot(span.length(t + dt, next.q, q), span.length(t + dt, next.q, swing * q_dot));
       };
       const double left_over = tolerance_ - amplitude(error.q, error.q_dot);
       const double allowed = std::max(left_over, tolerance_ * dt / undamped_horizon);

@@ -14,6 +14,9 @@ namespace {
 constexpr double return_time = 0.05;          ///< [s] on which the proxy comes back to the hand
 constexpr double no_offset = 1e-9;            ///< [m, rad]; the proxy has come back
 constexpr double proxy_share = 1e-4;          ///< of a free body's compliance, beside coordinates that can follow in part
+// Below these an object on a hand at rest stops (the paper's threshold, section 3.3).
+constexpr double rest_speed = 1e-7;           ///< [m/s], and of a turning times the fork's length
+constexpr double rest_acceleration = 1e-6;    ///< [m/s²], likewise
 constexpr double largest_distance = 1e6;      ///< [m]; an object further away is not one to go on with
 
 RigidTransform shrunk(const RigidTransform& offset, double factor) {
@@ -195,7 +198,29 @@ void ForkBody::add_impulse(const Wrench& impulse_W) {
   if (held_.size() == 0) return;
   Vector6d impulse;
   impulse << impulse_W.force, impulse_W.moment;
+  sleep_ = Sleep();
   state_.strain.q_dot += inverse_mass() * (jacobian_W().transpose() * impulse);
+}
+
+bool ForkBody::sleeps(double h, bool may_fall_asleep) {
+  const MotionState begin = hand_.at(state_.t), end = hand_.at(state_.t + h);
+  const auto still = [](const MotionState& s) {
+    return s.velocity.linear.isZero(0.0) && s.velocity.angular.isZero(0.0);
+  };
+  const bool hand_rests = still(begin) && still(end) && begin.X.matrix() == end.X.matrix();
+  const bool asleep = sleep_.version == held_.version() && sleep_.X_WH.matrix() == begin.X.matrix();
+  if (hand_rests && asleep) return true;
+  sleep_ = Sleep();
+  if (!hand_rests || !may_fall_asleep || state_.behind || held_.returning()) return false;
+  const MotionState o = object_with_acceleration();
+  const double L = held_.shape().length();
+  const bool at_rest = std::max(o.velocity.linear.norm(), L * o.velocity.angular.norm()) < rest_speed &&
+                       (held_.size() == 0 ||
+                        std::max(o.acceleration.linear.norm(), L * o.acceleration.angular.norm()) < rest_acceleration);
+  if (!at_rest) return false;
+  state_.strain.q_dot.setZero();
+  sleep_ = {held_.version(), begin.X};
+  return true;
 }
 
 void ForkBody::take_twist(const Twist& V_WO_W) {

@@ -25,13 +25,21 @@ class ForkBody final : public SteppedBody {
 
   /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
   void set_hand(const MotionSegment& hand, double t);
+  /// Whether nothing moves for the next `h` [s], and nothing need be done but let_pass(): the hand is at rest and the
+  /// object has come to rest on it. `may_fall_asleep`: false where something else may move it.
+  bool sleeps(double h, bool may_fall_asleep);
+  void let_pass(double h) { state_.t += h; }
+
   /// Sets strain rates so that the object's twist comes as near as it can to this one.
   void take_twist(const Twist& V_WO_W);
 
   HeldBody& held() { return held_; }
   const HeldBody& held() const { return held_; }
   const StrainState& state() const { return state_.strain; }
-  void set_state(const StrainState& state) { state_.strain = state; }
+  void set_state(const StrainState& state) {
+    state_.strain = state;
+    sleep_ = Sleep();
+  }
   void set_step_control(StepControl control) { control_ = std::move(control); }
 
   double time() const { return state_.t; }
@@ -79,6 +87,12 @@ class ForkBody final : public SteppedBody {
   MotionSegment hand_;
   State state_, remembered_;
   Estimates estimates_;
+  /// What a sleeper's rest rests on.
+  struct Sleep {
+    long version = -1;  ///< of the equations; −1: awake
+    RigidTransform X_WH = RigidTransform::Identity();
+  };
+  Sleep sleep_;
 };
 
 }  // namespace spring_workbench

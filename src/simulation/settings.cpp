@@ -113,7 +113,7 @@ std::vector<Field> dynamics_fields() {
 }
 
 std::vector<Field> fork_fields() {
-  const NumberRule stiffness = between(1e-9, 1e15);
+  const NumberRule stiffness = between(0.0, 1e15);
   const NumberRule ratio = between(0.0, 10.0);
   return {
       choice("shape", shape_model_names(), "the fork's shape model: how its curvature may vary along it",
