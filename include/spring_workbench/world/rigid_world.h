@@ -33,42 +33,38 @@ struct WorldContact {
   Vector3d impulse_W = Vector3d::Zero();  ///< on `body`, in the last step [N·s]
 };
 
-/// Contact mode `dynamic` (doc/model.md): all bodies of the scene in one rigid-body world. Bullet does the work (in the
-/// .cpp alone), in double precision; how driven bodies answer is added to its solver. Friction is Coulomb's with a round
-/// cone, the pair's coefficients geometric means. Bodies at rest are put to sleep and leave Bullet's world until something
-/// comes near: they cost nothing. Deterministic. Not copyable; one thread at a time.
+/// Contact mode `dynamic` (doc/model.md): all bodies of the scene in one rigid-body world. Friction is Coulomb's with a round
+/// cone, the pair's coefficients are geometric means. Bodies at rest are put to sleep and leave the world until something
+/// comes near: they cost nothing. Deterministic. One thread at a time.
 class RigidWorld {
  public:
   static constexpr std::size_t bench = static_cast<std::size_t>(-1);
 
-  /// All movable bodies begin asleep at the scene's poses.
-  explicit RigidWorld(const Scene& scene);
-  ~RigidWorld();
-  RigidWorld(RigidWorld&&) noexcept;
-  RigidWorld& operator=(RigidWorld&&) noexcept;
+  virtual ~RigidWorld() = default;
 
   /// Goes `h` [s] > 0 on. Driven bodies are only looked at: place() them afterwards.
-  void step(double h, std::vector<DrivenBody>& driven);
+  virtual void step(double h, std::vector<DrivenBody>& driven) = 0;
 
   /// Puts a movable body somewhere, awake or asleep.
-  void place(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W, bool awake);
+  virtual void place(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W, bool awake) = 0;
 
-  const RigidTransform& pose(std::size_t body) const;
-  const Twist& velocity(std::size_t body) const;  ///< at O, world axes
-  bool awake(std::size_t body) const;             ///< false for one that is not movable
-  bool any_awake() const;
+  virtual const RigidTransform& pose(std::size_t body) const = 0;
+  virtual const Twist& velocity(std::size_t body) const = 0;  ///< at O, world axes
+  virtual bool awake(std::size_t body) const = 0;             ///< false for one that is not movable
+  virtual bool any_awake() const = 0;
 
   /// Broadphase: whether anything else (bench included) comes within `margin` [m] of the body's way, rotation covered.
-  bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double margin) const;
+  virtual bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                         double margin) const = 0;
 
   /// Contacts of the last step that pressed or were closed.
-  const std::vector<WorldContact>& contacts() const;
-  /// Bodies that Bullet has to look at, at present.
-  std::size_t bodies_near() const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  virtual const std::vector<WorldContact>& contacts() const = 0;
+  /// Bodies that have to be looked at, at present.
+  virtual std::size_t bodies_near() const = 0;
 };
+
+/// All movable bodies begin asleep at the scene's poses. Bullet does the work, in double precision. Throws InputError where
+/// the package was built without it.
+std::unique_ptr<RigidWorld> make_rigid_world(const Scene& scene);
 
 }  // namespace spring_workbench

@@ -80,7 +80,8 @@ TEST(RigidWorld, SleepersCostNothingAndStay) {
   for (int i = 0; i < 1000; ++i) {
     bodies.push_back(box("b" + std::to_string(i), Vector3d(0.04, 0.04, 0.04), 0.1, Vector3d(0.1 * i, 0.0, 0.02)));
   }
-  RigidWorld world(scene_of(bodies));
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(bodies));
+    RigidWorld& world = *owner;
   run(world, 0.1);
   EXPECT_EQ(world.bodies_near(), 0u);
   EXPECT_FALSE(world.any_awake());
@@ -95,7 +96,8 @@ TEST(RigidWorld, SleepersCostNothingAndStay) {
 
 TEST(RigidWorld, SlidingBoxStopsWhereItMust) {
   for (const double mu : {0.2, 0.5, 1.0}) {
-    RigidWorld world(scene_of({box("b", Vector3d(0.1, 0.1, 0.02), 2.0, Vector3d(0, 0, 0.01), mu)}, mu));
+    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({box("b", Vector3d(0.1, 0.1, 0.02), 2.0, Vector3d(0, 0, 0.01), mu)}, mu));
+    RigidWorld& world = *owner;
     const double v = 1.0;
     world.place(0, world.pose(0), moving({v, 0.0, 0.0}), true);
     run(world, 1.0);
@@ -116,7 +118,8 @@ TEST(RigidWorld, InclineHoldsBelowTheAngleOfFriction) {
     Body b = box("b", Vector3d(0.1, 0.1, 0.05), 1.0, Vector3d::Zero(), mu);
     b.X_WO.linear() = tilt.toRotationMatrix();
     b.X_WO.translation() = ramp.X_WO * Vector3d(0, 0, 0.1 + 0.025);
-    RigidWorld world(scene_of({ramp, b}, mu));
+    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({ramp, b}, mu));
+    RigidWorld& world = *owner;
     world.place(1, b.X_WO, Twist(), true);
     run(world, 10.0, 2e-3);
     const double slid = (world.pose(1).translation() - b.X_WO.translation()).norm();
@@ -131,7 +134,8 @@ TEST(RigidWorld, InclineHoldsBelowTheAngleOfFriction) {
 }
 
 TEST(RigidWorld, SphereRollsAtFiveSeventhsOfItsSpeed) {
-  RigidWorld world(scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 0.05), 0.4, 0.0)}, 0.4));
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 0.05), 0.4, 0.0)}, 0.4));
+    RigidWorld& world = *owner;
   world.place(0, world.pose(0), moving({2.0, 0.0, 0.0}), true);
   run(world, 1.0);
   EXPECT_NEAR(world.velocity(0).linear.x(), 2.0 * 5.0 / 7.0, 0.01 * 2.0);
@@ -141,7 +145,8 @@ TEST(RigidWorld, SphereRollsAtFiveSeventhsOfItsSpeed) {
 TEST(RigidWorld, BallBouncesToTheSquareOfItsRestitution) {
   Scene s = scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 1.05), 0.0, 0.8)}, 0.0);
   s.bench_material.restitution = 0.8;
-  RigidWorld world(s);
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(s);
+    RigidWorld& world = *owner;
   world.place(0, world.pose(0), Twist(), true);
   const double fall = std::sqrt(2.0 / g);
   run(world, fall + 0.8 * fall, 5e-4);  // the highest point after the first bounce
@@ -155,7 +160,8 @@ TEST(RigidWorld, StackOfTenStandsAndSleeps) {
       const double mass = i == 9 ? ratio : 1.0;
       bodies.push_back(box("b" + std::to_string(i), Vector3d(0.1, 0.1, 0.05), mass, Vector3d(0, 0, 0.025 + 0.05 * i)));
     }
-    RigidWorld world(scene_of(bodies));
+    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(bodies));
+    RigidWorld& world = *owner;
     world.place(0, world.pose(0), Twist(), true);
     run(world, 3.0, 2e-3);
     for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -169,7 +175,8 @@ TEST(RigidWorld, PressedAndDraggedLagsByFrictionOverStiffness) {
   for (const double k : {2e1, 2e3, 2e9}) {
     for (const double mu : {0.0, 0.5, 1.0}) {
       const double h = 2e-3;
-      RigidWorld world(scene_of({box("b", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, 0.025), mu)}, mu));
+      const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({box("b", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, 0.025), mu)}, mu));
+    RigidWorld& world = *owner;
       OnSpring spring{k, Vector3d(0, 0, 0.025), {}};
       spring.driven.X_WO.translation() = spring.hand;
       for (int i = 1; i <= 50; ++i) spring.step(world, Vector3d(0, 0, 0.025 - 0.1 * i / 50), h);
@@ -186,7 +193,8 @@ TEST(RigidWorld, DrivenBodyPushesANeighbourAndCarriesAnother) {
   Body tray = box("tray", Vector3d(0.2, 0.2, 0.02), 1.0, Vector3d(0, 0, 0.01));
   Body cup = box("cup", Vector3d(0.05, 0.05, 0.05), 0.2, Vector3d(0, 0, 0.045));
   Body block = box("block", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(0.3, 0, 0.05));
-  RigidWorld world(scene_of({tray, cup, block}));
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({tray, cup, block}));
+    RigidWorld& world = *owner;
   OnSpring spring{1e5, Vector3d(0, 0, 0.01), {}};
   spring.driven.X_WO.translation() = spring.hand;
   const double h = 2e-3;

@@ -21,7 +21,6 @@ Eigen::Matrix<double, 6, 1> both(const btVector3& linear, const btVector3& angul
 void DrivenSolver::set_driven(std::vector<Driven> driven, double h) {
   driven_ = std::move(driven);
   h_ = h;
-  for (Driven& d : driven_) d.body->contact_W = Wrench();
 }
 
 double DrivenSolver::Row::rate(const std::vector<Vector6d>& change) const {
