@@ -21,18 +21,7 @@ Tails taylor_tails(double t) {
   return {e / 24.0, g / 120.0};
 }
 
-Tails tails(double t) {
-  if (t < 1e-2) return taylor_tails<4>(t);
-  if (t < 1.0) return taylor_tails<8>(t);
-  const double theta = std::sqrt(t);
-  const double half = std::sin(0.5 * theta);
-  return {(0.5 - 2.0 * half * half / t) / t, (1.0 / 6.0 - (theta - std::sin(theta)) / (theta * t)) / t};
-}
-
-}  // namespace
-
-So3Coefficients so3_coefficients(double t) {
-  const Tails k = tails(t);
+So3Coefficients from_tails(double t, const Tails& k) {
   So3Coefficients f;
   f.b = 0.5 - t * k.e;
   f.c = 1.0 / 6.0 - t * k.g;
@@ -40,6 +29,24 @@ So3Coefficients so3_coefficients(double t) {
   f.b_slope = k.e - 0.5 * f.c;
   f.c_slope = 1.5 * k.g - 0.5 * k.e;
   f.d = -f.b_slope / f.b;
+  return f;
+}
+
+}  // namespace
+
+So3Coefficients so3_coefficients(double t) {
+  if (t < 1e-2) return from_tails(t, taylor_tails<4>(t));
+  if (t < 1.0) return from_tails(t, taylor_tails<8>(t));
+  const double theta = std::sqrt(t);
+  const double s = std::sin(theta);
+  const double half = std::sin(0.5 * theta);
+  So3Coefficients f;
+  f.a = s / theta;
+  f.b = 2.0 * half * half / t;
+  f.c = (theta - s) / (theta * t);
+  f.d = (1.0 - 0.5 * f.a / f.b) / t;
+  f.b_slope = (f.a - 2.0 * f.b) / (2.0 * t);
+  f.c_slope = (f.b - 3.0 * f.c) / (2.0 * t);
   return f;
 }
 
