@@ -77,6 +77,7 @@ struct Simulation::Impl {
   void let_go(bool thrown);
   void wake_what_lies_on(std::size_t object);
   HeldBody make_held(std::size_t object, const RigidTransform& X_OE) const;
+  StepControl make_step_control() const;
   void calibrate_for(std::size_t object);
   void carry(SteppedBody& stepped, std::size_t object, double h);
   void take_state(std::size_t object, const MotionState& s);
@@ -169,6 +170,10 @@ HeldBody Simulation::Impl::make_held(std::size_t object, const RigidTransform& X
   return held_body;
 }
 
+StepControl Simulation::Impl::make_step_control() const {
+  return StepControl(make_integrator(settings.dynamics.integrator), settings.dynamics.tolerance);
+}
+
 void Simulation::Impl::calibrate_for(std::size_t object) {
   settings.fork.stiffness =
       calibrated_stiffness(body(object).mass_properties.mass, std::max(bounding_radius(body(object)), 1e-4),
@@ -184,8 +189,7 @@ void Simulation::Impl::grasp(std::size_t object, const std::optional<RigidTransf
   const RigidTransform G = X_OE ? *X_OE : RigidTransform(objects[object].X_WO.inverse() * X_WE);
   if (settings.grasp.calibrate) calibrate_for(object);
   held = object;
-  fork = std::make_unique<ForkBody>(movable[object], make_held(object, G), make_integrator(settings.dynamics.integrator),
-                                    now);
+  fork = std::make_unique<ForkBody>(movable[object], make_held(object, G), make_step_control(), now);
   fork->set_hand(segment, now);
   const Twist before = objects[object].V_WO_W;
   // Strain is zero now. The object keeps its motion as far as the fork lets it; one that follows starts with the hand's.
@@ -344,6 +348,9 @@ void Simulation::Impl::step(double h) {
     report.position_error = std::max(report.position_error, e.position);
     report.angle_error = std::max(report.angle_error, e.angle);
     report.stiffest_omega_dt = std::max(report.stiffest_omega_dt, e.omega_dt);
+    report.steps += e.extra_steps;
+    report.steps_rejected += e.rejected;
+    report.energy_held += e.energy_held;
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!free_bodies[i]) continue;
@@ -514,12 +521,14 @@ ChangeReport Simulation::calibrate() {
   return change;
 }
 
-void Simulation::set_integrator(const std::string& name, double step) {
-  std::unique_ptr<Integrator> integrator = make_integrator(name);
+void Simulation::set_integrator(const std::string& name, double step, double tolerance) {
+  make_integrator(name);
   if (step != 0.0) check_number("set_integrator", "step", step, between(1e-6, 1.0));
+  check_number("set_integrator", "tolerance", tolerance, allowed_tolerance());
   impl_->settings.dynamics.integrator = name;
+  impl_->settings.dynamics.tolerance = tolerance;
   if (step != 0.0) impl_->settings.dynamics.step = step;
-  if (impl_->fork) impl_->fork->set_integrator(std::move(integrator));
+  if (impl_->fork) impl_->fork->set_step_control(impl_->make_step_control());
 }
 
 const std::vector<BodyState>& Simulation::objects() const { return impl_->objects; }
