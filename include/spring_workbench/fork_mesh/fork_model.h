@@ -21,6 +21,9 @@ struct ForkLook {
   double prong_length = 0.9;    ///< beyond the tip
 };
 
+/// The coil's diameter of a fork of this rest length [m].
+inline double coil_diameter(double length) { return 0.16 * length; }
+
 /// The deformed fork: vertices [m] and outward unit normals, one each; the model's triangles belong to it.
 struct ForkMesh {
   std::vector<Vector3d> vertices;
