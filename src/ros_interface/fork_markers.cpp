@@ -10,7 +10,7 @@ namespace {
 
 using visualization_msgs::Marker;
 
-const Color rigid_color(0.36, 0.39, 0.44, 1.0);
+const Color rigid_color(0.55, 0.58, 0.63, 1.0);
 const Color force_color(0.10, 0.85, 0.95, 1.0);
 const Color moment_color(0.75, 0.45, 1.0, 1.0);
 const Color gap_color(1.0, 0.3, 0.8, 1.0);
@@ -40,7 +40,7 @@ void draw_readout(const Scene& scene, const ToolState& tool, MarkerList& markers
   char text[100];
   std::snprintf(text, sizeof text, "%.2f vkg   %.2f N   %.3f N m", virtual_kilograms(force, scene),
                 force / scene.force_scale, tool.tip_wrench_W.moment.norm() / scene.force_scale);
-  const Vector3d place = tool.X_WH_seen * Vector3d(0.0, 0.0, -0.5 * tool.length) + 0.2 * tool.length * Vector3d::UnitZ();
+  const Vector3d place = tool.X_WH_seen * Vector3d(0.0, 0.0, -0.5 * tool.length) + 0.35 * tool.length * Vector3d::UnitZ();
   markers.add_text("readout", 0, place, 0.13 * tool.length, text, text_color);
 }
 
@@ -62,7 +62,7 @@ void draw_load(const Scene& scene, const ToolState& tool, MarkerList& markers) {
   const double weight = scene.bodies[*held].mass_properties.mass * std::max(scene.gravity, 1.0);
   if (weight > 0.0) {
     draw_arrow("force", tool, 0.5 * tool.length / weight * tool.tip_wrench_W.force, force_color, markers);
-    draw_arrow("moment", tool, 0.5 / weight * tool.tip_wrench_W.moment, moment_color, markers);
+    draw_arrow("moment", tool, 2.5 / weight * tool.tip_wrench_W.moment, moment_color, markers);
   }
   draw_readout(scene, tool, markers);
 }

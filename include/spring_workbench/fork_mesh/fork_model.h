@@ -16,9 +16,9 @@ struct ForkLook {
   double wire_radius = 0.07;    ///< keeps its thickness however the fork is deformed
   double shaft_radius = 0.4;
   double shaft_length = 3.0;    ///< behind the handle frame
-  double prong_radius = 0.07;
+  double prong_radius = 0.085;
   double prong_gap = 0.36;      ///< of the outer two of the three prongs from the middle one
-  double prong_length = 0.9;    ///< beyond the tip
+  double prong_length = 1.1;    ///< beyond the tip
 };
 
 /// The coil's diameter of a fork of this rest length [m].
