@@ -547,6 +547,7 @@ ToolState Simulation::fork() const {
   RigidTransform X_HE = RigidTransform::Identity();
   X_HE.translation().z() = s.fork.length;
   f.X_WE = impl_->X_WH * X_HE;
+  f.strain = StrainVector::Zero(make_shape_model(s.fork.shape, s.fork.length)->size());
   if (!impl_->fork) return f;
 
   const ForkBody& fork = *impl_->fork;
@@ -554,6 +555,7 @@ ToolState Simulation::fork() const {
   const StrainState full = held.full_state(fork.time(), fork.state());
   f.held_object = impl_->objects[impl_->held].name;
   f.X_WH_seen = fork.handle().X_WH;
+  f.strain = full.q;
   f.stretch = held.shape().extension(full.q);
   f.torsion = held.shape().twist(full.q);
   const RigidTransform X_HE_bent = held.shape().section(full.q, held.shape().length());
@@ -575,22 +577,6 @@ ToolState Simulation::fork() const {
   f.handle_wrench_H.force = -(R_HW * force);
   f.handle_wrench_H.moment = -(R_HW * at_handle);
   return f;
-}
-
-std::vector<RigidTransform> Simulation::centreline(int count) const {
-  std::vector<RigidTransform> poses;
-  const double L = impl_->settings.fork.length;
-  for (int i = 0; i < count; ++i) {
-    const double s = L * i / (count - 1);
-    if (impl_->fork) {
-      const HeldBody& held = impl_->fork->held();
-      const StrainState full = held.full_state(impl_->fork->time(), impl_->fork->state());
-      poses.push_back(impl_->fork->handle().X_WH * held.shape().section(full.q, s));
-    } else {
-      poses.push_back(impl_->X_WH * Eigen::Translation3d(0.0, 0.0, s));
-    }
-  }
-  return poses;
 }
 
 }  // namespace spring_workbench
