@@ -197,7 +197,7 @@ StepEstimate Exponential::step(const HeldBody& body, const MotionSegment& handle
     u[at(m)] = (4.0 * s.three - s.two) * (n5[at(m)] - n4[at(m)]);
   }
   from_modes(u, stage);
-  return {stage.q, fastest_ * h};
+  return {stage.q, fastest_ * h, stage.q_dot};
 }
 
 Integrator::Response Exponential::response(const HeldBody& body, double t, double h, const StrainState& state) {

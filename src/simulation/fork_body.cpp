@@ -26,10 +26,10 @@ RigidTransform shrunk(const RigidTransform& offset, double factor) {
 
 }  // namespace
 
-ForkBody::ForkBody(std::size_t index, HeldBody held, std::unique_ptr<Integrator> integrator, double t)
+ForkBody::ForkBody(std::size_t index, HeldBody held, StepControl control, double t)
     : index_(index),
       held_(std::move(held)),
-      integrator_(std::move(integrator)),
+      control_(std::move(control)),
       hand_(RigidTransform::Identity()) {
   state_.t = t;
   state_.strain = held_.zero_state();
@@ -100,15 +100,14 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   StrainState next = state_.strain;
   if (held_.size() > 0) {
     held_.set_external_wrench(contact_W);
-    const StepEstimate e = integrator_->step(held_, motion, state_.t, h, next);
-    const StrainState full = held_.full_state(state_.t + h, next);
-    const bool fine = held_.shape().admissible(full.q) && next.q_dot.allFinite() &&
-                      (full.q.norm() + full.q_dot.norm()) < 1e12;
-    if (!fine) return false;
-    const auto J = held_.object_jacobian(state_.t + h, next.q);
-    estimates_.position = std::max(estimates_.position, (J.topRows<3>() * e.q_error).norm());
-    estimates_.angle = std::max(estimates_.angle, (J.bottomRows<3>() * e.q_error).norm());
-    estimates_.omega_dt = std::max(estimates_.omega_dt, e.omega_dt);
+    const ControlledStep step = control_.advance(held_, motion, state_.t, h, next, state_.stepping);
+    if (!step.fine) return false;
+    estimates_.position = std::max(estimates_.position, step.position_error);
+    estimates_.angle = std::max(estimates_.angle, step.angle_error);
+    estimates_.omega_dt = std::max(estimates_.omega_dt, step.omega_dt);
+    estimates_.extra_steps += step.steps - 1;
+    estimates_.rejected += step.rejected;
+    estimates_.energy_held += step.energy_held;
     if (!held_.returning()) state_.energy_added += added_energy(motion, h, state_.strain, next);
   }
   state_.t += h;
@@ -181,7 +180,7 @@ Matrix6d ForkBody::compliance(double h) const {
   Matrix6d C = proxy_compliance(h);
   if (held_.size() > 0) {
     const auto J = jacobian_W();
-    C += J * integrator_->response(held_, state_.t, h, state_.strain).q * J.transpose();
+    C += J * control_.integrator().response(held_, state_.t, h, state_.strain).q * J.transpose();
   }
   return C;
 }

@@ -77,6 +77,7 @@ struct Simulation::Impl {
   void let_go(bool thrown);
   void wake_what_lies_on(std::size_t object);
   HeldBody make_held(std::size_t object, const RigidTransform& X_OE) const;
+  StepControl make_step_control() const;
   void calibrate_for(std::size_t object);
   void carry(SteppedBody& stepped, std::size_t object, double h);
   void take_state(std::size_t object, const MotionState& s);
@@ -169,6 +170,10 @@ HeldBody Simulation::Impl::make_held(std::size_t object, const RigidTransform& X
   return held_body;
 }
 
+StepControl Simulation::Impl::make_step_control() const {
+  return StepControl(make_integrator(settings.dynamics.integrator), settings.dynamics.tolerance);
+}
+
 void Simulation::Impl::calibrate_for(std::size_t object) {
   settings.fork.stiffness =
       calibrated_stiffness(body(object).mass_properties.mass, std::max(bounding_radius(body(object)), 1e-4),
@@ -184,8 +189,7 @@ void Simulation::Impl::grasp(std::size_t object, const std::optional<RigidTransf
   const RigidTransform G = X_OE ? *X_OE : RigidTransform(objects[object].X_WO.inverse() * X_WE);
   if (settings.grasp.calibrate) calibrate_for(object);
   held = object;
-  fork = std::make_unique<ForkBody>(movable[object], make_held(object, G), make_integrator(settings.dynamics.integrator),
-                                    now);
+  fork = std::make_unique<ForkBody>(movable[object], make_held(object, G), make_step_control(), now);
   fork->set_hand(segment, now);
   const Twist before = objects[object].V_WO_W;
   // Strain is zero now. The object keeps its motion as far as the fork lets it; one that follows starts with the hand's.
@@ -344,6 +348,9 @@ void Simulation::Impl::step(double h) {
     report.position_error = std::max(report.position_error, e.position);
     report.angle_error = std::max(report.angle_error, e.angle);
     report.stiffest_omega_dt = std::max(report.stiffest_omega_dt, e.omega_dt);
+    report.steps += e.extra_steps;
+    report.steps_rejected += e.rejected;
+    report.energy_held += e.energy_held;
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!free_bodies[i]) continue;
@@ -514,12 +521,14 @@ ChangeReport Simulation::calibrate() {
   return change;
 }
 
-void Simulation::set_integrator(const std::string& name, double step) {
-  std::unique_ptr<Integrator> integrator = make_integrator(name);
+void Simulation::set_integrator(const std::string& name, double step, double tolerance) {
+  make_integrator(name);
   if (step != 0.0) check_number("set_integrator", "step", step, between(1e-6, 1.0));
+  check_number("set_integrator", "tolerance", tolerance, allowed_tolerance());
   impl_->settings.dynamics.integrator = name;
+  impl_->settings.dynamics.tolerance = tolerance;
   if (step != 0.0) impl_->settings.dynamics.step = step;
-  if (impl_->fork) impl_->fork->set_integrator(std::move(integrator));
+  if (impl_->fork) impl_->fork->set_step_control(impl_->make_step_control());
 }
 
 const std::vector<BodyState>& Simulation::objects() const { return impl_->objects; }
@@ -538,6 +547,7 @@ ToolState Simulation::fork() const {
   RigidTransform X_HE = RigidTransform::Identity();
   X_HE.translation().z() = s.fork.length;
   f.X_WE = impl_->X_WH * X_HE;
+  f.strain = StrainVector::Zero(make_shape_model(s.fork.shape, s.fork.length)->size());
   if (!impl_->fork) return f;
 
   const ForkBody& fork = *impl_->fork;
@@ -545,6 +555,7 @@ ToolState Simulation::fork() const {
   const StrainState full = held.full_state(fork.time(), fork.state());
   f.held_object = impl_->objects[impl_->held].name;
   f.X_WH_seen = fork.handle().X_WH;
+  f.strain = full.q;
   f.stretch = held.shape().extension(full.q);
   f.torsion = held.shape().twist(full.q);
   const RigidTransform X_HE_bent = held.shape().section(full.q, held.shape().length());
@@ -566,22 +577,6 @@ ToolState Simulation::fork() const {
   f.handle_wrench_H.force = -(R_HW * force);
   f.handle_wrench_H.moment = -(R_HW * at_handle);
   return f;
-}
-
-std::vector<RigidTransform> Simulation::centreline(int count) const {
-  std::vector<RigidTransform> poses;
-  const double L = impl_->settings.fork.length;
-  for (int i = 0; i < count; ++i) {
-    const double s = L * i / (count - 1);
-    if (impl_->fork) {
-      const HeldBody& held = impl_->fork->held();
-      const StrainState full = held.full_state(impl_->fork->time(), impl_->fork->state());
-      poses.push_back(impl_->fork->handle().X_WH * held.shape().section(full.q, s));
-    } else {
-      poses.push_back(impl_->X_WH * Eigen::Translation3d(0.0, 0.0, s));
-    }
-  }
-  return poses;
 }
 
 }  // namespace spring_workbench

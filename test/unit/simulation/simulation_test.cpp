@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "spring_workbench/config/input_error.h"
+#include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench {
@@ -285,7 +286,7 @@ TEST_F(Switching, NewStiffnessReportsTheEnergyItAdds) {
 }
 
 TEST_F(Switching, EveryIntegratorTakesOver) {
-  for (const char* name : {"closed_form", "rk4", "semi_implicit_euler", "exponential"}) {
+  for (const std::string& name : integrator_names()) {
     simulation.set_integrator(name, 0.0);
     EXPECT_EQ(simulation.fork().integrator, name);
   }
@@ -298,6 +299,10 @@ TEST_F(Switching, BadValuesChangeNothing) {
   EXPECT_THROW(simulation.set_damping_ratio({0.0, 11.0, 0.0}), InputError);
   EXPECT_THROW(simulation.set_integrator("magic", 0.0), InputError);
   EXPECT_THROW(simulation.set_integrator("rk4", -1.0), InputError);
+  EXPECT_THROW(simulation.set_integrator("rk4", std::nan("")), InputError);
+  for (double tolerance : {-1e-6, 0.2, std::nan("")}) {
+    EXPECT_THROW(simulation.set_integrator("rk4", 0.0, tolerance), InputError);
+  }
   EXPECT_EQ(simulation.settings().fork.stiffness.stretch, 2000.0);
   EXPECT_EQ(simulation.settings().fork.damping_ratio.bend, 0.2);
   EXPECT_EQ(simulation.settings().dynamics.integrator, "exponential");
