@@ -86,6 +86,7 @@ ForkState to_message(const ToolState& tool) {
   message.stretch_damping_ratio = tool.damping_ratio.stretch;
   message.bend_damping_ratio = tool.damping_ratio.bend;
   message.torsion_damping_ratio = tool.damping_ratio.torsion;
+  message.strain.assign(tool.strain.data(), tool.strain.data() + tool.strain.size());
   message.stretch = tool.stretch;
   message.bend = {tool.bend.x(), tool.bend.y()};
   message.torsion = tool.torsion;

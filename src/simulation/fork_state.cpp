@@ -6,6 +6,7 @@ namespace spring_workbench {
 void ForkBody::describe(bool massless, ToolState& f) const {
   const StrainState full = held_.full_state(state_.t, state_.strain);
   const ShapeModel& shape = held_.shape();
+  f.strain = full.q;
   f.X_WH_seen = handle().X_WH;
   f.stretch = shape.extension(full.q);
   f.torsion = shape.twist(full.q);
@@ -29,10 +30,6 @@ void ForkBody::describe(bool massless, ToolState& f) const {
   const Matrix3d R_HW = f.X_WH_seen.linear().transpose();
   f.handle_wrench_H.force = -(R_HW * force);
   f.handle_wrench_H.moment = -(R_HW * at_handle);
-}
-
-RigidTransform ForkBody::section(double s) const {
-  return handle().X_WH * held_.shape().section(held_.full_state(state_.t, state_.strain).q, s);
 }
 
 }  // namespace spring_workbench

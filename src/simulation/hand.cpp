@@ -13,6 +13,7 @@ namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double point_mass_radius = 1e-2;  ///< of the fork's length: radius of gyration of a point mass
+constexpr double on_the_axis = 1e-3;        ///< of the fork's length; a point mass so near to the fork's axis cannot twist it
 
 }  // namespace
 
@@ -89,6 +90,19 @@ void Hand::apply_buttons(double now) {
   }
 }
 
+ForkDofs Hand::possible_dofs(std::size_t object, const RigidTransform& X_OE) const {
+  if (workbench_.massless(object)) return {false, false, false};
+  ForkDofs dofs = settings_.fork.dofs;
+  const Vector3d lever = X_OE.linear().col(2).cross(X_OE.translation());
+  const bool point_mass = settings_.dynamics.inertia == "point_mass";
+  if (point_mass && lever.norm() < on_the_axis * settings_.fork.length) dofs.torsion = false;
+  return dofs;
+}
+
+StepControl Hand::make_step_control() const {
+  return StepControl(make_integrator(settings_.dynamics.integrator), settings_.dynamics.tolerance);
+}
+
 HeldBody Hand::make_held(std::size_t object, const RigidTransform& X_OE, double now) const {
   const Body& b = workbench_.body(object);
   BodyInertia inertia{b.mass_properties.mass, b.mass_properties.inertia_O, X_OE};
@@ -105,8 +119,7 @@ HeldBody Hand::make_held(std::size_t object, const RigidTransform& X_OE, double 
   HeldBody held_body(make_shape_model(settings_.fork.shape, settings_.fork.length), inertia, scene_.gravity);
   held_body.set_springs(settings_.fork.stiffness, settings_.fork.damping_ratio);
   const StrainState zero{StrainVector::Zero(held_body.shape().size()), StrainVector::Zero(held_body.shape().size())};
-  held_body.set_dofs(massless ? ForkDofs{false, false, false} : settings_.fork.dofs, now,
-                     settings_.fork.switch_off_time, zero);
+  held_body.set_dofs(possible_dofs(object, X_OE), now, settings_.fork.switch_off_time, zero);
   return held_body;
 }
 
@@ -125,8 +138,7 @@ void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, 
   const RigidTransform G = X_OE ? *X_OE : RigidTransform(o.X_WO.inverse() * X_WE);
   if (settings_.grasp.calibrate) calibrate_for(object);
   held_ = object;
-  hold_ = std::make_unique<ForkBody>(workbench_.scene_index(object), make_held(object, G, now),
-                                     make_integrator(settings_.dynamics.integrator), now);
+  hold_ = std::make_unique<ForkBody>(workbench_.scene_index(object), make_held(object, G, now), make_step_control(), now);
   hold_->set_hand(segment, now);
   // Strain is zero now. The object keeps its motion as far as the fork lets it; one that follows starts with the hand's.
   if (!follow_hand && dynamic()) hold_->take_twist(o.V_WO_W);
@@ -140,22 +152,45 @@ void Hand::let_go(bool thrown, double now) {
   hold_.reset();
 }
 
-void Hand::carry(double now, double h, AdvanceReport& report) {
-  const double added_before = hold_->energy_added();
+SteppedBody* Hand::begin_step(double now, double h) {
+  if (!hold_) return nullptr;
   hold_->set_hand(track_.segment(now), now);
-  workbench_.carry(*hold_, held_, h, report);
-  report.energy_added += hold_->energy_added() - added_before;
+  energy_added_before_ = hold_->energy_added();
+  BodyState& o = workbench_.state(held_);
+  const bool was_asleep = o.asleep;
+  o.asleep = hold_->sleeps(h, workbench_.rests(held_));
+  if (o.asleep) {
+    hold_->let_pass(h);
+    o.V_WO_W = Twist();
+    return nullptr;
+  }
+  if (was_asleep) workbench_.wake_what_lies_on(held_, now);
+  moved_ = true;
+  return hold_.get();
+}
+
+void Hand::end_step(AdvanceReport& report) {
+  if (!hold_) return;
+  report.energy_added += hold_->energy_added() - energy_added_before_;
   const ForkBody::Estimates e = hold_->take_estimates();
   report.position_error = std::max(report.position_error, e.position);
   report.angle_error = std::max(report.angle_error, e.angle);
   report.stiffest_omega_dt = std::max(report.stiffest_omega_dt, e.omega_dt);
+  report.steps += e.extra_steps;
+  report.steps_rejected += e.rejected;
+  report.energy_held += e.energy_held;
+}
+
+ForkDofs Hand::families_run() const {
+  return hold_ && moved_ ? possible_dofs(held_, hold_->held().body().X_OE) : ForkDofs{false, false, false};
 }
 
 void Hand::change_dofs(ChangeReport& change) {
   if (!hold_ || workbench_.massless(held_)) return;
   HeldBody& held = hold_->held();
   const StrainState full = held.full_state(hold_->time(), hold_->state());
-  hold_->set_state(held.set_dofs(settings_.fork.dofs, hold_->time(), settings_.fork.switch_off_time, full));
+  const ForkDofs possible = possible_dofs(held_, held.body().X_OE);
+  hold_->set_state(held.set_dofs(possible, hold_->time(), settings_.fork.switch_off_time, full));
   if (held.returning()) {
     change.message += "; the strain of what went off returns to zero with a time constant of " +
                       std::to_string(settings_.fork.switch_off_time) + " s and gives back its energy";
@@ -167,7 +202,7 @@ void Hand::change_springs() {
 }
 
 void Hand::change_integrator() {
-  if (hold_) hold_->set_integrator(make_integrator(settings_.dynamics.integrator));
+  if (hold_) hold_->set_step_control(make_step_control());
 }
 
 bool Hand::calibrate(ChangeReport& change) {
@@ -185,6 +220,7 @@ ToolState Hand::state() const {
   f.integrator = settings_.dynamics.integrator;
   f.dofs = settings_.fork.dofs;
   f.length = settings_.fork.length;
+  f.strain = StrainVector::Zero(make_shape_model(f.shape, f.length)->size());
   f.stiffness = settings_.fork.stiffness;
   f.damping_ratio = settings_.fork.damping_ratio;
   f.X_WH = f.X_WH_seen = X_WH_;
@@ -196,16 +232,6 @@ ToolState Hand::state() const {
     hold_->describe(workbench_.massless(held_), f);
   }
   return f;
-}
-
-std::vector<RigidTransform> Hand::centreline(int count) const {
-  std::vector<RigidTransform> poses;
-  const double L = settings_.fork.length;
-  for (int i = 0; i < count; ++i) {
-    const double s = L * i / (count - 1);
-    poses.push_back(hold_ ? hold_->section(s) : RigidTransform(X_WH_ * Eigen::Translation3d(0.0, 0.0, s)));
-  }
-  return poses;
 }
 
 }  // namespace spring_workbench

@@ -42,8 +42,12 @@ class Hand {
   void apply_buttons(double now);
   bool holds() const { return hold_ != nullptr; }
   void let_go(bool thrown, double now);
-  /// Carries what is held over `h` [s].
-  void carry(double now, double h, AdvanceReport& report);
+  /// What is held, ready to be carried over the next `h` [s]; null where nothing is held, or where it rests and nothing has
+  /// to be done.
+  SteppedBody* begin_step(double now, double h);
+  std::size_t held() const { return held_; }  ///< in the workbench
+  /// After it has been carried.
+  void end_step(AdvanceReport& report);
 
   // Changes of the settings reach what is held. The settings are changed before.
   void change_dofs(ChangeReport& change);
@@ -53,9 +57,10 @@ class Hand {
   bool calibrate(ChangeReport& change);
 
   double elastic_energy() const;
-  bool dynamic() const { return hold_ && hold_->held().size() > 0; }  ///< there is something for an integrator to do
+  /// The families that ran since the last call of begin_call().
+  ForkDofs families_run() const;
+  void begin_call() { moved_ = false; }
   ToolState state() const;
-  std::vector<RigidTransform> centreline(int count) const;
 
  private:
   struct ButtonEvent {
@@ -63,6 +68,10 @@ class Hand {
     bool pressed;
   };
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now);
+  bool dynamic() const { return hold_ && hold_->held().size() > 0; }  ///< there is something for an integrator to do
+  /// The families that the object can move: of those switched on, the ones in which it has an inertia.
+  ForkDofs possible_dofs(std::size_t object, const RigidTransform& X_OE) const;
+  StepControl make_step_control() const;
   HeldBody make_held(std::size_t object, const RigidTransform& X_OE, double now) const;
   void calibrate_for(std::size_t object);
 
@@ -75,6 +84,8 @@ class Hand {
   GraspSelection selection_;
   bool grasped_by_name_ = false;
   std::unique_ptr<ForkBody> hold_;  ///< while something is held
+  bool moved_ = false;              ///< what is held, in this call of advance
+  double energy_added_before_ = 0.0;
   std::size_t held_ = 0;            ///< in the workbench
 };
 

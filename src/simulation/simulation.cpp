@@ -18,9 +18,7 @@ Scene set_up(Scene scene, const SimulationSettings& settings) {
   if (settings.force_scale > 0.0) scene.force_scale = settings.force_scale;
   if (settings.contact == "none") scene.contact = ContactMode::none;
   if (settings.contact == "stop") scene.contact = ContactMode::stop;
-  if (scene.contact == ContactMode::dynamic) {
-    refuse(scene.path, "contact", "dynamic", "none or stop: this version has no world of movable neighbours");
-  }
+  if (settings.contact == "dynamic") scene.contact = ContactMode::dynamic;
   const std::string tool = settings.tool.empty() ? scene.tool : settings.tool;
   if (tool != "spring_fork") refuse(scene.path, "tool", tool, "spring_fork: this version has no other tool");
   if (!settings.grasp.object.empty()) {
@@ -64,9 +62,6 @@ struct Simulation::Impl {
   void act();
   double end_of_step(double t_end);
   void step(double end, AdvanceReport& report);
-  bool anything_held() const {
-    return std::any_of(hands.begin(), hands.end(), [](const Hand& hand) { return hand.holds(); });
-  }
   double elastic_energy() const;
   void fill_parts(AdvanceReport& report) const;
 };
@@ -111,12 +106,12 @@ double Simulation::Impl::end_of_step(double t_end) {
 
 void Simulation::Impl::step(double end, AdvanceReport& report) {
   const double h = end - now;
-  if (anything_held() || workbench.any_free()) {
-    for (Hand& hand : hands) {
-      if (hand.holds()) hand.carry(now, h, report);
-    }
-    workbench.carry_free(now, h, report);
+  std::vector<Carried> held;
+  for (Hand& hand : hands) {
+    if (SteppedBody* body = hand.begin_step(now, h)) held.push_back({hand.held(), body});
   }
+  workbench.step(held, now, h, report);
+  for (Hand& hand : hands) hand.end_step(report);
   now = end;
   for (Hand& hand : hands) {
     hand.follow(now);
@@ -128,6 +123,7 @@ void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
   start(t_end);
   const double begin = now;
   workbench.contacts().begin_call();
+  for (Hand& hand : hands) hand.begin_call();
   act();
   while (now < t_end - same_time) {
     step(end_of_step(t_end), report);
@@ -148,14 +144,18 @@ void Simulation::Impl::fill_parts(AdvanceReport& report) const {
   const auto part = [&](const std::string& name, bool runs) {
     (runs ? report.parts_run : report.parts_left_out).push_back(name);
   };
-  const bool dynamic = std::any_of(hands.begin(), hands.end(), [](const Hand& hand) { return hand.dynamic(); });
-  part("stretch", dynamic && settings.fork.dofs.stretch);
-  part("bend", dynamic && settings.fork.dofs.bend);
-  part("torsion", dynamic && settings.fork.dofs.torsion);
+  ForkDofs run{false, false, false};
+  for (const Hand& hand : hands) {
+    const ForkDofs of_hand = hand.families_run();
+    run = {run.stretch || of_hand.stretch, run.bend || of_hand.bend, run.torsion || of_hand.torsion};
+  }
+  part("stretch", run.stretch);
+  part("bend", run.bend);
+  part("torsion", run.torsion);
   part("gravity", scene.gravity > 0.0 && report.steps > 0);
   part("free_bodies", workbench.any_free());
   part("collision", workbench.with_contact() && report.steps > 0);
-  part("movable_neighbours", false);
+  part("movable_neighbours", scene.contact == ContactMode::dynamic && report.steps > 0);
 }
 
 Simulation::Simulation(const Scene& scene, const SimulationSettings& settings)
@@ -254,10 +254,12 @@ ChangeReport Simulation::calibrate() {
   return change;
 }
 
-void Simulation::set_integrator(const std::string& name, double step) {
+void Simulation::set_integrator(const std::string& name, double step, double tolerance) {
   make_integrator(name);
   if (step != 0.0) check_number("set_integrator", "step", step, between(1e-6, 1.0));
+  check_number("set_integrator", "tolerance", tolerance, allowed_tolerance());
   impl_->settings.dynamics.integrator = name;
+  impl_->settings.dynamics.tolerance = tolerance;
   if (step != 0.0) impl_->settings.dynamics.step = step;
   for (Hand& hand : impl_->hands) hand.change_integrator();
 }
@@ -265,8 +267,5 @@ void Simulation::set_integrator(const std::string& name, double step) {
 const std::vector<BodyState>& Simulation::objects() const { return impl_->workbench.states(); }
 const std::vector<ContactState>& Simulation::contacts() const { return impl_->workbench.contacts().told(); }
 ToolState Simulation::fork(std::size_t hand) const { return impl_->hand(hand).state(); }
-std::vector<RigidTransform> Simulation::centreline(int count, std::size_t hand) const {
-  return impl_->hand(hand).centreline(count);
-}
 
 }  // namespace spring_workbench

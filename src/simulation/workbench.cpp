@@ -16,9 +16,10 @@ constexpr double world_limit = 100.0;  ///< [m] from the origin; a body that fli
 
 Workbench::Workbench(const Scene& scene, int bisection_levels) : scene_(scene), contacts_(scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    object_of_.push_back(movable_.size());
     if (scene.bodies[i].movable) movable_.push_back(i);
   }
-  if (scene.contact != ContactMode::none) {
+  if (scene.contact == ContactMode::stop) {
     collision_ = std::make_unique<CollisionWorld>(scene);
     contact_stepper_ = std::make_unique<ContactStepper>(scene, *collision_, bisection_levels);
   }
@@ -27,6 +28,7 @@ Workbench::Workbench(const Scene& scene, int bisection_levels) : scene_(scene), 
 
 void Workbench::reset() {
   contacts_.reset(movable_.size());
+  if (scene_.contact == ContactMode::dynamic) dynamic_stepper_ = std::make_unique<DynamicStepper>(scene_);
   states_.assign(movable_.size(), BodyState());
   rows_.assign(movable_.size(), {});
   slow_since_.assign(movable_.size(), 0.0);
@@ -51,6 +53,7 @@ std::optional<std::size_t> Workbench::find(const std::string& name) const {
 }
 
 bool Workbench::any_free() const {
+  if (dynamic_stepper_) return dynamic_stepper_->others_awake();
   return std::any_of(free_bodies_.begin(), free_bodies_.end(), [](const auto& b) { return b != nullptr; });
 }
 
@@ -75,18 +78,22 @@ void Workbench::let_go(std::size_t object, bool thrown, double now) {
   if (!thrown || massless(object)) o.V_WO_W = Twist();
   if (massless(object)) {
     o.asleep = true;
+    if (dynamic_stepper_) dynamic_stepper_->world().place(movable_[object], o.X_WO, Twist(), false);
   } else {
     set_free(object, o.V_WO_W, now);
   }
 }
 
 void Workbench::set_free(std::size_t object, const Twist& V_WO_W, double now) {
+  if (dynamic_stepper_) {
+    dynamic_stepper_->set_free(movable_[object], states_[object].X_WO, V_WO_W);
+    return;
+  }
   free_bodies_[object] = std::make_unique<FreeBody>(movable_[object], body(object), scene_.gravity,
                                                     states_[object].X_WO, V_WO_W);
   slow_since_[object] = now;
 }
 
-/// Sleepers that rest on `object`, and on one another, are free to fall.
 void Workbench::wake_what_lies_on(std::size_t object, double now) {
   if (!collision_) return;
   std::vector<ContactPoint> found;
@@ -126,7 +133,12 @@ void Workbench::carry(SteppedBody& stepped, std::size_t object, double h, Advanc
   contacts_.note(object, states_[object], outcome.rows, h);
 }
 
-void Workbench::carry_free(double now, double h, AdvanceReport& report) {
+void Workbench::step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report) {
+  if (dynamic_stepper_) {
+    step_together(held, h, report);
+    return;
+  }
+  for (const Carried& c : held) carry(*c.body, c.object, h, report);
   for (std::size_t i = 0; i < states_.size(); ++i) {
     if (!free_bodies_[i]) continue;
     carry(*free_bodies_[i], i, h, report);
@@ -134,16 +146,56 @@ void Workbench::carry_free(double now, double h, AdvanceReport& report) {
   }
 }
 
+void Workbench::step_together(const std::vector<Carried>& held, double h, AdvanceReport& report) {
+  if (held.empty() && !dynamic_stepper_->others_awake()) return;
+  std::vector<SteppedBody*> bodies;
+  for (const Carried& c : held) bodies.push_back(c.body);
+  const DynamicStepper::Outcome outcome = dynamic_stepper_->step(bodies, h);
+  report.steps += outcome.pieces;
+  report.collision_queries += outcome.pieces;
+  if (outcome.held_back) ++report.guards_tripped;
+  for (const Carried& c : held) take_state(c.object, c.body->object());
+  const RigidWorld& world = dynamic_stepper_->world();
+  for (const std::size_t near : world.bodies_near()) {
+    BodyState& o = states_[object_of_[near]];
+    if (!scene_.bodies[near].movable || o.held) continue;
+    o.X_WO = world.pose(near);
+    o.V_WO_W = world.velocity(near);
+    o.asleep = !world.awake(near);
+  }
+  note_world_contacts(h);
+}
+
+void Workbench::note_world_contacts(double h) {
+  std::vector<std::vector<ContactRow>> rows(states_.size());
+  for (const WorldContact& c : dynamic_stepper_->contacts()) {
+    ContactRow row;
+    row.point = {c.other, c.p_W, c.n_W, c.depth};
+    row.gap = -c.depth;
+    row.load_W = c.impulse_W / h;
+    rows[object_of_[c.body]].push_back(row);
+  }
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (states_[i].asleep && rows[i].empty()) continue;
+    states_[i].in_contact = !rows[i].empty();
+    contacts_.note(i, states_[i], rows[i], h);
+  }
+}
+
+bool Workbench::rests(std::size_t object) const {
+  if (dynamic_stepper_) return !dynamic_stepper_->others_awake();
+  const std::vector<ContactState>& touching = contacts_.touching(object);
+  return std::none_of(touching.begin(), touching.end(), [&](const ContactState& c) {
+    const std::optional<std::size_t> other = find(c.other);
+    return other && !states_[*other].asleep;
+  });
+}
+
 void Workbench::put_to_sleep_if_slow(std::size_t object, double now) {
   BodyState& o = states_[object];
   o.asleep = false;
   const double speed = o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * bounding_radius(body(object));
-  const std::vector<ContactState>& touching = contacts_.touching(object);
-  const bool on_something_awake = std::any_of(touching.begin(), touching.end(), [&](const ContactState& c) {
-    const std::optional<std::size_t> other = find(c.other);
-    return other && !states_[*other].asleep;
-  });
-  if (!o.in_contact || on_something_awake || speed > asleep_speed) slow_since_[object] = now;
+  if (!o.in_contact || !rests(object) || speed > asleep_speed) slow_since_[object] = now;
   const bool away = o.X_WO.translation().norm() > world_limit;
   if (away || now - slow_since_[object] > asleep_after) {
     free_bodies_[object].reset();

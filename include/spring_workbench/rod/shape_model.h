@@ -25,6 +25,10 @@ struct TipKinematics {
   StrainJacobian linear;                            ///< tip's velocity = linear · q̇
   Vector3d angular_bias = Vector3d::Zero();         ///< angular acceleration = angular · q̈ + angular_bias [rad/s²]
   Vector3d linear_bias = Vector3d::Zero();          ///< acceleration = linear · q̈ + linear_bias [m/s²]
+  /// Whether, of six coordinates, 0, 1 and 5 shift the tip along x, y and z of H and 2, 3 and 4 only turn it. Then
+  /// (q̇₂, q̇₃, q̇₄) = inverse_angular · angular velocity.
+  bool separate = false;
+  Matrix3d inverse_angular = Matrix3d::Identity();
 };
 
 /// Which of the strain coordinates belong to which family: [begin, begin + count).

@@ -21,7 +21,8 @@ YAML::Node private_parameters(const ros::NodeHandle& private_node);
 struct ManipulationParameters {
   std::string scene;                  ///< `scene`, required: a URDF's path or package:// URI
   double rate = 100.0;                ///< `rate` [Hz], 1 … 2000: of the physics loop and of all messages but markers
-  double marker_rate = 30.0;          ///< `marker_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with
+  double markers_rate = 30.0;         ///< `markers_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with
+  std::string fork_curve = "rod";     ///< `fork_curve`: one of fork_curve_names(), the curve that `~markers` draws
   double max_age = 1.0;               ///< `max_age` [s], > 0: samples stamped further from now are left out
   std::string world_frame = "world";  ///< `world_frame`: frame of all that is published
   std::string workbench_frame =

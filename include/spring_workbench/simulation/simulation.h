@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spring_workbench/motion/pose_track.h"
+#include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/simulation/settings.h"
 
@@ -31,6 +32,7 @@ struct ToolState {
   double length = 0.0;                                           ///< rest length [m]
   PerFamily stiffness;                                           ///< [N/m, N/m, N·m/rad]
   PerFamily damping_ratio;                                       ///< –
+  StrainVector strain;                                           ///< all coordinates of the shape model; zero when nothing is held
   double stretch = 0.0;                                          ///< extension along the rod [m]
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();                ///< tip deflection along x and y of the handle [m]
   double torsion = 0.0;                                          ///< twist angle [rad]
@@ -129,8 +131,6 @@ class Simulation {
   const std::vector<BodyState>& objects() const;
   ToolState fork(std::size_t hand = 0) const;
   const std::vector<ContactState>& contacts() const;
-  /// Poses along the fork's centreline from handle to tip, in world, `count` ≥ 2 of them evenly spaced in arc length.
-  std::vector<RigidTransform> centreline(int count, std::size_t hand = 0) const;
 
  private:
   struct Impl;

@@ -35,7 +35,7 @@ class MarkersOfALift : public testing::Test {
   }
 
   Simulation simulation_{load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf"), SimulationSettings()};
-  MarkerBuilder builder_;
+  MarkerBuilder builder_{"rod", 2.0};
   double t_ = 0.0;
   bool pressed_ = false;
 };
