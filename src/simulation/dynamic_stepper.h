@@ -33,6 +33,7 @@ class DynamicStepper {
  private:
   struct Way {
     RigidTransform X0, X1;
+    Twist V1;  ///< at the end, world axes
     bool possible = false;
   };
   Way way(SteppedBody& body, double h) const;

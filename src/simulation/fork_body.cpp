@@ -179,13 +179,16 @@ StrainMatrix ForkBody::inverse_mass() const {
       .solve(StrainMatrix::Identity(held_.size(), held_.size()));
 }
 
-Matrix6d ForkBody::compliance(double h) const {
-  Matrix6d C = proxy_compliance(h);
+SteppedBody::Answer ForkBody::answer(double h) const {
+  const Matrix6d proxy = proxy_compliance(h);
+  Answer a{proxy, proxy / h};
   if (held_.size() > 0) {
     const auto J = jacobian_W();
-    C += J * control_.integrator().response(held_, state_.t, h, state_.strain).q * J.transpose();
+    const Integrator::Response r = control_.integrator().response(held_, state_.t, h, state_.strain);
+    a.displacement += J * r.q * J.transpose();
+    a.velocity += J * r.q_dot * J.transpose();
   }
-  return C;
+  return a;
 }
 
 Matrix6d ForkBody::mobility() const {

@@ -19,7 +19,7 @@ class ForkBody final : public SteppedBody {
   bool advance(double h, const Wrench& contact_W) override;
   void remember() override;
   void go_back() override;
-  Matrix6d compliance(double h) const override;
+  Answer answer(double h) const override;
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
   void stay(double h) override;
