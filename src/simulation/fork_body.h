@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/simulation/simulation.h"
 #include "stepped_body.h"
 
 namespace spring_workbench {
@@ -45,6 +46,11 @@ class ForkBody final : public SteppedBody {
   /// hand, gravity, contact and damping. That work is a three-point quadrature over each step, so the figure means
   /// something where the step resolves the motion (ω·dt below about 1). While a family returns to zero nothing is added.
   double energy_added() const { return state_.energy_added; }
+
+  /// Fills in what the fork knows of its state. `massless`: the object has no mass, and forces mean nothing.
+  void describe(bool massless, ToolState& state) const;
+  /// Pose of the rod's section at arc length `s` [m] of the rest shape, in world.
+  RigidTransform section(double s) const;
 
   // What the steps since the last call said.
   struct Estimates {
