@@ -10,9 +10,10 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kMoving = 0.3;  // s
-constexpr double kResting = 0.2;
+constexpr double kMoving = 0.2;  // s
+constexpr double kResting = 0.1;
 constexpr int kLeastRests = 5;  // samples
+constexpr int kRestsBefore = 3;
 constexpr double kGap = 1.0;
 constexpr double kLongestHeld = 0.5;  // s; the dropout rule of the settings
 constexpr double kPi = 3.1415926535897932384626433832795;
@@ -69,11 +70,11 @@ MapHandMotion map_hand_motion(MapHand hand, double interval, double step) {
       for (int i = 0, n = count(kMoving); i < n; ++i) samples.push_back({next(), lissajous(i * interval)});
       break;
     case MapHand::jump:
-      stay(home(), 0.0);
+      for (int i = 0; i < kRestsBefore; ++i) samples.push_back({next(), home()});
       samples.push_back({next(), moved(Vector3d(0.6, 0.0, 0.8), Vector3d::Zero())});
       break;
     case MapHand::flip:
-      stay(home(), 0.0);
+      for (int i = 0; i < kRestsBefore; ++i) samples.push_back({next(), home()});
       samples.push_back({next(), moved(Vector3d::Zero(), kPi * Vector3d(1.0, 1.0, 0.5).normalized())});
       break;
     case MapHand::dropout:

@@ -57,7 +57,7 @@ def draw_line(axes, line, **style):
     axes.plot([p[0] for p in line], [p[1] for p in line], **style)
 
 
-def save(figure, picture, legend_from, columns=None, right=False):
+def save(figure, picture, legend_from, right=False):
     handles, labels = {}, []
     for axes in legend_from:
         for handle, label in zip(*axes.get_legend_handles_labels()):
@@ -65,11 +65,12 @@ def save(figure, picture, legend_from, columns=None, right=False):
                 handles[label] = handle
                 labels.append(label)
     if right:
-        figure.tight_layout(rect=(0, 0, 0.78, 1))
-        figure.legend([handles[label] for label in labels], labels, loc="center left", bbox_to_anchor=(0.785, 0.5),
-                      frameon=False)
+        share = 1.0 - 2.9 / figure.get_figwidth()
+        figure.tight_layout(rect=(0, 0, share, 1))
+        figure.legend([handles[label] for label in labels], labels, loc="center left", bbox_to_anchor=(share, 0.5),
+                      frameon=False, fontsize=9)
     elif labels:
-        columns = columns or min(6, len(labels))
+        columns = min(6, len(labels))
         rows = -(-len(labels) // columns)
         space = (0.24 * rows + 0.1) / figure.get_figheight()
         figure.tight_layout(rect=(0, space, 1, 1))
@@ -91,7 +92,7 @@ def styles(rows):
         colour = OURS[i % len(OURS)]
         style[name, "function"] = dict(color=colour, linewidth=2.4, marker="o", markersize=4, zorder=3, label=f"{name} (ours)")
         style[name, "samples"] = dict(color=colour, linewidth=1.6, linestyle=":", zorder=3,
-                                      label=f"{name} (ours), hand by 50 Hz poses alone")
+                                      label=f"{name} (ours),\nhand by 50 Hz poses alone")
     tab20 = pyplot.get_cmap("tab20").colors
     for i, name in enumerate(peers):
         style[name, "function"] = dict(color=tab20[i % 20], marker=MARKERS[i % len(MARKERS)], linewidth=0.9, markersize=3.5,
@@ -105,7 +106,7 @@ def scene(table, picture, name):
         sys.exit(f"plot_report.py: no finite run of scene {name} in {table}")
     style = styles(rows)
     factors = sorted({float(row["stiffness_factor"]) for row in rows})
-    figure, panels = pyplot.subplots(len(MEASURES), len(factors), figsize=(max(9.0, 4.0 * len(factors)), 11.0),
+    figure, panels = pyplot.subplots(len(MEASURES), len(factors), figsize=(2.9 + max(6.0, 3.8 * len(factors)), 10.0),
                                      sharex="col", sharey="row", squeeze=False)
     for line_of_panels, (measure, label) in zip(panels, MEASURES.items()):
         for axes, factor in zip(line_of_panels, factors):
@@ -119,7 +120,7 @@ def scene(table, picture, name):
         axes.set_title(f"scene {name}, stiffness × {factor:g}")
     for axes in panels[-1]:
         axes.set_xlabel(TIME_LABEL)
-    save(figure, picture, panels[0], columns=4)
+    save(figure, picture, panels[0], right=True)
 
 
 def merit(line):
@@ -160,7 +161,7 @@ def overview(table, picture):
 def grid(count):
     columns = min(4, count)
     rows = -(-count // columns)
-    figure, panels = pyplot.subplots(rows, columns, figsize=(4.0 * columns, 3.9 * rows), sharey=True, squeeze=False)
+    figure, panels = pyplot.subplots(rows, columns, figsize=(4.0 * columns, 3.9 * rows), squeeze=False)
     flat = [axes for line in panels for axes in line]
     for axes in flat[count:]:
         axes.set_visible(False)
@@ -241,9 +242,10 @@ def stability(table, picture):
         axes.set_yticks(range(len(masses)), ["0" if m == 0.0 else f"1e{math.log10(m):.0f}" for m in masses])
         total = sum(held.values()), sum(cells.values())
         axes.set(title=f"{name}\n{total[0]} of {total[1]} cells hold", xlabel="stiffness factor, power of ten", ylabel="mass [kg]")
-    figure.tight_layout(rect=(0, 0, 0.91, 1))
-    bar = figure.colorbar(image, cax=figure.add_axes((0.925, 0.15, 0.015, 0.7)))
-    bar.set_label("share of cells that hold, over steps, damping,\nfamilies and hands (numbers: per cent, below 100)")
+    share = 1.0 - 1.3 / figure.get_figwidth()
+    figure.tight_layout(rect=(0, 0, share, 1))
+    bar = figure.colorbar(image, cax=figure.add_axes((share, 0.12, 0.2 / figure.get_figwidth(), 0.72)))
+    bar.set_label("share of cells that hold\n(numbers: per cent, below 100)")
     figure.savefig(picture, dpi=110)
 
 
