@@ -145,7 +145,7 @@ std::vector<RodCase> recorded_cases(const std::string& folder) {
     const bool stiff = one.name == "stiff_6dof";
     const std::string motion = stiff ? "motion_vicon_1s" : one.name == "stylus" ? "motion_stylus" : "motion_vicon";
     one.recorded = folder + "/" + one.name + ".csv";
-    one.duration = stiff ? 1.0 : 8.0;
+    one.duration = stiff ? 1.0 : one.name == "stylus" ? 7.96 : 8.0;
     one.shapes = {one.name == "soft_constant_shape" ? "constant" : "linear"};
     one.name = "recorded_" + one.name;
     one.hand = read_motion(folder + "/" + motion + ".tum");
@@ -194,8 +194,9 @@ std::vector<double> output_times(const RodCase& one) {
 
 std::vector<double> step_ends(const RodCase& one) {
   std::vector<double> ends = output_times(one);
+  const double last = ends.back();
   for (const PoseSample& sample : one.hand) {
-    if (sample.t > 0.0 && sample.t < ends.back()) ends.push_back(sample.t);
+    if (sample.t > 0.0 && sample.t < last) ends.push_back(sample.t);
   }
   std::sort(ends.begin(), ends.end());
   ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a < kSameTime; }), ends.end());
