@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "exponential.h"
 #include "integrators.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/dynamics/damped_oscillator.h"
