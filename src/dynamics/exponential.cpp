@@ -28,6 +28,15 @@ constexpr double farthest_continued = 1.5;
 /// Steps whose lengths differ by less are equal: what differs is rounding of times.
 constexpr double same_length = 1e-11;
 
+/// `A x` for sizes that the compiler knows: all of it in registers.
+template <int rows, int columns>
+Eigen::Matrix<double, rows, 1> times(const Eigen::Matrix<double, rows, columns>& A,
+                                     const Eigen::Matrix<double, columns, 1>& x) {
+  Eigen::Matrix<double, rows, 1> y = A.col(0) * x[0];
+  for (int j = 1; j < columns; ++j) y += A.col(j) * x[j];
+  return y;
+}
+
 }  // namespace
 
 class Exponential::Core {
@@ -57,7 +66,7 @@ class Exponential::CoreOf final : public Core {
     Operator sum = node_[last][0];
     for (std::size_t j = 1; j < nodes; ++j) sum.add(node_[last][j]);
     Eigen::Matrix<double, 2 * n, n> modes;
-    for (int i = 0; i < n; ++i) modes.col(i) = sum * Modes(to_modes_.col(n + i));
+    for (int i = 0; i < n; ++i) modes.col(i) = sum * Modes(force_to_modes_.col(i));
     const Eigen::Matrix<double, 2 * n, n> end = from_modes_ * modes * linear_.inverse_mass;
     r.q = end.template topRows<n>();
     r.q_dot = end.template bottomRows<n>();
@@ -107,8 +116,9 @@ class Exponential::CoreOf final : public Core {
     stiffness_ = linear_.stiffness;
     damping_ = linear_.damping;
     to_modes_ = linear_.to_modes;
+    force_to_modes_ = to_modes_.template rightCols<n>();
     from_modes_ = linear_.from_modes;
-    mass_ = linear_.mass;
+    strain_from_modes_ = from_modes_.template topRows<n>();
     h_ = 0.0;
     t_end_ = std::numeric_limits<double>::quiet_NaN();
     contraction_ = 1.0;
@@ -118,6 +128,9 @@ class Exponential::CoreOf final : public Core {
   void prepare(double h) {
     if (std::abs(h - h_) <= same_length * h) return;
     h_ = h;
+    for (int m = 0; m < 2 * n; ++m) {
+      weight_[m] = 1.0 / std::max(1.0 / h, std::abs(linear_.rates[static_cast<std::size_t>(m)]));
+    }
     const auto take = [this, h](const auto& w, const auto& set) {
       for (std::size_t i = 1; i < nodes; ++i) {
         set(decay_[i], w.decay[i]);
@@ -140,20 +153,20 @@ class Exponential::CoreOf final : public Core {
   Modes modes_of(const State& s) const {
     Modes y;
     y << s.q - q_reference_, s.q_dot;
-    return to_modes_ * y;
+    return times(to_modes_, y);
   }
   State state_of(const Modes& x) const {
-    const Modes y = from_modes_ * x;
+    const Modes y = times(from_modes_, x);
     return {y.template head<n>() + q_reference_, y.template tail<n>()};
   }
   /// What the linear part leaves over of the acceleration, in modes.
   Modes remainder(const HeldBody& body, const HandleForcing& handle, const State& s) const {
-    const Strain r = body.template acceleration<n>(handle, s.q, s.q_dot) + stiffness_ * (s.q - q_reference_) +
-                     damping_ * s.q_dot;
-    return to_modes_.template rightCols<n>() * r;
+    const Strain r = body.template acceleration<n>(handle, s.q, s.q_dot) +
+                     times(stiffness_, Strain(s.q - q_reference_)) + times(damping_, s.q_dot);
+    return times(force_to_modes_, r);
   }
-  /// Size of a strain so that coordinates of different units can be compared: √(Σ M_ii q_i²).
-  double size(const Strain& q) const { return std::sqrt(mass_.dot(q.cwiseAbs2())); }
+  /// Size of what is in modes [m √kg]: displacements as they are, velocities times what is left of them over a step.
+  double size(const Modes& x) const { return weight_.cwiseProduct(x).norm(); }
 
   /// Whether a step from here goes on from the last one.
   bool goes_on(double t, const State& s) const { return t == t_end_ && s.q == end_.q && s.q_dot == end_.q_dot; }
@@ -175,14 +188,14 @@ class Exponential::CoreOf final : public Core {
   }
 
   /// Error of the cubic: its fourth difference, taken to follow on the second and third in a geometric series.
-  Strain cubic_error() const {
+  Modes cubic_error() const {
     const auto difference = [this](const Collocation::Row& row) -> Modes {
       return row[0] * remainder_[0] + row[1] * remainder_[1] + row[2] * remainder_[2] + row[3] * remainder_[3];
     };
     const Modes third = difference(Collocation::third_difference());
     const double second = difference(Collocation::second_difference()).norm();
     const double ratio = third.norm() < second ? third.norm() / second : 1.0;
-    return from_modes_.template topRows<n>() * (error_ * Modes(ratio * third));
+    return error_ * Modes(ratio * third);
   }
 
   Estimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, State& state, int halvings) {
@@ -221,43 +234,38 @@ class Exponential::CoreOf final : public Core {
     }
     std::array<Modes, nodes> base;
     for (std::size_t i = 1; i < nodes; ++i) base[i] = decay_[i] * x0 + node_[i][0] * remainder_[0];
-    const auto at_node = [&](std::size_t i) {
-      return state_of(base[i] + node_[i][1] * remainder_[1] + node_[i][2] * remainder_[2] +
-                      node_[i][3] * remainder_[3]);
+    const auto at_node = [&](std::size_t i) -> Modes {
+      return base[i] + node_[i][1] * remainder_[1] + node_[i][2] * remainder_[2] + node_[i][3] * remainder_[3];
     };
 
-    Estimate e;
+    Estimate e{Strain::Zero(), false};
+    Modes end = at_node(last);
     double change = 0.0;
-    State end;
     for (int sweeps = 1; sweeps <= most_sweeps && !e.converged; ++sweeps) {
-      for (std::size_t i = 1; i < nodes; ++i) {
-        end = at_node(i);
-        remainder_[i] = remainder(body, forcing[i], end);
-      }
-      const State next = at_node(last);
+      for (std::size_t i = 1; i < nodes; ++i) remainder_[i] = remainder(body, forcing[i], state_of(at_node(i)));
+      const Modes next = at_node(last);
+      const Modes changed = next - end;
       const double change_before = change;
-      const Strain changed = (next.q - end.q).cwiseAbs();
       change = size(changed);
       end = next;
       if (!(change < 1e300)) break;
-      const double rounding = share_of_strain * (size(end.q) + size(end.q - state.q));
+      const double rounding = share_of_strain * std::max(size(end), size(x0));
       if (sweeps == 1) {
         contraction_ = std::min(1.0, contraction_ * forget_contraction);
       } else if (change > rounding) {
         contraction_ = change / change_before;
         if (sweeps > 2 && contraction_ > slow_contraction) break;
       }
-      e.error = cubic_error();
-      const double left = contraction_ < 1.0 ? change * contraction_ / (1.0 - contraction_) : change * 1e3;
-      e.converged = left <= std::max(share_of_error * size(e.error), rounding) || change <= rounding;
-      // The sweeps' own error, along their last change.
-      e.error = e.error.cwiseAbs() + left / std::max(change, 1e-300) * changed;
+      const Modes cubic = cubic_error();
+      const double left = contraction_ < 1.0 ? contraction_ / (1.0 - contraction_) : 1e3;  // of the change
+      e.converged = left * change <= std::max(share_of_error * size(cubic), rounding) || change <= rounding;
+      if (e.converged) e.error = times(strain_from_modes_, cubic).cwiseAbs() + left * times(strain_from_modes_, changed).cwiseAbs();
     }
-    state = end;
+    state = state_of(end);
     remainder_before_ = remainder_;
     last_h_ = h;
     t_end_ = forcing[last].t;
-    end_ = end;
+    end_ = state;
     load_version_ = body.load_version();
     end_acceleration_ = forcing[last].acceleration_less_gravity;
     end_angular_acceleration_ = forcing[last].angular_acceleration;
@@ -266,11 +274,14 @@ class Exponential::CoreOf final : public Core {
 
   LinearPart linear_;
   long version_ = -1;
-  Strain q_reference_, mass_;
+  Strain q_reference_;
   Square stiffness_, damping_;
   Eigen::Matrix<double, 2 * n, 2 * n> to_modes_, from_modes_;
+  Eigen::Matrix<double, 2 * n, n> force_to_modes_;
+  Eigen::Matrix<double, n, 2 * n> strain_from_modes_;
 
   double h_ = 0.0;  ///< what the operators are for
+  Modes weight_;
   std::array<Operator, nodes> decay_;
   std::array<std::array<Operator, nodes>, nodes> node_;
   Operator error_;

@@ -205,10 +205,15 @@ HeldBody::Rigid HeldBody::without_strain_acceleration(const HandleForcing& h, co
   r.r_EO.noalias() = tip.R_HE * p_EO_;
   r.R_HO.noalias() = tip.R_HE * R_EO_;
   const Vector3d p_HO = tip.p_HE + r.r_EO;
-  Vector3d w_rel = Vector3d::Zero(), v_E = Vector3d::Zero();  // of the tip, in the turning frame H
-  for (int i = 0; i < q_dot.size(); ++i) {
-    w_rel += q_dot[i] * tip.angular.col(i);
-    v_E += q_dot[i] * tip.linear.col(i);
+  Vector3d w_rel, v_E;  // of the tip, in the turning frame H
+  if (q_dot.size() == max_strain_coordinates) {  // with loops that the compiler can unroll
+    using Columns = Eigen::Map<const Eigen::Matrix<double, 3, max_strain_coordinates>>;
+    const Eigen::Matrix<double, max_strain_coordinates, 1> rate = q_dot;
+    w_rel = Columns(tip.angular.data()).lazyProduct(rate);
+    v_E = Columns(tip.linear.data()).lazyProduct(rate);
+  } else {
+    w_rel = tip.angular * q_dot;
+    v_E = tip.linear * q_dot;
   }
   Vector3d alpha_rel = tip.angular_bias, a_E = tip.linear_bias;
   if (returning_ > 0) {
