@@ -56,7 +56,8 @@ class Exponential::CoreOf final : public Core {
     const Estimate e = step(body, handle, t, h, s, 0);
     state.q = s.q;
     state.q_dot = s.q_dot;
-    return {e.error, linear_.fastest * h};
+    const Modes error = times(from_modes_, e.error);
+    return {error.template head<n>(), linear_.fastest * h};
   }
 
   bool response(const HeldBody& body, double h, Response& r) override {
@@ -82,7 +83,7 @@ class Exponential::CoreOf final : public Core {
     Strain q, q_dot;
   };
   struct Estimate {
-    Strain error;
+    Modes error = Modes::Zero();  ///< of the result, in modes
     bool converged = false;
   };
   /// A function of the linear part, in modes: x ↦ own x + other x with the members of each pair exchanged.
@@ -118,7 +119,6 @@ class Exponential::CoreOf final : public Core {
     to_modes_ = linear_.to_modes;
     force_to_modes_ = to_modes_.template rightCols<n>();
     from_modes_ = linear_.from_modes;
-    strain_from_modes_ = from_modes_.template topRows<n>();
     h_ = 0.0;
     t_end_ = std::numeric_limits<double>::quiet_NaN();
     contraction_ = 1.0;
@@ -215,6 +215,7 @@ class Exponential::CoreOf final : public Core {
     e = step(body, handle, t, 0.5 * h, state, halvings + 1);
     const Estimate second = step(body, handle, t + 0.5 * h, 0.5 * h, state, halvings + 1);
     e.error += second.error;
+    e.converged = e.converged && second.converged;
     return e;
   }
 
@@ -238,7 +239,7 @@ class Exponential::CoreOf final : public Core {
       return base[i] + node_[i][1] * remainder_[1] + node_[i][2] * remainder_[2] + node_[i][3] * remainder_[3];
     };
 
-    Estimate e{Strain::Zero(), false};
+    Estimate e;
     Modes end = at_node(last);
     double change = 0.0;
     for (int sweeps = 1; sweeps <= most_sweeps && !e.converged; ++sweeps) {
@@ -259,7 +260,7 @@ class Exponential::CoreOf final : public Core {
       const Modes cubic = cubic_error();
       const double left = contraction_ < 1.0 ? contraction_ / (1.0 - contraction_) : 1e3;  // of the change
       e.converged = left * change <= std::max(share_of_error * size(cubic), rounding) || change <= rounding;
-      if (e.converged) e.error = times(strain_from_modes_, cubic).cwiseAbs() + left * times(strain_from_modes_, changed).cwiseAbs();
+      e.error = -(cubic + left * changed);
     }
     state = state_of(end);
     remainder_before_ = remainder_;
@@ -278,7 +279,6 @@ class Exponential::CoreOf final : public Core {
   Square stiffness_, damping_;
   Eigen::Matrix<double, 2 * n, 2 * n> to_modes_, from_modes_;
   Eigen::Matrix<double, 2 * n, n> force_to_modes_;
-  Eigen::Matrix<double, n, 2 * n> strain_from_modes_;
 
   double h_ = 0.0;  ///< what the operators are for
   Modes weight_;
