@@ -56,8 +56,7 @@ class Exponential::CoreOf final : public Core {
     const Estimate e = step(body, handle, t, h, s, 0);
     state.q = s.q;
     state.q_dot = s.q_dot;
-    const Modes error = times(from_modes_, e.error);
-    return {error.template head<n>(), linear_.fastest * h};
+    return {e.error.template head<n>(), linear_.fastest * h, e.error.template tail<n>()};
   }
 
   bool response(const HeldBody& body, double h, Response& r) override {
@@ -83,7 +82,7 @@ class Exponential::CoreOf final : public Core {
     Strain q, q_dot;
   };
   struct Estimate {
-    Modes error = Modes::Zero();  ///< of the result, in modes
+    Modes error = Modes::Zero();  ///< of the resulting strain and strain rate
     bool converged = false;
   };
   /// A function of the linear part, in modes: x ↦ own x + other x with the members of each pair exchanged.
@@ -262,6 +261,7 @@ class Exponential::CoreOf final : public Core {
       e.converged = left * change <= std::max(share_of_error * size(cubic), rounding) || change <= rounding;
       e.error = -(cubic + left * changed);
     }
+    e.error = times(from_modes_, e.error);
     state = state_of(end);
     remainder_before_ = remainder_;
     last_h_ = h;

@@ -334,6 +334,18 @@ StrainState HeldBody::full_state(double t, const StrainState& state) const {
   return full;
 }
 
+bool HeldBody::rechart(StrainState& state) const {
+  if (returning_ > 0) return false;
+  StrainState full = full_state(0.0, state);
+  if (!shape_->rechart(full.q, full.q_dot)) return false;
+  for (int i = 0; i < size(); ++i) {
+    const int c = active_[static_cast<std::size_t>(i)];
+    state.q[i] = full.q[c];
+    state.q_dot[i] = full.q_dot[c];
+  }
+  return true;
+}
+
 MotionState HeldBody::object(const HandleForcing& h, const StrainState& state, const StrainVector* q_ddot) const {
   Kinematics k;
   kinematics(h.t, state.q, state.q_dot, k);

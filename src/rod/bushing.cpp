@@ -1,5 +1,7 @@
 #include "bushing.h"
 
+#include <cmath>
+
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench {
@@ -57,6 +59,17 @@ RigidTransform Bushing::section(const StrainVector& q, double s) const {
   X.translation() = u * u * (3.0 - 2.0 * u) * tip + u * (1.0 - u) * ((1.0 - u) * t0 - u * t1);
   X.linear() = exp_so3(u * q.segment<3>(2));
   return X;
+}
+
+bool Bushing::rechart(StrainVector& q, StrainVector& q_dot) const {
+  const Vector3d phi = q.segment<3>(2), rate = q_dot.segment<3>(2);
+  const double angle = phi.norm();
+  if (!(angle > M_PI)) return false;
+  // φ (1 − 2π/|φ|), and its derivative along φ̇.
+  const double turn = 2.0 * M_PI / angle;
+  q.segment<3>(2) = (1.0 - turn) * phi;
+  q_dot.segment<3>(2) = (1.0 - turn) * rate + turn * phi.dot(rate) / (angle * angle) * phi;
+  return true;
 }
 
 bool Bushing::admissible(const StrainVector& q) const {
