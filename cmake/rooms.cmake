@@ -1,10 +1,14 @@
 # One CMake target per room; the link line is the law of who may know whom (doc/architecture.md).
 set(SPRING_WORKBENCH_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
 
-# add_room(<name> [DEPENDS <rooms>...] [LIBRARIES <external libraries>...])
+# For rooms that compute: without signals from floating point, errno from <cmath>, or complex products that look for NaN.
+# Results stay those of IEEE arithmetic.
+set(SPRING_WORKBENCH_ARITHMETIC -fno-math-errno -fno-trapping-math -fcx-limited-range)
+
+# add_room(<name> [DEPENDS <rooms>...] [LIBRARIES <external libraries>...] [OPTIONS <compile options>...])
 # Builds src/<name>/*.cpp into the library spring_workbench_<name>.
 function(add_room name)
-  cmake_parse_arguments(ROOM "" "" "DEPENDS;LIBRARIES" ${ARGN})
+  cmake_parse_arguments(ROOM "" "" "DEPENDS;LIBRARIES;OPTIONS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
   set(target spring_workbench_${name})
   if(NOT sources)
@@ -18,7 +22,7 @@ function(add_room name)
   add_library(${target} STATIC ${sources})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
-  target_compile_options(${target} PRIVATE ${SPRING_WORKBENCH_WARNINGS})
+  target_compile_options(${target} PRIVATE ${SPRING_WORKBENCH_WARNINGS} ${ROOM_OPTIONS})
   foreach(room ${ROOM_DEPENDS})
     target_link_libraries(${target} PUBLIC spring_workbench_${room})
   endforeach()

@@ -126,6 +126,8 @@ StepReport to_message(const AdvanceReport& report) {
   message.energy_added = report.energy_added;
   message.omega_dt = report.stiffest_omega_dt;
   message.collision_queries = static_cast<uint32_t>(report.collision_queries);
+  message.steps_rejected = static_cast<uint32_t>(report.steps_rejected);
+  message.energy_held = static_cast<uint32_t>(report.energy_held);
   message.guards_tripped = static_cast<uint32_t>(report.guards_tripped);
   message.parts_run = report.parts_run;
   message.parts_left_out = report.parts_left_out;

@@ -24,6 +24,7 @@ constexpr double asleep_after = 0.2;       ///< [s] … this long goes to sleep
 constexpr double support_gap = 1e-4;       ///< [m]; what is nearer below carries
 constexpr double world_limit = 100.0;      ///< [m] from the origin; a body that flies further stops there
 constexpr double point_mass_radius = 1e-2; ///< of the fork's length: radius of gyration of a point mass
+constexpr double on_the_axis = 1e-3;       ///< of the fork's length; a point mass so near to the fork's axis cannot twist it
 
 /// Whether the list has a contact of the same two bodies.
 bool contains_pair(const std::vector<ContactState>& list, const ContactState& c) {
@@ -59,6 +60,7 @@ struct Simulation::Impl {
   std::vector<double> slow_since;
   std::unique_ptr<ForkBody> fork;                    ///< while something is held
   std::size_t held = 0;                              ///< index into `movable`
+  bool fork_moved = false;                           ///< in this call of advance
   std::vector<std::vector<ContactState>> touching;    ///< parallel: contacts after the last step; a sleeper keeps its own
   std::vector<ContactState> ended;                   ///< since they were told last
   std::vector<ContactState> contacts;                ///< of the last call of advance
@@ -76,13 +78,17 @@ struct Simulation::Impl {
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow);
   void let_go(bool thrown);
   void wake_what_lies_on(std::size_t object);
+  /// The families that the object can move: of those switched on, the ones in which it has an inertia.
+  ForkDofs possible_dofs(std::size_t object, const RigidTransform& X_OE) const;
   HeldBody make_held(std::size_t object, const RigidTransform& X_OE) const;
+  StepControl make_step_control() const;
   void calibrate_for(std::size_t object);
   void carry(SteppedBody& stepped, std::size_t object, double h);
   void take_state(std::size_t object, const MotionState& s);
   void note_contacts(std::size_t object, const ContactOutcome& outcome, double h);
   void note_phases(const std::vector<ContactState>& before);
   bool busy() const;
+  bool rests_on_sleepers(std::size_t object) const;
   void fill_parts();
   double elastic_energy() const { return fork ? fork->held().elastic_energy(fork->time(), fork->state()) : 0.0; }
 };
@@ -148,6 +154,14 @@ void Simulation::Impl::take_state(std::size_t object, const MotionState& s) {
   if (collision) collision->set_pose(movable[object], s.X);
 }
 
+ForkDofs Simulation::Impl::possible_dofs(std::size_t object, const RigidTransform& X_OE) const {
+  if (!(body(object).mass_properties.mass > 0.0)) return {false, false, false};
+  ForkDofs dofs = settings.fork.dofs;
+  const Vector3d lever = X_OE.linear().col(2).cross(X_OE.translation());
+  if (settings.dynamics.inertia == "point_mass" && lever.norm() < on_the_axis * settings.fork.length) dofs.torsion = false;
+  return dofs;
+}
+
 HeldBody Simulation::Impl::make_held(std::size_t object, const RigidTransform& X_OE) const {
   const Body& b = body(object);
   BodyInertia inertia{b.mass_properties.mass, b.mass_properties.inertia_O, X_OE};
@@ -164,9 +178,12 @@ HeldBody Simulation::Impl::make_held(std::size_t object, const RigidTransform& X
   HeldBody held_body(make_shape_model(settings.fork.shape, settings.fork.length), inertia, scene.gravity);
   held_body.set_springs(settings.fork.stiffness, settings.fork.damping_ratio);
   const StrainState zero{StrainVector::Zero(held_body.shape().size()), StrainVector::Zero(held_body.shape().size())};
-  held_body.set_dofs(massless ? ForkDofs{false, false, false} : settings.fork.dofs, now,
-                     settings.fork.switch_off_time, zero);
+  held_body.set_dofs(possible_dofs(object, X_OE), now, settings.fork.switch_off_time, zero);
   return held_body;
+}
+
+StepControl Simulation::Impl::make_step_control() const {
+  return StepControl(make_integrator(settings.dynamics.integrator), settings.dynamics.tolerance);
 }
 
 void Simulation::Impl::calibrate_for(std::size_t object) {
@@ -184,8 +201,7 @@ void Simulation::Impl::grasp(std::size_t object, const std::optional<RigidTransf
   const RigidTransform G = X_OE ? *X_OE : RigidTransform(objects[object].X_WO.inverse() * X_WE);
   if (settings.grasp.calibrate) calibrate_for(object);
   held = object;
-  fork = std::make_unique<ForkBody>(movable[object], make_held(object, G), make_integrator(settings.dynamics.integrator),
-                                    now);
+  fork = std::make_unique<ForkBody>(movable[object], make_held(object, G), make_step_control(), now);
   fork->set_hand(segment, now);
   const Twist before = objects[object].V_WO_W;
   // Strain is zero now. The object keeps its motion as far as the fork lets it; one that follows starts with the hand's.
@@ -334,16 +350,36 @@ void Simulation::Impl::carry(SteppedBody& stepped, std::size_t object, double h)
   note_contacts(object, outcome, h);
 }
 
+/// Whether nothing that it touches moves.
+bool Simulation::Impl::rests_on_sleepers(std::size_t object) const {
+  return std::none_of(touching[object].begin(), touching[object].end(), [&](const ContactState& c) {
+    return std::any_of(objects.begin(), objects.end(),
+                       [&](const BodyState& other) { return other.name == c.other && !other.asleep; });
+  });
+}
+
 void Simulation::Impl::step(double h) {
   if (fork) {
     const double added_before = fork->energy_added();
     fork->set_hand(track.segment(now), now);
-    carry(*fork, held, h);
+    const bool was_asleep = objects[held].asleep;
+    objects[held].asleep = fork->sleeps(h, rests_on_sleepers(held));
+    if (objects[held].asleep) {
+      fork->let_pass(h);
+      objects[held].V_WO_W = Twist();
+    } else {
+      if (was_asleep) wake_what_lies_on(held);
+      carry(*fork, held, h);
+      fork_moved = true;
+    }
     report.energy_added += fork->energy_added() - added_before;
     const ForkBody::Estimates e = fork->take_estimates();
     report.position_error = std::max(report.position_error, e.position);
     report.angle_error = std::max(report.angle_error, e.angle);
     report.stiffest_omega_dt = std::max(report.stiffest_omega_dt, e.omega_dt);
+    report.steps += e.extra_steps;
+    report.steps_rejected += e.rejected;
+    report.energy_held += e.energy_held;
   }
   for (std::size_t i = 0; i < objects.size(); ++i) {
     if (!free_bodies[i]) continue;
@@ -351,11 +387,7 @@ void Simulation::Impl::step(double h) {
     BodyState& o = objects[i];
     o.asleep = false;
     const double speed = o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * bounding_radius(body(i));
-    const bool on_something_awake = std::any_of(touching[i].begin(), touching[i].end(), [&](const ContactState& c) {
-      return std::any_of(objects.begin(), objects.end(),
-                         [&](const BodyState& other) { return other.name == c.other && !other.asleep; });
-    });
-    if (!o.in_contact || on_something_awake || speed > asleep_speed) slow_since[i] = now + h;
+    if (!o.in_contact || !rests_on_sleepers(i) || speed > asleep_speed) slow_since[i] = now + h;
     const bool away = o.X_WO.translation().norm() > world_limit;
     if (away || now + h - slow_since[i] > asleep_after) {
       free_bodies[i].reset();
@@ -371,10 +403,11 @@ void Simulation::Impl::fill_parts() {
   const auto part = [&](const std::string& name, bool runs) {
     (runs ? report.parts_run : report.parts_left_out).push_back(name);
   };
-  const bool dynamic_fork = fork && fork->held().size() > 0;
-  part("stretch", dynamic_fork && settings.fork.dofs.stretch);
-  part("bend", dynamic_fork && settings.fork.dofs.bend);
-  part("torsion", dynamic_fork && settings.fork.dofs.torsion);
+  const bool runs = fork && fork_moved;
+  const ForkDofs dofs = runs ? possible_dofs(held, fork->held().body().X_OE) : ForkDofs{false, false, false};
+  part("stretch", dofs.stretch);
+  part("bend", dofs.bend);
+  part("torsion", dofs.torsion);
   part("gravity", scene.gravity > 0.0 && report.steps > 0);
   part("free_bodies", std::any_of(free_bodies.begin(), free_bodies.end(), [](const auto& b) { return b != nullptr; }));
   part("collision", with_contact && report.steps > 0);
@@ -388,6 +421,7 @@ void Simulation::Impl::advance(double t_end) {
     if (!track.empty() && now >= track.begin() - same_time) X_WH = track.segment(now).at(now).X;
   }
   const double begin = now;
+  fork_moved = false;
   std::vector<ContactState> before;
   for (const std::vector<ContactState>& of_object : touching) before.insert(before.end(), of_object.begin(), of_object.end());
   for (;;) {
@@ -465,7 +499,8 @@ ChangeReport Simulation::set_dofs(const ForkDofs& dofs) {
     ForkBody& fork = *impl_->fork;
     HeldBody& held = fork.held();
     const StrainState full = held.full_state(fork.time(), fork.state());
-    fork.set_state(held.set_dofs(dofs, fork.time(), impl_->settings.fork.switch_off_time, full));
+    const ForkDofs possible = impl_->possible_dofs(impl_->held, held.body().X_OE);
+    fork.set_state(held.set_dofs(possible, fork.time(), impl_->settings.fork.switch_off_time, full));
     if (held.returning()) {
       change.message += "; the strain of what went off returns to zero with a time constant of " +
                         std::to_string(impl_->settings.fork.switch_off_time) + " s and gives back its energy";
@@ -514,12 +549,14 @@ ChangeReport Simulation::calibrate() {
   return change;
 }
 
-void Simulation::set_integrator(const std::string& name, double step) {
-  std::unique_ptr<Integrator> integrator = make_integrator(name);
+void Simulation::set_integrator(const std::string& name, double step, double tolerance) {
+  make_integrator(name);
   if (step != 0.0) check_number("set_integrator", "step", step, between(1e-6, 1.0));
+  check_number("set_integrator", "tolerance", tolerance, allowed_tolerance());
   impl_->settings.dynamics.integrator = name;
+  impl_->settings.dynamics.tolerance = tolerance;
   if (step != 0.0) impl_->settings.dynamics.step = step;
-  if (impl_->fork) impl_->fork->set_integrator(std::move(integrator));
+  if (impl_->fork) impl_->fork->set_step_control(impl_->make_step_control());
 }
 
 const std::vector<BodyState>& Simulation::objects() const { return impl_->objects; }

@@ -181,8 +181,10 @@ class Manipulation(unittest.TestCase):
     def test_every_integrator_holds_the_box(self):
         self.lift()
         resting = self.box().pose.position.z
-        for name, step in [("closed_form", 0.01), ("rk4", 1e-3), ("semi_implicit_euler", 1e-3), ("exponential", 0.02)]:
-            self.call("set_integrator", name, step, 0.0)
+        for name, step, tolerance in [("closed_form", 0.01, 0.0), ("rk4", 1e-3, 0.0), ("semi_implicit_euler", 1e-3, 0.0),
+                                      ("implicit_euler", 0.02, 0.0), ("rosenbrock", 0.02, 0.0), ("rk4", 0.02, 1e-5),
+                                      ("exponential", 0.02, 0.0)]:
+            self.call("set_integrator", name, step, tolerance)
             self.hand.run(1.0)
             self.assertEqual(self.fork.next().integrator, name)
             self.assertAlmostEqual(self.box().pose.position.z, resting, delta=2e-3)
@@ -218,7 +220,11 @@ class Manipulation(unittest.TestCase):
                 ("set_damping", (NAN, 1.0, 1.0), ("stretch", "nan")),
                 ("set_integrator", ("magic", 0.0, 0.0), ("magic", "exponential")),
                 ("set_integrator", ("rk4", -1.0, 0.0), ("step", "-1")),
-                ("set_integrator", ("rk4", 0.0, 1e-3), ("tolerance",)),
+                ("set_integrator", ("rk4", NAN, 0.0), ("step", "nan")),
+                ("set_integrator", ("rk4", 2.0, 0.0), ("step", "2")),
+                ("set_integrator", ("rk4", 0.0, -1e-3), ("tolerance", "-0.001")),
+                ("set_integrator", ("rk4", 0.0, 1.0), ("tolerance", "0.1")),
+                ("set_integrator", ("rk4", 0.0, NAN), ("tolerance", "nan")),
                 ("load_scene", ("/nowhere/to/be/found.urdf",), ("/nowhere/to/be/found.urdf",)),
                 ("load_scene", ("package://no_such_package/a.urdf",), ("no_such_package",)),
                 ("load_scene", ("package://spring_workbench/package.xml",), ("package.xml",))]:

@@ -66,6 +66,8 @@ struct AdvanceReport {
                                           ///< and contact [J]; means something where stiffest_omega_dt is below about 1
   double stiffest_omega_dt = 0.0;         ///< ω·dt of the stiffest mode
   int collision_queries = 0;
+  int steps_rejected = 0;                 ///< steps tried and taken again shorter, for their error
+  int energy_held = 0;                    ///< steps whose gain of energy, with the hand at rest, was taken away
   int guards_tripped = 0;                 ///< times a step was refused because it would not have been finite or bounded
   std::vector<std::string> parts_run;     ///< e.g. "stretch", "gravity", "collision"
   std::vector<std::string> parts_left_out;
@@ -117,8 +119,8 @@ class Simulation {
   ChangeReport set_damping_ratio(const PerFamily& ratio);
   /// Stiffness from the held object's mass and size; the damping ratios stay. Throws InputError when nothing is held.
   ChangeReport calibrate();
-  /// By name; `step` [s] 0 keeps the present one.
-  void set_integrator(const std::string& name, double step);
+  /// By name; `step` [s] 0 keeps the present one; `tolerance` [m] of the run, 0 takes fixed steps (see StepControl).
+  void set_integrator(const std::string& name, double step, double tolerance = 0.0);
 
   const std::vector<BodyState>& objects() const;
   ToolState fork() const;

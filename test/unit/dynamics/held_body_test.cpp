@@ -195,36 +195,6 @@ TEST(HeldBody, SwitchingOffWhileStrainedKeepsPoseAndTwistAndEndsAtZero) {
   EXPECT_EQ(held.shape().twist(held.full_state(t, s).q), 0.0);
 }
 
-class EveryIntegrator : public testing::TestWithParam<std::string> {};
-
-/// State after 0.2 s in steps of h.
-StrainVector run(const std::string& name, double h, StrainVector* estimated = nullptr) {
-  HeldBody held = held_by("linear", {200.0, 60.0, 1.0}, {0.5, 0.3, 0.7}, box_off_centre());
-  const MotionSegment hand = moving_hand(0.2);
-  StrainState s = held.zero_state();
-  const auto integrator = make_integrator(name);
-  const int n = static_cast<int>(std::lround(0.2 / h));
-  for (int i = 0; i < n; ++i) {
-    const StepEstimate e = integrator->step(held, hand, h * i, h, s);
-    if (estimated != nullptr && i == 0) *estimated = e.q_error;
-  }
-  return s.q;
-}
-
-TEST_P(EveryIntegrator, HasItsOrderOfAccuracy) {
-  const int order = make_integrator(GetParam())->order();
-  const StrainVector exact = run("rk4", 0.2 / 16384);
-  const double h = order >= 4 ? 0.2 / 64 : 0.2 / 512;
-  const double coarse = (run(GetParam(), h) - exact).norm();
-  const double fine = (run(GetParam(), 0.5 * h) - exact).norm();
-  EXPECT_NEAR(std::log2(coarse / fine), order, 0.4) << coarse << " " << fine;
-}
-
-TEST_P(EveryIntegrator, NameRoundTrips) { EXPECT_EQ(make_integrator(GetParam())->name(), GetParam()); }
-
-INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator, testing::ValuesIn(integrator_names()),
-                         [](const auto& instance) { return instance.param; });
-
 TEST(Exponential, StaysBoundedAtEveryStiffnessAndStep) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> exponent(-1.0, 1.0);
