@@ -13,6 +13,7 @@
 #include "benchmark/report/page.h"
 #include "benchmark/report/pictures.h"
 #include "benchmark/report/sections.h"
+#include "benchmark/report/tables.h"
 #include "benchmark/rod_table.h"
 #include "benchmark/stability_table.h"
 #include "benchmark/verdicts.h"
@@ -100,7 +101,9 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   keep("stability_failures.csv", failures_csv(measured.map));
   keep("verdicts.csv", verdicts_csv(judged));
   if (!counts.empty()) keep("stability_counts.csv", stability_counts_csv(counts));
-  page.sections = page_sections(measured, judged, counts, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), tables,
+  const std::string costs = step_cost_csv(step_costs());
+  keep("step_cost.csv", costs);
+  page.sections = page_sections(measured, judged, counts, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), costs, tables,
                                 options.out);
   const std::string path = write_file(options.out, "report.html", html_page(page));
   print(judged, out);

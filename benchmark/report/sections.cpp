@@ -116,14 +116,20 @@ PageSection stability_section(const Measurements& measured, const std::vector<St
 
 std::vector<PageSection> page_sections(const Measurements& measured, const std::vector<Verdict>& judged,
                                        const std::vector<StabilityCount>& counts, double elastica_difference,
-                                       const Tables& tables, const std::string& folder) {
+                                       const std::string& step_costs, const Tables& tables,
+                                       const std::string& folder) {
   PageSection verdict;
   verdict.title = "Verdicts";
   verdict.text = "What was promised, what was measured in this run.";
   verdict.tables.push_back({"", verdicts_csv(judged), false});
+  PageSection costs;
+  costs.title = "What each part of a step costs";
+  costs.text = "exponential, by shape model and number of coordinates: processor time of the thread, the least of many short "
+               "runs [ns].";
+  costs.tables.push_back({"", step_costs, false});
   return {verdict, scenes_section(measured, tables, folder), rods_section(measured, tables, folder),
           shapes_section(measured, elastica_difference, tables, folder),
-          stability_section(measured, counts, tables, folder)};
+          stability_section(measured, counts, tables, folder), costs};
 }
 
 }  // namespace spring_workbench::benchmark

@@ -14,9 +14,10 @@ struct Tables {
   std::string scenes, rods, elastica, map;
 };
 
-/// The page's sections, with pictures drawn into `folder`. `elastica_difference`: as elastica_check().
+/// The page's sections, with pictures drawn into `folder`. `elastica_difference`: as elastica_check(); `step_costs`: as step_cost_csv().
 std::vector<PageSection> page_sections(const Measurements& measured, const std::vector<Verdict>& judged,
                                        const std::vector<StabilityCount>& counts, double elastica_difference,
-                                       const Tables& tables, const std::string& folder);
+                                       const std::string& step_costs, const Tables& tables,
+                                       const std::string& folder);
 
 }  // namespace spring_workbench::benchmark

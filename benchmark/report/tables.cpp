@@ -111,6 +111,29 @@ std::string shapes_csv(const std::vector<ElasticaRow>& elastica, const std::vect
   return csv.str();
 }
 
+std::string step_cost_csv(const std::vector<StepCost>& costs) {
+  const auto column = [](const StepCost& cost) { return cost.shape + " (" + std::to_string(cost.coordinates) + ')'; };
+  std::vector<std::string> columns, parts;
+  for (const StepCost& cost : costs) {
+    add_new(column(cost), columns);
+    add_new(cost.part, parts);
+  }
+  std::ostringstream csv;
+  csv << "part";
+  for (const std::string& name : columns) csv << ',' << name;
+  for (const std::string& part : parts) {
+    csv << "\n\"" << part << '"';
+    for (const std::string& name : columns) {
+      const auto found = std::find_if(costs.begin(), costs.end(), [&](const StepCost& cost) {
+        return cost.part == part && column(cost) == name;
+      });
+      csv << ',' << (found == costs.end() ? "-" : text(std::round(found->nanoseconds)));
+    }
+  }
+  csv << '\n';
+  return csv.str();
+}
+
 std::string map_summary_csv(const StabilityMap& map) {
   std::vector<StabilityRow> sums;
   for (const StabilityRow& row : map.rows) {

@@ -6,6 +6,7 @@
 #include "benchmark/curve.h"
 #include "benchmark/elastica.h"
 #include "benchmark/stability_map.h"
+#include "benchmark/step_cost.h"
 
 namespace spring_workbench::benchmark {
 
@@ -21,6 +22,9 @@ std::string one_step_per_sample_csv(const std::vector<ErrorRow>& rods, const std
 /// Shape models side by side: error of the model at some loads, cost of an evaluation of the equation of motion, and,
 /// for `exponential` with one step per sample, error of integration and run time on the case with the largest bends.
 std::string shapes_csv(const std::vector<ElasticaRow>& elastica, const std::vector<ErrorRow>& rods);
+
+/// What each part of a step costs (columns: shape model and coordinates) [ns].
+std::string step_cost_csv(const std::vector<StepCost>& costs);
 
 /// Cells of the map by integrator and shape.
 std::string map_summary_csv(const StabilityMap& map);
