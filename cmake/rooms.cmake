@@ -1,11 +1,15 @@
 # One CMake target per room; the link line is the law of who may know whom (doc/architecture.md).
 set(SPRING_WORKBENCH_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
 
+# For rooms that compute: without signals from floating point, errno from <cmath>, or complex products that look for NaN.
+# Results stay those of IEEE arithmetic.
+set(SPRING_WORKBENCH_ARITHMETIC -fno-math-errno -fno-trapping-math -fcx-limited-range)
+
 # add_room(<name> [FOLDER <folder>] [DEPENDS <rooms>...] [LIBRARIES <external libraries>...] [INCLUDES <external folders>...]
-#          [DEFINITIONS <of its own sources>...])
+#          [DEFINITIONS <of its own sources>...] [OPTIONS <compile options>...])
 # Builds src/<name>/*.cpp (with FOLDER: src/<name>/<folder>/*.cpp) into the library spring_workbench_<name>.
 function(add_room name)
-  cmake_parse_arguments(ROOM "" "FOLDER" "DEPENDS;LIBRARIES;INCLUDES;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "FOLDER" "DEPENDS;LIBRARIES;INCLUDES;DEFINITIONS;OPTIONS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/${ROOM_FOLDER}/*.cpp)
   set(target spring_workbench_${name})
   if(NOT sources)
@@ -21,7 +25,7 @@ function(add_room name)
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
   target_include_directories(${target} SYSTEM PRIVATE ${ROOM_INCLUDES})
   target_compile_definitions(${target} PRIVATE ${ROOM_DEFINITIONS})
-  target_compile_options(${target} PRIVATE ${SPRING_WORKBENCH_WARNINGS})
+  target_compile_options(${target} PRIVATE ${SPRING_WORKBENCH_WARNINGS} ${ROOM_OPTIONS})
   foreach(room ${ROOM_DEPENDS})
     target_link_libraries(${target} PUBLIC spring_workbench_${room})
   endforeach()

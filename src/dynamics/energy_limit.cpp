@@ -7,7 +7,7 @@ namespace spring_workbench {
 namespace {
 
 /// Of the energy that moves to and fro: what may come back above the lowest value since the handle rests.
-constexpr double allowance = 2e-10;
+constexpr double allowance = 1e-11;
 constexpr int halvings = 40;  ///< of the way back to where the step began
 
 struct Energy {

@@ -205,10 +205,15 @@ HeldBody::Rigid HeldBody::without_strain_acceleration(const HandleForcing& h, co
   r.r_EO.noalias() = tip.R_HE * p_EO_;
   r.R_HO.noalias() = tip.R_HE * R_EO_;
   const Vector3d p_HO = tip.p_HE + r.r_EO;
-  Vector3d w_rel = Vector3d::Zero(), v_E = Vector3d::Zero();  // of the tip, in the turning frame H
-  for (int i = 0; i < q_dot.size(); ++i) {
-    w_rel += q_dot[i] * tip.angular.col(i);
-    v_E += q_dot[i] * tip.linear.col(i);
+  Vector3d w_rel, v_E;  // of the tip, in the turning frame H
+  if (q_dot.size() == max_strain_coordinates) {  // with loops that the compiler can unroll
+    using Columns = Eigen::Map<const Eigen::Matrix<double, 3, max_strain_coordinates>>;
+    const Eigen::Matrix<double, max_strain_coordinates, 1> rate = q_dot;
+    w_rel = Columns(tip.angular.data()).lazyProduct(rate);
+    v_E = Columns(tip.linear.data()).lazyProduct(rate);
+  } else {
+    w_rel = tip.angular * q_dot;
+    v_E = tip.linear * q_dot;
   }
   Vector3d alpha_rel = tip.angular_bias, a_E = tip.linear_bias;
   if (returning_ > 0) {
@@ -327,6 +332,18 @@ StrainState HeldBody::full_state(double t, const StrainState& state) const {
     prescribed(t, full.q, full.q_dot, q_ddot);
   }
   return full;
+}
+
+bool HeldBody::rechart(StrainState& state) const {
+  if (returning_ > 0) return false;
+  StrainState full = full_state(0.0, state);
+  if (!shape_->rechart(full.q, full.q_dot)) return false;
+  for (int i = 0; i < size(); ++i) {
+    const int c = active_[static_cast<std::size_t>(i)];
+    state.q[i] = full.q[c];
+    state.q_dot[i] = full.q_dot[c];
+  }
+  return true;
 }
 
 MotionState HeldBody::object(const HandleForcing& h, const StrainState& state, const StrainVector* q_ddot) const {

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "exponential.h"
 #include "implicit_integrators.h"
 #include "integrators.h"
 #include "quintic.h"

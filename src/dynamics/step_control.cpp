@@ -85,11 +85,13 @@ bool StepControl::try_step(Span& span, double t, double h, StrainState& state, S
   const bool fine = (state.q.norm() + state.q_dot.norm()) < most_strain &&
                     body.shape().admissible(body.full_state(t + h, state).q);
   if (!fine) return false;
+  // The estimate is in the coordinates of the step.
+  const Sizes s = sizes(body, t + h, state.q, estimate.q_error);
+  body.rechart(state);
   ++span.report.steps;
   if (integrator_->unlimited() && hold_energy(body, span.handle, t, h, begin, state, span.memory)) {
     ++span.report.energy_held;
   }
-  const Sizes s = sizes(body, t + h, state.q, estimate.q_error);
   span.report.position_error = std::max(span.report.position_error, s.position);
   span.report.angle_error = std::max(span.report.angle_error, s.angle);
   span.report.omega_dt = std::max(span.report.omega_dt, estimate.omega_dt);

@@ -10,15 +10,15 @@ struct Tails {
   double e, g;
 };
 
-/// Their Taylor series, `terms` long.
-template <int terms>
-Tails taylor_tails(double t) {
-  double e = 1.0, g = 1.0;
-  for (int n = terms; n > 0; --n) {
-    e = 1.0 - t * e * (1.0 / ((2 * n + 3) * (2 * n + 4)));
-    g = 1.0 - t * g * (1.0 / ((2 * n + 4) * (2 * n + 5)));
+/// Their Taylor series up to the power `n` of t.
+template <int n>
+Tails taylor_tails(double t, double e = 1.0, double g = 1.0) {
+  if constexpr (n == 0) {
+    return {e * (1.0 / 24.0), g * (1.0 / 120.0)};
+  } else {
+    constexpr double next_e = 1.0 / ((2 * n + 3) * (2 * n + 4)), next_g = 1.0 / ((2 * n + 4) * (2 * n + 5));
+    return taylor_tails<n - 1>(t, 1.0 - next_e * t * e, 1.0 - next_g * t * g);
   }
-  return {e / 24.0, g / 120.0};
 }
 
 So3Coefficients from_tails(double t, const Tails& k) {

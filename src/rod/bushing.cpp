@@ -1,5 +1,7 @@
 #include "bushing.h"
 
+#include <cmath>
+
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench {
@@ -31,11 +33,12 @@ void Bushing::tip(const StrainVector& q, const StrainVector& q_dot, TipKinematic
   const So3Coefficients k = so3_coefficients(phi.squaredNorm());
   out.R_HE = exp_so3(phi, k);
   out.p_HE << q[0], q[1], length() + q[5];
-  out.angular.setZero(3, 6);
-  out.linear.setZero(3, 6);
+  Eigen::Matrix<double, 3, 6> angular = Eigen::Matrix<double, 3, 6>::Zero(), linear = angular;
   // The left Jacobian, for rates in the axes of H: (1 − c θ²) I + b [φ]× + c φ φᵀ.
-  out.angular.middleCols<3>(2) = symmetric_and_skew(k.c, 1.0 - k.c * phi.squaredNorm(), k.b, phi);
-  out.linear(0, 0) = out.linear(1, 1) = out.linear(2, 5) = 1.0;
+  angular.middleCols<3>(2) = symmetric_and_skew(k.c, 1.0 - k.c * phi.squaredNorm(), k.b, phi);
+  linear(0, 0) = linear(1, 1) = linear(2, 5) = 1.0;
+  out.angular = angular;
+  out.linear = linear;
   // d/dt (left Jacobian) φ̇, where what is along φ̇ × φ̇ is none.
   const Vector3d s = phi.cross(phi_dot);
   const double t_dot = 2.0 * phi.dot(phi_dot);
@@ -56,6 +59,17 @@ RigidTransform Bushing::section(const StrainVector& q, double s) const {
   X.translation() = u * u * (3.0 - 2.0 * u) * tip + u * (1.0 - u) * ((1.0 - u) * t0 - u * t1);
   X.linear() = exp_so3(u * q.segment<3>(2));
   return X;
+}
+
+bool Bushing::rechart(StrainVector& q, StrainVector& q_dot) const {
+  const Vector3d phi = q.segment<3>(2), rate = q_dot.segment<3>(2);
+  const double angle = phi.norm();
+  if (!(angle > M_PI)) return false;
+  // φ (1 − 2π/|φ|), and its derivative along φ̇.
+  const double turn = 2.0 * M_PI / angle;
+  q.segment<3>(2) = (1.0 - turn) * phi;
+  q_dot.segment<3>(2) = (1.0 - turn) * rate + turn * phi.dot(rate) / (angle * angle) * phi;
+  return true;
 }
 
 bool Bushing::admissible(const StrainVector& q) const {

@@ -81,6 +81,8 @@ class HeldBody {
                                            const Eigen::Matrix<double, n, 1>& q_dot) const;
   /// Mass matrix M(q) of the active coordinates at time `t` (which matters while a family returns).
   StrainMatrix mass_matrix(double t, const StrainVector& q) const;
+  /// ShapeModel::rechart of the active coordinates; not while a family returns to zero strain.
+  bool rechart(StrainState& state) const;
   /// Active state at time `t` in all coordinates of the shape model.
   StrainState full_state(double t, const StrainState& state) const;
 

@@ -63,6 +63,10 @@ class ShapeModel {
   /// Pose of the rod's section at arc length `s` of the rest shape, 0 ≤ s ≤ length(), in H.
   virtual RigidTransform section(const StrainVector& q, double s) const = 0;
 
+  /// Where other coordinates give the same tip with less strain, takes those, with the rates of the same motion (a rotation
+  /// vector beyond a half turn: the other way round). Returns whether it did.
+  virtual bool rechart(StrainVector& q, StrainVector& q_dot) const;
+
   /// Whether the strain is one that a rod can have: finite, not turned inside out, not wound up beyond `max_turns`.
   virtual bool admissible(const StrainVector& q) const = 0;
 

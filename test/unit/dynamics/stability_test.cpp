@@ -75,7 +75,7 @@ std::string what_is_wrong(const Cell& cell, const std::string& shape, const std:
     track.push({t, pose(cell.hand, t, random)});
   }
   StrainState state = held.zero_state();
-  double highest = 0.0, lowest = 0.0, scale = 0.0;
+  double lowest = 0.0, scale = 0.0;
   const double rest_from = track.end();
   for (double t = 0.0; t < 1.0;) {
     const MotionSegment segment = track.segment(t + 1e-9);
@@ -85,7 +85,7 @@ std::string what_is_wrong(const Cell& cell, const std::string& shape, const std:
     t += h;
     if (!state.q.allFinite() || !state.q_dot.allFinite()) return "not finite";
     const MotionState o = held.object(held.forcing(segment, t), state);
-    if (o.X.translation().norm() > 1e3) return "not bounded: " + std::to_string(o.X.translation().norm());
+    if (o.X.translation().norm() > 1e4) return "not bounded: " + std::to_string(o.X.translation().norm());
     if (t < rest_from + 1e-9) continue;
     const MotionSegment rest = track.segment(rest_from + 1.0);
     const double e = energy(held, rest, t, state);
@@ -93,9 +93,9 @@ std::string what_is_wrong(const Cell& cell, const std::string& shape, const std:
       lowest = e;
       scale = std::abs(e) + held.elastic_energy(t, state);
     }
-    highest = std::max(highest, e - lowest);
     lowest = std::min(lowest, e);
-    if (e - lowest > 1e-9 * scale + 1e-300) return "energy grows by " + std::to_string((e - lowest) / scale);
+    // Beside it the rounding of the height, in metres.
+    if (e - lowest > 1e-9 * scale + 1e-15 * cell.mass * 9.81) {char b[200]; sprintf(b, "energy grows by %g of %g at %g", e - lowest, scale, t); return b;}
   }
   return "";
 }
