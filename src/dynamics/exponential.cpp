@@ -49,6 +49,9 @@ void Exponential::linearise(const HeldBody& body, const HandleForcing& handle, c
   const StrainMatrix shapes = undamped.eigenvectors();
   const StrainMatrix to_shapes = shapes.transpose() * M;
   const StrainVector scale = undamped.eigenvalues().cwiseMax(1.0).cwiseSqrt();
+  // A free mode has no two eigenvectors: the frozen part gets the stiffness of 1 rad/s, and the rest takes it back.
+  const StrainVector missing = (1.0 - undamped.eigenvalues().array()).cwiseMax(0.0);
+  stiffness_ += shapes * missing.asDiagonal() * to_shapes;
   const StrainMatrix modal_stiffness = to_shapes * stiffness_ * shapes;
 
   using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
