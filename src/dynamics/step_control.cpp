@@ -39,6 +39,12 @@ StrainMatrix swing_of(const LinearisedMotion& motion) {
   return modes.eigenvectors() * period.cwiseInverse().asDiagonal() * modes.eigenvectors().transpose() * motion.M;
 }
 
+double stiffest_omega(const HeldBody& body, double t, const StrainVector& q) {
+  const StrainMatrix K = body.stiffness().asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> modes(K, body.mass_matrix(t, q), Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, modes.eigenvalues().maxCoeff()));
+}
+
 double radius_of_gyration(const BodyInertia& body) { return std::sqrt(0.5 * body.inertia_O.trace() / body.mass); }
 
 }  // namespace
@@ -94,7 +100,15 @@ bool StepControl::try_step(Span& span, double t, double h, StrainState& state, S
   }
   span.report.position_error = std::max(span.report.position_error, s.position);
   span.report.angle_error = std::max(span.report.angle_error, s.angle);
-  span.report.omega_dt = std::max(span.report.omega_dt, estimate.omega_dt);
+  double omega_dt = estimate.omega_dt;
+  if (!(omega_dt > 0.0)) {
+    if (span.memory.omega_version != body.version()) {
+      span.memory.stiffest_omega = stiffest_omega(body, t, begin.q);
+      span.memory.omega_version = body.version();
+    }
+    omega_dt = span.memory.stiffest_omega * h;
+  }
+  span.report.omega_dt = std::max(span.report.omega_dt, omega_dt);
   span.memory.t = t + h;
   span.memory.version = body.version();
   return true;

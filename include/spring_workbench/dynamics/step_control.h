@@ -36,6 +36,8 @@ class StepControl {
     long version = -1;              ///< of the equations that the rest is about
     double t = 0.0;                 ///< time that the rest is of [s]
     StrainState error;              ///< of the run
+    long omega_version = -1;        ///< of the equations that the next is of
+    double stiffest_omega = 0.0;    ///< of the undamped modes, where the integrator does not know its own [rad/s]
     bool rests = false;             ///< the handle, since:
     RigidTransform X_WH = RigidTransform::Identity();
     double lowest_energy = 0.0;     ///< of the body and the fork [J]

@@ -309,6 +309,40 @@ TEST_F(Switching, BadValuesChangeNothing) {
   expect_no_jump();
 }
 
+TEST(Simulation, EveryIntegratorTellsTheStiffestModeAndItsErrors) {
+  // A pure stretch oscillator: ω = √(k/m).
+  for (const std::string& name : integrator_names()) {
+    SimulationSettings set = settings();
+    set.dynamics.integrator = name;
+    set.dynamics.step = 1e-3;
+    set.fork.dofs = {true, false, false};
+    set.fork.damping_ratio.stretch = 0.0;
+    Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), set);
+    push_move(simulation, 0.0, 0.2, {0.0, 0.0, 1.2}, {0.0, 0.0, 1.3});
+    simulation.push_button(0.0, true);
+    const AdvanceReport report = simulation.advance(0.1);
+    EXPECT_NEAR(report.stiffest_omega_dt, 1e-3 * std::sqrt(2000.0), 1e-9) << name;
+    const bool exact = name == "exponential" || name == "closed_form";
+    EXPECT_TRUE(exact || report.position_error > 0.0) << name;
+    EXPECT_LT(report.position_error, 1e-4) << name;
+  }
+}
+
+TEST(Simulation, ToleranceTakesMoreStepsAndSaysSo) {
+  const auto steps = [](double tolerance) {
+    SimulationSettings set = settings();
+    set.dynamics.integrator = "rk4";
+    set.dynamics.tolerance = tolerance;
+    Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), set);
+    push_move(simulation, 0.0, 1.0, {0.0, 0.0, 1.2}, {0.3, 0.0, 1.3});
+    simulation.push_button(0.0, true);
+    const AdvanceReport report = simulation.advance(1.0);
+    EXPECT_GT(report.steps_rejected, 0);
+    return report.steps;
+  };
+  EXPECT_GT(steps(1e-8), steps(1e-4));
+}
+
 TEST(Simulation, SameInputGivesTheSameBits) {
   const auto run = [] {
     Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
