@@ -14,7 +14,7 @@ constexpr std::size_t nodes = Collocation::count;
 constexpr std::size_t last = nodes - 1;
 
 constexpr int most_sweeps = 7;
-constexpr int most_halvings = 6;
+constexpr int most_halvings = 4;
 /// Sweeps stop when what they would still change is below this share of the error that the cubic itself makes, or below
 /// this share of the strain.
 constexpr double share_of_error = 1.0;
@@ -27,6 +27,13 @@ constexpr double forget_contraction = 1.3;
 constexpr double farthest_continued = 1.5;
 /// Steps whose lengths differ by less are equal: what differs is rounding of times.
 constexpr double same_length = 1e-11;
+/// The same for the start of a step and the end of the last one, as a share of the step, and for the handle's acceleration.
+constexpr double same_time = 1e-9;
+constexpr double same_acceleration = 1e-12;
+
+bool same(const Vector3d& a, const Vector3d& b) {
+  return (a - b).cwiseAbs().maxCoeff() <= same_acceleration * b.cwiseAbs().maxCoeff();
+}
 
 /// `A x` for sizes that the compiler knows: all of it in registers.
 template <int rows, int columns>
@@ -109,7 +116,9 @@ class Exponential::CoreOf final : public Core {
   };
 
   void linearise(const HeldBody& body, const HandleForcing& handle, const Strain& q) {
-    linear_ = linear_part(body, handle, q);
+    const LinearPart part = linear_part(body, handle, q);
+    if (version_ == body.version() && !(part.to_modes.allFinite() && part.from_modes.allFinite())) return;
+    linear_ = part;
     version_ = body.version();
     load_version_ = body.load_version();
     q_reference_ = q;
@@ -168,7 +177,9 @@ class Exponential::CoreOf final : public Core {
   double size(const Modes& x) const { return weight_.cwiseProduct(x).norm(); }
 
   /// Whether a step from here goes on from the last one.
-  bool goes_on(double t, const State& s) const { return t == t_end_ && s.q == end_.q && s.q_dot == end_.q_dot; }
+  bool goes_on(double t, const State& s) const {
+    return std::abs(t - t_end_) <= same_time * last_h_ && s.q == end_.q && s.q_dot == end_.q_dot;
+  }
 
   /// Remainders at the nodes from the cubic of the last step, moved to fit at the start.
   void continue_cubic(double h) {
@@ -212,6 +223,7 @@ class Exponential::CoreOf final : public Core {
     if (e.converged || halvings == most_halvings) return e;
     state = begin;
     e = step(body, handle, t, 0.5 * h, state, halvings + 1);
+    if (!state.q.allFinite() || !state.q_dot.allFinite()) return e;
     const Estimate second = step(body, handle, t + 0.5 * h, 0.5 * h, state, halvings + 1);
     e.error += second.error;
     e.converged = e.converged && second.converged;
@@ -224,8 +236,8 @@ class Exponential::CoreOf final : public Core {
     const double begin_t = forcing[0].t;
     const bool follows = goes_on(begin_t, state);
     const bool known = follows && load_version_ == body.load_version() &&
-                       end_acceleration_ == forcing[0].acceleration_less_gravity &&
-                       end_angular_acceleration_ == forcing[0].angular_acceleration;
+                       same(end_acceleration_, forcing[0].acceleration_less_gravity) &&
+                       same(end_angular_acceleration_, forcing[0].angular_acceleration);
     remainder_[0] = known ? remainder_before_[last] : remainder(body, forcing[0], state);
     if (follows && h < farthest_continued * last_h_) {
       continue_cubic(h);
