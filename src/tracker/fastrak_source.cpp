@@ -1,12 +1,10 @@
 #include "spring_workbench/tracker/fastrak_source.h"
 
 #include <algorithm>
-#include <set>
 #include <sstream>
 #include <thread>
 
 #include "serial_port.h"
-#include "spring_workbench/config/yaml_fields.h"
 
 namespace spring_workbench {
 namespace {
@@ -29,21 +27,6 @@ std::string hemisphere_text(const Vector3d& direction) {
   return text.str();
 }
 
-FastrakSettings checked(const FastrakSettings& settings) {
-  const std::string where = "fastrak";
-  const auto& rates = fastrak_baud_rates();
-  if (std::find(rates.begin(), rates.end(), settings.baud) == rates.end()) {
-    refuse(where, "baud", std::to_string(settings.baud), "2400, 4800, 9600, 19200, 38400, 57600 or 115200");
-  }
-  const std::set<int> different(settings.stations.begin(), settings.stations.end());
-  if (different.empty() || different.size() != settings.stations.size() || *different.begin() < 1 ||
-      *different.rbegin() > kFastrakStations) {
-    throw InputError(where + ": stations: must be some of 1, 2, 3, 4, none twice");
-  }
-  for (const double component : settings.hemisphere) check_number(where, "hemisphere", component, between(-1e3, 1e3));
-  return settings;
-}
-
 bool has_station(const FastrakSettings& settings, int station) {
   return std::count(settings.stations.begin(), settings.stations.end(), station) > 0;
 }
@@ -54,11 +37,6 @@ std::vector<int> list_of(const FastrakSettings& settings, int station) {
 }
 
 }  // namespace
-
-const std::vector<int>& fastrak_baud_rates() {
-  static const std::vector<int> rates{2400, 4800, 9600, 19200, 38400, 57600, 115200};
-  return rates;
-}
 
 std::vector<std::string> fastrak_set_up(const FastrakSettings& settings) {
   // Resume output if it was paused, end a command that was cut, stop the stream.
@@ -82,7 +60,7 @@ std::vector<std::string> fastrak_set_up(const FastrakSettings& settings) {
 }
 
 FastrakSource::FastrakSource(const FastrakSettings& settings)
-    : settings_(checked(settings)), set_up_(fastrak_set_up(settings)), problem_(settings.port + ": not opened yet") {
+    : settings_(settings), set_up_(fastrak_set_up(settings)), problem_(settings.port + ": not opened yet") {
   for (const int station : settings_.stations) {
     layouts_.emplace(station, FastrakLayout(list_of(settings_, station), settings_.format, FastrakUnits::centimetres));
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <yaml-cpp/yaml.h>
+
 #include <chrono>
 #include <map>
 #include <memory>
@@ -17,7 +19,7 @@ class SerialPort;
 /// How a FASTRAK is connected and what it shall send.
 struct FastrakSettings {
   std::string port = "/dev/ttyUSB0";
-  int baud = 115200;  ///< as the switches on the device's back say; fastrak_baud_rates()
+  int baud = 115200;  ///< as the switches on the device's back say; one of fastrak_baud_rates()
   FastrakFormat format = FastrakFormat::binary;
   std::vector<int> stations = {1};          ///< each 1 … 4, none twice; with n of them, each reports at 120 Hz / n
   bool stylus = true;                       ///< station 1 is a stylus: its switch is read
@@ -29,6 +31,14 @@ struct FastrakSettings {
 /// The rates that the device's serial port knows [baud].
 const std::vector<int>& fastrak_baud_rates();
 
+/// The keys of read_fastrak_settings.
+const std::vector<std::string>& fastrak_keys();
+
+/// From a map: `port`, `baud`, `format` (binary, ascii), `stations` (list), `orientation` (quaternion, euler),
+/// `redundant`, `hemisphere` (x y z), `stylus`; other keys are not looked at. Throws InputError with `where`, key,
+/// value and rule.
+FastrakSettings read_fastrak_settings(const YAML::Node& map, const std::string& where);
+
 /// The commands that bring the device into the mode that the settings ask for, whatever it was in, in portions that it
 /// can take at once; it streams after a further `C`.
 std::vector<std::string> fastrak_set_up(const FastrakSettings& settings);
@@ -36,7 +46,7 @@ std::vector<std::string> fastrak_set_up(const FastrakSettings& settings);
 /// A FASTRAK on a serial port. It is set up anew whenever it has been silent, or not understood, for 0.25 s.
 class FastrakSource : public LiveSource {
  public:
-  /// Opens nothing yet. Throws InputError for stations, a baud rate or a hemisphere that cannot be.
+  /// Opens nothing yet.
   explicit FastrakSource(const FastrakSettings& settings);
   ~FastrakSource() override;  ///< stops the device's stream
   std::vector<StationSample> read(double timeout) override;

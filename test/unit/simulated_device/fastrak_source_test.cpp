@@ -3,14 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cmath>
-#include <functional>
 #include <iostream>
 #include <optional>
 #include <string>
 #include <unordered_set>
 
-#include "spring_workbench/config/input_error.h"
 #include "spring_workbench/simulated_device/fastrak_simulator.h"
 #include "support/played_motions.h"
 #include "support/temporary_folder.h"
@@ -243,25 +240,6 @@ TEST(FastrakSource, StopsTheStreamWhenItEnds) {
     terminal.read(1.0);
   }
   EXPECT_EQ(terminal.read(kDeadline), "c");
-}
-
-TEST(FastrakSource, RefusesSettingsThatCannotBe) {
-  const auto refusal = [](const std::function<void(FastrakSettings&)>& change) {
-    FastrakSettings settings;
-    change(settings);
-    try {
-      FastrakSource source(settings);
-    } catch (const InputError& error) {
-      return std::string(error.what());
-    }
-    return std::string();
-  };
-  EXPECT_EQ(refusal([](auto&) {}), "");
-  EXPECT_NE(refusal([](auto& s) { s.baud = 12345; }).find("baud: 12345"), std::string::npos);
-  for (const std::vector<int>& stations : {std::vector<int>{}, {0}, {5}, {1, 1}}) {
-    EXPECT_NE(refusal([&](auto& s) { s.stations = stations; }).find("stations"), std::string::npos);
-  }
-  EXPECT_NE(refusal([](auto& s) { s.hemisphere.x() = std::nan(""); }).find("hemisphere"), std::string::npos);
 }
 
 }  // namespace
