@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 #include <string_view>
+#include <vector>
 
 #include "spring_workbench/tracker/fastrak_decoder.h"
 
@@ -56,7 +57,12 @@ void check(const FastrakMessage& message, const std::map<int, FastrakLayout>& la
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size < 2) return 0;
-  const auto layouts = layouts_of(data[0]);
+  static const auto all_layouts = [] {
+    std::vector<std::map<int, FastrakLayout>> all;
+    for (unsigned mode = 0; mode < 256; ++mode) all.push_back(layouts_of(mode));
+    return all;
+  }();
+  const auto& layouts = all_layouts[data[0]];
   const std::size_t step = 1U + data[1];
   const std::string_view bytes(reinterpret_cast<const char*>(data) + 2, size - 2);
   FastrakDecoder whole(layouts), pieces(layouts);
