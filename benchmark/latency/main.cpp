@@ -13,10 +13,10 @@
 #include "spring_workbench/ObjectStates.h"
 #include "spring_workbench/simulated_device/fastrak_simulator.h"
 
-// End-to-end latency: from the first byte of a record on the serial line to the arrival of the first message of
-// `manipulation/objects` in which the held object has gone as far as that record says. The device of this program moves
-// the hand evenly along x, the fork is rigid, so the object's x tells which record a message knows of; no clock but
-// this process' own is asked. doc/tracker.md, "Latency".
+// End-to-end latency: from the first byte of a record on the serial line to the arrival of the message of
+// `manipulation/objects` from which on the held object has gone as far as that record says. The device of this program
+// moves the hand evenly along x, the fork is rigid, so the object's x tells which record a message knows of; no clock
+// but this process' own is asked. doc/tracker.md, "Latency".
 
 namespace {
 
@@ -91,10 +91,11 @@ std::vector<Moment> play(const std::string& port, double rate, double length, co
   return written;
 }
 
-/// From each record to the first message that has gone as far [s], in ascending order.
-std::vector<double> latencies(const std::vector<Moment>& written, const std::vector<Moment>& seen, double last_x) {
+/// From each record to the first message of those that have gone as far for good [s], in ascending order.
+std::vector<double> latencies(const std::vector<Moment>& written, std::vector<Moment> seen, double last_x) {
   std::vector<double> result;
   const double offset = seen.back().x - last_x;  // of the object from the hand: both are at rest there
+  for (std::size_t i = seen.size() - 1; i-- > 0;) seen[i].x = std::min(seen[i].x, seen[i + 1].x);
   std::size_t i = 0;
   for (const Moment& record : written) {
     while (i < seen.size() && seen[i].x - offset < record.x - kTolerance) ++i;

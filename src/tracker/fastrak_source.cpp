@@ -17,6 +17,7 @@ constexpr double kLookAgain = 0.1;    // [s] after a port could not be opened
 constexpr double kSilence = 0.25;     // [s] without a good record: set up anew, and
 constexpr double kAnswerTime = 0.15;  // [s] for the device to answer; both beside the time of the
 constexpr double kLineBytes = 200.0;  // that may be on the line meanwhile: a portion or a record, and a status
+constexpr double kChance = 0.05;      // [s]
 constexpr int kAttemptsPerOpening = 5;
 
 steady_clock::duration seconds(double s) { return duration_cast<steady_clock::duration>(duration<double>(s)); }
@@ -128,7 +129,10 @@ void FastrakSource::send_portion() {
 }
 
 void FastrakSource::listen(Time until) {
-  const double wait = std::max(0.0, duration<double>(until - steady_clock::now()).count());
+  const Time begin = steady_clock::now();
+  // Whoever comes late himself gives the line a chance before he calls it silent.
+  const double least = begin >= deadline_ ? kChance : 0.0;
+  const double wait = std::max(least, duration<double>(until - begin).count());
   const std::string bytes = port_->read(wait);
   const Time now = steady_clock::now();
   if (bytes.empty()) {
@@ -138,16 +142,32 @@ void FastrakSource::listen(Time until) {
   answered_ = true;
   const std::size_t left_out_before = decoder_.bytes_left_out();
   const auto messages = decoder_.decode(bytes);
+  const std::size_t samples_before = samples_.size();
   if (state_ == State::streaming) counters_["bytes left out"] += decoder_.bytes_left_out() - left_out_before;
   for (const FastrakMessage& message : messages) {
     std::visit([&](const auto& m) { take(m, now); }, message);
   }
+  stamp(samples_before, now);
   if (now >= deadline_) give_up_waiting();
 }
 
+/// Records that were read together came one after the other: evenly since the last reading, and no earlier than the
+/// line lets them.
+void FastrakSource::stamp(std::size_t first, Time now) {
+  const double end = duration<double>(now.time_since_epoch()).count();
+  const std::size_t count = samples_.size() - first;
+  double line_time = 0.0;  // of the records behind
+  for (std::size_t i = count; i-- > 0;) {
+    StationSample& sample = samples_[first + i];
+    const double share = static_cast<double>(i + 1) / static_cast<double>(count);
+    sample.received = std::max(end - line_time, last_reading_ + (end - last_reading_) * share);
+    line_time += static_cast<double>(layouts_.at(sample.station).length()) * 10.0 / settings_.baud;
+  }
+  if (count > 0) last_reading_ = end;
+}
+
 void FastrakSource::take(const FastrakRecord& record, Time now) {
-  samples_.push_back({record.station, duration<double>(now.time_since_epoch()).count(), record.p_TS, record.q_TS,
-                      record.button, record.error});
+  samples_.push_back({record.station, 0.0, record.p_TS, record.q_TS, record.button, record.error});
   ++counters_["records"];
   if (record.error != ' ') ++counters_["records with a warning"];
   has_streamed_ = true;

@@ -62,6 +62,7 @@ class FastrakSource : public LiveSource {
   void send_portion();
   void listen(Time until);
   void take(const FastrakRecord& record, Time now);
+  void stamp(std::size_t first, Time now);
   void take(const FastrakReply& reply, Time now);
   void begin_stream();
   void give_up_waiting();
@@ -76,11 +77,12 @@ class FastrakSource : public LiveSource {
   std::unique_ptr<SerialPort> port_;
   FastrakDecoder decoder_;
   std::vector<StationSample> samples_;
-  std::size_t portion_ = 0;  ///< of set_up_ that is waited for
-  Time deadline_{};          ///< closed: when to look again; else: when waiting has been in vain
-  int attempts_ = 0;         ///< set-ups in vain since the device last streamed
-  bool answered_ = false;    ///< something came since the set-up began …
-  bool understood_ = false;  ///< … and it was a FASTRAK's
+  double last_reading_ = 0.0;  ///< when records were read last [s]
+  std::size_t portion_ = 0;    ///< of set_up_ that is waited for
+  Time deadline_{};            ///< closed: when to look again; else: when waiting has been in vain
+  int attempts_ = 0;           ///< set-ups in vain since the device last streamed
+  bool answered_ = false;      ///< something came since the set-up began …
+  bool understood_ = false;    ///< … and it was a FASTRAK's
   bool has_streamed_ = false;
   std::string problem_;  ///< what `health` says while nothing streams
   std::string refusal_;  ///< the device's last error record

@@ -24,6 +24,8 @@ constexpr int kStations = 2;
 
 std::vector<PlayedMotion> hands() { return {test_support::circling_hand(0.5), test_support::circling_hand(0.9)}; }
 
+double steady_now() { return duration<double>(steady_clock::now().time_since_epoch()).count(); }
+
 /// A pose to the last bit of the device's floats.
 std::string key(const FastrakRecord& record) {
   static const FastrakLayout layout({2, 11, 16, 0}, FastrakFormat::binary, FastrakUnits::centimetres);
@@ -89,6 +91,8 @@ class Bench {
     }
     for (const StationSample& sample : source_->read(1e-3)) {
       ++received_;
+      EXPECT_GT(sample.received, newest_);
+      newest_ = sample.received;
       wrong_ += 1 - sent_.count(key(sample));
     }
   }
@@ -100,6 +104,7 @@ class Bench {
   steady_clock::time_point start_ = steady_clock::now();
   long cycle_ = 0;
   std::size_t received_ = 0, wrong_ = 0;
+  double newest_ = 0.0;
   std::unordered_set<std::string> sent_;
 };
 
@@ -120,7 +125,7 @@ TEST(FastrakSource, LosesNoRecordInTenMinutesOfFourStations) {
   FastrakSource source(settings);
   constexpr std::size_t records = 600 * 120 * 4;
   std::size_t received = 0, wrong = 0, idle = 0;
-  for (std::size_t cycle = 0; received < records && idle < 100000;) {
+  for (std::size_t cycle = 0; received < records && idle < 20000;) {
     simulator.serve(0.0);
     const bool more = simulator.waiting() == 0 && simulator.records_sent() < records;
     for (int i = 0; more && i < 16; ++i) simulator.measure(static_cast<double>(cycle++) / 480.0);
@@ -180,6 +185,32 @@ INSTANTIATE_TEST_SUITE_P(EachKind, Faults,
                                          NamedFault{"cut", 0.6}, NamedFault{"cut,rate=0.3", 0.6},
                                          NamedFault{"error", 0.6}, NamedFault{"silence", 0.6},
                                          NamedFault{"wrong_mode", 0.3}, NamedFault{"unplug", 0.6}));
+
+/// So that consumers which look at intervals see none of nothing.
+TEST(FastrakSource, StampsRecordsThatAreReadTogetherOneAfterTheOther) {
+  test_support::TemporaryFolder folder;
+  FastrakSimulator simulator(FastrakDevice(hands()), LineFaults(), folder.path("port"));
+  FastrakSettings settings = two_stations();
+  settings.port = folder.path("port");
+  FastrakSource source(settings);
+  const double give_up = steady_now() + kDeadline;
+  double t = 0.0;
+  while (!source.health().streaming && steady_now() < give_up) {
+    simulator.serve(0.0);
+    simulator.measure(t += 0.01);
+    source.read(1e-3);
+  }
+  const double before = steady_now();
+  std::vector<StationSample> samples;
+  for (int i = 0; i < 6; ++i) simulator.measure(t += 0.01);
+  while (samples.size() < 6 && steady_now() < give_up) {
+    for (const StationSample& sample : source.read(0.01)) samples.push_back(sample);
+  }
+  ASSERT_EQ(samples.size(), 6u);
+  EXPECT_LE(samples.back().received, steady_now());
+  EXPECT_GT(samples.back().received, before);
+  for (std::size_t i = 1; i < samples.size(); ++i) EXPECT_GT(samples[i].received, samples[i - 1].received);
+}
 
 TEST(FastrakSource, TakesOverADeviceThatStreamsInAnotherMode) {
   Bench bench({"wrong_mode"}, two_stations());
