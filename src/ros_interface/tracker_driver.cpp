@@ -3,6 +3,9 @@
 #include <sensor_msgs/Joy.h>
 
 #include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
 
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/ros_interface/conversions.h"
@@ -30,11 +33,17 @@ std::string resolve(const std::string& path_or_uri) {
 }  // namespace
 
 TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const std::string& where) {
-  check_keys(parameters, where, "",
-             {"source", "file", "rate", "speed", "loop", "pause", "workbench_frame", "stylus_frame", "head_frame",
-              "offset", "start", "head", "grasp_from", "grasp_until"});
-  constexpr double unbounded = std::numeric_limits<double>::max();
   TrackerParameters result;
+  if (parameters["source"]) {
+    result.source = read_choice(parameters["source"], where, "source", {"motion_file", "scripted", "fastrak"});
+  }
+  const bool live = result.source == "fastrak";
+  std::vector<std::string> keys{"source", "rate", "workbench_frame", "stylus_frame", "head_frame", "offset", "head"};
+  const std::vector<std::string> of_motions{"file", "speed", "loop", "pause", "start", "grasp_from", "grasp_until"};
+  for (const std::string& key : live ? fastrak_keys() : of_motions) keys.push_back(key);
+  check_keys(parameters, where, "", keys);
+  if (live) result.fastrak = read_fastrak_settings(parameters, where);
+  constexpr double unbounded = std::numeric_limits<double>::max();
   const auto number = [&](const char* key, const NumberRule& rule, double& value) {
     if (parameters[key]) value = read_number(parameters[key], where, key, rule);
   };
@@ -42,10 +51,7 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
     if (parameters[key]) value = read_string(parameters[key], where, key);
     if (value.empty()) refuse(where, key, "(nothing)", "a string that is not empty");
   };
-  if (parameters["source"]) {
-    result.source = read_choice(parameters["source"], where, "source", {"motion_file", "scripted"});
-  }
-  text("file", result.file);
+  if (!live) text("file", result.file);
   text("workbench_frame", result.workbench_frame);
   text("stylus_frame", result.stylus_frame);
   text("head_frame", result.head_frame);
@@ -70,6 +76,10 @@ TrackerDriver::TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
       X_BT_(parameters_.X_BT),
       joy_publisher_(node.advertise<sensor_msgs::Joy>("stylus/joy", 100)),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
+  if (parameters_.source == "fastrak") {
+    device_ = std::make_unique<FastrakSource>(parameters_.fastrak);
+    return;
+  }
   const auto first = open()->next();
   if (!first) throw InputError(parameters_.file + ": no samples: must be at least one");
   if (parameters_.X_BS_first) X_BT_ = *parameters_.X_BS_first * first->X.inverse();
@@ -82,6 +92,7 @@ std::unique_ptr<StylusSource> TrackerDriver::open() const {
 }
 
 void TrackerDriver::run() {
+  if (device_) return stream();
   do {
     play();
   } while (parameters_.loop && ros::ok());
@@ -116,12 +127,50 @@ void TrackerDriver::send(const StylusSample& sample, const ros::Time& stamp) {
   transforms_.sendTransform(
       {to_transform(X_BT_ * sample.X, parameters_.workbench_frame, parameters_.stylus_frame, stamp),
        to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp)});
+  send_buttons(sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), stamp);
+  ++sent_;
+}
+
+void TrackerDriver::send_buttons(bool grasp, const ros::Time& stamp) {
   sensor_msgs::Joy joy;
   joy.header.stamp = stamp;
   joy.header.frame_id = parameters_.stylus_frame;
-  const bool grasp = sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until);
   joy.buttons = {grasp ? 1 : 0, 0};
   joy_publisher_.publish(joy);
+}
+
+void TrackerDriver::stream() {
+  constexpr double slice = 0.1;  // [s] between looks at what else is due
+  ros::Time::waitForValid();
+  while (ros::ok()) {
+    for (const StationSample& sample : device_->read(slice)) send(sample);
+    if (loop_time() >= next_diagnostics_) {
+      publish_diagnostics();
+      next_diagnostics_ = loop_time() + 1.0;
+    }
+  }
+}
+
+void TrackerDriver::send(const StationSample& sample) {
+  const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
+  const ros::Time stamp = ros::Time::now() - ros::Duration(now.count() - sample.received);
+  ros::Time& newest = newest_[sample.station];
+  const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
+  if (stamp <= newest || (stamp - newest).toSec() < shortest) {
+    ++left_out_;
+    return;
+  }
+  const std::string& stylus = parameters_.stylus_frame;
+  std::vector<geometry_msgs::TransformStamped> transforms{
+      to_transform(X_BT_ * make_transform(sample.q_TS, sample.p_TS), parameters_.workbench_frame,
+                   sample.station == 1 ? stylus : stylus + "_" + std::to_string(sample.station), stamp)};
+  if (sample.station == parameters_.fastrak.stations.front()) {
+    transforms.push_back(to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
+    if (!newest.isZero()) interval_ = (stamp - newest).toSec();
+  }
+  transforms_.sendTransform(transforms);
+  if (sample.station == 1) send_buttons(sample.button, stamp);
+  newest = stamp;
   ++sent_;
 }
 
@@ -136,13 +185,25 @@ void TrackerDriver::wait_until(double t) {
   }
 }
 
+void TrackerDriver::add_health(DiagnosticStatusBuilder& status) const {
+  const SourceHealth health = device_->health();
+  for (const auto& [name, count] : health.counters) status.add(name, count);
+  status.add("state", health.text);
+  if (health.streaming) return;
+  status.raise(diagnostic_msgs::DiagnosticStatus::ERROR, health.text);
+  ROS_WARN_STREAM_THROTTLE(5.0, health.text);
+}
+
 void TrackerDriver::publish_diagnostics() {
   DiagnosticStatusBuilder status(name_ + ": source", parameters_.source);
-  status.add("file", parameters_.file)
-      .add("samples sent", sent_)
+  status.add("samples sent", sent_)
       .add("samples left out", left_out_)
-      .add("rate [Hz]", interval_ > 0.0 ? 1.0 / interval_ : 0.0)
-      .add("passes", passes_);
+      .add("rate [Hz]", interval_ > 0.0 ? 1.0 / interval_ : 0.0);
+  if (device_) {
+    add_health(status);
+  } else {
+    status.add("file", parameters_.file).add("passes", passes_);
+  }
   if (over_) status.add("state", "over");
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();

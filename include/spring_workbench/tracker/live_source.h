@@ -11,9 +11,9 @@ namespace spring_workbench {
 
 /// One measurement of one station (receiver, S) of a tracking device, in the axes of its transmitter T, as it came.
 struct StationSample {
-  int station = 1;                             ///< 1, 2, …
-  double received = 0.0;                       ///< when its last byte was read [s], steady clock
-  Vector3d p_TS = Vector3d::Zero();            ///< [m]
+  int station = 1;                   ///< 1, 2, …
+  double received = 0.0;             ///< when its last byte came [s], steady clock; later for each of a station
+  Vector3d p_TS = Vector3d::Zero();  ///< [m]
   Quaterniond q_TS = Quaterniond::Identity();  ///< finite, its norm near 1; not normalised
   bool button = false;                         ///< the stylus' button is down; false for stations without one
   char warning = ' ';                          ///< the device's own letter for "I doubt this one"; blank: none
