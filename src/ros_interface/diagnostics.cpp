@@ -60,7 +60,8 @@ std::string hint_for_silence(const InputStatistics& input, const std::vector<std
   if (input.stream.samples > 0) return "";
   if (input.messages == 0 && senders.empty()) return "nobody sends /tf: is tracker_driver, or a bag, running?";
   if (input.messages == 0) {
-    return join(senders) + " should send /tf, but nothing arrives: is ROS_IP or ROS_HOSTNAME set on the sender's host?";
+    return join(senders) + " should send /tf, but nothing comes: is ROS_IP or ROS_HOSTNAME set on the sender's host, and "
+           "is the device on?";
   }
   if (input.frames.count(stylus_frame) == 0) {
     return "no frame " + stylus_frame + " on /tf, but " +

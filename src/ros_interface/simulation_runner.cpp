@@ -35,8 +35,9 @@ void SimulationRunner::advance(double target, CycleReport& report) {
   if (grid_ > 0.0) {
     constexpr double slack = 1e-6;  // of a grid step
     const double next = grid_ * (std::floor(simulation_->time() / grid_ + slack) + 1.0);
-    if (next > target + slack * grid_) return;
-    report.more = next + grid_ <= target;
+    // Before the target, not onto it: there the segment begins whose velocity hangs on a sample that may not be here yet.
+    if (next > target - slack * grid_) return;
+    report.more = next + grid_ <= target - slack * grid_;
     target = next;
   }
   const std::optional<double> release = hand_.take_release(target);
