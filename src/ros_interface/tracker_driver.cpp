@@ -32,15 +32,19 @@ std::string resolve(const std::string& path_or_uri) {
 
 }  // namespace
 
-TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const std::string& where) {
+TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::string& where) {
+  YAML::Node parameters = YAML::Clone(given);
   TrackerParameters result;
+  take_truth_settings(parameters, where, result.truth);
   if (parameters["source"]) {
     result.source = read_choice(parameters["source"], where, "source", {"motion_file", "scripted", "fastrak"});
   }
   const bool live = result.source == "fastrak";
-  std::vector<std::string> keys{"source", "rate", "workbench_frame", "stylus_frame", "head_frame", "offset", "head"};
+  std::vector<std::string> keys{"source", "rate", "workbench_frame", "stylus_frame", "head_frame", "offset", "head", "tip",
+                                "interpupillary_distance", "dropout_after"};
   const std::vector<std::string> of_motions{"file", "speed", "loop", "pause", "start", "grasp_from", "grasp_until"};
   for (const std::string& key : live ? fastrak_keys() : of_motions) keys.push_back(key);
+  if (live) keys.push_back("even_stamps");
   check_keys(parameters, where, "", keys);
   if (live) result.fastrak = read_fastrak_settings(parameters, where);
   constexpr double unbounded = std::numeric_limits<double>::max();
@@ -62,6 +66,13 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
   number("grasp_until", {result.grasp_from, unbounded, false, true}, result.grasp_until);
   if (parameters["loop"]) result.loop = read_bool(parameters["loop"], where, "loop");
   if (parameters["head"]) result.X_BHead = read_pose(parameters["head"], where, "head");
+  if (parameters["tip"]) {
+    const std::vector<double> tip = read_numbers(parameters["tip"], where, "tip", 3);
+    result.p_ST = Vector3d(tip[0], tip[1], tip[2]);
+  }
+  number("interpupillary_distance", between(0.0, 0.2), result.interpupillary_distance);
+  number("dropout_after", positive(), result.dropout_after);
+  if (parameters["even_stamps"]) result.even_stamps = read_bool(parameters["even_stamps"], where, "even_stamps");
   if (parameters["offset"]) result.X_BT = read_pose(parameters["offset"], where, "offset");
   if (parameters["start"]) {
     if (parameters["offset"]) throw InputError(where + ": start: is not allowed beside offset: must be one of the two");
@@ -74,6 +85,7 @@ TrackerDriver::TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
     : parameters_(read_tracker_parameters(private_parameters(private_node), private_node.getNamespace())),
       name_(private_node.getNamespace()),
       X_BT_(parameters_.X_BT),
+      played_(parameters_.truth, parameters_.dropout_after),
       joy_publisher_(node.advertise<sensor_msgs::Joy>("stylus/joy", 100)),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
   if (parameters_.source == "fastrak") {
@@ -91,7 +103,17 @@ std::unique_ptr<StylusSource> TrackerDriver::open() const {
   return std::make_unique<RecordedSource>(read_motion_file(path));
 }
 
+/// Eyes beside each other in the head's axes: x forward, y left (REP 103).
+void TrackerDriver::send_eyes() {
+  const auto eye = [&](const std::string& name, double side) {
+    const Vector3d p(0.0, 0.5 * side * parameters_.interpupillary_distance, 0.0);
+    return to_transform(make_transform(Quaterniond::Identity(), p), parameters_.head_frame, name, ros::Time::now());
+  };
+  static_transforms_.sendTransform({eye("eye_left", 1.0), eye("eye_right", -1.0)});
+}
+
 void TrackerDriver::run() {
+  send_eyes();
   if (device_) return stream();
   do {
     play();
@@ -105,17 +127,24 @@ void TrackerDriver::play() {
   ros::Time::waitForValid();
   const double start = loop_time() + parameters_.pause;
   ++passes_;
+  played_.restart();
   double last = -std::numeric_limits<double>::infinity();  // time of the newest sample sent [s]
   const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
   constexpr double slack = 1e-6;  // [s] rounding of stamps
   while (ros::ok()) {
-    const auto sample = source->next();
+    auto sample = source->next();
     if (!sample) return;
     const double t = sample->t / parameters_.speed;
     if (t <= last || t < last + shortest - slack) {
       ++left_out_;
       continue;
     }
+    const TrueSample taken = played_.take(PoseSample{sample->t, sample->X});
+    if (!usable(taken.verdict)) {
+      ++left_out_;
+      continue;
+    }
+    sample->X = taken.sample.X;
     wait_until(start + t);
     interval_ = t - last;
     last = t;
@@ -125,7 +154,7 @@ void TrackerDriver::play() {
 
 void TrackerDriver::send(const StylusSample& sample, const ros::Time& stamp) {
   transforms_.sendTransform(
-      {to_transform(X_BT_ * sample.X, parameters_.workbench_frame, parameters_.stylus_frame, stamp),
+      {to_transform(X_BT_ * sample.X * Eigen::Translation3d(parameters_.p_ST), parameters_.workbench_frame, parameters_.stylus_frame, stamp),
        to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp)});
   send_buttons(sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), stamp);
   ++sent_;
@@ -151,9 +180,23 @@ void TrackerDriver::stream() {
   }
 }
 
+StationStream& TrackerDriver::stream_of(int station) {
+  const auto stream = streams_.find(station);
+  if (stream != streams_.end()) return stream->second;
+  return streams_
+      .emplace(station, StationStream(parameters_.truth, parameters_.dropout_after, parameters_.even_stamps))
+      .first->second;
+}
+
 void TrackerDriver::send(const StationSample& sample) {
   const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
-  const ros::Time stamp = ros::Time::now() - ros::Duration(now.count() - sample.received);
+  const TrueSample taken = stream_of(sample.station).take(sample);
+  if (sample.station == 1) send_buttons(sample.button, ros::Time::now() - ros::Duration(now.count() - sample.received));
+  if (!usable(taken.verdict)) {
+    ++left_out_;
+    return;
+  }
+  const ros::Time stamp = ros::Time::now() - ros::Duration(now.count() - taken.sample.t);
   ros::Time& newest = newest_[sample.station];
   const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
   if (stamp <= newest || (stamp - newest).toSec() < shortest) {
@@ -162,14 +205,14 @@ void TrackerDriver::send(const StationSample& sample) {
   }
   const std::string& stylus = parameters_.stylus_frame;
   std::vector<geometry_msgs::TransformStamped> transforms{
-      to_transform(X_BT_ * make_transform(sample.q_TS, sample.p_TS), parameters_.workbench_frame,
+      to_transform(X_BT_ * taken.sample.X * Eigen::Translation3d(sample.station == 1 ? parameters_.p_ST : Vector3d::Zero()),
+                   parameters_.workbench_frame,
                    sample.station == 1 ? stylus : stylus + "_" + std::to_string(sample.station), stamp)};
   if (sample.station == parameters_.fastrak.stations.front()) {
     transforms.push_back(to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
     if (!newest.isZero()) interval_ = (stamp - newest).toSec();
   }
   transforms_.sendTransform(transforms);
-  if (sample.station == 1) send_buttons(sample.button, stamp);
   newest = stamp;
   ++sent_;
 }
@@ -208,6 +251,12 @@ void TrackerDriver::publish_diagnostics() {
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
   message.status = {status.status()};
+  for (const auto& [station, stream] : streams_) {
+    DiagnosticStatusBuilder of_station(name_ + ": station " + std::to_string(station), parameters_.source);
+    add_stream(stream.figures(), stream.counts(), of_station);
+    for (const auto& [verdict, count] : stream.counts().left_out) of_station.add("left out: " + to_string(verdict), count);
+    message.status.push_back(of_station.status());
+  }
   diagnostics_publisher_.publish(message);
 }
 

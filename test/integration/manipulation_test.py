@@ -244,7 +244,7 @@ class Manipulation(unittest.TestCase):
         count = lambda reason: int(diagnostic_values(self.diagnostics.messages, "tracker input").get(
             "left out: " + reason, "0"))
         reasons = {"not finite": stylus_transform(self.hand.now(), (NAN, 0, 0), DOWN),
-                   "zero quaternion": stylus_transform(self.hand.now(), (0, 0, 0), (0, 0, 0, 0)),
+                   "not a unit quaternion": stylus_transform(self.hand.now(), (0, 0, 0), (0, 0, 0, 0)),
                    "stamp not later": stylus_transform(self.hand.now() - rospy.Duration(0.1), (0, 0, 0), DOWN),
                    "too old": stylus_transform(self.hand.now() - rospy.Duration(50), (0, 0, 0), DOWN),
                    "from the future": stylus_transform(self.hand.now() + rospy.Duration(50), (0, 0, 0), DOWN),

@@ -29,6 +29,7 @@ class ManipulationNode {
  private:
   void run_physics();
   void run_cycle(double due);
+  bool run_step(double due);
   void count(const CycleReport& report, bool deadline_missed);
   void on_every_second(const ros::WallTimerEvent&);
   void place_workbench();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 #include <yaml-cpp/yaml.h>
 
@@ -12,6 +13,7 @@
 
 #include "spring_workbench/ros_interface/diagnostics.h"
 #include "spring_workbench/tracker/fastrak_source.h"
+#include "spring_workbench/tracker/station_stream.h"
 #include "spring_workbench/tracker/stylus_source.h"
 
 namespace spring_workbench {
@@ -34,6 +36,11 @@ struct TrackerParameters {
   RigidTransform X_BHead = make_transform(Quaterniond::Identity(), Vector3d(0.0, -0.7, 0.6));  ///< `head` (pose)
   double grasp_from = std::numeric_limits<double>::infinity();  ///< `grasp_from` [s]: the button goes down …
   double grasp_until = std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up, beside the file's own
+  Vector3d p_ST = Vector3d::Zero();      ///< `tip` (x y z) [m]: the handle's origin in the tracked frame of the stylus
+  double interpupillary_distance = 0.063;  ///< `interpupillary_distance` [m], 0 … 0.2: between eye_left and eye_right
+  double dropout_after = 0.5;              ///< `dropout_after` [s], > 0: a longer gap is a dropout
+  bool even_stamps = true;                 ///< `even_stamps`: stamp a device's samples by its cadence, not by receipt
+  TruthSettings truth;                     ///< `truth`: which samples are let through, and how they are filtered
   FastrakSettings fastrak;  ///< read_fastrak_settings; in place of file, speed, loop, pause, start and grasp_*
 };
 
@@ -58,6 +65,8 @@ class TrackerDriver {
   void send_buttons(bool grasp, const ros::Time& stamp);
   void add_health(DiagnosticStatusBuilder& status) const;
   void send(const StylusSample& sample, const ros::Time& stamp);
+  void send_eyes();
+  StationStream& stream_of(int station);
   void wait_until(double t);
   void publish_diagnostics();
   std::unique_ptr<StylusSource> open() const;
@@ -66,7 +75,10 @@ class TrackerDriver {
   const std::string name_;
   std::unique_ptr<LiveSource> device_;
   std::map<int, ros::Time> newest_;  ///< stamp of each station's last sample sent
+  std::map<int, StationStream> streams_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
   RigidTransform X_BT_;
+  TruthLayer played_;  ///< the motion that is played
   std::size_t sent_ = 0, left_out_ = 0, passes_ = 0;
   double interval_ = 0.0;  ///< between the last two samples sent [s]
   bool over_ = false;
