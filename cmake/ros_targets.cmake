@@ -3,6 +3,15 @@ add_room(ros_interface DEPENDS simulation fork_mesh tracker LIBRARIES ${catkin_L
 target_include_directories(spring_workbench_ros_interface SYSTEM PUBLIC
   ${catkin_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 add_dependencies(spring_workbench_ros_interface ${PROJECT_NAME}_generate_messages_cpp)
+if(dynamic_reconfigure_FOUND)
+  target_sources(spring_workbench_ros_interface PRIVATE src/ros_interface/live_tuning/with_dynamic_reconfigure.cpp)
+  target_include_directories(spring_workbench_ros_interface SYSTEM PRIVATE ${dynamic_reconfigure_INCLUDE_DIRS})
+  target_link_libraries(spring_workbench_ros_interface PRIVATE ${dynamic_reconfigure_LIBRARIES})
+  add_dependencies(spring_workbench_ros_interface ${PROJECT_NAME}_gencfg)
+else()
+  message(STATUS "dynamic_reconfigure not found: no live tuning under ~live")
+  target_sources(spring_workbench_ros_interface PRIVATE src/ros_interface/live_tuning/without_dynamic_reconfigure.cpp)
+endif()
 
 foreach(node manipulation tracker_driver)
   add_executable(${node} src/nodes/${node}.cpp)
