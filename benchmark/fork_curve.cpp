@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "spring_workbench/fork_mesh/fork_model.h"
 
@@ -160,12 +161,14 @@ std::vector<ForkCurveRow> measure_fork_curves() {
   return rows;
 }
 
-void write_fork_curves(const std::vector<ForkCurveRow>& rows, std::ostream& csv) {
+std::string fork_curves_csv(const std::vector<ForkCurveRow>& rows) {
+  std::ostringstream csv;
   csv << "curve,load,alpha,shape_error,length_error,curve_us,deform_us,vertices\n";
   for (const ForkCurveRow& row : rows) {
     csv << row.curve << ',' << row.load << ',' << row.alpha << ',' << row.shape_error << ',' << row.length_error << ','
         << row.curve_us << ',' << row.deform_us << ',' << row.vertices << '\n';
   }
+  return csv.str();
 }
 
 }  // namespace spring_workbench::benchmark

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ostream>
 #include <string>
 #include <vector>
 
@@ -21,6 +20,6 @@ struct ForkCurveRow {
 
 std::vector<ForkCurveRow> measure_fork_curves();
 /// As CSV, with a header line.
-void write_fork_curves(const std::vector<ForkCurveRow>& rows, std::ostream& csv);
+std::string fork_curves_csv(const std::vector<ForkCurveRow>& rows);
 
 }  // namespace spring_workbench::benchmark
