@@ -32,6 +32,7 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
       input_(node, parameters_),
       publisher_(private_node, parameters_),
       services_(private_node, runner_),
+      live_tuning_(make_live_tuning(private_node, runner_)),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
       every_second_(node.createWallTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),

@@ -69,6 +69,7 @@ void add_outline(const Shape& shape, const RigidTransform& X_WO, std::vector<Vec
     RigidTransform X_W = RigidTransform::Identity();
     X_W.translation() = X_WS.translation();
     add_circle(sphere->radius, 0.0, X_W);
+    points_W.push_back(X_WS.translation() - Vector3d(0.0, 0.0, sphere->radius));  // says how high it is
   } else if (const auto* cylinder = std::get_if<Cylinder>(&shape.geometry)) {
     add_circle(cylinder->radius, -0.5 * cylinder->length, X_WS);
     add_circle(cylinder->radius, 0.5 * cylinder->length, X_WS);

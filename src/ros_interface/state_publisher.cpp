@@ -84,7 +84,8 @@ void StatePublisher::publish_markers(const Simulation& simulation, const std_msg
   markers_were_built_ = false;
   const bool wait = now < next_markers_ && now > next_markers_ - marker_period_;  // a clock that went back waits not
   if (wait || markers_publisher_.getNumSubscribers() == 0) return;
-  next_markers_ = now + marker_period_;
+  next_markers_ = now < next_markers_ + marker_period_ && now >= next_markers_ ? next_markers_ + marker_period_
+                                                                              : now + marker_period_;
   markers_were_built_ = true;
   markers_publisher_.publish(markers_.build(simulation, header));
 }

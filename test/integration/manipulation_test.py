@@ -128,8 +128,11 @@ class Manipulation(unittest.TestCase):
             self.assertAlmostEqual(contact.normal.z, 1.0, delta=1e-6)
 
     def test_markers_are_sent_while_somebody_listens(self):
+        self.hand.run(0.2)
+        self.assertIn("markers", self.steps.last.parts_left_out)
         markers = Listener("manipulation/markers", MarkerArray)
         array = self.run_until(markers)
+        wait_for(lambda: any("markers" in m.parts_run for m in self.steps.messages), "a report of the markers")
         names = {m.ns for m in array.markers}
         self.assertLessEqual({"workbench", "box", "fork"}, names)
         self.assertNotIn(Marker.DELETEALL, [m.action for m in array.markers])

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "spring_workbench/ros_interface/diagnostics.h"
+#include "spring_workbench/ros_interface/live_tuning.h"
 #include "spring_workbench/ros_interface/parameters.h"
 #include "spring_workbench/ros_interface/services.h"
 #include "spring_workbench/ros_interface/simulation_runner.h"
@@ -39,6 +40,7 @@ class ManipulationNode {
   StylusInput input_;
   StatePublisher publisher_;
   Services services_;
+  std::unique_ptr<LiveTuning> live_tuning_;
   ManipulationDiagnostics diagnostics_;
   std::mutex loop_mutex_;
   LoopStatistics loop_;
