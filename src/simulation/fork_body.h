@@ -59,8 +59,6 @@ class ForkBody final : public ToolHold {
 
   /// Fills in what the fork knows of its state. `massless`: the object has no mass, and forces mean nothing.
   void describe(bool massless, ToolState& state) const override;
-  /// Pose of the rod's section at arc length `s` [m] of the rest shape, in world.
-  RigidTransform section(double s) const override;
 
   StepEstimates take_estimates() override;
 

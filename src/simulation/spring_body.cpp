@@ -134,13 +134,4 @@ void SpringBody::describe(bool, ToolState& state) const {
   state.kinetic_energy = 0.5 * mass_ * o.velocity.linear.squaredNorm() + 0.5 * w_O.dot(inertia_O_ * w_O);
 }
 
-RigidTransform SpringBody::section(double s) const {
-  const RigidTransform X_WH = hand_.at(state_.t).X;
-  const Vector3d d = span().d;
-  RigidTransform X = X_WH;
-  X.linear() = Quaterniond::FromTwoVectors(X_WH.linear().col(2), direction(d)).toRotationMatrix() * X_WH.linear();
-  X.translation() += s / rest_length_ * d;
-  return X;
-}
-
 }  // namespace spring_workbench

@@ -38,7 +38,6 @@ class SpringBody final : public ToolHold {
   double energy_added() const override { return 0.0; }
   StepEstimates take_estimates() override;
   void describe(bool massless, ToolState& state) const override;
-  RigidTransform section(double s) const override;
 
  private:
   struct State {

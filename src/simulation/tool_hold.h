@@ -41,8 +41,6 @@ class ToolHold : public SteppedBody {
   virtual StepEstimates take_estimates() = 0;
   /// Fills in what the tool knows of its state. `massless`: the object has no mass, and forces mean nothing.
   virtual void describe(bool massless, ToolState& state) const = 0;
-  /// Pose of the tool's section at arc length `s` [m] of the rest shape, in world.
-  virtual RigidTransform section(double s) const = 0;
 };
 
 }  // namespace spring_workbench
