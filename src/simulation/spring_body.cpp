@@ -125,8 +125,12 @@ void SpringBody::describe(bool, ToolState& state) const {
   const MotionState o = object();
   const RigidTransform X_WH = hand_.at(state_.t).X;
   state.stretch = s.d.norm() - rest_length_;
-  state.X_WE = section(rest_length_);
+  // Drawn straight from the hand to the object's centre.
   state.X_WH_seen = X_WH;
+  state.X_WH_seen.linear() = Quaterniond::FromTwoVectors(X_WH.linear().col(2), n).toRotationMatrix() * X_WH.linear();
+  state.X_WE = state.X_WH_seen * Eigen::Translation3d(0.0, 0.0, s.d.norm());
+  const double drawn = state.shape == "bushing" ? state.stretch : state.stretch / rest_length_;
+  state.strain[state.strain.size() - 1] = drawn;
   state.tip_wrench_W.force = -(k_ * state.stretch + c_ * n.dot(s.rate)) * n;
   state.handle_wrench_H.force = -(X_WH.linear().transpose() * state.tip_wrench_W.force);
   state.elastic_energy = elastic_energy();
