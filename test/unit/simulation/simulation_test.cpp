@@ -468,7 +468,6 @@ TEST(Simulation, SettingsThatDoNotFitAreRefused) {
   set = settings();
   set.fork.shape = "spaghetti";
   EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}), set), InputError);
-  EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}, ContactMode::dynamic), settings()), InputError);
 }
 
 /// The box held in the air by a hand at rest until it has come to rest itself.
