@@ -19,6 +19,7 @@ from stack import Launched, Listener, wait_for
 
 RECORDING = os.path.join(rospkg.RosPack().get_path("spring_workbench"), "..", "shared", "data", "motions",
                          "plus_stylus_8landmarks_60s.tum")
+PROGRAM = os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "lib", "spring_workbench", "register_tracker")
 PLACES = [(0, 0, 0), (0.4, 0, 0), (0.1, 0.3, 0), (0.35, 0.25, 0.1), (0.0, 0.15, 0.2)]  # in the workbench [m]
 OFFSET = (0.5, -0.2, 0.3, 0.1, -0.7, 0.1, 0.7)  # of the tracker in the workbench
 TIP = (0.01, -0.02, 0.15)
@@ -70,7 +71,7 @@ class RegisterTracker(unittest.TestCase):
         return self.file("motion.tum", "\n".join(lines) + "\n")
 
     def run_program(self, *arguments):
-        return subprocess.run(["rosrun", "spring_workbench", "register_tracker", *arguments], capture_output=True,
+        return subprocess.run([PROGRAM, *arguments], capture_output=True,
                               text=True, timeout=60)
 
     def register(self, *arguments):
@@ -115,8 +116,9 @@ class RegisterTracker(unittest.TestCase):
         self.refuse("at rest", "--landmarks", known, "--motion", self.motion(straight))  # without the tip
         self.refuse("turning", "--pivot", "--motion", self.file("still.tum", "".join(
             "%g 0 0 0 0 0 0 1 %d\n" % (0.02 * k, k > 10) for k in range(100))))
-        self.refuse("--out", "--pivot")
         self.refuse("one of --landmarks and --pivot")
+        self.refuse("one of --landmarks and --pivot", "--pivot", "--landmarks", known)
+        self.refuse("option", "--no-such-option")
 
     def test_recorded_stylus_on_landmarks(self):
         """A real hand: where it dwells is a touch, and the landmarks are those touches as another tracker pose sees them."""
@@ -124,22 +126,18 @@ class RegisterTracker(unittest.TestCase):
             self.skipTest("no recordings")
         rows = numpy.loadtxt(RECORDING)
         rows[:, 0] -= rows[0, 0]
-        speed = numpy.linalg.norm(numpy.gradient(rows[:, 1:4], rows[:, 0], axis=0), axis=1)
-        button, begin = numpy.zeros(len(rows), int), 0
-        touches = []
-        for k in range(1, len(rows) + 1):
-            if k < len(rows) and speed[k] < 0.01:
-                continue
-            run = slice(begin + 3, k - 3)
-            begin = k + 1
-            p = rows[run, 1:4]
-            if len(p) < 10 or len(touches) == 7 or numpy.linalg.norm(p - p.mean(0), axis=1).max() > 2e-3:
-                continue
-            if any(numpy.linalg.norm(p.mean(0) - q) < 0.02 for q in touches):
-                continue
-            touches.append(p.mean(0))
-            button[run] = 1
-        self.assertGreaterEqual(len(touches), 4)
+        windows = {k: rows[k:k + 6, 1:4] for k in range(len(rows) - 6)}  # 0.4 s
+        spread = {k: numpy.linalg.norm(p - p.mean(0), axis=1).max() for k, p in windows.items()}
+        rests = []
+        for k in sorted(spread, key=spread.get):
+            apart = all(numpy.linalg.norm(windows[k].mean(0) - windows[r].mean(0)) > 0.02 for r in rests)
+            if spread[k] < 3e-3 and apart and all(abs(k - r) > 8 for r in rests) and len(rests) < 7:
+                rests.append(k)
+        self.assertGreaterEqual(len(rests), 5)
+        touches = [windows[k].mean(0) for k in sorted(rests)]
+        button = numpy.zeros(len(rows), int)
+        for k in rests:
+            button[k:k + 6] = 1
         motion = self.file("real.tum", "".join("%.9f %s %d\n" % (r[0], " ".join("%.9f" % x for x in r[1:]), b)
                                                for r, b in zip(rows, button)))
         places = [rotation(OFFSET[3:]) @ p + OFFSET[:3] + [self.random.gauss(0, 5e-4) for _ in range(3)] for p in touches]
