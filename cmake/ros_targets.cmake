@@ -13,7 +13,7 @@ else()
   target_sources(spring_workbench_ros_interface PRIVATE src/ros_interface/live_tuning/without_dynamic_reconfigure.cpp)
 endif()
 
-set(SPRING_WORKBENCH_NODES contact_sound manipulation tracker_driver)
+set(SPRING_WORKBENCH_NODES contact_sound manipulation register_tracker tracker_driver)
 foreach(node ${SPRING_WORKBENCH_NODES})
   add_executable(${node} src/nodes/${node}.cpp)
   target_compile_options(${node} PRIVATE ${SPRING_WORKBENCH_WARNINGS})

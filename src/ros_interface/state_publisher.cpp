@@ -9,7 +9,7 @@
 namespace spring_workbench {
 namespace {
 
-constexpr uint32_t queue = 10;
+constexpr uint32_t queue = 100;  // simulated time may go on by many steps at once
 constexpr double shortest_lifetime = 2.0;  // of markers [s]
 const char* const handle_frame = "fork_handle";
 const char* const tip_frame = "fork_tip";
@@ -24,7 +24,7 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
       fork_publisher_(private_node.advertise<ForkState>("fork", queue)),
       wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", queue)),
       contacts_publisher_(private_node.advertise<Contacts>("contacts", queue)),
-      markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", queue)),
+      markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 10)),
       steps_publisher_(private_node.advertise<StepReport>("steps", queue)) {}
 
 void StatePublisher::publish(const Simulation& simulation, const ros::Time& stamp, double now) {

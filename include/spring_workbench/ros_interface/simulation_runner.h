@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -27,7 +28,8 @@ class SimulationRunner {
   /// not fit.
   SimulationRunner(const Scene& scene, const SimulationSettings& settings, const TruthSettings& truth, double grid);
 
-  /// Feeds the events, then simulates as far as the tracker's samples allow at local time `now`.
+  /// Feeds the events, then simulates as far as the tracker's samples allow at local time `now`. In simulated time what
+  /// the samples before a new epoch decide is simulated first, and the epoch waits for the next call.
   CycleReport cycle(const std::vector<StylusEvent>& events, const LocalTime& now);
 
   /// Objects back to their start, nothing held; goes on with the next sample.
@@ -49,6 +51,10 @@ class SimulationRunner {
   void apply(const NewEpoch& epoch);
   void apply(const StylusPose& pose);
   void apply(const StylusButton& button);
+  void apply(const ButtonsKnown& known);
+  void feed(const LocalTime& now);
+  bool has_more(double target) const;
+  double next_on_grid() const;
   void advance(double target, CycleReport& report);
   void start_anew();
 
@@ -57,6 +63,7 @@ class SimulationRunner {
   PlayoutClock playout_;
   Reengagement hand_;
   double grid_;              ///< [s]; 0: none
+  std::deque<StylusEvent> waiting_;  ///< not fed yet
   ros::Time zero_;           ///< of the stylus' times
   bool has_sample_ = false;  ///< since the last start
 };
