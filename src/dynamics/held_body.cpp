@@ -52,6 +52,7 @@ void HeldBody::set_springs(const PerFamily& stiffness, const PerFamily& damping_
 }
 
 void HeldBody::set_springs_and_dampers(const PerFamily& stiffness, const PerFamily& damping) {
+  if (auto shape = shape_->for_stiffness(stiffness)) shape_ = std::move(shape);
   K_ = shape_->stiffness(stiffness);
   D_ = shape_->stiffness(damping);  // (c_f / k_f) K_f, without dividing by k_f
   changed();
@@ -252,6 +253,9 @@ Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleForcing& h, const
     const int c = active_[static_cast<std::size_t>(i)];
     springs[i] = -K_[c] * q[i] - D_[c] * q_dot[i];
   }
+  if (tip.condensed_force.size() > 0) {
+    for (int i = 0; i < n; ++i) springs[i] -= tip.condensed_force[active_[static_cast<std::size_t>(i)]];
+  }
   if constexpr (n == 6) {
     if (tip.separate) {
       // Newton and Euler for the body under the tip's wrench, then back to the coordinates: no mass matrix.
@@ -406,7 +410,7 @@ StrainVector HeldBody::project_twist(const HandleForcing& h, const StrainVector&
 
 double HeldBody::elastic_energy(double t, const StrainState& state) const {
   const StrainState full = full_state(t, state);
-  return 0.5 * full.q.dot(K_.cwiseProduct(full.q));
+  return 0.5 * full.q.dot(K_.cwiseProduct(full.q)) + shape_->condensed_energy(full.q);
 }
 
 double HeldBody::kinetic_energy(const Twist& V, const Matrix3d& R_WO) const {

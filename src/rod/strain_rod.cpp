@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "piece_rotation.h"
 #include "spring_workbench/math/quadrature.h"
 
 namespace spring_workbench {
@@ -18,46 +19,6 @@ const GaussLegendre<nodes_per_piece>& rule() {
   static const GaussLegendre<nodes_per_piece> gauss;
   return gauss;
 }
-
-/// The rotation along a piece of the rod whose strain is linear, as a power series of its quaternion about the middle.
-/// The series of q' = ½ q (a + b u) converges for every strain; pieces are short enough that `most_terms` leave 1e-13.
-class PieceRotation {
- public:
-  /// `a` = h k(middle), `b` = h² dk/ds: the strain over the piece of length h is (a + b u) / h for u = −½ … ½.
-  PieceRotation(const Vector3d& a, const Vector3d& b) {
-    const double angle = a.norm() + 0.5 * b.norm();
-    terms_ = angle < 0.5 ? 13 : angle < 1.2 ? 16 : most_terms;
-    coefficients_[0] << 0.0, 0.0, 0.0, 1.0;
-    coefficients_[1] = 0.5 * times(coefficients_[0], a);
-    for (int n = 1; n + 1 < terms_; ++n) {
-      coefficients_[n + 1] = 0.5 / (n + 1) * (times(coefficients_[n], a) + times(coefficients_[n - 1], b));
-    }
-    from_start_ = at_middle(-0.5).conjugate();
-  }
-
-  /// Rotation from the piece's start to `u`.
-  Quaterniond at(double u) const { return from_start_ * at_middle(u); }
-
- private:
-  static constexpr int most_terms = 21;
-  using Coefficients = Eigen::Vector4d;  // x, y, z, w
-
-  static Coefficients times(const Coefficients& q, const Vector3d& v) {
-    Coefficients r;
-    r.head<3>() = q[3] * v + q.head<3>().cross(v);
-    r[3] = -q.head<3>().dot(v);
-    return r;
-  }
-  Quaterniond at_middle(double u) const {
-    Coefficients sum = coefficients_[terms_ - 1];
-    for (int n = terms_ - 2; n >= 0; --n) sum = coefficients_[n] + u * sum;
-    return Quaterniond(sum);
-  }
-
-  int terms_;
-  Coefficients coefficients_[most_terms];
-  Quaterniond from_start_;
-};
 
 }  // namespace
 
@@ -118,7 +79,7 @@ void StrainRod::tip(const StrainVector& q, const StrainVector& q_dot, TipKinemat
     const double s_begin = piece * h;
     Nodes d1, d2, d3, rates;
     const Vector3d middle = k.value + k.slope * (s_begin + 0.5 * h - 0.5 * length());
-    const PieceRotation rotation(h * middle, h * h * k.slope);
+    const PieceRotation<1> rotation({h * middle, h * h * k.slope});
     for (int i = 0; i < nodes_per_piece; ++i) {
       const double s = gauss.nodes[i] * h;
       const Matrix3d R = (turned * rotation.at(gauss.nodes[i] - 0.5)).toRotationMatrix();
@@ -189,7 +150,7 @@ RigidTransform StrainRod::section(const StrainVector& q, double s) const {
   Vector3d p = Vector3d::Zero();
   for (int piece = 0; piece < count; ++piece) {
     const Vector3d middle = k.value + k.slope * ((piece + 0.5) * h - 0.5 * length());
-    const PieceRotation rotation(h * middle, h * h * k.slope);
+    const PieceRotation<1> rotation({h * middle, h * h * k.slope});
     for (int i = 0; i < nodes_per_piece; ++i) {
       p += h * gauss.weights[i] * (turned * rotation.at(gauss.nodes[i] - 0.5) * Vector3d::UnitZ());
     }
