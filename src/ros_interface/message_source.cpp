@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <thread>
 
 namespace spring_workbench {
 namespace {
@@ -17,18 +18,16 @@ double steady_now() {
 
 std::vector<StationSample> MessageSource::read(double timeout) {
   constexpr double interval = 1.0 / 60.0;  // [s]
-  const double until = std::min(steady_now() + timeout, last_ + interval);
-  for (double now = steady_now(); ros::ok() && now < until; now = steady_now()) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(until - now));
-  }
+  const double wait = last_ + interval - steady_now();
+  if (wait > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(wait, timeout)));
+  ros::getGlobalCallbackQueue()->callAvailable();
   const double now = steady_now();
   if (now < last_ + interval) return {};
   const bool on_time = now < last_ + 2.0 * interval;
-  const double due = on_time ? last_ + interval : now;
   StationSample sample;
-  sample.received = due;
-  advance(last_ > 0.0 ? due - last_ : 0.0, sample);
-  last_ = due;
+  sample.received = on_time ? last_ + interval : now;
+  advance(last_ > 0.0 ? sample.received - last_ : 0.0, sample);
+  last_ = sample.received;
   return {sample};
 }
 

@@ -164,7 +164,7 @@ void ForkDisplay::draw(const ForkState& fork) {
   const Ogre::ColourValue color = load_color(load / static_cast<double>(full_load_->getFloat()));
   spring_material_->setAmbient(color * 0.5F);
   spring_material_->setDiffuse(color);
-  const bool is_new = object_->getNumSections() == 0;
+  const bool is_new = object_->getSections().empty();
   fill(0, model_.spring(), spring_material_, is_new);
   fill(1, model_.shaft_and_end(), rigid_material_, is_new);
   object_->setVisible(true);

@@ -25,8 +25,11 @@ void HeadViewController::update(float, float) {
   setStatus("following " + frame_->getFrame());
   // Ogre's cameras look along -z, y up.
   const Ogre::Quaternion camera_in_head(Ogre::Vector3(0, -1, 0), Ogre::Vector3(0, 0, 1), Ogre::Vector3(-1, 0, 0));
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wdeprecated-declarations"  // rviz hangs its cameras into the scene's root
   camera_->setPosition(position);
   camera_->setOrientation(rotation * camera_in_head);
+#pragma GCC diagnostic pop
 }
 
 }  // namespace spring_workbench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/node_handle.h>
+#include <ros/service.h>
 #include <ros/service_client.h>
 
 #include <condition_variable>

@@ -16,9 +16,14 @@ bool is_down(const std::vector<int>& buttons, int number) {
 }
 
 std::array<int, 6> read_axes(const YAML::Node& node, const std::string& where) {
-  if (!node.IsSequence() || node.size() != 6) refuse(where, "axes", "this value", "a list of six axis numbers, -1 for none");
+  const std::vector<double> numbers = read_numbers(node, where, "axes", 6);
   std::array<int, 6> axes{};
-  for (std::size_t i = 0; i < 6; ++i) axes[i] = read_integer(node[i], where, "axes", -1, most_controls - 1);
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (!(numbers[i] >= -1.0 && numbers[i] < most_controls && numbers[i] == std::floor(numbers[i]))) {
+      refuse(where, "axes", std::to_string(numbers[i]), "the number of an axis, or -1 for none");
+    }
+    axes[i] = static_cast<int>(numbers[i]);
+  }
   return axes;
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The sources of tracker_driver that messages move: a marker as rviz drags it, and a game pad."""
 import math
+import os
 import subprocess
 import sys
 import unittest
@@ -15,6 +16,7 @@ from visualization_msgs.msg import InteractiveMarkerFeedback, InteractiveMarkerI
 
 from stack import DEADLINE, Listener, diagnostic_values, diagnostics_listener, wait_for
 
+DEVEL = os.environ["CMAKE_PREFIX_PATH"].split(":")[0]
 START = (0.1, -0.2, 0.3)
 
 
@@ -22,12 +24,14 @@ class Driver:
     """tracker_driver with a source; ended at the end of the block."""
 
     def __init__(self, source, *parameters):
-        self.arguments = ["rosrun", "spring_workbench", "tracker_driver", "_source:=" + source,
+        self.arguments = [DEVEL + "/lib/spring_workbench/tracker_driver", "_source:=" + source,
                           "_start:=%g %g %g 1 0 0 0" % START, *parameters]
 
     def __enter__(self):
         self.tf, self.joy = Listener("/tf", TFMessage), Listener("stylus/joy", Joy)
         self.diagnostics = diagnostics_listener()
+        if rospy.has_param("/tracker_driver"):
+            rospy.delete_param("/tracker_driver")
         self.process = subprocess.Popen(self.arguments)
         wait_for(lambda: self.poses(), "the stylus")
         return self
@@ -37,9 +41,6 @@ class Driver:
         self.process.wait(DEADLINE)
         for listener in [self.tf, self.joy, self.diagnostics]:
             listener.subscriber.unregister()
-        for name in ["source", "start", "axes"]:
-            if rospy.has_param("/tracker_driver/" + name):
-                rospy.delete_param("/tracker_driver/" + name)
 
     def poses(self):
         return [t for m in list(self.tf.messages) for t in m.transforms if t.child_frame_id == "stylus"]
@@ -113,7 +114,7 @@ class MovedByMessages(unittest.TestCase):
             self.check_stream(driver)
 
     def test_game_pad(self):
-        with Driver("joy", "_axes:=[1, 0, 2, -1, -1, 3]") as driver:
+        with Driver("joy", "_axes:=1 0 2 -1 -1 3") as driver:
             publisher = rospy.Publisher("joy", Joy, queue_size=10)
             wait_for(publisher.get_num_connections, "the driver to listen")
 
