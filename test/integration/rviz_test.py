@@ -117,19 +117,26 @@ class Rviz(unittest.TestCase):
         return x - 12, y + 8
 
     def drag_to(self, x, z):
-        """The marker's ball, until the hand is there."""
+        """The marker's arrows, until the hand is there."""
+        arrow = 0.115 / self.picture.metres  # from the handle [pixels]
         for _ in range(8):
             dx, dz = x - self.hand().x, z - self.hand().z
             if abs(dx) < 0.006 and abs(dz) < 0.006:
                 return
-            xdotool("mousemove", *self.grab(), "sleep", 0.3, "mousedown", 1)
-            steps = 20
-            begin = self.grab()
-            for k in range(1, steps + 1):
-                xdotool("mousemove", round(begin[0] + dx / self.picture.metres * k / steps),
-                        round(begin[1] - dz / self.picture.metres * k / steps), "sleep", 0.04)
-            xdotool("sleep", 0.5, "mouseup", 1, "sleep", 0.8)
+            if abs(dz) >= 0.006:
+                self.drag((0, -arrow), (0, -dz / self.picture.metres))
+            if abs(dx) >= 0.006:
+                self.drag((arrow, 0), (dx / self.picture.metres, 0))
         self.fail("the hand is at %s, not at x %g, z %g" % (self.hand(), x, z))
+
+    def drag(self, grip, way):
+        """From a place beside the handle, by a way; pixels."""
+        begin = [a + b for a, b in zip(self.picture.pixel(self.hand()), grip)]
+        steps = 20
+        xdotool("mousemove", round(begin[0]), round(begin[1]), "sleep", 0.4, "mousedown", 1)
+        for k in range(1, steps + 1):
+            xdotool("mousemove", *[round(a + b * k / steps) for a, b in zip(begin, way)], "sleep", 0.04)
+        xdotool("sleep", 0.5, "mouseup", 1, "sleep", 0.8)
 
     def choose_grasp(self, down):
         xdotool("mousemove", *self.grab(), "sleep", 0.3, "click", 3, "sleep", 1.0, "mousemove_relative", 40, 12,
@@ -156,6 +163,8 @@ class Rviz(unittest.TestCase):
         self.drag_to(lying.x, 0.4)
         self.objects.next(lambda m: m.objects[0].pose.position.z > lying.z + 0.08, "the box to be lifted")
         self.drag_to(lying.x + 0.12, 0.4)
+        if "SPRING_WORKBENCH_PICTURE" in os.environ:  # for the documentation
+            subprocess.run(["import", "-window", "root", os.environ["SPRING_WORKBENCH_PICTURE"]], check=True)
         self.drag_to(lying.x + 0.12, lying.z + 0.21)
         self.choose_grasp(0)
         there = self.objects.next(lambda m: not m.objects[0].held and m.objects[0].asleep, "the box at rest").objects[0]
