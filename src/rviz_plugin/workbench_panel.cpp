@@ -99,6 +99,7 @@ void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
   integrator_ = new QComboBox(this);
   for (const std::string& name : integrator_names()) integrator_->addItem(QString::fromStdString(name));
   tool_ = new QLabel(this);
+  tool_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // the panel keeps its width whatever is held
   scene_ = new QLineEdit("package://spring_workbench/scenes/mini_world.urdf", this);
   auto* load = new QPushButton("Load", this);
   grid->addWidget(new QLabel("Integrator", this), 0, 0);
@@ -147,6 +148,7 @@ QWidget* WorkbenchPanel::make_figures() {
   auto* layout = new QVBoxLayout(box);
   layout->setContentsMargins(0, 0, 0, 0);
   figures_ = new QLabel(box);
+  figures_->setWordWrap(true);
   left_out_ = new QLabel(box);
   left_out_->setWordWrap(true);
   plot_ = new ErrorPlot(box);
