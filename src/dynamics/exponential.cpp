@@ -17,7 +17,7 @@ constexpr int most_sweeps = 7;
 constexpr int most_halvings = 4;
 /// Sweeps stop when what they would still change is below this share of the error that the cubic itself makes, or below
 /// this share of the strain.
-constexpr double share_of_error = 1.0;
+constexpr double share_of_error = 0.1;
 constexpr double share_of_strain = 1e-12;
 /// A sweep that leaves more than this of the last one's change will not come to an end soon.
 constexpr double slow_contraction = 0.6;
