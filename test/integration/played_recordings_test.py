@@ -113,7 +113,7 @@ class PlayedRecordings(unittest.TestCase):
                 with self.subTest(path=path):
                     watch, diagnostics = Watch(), diagnostics_listener()
                     with Launched("workbench.launch", SCENE, "settings:=" + self.settings, "rviz:=false",
-                                  "source:=motion_file", "motion:=" + path, "pause:=30"):
+                                  "input:=motion_file", "motion:=" + path, "pause:=30"):
                         wait_for(lambda: diagnostic_values(diagnostics.messages, "source").get("state") == "over",
                                  "the motion's end", 120.0)
                         values = wait_for(lambda: diagnostic_values(diagnostics.messages, "tracker input"), "input")
