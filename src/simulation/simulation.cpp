@@ -286,7 +286,8 @@ void Simulation::Impl::note_contacts(std::size_t object, const ContactOutcome& o
     c.p_W = row.point.p_W;
     c.n_W = row.point.n_W;
     c.depth = std::max(0.0, -row.gap);
-    c.impulse = h * std::max(0.0, row.load_W.dot(row.point.n_W));
+    c.force = std::max(0.0, row.load_W.dot(row.point.n_W));
+    c.impulse = h * c.force;
     const Vector3d v = o.V_WO_W.linear + o.V_WO_W.angular.cross(row.point.p_W - o.X_WO.translation());
     c.slip_speed = (v - row.point.n_W * v.dot(row.point.n_W)).norm();
     now_touching.push_back(c);
@@ -294,7 +295,7 @@ void Simulation::Impl::note_contacts(std::size_t object, const ContactOutcome& o
   // What was touched and is no more, until it has been told.
   for (ContactState& c : touching[object]) {
     if (contains_pair(now_touching, c)) continue;
-    c.impulse = 0.0;
+    c.impulse = c.force = 0.0;
     ended.push_back(c);
   }
   touching[object] = std::move(now_touching);

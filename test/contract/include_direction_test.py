@@ -15,7 +15,7 @@ EXTERNAL = [  # headers, rooms that may use them, whether their public headers m
     (re.compile(r"^fcl/"), {"collision"}, False),
     (re.compile(r"^(urdf\w*|assimp)/"), {"scene"}, False),
 ]
-USERS = {"nodes": {"ros_interface"}, "apps": {"simulation", "tracker"}}  # folders of executables, not rooms
+USERS = {"nodes": {"ros_interface"}, "apps": {"simulation", "tracker", "operator"}}  # folders of executables, not rooms
 
 
 def rooms_of(cmake_text):
