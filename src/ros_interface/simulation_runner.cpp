@@ -5,7 +5,7 @@
 namespace spring_workbench {
 
 SimulationRunner::SimulationRunner(const Scene& scene, const SimulationSettings& settings)
-    : simulation_(std::make_unique<Simulation>(scene, settings)), playout_(settings.dropout_after) {}
+    : simulation_(std::make_unique<Simulation>(scene, settings)), task_(scene), playout_(settings.dropout_after) {}
 
 CycleReport SimulationRunner::cycle(const std::vector<StylusEvent>& events, double now) {
   constexpr double longest_catch_up = 5.0;  // [s] beyond this, time has leapt
@@ -19,6 +19,7 @@ CycleReport SimulationRunner::cycle(const std::vector<StylusEvent>& events, doub
     report.leapt = true;
   } else if (has_sample_ && target > simulation_->time()) {
     report.advance = simulation_->advance(target);
+    task_.observe(*simulation_);
   }
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
@@ -39,6 +40,7 @@ void SimulationRunner::apply(const StylusButton& button) { simulation_->push_but
 
 void SimulationRunner::start_anew() {
   simulation_->reset();
+  task_.reset();
   playout_.clear();
   has_sample_ = false;
 }
@@ -51,6 +53,7 @@ void SimulationRunner::restart() {
 void SimulationRunner::load(const Scene& scene) {
   const std::lock_guard<std::mutex> lock(mutex_);
   simulation_ = std::make_unique<Simulation>(scene, simulation_->settings());
+  task_ = TaskMonitor(scene);
   playout_.clear();
   has_sample_ = false;
 }

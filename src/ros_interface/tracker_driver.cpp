@@ -31,7 +31,7 @@ std::string resolve(const std::string& path_or_uri) {
 
 TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const std::string& where) {
   check_keys(parameters, where, "",
-             {"source", "file", "rate", "speed", "loop", "pause", "workbench_frame", "stylus_frame", "head_frame",
+             {"source", "file", "scene", "seed", "rate", "speed", "loop", "pause", "workbench_frame", "stylus_frame", "head_frame",
               "offset", "start", "head", "grasp_from", "grasp_until"});
   constexpr double unbounded = std::numeric_limits<double>::max();
   TrackerParameters result;
@@ -43,9 +43,14 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
     if (value.empty()) refuse(where, key, "(nothing)", "a string that is not empty");
   };
   if (parameters["source"]) {
-    result.source = read_choice(parameters["source"], where, "source", {"motion_file", "scripted"});
+    result.source = read_choice(parameters["source"], where, "source", {"motion_file", "scripted", "operator"});
   }
-  text("file", result.file);
+  if (result.source == "operator") {
+    text("scene", result.scene);
+    if (parameters["seed"]) result.seed = read_integer(parameters["seed"], where, "seed", 0, 1000000000);
+  } else {
+    text("file", result.file);
+  }
   text("workbench_frame", result.workbench_frame);
   text("stylus_frame", result.stylus_frame);
   text("head_frame", result.head_frame);
@@ -70,12 +75,22 @@ TrackerDriver::TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
       X_BT_(parameters_.X_BT),
       joy_publisher_(node.advertise<sensor_msgs::Joy>("stylus/joy", 100)),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
+  if (parameters_.source == "operator") {
+    eyes_ = std::make_unique<OperatorEyes>(node);
+    return;
+  }
   const auto first = open()->next();
   if (!first) throw InputError(parameters_.file + ": no samples: must be at least one");
   if (parameters_.X_BS_first) X_BT_ = *parameters_.X_BS_first * first->X.inverse();
 }
 
-std::unique_ptr<StylusSource> TrackerDriver::open() const {
+std::unique_ptr<StylusSource> TrackerDriver::open() {
+  if (eyes_) {
+    OperatorSettings settings;
+    settings.seed = static_cast<unsigned>(parameters_.seed);
+    eyes_->wait();
+    return std::make_unique<SimulatedOperator>(load_scene(parameters_.scene), settings, [this] { return eyes_->look(); });
+  }
   const std::string path = resolve(parameters_.file);
   if (parameters_.source == "scripted") return std::make_unique<ScriptedSource>(path);
   return std::make_unique<RecordedSource>(read_motion_file(path));

@@ -76,8 +76,8 @@ struct Simulation::Impl {
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow);
   void let_go(bool thrown);
   void wake_what_lies_on(std::size_t object);
-  HeldBody make_held(std::size_t object, const RigidTransform& X_OE) const;
-  void calibrate_for(std::size_t object);
+  HeldBody make_held(std::size_t object, const RigidTransform& X_OE);
+  void calibrate(HeldBody& held_body);
   void carry(SteppedBody& stepped, std::size_t object, double h);
   void take_state(std::size_t object, const MotionState& s);
   void note_contacts(std::size_t object, const ContactOutcome& outcome, double h);
@@ -148,7 +148,7 @@ void Simulation::Impl::take_state(std::size_t object, const MotionState& s) {
   if (collision) collision->set_pose(movable[object], s.X);
 }
 
-HeldBody Simulation::Impl::make_held(std::size_t object, const RigidTransform& X_OE) const {
+HeldBody Simulation::Impl::make_held(std::size_t object, const RigidTransform& X_OE) {
   const Body& b = body(object);
   BodyInertia inertia{b.mass_properties.mass, b.mass_properties.inertia_O, X_OE};
   if (settings.dynamics.inertia == "point_mass") {
@@ -162,27 +162,39 @@ HeldBody Simulation::Impl::make_held(std::size_t object, const RigidTransform& X
     inertia.inertia_O.setIdentity();
   }
   HeldBody held_body(make_shape_model(settings.fork.shape, settings.fork.length), inertia, scene.gravity);
-  held_body.set_springs(settings.fork.stiffness, settings.fork.damping_ratio);
+  if (settings.grasp.calibrate && !massless) {
+    calibrate(held_body);
+  } else {
+    held_body.set_springs(settings.fork.stiffness, settings.fork.damping_ratio);
+  }
   const StrainState zero{StrainVector::Zero(held_body.shape().size()), StrainVector::Zero(held_body.shape().size())};
   held_body.set_dofs(massless ? ForkDofs{false, false, false} : settings.fork.dofs, now,
                      settings.fork.switch_off_time, zero);
   return held_body;
 }
 
-void Simulation::Impl::calibrate_for(std::size_t object) {
-  settings.fork.stiffness =
-      calibrated_stiffness(body(object).mass_properties.mass, std::max(bounding_radius(body(object)), 1e-4),
-                           settings.fork.length, scene.gravity);
+/// Springs for the object as it is grasped; in every direction the damping ratio that is set for the family.
+void Simulation::Impl::calibrate(HeldBody& held_body) {
+  const ForkCalibration fork_for_it =
+      calibrated_fork(settings.fork.shape, settings.fork.length, held_body.body(), scene.gravity);
+  const PerFamily& ratio = settings.fork.damping_ratio;
+  const PerFamily& c = fork_for_it.damping;
+  settings.fork.stiffness = fork_for_it.stiffness;
+  held_body.set_springs_and_dampers(fork_for_it.stiffness, {ratio.stretch * c.stretch, ratio.bend * c.bend,
+                                                            ratio.torsion * c.torsion});
 }
 
 void Simulation::Impl::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow) {
+  const MassProperties& mass = body(object).mass_properties;
+  if (settings.grasp.calibrate && follow && mass.mass > 0.0) {  // the object comes to the tip, wherever that is
+    settings.fork.length = calibrated_length({mass.mass, mass.inertia_O, RigidTransform::Identity()});
+  }
   RigidTransform X_HE = RigidTransform::Identity();
   X_HE.translation().z() = settings.fork.length;
   const MotionSegment& segment = track.segment(now);
   const MotionState hand_now = segment.at(now);
   const RigidTransform X_WE = hand_now.X * X_HE;
   const RigidTransform G = X_OE ? *X_OE : RigidTransform(objects[object].X_WO.inverse() * X_WE);
-  if (settings.grasp.calibrate) calibrate_for(object);
   held = object;
   fork = std::make_unique<ForkBody>(movable[object], make_held(object, G), make_integrator(settings.dynamics.integrator),
                                     now);
@@ -508,8 +520,7 @@ ChangeReport Simulation::calibrate() {
   if (!impl_->fork) throw InputError("calibrate: held object: none is not allowed: must be an object that the fork holds");
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
-  impl_->calibrate_for(impl_->held);
-  impl_->fork->held().set_springs(impl_->settings.fork.stiffness, impl_->settings.fork.damping_ratio);
+  if (impl_->body(impl_->held).mass_properties.mass > 0.0) impl_->calibrate(impl_->fork->held());
   change.elastic_energy_after = impl_->elastic_energy();
   change.message = "calibrated for " + impl_->objects[impl_->held].name;
   return change;

@@ -9,14 +9,17 @@
 #include <optional>
 #include <string>
 
+#include "spring_workbench/ros_interface/operator_eyes.h"
 #include "spring_workbench/tracker/stylus_source.h"
 
 namespace spring_workbench {
 
 /// Private parameters of the node `tracker_driver`.
 struct TrackerParameters {
-  std::string source = "motion_file";         ///< `source`: motion_file or scripted
-  std::string file;                           ///< `file`, required: path or package:// URI of the motion or script
+  std::string source = "motion_file";         ///< `source`: motion_file, scripted or operator
+  std::string file;                           ///< `file`, required but for operator: path or package:// URI of the motion
+  std::string scene;                          ///< `scene`, required for operator: URDF of the scene to assemble
+  int seed = 1;                               ///< `seed` of the operator, 0 … 1e9
   double rate = 0.0;                          ///< `rate` [Hz], >= 0: the most that is sent; 0: every sample
   double speed = 1.0;                         ///< `speed`, 0.01 … 100: 2 plays twice as fast
   bool loop = false;                          ///< `loop`: from the start again after the last sample
@@ -51,11 +54,12 @@ class TrackerDriver {
   void send(const StylusSample& sample, const ros::Time& stamp);
   void wait_until(double t);
   void publish_diagnostics();
-  std::unique_ptr<StylusSource> open() const;
+  std::unique_ptr<StylusSource> open();
 
   const TrackerParameters parameters_;
   const std::string name_;
   RigidTransform X_BT_;
+  std::unique_ptr<OperatorEyes> eyes_;  ///< for the operator
   std::size_t sent_ = 0, left_out_ = 0, passes_ = 0;
   double interval_ = 0.0;  ///< between the last two samples sent [s]
   bool over_ = false;
