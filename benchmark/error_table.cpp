@@ -2,31 +2,27 @@
 
 #include <algorithm>
 #include <array>
-#include <iomanip>
-#include <ostream>
+#include <limits>
+#include <sstream>
 
 namespace spring_workbench::benchmark {
 
 ErrorTablePlan error_table_plan(bool quick) {
   ErrorTablePlan plan;
-  const std::vector<double> springs = quick ? std::vector<double>{1e4, 1e8} : std::vector<double>{1e2, 1e4, 1e6, 1e8};
+  const std::vector<double> springs = quick ? std::vector<double>{1e4} : std::vector<double>{1e2, 1e4, 1e6, 1e8};
   const std::vector<double> twists = quick ? std::vector<double>{1e4} : std::vector<double>{1.0, 1e2, 1e4, 1e6};
   const std::vector<double> factors =
       quick ? std::vector<double>{1.0, 100.0} : std::vector<double>{1.0, 100.0, 1e4, 1e6};
   for (const double k : springs) plan.scenes.push_back(stretch_scene(k));
   for (const double k : twists) plan.scenes.push_back(torsion_scene(k));
   for (const double factor : factors) plan.scenes.push_back(six_dof_scene(factor));
-  if (quick) {
-    plan.steps_per_output = {1, 4, 16, 64};
-    plan.tolerances = {1e-4, 1e-6, 1e-8, 1e-10};
-    plan.own_solution_steps = 64;
-  } else {
-    for (int n = 1; n <= 4096; n *= 2) plan.steps_per_output.push_back(n);
-    plan.tolerances = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11};
-    plan.own_solution_steps = 512;
-    plan.repeats = 5;
-    plan.time_limit = 20.0;
+  for (int n = 1; n <= 8192; n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
+  for (double tolerance = 1e-3; tolerance > 5e-12; tolerance *= quick ? 1e-2 : 1e-1) {
+    plan.tolerances.push_back(tolerance);
   }
+  plan.own_solution_steps = quick ? 64 : 256;
+  plan.longest_run = quick ? 0.003 : 0.025;
+  plan.repetition = quick ? Repetition{1, 0.005} : Repetition{3, 0.05};
   return plan;
 }
 
@@ -37,7 +33,7 @@ bool run_three(const Method& method, const Scenario& scene, int steps, double ti
                std::array<RunResult, 3>& runs) {
   double step = scene.output_interval / steps;
   for (RunResult& run : runs) {
-    run = run_isolated(method, scene, step, 1, time_limit);
+    run = run_isolated(method, scene, step, {}, time_limit);
     if (!run.finite) return false;
     step *= 0.5;
   }
@@ -69,12 +65,18 @@ namespace {
 
 ErrorRow error_row(const Method& method, const Scenario& scene, const ReferenceSolution& reference, double setting,
                    const ErrorTablePlan& plan) {
-  const RunResult run = run_isolated(method, scene, setting, plan.repeats, plan.time_limit);
+  const RunResult run = run_isolated(method, scene, setting, plan.repetition, plan.time_limit);
   ErrorRow row;
   row.scene = scene.name;
   row.stiffness_factor = scene.stiffness_factor;
   row.method = method.name();
-  (method.knob() == Method::Knob::step ? row.step : row.tolerance) = setting;
+  row.hand = method.hand();
+  if (method.knob() == Method::Knob::step) {
+    row.step = setting;
+    row.steps_per_second = steps_per_output(scene, setting) / scene.output_interval;
+  } else {
+    row.tolerance = setting;
+  }
   row.reference_uncertainty = reference.uncertainty;
   row.finite = run.finite && !reference.outputs.empty();
   if (!row.finite) return row;
@@ -86,6 +88,22 @@ ErrorRow error_row(const Method& method, const Scenario& scene, const ReferenceS
 }
 
 }  // namespace
+
+bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run) {
+  const ErrorRow& last = rows.back();
+  if (!last.finite) return false;
+  if (1e-6 * last.wall_us_per_simulated_second > longest_run || last.error <= 2.0 * last.reference_uncertainty) {
+    return true;
+  }
+  double best = std::numeric_limits<double>::infinity();
+  int without_gain = 0;
+  for (const ErrorRow& row : rows) {
+    if (!row.finite) continue;
+    without_gain = row.error < 0.8 * best ? 0 : without_gain + 1;
+    best = std::min(best, row.error);
+  }
+  return without_gain >= 3 && last.error_over_hand_amplitude < 1e-2;
+}
 
 std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, const ReferenceSolution& reference,
                                  const ErrorTablePlan& plan) {
@@ -101,46 +119,26 @@ std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, co
   for (const double setting : settings) {
     rows.push_back(error_row(method, scene, measured_against, setting, plan));
     rows.back().own_reference = own;
-    if (1e-6 * rows.back().wall_us_per_simulated_second * scene.duration > plan.longest_run) break;
+    if (line_is_over(rows, plan.longest_run)) break;
   }
   return rows;
 }
 
-void write_header(std::ostream& out) {
-  out << "scene,stiffness_factor,method,step,tolerance,own_reference,reference_uncertainty,error_abs,"
-         "error_over_hand_amplitude,error_over_largest_deflection,wall_us_per_simulated_second,finite\n";
+std::size_t line_count(const std::vector<const Method*>& methods, const ErrorTablePlan& plan) {
+  return methods.size() * plan.scenes.size();
 }
 
-void write_row(const ErrorRow& row, std::ostream& out) {
-  out << std::setprecision(6) << row.scene << ',' << row.stiffness_factor << ',' << row.method << ',';
-  if (row.step > 0.0) out << row.step;
-  out << ',';
-  if (row.tolerance > 0.0) out << row.tolerance;
-  out << ',' << row.own_reference << ',' << row.reference_uncertainty << ',';
-  if (row.finite) {
-    out << row.error << ',' << row.error_over_hand_amplitude << ',' << row.error_over_largest_deflection << ','
-        << row.wall_us_per_simulated_second;
-  } else {
-    out << ",,,";
-  }
-  out << ',' << row.finite << '\n';
-}
-
-std::vector<ErrorRow> write_error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan,
-                                        std::ostream& out, std::ostream& progress) {
-  write_header(out);
+std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan,
+                                  Progress& progress) {
   std::vector<ErrorRow> all;
-  std::size_t done = 0;
   for (const Scenario& scene : plan.scenes) {
     const ReferenceSolution reference = reference_solution(scene);
     for (const Method* method : methods) {
-      progress << '[' << ++done << '/' << plan.scenes.size() * methods.size() << "] " << scene.name << " × "
-               << scene.stiffness_factor << ' ' << method->name() << std::endl;
-      for (const ErrorRow& row : error_rows(*method, scene, reference, plan)) {
-        write_row(row, out);
-        all.push_back(row);
-      }
-      out.flush();
+      std::ostringstream what;
+      what << scene.name << " × " << scene.stiffness_factor << ' ' << method->name();
+      progress.next(what.str());
+      const std::vector<ErrorRow> rows = error_rows(*method, scene, reference, plan);
+      all.insert(all.end(), rows.begin(), rows.end());
     }
   }
   return all;

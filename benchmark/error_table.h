@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "benchmark/method.h"
+#include "benchmark/progress.h"
 #include "benchmark/reference_solution.h"
 
 namespace spring_workbench::benchmark {
@@ -14,9 +15,9 @@ struct ErrorTablePlan {
   std::vector<int> steps_per_output;  ///< methods with a step take output_interval divided by these
   std::vector<double> tolerances;     ///< methods with a tolerance
   int own_solution_steps = 0;         ///< steps per output of the coarsest of the three runs of own_solution()
-  double longest_run = 0.5;           ///< settings beyond the first that takes longer are left out [s]
-  int repeats = 1;                    ///< runs of which the fastest counts
-  double time_limit = 60.0;           ///< of a run [s]
+  double longest_run = 0.025;         ///< a line ends with the first run that takes longer [s per simulated second]
+  Repetition repetition;
+  double time_limit = 20.0;           ///< of a run [s]
 };
 
 /// The plan for the report: all stiffnesses and steps, or a few of them.
@@ -25,16 +26,21 @@ ErrorTablePlan error_table_plan(bool quick);
 /// A line of the table.
 struct ErrorRow {
   std::string scene;
-  double stiffness_factor = 0.0;
+  double stiffness_factor = 1.0;
+  std::string shape = "bushing";
   std::string method;
+  std::string hand = "function";       ///< how the method knows the hand: as in Method::hand()
   double step = 0.0;                   ///< [s]; 0 for a method with a tolerance
   double tolerance = 0.0;              ///< 0 for a method with a step
   bool own_reference = false;          ///< measured against the method's own solution
   double reference_uncertainty = 0.0;  ///< [m or rad]
-  double error = 0.0;                  ///< largest after scene.settled_after [m or rad]
+  double error = 0.0;                  ///< largest [m; in B rad]
+  double angle_error = 0.0;            ///< largest [rad]; of rods alone
   double error_over_hand_amplitude = 0.0;
   double error_over_largest_deflection = 0.0;
   double wall_us_per_simulated_second = 0.0;
+  double steps_per_second = 0.0;       ///< taken, per simulated second; 0: not known
+  double error_over_tolerance = 0.0;   ///< of rods run to a tolerance: error_as_length() over it
   bool finite = false;
 };
 
@@ -43,16 +49,21 @@ struct ErrorRow {
 /// not finite, all three are made with smaller steps, down to an eighth; empty outputs when that is not enough.
 ReferenceSolution own_solution(const Method& method, const Scenario& scene, int steps, double time_limit);
 
-/// Rows of one method on one scene; `reference` is that of the scene.
+/// Whether a line that gave `rows` so far, finest last, is worth no finer setting: its last run took longer than
+/// `longest_run` [s per simulated second], it is down at the uncertainty of its reference, or three settings in a row
+/// have not lowered its error.
+bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run);
+
+/// Rows of one method on one scene, coarsest first, until line_is_over(); `reference` is that of the scene.
 std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, const ReferenceSolution& reference,
                                  const ErrorTablePlan& plan);
 
-/// The header line of the CSV, and one row of it.
-void write_header(std::ostream& out);
-void write_row(const ErrorRow& row, std::ostream& out);
+/// The rows with a header line, as CSV.
+void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out);
 
-/// Everything, as CSV to `out` as it comes; progress to `progress`. Returns the rows.
-std::vector<ErrorRow> write_error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan,
-                                        std::ostream& out, std::ostream& progress);
+/// Number of lines, and the rows of all of them.
+std::size_t line_count(const std::vector<const Method*>& methods, const ErrorTablePlan& plan);
+std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan,
+                                  Progress& progress);
 
 }  // namespace spring_workbench::benchmark

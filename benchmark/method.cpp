@@ -12,8 +12,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kBound = 1000.0;   // m or rad
-constexpr double kRepeatFor = 0.1;  // s
+constexpr double kBound = 1000.0;  // m or rad
 
 /// What goes through the pipe before the outputs.
 struct Header {
@@ -44,10 +43,10 @@ bool read_all(int file, void* data, std::size_t size) {
   return true;
 }
 
-RunResult run_repeatedly(const Method& method, const Scenario& scene, double setting, int repeats) {
+RunResult run_repeatedly(const Method& method, const Scenario& scene, double setting, const Repetition& repetition) {
   RunResult best = method.run(scene, setting);
   double spent = best.wall_seconds;
-  for (int i = 1; i < repeats && best.finite && spent < kRepeatFor; ++i) {
+  for (int runs = 1; best.finite && wants_another(repetition, runs, spent); ++runs) {
     const RunResult again = method.run(scene, setting);
     spent += again.wall_seconds;
     best.wall_seconds = std::min(best.wall_seconds, again.wall_seconds);
@@ -55,14 +54,14 @@ RunResult run_repeatedly(const Method& method, const Scenario& scene, double set
   return best;
 }
 
-[[noreturn]] void child(int pipe, const Method& method, const Scenario& scene, double setting, int repeats,
-                        double time_limit) {
+[[noreturn]] void child(int pipe, const Method& method, const Scenario& scene, double setting,
+                        const Repetition& repetition, double time_limit) {
   const int nowhere = open("/dev/null", O_WRONLY);  // engines print when they fail
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
   alarm(static_cast<unsigned>(std::ceil(time_limit)));
   try {
-    const RunResult result = run_repeatedly(method, scene, setting, repeats);
+    const RunResult result = run_repeatedly(method, scene, setting, repetition);
     const Header header{result.wall_seconds, result.outputs.size(), result.finite};
     const bool sent = write_all(pipe, &header, sizeof(header)) &&
                       write_all(pipe, result.outputs.data(), result.outputs.size() * sizeof(Vector3d));
@@ -74,14 +73,19 @@ RunResult run_repeatedly(const Method& method, const Scenario& scene, double set
 
 }  // namespace
 
-RunResult run_isolated(const Method& method, const Scenario& scene, double setting, int repeats, double time_limit) {
+bool wants_another(const Repetition& repetition, int runs, double spent) {
+  return (runs < repetition.runs || spent < repetition.seconds) && spent < kMostSeconds;
+}
+
+RunResult run_isolated(const Method& method, const Scenario& scene, double setting, const Repetition& repetition,
+                       double time_limit) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe for a run of " + method.name());
   const pid_t process = fork();
   if (process < 0) throw std::runtime_error("no process for a run of " + method.name());
   if (process == 0) {
     close(ends[0]);
-    child(ends[1], method, scene, setting, repeats, time_limit);
+    child(ends[1], method, scene, setting, repetition, time_limit);
   }
   close(ends[1]);
   RunResult result;

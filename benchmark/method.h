@@ -29,6 +29,10 @@ class Method {
   /// What `setting` of run() means: the largest step [s], or a relative tolerance.
   virtual Knob knob() const { return Knob::step; }
 
+  /// How it knows the hand between the 50 Hz samples: "function" (asked for pose and velocity whenever it likes) or
+  /// "samples" (poses alone, as from a tracker).
+  virtual std::string hand() const { return "function"; }
+
   /// Whether its own law is that of `Scenario` in this scene. Where it is not (its rotation is parametrised in another
   /// way), its error is taken against its own solution at a tiny step.
   virtual bool has_scene_law(const Scenario&) const { return true; }
@@ -39,10 +43,21 @@ class Method {
 
 using MethodPtr = std::unique_ptr<Method>;
 
-/// run() in a child process: an engine that aborts, hangs or runs wild does not take the report along. Repeated up to
-/// `repeats` times, as long as that takes less than a tenth of a second; the wall time is the least. Not finite when
+/// How often a run is repeated: its wall time is the least of at least `runs` runs that take at least `seconds` in all,
+/// but no more of them than fit into kMostSeconds.
+struct Repetition {
+  int runs = 1;
+  double seconds = 0.0;  ///< [s]
+};
+constexpr double kMostSeconds = 0.5;
+
+/// Whether another run is due after `runs` that took `spent` [s] in all.
+bool wants_another(const Repetition& repetition, int runs, double spent);
+
+/// run() in a child process: an engine that aborts, hangs or runs wild does not take the report along. Not finite when
 /// the child died or took longer than `time_limit` [s]. The caller must have no other threads.
-RunResult run_isolated(const Method& method, const Scenario& scene, double setting, int repeats, double time_limit);
+RunResult run_isolated(const Method& method, const Scenario& scene, double setting, const Repetition& repetition,
+                       double time_limit);
 
 /// Whether an output is finite and within 1000 m or rad.
 bool is_bounded(const Vector3d& output);

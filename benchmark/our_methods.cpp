@@ -36,79 +36,116 @@ HeldBody held_body(const Scenario& scene) {
   return body;
 }
 
-/// The handle as a motion between samples `interval` apart, built as time goes on.
-class SampledHand {
+PoseSample handle_sample(const Scenario& scene, double t) {
+  const HandState handle = handle_state(scene, t);
+  PoseSample sample{t, RigidTransform::Identity()};
+  sample.X.linear() = handle.R_WT;
+  sample.X.translation() = handle.p_WT;
+  return sample;
+}
+
+/// The handle as a function of time, asked for its pose and velocity at times `interval` apart as time goes on.
+class FunctionHand {
  public:
-  SampledHand(const Scenario& scene, double interval) : scene_(scene), interval_(interval), newest_(sample(0.0)) {}
+  FunctionHand(const Scenario& scene, double interval) : scene_(scene), interval_(interval), newest_(node(0.0)) {}
 
   /// The segment of the step that starts at `t`; steps come in order.
   const MotionSegment& at(double t) {
     if (t > newest_.pose.t - 1e-9) {
-      const Sample older = newest_;
-      newest_ = sample(interval_ * static_cast<double>(++count_));
+      const Node older = newest_;
+      newest_ = node(interval_ * static_cast<double>(++count_));
       segment_ = MotionSegment(older.pose, older.v_W, older.w_H, newest_.pose, newest_.v_W, newest_.w_H);
     }
     return segment_;
   }
 
  private:
-  struct Sample {
+  struct Node {
     PoseSample pose;
     Vector3d v_W, w_H;
   };
 
-  Sample sample(double t) const {
+  Node node(double t) const {
     const HandState handle = handle_state(scene_, t);
-    Sample s{{t, RigidTransform::Identity()}, handle.v_WT_W, handle.w_WT_T};
-    s.pose.X.linear() = handle.R_WT;
-    s.pose.X.translation() = handle.p_WT;
-    return s;
+    Node n{{t, RigidTransform::Identity()}, handle.v_WT_W, handle.w_WT_T};
+    n.pose.X.linear() = handle.R_WT;
+    n.pose.X.translation() = handle.p_WT;
+    return n;
   }
 
   const Scenario& scene_;
   double interval_;
   long count_ = 0;
-  Sample newest_;
+  Node newest_;
   MotionSegment segment_{RigidTransform::Identity()};
 };
 
-class OurMethod : public Method {
+/// The handle by the poses of a tracker that samples once an output interval.
+class SampledHand {
  public:
-  OurMethod(std::string integrator, bool fine_hand) : integrator_(std::move(integrator)), fine_hand_(fine_hand) {}
+  explicit SampledHand(const Scenario& scene) : scene_(scene) {
+    for (; newest_ < 1; ++newest_) track_.push(handle_sample(scene, newest_ * scene.output_interval));
+  }
 
-  std::string name() const override { return fine_hand_ ? integrator_ + "_fine_hand" : integrator_; }
-
-  RunResult run(const Scenario& given, double step) const override {
-    const Scenario scene = with_length_of_its_slopes(given);
-    const HeldBody body = held_body(scene);
-    const std::unique_ptr<Integrator> integrator = make_integrator(integrator_);
-    StrainState state = body.zero_state();
-    SampledHand hand(scene, scene.output_interval / samples_per_output(steps_per_output(scene, step)));
-    const MotionSegment* segment = &hand.at(0.0);
-    return stepping_loop(
-        scene, step,
-        [&](double t, double h) {
-          segment = &hand.at(t);
-          integrator->step(body, *segment, t, h, state);
-        },
-        [&](double t) -> Vector3d {
-          const HandleForcing handle = body.forcing(*segment, t);
-          if (scene.kind != SceneKind::torsion) return body.object(handle, state).X.translation();
-          return {0.0, 0.0, log_so3(handle.X_WH.linear()).z() + state.q[0]};
-        });
+  /// The segment of the step that starts at `t`; steps come in order. The tracker is a sample ahead of its end.
+  const MotionSegment& at(double t) {
+    for (; (newest_ - 2) * scene_.output_interval < t + 1e-9; ++newest_) {
+      track_.push(handle_sample(scene_, newest_ * scene_.output_interval));
+      track_.forget_before(t);
+    }
+    return track_.segment(t + 1e-9);
   }
 
  private:
-  int samples_per_output(int steps) const {
+  const Scenario& scene_;
+  PoseTrack track_;
+  int newest_ = -1;  ///< number of the next sample
+};
+
+template <typename Hand>
+RunResult run_on(const Scenario& scene, const std::string& name, double step, Hand hand) {
+  const HeldBody body = held_body(scene);
+  const std::unique_ptr<Integrator> integrator = make_integrator(name);
+  StrainState state = body.zero_state();
+  const MotionSegment* segment = &hand.at(0.0);
+  return stepping_loop(
+      scene, step,
+      [&](double t, double h) {
+        segment = &hand.at(t);
+        integrator->step(body, *segment, t, h, state);
+      },
+      [&](double t) -> Vector3d {
+        const HandleForcing handle = body.forcing(*segment, t);
+        if (scene.kind != SceneKind::torsion) return body.object(handle, state).X.translation();
+        return {0.0, 0.0, log_so3(handle.X_WH.linear()).z() + state.q[0]};
+      });
+}
+
+class OurMethod : public Method {
+ public:
+  OurMethod(std::string integrator, bool samples) : integrator_(std::move(integrator)), samples_(samples) {}
+
+  std::string name() const override { return integrator_; }
+  std::string hand() const override { return samples_ ? "samples" : "function"; }
+
+  RunResult run(const Scenario& given, double step) const override {
+    const Scenario scene = with_length_of_its_slopes(given);
+    if (samples_) return run_on(scene, integrator_, step, SampledHand(scene));
+    const double interval = scene.output_interval / asked_per_output(steps_per_output(scene, step));
+    return run_on(scene, integrator_, step, FunctionHand(scene, interval));
+  }
+
+ private:
+  /// How often the function is asked in an output interval: a divisor of the number of steps.
+  static int asked_per_output(int steps) {
     constexpr int most = 64;
-    if (!fine_hand_) return 1;
     int stride = (steps + most - 1) / most;
     while (steps % stride != 0) ++stride;
     return steps / stride;
   }
 
   std::string integrator_;
-  bool fine_hand_;
+  bool samples_;
 };
 
 }  // namespace
@@ -116,7 +153,7 @@ class OurMethod : public Method {
 std::vector<MethodPtr> our_methods() {
   std::vector<MethodPtr> methods;
   for (const std::string& name : integrator_names()) {
-    for (const bool fine_hand : {false, true}) methods.push_back(std::make_unique<OurMethod>(name, fine_hand));
+    for (const bool samples : {false, true}) methods.push_back(std::make_unique<OurMethod>(name, samples));
   }
   return methods;
 }

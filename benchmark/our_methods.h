@@ -6,11 +6,12 @@
 
 namespace spring_workbench::benchmark {
 
-/// The integrators of this package, each of integrator_names(), on the `bushing`: once as `<name>` with the hand
-/// sampled at every output (50 Hz), pose and velocity, as a tracker gives it, and once as `<name>_fine_hand` with a
-/// sample at every step, though no more than 64 in an output interval. Between samples the hand is what MotionSegment
-/// makes of it. The timed loop holds all of it: the hand's pose and velocity at each sample, the segment, the step, the
-/// object's pose at the outputs.
+/// The integrators of this package, each of integrator_names(), on the `bushing`, under their own names, twice: once
+/// they know the hand as a function of time, as the peers do (hand() is "function": pose and velocity at the ends of
+/// every step, though of no more than 64 in an output interval), and once by the poses of a 50 Hz tracker alone
+/// ("samples": PoseTrack makes the velocities; the tracker runs since before the start and a sample ahead). The timed
+/// loop holds all of it: the hand at the samples, the segments between them, the steps, the object's pose at the
+/// outputs.
 std::vector<MethodPtr> our_methods();
 
 }  // namespace spring_workbench::benchmark

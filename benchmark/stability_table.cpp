@@ -1,18 +1,21 @@
 #include "benchmark/stability_table.h"
 
 #include <cmath>
-#include <ostream>
+#include <sstream>
 
 namespace spring_workbench::benchmark {
 
 StabilityCount count_stable(const Method& method, SceneKind kind) {
   StabilityCount count;
+  count.method = method.name();
+  count.scene = kind == SceneKind::stretch ? "A" : "C";
   for (int decade = 0; decade <= 10; ++decade) {
     for (const double mass : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
-      const Scenario scene = kind == SceneKind::stretch ? stretch_scene(std::pow(10.0, decade), 1.0, mass)
-                                                        : six_dof_scene(std::pow(10.0, decade - 2), 1.0, mass);
+      Scenario scene = kind == SceneKind::stretch ? stretch_scene(std::pow(10.0, decade), 1.0, mass)
+                                                  : six_dof_scene(std::pow(10.0, decade - 2), 1.0, mass);
+      scene.duration = 1.0;
       for (const int steps : {1, 2, 5, 20}) {
-        const bool stable = run_isolated(method, scene, scene.output_interval / steps, 1, 10.0).finite;
+        const bool stable = run_isolated(method, scene, scene.output_interval / steps, {}, 10.0).finite;
         count.stable += stable;
         count.stable_at_50_hz += stable && steps == 1;
         count.total_at_50_hz += steps == 1;
@@ -23,17 +26,30 @@ StabilityCount count_stable(const Method& method, SceneKind kind) {
   return count;
 }
 
-void write_stability_table(const std::vector<const Method*>& methods, std::ostream& out, std::ostream& progress) {
-  out << "method,scene,stable,total,stable_at_50_hz,total_at_50_hz\n";
+bool has_stability_counts(const Method& method) {
+  return method.knob() == Method::Knob::step && method.hand() == "function";
+}
+
+std::vector<StabilityCount> stability_table(const std::vector<const Method*>& methods, Progress& progress) {
+  std::vector<StabilityCount> counts;
   for (const Method* method : methods) {
-    if (method->knob() != Method::Knob::step) continue;
+    if (!has_stability_counts(*method)) continue;
     for (const SceneKind kind : {SceneKind::stretch, SceneKind::six_dof}) {
-      progress << method->name() << (kind == SceneKind::stretch ? " A" : " C") << std::endl;
-      const StabilityCount count = count_stable(*method, kind);
-      out << method->name() << ',' << (kind == SceneKind::stretch ? 'A' : 'C') << ',' << count.stable << ','
-          << count.total << ',' << count.stable_at_50_hz << ',' << count.total_at_50_hz << '\n';
+      progress.next("stability counts: " + method->name());
+      counts.push_back(count_stable(*method, kind));
     }
   }
+  return counts;
+}
+
+std::string stability_counts_csv(const std::vector<StabilityCount>& counts) {
+  std::ostringstream out;
+  out << "method,scene,stable,total,stable_at_50_hz,total_at_50_hz\n";
+  for (const StabilityCount& count : counts) {
+    out << count.method << ',' << count.scene << ',' << count.stable << ',' << count.total << ','
+        << count.stable_at_50_hz << ',' << count.total_at_50_hz << '\n';
+  }
+  return out.str();
 }
 
 }  // namespace spring_workbench::benchmark

@@ -1,25 +1,31 @@
 #pragma once
 
-#include <iosfwd>
+#include <string>
 #include <vector>
 
 #include "benchmark/method.h"
+#include "benchmark/progress.h"
 
 namespace spring_workbench::benchmark {
 
 /// In how many cases a method stays finite and bounded.
 struct StabilityCount {
+  std::string method;
+  std::string scene;  ///< "A" or "C"
   int stable = 0;
   int total = 0;
   int stable_at_50_hz = 0;  ///< those with one step per output
   int total_at_50_hz = 0;
 };
 
-/// Scene A (k = 1 … 1e10 N/m) or C (factor 1e-2 … 1e8) in 11 decades of stiffness, 5 masses from 1e-6 to 1e6 kg, steps
-/// of 1/50, 1/100, 1/250 and 1/1000 s, ζ = 1.
+/// Scene A (k = 1 … 1e10 N/m) or C (factor 1e-2 … 1e8) for a second, in 11 decades of stiffness, 5 masses from 1e-6 to
+/// 1e6 kg, steps of 1/50, 1/100, 1/250 and 1/1000 s, ζ = 1.
 StabilityCount count_stable(const Method& method, SceneKind kind);
 
-/// The counts of all methods that have a step, as CSV.
-void write_stability_table(const std::vector<const Method*>& methods, std::ostream& out, std::ostream& progress);
+/// The counts of all methods that have a step and know the hand as a function; two units of progress each.
+std::vector<StabilityCount> stability_table(const std::vector<const Method*>& methods, Progress& progress);
+bool has_stability_counts(const Method& method);
+
+std::string stability_counts_csv(const std::vector<StabilityCount>& counts);
 
 }  // namespace spring_workbench::benchmark

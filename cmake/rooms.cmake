@@ -1,11 +1,16 @@
 # One CMake target per room; the link line is the law of who may know whom (doc/architecture.md).
 set(SPRING_WORKBENCH_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
 
-# add_room(<name> [DEPENDS <rooms>...] [LIBRARIES <external libraries>...])
-# Builds src/<name>/*.cpp into the library spring_workbench_<name>.
+# For rooms that compute: without signals from floating point, errno from <cmath>, or complex products that look for NaN.
+# Results stay those of IEEE arithmetic.
+set(SPRING_WORKBENCH_ARITHMETIC -fno-math-errno -fno-trapping-math -fcx-limited-range)
+
+# add_room(<name> [FOLDER <folder>] [DEPENDS <rooms>...] [LIBRARIES <external libraries>...] [INCLUDES <external folders>...]
+#          [DEFINITIONS <of its own sources>...] [OPTIONS <compile options>...])
+# Builds src/<name>/*.cpp (with FOLDER: src/<name>/<folder>/*.cpp) into the library spring_workbench_<name>.
 function(add_room name)
-  cmake_parse_arguments(ROOM "" "" "DEPENDS;LIBRARIES" ${ARGN})
-  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/*.cpp)
+  cmake_parse_arguments(ROOM "" "FOLDER" "DEPENDS;LIBRARIES;INCLUDES;DEFINITIONS;OPTIONS" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/${ROOM_FOLDER}/*.cpp)
   set(target spring_workbench_${name})
   if(NOT sources)
     add_library(${target} INTERFACE)
@@ -18,7 +23,9 @@ function(add_room name)
   add_library(${target} STATIC ${sources})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
-  target_compile_options(${target} PRIVATE ${SPRING_WORKBENCH_WARNINGS})
+  target_include_directories(${target} SYSTEM PRIVATE ${ROOM_INCLUDES})
+  target_compile_definitions(${target} PRIVATE ${ROOM_DEFINITIONS})
+  target_compile_options(${target} PRIVATE ${SPRING_WORKBENCH_WARNINGS} ${ROOM_OPTIONS})
   foreach(room ${ROOM_DEPENDS})
     target_link_libraries(${target} PUBLIC spring_workbench_${room})
   endforeach()

@@ -11,5 +11,10 @@ add_message_files(FILES Contact.msg Contacts.msg ForkState.msg ObjectState.msg O
 add_service_files(FILES LoadScene.srv SetForkDamping.srv SetForkDofs.srv SetForkStiffness.srv SetIntegrator.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
+find_package(dynamic_reconfigure QUIET)   # optional: live tuning
+if(dynamic_reconfigure_FOUND)
+  generate_dynamic_reconfigure_options(cfg/Manipulation.cfg)
+endif()
+
 catkin_package(CATKIN_DEPENDS
   message_runtime rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})

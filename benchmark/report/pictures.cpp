@@ -4,7 +4,6 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -14,7 +13,7 @@ namespace {
 /// In the devel space as after installation: `lib/spring_workbench/report` and `share/spring_workbench/…`.
 std::string script() {
   const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe");
-  return executable.parent_path().parent_path().parent_path() / "share" / "spring_workbench" / "plot_error_table.py";
+  return executable.parent_path().parent_path().parent_path() / "share" / "spring_workbench" / "plot_report.py";
 }
 
 /// Whether the program ran and ended well.
@@ -30,22 +29,13 @@ bool run(const std::vector<std::string>& words) {
 
 }  // namespace
 
-std::vector<std::string> draw_pictures(const std::string& csv, const std::vector<ErrorRow>& rows,
-                                       const std::string& folder) {
-  std::vector<std::string> scenes, pictures;
-  for (const ErrorRow& row : rows) {
-    if (std::find(scenes.begin(), scenes.end(), row.scene) == scenes.end()) scenes.push_back(row.scene);
-  }
-  for (const std::string& scene : scenes) {
-    const std::string picture = std::filesystem::path(folder) / ("error_against_run_time_" + scene + ".png");
-    if (!run({SPRING_WORKBENCH_PYTHON, script(), csv, picture, scene})) {
-      std::cerr << "report: no picture of scene " << scene
-                << ": python3 with matplotlib (python3-matplotlib) draws it\n";
-      continue;
-    }
-    pictures.push_back(picture);
-  }
-  return pictures;
+std::string draw(const Picture& picture, const std::string& folder) {
+  const std::string path = std::filesystem::path(folder) / picture.name;
+  std::vector<std::string> words = {SPRING_WORKBENCH_PYTHON, script(), picture.kind, picture.table, path};
+  words.insert(words.end(), picture.others.begin(), picture.others.end());
+  if (run(words)) return path;
+  std::cerr << "report: no picture " << picture.name << ": python3 with matplotlib (python3-matplotlib) draws it\n";
+  return {};
 }
 
 }  // namespace spring_workbench::benchmark

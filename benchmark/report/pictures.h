@@ -3,14 +3,19 @@
 #include <string>
 #include <vector>
 
-#include "benchmark/error_table.h"
-
 namespace spring_workbench::benchmark {
 
-/// Draws `error_against_run_time_<scene>.png` into `folder` for every scene in the table `csv`, by the Python script
-/// that stands beside the package. The paths of those that came about: none without Python 3 and matplotlib, which the
-/// script says on stderr.
-std::vector<std::string> draw_pictures(const std::string& csv, const std::vector<ErrorRow>& rows,
-                                       const std::string& folder);
+/// A picture of the report: `plot_report.py KIND TABLE PICTURE OTHERS…`.
+struct Picture {
+  std::string kind;
+  std::string table;                ///< path of a CSV file
+  std::string name;                 ///< of the PNG file
+  std::vector<std::string> others;  ///< what the kind wants besides
+  std::string caption;
+};
+
+/// Draws into `folder` by the Python script that stands beside the package. Path of the PNG file; empty where it did not
+/// come about, which is said on stderr: without Python 3 and matplotlib (package python3-matplotlib).
+std::string draw(const Picture& picture, const std::string& folder);
 
 }  // namespace spring_workbench::benchmark

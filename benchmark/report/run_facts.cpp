@@ -1,5 +1,6 @@
 #include "benchmark/report/run_facts.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
@@ -9,6 +10,8 @@
 
 namespace spring_workbench::benchmark {
 namespace {
+
+constexpr double kQuiet = 0.5;  // load average per processor
 
 std::string processor() {
   std::ifstream file("/proc/cpuinfo");
@@ -23,14 +26,18 @@ std::string machine() {
   return processor() + ", " + std::to_string(std::thread::hardware_concurrency()) + " processors";
 }
 
-/// Above one, other work has taken part of the machine: the timings are then upper bounds.
-std::string load() {
+/// Load average of the last minute; negative where it is not known.
+double load_average() {
   double average[1];
-  if (getloadavg(average, 1) != 1) return "unknown";
+  return getloadavg(average, 1) == 1 ? average[0] : -1.0;
+}
+
+std::string load() {
+  const double average = load_average();
+  if (average < 0.0) return "unknown";
   std::ostringstream text;
   text.precision(2);
-  text << std::fixed << average[0] << " at the start"
-       << (average[0] < 1.0 ? "" : ": not a quiet machine, the timings are too long");
+  text << std::fixed << average << " at the start";
   return text.str();
 }
 
@@ -38,12 +45,6 @@ std::string now() {
   const std::time_t t = std::time(nullptr);
   char text[32];
   std::strftime(text, sizeof(text), "%Y-%m-%d %H:%M UTC", std::gmtime(&t));
-  return text;
-}
-
-std::string command(int argc, char** argv) {
-  std::string text = std::filesystem::path(argv[0]).filename().string();
-  for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
   return text;
 }
 
@@ -55,13 +56,29 @@ std::string list(const std::vector<std::string>& names) {
 
 }  // namespace
 
-std::vector<RunFact> run_facts(int argc, char** argv, const Peers& peers) {
+std::string command_of(int argc, char** argv) {
+  std::string text = std::filesystem::path(argv[0]).filename().string();
+  for (int i = 1; i < argc; ++i) text += std::string(" ") + argv[i];
+  return text;
+}
+
+std::string load_warning() {
+  const double average = load_average();
+  const unsigned processors = std::max(1U, std::thread::hardware_concurrency());
+  if (average <= kQuiet * processors) return {};
+  std::ostringstream text;
+  text << "This was not a quiet machine: its load average at the start was " << average << " on " << processors
+       << " processors. The run times here are too long; errors and stability are what they are.";
+  return text.str();
+}
+
+std::vector<RunFact> run_facts(const std::string& command, const Peers& peers) {
   return {{"machine", machine()},
           {"load", load()},
           {"compiler", SPRING_WORKBENCH_COMPILER},
           {"flags", SPRING_WORKBENCH_FLAGS},
           {"date", now()},
-          {"command", command(argc, argv)},
+          {"command", command},
           {"peers found", list(peers.found)},
           {"peers not found", list(peers.not_found)}};
 }

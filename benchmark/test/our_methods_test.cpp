@@ -11,13 +11,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr const char* kFineHand = "_fine_hand";
-
-bool has_fine_hand(const Method& method) { return method.name().find(kFineHand) != std::string::npos; }
-
-double order_of(const Method& method) {
-  return make_integrator(method.name().substr(0, method.name().find(kFineHand)))->order();
-}
+bool knows_function(const Method& method) { return method.hand() == "function"; }
 
 double error_at(const Method& method, const Scenario& scene, int steps_per_interval) {
   const RunResult run = method.run(scene, scene.output_interval / steps_per_interval);
@@ -28,8 +22,10 @@ TEST(OurMethods, EveryIntegratorIsThereWithBothHands) {
   const std::vector<MethodPtr> methods = our_methods();
   EXPECT_EQ(methods.size(), 2 * integrator_names().size());
   for (const std::string& name : integrator_names()) {
-    for (const std::string& wanted : {name, name + kFineHand}) {
-      EXPECT_EQ(std::count_if(methods.begin(), methods.end(), [&](const auto& m) { return m->name() == wanted; }), 1);
+    for (const char* hand : {"function", "samples"}) {
+      EXPECT_EQ(std::count_if(methods.begin(), methods.end(),
+                              [&](const auto& m) { return m->name() == name && m->hand() == hand; }),
+                1);
     }
   }
 }
@@ -37,8 +33,8 @@ TEST(OurMethods, EveryIntegratorIsThereWithBothHands) {
 TEST(OurMethods, EachConvergesToTheReferencesWithItsOrder) {
   for (const Scenario& scene : {stretch_scene(1e3), torsion_scene(10.0), six_dof_scene(1.0)}) {
     for (const MethodPtr& method : our_methods()) {
-      if (!has_fine_hand(*method)) continue;
-      const double order = order_of(*method);
+      if (!knows_function(*method)) continue;
+      const double order = make_integrator(method->name())->order();
       const int steps = order < 2.0 ? 32 : (scene.kind == SceneKind::six_dof ? 8 : 4);
       const double coarse = error_at(*method, scene, steps), fine = error_at(*method, scene, 2 * steps);
       EXPECT_LT(coarse, 5e-3) << method->name() << " in " << scene.name;
@@ -56,13 +52,26 @@ TEST(OurMethods, ExponentialHasNoErrorBesideTheHandsInOneCoordinateWhateverStiff
     }
   }
   for (const MethodPtr& method : our_methods()) {
-    if (method->name() != "exponential") continue;
+    if (method->name() != "exponential" || !knows_function(*method)) continue;
     for (const Scenario& scene : scenes) {
       for (const int steps : {1, 3, 16}) {
         EXPECT_LT(error_at(*method, scene, steps), 1e-5 * hand_amplitude(scene))
             << scene.name << " × " << scene.stiffness_factor << ", zeta " << scene.damping_ratio << ", " << steps;
       }
     }
+  }
+}
+
+TEST(OurMethods, AHandByPosesAloneLeavesAnErrorThatStepsDoNotLowerAndFasterSamplesDo) {
+  // Velocities by three-point differences: their error falls with the square of the sample interval.
+  Scenario slow = six_dof_scene(100.0);
+  Scenario fast = slow;
+  fast.output_interval = 0.5 * slow.output_interval;
+  for (const MethodPtr& method : our_methods()) {
+    if (method->name() != "exponential" || knows_function(*method)) continue;
+    const double floor = error_at(*method, slow, 16);
+    EXPECT_NEAR(error_at(*method, slow, 32) / floor, 1.0, 0.01);
+    EXPECT_GT(floor / error_at(*method, fast, 16), 3.0);
   }
 }
 

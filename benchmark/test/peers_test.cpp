@@ -21,7 +21,7 @@ const Peers& peers() {
 bool is_weld(const Method& method) { return method.name() == "mujoco_weld"; }
 
 double error_at(const Method& method, const Scenario& scene, int steps_per_interval) {
-  const RunResult run = run_isolated(method, scene, scene.output_interval / steps_per_interval, 1, 60.0);
+  const RunResult run = run_isolated(method, scene, scene.output_interval / steps_per_interval, {}, 60.0);
   return run.finite ? output_error(scene, reference_solution(scene), run.outputs) : 1e300;
 }
 
@@ -66,7 +66,7 @@ TEST(Peers, CvodeIsAsGoodAsItsToleranceOverTheHandsMotion) {
     const ReferenceSolution reference = reference_solution(scene);
     for (const double tolerance : {1e-6, 1e-9}) {
       for (const MethodPtr& method : cvode_peers()) {
-        const RunResult run = run_isolated(*method, scene, tolerance, 1, 60.0);
+        const RunResult run = run_isolated(*method, scene, tolerance, {}, 60.0);
         ASSERT_TRUE(run.finite) << method->name();
         EXPECT_LT(output_error(scene, reference, run.outputs), 1e3 * tolerance) << method->name();
       }
@@ -105,10 +105,19 @@ class Broken : public Method {
 
 TEST(Method, OneThatAbortsOrDivergesIsNotFiniteAndTheCallerLives) {
   for (const bool aborts : {true, false}) {
-    const RunResult run = run_isolated(Broken(aborts), stretch_scene(1e4), 0.02, 3, 10.0);
+    const RunResult run = run_isolated(Broken(aborts), stretch_scene(1e4), 0.02, Repetition{3, 0.0}, 10.0);
     EXPECT_FALSE(run.finite);
     EXPECT_FALSE(std::isfinite(run.wall_seconds));
   }
+}
+
+TEST(Method, RunsAreRepeatedUntilThereAreEnoughOfThemAndEnoughTimeButNoLonger) {
+  const Repetition three{3, 0.05};
+  EXPECT_TRUE(wants_another(three, 2, 0.06));
+  EXPECT_TRUE(wants_another(three, 1000, 0.049));
+  EXPECT_FALSE(wants_another(three, 3, 0.05));
+  EXPECT_FALSE(wants_another(three, 1, 1.01 * kMostSeconds));
+  EXPECT_FALSE(wants_another({}, 1, 0.0));
 }
 
 TEST(Method, StepsDivideTheOutputIntervalAndAreNeverLongerThanAsked) {

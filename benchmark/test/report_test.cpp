@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cstdio>
 #include <random>
-#include <tuple>
+#include <sstream>
 
+#include "benchmark/report/html.h"
 #include "benchmark/report/page.h"
 
 namespace spring_workbench::benchmark {
@@ -36,28 +37,20 @@ TEST(Page, Base64ComesBackForBytesOfAnyLength) {
   }
 }
 
-TEST(Page, RunTimeForAnErrorIsTheLeastOfTheRunsThatReachIt) {
-  ErrorRow row;
-  row.scene = "C";
-  row.stiffness_factor = 100.0;
-  row.method = "m";
-  std::vector<ErrorRow> rows;
-  for (const auto& [error, time, finite] :
-       {std::tuple{1e-2, 1.0, true}, {1e-7, 70.0, true}, {1e-8, 50.0, true}, {0.0, 2.0, false}}) {
-    row.error_over_hand_amplitude = error;
-    row.wall_us_per_simulated_second = time;
-    row.finite = finite;
-    rows.push_back(row);
-  }
-  EXPECT_EQ(run_time_for_error_csv(rows, 1e-6), "method,C × 100\nm,50\n");
-  EXPECT_EQ(run_time_for_error_csv(rows, 1e-1), "method,C × 100\nm,1\n");
-  EXPECT_EQ(run_time_for_error_csv(rows, 1e-9), "method,C × 100\nm,-\n");
-}
-
 TEST(Page, PutsNoMarkupFromFactsIntoThePage) {
   PageContents contents;
   contents.facts = {{"command", "report --out <b>&"}};
   EXPECT_NE(html_page(contents).find("report --out &lt;b&gt;&amp;"), std::string::npos);
+}
+
+TEST(Page, TablesHaveACellForEachOfTheCsvQuotedOrNot) {
+  std::ostringstream out;
+  add_table("a,b\n\"x, \"\"y\"\"\",held\n,NOT held\n", out);
+  const std::string html = out.str();
+  for (const char* cell : {"<th>a</th><th>b</th>", "<td>x, &quot;y&quot;</td><td class=\"held\">held</td>",
+                           "<td></td><td class=\"failed\">NOT held</td>"}) {
+    EXPECT_NE(html.find(cell), std::string::npos) << html;
+  }
 }
 
 struct Outcome {

@@ -1,214 +1,341 @@
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
-#include <cmath>
+#include "exponential.h"
 
-#include "integrators.h"
-#include "spring_workbench/math/phi_functions.h"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "collocation.h"
+#include "linear_part.h"
 
 namespace spring_workbench {
 namespace {
 
-/// The frozen linear part is taken anew when the strain has moved this far from where it was taken, as a bound on how far
-/// the tip's direction has turned [rad] (curvatures times the length).
-constexpr double relinearise_after = 0.1;
+constexpr std::size_t nodes = Collocation::count;
+constexpr std::size_t last = nodes - 1;
 
-/// Eigenvectors may be worse conditioned than this only where the damping is critical to the last bit; then the linear part
-/// is taken with slightly other damping, and the difference goes to the remainder.
-constexpr double worst_condition = 1e5;
-constexpr int most_attempts = 6;
+constexpr int most_sweeps = 7;
+constexpr int most_halvings = 4;
+/// Sweeps stop when what they would still change is below this share of the error that the cubic itself makes, or below
+/// this share of the strain.
+constexpr double share_of_error = 0.1;
+constexpr double share_of_strain = 1e-12;
+/// A sweep that leaves more than this of the last one's change will not come to an end soon.
+constexpr double slow_contraction = 0.6;
+/// From one step to the next the sweeps' contraction, where it is not measured, is taken to get worse by this factor.
+constexpr double forget_contraction = 1.3;
+/// The last step's cubic is continued to this many times its length, and no further.
+constexpr double farthest_continued = 1.5;
+/// Steps whose lengths differ by less are equal: what differs is rounding of times.
+constexpr double same_length = 1e-11;
+/// The same for the start of a step and the end of the last one, as a share of the step, and for the handle's acceleration.
+constexpr double same_time = 1e-9;
+constexpr double same_acceleration = 1e-12;
+
+bool same(const Vector3d& a, const Vector3d& b) {
+  return (a - b).cwiseAbs().maxCoeff() <= same_acceleration * b.cwiseAbs().maxCoeff();
+}
+
+/// `A x` for sizes that the compiler knows: all of it in registers.
+template <int rows, int columns>
+Eigen::Matrix<double, rows, 1> times(const Eigen::Matrix<double, rows, columns>& A,
+                                     const Eigen::Matrix<double, columns, 1>& x) {
+  Eigen::Matrix<double, rows, 1> y = A.col(0) * x[0];
+  for (int j = 1; j < columns; ++j) y += A.col(j) * x[j];
+  return y;
+}
 
 }  // namespace
 
-void Exponential::linearise(const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
-  n_ = body.size();
-  version_ = body.version();
-  q_reference_ = state.q;
-  step_ = 0.0;
-  const StrainMatrix M = body.mass_matrix(handle.t, state.q);
-  const Eigen::LLT<StrainMatrix> cholesky(M);
-  inverse_mass_ = cholesky.solve(StrainMatrix::Identity(n_, n_));
-  const StrainMatrix D = StrainMatrix(body.damping().asDiagonal());
+class Exponential::Core {
+ public:
+  virtual ~Core() = default;
+  virtual StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+                            StrainState& state) = 0;
+  virtual bool response(const HeldBody& body, double h, Response& r) = 0;
+};
 
-  // Stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences where the springs' own part is linear.
-  const StrainVector K = body.stiffness();
-  stiffness_.resize(n_, n_);
-  const StrainVector rest = StrainVector::Zero(n_);
-  for (int j = 0; j < n_; ++j) {
-    const double moved = 1e-5 * (1.0 / body.shape().length());
-    StrainVector up = state.q, down = state.q;
-    up[j] += moved;
-    down[j] -= moved;
-    stiffness_.col(j) =
-        (body.acceleration(handle, down, rest) - body.acceleration(handle, up, rest)) / (2.0 * moved);
+template <int n>
+class Exponential::CoreOf final : public Core {
+ public:
+  StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+                    StrainState& state) override {
+    State s{state.q, state.q_dot};
+    const Estimate e = step(body, handle, t, h, s, 0);
+    state.q = s.q;
+    state.q_dot = s.q_dot;
+    return {e.error.template head<n>(), linear_.fastest * h, e.error.template tail<n>()};
   }
 
-  // Undamped modes of the springs first: in them, with displacements scaled by their frequencies, stiff and soft motions
-  // stand side by side without loss of digits.
-  const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> undamped(StrainMatrix(K.asDiagonal()), M);
-  const StrainMatrix shapes = undamped.eigenvectors();
-  const StrainMatrix to_shapes = shapes.transpose() * M;
-  const StrainVector scale = undamped.eigenvalues().cwiseMax(1.0).cwiseSqrt();
-  const StrainMatrix modal_stiffness = to_shapes * stiffness_ * shapes;
+  bool response(const HeldBody& body, double h, Response& r) override {
+    if (version_ != body.version()) return false;
+    prepare(h);
+    // The remainder is M⁻¹ Q at all nodes.
+    Operator sum = node_[last][0];
+    for (std::size_t j = 1; j < nodes; ++j) sum.add(node_[last][j]);
+    Eigen::Matrix<double, 2 * n, n> modes;
+    for (int i = 0; i < n; ++i) modes.col(i) = sum * Modes(force_to_modes_.col(i));
+    const Eigen::Matrix<double, 2 * n, n> end = from_modes_ * modes * linear_.inverse_mass;
+    r.q = end.template topRows<n>();
+    r.q_dot = end.template bottomRows<n>();
+    return true;
+  }
 
-  using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
-  Eigen::EigenSolver<ModeMatrix> solver(2 * n_);
-  // In real columns, a conjugate pair as its real and imaginary part: so V⁻¹ is that of what is kept of the pair, with no
-  // more error than its condition makes; of two complex rows that only rounding tells apart, one alone is worth nothing.
-  ModeMatrix V(2 * n_, 2 * n_), V_inverse;
-  double off_critical = 0.0;
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    damping_ = inverse_mass_ * D;
-    for (int i = 0; i < n_; ++i) damping_.col(i) *= 1.0 + off_critical * (i + 1);
-    const StrainMatrix modal_damping = to_shapes * damping_ * shapes;
-    ModeMatrix A = ModeMatrix::Zero(2 * n_, 2 * n_);
-    A.topRightCorner(n_, n_).diagonal() = scale;
-    A.bottomLeftCorner(n_, n_) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());
-    A.bottomRightCorner(n_, n_) = -modal_damping;
-    solver.compute(A);
-    const FromModes vectors = solver.eigenvectors();
-    for (int m = 0; m < 2 * n_; ++m) {
-      if (solver.eigenvalues()[m].imag() < 0.0) {
-        V.col(m) = vectors.col(m - 1).imag();
-      } else {
-        V.col(m) = vectors.col(m).real();
+ private:
+  using Strain = Eigen::Matrix<double, n, 1>;
+  using Modes = Eigen::Matrix<double, 2 * n, 1>;
+  using Square = Eigen::Matrix<double, n, n>;
+
+  struct State {
+    Strain q, q_dot;
+  };
+  struct Estimate {
+    Modes error = Modes::Zero();  ///< of the resulting strain and strain rate
+    bool converged = false;
+  };
+  /// A function of the linear part, in modes: x ↦ own x + other x with the members of each pair exchanged.
+  struct Operator {
+    Modes own = Modes::Zero(), other = Modes::Zero();
+    void add(const Operator& o) {
+      own += o.own;
+      other += o.other;
+    }
+    Modes operator*(const Modes& x) const {
+      Modes r;
+      for (int i = 0; i < n; ++i) {
+        r[2 * i] = own[2 * i] * x[2 * i] + other[2 * i] * x[2 * i + 1];
+        r[2 * i + 1] = own[2 * i + 1] * x[2 * i + 1] + other[2 * i + 1] * x[2 * i];
+      }
+      return r;
+    }
+    void set(int mode, double value) { own[mode] = value; }
+    void set_pair(int mode, std::complex<double> value) {  // z = x₀ − i x₁
+      own[mode] = own[mode + 1] = value.real();
+      other[mode] = value.imag();
+      other[mode + 1] = -value.imag();
+    }
+  };
+
+  void linearise(const HeldBody& body, const HandleForcing& handle, const Strain& q) {
+    const LinearPart part = linear_part(body, handle, q);
+    if (version_ == body.version() && !(part.to_modes.allFinite() && part.from_modes.allFinite())) return;
+    linear_ = part;
+    version_ = body.version();
+    load_version_ = body.load_version();
+    q_reference_ = q;
+    stiffness_ = linear_.stiffness;
+    damping_ = linear_.damping;
+    to_modes_ = linear_.to_modes;
+    force_to_modes_ = to_modes_.template rightCols<n>();
+    from_modes_ = linear_.from_modes;
+    h_ = 0.0;
+    t_end_ = std::numeric_limits<double>::quiet_NaN();
+    contraction_ = 1.0;
+  }
+
+  /// The operators for a step of h.
+  void prepare(double h) {
+    if (std::abs(h - h_) <= same_length * h) return;
+    h_ = h;
+    for (int m = 0; m < 2 * n; ++m) {
+      weight_[m] = 1.0 / std::max(1.0 / h, std::abs(linear_.rates[static_cast<std::size_t>(m)]));
+    }
+    const auto take = [this, h](const auto& w, const auto& set) {
+      for (std::size_t i = 1; i < nodes; ++i) {
+        set(decay_[i], w.decay[i]);
+        for (std::size_t j = 0; j < nodes; ++j) set(node_[i][j], h * w.node[i][j]);
+      }
+      set(error_, h * w.error);
+    };
+    for (int m = 0; m < 2 * linear_.pairs; m += 2) {
+      take(Collocation::weights(h * linear_.rates[static_cast<std::size_t>(m)]),
+           [m](Operator& o, std::complex<double> value) { o.set_pair(m, value); });
+    }
+    for (int m = 2 * linear_.pairs; m < 2 * n; ++m) {
+      take(Collocation::weights(h * linear_.rates[static_cast<std::size_t>(m)].real()), [m](Operator& o, double value) {
+        o.set(m, value);
+        o.other[m] = 0.0;
+      });
+    }
+  }
+
+  Modes modes_of(const State& s) const {
+    Modes y;
+    y << s.q - q_reference_, s.q_dot;
+    return times(to_modes_, y);
+  }
+  State state_of(const Modes& x) const {
+    const Modes y = times(from_modes_, x);
+    return {y.template head<n>() + q_reference_, y.template tail<n>()};
+  }
+  /// What the linear part leaves over of the acceleration, in modes.
+  Modes remainder(const HeldBody& body, const HandleForcing& handle, const State& s) const {
+    const Strain r = body.template acceleration<n>(handle, s.q, s.q_dot) +
+                     times(stiffness_, Strain(s.q - q_reference_)) + times(damping_, s.q_dot);
+    return times(force_to_modes_, r);
+  }
+  /// Size of what is in modes [m √kg]: displacements as they are, velocities times what is left of them over a step.
+  double size(const Modes& x) const { return weight_.cwiseProduct(x).norm(); }
+
+  /// Whether a step from here goes on from the last one.
+  bool goes_on(double t, const State& s) const {
+    return std::abs(t - t_end_) <= same_time * last_h_ && s.q == end_.q && s.q_dot == end_.q_dot;
+  }
+
+  /// Remainders at the nodes from the cubic of the last step, moved to fit at the start.
+  void continue_cubic(double h) {
+    const double ratio = last_h_ / h;
+    if (ratio != continued_ratio_) {
+      continued_ratio_ = ratio;
+      continued_ = Collocation::continued(ratio);
+    }
+    const std::array<Modes, nodes> before = remainder_before_;
+    for (std::size_t i = 1; i < nodes; ++i) {
+      remainder_[i] = remainder_[0];
+      for (std::size_t j = 0; j < nodes; ++j) {
+        remainder_[i] += (continued_[i][j] - (j == last ? 1.0 : 0.0)) * before[j];
       }
     }
-    V_inverse = V.partialPivLu().inverse();
-    if (V.norm() * V_inverse.norm() < worst_condition) break;
-    off_critical = off_critical == 0.0 ? 1e-8 : 10.0 * off_critical;
   }
 
-  // Keep the real modes and one of each conjugate pair, in the coordinates themselves.
-  const ModeMatrix from = [&] {
-    ModeMatrix m(2 * n_, 2 * n_);
-    m.topRows(n_) = shapes * scale.cwiseInverse().asDiagonal() * V.topRows(n_);
-    m.bottomRows(n_) = shapes * V.bottomRows(n_);
-    return m;
-  }();
-  const ModeMatrix to = [&] {
-    ModeMatrix m(2 * n_, 2 * n_);
-    m.leftCols(n_) = V_inverse.leftCols(n_) * (scale.asDiagonal() * to_shapes);
-    m.rightCols(n_) = V_inverse.rightCols(n_) * to_shapes;
-    return m;
-  }();
-  const auto values = solver.eigenvalues();
-  fastest_ = values.cwiseAbs().maxCoeff();
-  rates_.resize(2 * n_);
-  to_modes_.resize(2 * n_, 2 * n_);
-  from_modes_.resize(2 * n_, 2 * n_);
-  int kept = 0;
-  for (int m = 0; m < 2 * n_; ++m) {
-    if (values[m].imag() < 0.0) continue;
-    rates_[kept] = values[m];
-    const bool pair = values[m].imag() > 0.0;
-    from_modes_.col(kept) = from.col(m).cast<Complex>();
-    to_modes_.row(kept) = to.row(m).cast<Complex>();
-    if (pair) {
-      from_modes_.col(kept) += Complex(0.0, 1.0) * from.col(m + 1);
-      to_modes_.row(kept) -= Complex(0.0, 1.0) * to.row(m + 1);
+  /// Error of the cubic: its fourth difference, taken to follow on the second and third in a geometric series.
+  Modes cubic_error() const {
+    const auto difference = [this](const Collocation::Row& row) -> Modes {
+      return row[0] * remainder_[0] + row[1] * remainder_[1] + row[2] * remainder_[2] + row[3] * remainder_[3];
+    };
+    const Modes third = difference(Collocation::third_difference());
+    const double second = difference(Collocation::second_difference()).norm();
+    const double ratio = third.norm() < second ? third.norm() / second : 1.0;
+    return error_ * Modes(ratio * third);
+  }
+
+  Estimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, State& state, int halvings) {
+    std::array<HandleForcing, nodes> forcing;
+    for (std::size_t i = 0; i < nodes; ++i) forcing[i] = body.forcing(handle, t + Collocation::nodes[i] * h);
+    const State begin = state;
+    if (version_ != body.version()) linearise(body, forcing[0], state.q);
+    Estimate e = sweep(body, forcing, h, state);
+    if (e.converged) return e;
+    if (begin.q != q_reference_) {
+      linearise(body, forcing[0], begin.q);
+      state = begin;
+      e = sweep(body, forcing, h, state);
     }
-    ++kept;
+    if (e.converged || halvings == most_halvings) return e;
+    state = begin;
+    e = step(body, handle, t, 0.5 * h, state, halvings + 1);
+    if (!state.q.allFinite() || !state.q_dot.allFinite()) return e;
+    const Estimate second = step(body, handle, t + 0.5 * h, 0.5 * h, state, halvings + 1);
+    e.error += second.error;
+    e.converged = e.converged && second.converged;
+    return e;
   }
-  rates_.conservativeResize(kept);
-  to_modes_.conservativeResize(kept, 2 * n_);
-  from_modes_.conservativeResize(2 * n_, kept);
-}
 
-void Exponential::prepare(double h) {
-  step_ = h;
-  for (int m = 0; m < rates_.size(); ++m) {
-    const PhiFunctions half = phi_functions(0.5 * h * rates_[m]);
-    const PhiFunctions whole = phi_functions(h * rates_[m]);
-    mode_step_[static_cast<std::size_t>(m)] = {half.zero,  h * half.one,  h * half.two, whole.zero,
-                                               h * whole.one, h * whole.two, h * whole.three};
+  Estimate sweep(const HeldBody& body, const std::array<HandleForcing, nodes>& forcing, double h, State& state) {
+    prepare(h);
+    const Modes x0 = modes_of(state);
+    const double begin_t = forcing[0].t;
+    const bool follows = goes_on(begin_t, state);
+    const bool known = follows && load_version_ == body.load_version() &&
+                       same(end_acceleration_, forcing[0].acceleration_less_gravity) &&
+                       same(end_angular_acceleration_, forcing[0].angular_acceleration);
+    remainder_[0] = known ? remainder_before_[last] : remainder(body, forcing[0], state);
+    if (follows && h < farthest_continued * last_h_) {
+      continue_cubic(h);
+    } else {
+      for (std::size_t i = 1; i < nodes; ++i) remainder_[i] = remainder_[0];
+    }
+    std::array<Modes, nodes> base;
+    for (std::size_t i = 1; i < nodes; ++i) base[i] = decay_[i] * x0 + node_[i][0] * remainder_[0];
+    const auto at_node = [&](std::size_t i) -> Modes {
+      return base[i] + node_[i][1] * remainder_[1] + node_[i][2] * remainder_[2] + node_[i][3] * remainder_[3];
+    };
+
+    Estimate e;
+    Modes end = at_node(last);
+    double change = 0.0;
+    for (int sweeps = 1; sweeps <= most_sweeps && !e.converged; ++sweeps) {
+      for (std::size_t i = 1; i < nodes; ++i) remainder_[i] = remainder(body, forcing[i], state_of(at_node(i)));
+      const Modes next = at_node(last);
+      const Modes changed = next - end;
+      const double change_before = change;
+      change = size(changed);
+      end = next;
+      if (!(change < 1e300)) break;
+      const double rounding = share_of_strain * std::max(size(end), size(x0));
+      if (sweeps == 1) {
+        contraction_ = std::min(1.0, contraction_ * forget_contraction);
+      } else if (change > rounding) {
+        contraction_ = change / change_before;
+        if (sweeps > 2 && contraction_ > slow_contraction) break;
+      }
+      const Modes cubic = cubic_error();
+      const double left = contraction_ < 1.0 ? contraction_ / (1.0 - contraction_) : 1e3;  // of the change
+      e.converged = left * change <= std::max(share_of_error * size(cubic), rounding) || change <= rounding;
+      e.error = -(cubic + left * changed);
+    }
+    e.error = times(from_modes_, e.error);
+    state = state_of(end);
+    remainder_before_ = remainder_;
+    last_h_ = h;
+    t_end_ = forcing[last].t;
+    end_ = state;
+    load_version_ = body.load_version();
+    end_acceleration_ = forcing[last].acceleration_less_gravity;
+    end_angular_acceleration_ = forcing[last].angular_acceleration;
+    return e;
   }
-}
 
-void Exponential::to_modes(const StrainState& state, ModeVector& z) const {
-  z = to_modes_.leftCols(n_) * state.q + to_modes_.rightCols(n_) * state.q_dot;
-}
+  LinearPart linear_;
+  long version_ = -1;
+  Strain q_reference_;
+  Square stiffness_, damping_;
+  Eigen::Matrix<double, 2 * n, 2 * n> to_modes_, from_modes_;
+  Eigen::Matrix<double, 2 * n, n> force_to_modes_;
 
-void Exponential::from_modes(const ModeVector& z, StrainState& state) const {
-  state.q = (from_modes_.topRows(n_) * z).real();
-  state.q_dot = (from_modes_.bottomRows(n_) * z).real();
-}
+  double h_ = 0.0;  ///< what the operators are for
+  Modes weight_;
+  std::array<Operator, nodes> decay_;
+  std::array<std::array<Operator, nodes>, nodes> node_;
+  Operator error_;
 
-Exponential::ModeVector Exponential::remainder(const StrainVector& q_ddot, const StrainState& state) const {
-  return to_modes_.rightCols(n_) * StrainVector(q_ddot + stiffness_ * (state.q - q_reference_) + damping_ * state.q_dot);
+  std::array<Modes, nodes> remainder_, remainder_before_;  ///< at the nodes of this step and the last one
+  double contraction_ = 1.0;                               ///< of a sweep's change by the next
+  double last_h_ = 0.0, t_end_ = 0.0;
+  State end_;
+  long load_version_ = -1;
+  Vector3d end_acceleration_, end_angular_acceleration_;
+  double continued_ratio_ = 0.0;
+  std::array<Collocation::Row, nodes> continued_;
+};
+
+Exponential::Exponential() = default;
+Exponential::~Exponential() = default;
+
+Exponential::Core& Exponential::core(int n) {
+  if (n != n_) {
+    n_ = n;
+    switch (n) {
+      case 1: core_ = std::make_unique<CoreOf<1>>(); break;
+      case 2: core_ = std::make_unique<CoreOf<2>>(); break;
+      case 3: core_ = std::make_unique<CoreOf<3>>(); break;
+      case 4: core_ = std::make_unique<CoreOf<4>>(); break;
+      case 5: core_ = std::make_unique<CoreOf<5>>(); break;
+      default: core_ = std::make_unique<CoreOf<6>>(); break;
+    }
+  }
+  return *core_;
 }
 
 StepEstimate Exponential::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
                                StrainState& state) {
-  const HandleForcing begin = body.forcing(handle, t);
-  const HandleForcing middle = body.forcing(handle, t + 0.5 * h);
-  const HandleForcing end = body.forcing(handle, t + h);
-  if (version_ != body.version() || n_ != body.size() ||
-      (state.q - q_reference_).norm() * body.shape().length() > relinearise_after) {
-    linearise(body, begin, state);
-  }
-  if (h != step_) prepare(h);
-
-  // The modes are those of the strain about the reference: z = V⁻¹ (q − q_ref, q̇).
-  ModeVector z, u(rates_.size());
-  to_modes({state.q - q_reference_, state.q_dot}, z);
-  StrainState stage;
-  const auto at_stage = [&]() {
-    from_modes(u, stage);
-    stage.q += q_reference_;
-  };
-  const auto modes = static_cast<std::size_t>(rates_.size());
-  const auto at = [](std::size_t m) { return static_cast<Eigen::Index>(m); };
-
-  const ModeVector n1 = remainder(last_.get(body, begin, state), state);
-  for (std::size_t m = 0; m < modes; ++m) {
-    const ModeStep& s = mode_step_[m];
-    u[at(m)] = s.half_decay * z[at(m)] + 0.5 * s.half_1 * n1[at(m)];
-  }
-  at_stage();
-  const ModeVector n2 = remainder(body.acceleration(middle, stage.q, stage.q_dot), stage);
-  for (std::size_t m = 0; m < modes; ++m) {
-    const ModeStep& s = mode_step_[m];
-    u[at(m)] = s.half_decay * z[at(m)] + 0.5 * s.half_1 * n1[at(m)] + s.half_2 * (n2[at(m)] - n1[at(m)]);
-  }
-  at_stage();
-  const ModeVector n3 = remainder(body.acceleration(middle, stage.q, stage.q_dot), stage);
-  for (std::size_t m = 0; m < modes; ++m) {
-    const ModeStep& s = mode_step_[m];
-    u[at(m)] = s.decay * z[at(m)] + s.one * n1[at(m)] + 2.0 * s.two * (n3[at(m)] - n1[at(m)]);
-  }
-  at_stage();
-  const ModeVector n4 = remainder(body.acceleration(end, stage.q, stage.q_dot), stage);
-  for (std::size_t m = 0; m < modes; ++m) {
-    const ModeStep& s = mode_step_[m];
-    const Eigen::Index i = at(m);
-    u[i] = s.decay * z[i] + s.one * n1[i] + s.two * (-3.0 * n1[i] + 2.0 * (n2[i] + n3[i]) - n4[i]) +
-           4.0 * s.three * (n1[i] - n2[i] - n3[i] + n4[i]);
-  }
-  at_stage();
-  state = stage;
-
-  // Against the scheme that ends in the remainder of the new state.
-  const StrainVector q_ddot = body.acceleration(end, state.q, state.q_dot);
-  last_.keep(body, end, state, q_ddot);
-  const ModeVector n5 = remainder(q_ddot, state);
-  for (std::size_t m = 0; m < modes; ++m) {
-    const ModeStep& s = mode_step_[m];
-    u[at(m)] = (4.0 * s.three - s.two) * (n5[at(m)] - n4[at(m)]);
-  }
-  from_modes(u, stage);
-  return {stage.q, fastest_ * h};
+  if (body.size() == 0) return {StrainVector::Zero(0), 0.0};
+  return core(body.size()).step(body, handle, t, h, state);
 }
 
 Integrator::Response Exponential::response(const HeldBody& body, double t, double h, const StrainState& state) {
-  if (version_ != body.version() || n_ != body.size()) return Integrator::response(body, t, h, state);
-  if (h != step_) prepare(h);
-  FromModes weighted = to_modes_.rightCols(n_);
-  for (int m = 0; m < rates_.size(); ++m) weighted.row(m) *= mode_step_[static_cast<std::size_t>(m)].one;
   Response r;
-  r.q = (from_modes_.topRows(n_) * weighted).real() * inverse_mass_;
-  r.q_dot = (from_modes_.bottomRows(n_) * weighted).real() * inverse_mass_;
-  return r;
+  if (body.size() > 0 && body.size() == n_ && core_->response(body, h, r)) return r;
+  return Integrator::response(body, t, h, state);
 }
 
 }  // namespace spring_workbench

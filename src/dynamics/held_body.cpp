@@ -1,8 +1,12 @@
 #include "spring_workbench/dynamics/held_body.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
+#include <type_traits>
 #include <utility>
+
+#include "spring_workbench/math/positive_definite.h"
 
 namespace spring_workbench {
 namespace {
@@ -16,6 +20,8 @@ HeldBody::HeldBody(std::shared_ptr<const ShapeModel> shape, const BodyInertia& b
     : shape_(std::move(shape)), body_(body), gravity_(gravity) {
   p_OE_ = body.X_OE.translation();
   p_EO_ = -(body.X_OE.linear().transpose() * p_OE_);
+  R_EO_ = body.X_OE.linear().transpose();
+  inverse_inertia_O_ = body.inertia_O.inverse();
   K_ = D_ = StrainVector::Zero(shape_->size());
   mode_.fill(Mode::active);
   changed();
@@ -121,37 +127,44 @@ void HeldBody::prescribed(double t, StrainVector& q, StrainVector& q_dot, Strain
 void HeldBody::set_external_wrench(const Wrench& wrench_W) {
   if (wrench_W.force == external_W_.force && wrench_W.moment == external_W_.moment) return;
   external_W_ = wrench_W;
+  loaded_ = !(wrench_W.force.isZero(0.0) && wrench_W.moment.isZero(0.0));
   ++load_version_;
 }
 
 HandleForcing HeldBody::forcing(const MotionSegment& handle, double t) const {
-  const MotionState s = handle.at(t);
+  const OwnAxesMotion m = handle.in_own_axes(t);
   HandleForcing f;
   f.t = t;
-  f.X_WH = s.X;
-  f.v_WH_W = s.velocity.linear;
-  const auto R_HW = s.X.linear().transpose();
-  f.angular_velocity = R_HW * s.velocity.angular;
-  f.angular_acceleration = R_HW * s.acceleration.angular;
-  f.acceleration_less_gravity = R_HW * (s.acceleration.linear + gravity_ * Vector3d::UnitZ());
+  f.X_WH = m.X;
+  f.v_WH_W = m.v_W;
+  f.angular_velocity = m.w_B;
+  f.angular_acceleration = m.alpha_B;
+  f.acceleration_less_gravity.noalias() = m.X.linear().transpose() * (m.a_W + gravity_ * Vector3d::UnitZ());
   return f;
 }
 
-void HeldBody::kinematics(double t, const StrainVector& q, const StrainVector& q_dot, Kinematics& k) const {
-  k.q = k.q_dot = StrainVector::Zero(shape_->size());
-  for (int i = 0; i < size(); ++i) {
-    k.q[active_[static_cast<std::size_t>(i)]] = q[i];
-    k.q_dot[active_[static_cast<std::size_t>(i)]] = q_dot[i];
+template <typename Active>
+void HeldBody::expand(double t, const Active& q, const Active& q_dot, StrainVector& q_all, StrainVector& q_dot_all,
+                      StrainVector& q_ddot_all) const {
+  q_all.setZero(shape_->size());
+  q_dot_all.setZero(shape_->size());
+  for (int i = 0; i < q.size(); ++i) {
+    q_all[active_[static_cast<std::size_t>(i)]] = q[i];
+    q_dot_all[active_[static_cast<std::size_t>(i)]] = q_dot[i];
   }
-  StrainVector q_ddot;
   if (returning_ > 0) {
-    q_ddot = StrainVector::Zero(shape_->size());
-    prescribed(t, k.q, k.q_dot, q_ddot);
+    q_ddot_all.setZero(shape_->size());
+    prescribed(t, q_all, q_dot_all, q_ddot_all);
   }
+}
+
+void HeldBody::kinematics(double t, const StrainVector& q, const StrainVector& q_dot, Kinematics& k) const {
+  StrainVector q_ddot;
+  expand(t, q, q_dot, k.q, k.q_dot, q_ddot);
   shape_->tip(k.q, k.q_dot, k.tip);
   k.r_EO = k.tip.R_HE * p_EO_;
   k.p_HO = k.tip.p_HE + k.r_EO;
-  k.R_HO = k.tip.R_HE * body_.X_OE.linear().transpose();
+  k.R_HO = k.tip.R_HE * R_EO_;
   k.linear.resize(3, shape_->size());
   for (int i = 0; i < shape_->size(); ++i) k.linear.col(i) = k.tip.linear.col(i) + k.tip.angular.col(i).cross(k.r_EO);
   const Vector3d w = k.tip.angular * k.q_dot;
@@ -179,29 +192,126 @@ StrainMatrix HeldBody::mass_matrix(const Kinematics& k, Matrix3d& I_H) const {
   return M;
 }
 
-StrainVector HeldBody::acceleration(const HandleForcing& h, const StrainVector& q, const StrainVector& q_dot) const {
-  Kinematics k;
-  kinematics(h.t, q, q_dot, k);
-  Matrix3d I_H;
-  const StrainMatrix M = mass_matrix(k, I_H);
-  // Velocities and accelerations of O for q̈ = 0, in the axes of the turning frame H.
-  const Vector3d w_rel = k.tip.angular * k.q_dot;
-  const Vector3d v_rel = k.linear * k.q_dot;
-  const Vector3d& w_H = h.angular_velocity;
-  const Vector3d w = w_H + w_rel;
-  const Vector3d a = h.acceleration_less_gravity + h.angular_acceleration.cross(k.p_HO) +
-                     w_H.cross(w_H.cross(k.p_HO)) + 2.0 * w_H.cross(v_rel) + k.linear_bias;
-  const Vector3d alpha = h.angular_acceleration + w_H.cross(w_rel) + k.angular_bias;
-  const auto R_HW = h.X_WH.linear().transpose();
-  const Vector3d force = body_.mass * a - R_HW * external_W_.force;
-  const Vector3d moment = I_H * alpha + w.cross(I_H * w) - R_HW * external_W_.moment;
+struct HeldBody::Rigid {
+  Vector3d r_EO;     ///< from tip to centre of mass, axes of H
+  Matrix3d R_HO;
+  Vector3d force;    ///< mass times acceleration of O, less gravity and contact, axes of H
+  Vector3d moment_O; ///< rate of the angular momentum about O, less the contact's moment, axes of O
+};
 
-  StrainVector rhs(size());
-  for (int i = 0; i < size(); ++i) {
-    const int c = active_[static_cast<std::size_t>(i)];
-    rhs[i] = -K_[c] * k.q[c] - D_[c] * k.q_dot[c] - k.linear.col(c).dot(force) - k.tip.angular.col(c).dot(moment);
+HeldBody::Rigid HeldBody::without_strain_acceleration(const HandleForcing& h, const TipKinematics& tip,
+                                                      const StrainVector& q_dot, const StrainVector& q_ddot) const {
+  Rigid r;
+  r.r_EO.noalias() = tip.R_HE * p_EO_;
+  r.R_HO.noalias() = tip.R_HE * R_EO_;
+  const Vector3d p_HO = tip.p_HE + r.r_EO;
+  Vector3d w_rel, v_E;  // of the tip, in the turning frame H
+  if (q_dot.size() == max_strain_coordinates) {  // with loops that the compiler can unroll
+    using Columns = Eigen::Map<const Eigen::Matrix<double, 3, max_strain_coordinates>>;
+    const Eigen::Matrix<double, max_strain_coordinates, 1> rate = q_dot;
+    w_rel = Columns(tip.angular.data()).lazyProduct(rate);
+    v_E = Columns(tip.linear.data()).lazyProduct(rate);
+  } else {
+    w_rel = tip.angular * q_dot;
+    v_E = tip.linear * q_dot;
   }
-  return M.llt().solve(rhs);
+  Vector3d alpha_rel = tip.angular_bias, a_E = tip.linear_bias;
+  if (returning_ > 0) {
+    alpha_rel += tip.angular * q_ddot;
+    a_E += tip.linear * q_ddot;
+  }
+  const Vector3d v_rel = v_E + w_rel.cross(r.r_EO);
+  const Vector3d& w_H = h.angular_velocity;
+  const Vector3d a = h.acceleration_less_gravity + h.angular_acceleration.cross(p_HO) +
+                     w_H.cross(w_H.cross(p_HO) + 2.0 * v_rel) + a_E + alpha_rel.cross(r.r_EO) +
+                     w_rel.cross(w_rel.cross(r.r_EO));
+  const Vector3d alpha_O = r.R_HO.transpose() * (h.angular_acceleration + w_H.cross(w_rel) + alpha_rel);
+  const Vector3d w_O = r.R_HO.transpose() * (w_H + w_rel);
+  r.force = body_.mass * a;
+  r.moment_O = body_.inertia_O * alpha_O + w_O.cross(body_.inertia_O * w_O);
+  if (loaded_) {
+    const auto R_HW = h.X_WH.linear().transpose();
+    r.force -= R_HW * external_W_.force;
+    r.moment_O -= r.R_HO.transpose() * (R_HW * external_W_.moment);
+  }
+  return r;
+}
+
+template <int n>
+Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleForcing& h, const Eigen::Matrix<double, n, 1>& q,
+                                                   const Eigen::Matrix<double, n, 1>& q_dot) const {
+  using Vector = Eigen::Matrix<double, n, 1>;
+  StrainVector q_all, q_dot_all, q_ddot_all;
+  expand(h.t, q, q_dot, q_all, q_dot_all, q_ddot_all);
+  TipKinematics tip;
+  shape_->tip(q_all, q_dot_all, tip);
+  const Rigid rigid = without_strain_acceleration(h, tip, q_dot_all, q_ddot_all);
+
+  Vector springs;
+  for (int i = 0; i < n; ++i) {
+    const int c = active_[static_cast<std::size_t>(i)];
+    springs[i] = -K_[c] * q[i] - D_[c] * q_dot[i];
+  }
+  if constexpr (n == 6) {
+    if (tip.separate) {
+      // Newton and Euler for the body under the tip's wrench, then back to the coordinates: no mass matrix.
+      const Vector3d force(springs[0], springs[1], springs[5]);
+      const Vector3d moment_E = tip.inverse_angular.transpose() * springs.template segment<3>(2);
+      const Vector3d a_O = (force - rigid.force) * (1.0 / body_.mass);
+      const Vector3d moment_O = rigid.R_HO.transpose() * (moment_E - rigid.r_EO.cross(force)) - rigid.moment_O;
+      const Vector3d alpha = rigid.R_HO * (inverse_inertia_O_ * moment_O);
+      const Vector3d a_E = a_O - alpha.cross(rigid.r_EO);
+      Vector q_ddot;
+      q_ddot << a_E[0], a_E[1], tip.inverse_angular * alpha, a_E[2];
+      return q_ddot;
+    }
+  }
+  Eigen::Matrix<double, 3, n> linear, angular;  // of O: axes of H and of O
+  for (int i = 0; i < n; ++i) {
+    const int c = active_[static_cast<std::size_t>(i)];
+    const Vector3d axis = tip.angular.col(c);
+    linear.col(i) = tip.linear.col(c) + axis.cross(rigid.r_EO);
+    angular.col(i).noalias() = rigid.R_HO.transpose() * axis;
+  }
+  const Eigen::Matrix<double, 3, n> momentum = body_.inertia_O.lazyProduct(angular);
+  Eigen::Matrix<double, n, n> M;
+  Vector rhs;
+  for (int j = 0; j < n; ++j) {
+    for (int i = j; i < n; ++i) {
+      M(i, j) = body_.mass * linear.col(i).dot(linear.col(j)) + angular.col(i).dot(momentum.col(j));
+    }
+    rhs[j] = springs[j] - linear.col(j).dot(rigid.force) - angular.col(j).dot(rigid.moment_O);
+  }
+  return solve_positive_definite<n>(M, rhs);
+}
+
+template Eigen::Matrix<double, 1, 1> HeldBody::acceleration<1>(const HandleForcing&, const Eigen::Matrix<double, 1, 1>&,
+                                                               const Eigen::Matrix<double, 1, 1>&) const;
+template Eigen::Matrix<double, 2, 1> HeldBody::acceleration<2>(const HandleForcing&, const Eigen::Matrix<double, 2, 1>&,
+                                                               const Eigen::Matrix<double, 2, 1>&) const;
+template Eigen::Matrix<double, 3, 1> HeldBody::acceleration<3>(const HandleForcing&, const Eigen::Matrix<double, 3, 1>&,
+                                                               const Eigen::Matrix<double, 3, 1>&) const;
+template Eigen::Matrix<double, 4, 1> HeldBody::acceleration<4>(const HandleForcing&, const Eigen::Matrix<double, 4, 1>&,
+                                                               const Eigen::Matrix<double, 4, 1>&) const;
+template Eigen::Matrix<double, 5, 1> HeldBody::acceleration<5>(const HandleForcing&, const Eigen::Matrix<double, 5, 1>&,
+                                                               const Eigen::Matrix<double, 5, 1>&) const;
+template Eigen::Matrix<double, 6, 1> HeldBody::acceleration<6>(const HandleForcing&, const Eigen::Matrix<double, 6, 1>&,
+                                                               const Eigen::Matrix<double, 6, 1>&) const;
+
+StrainVector HeldBody::acceleration(const HandleForcing& h, const StrainVector& q, const StrainVector& q_dot) const {
+  const auto of = [&](auto size) -> StrainVector {
+    constexpr int n = decltype(size)::value;
+    return acceleration<n>(h, Eigen::Matrix<double, n, 1>(q), Eigen::Matrix<double, n, 1>(q_dot));
+  };
+  switch (size()) {
+    case 1: return of(std::integral_constant<int, 1>());
+    case 2: return of(std::integral_constant<int, 2>());
+    case 3: return of(std::integral_constant<int, 3>());
+    case 4: return of(std::integral_constant<int, 4>());
+    case 5: return of(std::integral_constant<int, 5>());
+    case 6: return of(std::integral_constant<int, 6>());
+    default: return StrainVector::Zero(0);
+  }
 }
 
 StrainMatrix HeldBody::mass_matrix(double t, const StrainVector& q) const {
@@ -222,6 +332,18 @@ StrainState HeldBody::full_state(double t, const StrainState& state) const {
     prescribed(t, full.q, full.q_dot, q_ddot);
   }
   return full;
+}
+
+bool HeldBody::rechart(StrainState& state) const {
+  if (returning_ > 0) return false;
+  StrainState full = full_state(0.0, state);
+  if (!shape_->rechart(full.q, full.q_dot)) return false;
+  for (int i = 0; i < size(); ++i) {
+    const int c = active_[static_cast<std::size_t>(i)];
+    state.q[i] = full.q[c];
+    state.q_dot[i] = full.q_dot[c];
+  }
+  return true;
 }
 
 MotionState HeldBody::object(const HandleForcing& h, const StrainState& state, const StrainVector* q_ddot) const {

@@ -3,14 +3,18 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "exponential.h"
+#include "implicit_integrators.h"
 #include "integrators.h"
+#include "quintic.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/dynamics/damped_oscillator.h"
 
 namespace spring_workbench {
 
 const std::vector<std::string>& integrator_names() {
-  static const std::vector<std::string> names = {"exponential", "closed_form", "rk4", "semi_implicit_euler"};
+  static const std::vector<std::string> names = {"exponential", "rosenbrock",          "implicit_euler",
+                                                 "closed_form", "semi_implicit_euler", "rk4"};
   return names;
 }
 
@@ -19,6 +23,8 @@ std::unique_ptr<Integrator> make_integrator(const std::string& name) {
   if (name == "closed_form") return std::make_unique<ClosedForm>();
   if (name == "rk4") return std::make_unique<RungeKutta4>();
   if (name == "semi_implicit_euler") return std::make_unique<SemiImplicitEuler>();
+  if (name == "implicit_euler") return std::make_unique<ImplicitEuler>();
+  if (name == "rosenbrock") return std::make_unique<Rosenbrock>();
   refuse("dynamics", "integrator", name, "one of " + join(integrator_names()));
 }
 
@@ -57,8 +63,32 @@ StepEstimate SemiImplicitEuler::step(const HeldBody& body, const MotionSegment& 
   const HandleForcing end = body.forcing(handle, t + h);
   const StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
   last_.keep(body, end, state, a_end);
-  return {h * h / 6.0 * (4.0 * a - a_end)};  // h² a against h² (2 a + a_end) / 6
+  // h² a against h² (2 a + a_end) / 6, and h a against h (a + a_end) / 2.
+  return {h * h / 6.0 * (4.0 * a - a_end), 0.0, 0.5 * h * (a - a_end)};
 }
+
+namespace {
+
+struct StepEnd {
+  const StrainState& state;
+  const StrainVector& q_ddot;
+};
+
+/// The error at the end of a step of a method of order up to four, from how far the quintic through both ends is from
+/// obeying the equation of motion at a quarter and at three quarters of the step.
+StepEstimate end_error(const HeldBody& body, const MotionSegment& handle, double t, double h, const StepEnd& begin,
+                       const StepEnd& end) {
+  // The quintic's second derivative by an end that is off by (e, h ė = g): (H'' e + G'' g) / h², H and G its shapes.
+  const auto defect = [&](double u) {
+    const QuinticPoint p = quintic(begin.state, begin.q_ddot, end.state, end.q_ddot, h, u);
+    return StrainVector(h * h * (p.q_ddot - body.acceleration(body.forcing(handle, t + u * h), p.q, p.q_dot)));
+  };
+  const StrainVector d1 = defect(0.25), d3 = defect(0.75);
+  const StrainVector g = (d1 + d3) / 2.25;             // H''(¼) = −H''(¾) = 5.625, G''(¼) = −1.6875, G''(¾) = 3.9375
+  return {(d1 + 1.6875 * g) / 5.625, 0.0, g / h};
+}
+
+}  // namespace
 
 StepEstimate RungeKutta4::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
                                StrainState& state) {
@@ -76,7 +106,7 @@ StepEstimate RungeKutta4::step(const HeldBody& body, const MotionSegment& handle
   state.q_dot = s0.q_dot + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
   const StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
   last_.keep(body, end, state, a_end);
-  return {h / 6.0 * (v4 - state.q_dot)};  // against the method of order three that ends in the new slope
+  return end_error(body, handle, t, h, {s0, a1}, {state, a_end});
 }
 
 StepEstimate ClosedForm::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
@@ -85,7 +115,7 @@ StepEstimate ClosedForm::step(const HeldBody& body, const MotionSegment& handle,
   const StrainMatrix M = body.mass_matrix(t, state.q);
   const StrainVector K = body.stiffness(), D = body.damping();
   StrainVector held(body.size());  // what is left of the acceleration beside the coordinate's own spring and damper
-  StrainVector per_force(body.size());
+  StrainVector per_force(body.size()), per_rate(body.size());
   for (int i = 0; i < body.size(); ++i) {
     const double omega_squared = K[i] / M(i, i), two_alpha = D[i] / M(i, i);
     const OscillatorStep s = damped_oscillator(0.5 * two_alpha, omega_squared, h);
@@ -94,15 +124,17 @@ StepEstimate ClosedForm::step(const HeldBody& body, const MotionSegment& handle,
     state.q[i] = s.xx * q + s.xv * v + s.xg * held[i];
     state.q_dot[i] = s.vx * q + s.vv * v + s.vg * held[i];
     per_force[i] = s.xg;
+    per_rate[i] = s.vg;
   }
   const HandleForcing end = body.forcing(handle, t + h);
   const StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
   last_.keep(body, end, state, a_end);
   StepEstimate estimate;
-  estimate.q_error = StrainVector(body.size());
+  estimate.q_error = estimate.q_dot_error = StrainVector(body.size());
   for (int i = 0; i < body.size(); ++i) {
     const double held_end = a_end[i] + D[i] / M(i, i) * state.q_dot[i] + K[i] / M(i, i) * state.q[i];
-    estimate.q_error[i] = per_force[i] / 3.0 * (held_end - held[i]);  // a ramp instead of a constant
+    estimate.q_error[i] = per_force[i] / 3.0 * (held[i] - held_end);  // a constant instead of a ramp
+    estimate.q_dot_error[i] = per_rate[i] / 2.0 * (held[i] - held_end);
   }
   return estimate;
 }

@@ -5,27 +5,50 @@
 namespace spring_workbench {
 namespace {
 
-/// Coefficients of exp and of the Jacobians as functions of the angle, by Taylor series near zero.
-struct Coefficients {
-  double a;  ///< sin θ / θ
-  double b;  ///< (1 − cos θ) / θ²
-  double c;  ///< (θ − sin θ) / θ³
+/// e = (1/2 − b) / t and g = (1/6 − c) / t: from these two all coefficients follow without cancellation.
+struct Tails {
+  double e, g;
 };
 
-Coefficients coefficients(double theta_squared) {
-  if (theta_squared < 1e-2) {
-    const double t = theta_squared;
-    return {1.0 - t / 6.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0 * (1.0 - t / 110.0)))),
-            0.5 * (1.0 - t / 12.0 * (1.0 - t / 30.0 * (1.0 - t / 56.0 * (1.0 - t / 90.0 * (1.0 - t / 132.0))))),
-            1.0 / 6.0 * (1.0 - t / 20.0 * (1.0 - t / 42.0 * (1.0 - t / 72.0 * (1.0 - t / 110.0 * (1.0 - t / 156.0)))))};
+/// Their Taylor series up to the power `n` of t.
+template <int n>
+Tails taylor_tails(double t, double e = 1.0, double g = 1.0) {
+  if constexpr (n == 0) {
+    return {e * (1.0 / 24.0), g * (1.0 / 120.0)};
+  } else {
+    constexpr double next_e = 1.0 / ((2 * n + 3) * (2 * n + 4)), next_g = 1.0 / ((2 * n + 4) * (2 * n + 5));
+    return taylor_tails<n - 1>(t, 1.0 - next_e * t * e, 1.0 - next_g * t * g);
   }
-  const double theta = std::sqrt(theta_squared);
-  const double s = std::sin(theta);
-  const double half = std::sin(0.5 * theta);
-  return {s / theta, 2.0 * half * half / theta_squared, (theta - s) / (theta * theta_squared)};
+}
+
+So3Coefficients from_tails(double t, const Tails& k) {
+  So3Coefficients f;
+  f.b = 0.5 - t * k.e;
+  f.c = 1.0 / 6.0 - t * k.g;
+  f.a = 1.0 - t * f.c;
+  f.b_slope = k.e - 0.5 * f.c;
+  f.c_slope = 1.5 * k.g - 0.5 * k.e;
+  f.d = -f.b_slope / f.b;
+  return f;
 }
 
 }  // namespace
+
+So3Coefficients so3_coefficients(double t) {
+  if (t < 1e-2) return from_tails(t, taylor_tails<4>(t));
+  if (t < 1.0) return from_tails(t, taylor_tails<8>(t));
+  const double theta = std::sqrt(t);
+  const double s = std::sin(theta);
+  const double half = std::sin(0.5 * theta);
+  So3Coefficients f;
+  f.a = s / theta;
+  f.b = 2.0 * half * half / t;
+  f.c = (theta - s) / (theta * t);
+  f.d = (1.0 - 0.5 * f.a / f.b) / t;
+  f.b_slope = (f.a - 2.0 * f.b) / (2.0 * t);
+  f.c_slope = (f.b - 3.0 * f.c) / (2.0 * t);
+  return f;
+}
 
 Matrix3d skew(const Vector3d& v) {
   Matrix3d m;
@@ -33,10 +56,17 @@ Matrix3d skew(const Vector3d& v) {
   return m;
 }
 
-Matrix3d exp_so3(const Vector3d& theta) {
-  const Coefficients k = coefficients(theta.squaredNorm());
-  const Matrix3d S = skew(theta);
-  return Matrix3d::Identity() + k.a * S + k.b * S * S;
+Matrix3d exp_so3(const Vector3d& theta) { return exp_so3(theta, so3_coefficients(theta.squaredNorm())); }
+
+Matrix3d exp_so3(const Vector3d& theta, const So3Coefficients& k) {
+  const double x = theta.x(), y = theta.y(), z = theta.z();
+  const double bx = k.b * x, by = k.b * y, bz = k.b * z;
+  const double ax = k.a * x, ay = k.a * y, az = k.a * z;
+  Matrix3d R;
+  R << 1.0 - by * y - bz * z, bx * y - az, bx * z + ay,  //
+      bx * y + az, 1.0 - bx * x - bz * z, by * z - ax,   //
+      bx * z - ay, by * z + ax, 1.0 - bx * x - by * y;
+  return R;
 }
 
 Vector3d log_so3(const Matrix3d& R) {
@@ -48,37 +78,23 @@ Vector3d log_so3(const Matrix3d& R) {
 }
 
 Matrix3d right_jacobian_so3(const Vector3d& theta) {
-  const Coefficients k = coefficients(theta.squaredNorm());
+  const So3Coefficients k = so3_coefficients(theta.squaredNorm());
   const Matrix3d S = skew(theta);
   return Matrix3d::Identity() - k.b * S + k.c * S * S;
 }
 
 Matrix3d right_jacobian_inverse_so3(const Vector3d& theta) {
-  const double t = theta.squaredNorm();
-  const Coefficients k = coefficients(t);
+  const So3Coefficients k = so3_coefficients(theta.squaredNorm());
   const Matrix3d S = skew(theta);
-  // (1/θ²) (1 − a / (2 b)), which near zero is 1/12 + θ²/720 + θ⁴/30240 + …
-  const double d = t < 1e-2 ? (1.0 / 12.0) * (1.0 + t / 60.0 * (1.0 + t / 42.0 * (1.0 + t / 40.0)))
-                            : (1.0 - 0.5 * k.a / k.b) / t;
-  return Matrix3d::Identity() + 0.5 * S + d * S * S;
+  return Matrix3d::Identity() + 0.5 * S + k.d * S * S;
 }
 
 Vector3d right_jacobian_rate_so3(const Vector3d& theta, const Vector3d& theta_dot, const Vector3d& v) {
-  const double t = theta.squaredNorm();
-  const Coefficients k = coefficients(t);
-  // Derivatives of b and c with respect to θ²: b' = (a − 2b)/(2θ²), c' = (b − 3c)/(2θ²).
-  double b_prime, c_prime;
-  if (t < 1e-2) {
-    b_prime = -1.0 / 24.0 * (1.0 - t / 15.0 * (1.0 - t * 3.0 / 112.0 * (1.0 - t * 2.0 / 135.0)));
-    c_prime = -1.0 / 120.0 * (1.0 - t / 21.0 * (1.0 - t / 48.0 * (1.0 - t * 2.0 / 165.0)));
-  } else {
-    b_prime = (k.a - 2.0 * k.b) / (2.0 * t);
-    c_prime = (k.b - 3.0 * k.c) / (2.0 * t);
-  }
+  const So3Coefficients k = so3_coefficients(theta.squaredNorm());
   const double t_dot = 2.0 * theta.dot(theta_dot);
   const Vector3d S_v = theta.cross(v);
   const Vector3d S_dot_v = theta_dot.cross(v);
-  return -b_prime * t_dot * S_v - k.b * S_dot_v + c_prime * t_dot * theta.cross(S_v) +
+  return -k.b_slope * t_dot * S_v - k.b * S_dot_v + k.c_slope * t_dot * theta.cross(S_v) +
          k.c * (theta_dot.cross(S_v) + theta.cross(S_dot_v));
 }
 

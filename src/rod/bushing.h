@@ -18,6 +18,7 @@ class Bushing final : public ShapeModel {
   double extension(const StrainVector& q) const override { return q[5]; }
   double twist(const StrainVector& q) const override { return q[4]; }
   RigidTransform section(const StrainVector& q, double s) const override;
+  bool rechart(StrainVector& q, StrainVector& q_dot) const override;
   bool admissible(const StrainVector& q) const override;
 };
 

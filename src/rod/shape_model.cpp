@@ -11,6 +11,8 @@ const std::vector<std::string>& shape_model_names() {
   return names;
 }
 
+bool ShapeModel::rechart(StrainVector&, StrainVector&) const { return false; }
+
 std::shared_ptr<const ShapeModel> make_shape_model(const std::string& name, double length) {
   check_number("fork", "length", length, positive());
   if (name == "constant") return std::make_shared<StrainRod>(name, length, 1);

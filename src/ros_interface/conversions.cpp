@@ -86,6 +86,7 @@ ForkState to_message(const ToolState& tool) {
   message.stretch_damping_ratio = tool.damping_ratio.stretch;
   message.bend_damping_ratio = tool.damping_ratio.bend;
   message.torsion_damping_ratio = tool.damping_ratio.torsion;
+  message.strain.assign(tool.strain.data(), tool.strain.data() + tool.strain.size());
   message.stretch = tool.stretch;
   message.bend = {tool.bend.x(), tool.bend.y()};
   message.torsion = tool.torsion;
@@ -152,6 +153,8 @@ StepReport to_message(const AdvanceReport& report) {
   message.energy_added = report.energy_added;
   message.omega_dt = report.stiffest_omega_dt;
   message.collision_queries = static_cast<uint32_t>(report.collision_queries);
+  message.steps_rejected = static_cast<uint32_t>(report.steps_rejected);
+  message.energy_held = static_cast<uint32_t>(report.energy_held);
   message.guards_tripped = static_cast<uint32_t>(report.guards_tripped);
   message.parts_run = report.parts_run;
   message.parts_left_out = report.parts_left_out;

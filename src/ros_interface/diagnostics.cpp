@@ -1,6 +1,10 @@
 #include "spring_workbench/ros_interface/diagnostics.h"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
+
+#include "spring_workbench/config/yaml_fields.h"
 
 namespace spring_workbench {
 
@@ -39,20 +43,60 @@ DiagnosticStatusBuilder& DiagnosticStatusBuilder::raise(int8_t level, const std:
   return *this;
 }
 
-std::vector<DiagnosticStatus> ManipulationDiagnostics::report(const InputStatistics& input, const LoopStatistics& loop,
+void add_stream(const StreamFigures& stream, const GateCounts& gate, DiagnosticStatusBuilder& status) {
+  status.add("samples", stream.samples)
+      .add("rate [Hz]", stream.interval > 0.0 ? 1.0 / stream.interval : 0.0)
+      .add("jitter of stamps [s]", stream.stamp_jitter)
+      .add("jitter of receipt [s]", stream.receipt_jitter)
+      .add("age of newest sample when it came [s]", stream.age)
+      .add("longest gap [s]", stream.longest_gap)
+      .add("dropouts", gate.dropouts)
+      .add("jumps taken as true", gate.new_places)
+      .add("sign flips put right", gate.sign_flips);
+}
+
+std::string hint_for_silence(const InputStatistics& input, const std::vector<std::string>& senders,
+                             const std::string& stylus_frame) {
+  if (input.stream.samples > 0) return "";
+  if (input.messages == 0 && senders.empty()) return "nobody sends /tf: is tracker_driver, or a bag, running?";
+  if (input.messages == 0) {
+    return join(senders) + " should send /tf, but nothing comes: is ROS_IP or ROS_HOSTNAME set on the sender's host, and "
+           "is the device on?";
+  }
+  if (input.frames.count(stylus_frame) == 0) {
+    return "no frame " + stylus_frame + " on /tf, but " +
+           join({input.frames.begin(), input.frames.end()}) + ": is the parameter stylus_frame right?";
+  }
+  const auto most = std::max_element(input.left_out.begin(), input.left_out.end(),
+                                     [](const auto& a, const auto& b) { return a.second < b.second; });
+  if (most == input.left_out.end()) return "";
+  if (most->first == "too old" || most->first == "from the future") {
+    std::ostringstream text;
+    text << "all samples are " << most->first << ", the newest by " << std::abs(input.newest_offer_age)
+         << " s: are the clocks of two hosts apart, or is a bag played without --clock and use_sim_time?";
+    return text.str();
+  }
+  return "all samples are left out, most for this: " + most->first;
+}
+
+std::vector<DiagnosticStatus> ManipulationDiagnostics::report(const InputStatistics& input,
+                                                              const ReengagementCounts& hand,
+                                                              const LoopStatistics& loop, const std::string& hint,
                                                               double now) {
-  std::vector<DiagnosticStatus> result{report_input(input, now), report_loop(loop)};
+  std::vector<DiagnosticStatus> result{report_input(input, hand, hint, now), report_loop(loop)};
   last_input_ = input;
+  last_hand_ = hand;
   last_loop_ = loop;
   return result;
 }
 
-DiagnosticStatus ManipulationDiagnostics::report_input(const InputStatistics& input, double now) const {
+DiagnosticStatus ManipulationDiagnostics::report_input(const InputStatistics& input, const ReengagementCounts& hand,
+                                                       const std::string& hint, double now) const {
   DiagnosticStatusBuilder status(name_ + ": tracker input", "tracker");
-  status.add("samples", input.samples)
-      .add("rate [Hz]", input.interval > 0.0 ? 1.0 / input.interval : 0.0)
-      .add("age of newest sample when it came [s]", input.age)
-      .add("dropouts", input.dropouts)
+  add_stream(input.stream, input.gate, status);
+  status.add("came after their time was simulated", hand.late)
+      .add("times the hand was found again", hand.reengagements)
+      .add("times the hand was lost", hand.losses)
       .add("jumps back in time", input.restarts);
   bool more_left_out = false;
   for (const auto& [reason, count] : input.left_out) {
@@ -60,11 +104,15 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const InputStatistics& in
     const auto before = last_input_.left_out.find(reason);
     more_left_out |= before == last_input_.left_out.end() || before->second < count;
   }
-  if (input.samples == 0) return status.raise(DiagnosticStatus::STALE, "no sample yet").status();
+  if (!hint.empty()) status.add("hint", hint);
+  if (input.stream.samples == 0) {
+    return status.raise(DiagnosticStatus::STALE, hint.empty() ? "no sample yet" : hint).status();
+  }
   const double silence = now - input.newest_arrival;
   status.add("time since newest sample [s]", silence);
   if (silence > dropout_after_) status.raise(DiagnosticStatus::WARN, "no samples: the hand is held at rest");
-  if (input.dropouts > last_input_.dropouts) status.raise(DiagnosticStatus::WARN, "dropouts");
+  if (hand.losses > last_hand_.losses) status.raise(DiagnosticStatus::WARN, "the hand was lost");
+  if (input.gate.dropouts > last_input_.gate.dropouts) status.raise(DiagnosticStatus::WARN, "dropouts");
   if (more_left_out) status.raise(DiagnosticStatus::WARN, "samples left out");
   return status.status();
 }

@@ -22,9 +22,11 @@ void sleep_until_simulated(double t) {
 
 }  // namespace
 
-double loop_time() {
-  if (ros::Time::isSimTime()) return ros::Time::now().toSec();
-  return duration<double>(steady_clock::now().time_since_epoch()).count();
+double loop_time() { return local_time().loop; }
+
+LocalTime local_time() {
+  const double wall = duration<double>(steady_clock::now().time_since_epoch()).count();
+  return {ros::Time::isSimTime() ? ros::Time::now().toSec() : wall, wall};
 }
 
 void sleep_until_loop_time(double t) {

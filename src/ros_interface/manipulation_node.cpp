@@ -6,12 +6,33 @@
 #include "spring_workbench/ros_interface/loop_clock.h"
 
 namespace spring_workbench {
+namespace {
+
+/// The nodes that the master says publish /tf, this one left out.
+std::vector<std::string> senders_of_tf() {
+  XmlRpc::XmlRpcValue request, response, state;
+  request[0] = ros::this_node::getName();
+  std::vector<std::string> senders;
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return senders;
+  XmlRpc::XmlRpcValue& topics = state[0];
+  for (int i = 0; i < topics.size(); ++i) {
+    if (std::string(topics[i][0]) != "/tf") continue;
+    for (int k = 0; k < topics[i][1].size(); ++k) senders.push_back(topics[i][1][k]);
+  }
+  senders.erase(std::remove(senders.begin(), senders.end(), ros::this_node::getName()), senders.end());
+  return senders;
+}
+
+}  // namespace
+
 ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : parameters_(read_manipulation_parameters(private_parameters(private_node), private_node.getNamespace())),
-      runner_(load_scene(parameters_.scene), parameters_.simulation),
+      runner_(load_scene(parameters_.scene), parameters_.simulation, parameters_.truth,
+              ros::Time::isSimTime() ? 1.0 / parameters_.rate : 0.0),
       input_(node, parameters_),
       publisher_(private_node, parameters_),
       services_(private_node, runner_),
+      live_tuning_(make_live_tuning(private_node, runner_)),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
       every_second_(node.createWallTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
@@ -40,8 +61,13 @@ void ManipulationNode::run_physics() {
 }
 
 void ManipulationNode::run_cycle(double due) {
-  const double now = loop_time();
-  const CycleReport report = runner_.cycle(input_.take_events(), now);
+  for (bool more = true; more && !stop_;) more = run_step(due);
+}
+
+bool ManipulationNode::run_step(double due) {
+  const LocalTime local = local_time();
+  const double now = local.loop;
+  const CycleReport report = runner_.cycle(input_.take_events(), local);
   const ros::Time stamp = runner_.stamp(ros::Time::now());
   runner_.locked([&](const Simulation& simulation) { publisher_.publish(simulation, stamp, now); });
   const bool deadline_missed = loop_time() > std::max(due, now) + 1.0 / parameters_.rate;
@@ -49,6 +75,7 @@ void ManipulationNode::run_cycle(double due) {
   publisher_.publish_task(runner_, stamp);
   publisher_.publish_steps(report, integrator, stamp, deadline_missed);
   count(report, deadline_missed);
+  return report.more;
 }
 
 void ManipulationNode::count(const CycleReport& report, bool deadline_missed) {
@@ -70,7 +97,12 @@ void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
   }
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
-  message.status = diagnostics_.report(input_.statistics(), loop, loop_time());
+  const InputStatistics input = input_.statistics();
+  const std::string hint = hint_for_silence(
+      input, input.messages == 0 ? senders_of_tf() : std::vector<std::string>(), parameters_.stylus_frame);
+  constexpr double patience = 10.0;  // [s]
+  if (!hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(patience, "no sample of the stylus yet: " << hint);
+  message.status = diagnostics_.report(input, runner_.hand_counts(), loop, hint, loop_time());
   diagnostics_publisher_.publish(message);
 }
 

@@ -1,6 +1,7 @@
 #include "spring_workbench/ros_interface/parameters.h"
 
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/fork_mesh/fork_curve.h"
 
 namespace spring_workbench {
 namespace {
@@ -73,11 +74,16 @@ ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters
   if (!scene) refuse(where, "scene", "(nothing)", "a URDF's path or package:// URI");
   result.scene = read_string(scene, where, "scene");
   take_number(rest, where, "rate", between(1.0, 2000.0), result.rate);
-  take_number(rest, where, "marker_rate", between(0.1, 200.0), result.marker_rate);
+  take_number(rest, where, "markers_rate", between(0.1, 200.0), result.markers_rate);
+  if (const YAML::Node curve = take(rest, "fork_curve")) {
+    result.fork_curve = read_choice(curve, where, "fork_curve", fork_curve_names());
+  }
   take_number(rest, where, "max_age", positive(), result.max_age);
   take_frame(rest, where, "world_frame", result.world_frame);
   take_frame(rest, where, "workbench_frame", result.workbench_frame);
   take_frame(rest, where, "stylus_frame", result.stylus_frame);
+  take_truth_settings(rest, where, result.truth);
+  take(rest, "live");  // what dynamic_reconfigure left there; the simulation starts from its own settings
   apply_settings(rest, where, result.simulation);
   return result;
 }

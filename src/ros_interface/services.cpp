@@ -35,6 +35,13 @@ std::string energies(const ChangeReport& report) {
   return text;
 }
 
+std::string describe(const DynamicsSettings& settings) {
+  char text[120];
+  std::snprintf(text, sizeof text, "%s, steps of at most %g s, tolerance %g m%s", settings.integrator.c_str(),
+                settings.step, settings.tolerance, settings.tolerance > 0.0 ? "" : " (fixed steps)");
+  return text;
+}
+
 }  // namespace
 
 Services::Services(ros::NodeHandle private_node, SimulationRunner& runner) : runner_(runner) {
@@ -67,13 +74,9 @@ bool Services::set_damping(SetForkDamping::Request& request, SetForkDamping::Res
 
 bool Services::set_integrator(SetIntegrator::Request& request, SetIntegrator::Response& response) {
   return answer(response, [&] {
-    if (request.tolerance != 0.0) {
-      refuse("set_integrator", "tolerance", std::to_string(request.tolerance), "0: these integrators take fixed steps");
-    }
     runner_.locked([&](Simulation& s) {
-      s.set_integrator(request.name, request.step);
-      response.message =
-          s.settings().dynamics.integrator + ", steps of at most " + std::to_string(s.settings().dynamics.step) + " s";
+      s.set_integrator(request.name, request.step, request.tolerance);
+      response.message = describe(s.settings().dynamics);
     });
   });
 }

@@ -2,12 +2,15 @@
 
 #include <geometry_msgs/WrenchStamped.h>
 
+#include <algorithm>
+
 #include "spring_workbench/ros_interface/conversions.h"
 
 namespace spring_workbench {
 namespace {
 
 constexpr uint32_t queue = 10;
+constexpr double shortest_lifetime = 2.0;  // of markers [s]
 const char* const handle_frame = "fork_handle";
 const char* const tip_frame = "fork_tip";
 
@@ -15,7 +18,8 @@ const char* const tip_frame = "fork_tip";
 
 StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters)
     : world_frame_(parameters.world_frame),
-      marker_period_(1.0 / parameters.marker_rate),
+      marker_period_(1.0 / parameters.markers_rate),
+      markers_(parameters.fork_curve, std::max(shortest_lifetime, 3.0 / parameters.markers_rate)),
       objects_publisher_(private_node.advertise<ObjectStates>("objects", queue)),
       fork_publisher_(private_node.advertise<ForkState>("fork", queue)),
       wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", queue)),
@@ -78,9 +82,12 @@ void StatePublisher::publish_contacts(const Simulation& simulation, const std_ms
 }
 
 void StatePublisher::publish_markers(const Simulation& simulation, const std_msgs::Header& header, double now) {
+  markers_were_built_ = false;
   const bool wait = now < next_markers_ && now > next_markers_ - marker_period_;  // a clock that went back waits not
   if (wait || markers_publisher_.getNumSubscribers() == 0) return;
-  next_markers_ = now + marker_period_;
+  next_markers_ = now < next_markers_ + marker_period_ && now >= next_markers_ ? next_markers_ + marker_period_
+                                                                              : now + marker_period_;
+  markers_were_built_ = true;
   markers_publisher_.publish(markers_.build(simulation, header));
 }
 
@@ -88,6 +95,7 @@ void StatePublisher::publish_steps(const CycleReport& report, const std::string&
                                    bool deadline_missed) {
   if (steps_publisher_.getNumSubscribers() == 0) return;
   StepReport message = to_message(report.advance);
+  (markers_were_built_ ? message.parts_run : message.parts_left_out).push_back("markers");
   message.header.frame_id = world_frame_;
   message.header.stamp = stamp;
   message.wall_time = report.wall_time;

@@ -12,14 +12,15 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double smallest_quaternion = 1e-6;
-constexpr double furthest = 1e6;  // [m]
-
 std::string frame(const std::string& name) { return !name.empty() && name.front() == '/' ? name.substr(1) : name; }
 
 RigidTransform from_message(const geometry_msgs::Transform& T) {
   return make_transform(Quaterniond(T.rotation.w, T.rotation.x, T.rotation.y, T.rotation.z),
                         Vector3d(T.translation.x, T.translation.y, T.translation.z));
+}
+
+std::string place(const geometry_msgs::TransformStamped& transform) {
+  return "tf " + transform.header.frame_id + " -> " + transform.child_frame_id + ": ";
 }
 
 geometry_msgs::TransformStamped identity(const std::string& parent, const std::string& child) {
@@ -30,6 +31,11 @@ geometry_msgs::TransformStamped identity(const std::string& parent, const std::s
   return transform;
 }
 
+RawSample raw(const geometry_msgs::Transform& T, double t) {
+  return {t, Vector3d(T.translation.x, T.translation.y, T.translation.z),
+          Quaterniond(T.rotation.w, T.rotation.x, T.rotation.y, T.rotation.z)};
+}
+
 std::string number(double value) {
   std::ostringstream out;
   out << value;
@@ -38,31 +44,10 @@ std::string number(double value) {
 
 }  // namespace
 
-std::optional<TransformFault> find_fault(const geometry_msgs::TransformStamped& transform) {
-  const geometry_msgs::Vector3& p = transform.transform.translation;
-  const geometry_msgs::Quaternion& q = transform.transform.rotation;
-  const std::string place = "tf " + transform.header.frame_id + " -> " + transform.child_frame_id + ": ";
-  if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-    return TransformFault{"not finite", place + "translation: (" + number(p.x) + ", " + number(p.y) + ", " +
-                                            number(p.z) + ") is not allowed: must be three finite numbers"};
-  }
-  if (std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}) > furthest) {
-    return TransformFault{"too far", place + "translation: (" + number(p.x) + ", " + number(p.y) + ", " + number(p.z) +
-                                         ") is not allowed: must be within " + number(furthest) + " m"};
-  }
-  const std::string rotation =
-      place + "rotation: (" + number(q.x) + ", " + number(q.y) + ", " + number(q.z) + ", " + number(q.w) + ")";
-  const double norm = Eigen::Vector4d(q.x, q.y, q.z, q.w).norm();
-  if (!std::isfinite(norm)) {
-    return TransformFault{"not finite", rotation + " is not allowed: must be four finite numbers"};
-  }
-  if (norm < smallest_quaternion) {
-    return TransformFault{"zero quaternion", rotation + " is not allowed: must be a quaternion that is not zero"};
-  }
-  return std::nullopt;
-}
-
-StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters) : parameters_(parameters) {
+StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters)
+    : parameters_(parameters),
+      truth_(parameters.truth, parameters.simulation.dropout_after),
+      monitor_(parameters.simulation.dropout_after) {
   if (parameters.workbench_frame != parameters.world_frame) {
     static_frames_.setTransform(identity(parameters.world_frame, parameters.workbench_frame), "default", true);
   }
@@ -90,8 +75,10 @@ bool StylusInput::workbench_known() const {
 void StylusInput::on_static_transforms(const tf2_msgs::TFMessageConstPtr& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const geometry_msgs::TransformStamped& transform : message->transforms) {
-    if (const auto fault = find_fault(transform)) {
-      leave_out(fault->reason, fault->line);
+    const RawSample sample = raw(transform.transform, 0.0);
+    const Verdict verdict = SampleGate(parameters_.truth, parameters_.simulation.dropout_after).offer(sample);
+    if (!usable(verdict)) {
+      leave_out(to_string(verdict), place(transform) + complaint(verdict, sample, parameters_.truth));
       continue;
     }
     geometry_msgs::TransformStamped normalised = transform;
@@ -102,52 +89,58 @@ void StylusInput::on_static_transforms(const tf2_msgs::TFMessageConstPtr& messag
   }
 }
 
-void StylusInput::on_transforms(const tf2_msgs::TFMessageConstPtr& message) {
+void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event) {
+  if (event.getPublisherName() == ros::this_node::getName()) return;
   const ros::Time now = ros::Time::now();
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (const geometry_msgs::TransformStamped& transform : message->transforms) {
+  ++statistics_.messages;
+  for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
+    constexpr std::size_t most_frames = 20;  // that a hint can name
+    if (statistics_.frames.size() < most_frames) statistics_.frames.insert(frame(transform.child_frame_id));
     if (frame(transform.child_frame_id) != parameters_.stylus_frame) continue;
     notice_jump(now);
-    if (const auto fault = find_fault(transform)) {
-      leave_out(fault->reason, fault->line);
-    } else {
-      on_stylus(transform, now);
-    }
+    on_stylus(transform, now);
   }
 }
 
 void StylusInput::on_stylus(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {
-  const ros::Time stamp = transform.header.stamp;
-  const std::string place = "tf " + transform.header.frame_id + " -> " + transform.child_frame_id + ": ";
-  const double age = (now - stamp).toSec();
+  const double age = (now - transform.header.stamp).toSec();
+  statistics_.newest_offer_age = age;
   if (std::abs(age) > parameters_.max_age) {
+    if (age > 0.0 && ros::Time::isSimTime()) {
+      constexpr std::size_t most = 20;
+      early_.push_back(transform);
+      if (early_.size() > most) early_.pop_front();
+    }
     return leave_out(age > 0.0 ? "too old" : "from the future",
-                     place + "stamp: an age of " + number(age) + " s is not allowed: must be within max_age = " +
-                         number(parameters_.max_age) + " s (a bag needs --clock and use_sim_time)");
-  }
-  if (!newest_.isZero() && stamp <= newest_) {
-    return leave_out("stamp not later", place + "stamp: " + number((stamp - newest_).toSec()) +
-                                            " s after the last one is not allowed: must be > 0 s");
+                     place(transform) + "stamp: an age of " + number(age) + " s is not allowed: must be within " +
+                         "max_age = " + number(parameters_.max_age) + " s (a bag needs --clock and use_sim_time)");
   }
   RigidTransform X_WP = RigidTransform::Identity();
   if (const std::string parent = frame(transform.header.frame_id); parent != parameters_.world_frame) {
     try {
       X_WP = from_message(static_frames_.lookupTransform(parameters_.world_frame, parent, ros::Time()).transform);
     } catch (const tf2::TransformException&) {
-      return leave_out("unknown frame", place + "frame_id: " + parent + " is not allowed: must be " +
+      return leave_out("unknown frame", place(transform) + "frame_id: " + parent + " is not allowed: must be " +
                                             parameters_.workbench_frame + " or tied to it on /tf_static");
     }
   }
-  const double arrival = loop_time();
-  if (!newest_.isZero()) {
-    statistics_.interval = (stamp - newest_).toSec();
-    if (statistics_.interval > parameters_.simulation.dropout_after) ++statistics_.dropouts;
+  offer(transform, X_WP, age);
+}
+
+void StylusInput::offer(const geometry_msgs::TransformStamped& transform, const RigidTransform& X_WP, double age) {
+  const RawSample sample = raw(transform.transform, seconds(transform.header.stamp));
+  const TrueSample taken = truth_.take(sample);
+  statistics_.gate = truth_.counts();
+  if (!usable(taken.verdict)) {
+    return leave_out(to_string(taken.verdict), place(transform) + complaint(taken.verdict, sample, parameters_.truth));
   }
-  ++statistics_.samples;
-  statistics_.age = age;
-  statistics_.newest_arrival = arrival;
-  events_.push_back(StylusPose{{seconds(stamp), X_WP * from_message(transform.transform)}, arrival});
-  newest_ = stamp;
+  const LocalTime arrival = local_time();
+  monitor_.sample(sample.t, sample.t + age);
+  statistics_.stream = monitor_.figures();
+  statistics_.newest_arrival = arrival.loop;
+  events_.push_back(
+      StylusPose{{sample.t, X_WP * taken.sample.X}, arrival, taken.verdict == Verdict::new_place});
 }
 
 void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
@@ -167,17 +160,21 @@ void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
 void StylusInput::notice_jump(const ros::Time& now) {
   constexpr double slip = 0.1;  // [s] a clock that is set right by less goes on
   if (!last_now_.isZero() && (last_now_ - now).toSec() > slip) {
-    zero_ = newest_ = ros::Time();
+    zero_ = ros::Time();
     pressed_ = false;
+    truth_.restart();
+    monitor_.restart();
     ++statistics_.restarts;
     ROS_INFO("time went back by %.3g s: starting anew", (last_now_ - now).toSec());
+    for (const geometry_msgs::TransformStamped& transform : std::exchange(early_, {})) on_stylus(transform, now);
   }
   last_now_ = now;
 }
 
 double StylusInput::seconds(const ros::Time& stamp) {
   if (zero_.isZero()) {
-    zero_ = stamp;
+    // In simulated time a whole second: a bag played again gives the same times to the bit, whatever comes first.
+    zero_ = ros::Time::isSimTime() && stamp.sec > 0 ? ros::Time(stamp.sec, 0) : stamp;
     events_.push_back(NewEpoch{zero_});
   }
   return (stamp - zero_).toSec();

@@ -3,6 +3,9 @@
 #include <sensor_msgs/Joy.h>
 
 #include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
 
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/ros_interface/conversions.h"
@@ -29,12 +32,25 @@ std::string resolve(const std::string& path_or_uri) {
 
 }  // namespace
 
-TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const std::string& where) {
-  check_keys(parameters, where, "",
-             {"source", "file", "scene", "seed", "rate", "speed", "loop", "pause", "workbench_frame", "stylus_frame", "head_frame",
-              "offset", "start", "head", "grasp_from", "grasp_until"});
-  constexpr double unbounded = std::numeric_limits<double>::max();
+TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::string& where) {
+  YAML::Node parameters = YAML::Clone(given);
   TrackerParameters result;
+  take_truth_settings(parameters, where, result.truth);
+  if (parameters["source"]) {
+    result.source = read_choice(parameters["source"], where, "source", {"motion_file", "scripted", "operator", "fastrak"});
+  }
+  const bool live = result.source == "fastrak";
+  std::vector<std::string> keys{"source", "rate", "workbench_frame", "stylus_frame", "head_frame", "offset", "head", "tip",
+                                "interpupillary_distance", "dropout_after"};
+  const std::vector<std::string> of_operator{"scene", "seed", "speed", "loop", "pause"};
+  const std::vector<std::string> of_motions{"file", "speed", "loop", "pause", "start", "grasp_from", "grasp_until"};
+  for (const std::string& key : live ? fastrak_keys() : result.source == "operator" ? of_operator : of_motions) {
+    keys.push_back(key);
+  }
+  if (live) keys.push_back("even_stamps");
+  check_keys(parameters, where, "", keys);
+  if (live) result.fastrak = read_fastrak_settings(parameters, where);
+  constexpr double unbounded = std::numeric_limits<double>::max();
   const auto number = [&](const char* key, const NumberRule& rule, double& value) {
     if (parameters[key]) value = read_number(parameters[key], where, key, rule);
   };
@@ -42,13 +58,10 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
     if (parameters[key]) value = read_string(parameters[key], where, key);
     if (value.empty()) refuse(where, key, "(nothing)", "a string that is not empty");
   };
-  if (parameters["source"]) {
-    result.source = read_choice(parameters["source"], where, "source", {"motion_file", "scripted", "operator"});
-  }
   if (result.source == "operator") {
     text("scene", result.scene);
     if (parameters["seed"]) result.seed = read_integer(parameters["seed"], where, "seed", 0, 1000000000);
-  } else {
+  } else if (!live) {
     text("file", result.file);
   }
   text("workbench_frame", result.workbench_frame);
@@ -61,6 +74,13 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
   number("grasp_until", {result.grasp_from, unbounded, false, true}, result.grasp_until);
   if (parameters["loop"]) result.loop = read_bool(parameters["loop"], where, "loop");
   if (parameters["head"]) result.X_BHead = read_pose(parameters["head"], where, "head");
+  if (parameters["tip"]) {
+    const std::vector<double> tip = read_numbers(parameters["tip"], where, "tip", 3);
+    result.p_ST = Vector3d(tip[0], tip[1], tip[2]);
+  }
+  number("interpupillary_distance", between(0.0, 0.2), result.interpupillary_distance);
+  number("dropout_after", positive(), result.dropout_after);
+  if (parameters["even_stamps"]) result.even_stamps = read_bool(parameters["even_stamps"], where, "even_stamps");
   if (parameters["offset"]) result.X_BT = read_pose(parameters["offset"], where, "offset");
   if (parameters["start"]) {
     if (parameters["offset"]) throw InputError(where + ": start: is not allowed beside offset: must be one of the two");
@@ -73,10 +93,15 @@ TrackerDriver::TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
     : parameters_(read_tracker_parameters(private_parameters(private_node), private_node.getNamespace())),
       name_(private_node.getNamespace()),
       X_BT_(parameters_.X_BT),
+      played_(parameters_.truth, parameters_.dropout_after),
       joy_publisher_(node.advertise<sensor_msgs::Joy>("stylus/joy", 100)),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
   if (parameters_.source == "operator") {
     eyes_ = std::make_unique<OperatorEyes>(node);
+    return;
+  }
+  if (parameters_.source == "fastrak") {
+    device_ = std::make_unique<FastrakSource>(parameters_.fastrak);
     return;
   }
   const auto first = open()->next();
@@ -96,7 +121,18 @@ std::unique_ptr<StylusSource> TrackerDriver::open() {
   return std::make_unique<RecordedSource>(read_motion_file(path));
 }
 
+/// Eyes beside each other in the head's axes: x forward, y left (REP 103).
+void TrackerDriver::send_eyes() {
+  const auto eye = [&](const std::string& name, double side) {
+    const Vector3d p(0.0, 0.5 * side * parameters_.interpupillary_distance, 0.0);
+    return to_transform(make_transform(Quaterniond::Identity(), p), parameters_.head_frame, name, ros::Time::now());
+  };
+  static_transforms_.sendTransform({eye("eye_left", 1.0), eye("eye_right", -1.0)});
+}
+
 void TrackerDriver::run() {
+  send_eyes();
+  if (device_) return stream();
   do {
     play();
   } while (parameters_.loop && ros::ok());
@@ -109,17 +145,24 @@ void TrackerDriver::play() {
   ros::Time::waitForValid();
   const double start = loop_time() + parameters_.pause;
   ++passes_;
+  played_.restart();
   double last = -std::numeric_limits<double>::infinity();  // time of the newest sample sent [s]
   const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
   constexpr double slack = 1e-6;  // [s] rounding of stamps
   while (ros::ok()) {
-    const auto sample = source->next();
+    auto sample = source->next();
     if (!sample) return;
     const double t = sample->t / parameters_.speed;
     if (t <= last || t < last + shortest - slack) {
       ++left_out_;
       continue;
     }
+    const TrueSample taken = played_.take(PoseSample{sample->t, sample->X});
+    if (!usable(taken.verdict)) {
+      ++left_out_;
+      continue;
+    }
+    sample->X = taken.sample.X;
     wait_until(start + t);
     interval_ = t - last;
     last = t;
@@ -129,14 +172,66 @@ void TrackerDriver::play() {
 
 void TrackerDriver::send(const StylusSample& sample, const ros::Time& stamp) {
   transforms_.sendTransform(
-      {to_transform(X_BT_ * sample.X, parameters_.workbench_frame, parameters_.stylus_frame, stamp),
+      {to_transform(X_BT_ * sample.X * Eigen::Translation3d(parameters_.p_ST), parameters_.workbench_frame, parameters_.stylus_frame, stamp),
        to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp)});
+  send_buttons(sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), stamp);
+  ++sent_;
+}
+
+void TrackerDriver::send_buttons(bool grasp, const ros::Time& stamp) {
   sensor_msgs::Joy joy;
   joy.header.stamp = stamp;
   joy.header.frame_id = parameters_.stylus_frame;
-  const bool grasp = sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until);
   joy.buttons = {grasp ? 1 : 0, 0};
   joy_publisher_.publish(joy);
+}
+
+void TrackerDriver::stream() {
+  constexpr double slice = 0.1;  // [s] between looks at what else is due
+  ros::Time::waitForValid();
+  while (ros::ok()) {
+    for (const StationSample& sample : device_->read(slice)) send(sample);
+    if (loop_time() >= next_diagnostics_) {
+      publish_diagnostics();
+      next_diagnostics_ = loop_time() + 1.0;
+    }
+  }
+}
+
+StationStream& TrackerDriver::stream_of(int station) {
+  const auto stream = streams_.find(station);
+  if (stream != streams_.end()) return stream->second;
+  return streams_
+      .emplace(station, StationStream(parameters_.truth, parameters_.dropout_after, parameters_.even_stamps))
+      .first->second;
+}
+
+void TrackerDriver::send(const StationSample& sample) {
+  const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
+  const TrueSample taken = stream_of(sample.station).take(sample);
+  if (sample.station == 1) send_buttons(sample.button, ros::Time::now() - ros::Duration(now.count() - sample.received));
+  if (!usable(taken.verdict)) {
+    ++left_out_;
+    return;
+  }
+  const ros::Time stamp = ros::Time::now() - ros::Duration(now.count() - taken.sample.t);
+  ros::Time& newest = newest_[sample.station];
+  const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
+  if (stamp <= newest || (stamp - newest).toSec() < shortest) {
+    ++left_out_;
+    return;
+  }
+  const std::string& stylus = parameters_.stylus_frame;
+  std::vector<geometry_msgs::TransformStamped> transforms{
+      to_transform(X_BT_ * taken.sample.X * Eigen::Translation3d(sample.station == 1 ? parameters_.p_ST : Vector3d::Zero()),
+                   parameters_.workbench_frame,
+                   sample.station == 1 ? stylus : stylus + "_" + std::to_string(sample.station), stamp)};
+  if (sample.station == parameters_.fastrak.stations.front()) {
+    transforms.push_back(to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
+    if (!newest.isZero()) interval_ = (stamp - newest).toSec();
+  }
+  transforms_.sendTransform(transforms);
+  newest = stamp;
   ++sent_;
 }
 
@@ -151,17 +246,35 @@ void TrackerDriver::wait_until(double t) {
   }
 }
 
+void TrackerDriver::add_health(DiagnosticStatusBuilder& status) const {
+  const SourceHealth health = device_->health();
+  for (const auto& [name, count] : health.counters) status.add(name, count);
+  status.add("state", health.text);
+  if (health.streaming) return;
+  status.raise(diagnostic_msgs::DiagnosticStatus::ERROR, health.text);
+  ROS_WARN_STREAM_THROTTLE(5.0, health.text);
+}
+
 void TrackerDriver::publish_diagnostics() {
   DiagnosticStatusBuilder status(name_ + ": source", parameters_.source);
-  status.add("file", parameters_.file)
-      .add("samples sent", sent_)
+  status.add("samples sent", sent_)
       .add("samples left out", left_out_)
-      .add("rate [Hz]", interval_ > 0.0 ? 1.0 / interval_ : 0.0)
-      .add("passes", passes_);
+      .add("rate [Hz]", interval_ > 0.0 ? 1.0 / interval_ : 0.0);
+  if (device_) {
+    add_health(status);
+  } else {
+    status.add("file", parameters_.file).add("passes", passes_);
+  }
   if (over_) status.add("state", "over");
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
   message.status = {status.status()};
+  for (const auto& [station, stream] : streams_) {
+    DiagnosticStatusBuilder of_station(name_ + ": station " + std::to_string(station), parameters_.source);
+    add_stream(stream.figures(), stream.counts(), of_station);
+    for (const auto& [verdict, count] : stream.counts().left_out) of_station.add("left out: " + to_string(verdict), count);
+    message.status.push_back(of_station.status());
+  }
   diagnostics_publisher_.publish(message);
 }
 

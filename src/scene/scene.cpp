@@ -54,6 +54,9 @@ class SceneLoader {
       if (entry.urdf) add_object(name, entry);
     }
     check_names();
+    for (const auto& [name, entry] : file_.objects) {
+      if (entry.massless) scene_.bodies[*find_body(scene_, name)].mass_properties = MassProperties();
+    }
     return std::move(scene_);
   }
 
@@ -93,6 +96,7 @@ class SceneLoader {
     scene_.bodies.push_back(std::move(bodies.front()));
   }
 
+  /// What the YAML says of bodies must fit the bodies that there are.
   void check_names() const {
     const std::string rule = "a body of the scene: " + join(body_names(scene_));
     for (const auto& [name, entry] : file_.objects) {

@@ -26,12 +26,13 @@ void read_material(const YAML::Node& map, const std::string& path, const std::st
 ObjectEntry read_object(const YAML::Node& map, const std::string& path, const std::string& prefix,
                         const Material& defaults) {
   std::vector<std::string> keys = material_keys;
-  keys.insert(keys.end(), {"urdf", "pose"});
+  keys.insert(keys.end(), {"urdf", "pose", "massless"});
   check_keys(map, path, prefix, keys);
   ObjectEntry entry;
   entry.where = line_of(map, path);
   entry.material = defaults;
   read_material(map, path, prefix, entry.material);
+  if (map["massless"].IsDefined()) entry.massless = read_bool(map["massless"], path, prefix + "massless");
   if (map["urdf"].IsDefined()) entry.urdf = read_string(map["urdf"], path, prefix + "urdf");
   if (map["pose"].IsDefined()) {
     if (!entry.urdf) refuse(line_of(map["pose"], path), prefix + "pose", "without urdf", "given in the scene's URDF");

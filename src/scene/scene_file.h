@@ -13,6 +13,7 @@ namespace spring_workbench {
 struct ObjectEntry {
   std::string where;  ///< "<file>:<line>"
   Material material;
+  bool massless = false;
   std::optional<std::string> urdf;     ///< another object's own URDF, as written
   std::optional<RigidTransform> X_WL;  ///< where that stands; absent: it lies on the bench at x = y = 0
 };

@@ -148,7 +148,7 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
     }
     std::vector<ContactRow> assumed = work;
     body.go_back();
-    const Matrix6d C = body.compliance(h);
+    const Matrix6d C = body.answer(h).displacement;
     for (ContactRow& row : work) row.gap += slack;
     solve_contacts(C, work);
     // Done when solving again would not move the body.

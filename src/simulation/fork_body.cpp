@@ -14,6 +14,9 @@ namespace {
 constexpr double return_time = 0.05;          ///< [s] on which the proxy comes back to the hand
 constexpr double no_offset = 1e-9;            ///< [m, rad]; the proxy has come back
 constexpr double proxy_share = 1e-4;          ///< of a free body's compliance, beside coordinates that can follow in part
+// Below these an object on a hand at rest stops (the paper's threshold, section 3.3).
+constexpr double rest_speed = 1e-7;           ///< [m/s], and of a turning times the fork's length
+constexpr double rest_acceleration = 1e-6;    ///< [m/s²], likewise
 constexpr double largest_distance = 1e6;      ///< [m]; an object further away is not one to go on with
 
 RigidTransform shrunk(const RigidTransform& offset, double factor) {
@@ -26,10 +29,10 @@ RigidTransform shrunk(const RigidTransform& offset, double factor) {
 
 }  // namespace
 
-ForkBody::ForkBody(std::size_t index, HeldBody held, std::unique_ptr<Integrator> integrator, double t)
+ForkBody::ForkBody(std::size_t index, HeldBody held, StepControl control, double t)
     : index_(index),
       held_(std::move(held)),
-      integrator_(std::move(integrator)),
+      control_(std::move(control)),
       hand_(RigidTransform::Identity()) {
   state_.t = t;
   state_.strain = held_.zero_state();
@@ -100,15 +103,14 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   StrainState next = state_.strain;
   if (held_.size() > 0) {
     held_.set_external_wrench(contact_W);
-    const StepEstimate e = integrator_->step(held_, motion, state_.t, h, next);
-    const StrainState full = held_.full_state(state_.t + h, next);
-    const bool fine = held_.shape().admissible(full.q) && next.q_dot.allFinite() &&
-                      (full.q.norm() + full.q_dot.norm()) < 1e12;
-    if (!fine) return false;
-    const auto J = held_.object_jacobian(state_.t + h, next.q);
-    estimates_.position = std::max(estimates_.position, (J.topRows<3>() * e.q_error).norm());
-    estimates_.angle = std::max(estimates_.angle, (J.bottomRows<3>() * e.q_error).norm());
-    estimates_.omega_dt = std::max(estimates_.omega_dt, e.omega_dt);
+    const ControlledStep step = control_.advance(held_, motion, state_.t, h, next, state_.stepping);
+    if (!step.fine) return false;
+    estimates_.position = std::max(estimates_.position, step.position_error);
+    estimates_.angle = std::max(estimates_.angle, step.angle_error);
+    estimates_.omega_dt = std::max(estimates_.omega_dt, step.omega_dt);
+    estimates_.extra_steps += step.steps - 1;
+    estimates_.rejected += step.rejected;
+    estimates_.energy_held += step.energy_held;
     if (!held_.returning()) state_.energy_added += added_energy(motion, h, state_.strain, next);
   }
   state_.t += h;
@@ -177,13 +179,16 @@ StrainMatrix ForkBody::inverse_mass() const {
       .solve(StrainMatrix::Identity(held_.size(), held_.size()));
 }
 
-Matrix6d ForkBody::compliance(double h) const {
-  Matrix6d C = proxy_compliance(h);
+SteppedBody::Answer ForkBody::answer(double h) const {
+  const Matrix6d proxy = proxy_compliance(h);
+  Answer a{proxy, proxy / h};
   if (held_.size() > 0) {
     const auto J = jacobian_W();
-    C += J * integrator_->response(held_, state_.t, h, state_.strain).q * J.transpose();
+    const Integrator::Response r = control_.integrator().response(held_, state_.t, h, state_.strain);
+    a.displacement += J * r.q * J.transpose();
+    a.velocity += J * r.q_dot * J.transpose();
   }
-  return C;
+  return a;
 }
 
 Matrix6d ForkBody::mobility() const {
@@ -196,7 +201,29 @@ void ForkBody::add_impulse(const Wrench& impulse_W) {
   if (held_.size() == 0) return;
   Vector6d impulse;
   impulse << impulse_W.force, impulse_W.moment;
+  sleep_ = Sleep();
   state_.strain.q_dot += inverse_mass() * (jacobian_W().transpose() * impulse);
+}
+
+bool ForkBody::sleeps(double h, bool may_fall_asleep) {
+  const MotionState begin = hand_.at(state_.t), end = hand_.at(state_.t + h);
+  const auto still = [](const MotionState& s) {
+    return s.velocity.linear.isZero(0.0) && s.velocity.angular.isZero(0.0);
+  };
+  const bool hand_rests = still(begin) && still(end) && begin.X.matrix() == end.X.matrix();
+  const bool asleep = sleep_.version == held_.version() && sleep_.X_WH.matrix() == begin.X.matrix();
+  if (hand_rests && asleep) return true;
+  sleep_ = Sleep();
+  if (!hand_rests || !may_fall_asleep || state_.behind || held_.returning()) return false;
+  const MotionState o = object_with_acceleration();
+  const double L = held_.shape().length();
+  const bool at_rest = std::max(o.velocity.linear.norm(), L * o.velocity.angular.norm()) < rest_speed &&
+                       (held_.size() == 0 ||
+                        std::max(o.acceleration.linear.norm(), L * o.acceleration.angular.norm()) < rest_acceleration);
+  if (!at_rest) return false;
+  state_.strain.q_dot.setZero();
+  sleep_ = {held_.version(), begin.X};
+  return true;
 }
 
 void ForkBody::take_twist(const Twist& V_WO_W) {

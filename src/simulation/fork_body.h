@@ -2,7 +2,8 @@
 
 #include <memory>
 
-#include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/dynamics/step_control.h"
+#include "spring_workbench/simulation/simulation.h"
 #include "stepped_body.h"
 
 namespace spring_workbench {
@@ -11,29 +12,36 @@ namespace spring_workbench {
 /// asks, a handle that stays behind the hand as its proxy (doc/model.md, "When the coordinates cannot follow").
 class ForkBody final : public SteppedBody {
  public:
-  ForkBody(std::size_t index, HeldBody held, std::unique_ptr<Integrator> integrator, double t);
+  ForkBody(std::size_t index, HeldBody held, StepControl control, double t);
 
   std::size_t index() const override { return index_; }
   MotionState object() const override;
   bool advance(double h, const Wrench& contact_W) override;
   void remember() override;
   void go_back() override;
-  Matrix6d compliance(double h) const override;
+  Answer answer(double h) const override;
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
   void stay(double h) override;
 
   /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
   void set_hand(const MotionSegment& hand, double t);
+  /// Whether nothing moves for the next `h` [s], and nothing need be done but let_pass(): the hand is at rest and the
+  /// object has come to rest on it. `may_fall_asleep`: false where something else may move it.
+  bool sleeps(double h, bool may_fall_asleep);
+  void let_pass(double h) { state_.t += h; }
+
   /// Sets strain rates so that the object's twist comes as near as it can to this one.
   void take_twist(const Twist& V_WO_W);
 
   HeldBody& held() { return held_; }
   const HeldBody& held() const { return held_; }
   const StrainState& state() const { return state_.strain; }
-  void set_state(const StrainState& state) { state_.strain = state; }
-  void set_integrator(std::unique_ptr<Integrator> integrator) { integrator_ = std::move(integrator); }
-  const Integrator& integrator() const { return *integrator_; }
+  void set_state(const StrainState& state) {
+    state_.strain = state;
+    sleep_ = Sleep();
+  }
+  void set_step_control(StepControl control) { control_ = std::move(control); }
 
   double time() const { return state_.t; }
   HandleForcing handle() const;        ///< the handle that the object sees, at present
@@ -46,9 +54,16 @@ class ForkBody final : public SteppedBody {
   /// something where the step resolves the motion (ω·dt below about 1). While a family returns to zero nothing is added.
   double energy_added() const { return state_.energy_added; }
 
+  /// Fills in what the fork knows of its state. `massless`: the object has no mass, and forces mean nothing.
+  void describe(bool massless, ToolState& state) const;
+  /// Pose of the rod's section at arc length `s` [m] of the rest shape, in world.
+  RigidTransform section(double s) const;
+
   // What the steps since the last call said.
   struct Estimates {
     double position = 0.0, angle = 0.0, omega_dt = 0.0;
+    int extra_steps = 0;  ///< beside one for each call of advance()
+    int rejected = 0, energy_held = 0;
   };
   Estimates take_estimates();
 
@@ -59,6 +74,7 @@ class ForkBody final : public SteppedBody {
     bool behind = false;                                   ///< the seen handle is not where the hand is
     RigidTransform offset = RigidTransform::Identity();    ///< seen handle = offset · hand, in world
     double energy_added = 0.0;                             ///< [J]
+    StepControl::Memory stepping;
   };
   /// How the proxy gives way to a wrench at the centre of mass over a step; zero while the coordinates can follow.
   Matrix6d proxy_compliance(double h) const;
@@ -73,10 +89,16 @@ class ForkBody final : public SteppedBody {
 
   std::size_t index_;
   HeldBody held_;
-  std::unique_ptr<Integrator> integrator_;
+  StepControl control_;
   MotionSegment hand_;
   State state_, remembered_;
   Estimates estimates_;
+  /// What a sleeper's rest rests on.
+  struct Sleep {
+    long version = -1;  ///< of the equations; −1: awake
+    RigidTransform X_WH = RigidTransform::Identity();
+  };
+  Sleep sleep_;
 };
 
 }  // namespace spring_workbench

@@ -17,7 +17,7 @@ class FreeBody final : public SteppedBody {
   bool advance(double h, const Wrench& contact_W) override;
   void remember() override { remembered_ = state_; }
   void go_back() override { state_ = remembered_; }
-  Matrix6d compliance(double h) const override { return 0.5 * h * h * mobility(); }
+  Answer answer(double h) const override { return {0.5 * h * h * mobility(), h * mobility()}; }
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
   void stay(double h) override;

@@ -6,7 +6,7 @@
 #include <sstream>
 #include <utility>
 
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/dynamics/step_control.h"
 #include "spring_workbench/rod/shape_model.h"
 
 namespace spring_workbench {
@@ -100,18 +100,20 @@ std::vector<Field> scene_fields() {
 
 std::vector<Field> dynamics_fields() {
   return {
-      choice("integrator", {"exponential", "closed_form", "semi_implicit_euler", "rk4"},
-             "how the fork and the held object are stepped",
+      choice("integrator", integrator_names(), "how the fork and the held object are stepped",
              [](S& s) -> std::string& { return s.dynamics.integrator; }),
       number("step", "s", between(1e-6, 1.0), "the largest step; a step also ends at every sample of the motion",
              [](S& s) -> double& { return s.dynamics.step; }),
+      number("tolerance", "m", allowed_tolerance(),
+             "0: fixed steps; else steps are made short enough for the run's error to stay near this",
+             [](S& s) -> double& { return s.dynamics.tolerance; }),
       choice("inertia", {"exact", "point_mass"}, "exact: the object's own; point_mass: the paper's I = r² m",
              [](S& s) -> std::string& { return s.dynamics.inertia; }),
   };
 }
 
 std::vector<Field> fork_fields() {
-  const NumberRule stiffness = between(1e-9, 1e15);
+  const NumberRule stiffness = between(0.0, 1e15);
   const NumberRule ratio = between(0.0, 10.0);
   return {
       choice("shape", shape_model_names(), "the fork's shape model: how its curvature may vary along it",
@@ -205,6 +207,8 @@ const Field& find_field(const std::string& key, const std::string& where) {
 }
 
 }  // namespace
+
+NumberRule allowed_tolerance() { return between(0.0, StepControl::largest_tolerance); }
 
 std::vector<SettingDescription> setting_descriptions() {
   std::vector<SettingDescription> descriptions;

@@ -21,8 +21,11 @@ class SteppedBody {
   virtual void remember() = 0;
   virtual void go_back() = 0;
 
-  /// How a constant wrench over a step of `h` changes the displacement at its end; 6 × 6 [linear; angular].
-  virtual Matrix6d compliance(double h) const = 0;
+  /// How a constant wrench over a step changes the displacement and the velocity at its end; 6 × 6 [linear; angular].
+  struct Answer {
+    Matrix6d displacement, velocity;
+  };
+  virtual Answer answer(double h) const = 0;
   /// How an impulse changes the velocity.
   virtual Matrix6d mobility() const = 0;
   virtual void add_impulse(const Wrench& impulse_W) = 0;

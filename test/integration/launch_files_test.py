@@ -8,54 +8,15 @@ import sys
 import tempfile
 import unittest
 
-import rosbag
 import rosgraph
 import rospkg
 import rospy
 import rostest
-from sensor_msgs.msg import Joy
 from spring_workbench.msg import ObjectStates, StepReport, TaskState
-from tf2_msgs.msg import TFMessage
 
-from stack import DEADLINE, DOWN, Listener, stylus_transform, wait_for
+from stack import Launched, Listener, make_bag, wait_for
 
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
-
-
-class Launched:
-    """roslaunch as a user runs it; ended, with all its nodes, at the end of the block."""
-
-    def __init__(self, *arguments):
-        self.arguments = ["roslaunch", "spring_workbench", *arguments]
-
-    def __enter__(self):
-        self.process = subprocess.Popen(self.arguments)
-        return self
-
-    def __exit__(self, *_):
-        self.process.terminate()
-        self.process.wait(DEADLINE)
-        if rospy.has_param("/manipulation"):
-            rospy.delete_param("/manipulation")
-
-
-def make_bag(path):
-    """A hand that goes down into the box of single_box, grasps, lifts, carries it 0.2 m along x and holds it there."""
-    waypoints = [(0.0, (0, 0, 0.4)), (1.0, (0, 0, 0.22)), (1.6, (0, 0, 0.22)), (2.6, (0, 0, 0.4)), (3.6, (0.2, 0, 0.4)),
-                 (4.6, (0.2, 0, 0.4))]
-    start = rospy.Time(1000)
-    with rosbag.Bag(path, "w") as bag:
-        for k in range(50 * 46 // 10):
-            t = 0.02 * k
-            (t0, a), (t1, b) = next(pair for pair in zip(waypoints, waypoints[1:]) if pair[1][0] > t)
-            u = (t - t0) / (t1 - t0)
-            u = u * u * (3 - 2 * u)
-            stamp = start + rospy.Duration.from_sec(t)
-            position = tuple(x + u * (y - x) for x, y in zip(a, b))
-            bag.write("/tf", TFMessage([stylus_transform(stamp, position, DOWN)]), stamp)
-            joy = Joy(buttons=[1 if t > 1.2 else 0, 0])
-            joy.header.stamp = stamp
-            bag.write("/stylus/joy", joy, stamp)
 
 
 class LaunchFiles(unittest.TestCase):

@@ -128,8 +128,11 @@ class Manipulation(unittest.TestCase):
             self.assertAlmostEqual(contact.normal.z, 1.0, delta=1e-6)
 
     def test_markers_are_sent_while_somebody_listens(self):
+        self.hand.run(0.2)
+        self.assertIn("markers", self.steps.last.parts_left_out)
         markers = Listener("manipulation/markers", MarkerArray)
         array = self.run_until(markers)
+        wait_for(lambda: any("markers" in m.parts_run for m in self.steps.messages), "a report of the markers")
         names = {m.ns for m in array.markers}
         self.assertLessEqual({"workbench", "box", "fork"}, names)
         self.assertNotIn(Marker.DELETEALL, [m.action for m in array.markers])
@@ -181,8 +184,10 @@ class Manipulation(unittest.TestCase):
     def test_every_integrator_holds_the_box(self):
         self.lift()
         resting = self.box().pose.position.z
-        for name, step in [("closed_form", 0.01), ("rk4", 1e-3), ("semi_implicit_euler", 1e-3), ("exponential", 0.02)]:
-            self.call("set_integrator", name, step, 0.0)
+        for name, step, tolerance in [("closed_form", 0.01, 0.0), ("rk4", 1e-3, 0.0), ("semi_implicit_euler", 1e-3, 0.0),
+                                      ("implicit_euler", 0.02, 0.0), ("rosenbrock", 0.02, 0.0), ("rk4", 0.02, 1e-5),
+                                      ("exponential", 0.02, 0.0)]:
+            self.call("set_integrator", name, step, tolerance)
             self.hand.run(1.0)
             self.assertEqual(self.fork.next().integrator, name)
             self.assertAlmostEqual(self.box().pose.position.z, resting, delta=2e-3)
@@ -218,7 +223,11 @@ class Manipulation(unittest.TestCase):
                 ("set_damping", (NAN, 1.0, 1.0), ("stretch", "nan")),
                 ("set_integrator", ("magic", 0.0, 0.0), ("magic", "exponential")),
                 ("set_integrator", ("rk4", -1.0, 0.0), ("step", "-1")),
-                ("set_integrator", ("rk4", 0.0, 1e-3), ("tolerance",)),
+                ("set_integrator", ("rk4", NAN, 0.0), ("step", "nan")),
+                ("set_integrator", ("rk4", 2.0, 0.0), ("step", "2")),
+                ("set_integrator", ("rk4", 0.0, -1e-3), ("tolerance", "-0.001")),
+                ("set_integrator", ("rk4", 0.0, 1.0), ("tolerance", "0.1")),
+                ("set_integrator", ("rk4", 0.0, NAN), ("tolerance", "nan")),
                 ("load_scene", ("/nowhere/to/be/found.urdf",), ("/nowhere/to/be/found.urdf",)),
                 ("load_scene", ("package://no_such_package/a.urdf",), ("no_such_package",)),
                 ("load_scene", ("package://spring_workbench/package.xml",), ("package.xml",))]:
@@ -238,7 +247,7 @@ class Manipulation(unittest.TestCase):
         count = lambda reason: int(diagnostic_values(self.diagnostics.messages, "tracker input").get(
             "left out: " + reason, "0"))
         reasons = {"not finite": stylus_transform(self.hand.now(), (NAN, 0, 0), DOWN),
-                   "zero quaternion": stylus_transform(self.hand.now(), (0, 0, 0), (0, 0, 0, 0)),
+                   "not a unit quaternion": stylus_transform(self.hand.now(), (0, 0, 0), (0, 0, 0, 0)),
                    "stamp not later": stylus_transform(self.hand.now() - rospy.Duration(0.1), (0, 0, 0), DOWN),
                    "too old": stylus_transform(self.hand.now() - rospy.Duration(50), (0, 0, 0), DOWN),
                    "from the future": stylus_transform(self.hand.now() + rospy.Duration(50), (0, 0, 0), DOWN),

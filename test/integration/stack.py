@@ -1,7 +1,9 @@
 """What the integration tests share: a hand on its own clock, and waiting with a deadline."""
 import math
+import subprocess
 import time
 
+import rosbag
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
@@ -131,3 +133,39 @@ class Hand:
         joy.header.stamp = self.now()
         joy.buttons = [1 if self.pressed else 0, 0]
         self.joy.publish(joy)
+
+
+class Launched:
+    """roslaunch as a user runs it; ended, with all its nodes, at the end of the block."""
+
+    def __init__(self, *arguments):
+        self.arguments = ["roslaunch", "spring_workbench", *arguments]
+
+    def __enter__(self):
+        self.process = subprocess.Popen(self.arguments)
+        return self
+
+    def __exit__(self, *_):
+        self.process.terminate()
+        self.process.wait(DEADLINE)
+        if rospy.has_param("/manipulation"):
+            rospy.delete_param("/manipulation")
+
+
+def make_bag(path, speed=1.0):
+    """A hand that goes down into the box of single_box, grasps, lifts, carries it 0.2 m along x and holds it there."""
+    waypoints = [(0.0, (0, 0, 0.4)), (1.0, (0, 0, 0.22)), (1.6, (0, 0, 0.22)), (2.6, (0, 0, 0.4)), (3.6, (0.2, 0, 0.4)),
+                 (4.6, (0.2, 0, 0.4))]
+    start = rospy.Time(1000)
+    with rosbag.Bag(path, "w") as bag:
+        for k in range(int(230 / speed)):
+            t = 0.02 * k * speed
+            (t0, a), (t1, b) = next(pair for pair in zip(waypoints, waypoints[1:]) if pair[1][0] > t)
+            u = (t - t0) / (t1 - t0)
+            u = u * u * (3 - 2 * u)
+            stamp = start + rospy.Duration.from_sec(0.02 * k)
+            position = tuple(x + u * (y - x) for x, y in zip(a, b))
+            bag.write("/tf", TFMessage([stylus_transform(stamp, position, DOWN)]), stamp)
+            joy = Joy(buttons=[1 if t > 1.2 else 0, 0])
+            joy.header.stamp = stamp
+            bag.write("/stylus/joy", joy, stamp)

@@ -75,8 +75,14 @@ class HeldBody {
   HandleForcing forcing(const MotionSegment& handle, double t) const;
   /// q̈ of the active coordinates.
   StrainVector acceleration(const HandleForcing& handle, const StrainVector& q, const StrainVector& q_dot) const;
+  /// The same for `n` = size(), 1 … 6, known to the compiler: for integrators.
+  template <int n>
+  Eigen::Matrix<double, n, 1> acceleration(const HandleForcing& handle, const Eigen::Matrix<double, n, 1>& q,
+                                           const Eigen::Matrix<double, n, 1>& q_dot) const;
   /// Mass matrix M(q) of the active coordinates at time `t` (which matters while a family returns).
   StrainMatrix mass_matrix(double t, const StrainVector& q) const;
+  /// ShapeModel::rechart of the active coordinates; not while a family returns to zero strain.
+  bool rechart(StrainState& state) const;
   /// Active state at time `t` in all coordinates of the shape model.
   StrainState full_state(double t, const StrainState& state) const;
 
@@ -106,6 +112,13 @@ class HeldBody {
     Vector3d angular_bias;
     StrainVector q, q_dot;   ///< all coordinates
   };
+  /// All coordinates' strain and rate at time `t` from the active ones' and what is prescribed.
+  template <typename Active>
+  void expand(double t, const Active& q, const Active& q_dot, StrainVector& q_all, StrainVector& q_dot_all,
+              StrainVector& q_ddot_all) const;
+  struct Rigid;  ///< the object's inertial and contact wrench for q̈ = 0
+  Rigid without_strain_acceleration(const HandleForcing& handle, const TipKinematics& tip, const StrainVector& q_dot,
+                                    const StrainVector& q_ddot) const;
   void kinematics(double t, const StrainVector& q, const StrainVector& q_dot, Kinematics& k) const;
   void prescribed(double t, StrainVector& q, StrainVector& q_dot, StrainVector& q_ddot) const;
   StrainMatrix mass_matrix(const Kinematics& k, Matrix3d& I_H) const;
@@ -114,6 +127,8 @@ class HeldBody {
   std::shared_ptr<const ShapeModel> shape_;
   BodyInertia body_;
   Vector3d p_OE_, p_EO_;  ///< grasp in O; centre of mass in E
+  Matrix3d R_EO_;
+  Matrix3d inverse_inertia_O_;
   double gravity_;
   long version_ = 0;
   long load_version_ = 0;
@@ -124,6 +139,7 @@ class HeldBody {
   int active_count_ = 0;
   int returning_ = 0;
   Wrench external_W_;
+  bool loaded_ = false;  ///< the external wrench is not zero
 };
 
 }  // namespace spring_workbench

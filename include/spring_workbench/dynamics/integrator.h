@@ -10,8 +10,9 @@ namespace spring_workbench {
 
 /// What one step says of itself.
 struct StepEstimate {
-  StrainVector q_error;    ///< estimate of the step's local error in the active coordinates
+  StrainVector q_error;    ///< estimate of the step's local error (what came out less the truth) in the active coordinates
   double omega_dt = 0.0;   ///< frequency of the stiffest mode [rad/s] times the step; 0 where the method does not know it
+  StrainVector q_dot_error = StrainVector();  ///< the same of the strain rates [1/s]
 };
 
 /// One way to carry the held body's state over a step (doc/model.md, "Integrators"). An integrator may keep what it has
@@ -24,6 +25,8 @@ class Integrator {
   virtual std::string name() const = 0;
   /// Order of accuracy for smooth motions.
   virtual int order() const = 0;
+  /// Whether no stiffness, however large, limits the step: what StepControl guards.
+  virtual bool unlimited() const { return false; }
 
   /// Carries `state` from `t` to `t + h` [s], h > 0; `handle` must cover that time.
   virtual StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h,

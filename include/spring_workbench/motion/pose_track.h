@@ -20,7 +20,24 @@ struct MotionState {
   Twist acceleration;
 };
 
-/// The motion between two neighbouring samples: cubic Hermite in position and in rotation vector (see doc/model.md).
+/// The same with the angular parts as body rates, in the frame's own axes.
+struct OwnAxesMotion {
+  RigidTransform X = RigidTransform::Identity();  ///< X_WB
+  Vector3d v_W = Vector3d::Zero();                ///< [m/s]
+  Vector3d a_W = Vector3d::Zero();                ///< [m/s²]
+  Vector3d w_B = Vector3d::Zero();                ///< [rad/s]
+  Vector3d alpha_B = Vector3d::Zero();            ///< [rad/s²]
+};
+
+/// A sample with its derivatives: the body rates and angular acceleration in the body's own axes.
+struct MotionSample {
+  PoseSample pose;
+  Vector3d v_W = Vector3d::Zero(), a_W = Vector3d::Zero();      ///< [m/s, m/s²]
+  Vector3d w_B = Vector3d::Zero(), alpha_B = Vector3d::Zero();  ///< [rad/s, rad/s²]
+};
+
+/// The motion between two neighbouring samples: a Hermite polynomial in position and in rotation vector, cubic from
+/// samples with velocities (see doc/model.md), quintic where accelerations are known as well.
 class MotionSegment {
  public:
   /// Rests at `X` from `begin` to `end` [s]; for ever where they are not given.
@@ -30,28 +47,38 @@ class MotionSegment {
   /// `w_*_B` the body rates in the body's own axes.
   MotionSegment(const PoseSample& a, const Vector3d& v_a, const Vector3d& w_a_B, const PoseSample& b,
                 const Vector3d& v_b, const Vector3d& w_b_B);
+  /// The quintic from `a` to `b` (`a.pose.t < b.pose.t`) with velocities and accelerations at both.
+  MotionSegment(const MotionSample& a, const MotionSample& b);
 
   double begin() const;  ///< [s]
   double end() const;    ///< [s]; infinity for a frame at rest
   /// State at time `t` [s], begin() ≤ t ≤ end().
   MotionState at(double t) const;
+  OwnAxesMotion in_own_axes(double t) const;
 
  private:
-  /// `u (c[0] + u (c[1] + u c[2]))` for u = 0 … 1 over the segment: what a vector adds to its value at the start.
-  struct Cubic {
-    Vector3d c[3] = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
-    static Cubic hermite(const Vector3d& change, const Vector3d& slope_a, const Vector3d& slope_b);
-    Vector3d value(double u) const { return u * (c[0] + u * (c[1] + u * c[2])); }
-    Vector3d first(double u) const { return c[0] + u * (2.0 * c[1] + u * 3.0 * c[2]); }
-    Vector3d second(double u) const { return 2.0 * c[1] + u * 6.0 * c[2]; }
+  /// `u (c[0] + u (c[1] + …))` for u = 0 … 1 over the segment: what a vector adds to its value at the start.
+  struct Polynomial {
+    Vector3d c[5];
+    static Polynomial cubic(const Vector3d& change, const Vector3d& slope_a, const Vector3d& slope_b);
+    static Polynomial quintic(const Vector3d& change, const Vector3d& slope_a, const Vector3d& slope_b,
+                              const Vector3d& curve_a, const Vector3d& curve_b);
+    Vector3d value(double u) const { return u * (c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4])))); }
+    Vector3d first(double u) const {
+      return c[0] + u * (2.0 * c[1] + u * (3.0 * c[2] + u * (4.0 * c[3] + u * 5.0 * c[4])));
+    }
+    Vector3d second(double u) const {
+      return 2.0 * c[1] + u * (6.0 * c[2] + u * (12.0 * c[3] + u * 20.0 * c[4]));
+    }
   };
 
   RigidTransform X_a_;
   double begin_;
   double end_;
   bool moving_;
-  Cubic position_;  ///< world axes [m]
-  Cubic rotation_;  ///< rotation vector from the pose at the start, in its axes [rad]
+  bool turning_ = false;
+  Polynomial position_;  ///< world axes [m]
+  Polynomial rotation_;  ///< rotation vector from the pose at the start, in its axes [rad]; where turning
 };
 
 /// The samples of one tracked frame, interpolated so that the motion passes through each of them and is C¹.

@@ -23,7 +23,7 @@ struct ForkDofs {
 struct ForkSettings {
   std::string shape = "linear";               ///< key `shape`: the shape model's name
   double length = 0.2;                        ///< key `fork.length` [m], > 0: rest length L
-  PerFamily stiffness{2000.0, 500.0, 5.0};    ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], > 0
+  PerFamily stiffness{2000.0, 500.0, 5.0};    ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
   PerFamily damping_ratio{1.0, 1.0, 1.0};     ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
   ForkDofs dofs;                              ///< keys `fork.dofs.*`
   double switch_off_time = 0.05;              ///< key `fork.switch_off_time` [s], > 0: time constant on which a family that

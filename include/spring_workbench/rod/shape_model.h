@@ -25,6 +25,10 @@ struct TipKinematics {
   StrainJacobian linear;                            ///< tip's velocity = linear · q̇
   Vector3d angular_bias = Vector3d::Zero();         ///< angular acceleration = angular · q̈ + angular_bias [rad/s²]
   Vector3d linear_bias = Vector3d::Zero();          ///< acceleration = linear · q̈ + linear_bias [m/s²]
+  /// Whether, of six coordinates, 0, 1 and 5 shift the tip along x, y and z of H and 2, 3 and 4 only turn it. Then
+  /// (q̇₂, q̇₃, q̇₄) = inverse_angular · angular velocity.
+  bool separate = false;
+  Matrix3d inverse_angular = Matrix3d::Identity();
 };
 
 /// Which of the strain coordinates belong to which family: [begin, begin + count).
@@ -58,6 +62,10 @@ class ShapeModel {
 
   /// Pose of the rod's section at arc length `s` of the rest shape, 0 ≤ s ≤ length(), in H.
   virtual RigidTransform section(const StrainVector& q, double s) const = 0;
+
+  /// Where other coordinates give the same tip with less strain, takes those, with the rates of the same motion (a rotation
+  /// vector beyond a half turn: the other way round). Returns whether it did.
+  virtual bool rechart(StrainVector& q, StrainVector& q_dot) const;
 
   /// Whether the strain is one that a rod can have: finite, not turned inside out, not wound up beyond `max_turns`.
   virtual bool admissible(const StrainVector& q) const = 0;

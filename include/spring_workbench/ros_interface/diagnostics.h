@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spring_workbench/ros_interface/stylus_input.h"
+#include "spring_workbench/tracker/reengagement.h"
 
 namespace spring_workbench {
 
@@ -33,6 +34,14 @@ class DiagnosticStatusBuilder {
   diagnostic_msgs::DiagnosticStatus status_;
 };
 
+/// How evenly a station's samples come and what its gate met, as fields of a status.
+void add_stream(const StreamFigures& stream, const GateCounts& gate, DiagnosticStatusBuilder& status);
+
+/// Why no sample of the stylus is used, and what to do about it: one line, empty where samples are used.
+/// `senders`: the nodes that the master says publish /tf, this one left out.
+std::string hint_for_silence(const InputStatistics& input, const std::vector<std::string>& senders,
+                             const std::string& stylus_frame);
+
 /// Watches the counters and says once a second how tracker input and physics loop are doing: WARN when something went
 /// wrong since the last time, STALE when no sample came at all.
 class ManipulationDiagnostics {
@@ -40,17 +49,20 @@ class ManipulationDiagnostics {
   /// `name`: of the node. `dropout_after` [s]: silence of the tracker longer than this is told.
   ManipulationDiagnostics(const std::string& name, double dropout_after) : name_(name), dropout_after_(dropout_after) {}
 
-  /// `now` [s]: local time.
-  std::vector<diagnostic_msgs::DiagnosticStatus> report(const InputStatistics& input, const LoopStatistics& loop,
+  /// `hint`: of `hint_for_silence`; `now` [s]: local time.
+  std::vector<diagnostic_msgs::DiagnosticStatus> report(const InputStatistics& input, const ReengagementCounts& hand,
+                                                        const LoopStatistics& loop, const std::string& hint,
                                                         double now);
 
  private:
-  diagnostic_msgs::DiagnosticStatus report_input(const InputStatistics& input, double now) const;
+  diagnostic_msgs::DiagnosticStatus report_input(const InputStatistics& input, const ReengagementCounts& hand,
+                                                 const std::string& hint, double now) const;
   diagnostic_msgs::DiagnosticStatus report_loop(const LoopStatistics& loop) const;
 
   std::string name_;
   double dropout_after_;
   InputStatistics last_input_;
+  ReengagementCounts last_hand_;
   LoopStatistics last_loop_;
 };
 

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "spring_workbench/ros_interface/diagnostics.h"
+#include "spring_workbench/ros_interface/live_tuning.h"
 #include "spring_workbench/ros_interface/parameters.h"
 #include "spring_workbench/ros_interface/services.h"
 #include "spring_workbench/ros_interface/simulation_runner.h"
@@ -29,6 +30,7 @@ class ManipulationNode {
  private:
   void run_physics();
   void run_cycle(double due);
+  bool run_step(double due);
   void count(const CycleReport& report, bool deadline_missed);
   void on_every_second(const ros::WallTimerEvent&);
   void place_workbench();
@@ -38,6 +40,7 @@ class ManipulationNode {
   StylusInput input_;
   StatePublisher publisher_;
   Services services_;
+  std::unique_ptr<LiveTuning> live_tuning_;
   ManipulationDiagnostics diagnostics_;
   std::mutex loop_mutex_;
   LoopStatistics loop_;

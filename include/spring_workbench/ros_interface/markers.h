@@ -6,15 +6,20 @@
 #include <string>
 #include <utility>
 
+#include "spring_workbench/fork_mesh/fork_model.h"
 #include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench {
 
-/// Draws the simulation for rviz: bodies, targets, the deformed fork, contact points with their normals, and the force
-/// at the tip (half the fork's length for the held object's weight). Every marker keeps its namespace and id while what
-/// it shows is there and is deleted by name when it is gone, so that nothing flickers.
+/// Draws the simulation for rviz: bodies, targets, shadows on the bench, the deformed fork in the colour of its load with
+/// a legend, force and moment at the tip as arrows and text, contact points with their normals. Every marker keeps its
+/// namespace and id while what it shows is there and is deleted by name when it is gone, so that nothing flickers; rviz
+/// drops by itself what is no longer sent.
 class MarkerBuilder {
  public:
+  /// `fork_curve`: one of fork_curve_names(). `lifetime` [s] of a marker that is not sent again.
+  MarkerBuilder(std::string fork_curve, double lifetime);
+
   visualization_msgs::MarkerArray build(const Simulation& simulation, const std_msgs::Header& header);
 
  private:
@@ -22,6 +27,10 @@ class MarkerBuilder {
 
   void delete_what_is_gone(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers);
 
+  std::string fork_curve_;
+  double lifetime_;
+  ForkModel fork_;
+  ForkMesh fork_mesh_;
   std::set<MarkerKey> shown_;
 };
 

@@ -2,28 +2,37 @@
 
 #include <limits>
 
+#include "spring_workbench/ros_interface/loop_clock.h"
+
 namespace spring_workbench {
 
 /// Says how far to simulate: one sample interval behind the tracker as long as samples come, so that every segment of
 /// the hand's motion is known before it is walked; and on past the newest sample, the hand held at rest, once they have
 /// stopped for longer than `dropout_after`. Needs no common clock with the tracker: only intervals of the local one
 /// count.
+///
+/// In simulated time, where messages and clock come at moments of their own, it never goes past the sample before the
+/// newest, so that what is simulated depends on the samples alone; and silence must also have lasted 0.2 s by the wall
+/// clock, so that a bag played quickly is not taken for one that stopped.
 class PlayoutClock {
  public:
-  /// `dropout_after` [s], > 0.
-  explicit PlayoutClock(double dropout_after) : dropout_after_(dropout_after) {}
+  /// `dropout_after` [s], > 0. `simulated_time`: whether the local clock is ROS time that somebody publishes.
+  explicit PlayoutClock(double dropout_after, bool simulated_time = false)
+      : dropout_after_(dropout_after), simulated_time_(simulated_time) {}
 
-  /// A sample stamped `t` [s] (later than the last one) came at local time `arrival` [s].
-  void sample(double t, double arrival);
-  /// The time to simulate to [s] at local time `now` [s]; −infinity before the first sample.
-  double target(double now) const;
+  /// A sample stamped `t` [s] came.
+  void sample(double t, const LocalTime& arrival);
+  /// The time to simulate to [s]; −infinity before the first sample.
+  double target(const LocalTime& now) const;
   /// Forgets all samples.
-  void clear() { *this = PlayoutClock(dropout_after_); }
+  void clear() { *this = PlayoutClock(dropout_after_, simulated_time_); }
 
  private:
   double dropout_after_;
+  bool simulated_time_;
   double newest_ = -std::numeric_limits<double>::infinity();
-  double arrival_ = 0.0;
+  double before_newest_ = -std::numeric_limits<double>::infinity();
+  LocalTime arrival_;
   double interval_ = 0.0;  ///< smoothed time between samples [s]
 };
 

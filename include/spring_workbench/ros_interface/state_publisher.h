@@ -34,6 +34,7 @@ class StatePublisher {
   double next_markers_ = 0.0;
   ros::Time last_transforms_;
   bool had_contacts_ = false;
+  bool markers_were_built_ = false;  ///< in this cycle
   MarkerBuilder markers_;
   tf2_ros::TransformBroadcaster transforms_;
   ros::Publisher objects_publisher_, fork_publisher_, wrench_publisher_, contacts_publisher_, markers_publisher_,

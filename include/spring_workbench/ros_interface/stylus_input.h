@@ -5,15 +5,20 @@
 #include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
+#include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "spring_workbench/motion/pose_track.h"
+#include "spring_workbench/ros_interface/loop_clock.h"
 #include "spring_workbench/ros_interface/parameters.h"
+#include "spring_workbench/tracker/stream_monitor.h"
+#include "spring_workbench/tracker/truth_layer.h"
 
 namespace spring_workbench {
 
@@ -21,10 +26,11 @@ namespace spring_workbench {
 struct NewEpoch {
   ros::Time zero;
 };
-/// A pose of the handle in world; `arrival` is the local time (see `loop_time`) at which it came.
+/// A pose of the handle in world, and when it came.
 struct StylusPose {
   PoseSample sample;
-  double arrival = 0.0;
+  LocalTime arrival;
+  bool new_place = false;  ///< see Verdict
 };
 /// The grasp button went down or up at time `t` [s].
 struct StylusButton {
@@ -35,21 +41,15 @@ using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton>;
 
 /// What came in so far.
 struct InputStatistics {
-  std::size_t samples = 0;                      ///< used
-  std::size_t dropouts = 0;                     ///< gaps longer than `dropout_after`
+  std::size_t messages = 0;                     ///< on /tf, those of this node left out
+  std::set<std::string> frames;                 ///< child frames in them
+  StreamFigures stream;                         ///< of the samples used
+  GateCounts gate;
   std::size_t restarts = 0;                     ///< times ROS time jumped back
   std::map<std::string, std::size_t> left_out;  ///< by reason
-  double interval = 0.0;                        ///< between the newest two samples [s]
-  double age = 0.0;                             ///< of the newest sample when it came, by its stamp [s]
+  double newest_offer_age = 0.0;                ///< age by its stamp of the newest sample, used or not [s]
   double newest_arrival = 0.0;                  ///< local time [s]
 };
-
-/// Why a transform from outside cannot be used: reason and one line for the log. Empty when it can.
-struct TransformFault {
-  std::string reason;
-  std::string line;
-};
-std::optional<TransformFault> find_fault(const geometry_msgs::TransformStamped& transform);
 
 /// Listens to /tf, /tf_static and stylus/joy, and keeps what came, in order, until it is taken. What cannot be used is
 /// left out, counted by reason and told in one throttled line.
@@ -64,10 +64,11 @@ class StylusInput {
   bool workbench_known() const;
 
  private:
-  void on_transforms(const tf2_msgs::TFMessageConstPtr& message);
+  void on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event);
   void on_static_transforms(const tf2_msgs::TFMessageConstPtr& message);
   void on_joy(const sensor_msgs::JoyConstPtr& message);
   void on_stylus(const geometry_msgs::TransformStamped& transform, const ros::Time& now);
+  void offer(const geometry_msgs::TransformStamped& transform, const RigidTransform& X_WP, double age);
   void notice_jump(const ros::Time& now);
   double seconds(const ros::Time& stamp);
   void leave_out(const std::string& reason, const std::string& line);
@@ -78,9 +79,11 @@ class StylusInput {
   bool workbench_known_ = false;
   std::vector<StylusEvent> events_;
   InputStatistics statistics_;
+  TruthLayer truth_;
+  StreamMonitor monitor_;
+  std::deque<geometry_msgs::TransformStamped> early_;  ///< too old for the clock, which may not have jumped back yet
   std::map<std::string, ros::WallTime> told_;  ///< when a reason to leave a sample out was last logged
   ros::Time zero_;                             ///< of the epoch; zero before the first input
-  ros::Time newest_;                           ///< stamp of the newest sample of the epoch; zero before it
   ros::Time last_now_;
   bool pressed_ = false;
   ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;

@@ -59,7 +59,7 @@ struct Body {
   bool movable = false;
   RigidTransform X_WO = RigidTransform::Identity();     ///< start pose of the object frame O in world
   RigidTransform X_OL = RigidTransform::Identity();     ///< the URDF link frame L in O (a translation: −centre of mass)
-  MassProperties mass_properties;                       ///< zero for a body that is not movable
+  MassProperties mass_properties;                       ///< zero for a body that is not movable or has no mass
   Material material;
   std::vector<Shape> collision;
   std::vector<Shape> visual;                            ///< the collision shapes where the URDF gives no visual

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/dynamics/settings.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/scene/scene.h"
@@ -27,6 +28,9 @@ struct SimulationSettings {
   double dropout_after = 0.5;          ///< key `dropout_after` [s]
   int bisection_levels = 8;            ///< key `bisection_levels`; 1 … 30 (paper, section 5)
 };
+
+/// Which tolerances `integrator` may be given [m]; 0: fixed steps.
+NumberRule allowed_tolerance();
 
 /// What one key means.
 struct SettingDescription {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spring_workbench/motion/pose_track.h"
+#include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/simulation/settings.h"
 
@@ -31,6 +32,7 @@ struct ToolState {
   double length = 0.0;                                           ///< rest length [m]
   PerFamily stiffness;                                           ///< [N/m, N/m, N·m/rad]
   PerFamily damping_ratio;                                       ///< –
+  StrainVector strain;                                           ///< all coordinates of the shape model; zero when nothing is held
   double stretch = 0.0;                                          ///< extension along the rod [m]
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();                ///< tip deflection along x and y of the handle [m]
   double torsion = 0.0;                                          ///< twist angle [rad]
@@ -67,6 +69,8 @@ struct AdvanceReport {
                                           ///< and contact [J]; means something where stiffest_omega_dt is below about 1
   double stiffest_omega_dt = 0.0;         ///< ω·dt of the stiffest mode
   int collision_queries = 0;
+  int steps_rejected = 0;                 ///< steps tried and taken again shorter, for their error
+  int energy_held = 0;                    ///< steps whose gain of energy, with the hand at rest, was taken away
   int guards_tripped = 0;                 ///< times a step was refused because it would not have been finite or bounded
   std::vector<std::string> parts_run;     ///< e.g. "stretch", "gravity", "collision"
   std::vector<std::string> parts_left_out;
@@ -79,10 +83,13 @@ struct ChangeReport {
   std::string message;                 ///< one line for the user
 };
 
-/// A scene, one hand and its tool: puts together just the parts that the scene needs, and owns time.
+/// A scene, the hands and their tools: puts together just the parts that the scene needs, and owns time.
 /// No clock, no thread, no log, no ROS: the same calls give the same bits. NaN goes neither in nor out.
+/// A hand is a number from 0 (the first stylus) to most_hands − 1; another one throws std::out_of_range.
 class Simulation {
  public:
+  static constexpr std::size_t most_hands = 2;
+
   /// Throws InputError when settings and scene do not fit (e.g. `grasp.object` is not in the scene).
   Simulation(const Scene& scene, const SimulationSettings& settings);
   ~Simulation();
@@ -97,10 +104,10 @@ class Simulation {
 
   /// A new pose of the handle. Returns false when its stamp is not later than the newest one's (it is left out).
   /// Throws InputError when it is not finite.
-  bool push_stylus(const PoseSample& sample);
+  bool push_stylus(const PoseSample& sample, std::size_t hand = 0);
   /// The grasp button goes down or up at time `t` [s]; takes effect at the first step that begins at or after `t`.
-  void push_button(double t, bool pressed);
-  /// Time of the newest sample, or time() where there is none.
+  void push_button(double t, bool pressed, std::size_t hand = 0);
+  /// Time of the newest sample of any hand, or time() where there is none.
   double newest_sample() const;
 
   /// Goes from time() to `t_end` in steps of at most `settings().dynamics.step` that end at the samples.
@@ -108,24 +115,23 @@ class Simulation {
 
   /// Objects back to their start, nothing held, no sample known: for a jump of time, or on request.
   void reset();
-  /// Lets go of the held object. False when nothing was held.
+  /// Every hand lets go of what it holds. False when nothing was held.
   bool release();
 
-  // Changes while running; pose and twist of the object go on without a jump. Bad values throw InputError and change nothing.
+  // Changes while running, of the tools in all hands; pose and twist of the object go on without a jump. Bad values throw InputError and change nothing.
   ChangeReport set_dofs(const ForkDofs& dofs);
   /// A family with 0 keeps its stiffness.
   ChangeReport set_stiffness(const PerFamily& stiffness);
   ChangeReport set_damping_ratio(const PerFamily& ratio);
-  /// Stiffness from the held object's mass and size; the damping ratios stay. Throws InputError when nothing is held.
+  /// Stiffness from the mass and size of the held object, the first hand's where both hold one; the damping ratios stay.
+  /// Throws InputError when nothing is held.
   ChangeReport calibrate();
-  /// By name; `step` [s] 0 keeps the present one.
-  void set_integrator(const std::string& name, double step);
+  /// By name; `step` [s] 0 keeps the present one; `tolerance` [m] of the run, 0 takes fixed steps (see StepControl).
+  void set_integrator(const std::string& name, double step, double tolerance = 0.0);
 
   const std::vector<BodyState>& objects() const;
-  ToolState fork() const;
+  ToolState fork(std::size_t hand = 0) const;
   const std::vector<ContactState>& contacts() const;
-  /// Poses along the fork's centreline from handle to tip, in world, `count` ≥ 2 of them evenly spaced in arc length.
-  std::vector<RigidTransform> centreline(int count) const;
 
  private:
   struct Impl;

@@ -25,6 +25,7 @@ void apply(const YAML::Node& values, const std::string& where, Options& options)
       settings.force_insert(entry.first, entry.second);
     }
   }
+  take_truth_settings(settings, where, options.truth);
   apply_settings(settings, where, options.settings);
 }
 
@@ -147,7 +148,7 @@ RUN.fork.csv, a line per output time:
   elastic_energy,kinetic_energy             [J] of the fork; of the held object
 
 The last line on standard output is one JSON object: steps, simulated_time and wall_time and time_per_step [s], outputs,
-samples, samples_left_out (stamps that are not later than the one before), position_error [m] and angle_error [rad] (the
+samples, samples_left_out (by the rules of truth.*; left_out says why), reengagements, losses (of the hand), position_error [m] and angle_error [rad] (the
 largest estimate of a step's local error), energy_drift [J] (added by integration beyond hand, gravity, damping and
 contact), stiffest_omega_dt, contacts (pairs that came into contact, as seen at the output times), collision_queries,
 guards_tripped, parts_run, parts_left_out.
@@ -156,10 +157,11 @@ Exit status: 0 done; 2 bad arguments or input, with one line on standard error.
 Keys (unit; allowed; default): meaning
   rate (Hz; a finite number in [0.001, 1e+06]; 50): output times per second
 )";
-  for (const SettingDescription& d : setting_descriptions()) {
-    text << "  " << d.key << " (" << d.unit << "; " << d.allowed << "; " << d.default_value << "): " << d.meaning
-         << "\n";
-  }
+  const auto add = [&](const std::string& key, const auto& d) {
+    text << "  " << key << " (" << d.unit << "; " << d.allowed << "; " << d.default_value << "): " << d.meaning << "\n";
+  };
+  for (const SettingDescription& d : setting_descriptions()) add(d.key, d);
+  for (const TruthDescription& d : truth_descriptions()) add("truth." + d.key, d);
   return text.str();
 }
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "spring_workbench/simulation/settings.h"
+#include "spring_workbench/tracker/truth_settings.h"
 
 namespace spring_workbench::replay {
 
@@ -17,6 +18,7 @@ struct Options {
   std::string out;     ///< path of the CSV file of the objects
   double rate = 50.0;  ///< output times per second [Hz]
   SimulationSettings settings;
+  TruthSettings truth;
 };
 
 /// Reads the command line, and the settings file that it names. Throws InputError for everything that cannot be used.

@@ -2,10 +2,13 @@
 
 #include <chrono>
 #include <iostream>
+#include <limits>
 
 #include "csv_rows.h"
 #include "output_file.h"
 #include "spring_workbench/scene/scene.h"
+#include "spring_workbench/tracker/reengagement.h"
+#include "spring_workbench/tracker/truth_layer.h"
 
 namespace spring_workbench::replay {
 namespace {
@@ -31,13 +34,30 @@ Simulation make_simulation(const Options& options) {
   return Simulation(scene, options.settings);
 }
 
-void push_motion(const Motion& motion, bool with_buttons, Simulation& simulation, Summary& summary) {
+/// Gives the simulation the samples that the truth layer lets through, as `manipulation` does.
+void push_motion(const Motion& motion, const Options& options, Reengagement& hand, Simulation& simulation,
+                 Summary& summary) {
+  constexpr double nothing_simulated = -std::numeric_limits<double>::infinity();
+  TruthLayer truth(options.truth, options.settings.dropout_after);
   for (const PoseSample& sample : motion.samples) {
     ++summary.samples;
-    if (!simulation.push_stylus(sample)) ++summary.samples_left_out;
+    const TrueSample taken = truth.take(sample);
+    if (!usable(taken.verdict)) continue;
+    const bool new_place = taken.verdict == Verdict::new_place;
+    for (const PoseSample& s : hand.follow(taken.sample, new_place, nothing_simulated)) simulation.push_stylus(s);
   }
-  if (!with_buttons) return;
+  summary.gate = truth.counts();
+  if (!options.settings.grasp.object.empty()) return;
   for (const ButtonEvent& event : motion.buttons) simulation.push_button(event.t, event.pressed);
+}
+
+/// Goes to t; lets go of what is held where the hand is lost on the way.
+void advance(double t, Reengagement& hand, Simulation& simulation, Summary& summary) {
+  while (const auto release = hand.take_release(t)) {
+    summary.add(simulation.advance(*release));
+    simulation.release();
+  }
+  summary.add(simulation.advance(t));
 }
 
 }  // namespace
@@ -51,16 +71,18 @@ Summary run(const Options& options) {
   fork.write(fork_header());
 
   Summary summary;
-  push_motion(motion, options.settings.grasp.object.empty(), simulation, summary);
+  Reengagement hand(options.truth);
+  push_motion(motion, options, hand, simulation, summary);
   const double end = simulation.newest_sample() + kTimeTolerance;
   const auto started = std::chrono::steady_clock::now();
   for (double t = 0.0; t <= end; t = ++summary.outputs / options.rate) {
-    summary.add(simulation.advance(t));
+    advance(t, hand, simulation, summary);
     summary.add_contacts(simulation.contacts());
     objects.write(object_rows(t, simulation));
     fork.write(fork_row(t, simulation));
   }
   summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  summary.hand = hand.counts();
   fork.commit();
   objects.commit();
   return summary;

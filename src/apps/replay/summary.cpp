@@ -29,6 +29,17 @@ std::string list_of(const std::set<std::string>& words) {
   return "[" + json + "]";
 }
 
+/// {"reason": count, ...}, and their sum.
+std::pair<std::string, std::size_t> left_out_of(const GateCounts& gate) {
+  std::string json;
+  std::size_t sum = 0;
+  for (const auto& [verdict, count] : gate.left_out) {
+    json += (json.empty() ? "" : ", ") + quoted(to_string(verdict)) + ": " + std::to_string(count);
+    sum += count;
+  }
+  return {"{" + json + "}", sum};
+}
+
 }  // namespace
 
 void Summary::add(const AdvanceReport& report) {
@@ -39,6 +50,8 @@ void Summary::add(const AdvanceReport& report) {
   total_.energy_added += report.energy_added;
   total_.stiffest_omega_dt = std::max(total_.stiffest_omega_dt, report.stiffest_omega_dt);
   total_.collision_queries += report.collision_queries;
+  total_.steps_rejected += report.steps_rejected;
+  total_.energy_held += report.energy_held;
   total_.guards_tripped += report.guards_tripped;
   parts_run_.insert(report.parts_run.begin(), report.parts_run.end());
   parts_left_out_.insert(report.parts_left_out.begin(), report.parts_left_out.end());
@@ -57,6 +70,7 @@ std::string Summary::json() const {
   std::set<std::string> never_run;
   std::set_difference(parts_left_out_.begin(), parts_left_out_.end(), parts_run_.begin(), parts_run_.end(),
                       std::inserter(never_run, never_run.end()));
+  const auto [left_out, samples_left_out] = left_out_of(gate);
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(9);
@@ -64,9 +78,12 @@ std::string Summary::json() const {
       << ", \"wall_time\": " << wall_time
       << ", \"time_per_step\": " << (total_.steps > 0 ? wall_time / total_.steps : 0.0) << ", \"outputs\": " << outputs
       << ", \"samples\": " << samples << ", \"samples_left_out\": " << samples_left_out
+      << ", \"left_out\": " << left_out << ", \"dropouts\": " << gate.dropouts
+      << ", \"reengagements\": " << hand.reengagements << ", \"losses\": " << hand.losses
       << ", \"position_error\": " << total_.position_error << ", \"angle_error\": " << total_.angle_error
       << ", \"energy_drift\": " << total_.energy_added << ", \"stiffest_omega_dt\": " << total_.stiffest_omega_dt
       << ", \"contacts\": " << contacts_ << ", \"collision_queries\": " << total_.collision_queries
+      << ", \"steps_rejected\": " << total_.steps_rejected << ", \"energy_held\": " << total_.energy_held
       << ", \"guards_tripped\": " << total_.guards_tripped << ", \"parts_run\": " << list_of(parts_run_)
       << ", \"parts_left_out\": " << list_of(never_run) << "}";
   return out.str();

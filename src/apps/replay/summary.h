@@ -5,6 +5,8 @@
 #include <utility>
 
 #include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/tracker/reengagement.h"
+#include "spring_workbench/tracker/sample_gate.h"
 
 namespace spring_workbench::replay {
 
@@ -12,7 +14,8 @@ namespace spring_workbench::replay {
 class Summary {
  public:
   int samples = 0;           ///< of the motion
-  int samples_left_out = 0;  ///< for their stamps
+  GateCounts gate;           ///< of them
+  ReengagementCounts hand;
   int outputs = 0;           ///< output times
   double wall_time = 0.0;    ///< [s]
 

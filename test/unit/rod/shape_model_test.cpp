@@ -85,6 +85,25 @@ TEST_P(EveryShape, VelocityAndAccelerationAreDerivativesOfThePose) {
   }
 }
 
+TEST_P(EveryShape, OtherCoordinatesAreOfTheSameTipAndMotionAndStoreNoMore) {
+  int changed = 0;
+  for (int trial = 0; trial < 50; ++trial) {
+    const StrainVector q = random_strain(*shape, random, 3.5), v = random_strain(*shape, random, 1.0);
+    StrainVector q1 = q, v1 = v;
+    if (!shape->rechart(q1, v1)) continue;
+    ++changed;
+    TipKinematics before, after;
+    shape->tip(q, v, before);
+    shape->tip(q1, v1, after);
+    EXPECT_LT((before.R_HE - after.R_HE).norm(), 1e-12);
+    EXPECT_LT((before.p_HE - after.p_HE).norm(), 1e-12);
+    EXPECT_LT((before.angular * v - after.angular * v1).norm(), 1e-11);
+    EXPECT_LT((before.linear * v - after.linear * v1).norm(), 1e-12);
+    EXPECT_LE(q1.segment(2, 3).norm(), q.segment(2, 3).norm());
+  }
+  EXPECT_EQ(changed > 5, GetParam() == "bushing");
+}
+
 TEST_P(EveryShape, SmallDeflectionFollowsTheStiffness) {
   // k_bend is transverse tip force over tip deflection, k_torsion moment over twist, k_stretch force over extension.
   const PerFamily k{3000.0, 700.0, 9.0};

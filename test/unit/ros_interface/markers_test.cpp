@@ -6,6 +6,7 @@
 #include <set>
 
 #include "spring_workbench/scene/scene.h"
+#include "support/meshes.h"
 
 namespace spring_workbench {
 namespace {
@@ -35,7 +36,7 @@ class MarkersOfALift : public testing::Test {
   }
 
   Simulation simulation_{load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf"), SimulationSettings()};
-  MarkerBuilder builder_;
+  MarkerBuilder builder_{"rod", 2.0};
   double t_ = 0.0;
   bool pressed_ = false;
 };
@@ -58,7 +59,8 @@ TEST_F(MarkersOfALift, EveryMarkerIsFiniteAndHasAnIdOfItsOwn) {
       EXPECT_NE(marker.action, Marker::DELETEALL);
       if (marker.action != Marker::ADD) continue;
       EXPECT_EQ(marker.header.frame_id, "world");
-      EXPECT_GT(marker.scale.x, 0.0) << marker.ns;
+      EXPECT_EQ(marker.lifetime.toSec(), 2.0);
+      EXPECT_GT(marker.type == Marker::TEXT_VIEW_FACING ? marker.scale.z : marker.scale.x, 0.0) << marker.ns;
       const auto& q = marker.pose.orientation;
       EXPECT_NEAR(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1.0, 1e-9);
       for (const auto& p : marker.points) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
@@ -87,6 +89,83 @@ TEST_F(MarkersOfALift, WhatIsGoneIsDeletedOnceAndByName) {
   }
   EXPECT_TRUE(force_was_drawn);
   EXPECT_EQ(shown.count({"force", 0}), 0u);
+}
+
+/// Sum of the triangles' areas.
+double area(const Marker& marker) {
+  const auto corner = [&](std::size_t i) {
+    return Vector3d(marker.points[i].x, marker.points[i].y, marker.points[i].z);
+  };
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 2 < marker.points.size(); i += 3) {
+    sum += 0.5 * (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i)).norm();
+  }
+  return sum;
+}
+
+const Marker* find(const MarkerArray& markers, const std::string& ns, int id) {
+  for (const Marker& marker : markers.markers) {
+    if (marker.ns == ns && marker.id == id && marker.action == Marker::ADD) return &marker;
+  }
+  return nullptr;
+}
+
+TEST_F(MarkersOfALift, ARaisedBoxThrowsItsOwnOutlineOnTheBench) {
+  go_to(1.0);
+  EXPECT_EQ(find(build(), "shadow", 0), nullptr);
+  go_to(6.0);  // at rest, hanging upright
+  const MarkerArray markers = build();
+  const Marker* shadow = find(markers, "shadow", 0);
+  ASSERT_NE(shadow, nullptr);
+  EXPECT_NEAR(area(*shadow), 0.1 * 0.06, 1e-5);
+  for (const auto& p : shadow->points) EXPECT_NEAR(p.z, 0.0, 2e-3);
+}
+
+TEST_F(MarkersOfALift, LoadIsColouredAndToldInVirtualKilograms) {
+  go_to(1.0);
+  const auto unloaded = find(build(), "fork", 0)->color;
+  EXPECT_EQ(find(build(), "readout", 0), nullptr);
+  go_to(8.0);  // at rest: the scene's heaviest object, of 1 kg
+  const MarkerArray markers = build();
+  const auto loaded = find(markers, "fork", 0)->color;
+  EXPECT_GT(unloaded.b, unloaded.r);
+  EXPECT_GT(loaded.r, loaded.b + 0.5f);
+  const auto& full = find(markers, "legend", 0)->colors.back();
+  EXPECT_NEAR(full.g, loaded.g, 0.02);
+  EXPECT_EQ(find(markers, "readout", 0)->text.substr(0, 20), "1.00 vkg   9.81 N   ");
+}
+
+TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
+  for (const double t : {0.5, 2.2, 2.6, 4.0}) {
+    go_to(t);
+    const ToolState tool = simulation_.fork();
+    const Vector3d point =
+        tool.X_WE * Vector3d(0.0, 0.0, ForkLook().prong_length * coil_diameter(tool.length));
+    double nearest = 1.0;
+    const MarkerArray markers = build();
+    for (const auto& p : find(markers, "fork", 1)->points) {
+      nearest = std::min(nearest, (Vector3d(p.x, p.y, p.z) - point).norm());
+    }
+    EXPECT_LT(nearest, 1e-9);
+  }
+}
+
+TEST(Markers, AMeshIsSentByItsFile) {
+  Scene scene = load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf");
+  TriangleMesh mesh = *test_support::box_mesh(Vector3d(0.2, 0.1, 0.1));
+  mesh.uri = "package://somewhere/meshes/box.stl";
+  mesh.scale = Vector3d(0.5, 1.0, 2.0);
+  Body& box = scene.bodies[*find_body(scene, "box")];
+  box.visual[0].geometry = std::make_shared<const TriangleMesh>(mesh);
+  const MarkerArray markers =
+      MarkerBuilder("rod", 2.0).build(Simulation(scene, SimulationSettings()), std_msgs::Header());
+  const Marker* marker = find(markers, "box", 0);
+  ASSERT_NE(marker, nullptr);
+  EXPECT_EQ(marker->type, Marker::MESH_RESOURCE);
+  EXPECT_EQ(marker->mesh_resource, mesh.uri);
+  EXPECT_EQ(marker->scale.z, 2.0);
+  EXPECT_TRUE(marker->points.empty());
+  EXPECT_NEAR(marker->color.r, box.visual[0].color[0], 1e-6);
 }
 
 TEST_F(MarkersOfALift, AnInsertedObjectIsHighlighted) {

@@ -102,7 +102,10 @@ TEST(TrackerParameters, RefusesWithTheKeyInTheMessage) {
       {"{file: a, offset: [0, 0, 0, 0, 0, 0, 0]}", "offset"},
       {"{file: a, offset: [0, 0, 0, 0, 0, 0, 1], start: [0, 0, 0, 0, 0, 0, 1]}", "start"},
       {"{file: a, grasp_from: 2, grasp_until: 1}", "grasp_until"},
-      {"{file: a, looop: true}", "looop"}};
+      {"{file: a, looop: true}", "looop"},
+      {"{file: a, port: /dev/x}", "port"},
+      {"{source: fastrak, file: a}", "file"},
+      {"{source: fastrak, baud: 1}", "baud"}};
   for (const auto& [yaml, key] : cases) {
     const std::string message = refusal_of_tracker(yaml);
     EXPECT_NE(message.find(" " + key + ":"), std::string::npos) << yaml << ": " << message;

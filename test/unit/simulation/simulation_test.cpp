@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "spring_workbench/config/input_error.h"
+#include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench {
@@ -285,7 +286,7 @@ TEST_F(Switching, NewStiffnessReportsTheEnergyItAdds) {
 }
 
 TEST_F(Switching, EveryIntegratorTakesOver) {
-  for (const char* name : {"closed_form", "rk4", "semi_implicit_euler", "exponential"}) {
+  for (const std::string& name : integrator_names()) {
     simulation.set_integrator(name, 0.0);
     EXPECT_EQ(simulation.fork().integrator, name);
   }
@@ -298,10 +299,48 @@ TEST_F(Switching, BadValuesChangeNothing) {
   EXPECT_THROW(simulation.set_damping_ratio({0.0, 11.0, 0.0}), InputError);
   EXPECT_THROW(simulation.set_integrator("magic", 0.0), InputError);
   EXPECT_THROW(simulation.set_integrator("rk4", -1.0), InputError);
+  EXPECT_THROW(simulation.set_integrator("rk4", std::nan("")), InputError);
+  for (double tolerance : {-1e-6, 0.2, std::nan("")}) {
+    EXPECT_THROW(simulation.set_integrator("rk4", 0.0, tolerance), InputError);
+  }
   EXPECT_EQ(simulation.settings().fork.stiffness.stretch, 2000.0);
   EXPECT_EQ(simulation.settings().fork.damping_ratio.bend, 0.2);
   EXPECT_EQ(simulation.settings().dynamics.integrator, "exponential");
   expect_no_jump();
+}
+
+TEST(Simulation, EveryIntegratorTellsTheStiffestModeAndItsErrors) {
+  // A pure stretch oscillator: ω = √(k/m).
+  for (const std::string& name : integrator_names()) {
+    SimulationSettings set = settings();
+    set.dynamics.integrator = name;
+    set.dynamics.step = 1e-3;
+    set.fork.dofs = {true, false, false};
+    set.fork.damping_ratio.stretch = 0.0;
+    Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), set);
+    push_move(simulation, 0.0, 0.2, {0.0, 0.0, 1.2}, {0.0, 0.0, 1.3});
+    simulation.push_button(0.0, true);
+    const AdvanceReport report = simulation.advance(0.1);
+    EXPECT_NEAR(report.stiffest_omega_dt, 1e-3 * std::sqrt(2000.0), 1e-9) << name;
+    const bool exact = name == "exponential" || name == "closed_form";
+    EXPECT_TRUE(exact || report.position_error > 0.0) << name;
+    EXPECT_LT(report.position_error, 1e-4) << name;
+  }
+}
+
+TEST(Simulation, ToleranceTakesMoreStepsAndSaysSo) {
+  const auto steps = [](double tolerance) {
+    SimulationSettings set = settings();
+    set.dynamics.integrator = "rk4";
+    set.dynamics.tolerance = tolerance;
+    Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), set);
+    push_move(simulation, 0.0, 1.0, {0.0, 0.0, 1.2}, {0.3, 0.0, 1.3});
+    simulation.push_button(0.0, true);
+    const AdvanceReport report = simulation.advance(1.0);
+    EXPECT_GT(report.steps_rejected, 0);
+    return report.steps;
+  };
+  EXPECT_GT(steps(1e-8), steps(1e-4));
 }
 
 TEST(Simulation, SameInputGivesTheSameBits) {
@@ -370,6 +409,129 @@ TEST(Simulation, SettingsThatDoNotFitAreRefused) {
   set.fork.shape = "spaghetti";
   EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}), set), InputError);
   EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}, ContactMode::dynamic), settings()), InputError);
+}
+
+/// The box held in the air by a hand at rest until it has come to rest itself.
+class HeldAtRest : public testing::Test {
+ protected:
+  HeldAtRest() : simulation(box_scene({0.01, 0.0, 1.0}, ContactMode::none), settings()) {
+    push_move(simulation, 0.0, 0.5, {0.0, 0.0, 1.2}, {0.1, 0.0, 1.2}, 0.5);
+    for (double t = 0.52; t < 8.01; t += 0.02) simulation.push_stylus({t, pointing_down({0.1, 0.0, 1.2}, 0.5)});
+    simulation.push_button(0.0, true);
+    simulation.advance(3.0);
+  }
+  void expect_asleep() {
+    const RigidTransform before = simulation.objects()[0].X_WO;
+    const AdvanceReport report = simulation.advance(simulation.time() + 0.1);
+    EXPECT_EQ(report.steps, 0);
+    EXPECT_TRUE(simulation.objects()[0].asleep);
+    EXPECT_TRUE(simulation.objects()[0].held);
+    EXPECT_EQ(simulation.objects()[0].V_WO_W.linear.norm(), 0.0);
+    EXPECT_EQ(simulation.objects()[0].X_WO.matrix(), before.matrix());
+    EXPECT_NE(std::find(report.parts_left_out.begin(), report.parts_left_out.end(), "bend"), report.parts_left_out.end());
+  }
+  /// It is awake over the next moment, starts from where it was, and falls asleep again somewhere else.
+  void expect_awake() {
+    const RigidTransform before = simulation.objects()[0].X_WO;
+    EXPECT_GT(simulation.advance(simulation.time() + 1e-3).steps, 0);
+    EXPECT_FALSE(simulation.objects()[0].asleep);
+    EXPECT_LT((simulation.objects()[0].X_WO.matrix() - before.matrix()).norm(), 1e-3);
+    simulation.advance(7.0);
+    EXPECT_GT((simulation.objects()[0].X_WO.matrix() - before.matrix()).norm(), 1e-4);
+    expect_asleep();
+  }
+  Simulation simulation;
+};
+
+TEST_F(HeldAtRest, CostsNothing) { expect_asleep(); }
+
+TEST_F(HeldAtRest, SagsByItsWeight) {
+  EXPECT_NEAR(simulation.fork().tip_wrench_W.force.z(), 9.81, 2e-5);
+  EXPECT_NEAR(simulation.fork().tip_wrench_W.force.head<2>().norm(), 0.0, 2e-5);
+}
+
+TEST_F(HeldAtRest, WakesWithANewStiffness) {
+  simulation.set_stiffness({500.0, 0.0, 0.0});
+  expect_awake();
+}
+
+TEST_F(HeldAtRest, WakesWithAFamilySwitchedOff) {
+  simulation.set_dofs({false, true, true});
+  expect_awake();
+}
+
+TEST_F(HeldAtRest, WakesWithTheHand) {
+  for (double t = 8.02; t < 9.01; t += 0.02) {
+    simulation.push_stylus({t, pointing_down({0.1 + 0.02 * (t - 8.0), 0.0, 1.2}, 0.5)});
+  }
+  simulation.advance(7.8);
+  expect_asleep();
+  simulation.advance(7.97);
+  const RigidTransform before = simulation.objects()[0].X_WO;
+  simulation.advance(7.99);  // the motion's first velocity is that of the sample at 8 s
+  EXPECT_FALSE(simulation.objects()[0].asleep);
+  EXPECT_LT((simulation.objects()[0].X_WO.matrix() - before.matrix()).norm(), 1e-3);
+}
+
+TEST_F(HeldAtRest, FallsWhenItIsLetGo) {
+  simulation.release();
+  simulation.advance(simulation.time() + 0.1);
+  EXPECT_FALSE(simulation.objects()[0].asleep);
+  EXPECT_NEAR(simulation.objects()[0].V_WO_W.linear.z(), -0.981, 1e-9);
+}
+
+TEST(Simulation, SleeperOnABenchWakesWhenTheHandPullsItUp) {
+  Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
+  push_move(simulation, 0.0, 1.0, above, above - Vector3d(0.0, 0.0, 0.01));
+  for (double t = 1.02; t < 4.01; t += 0.02) simulation.push_stylus({t, pointing_down(above - Vector3d(0.0, 0.0, 0.01))});
+  push_move(simulation, 4.02, 5.0, above - Vector3d(0.0, 0.0, 0.01), above + Vector3d(0.0, 0.0, 0.1));
+  simulation.push_button(0.0, true);
+  simulation.advance(3.5);
+  EXPECT_EQ(simulation.advance(3.9).steps, 0);
+  EXPECT_TRUE(simulation.objects()[0].asleep);
+  EXPECT_TRUE(simulation.objects()[0].in_contact);
+  simulation.advance(5.0);
+  EXPECT_FALSE(simulation.objects()[0].in_contact);
+  EXPECT_GT(simulation.objects()[0].X_WO.translation().z(), 0.1);
+}
+
+TEST(Simulation, MasslessObjectFollowsTheTipExactlyAndStopsAtTheBench) {
+  Scene scene = box_scene({0.0, 0.0, 0.1});
+  scene.bodies[0].mass_properties = MassProperties();
+  Simulation simulation(scene, settings());
+  push_move(simulation, 0.0, 1.0, {0.0, 0.0, 0.3}, {0.3, 0.1, 0.4}, 1.0);
+  push_move(simulation, 1.02, 2.0, {0.3, 0.1, 0.4}, {0.3, 0.1, 0.15}, 0.0);
+  simulation.push_button(0.0, true);
+  for (int i = 1; i <= 50; ++i) {
+    simulation.advance(0.02 * i);
+    const RigidTransform X_HO = simulation.fork().X_WH.inverse() * simulation.objects()[0].X_WO;
+    EXPECT_LT((X_HO.translation() - Vector3d(0.0, 0.0, 0.2)).norm(), 1e-9) << i;
+  }
+  simulation.advance(2.0);
+  EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.02, 1e-4);
+  EXPECT_TRUE(simulation.objects()[0].in_contact);
+}
+
+TEST(Simulation, PointMassOnTheAxisDoesNotTwistAndOffItDoes) {
+  const auto twist = [](double off_axis) {
+    SimulationSettings set = settings();
+    set.dynamics.inertia = "point_mass";
+    Simulation simulation(box_scene({off_axis, 0.0, 1.0}, ContactMode::none), set);
+    push_move(simulation, 0.0, 1.0, {0.0, 0.0, 1.2}, {0.3, 0.2, 1.3}, 2.0);
+    simulation.push_button(0.0, true);
+    double largest = 0.0;
+    for (int i = 1; i <= 50; ++i) {
+      simulation.advance(0.02 * i);
+      largest = std::max(largest, std::abs(simulation.fork().torsion));
+    }
+    EXPECT_TRUE(std::isfinite(largest));
+    return largest;
+  };
+  EXPECT_EQ(twist(0.0), 0.0);
+  // Its own limit: the smaller the lever, the smaller the twist, without a jump to the rigid one.
+  const double far = twist(0.02), near = twist(0.002);
+  EXPECT_GT(far, 1e-3);
+  EXPECT_LT(near, 0.2 * far);
 }
 
 }  // namespace

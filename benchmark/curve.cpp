@@ -1,0 +1,41 @@
+#include "benchmark/curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr double kLeastError = 1e-18;  // what a logarithm still takes
+
+}  // namespace
+
+std::optional<double> run_time_for_error(std::vector<CurvePoint> points, double error) {
+  std::sort(points.begin(), points.end(), [](const CurvePoint& a, const CurvePoint& b) {
+    return a.run_time < b.run_time || (a.run_time == b.run_time && a.error < b.error);
+  });
+  const CurvePoint* before = nullptr;  // the last of the front
+  for (const CurvePoint& point : points) {
+    if (before != nullptr && point.error >= before->error) continue;
+    if (point.error <= error) {
+      if (before == nullptr) return point.run_time;
+      const double from = std::log(before->error), to = std::log(std::max(point.error, kLeastError));
+      const double share = (from - std::log(error)) / (from - to);
+      return before->run_time * std::pow(point.run_time / before->run_time, share);
+    }
+    before = &point;
+  }
+  return std::nullopt;
+}
+
+std::vector<CurvePoint> curve(const std::vector<ErrorRow>& rows, const std::function<bool(const ErrorRow&)>& wanted,
+                              ErrorMeasure measure) {
+  std::vector<CurvePoint> points;
+  for (const ErrorRow& row : rows) {
+    if (!row.finite || row.error_over_tolerance > 0.0 || !wanted(row)) continue;
+    points.push_back({row.wall_us_per_simulated_second, row.*measure});
+  }
+  return points;
+}
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace spring_workbench::benchmark {
+
+/// Tip of a cantilever under a transverse dead load at its tip: slope [rad], deflection and shortening over the length.
+struct TipDeflection {
+  double slope = 0.0;
+  double deflection = 0.0;
+  double shortening = 0.0;
+};
+
+/// The exact inextensible elastica for `alpha = P L² / EI` > 0, by elliptic integrals. With θ the slope, ψ its value at
+/// the tip, k² = (1 + sin ψ)/2 and sin φ = 1/(k √2): √α = K(k) − F(φ, k), w/L = 1 − 2 (E(k) − E(φ, k))/√α,
+/// 1 − u/L = √(2 sin ψ / α) (Bisshopp and Drucker 1945).
+TipDeflection exact_elastica(double alpha);
+
+/// The static answer of a shape model with bending alone, by Newton's method on its equation of motion.
+TipDeflection shape_deflection(const std::string& shape, double alpha);
+
+/// A shape model at a load: how far its tip is from the exact one, over the length.
+struct ElasticaRow {
+  std::string shape;
+  double alpha = 0.0;
+  TipDeflection exact, model;
+  double tip_error = 0.0;  ///< distance of the tips over the length
+  double slope_error = 0.0;  ///< [rad]
+};
+std::vector<ElasticaRow> elastica_table();
+
+/// What one evaluation of the equation of motion costs with a shape model, all families on [ns].
+double evaluation_cost(const std::string& shape);
+
+/// Largest difference of exact_elastica() from the table `elastica.csv` of deflections, shortenings and slopes in
+/// `folder`; negative where it is not there.
+double elastica_check(const std::string& folder);
+
+std::string elastica_csv(const std::vector<ElasticaRow>& rows);
+
+}  // namespace spring_workbench::benchmark

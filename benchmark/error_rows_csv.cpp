@@ -1,0 +1,36 @@
+#include <iomanip>
+#include <ostream>
+
+#include "benchmark/error_table.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr const char* kHeader =
+    "scene,stiffness_factor,shape,method,hand,step,tolerance,own_reference,reference_uncertainty,error,angle_error,"
+    "error_over_hand_amplitude,error_over_largest_deflection,wall_us_per_simulated_second,steps_per_second,"
+    "error_over_tolerance,finite";
+
+}  // namespace
+
+void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out) {
+  out << kHeader << '\n' << std::setprecision(6);
+  for (const ErrorRow& row : rows) {
+    out << row.scene << ',' << row.stiffness_factor << ',' << row.shape << ',' << row.method << ',' << row.hand << ',';
+    if (row.step > 0.0) out << row.step;
+    out << ',';
+    if (row.tolerance > 0.0) out << row.tolerance;
+    out << ',' << row.own_reference << ',' << row.reference_uncertainty << ',';
+    if (row.finite) {
+      out << row.error << ',' << row.angle_error << ',' << row.error_over_hand_amplitude << ','
+          << row.error_over_largest_deflection << ',' << row.wall_us_per_simulated_second << ','
+          << row.steps_per_second << ',';
+      if (row.error_over_tolerance > 0.0) out << row.error_over_tolerance;
+    } else {
+      out << ",,,,,,";
+    }
+    out << ',' << row.finite << '\n';
+  }
+}
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,269 @@
+#!/usr/bin/env python3
+"""Draws the report's pictures from its CSV files, without a display.
+Usage: plot_report.py scene    error_table.csv PICTURE.png SCENE    a column per stiffness, a row per measure of error
+       plot_report.py overview error_table.csv PICTURE.png          scene C x 1 and x 100: ours and the best of each peer
+       plot_report.py rods     rod_table.csv PICTURE.png            a panel per case, a line per integrator
+       plot_report.py shapes   elastica.csv PICTURE.png rod_table.csv  error of the model beside that of integration
+       plot_report.py tolerance rod_table.csv PICTURE.png           error reached against tolerance asked
+       plot_report.py stability stability_map.csv PICTURE.png       a panel per integrator"""
+import csv
+import math
+import sys
+from collections import defaultdict
+
+try:
+    import matplotlib
+except ImportError:
+    sys.exit("plot_report.py: matplotlib is not there (package python3-matplotlib)")
+matplotlib.use("Agg")
+from matplotlib import pyplot  # noqa: E402
+
+LEAST_ERROR = 1e-13  # smaller ones are drawn here
+MEASURES = {"error_over_hand_amplitude": "largest error / hand's amplitude",
+            "error_over_largest_deflection": "largest error / largest deflection"}
+TIME = "wall_us_per_simulated_second"
+TIME_LABEL = "run time [µs per simulated second]"
+OURS = ["#d62728", "#1f77b4", "#2ca02c", "#9467bd", "#8c564b", "#e377c2", "#17becf", "#bcbd22"]
+PEERS = ["#ff7f0e", "#7f7f7f", "#2ca02c", "#1f77b4", "#9467bd", "#8c564b", "#17becf", "#bcbd22"]
+DEFAULT = "exponential"
+MARKERS = "s^vD<>pPX*hd"
+ENGINES = {"bullet": "Bullet", "mujoco": "MuJoCo", "ode": "ODE", "dart": "DART", "cvode": "CVODE",
+           "hand": "hand-written"}
+
+
+def read(path):
+    with open(path, encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def in_order(values):
+    return list(dict.fromkeys(values))
+
+
+def by_step(rows):
+    """The finite runs with a fixed step or a solver's own tolerance, not those of the tolerance mode."""
+    return [row for row in rows if row["finite"] == "1" and not row.get("error_over_tolerance")]
+
+
+def points(rows, measure):
+    return [(float(row[TIME]), max(float(row[measure]), LEAST_ERROR)) for row in rows]
+
+
+def log_axes(axes, **settings):
+    axes.set(xscale="log", yscale="log", **settings)
+    axes.grid(alpha=0.3)
+
+
+def draw_line(axes, line, **style):
+    axes.plot([p[0] for p in line], [p[1] for p in line], **style)
+
+
+def save(figure, picture, legend_from, right=False):
+    handles, labels = {}, []
+    for axes in legend_from:
+        for handle, label in zip(*axes.get_legend_handles_labels()):
+            if label not in handles:
+                handles[label] = handle
+                labels.append(label)
+    if right:
+        share = 1.0 - 2.9 / figure.get_figwidth()
+        figure.tight_layout(rect=(0, 0, share, 1))
+        figure.legend([handles[label] for label in labels], labels, loc="center left", bbox_to_anchor=(share, 0.5),
+                      frameon=False, fontsize=9)
+    elif labels:
+        columns = min(6, len(labels))
+        rows = -(-len(labels) // columns)
+        space = (0.24 * rows + 0.1) / figure.get_figheight()
+        figure.tight_layout(rect=(0, space, 1, 1))
+        figure.legend([handles[label] for label in labels], labels, loc="lower center", ncol=columns, fontsize=8.5,
+                      frameon=False)
+    figure.savefig(picture, dpi=110)
+
+
+def our_names(rows):
+    return in_order(row["method"] for row in rows if row["hand"] == "samples")
+
+
+def styles(rows):
+    """Ours bold and in full, by poses alone dashed; peers thin with open markers."""
+    ours = our_names(rows)
+    peers = in_order(row["method"] for row in rows if row["method"] not in ours)
+    style = {}
+    for i, name in enumerate(ours):
+        colour = OURS[i % len(OURS)]
+        style[name, "function"] = dict(color=colour, linewidth=2.4, marker="o", markersize=4, zorder=3, label=f"{name} (ours)")
+        style[name, "samples"] = dict(color=colour, linewidth=1.6, linestyle=":", marker=".", markersize=4, zorder=3,
+                                      label=f"{name} (ours),\nhand by 50 Hz poses alone")
+    tab20 = pyplot.get_cmap("tab20").colors
+    for i, name in enumerate(peers):
+        style[name, "function"] = dict(color=tab20[i % 20], marker=MARKERS[i % len(MARKERS)], linewidth=0.9, markersize=3.5,
+                                       zorder=2, label=name)
+    return style
+
+
+def scene(table, picture, name):
+    rows = [row for row in by_step(read(table)) if row["scene"] == name]
+    if not rows:
+        sys.exit(f"plot_report.py: no finite run of scene {name} in {table}")
+    style = styles(rows)
+    factors = sorted({float(row["stiffness_factor"]) for row in rows})
+    figure, panels = pyplot.subplots(len(MEASURES), len(factors), figsize=(2.9 + max(6.0, 3.8 * len(factors)), 10.0),
+                                     sharex="col", sharey="row", squeeze=False)
+    for line_of_panels, (measure, label) in zip(panels, MEASURES.items()):
+        for axes, factor in zip(line_of_panels, factors):
+            here = [row for row in rows if float(row["stiffness_factor"]) == factor]
+            for (method, hand), look in style.items():
+                line = points([r for r in here if (r["method"], r["hand"]) == (method, hand)], measure)
+                draw_line(axes, line, **look)
+            log_axes(axes, ylim=(0.5 * LEAST_ERROR, 10.0))
+        line_of_panels[0].set_ylabel(label)
+    for axes, factor in zip(panels[0], factors):
+        axes.set_title(f"scene {name}, stiffness × {factor:g}")
+    for axes in panels[-1]:
+        axes.set_xlabel(TIME_LABEL)
+    save(figure, picture, panels[0], right=True)
+
+
+def merit(line, error=1e-6):
+    """Decades of run time that an error of 1e-6 costs, by a power law between two points; a line that does not reach it
+    comes after all that do, by the best of its error times run time."""
+    line = sorted(line)
+    for (t0, e0), (t1, e1) in zip(line, line[1:]):
+        if e0 > error >= e1:
+            return math.log10(t0) + math.log10(t1 / t0) * math.log10(e0 / error) / math.log10(e0 / e1)
+    if line and line[0][1] <= error:
+        return math.log10(line[0][0])
+    return 20.0 + min((math.log10(t) + math.log10(e) for t, e in line), default=20.0)
+
+
+def overview(table, picture):
+    rows = [row for row in by_step(read(table)) if row["scene"] == "C" and float(row["stiffness_factor"]) in (1.0, 100.0)]
+    ours = our_names(rows)
+    figure, panels = pyplot.subplots(1, 2, figsize=(12.0, 5.0), sharey=True)
+    lines = defaultdict(dict)
+    for row in rows:
+        key = (row["method"], row["hand"])
+        lines[key].setdefault(float(row["stiffness_factor"]), []).append(row)
+    measure = "error_over_hand_amplitude"
+    total = {key: sum(merit(points(found.get(f, []), measure)) for f in (1.0, 100.0)) for key, found in lines.items()}
+    chosen = [((DEFAULT, "function"), dict(color=OURS[0], linewidth=3, marker="o", markersize=5, zorder=4,
+                                           label=f"{DEFAULT} (ours)")),
+              ((DEFAULT, "samples"), dict(color=OURS[0], linewidth=1.6, linestyle=":", marker="o", markersize=3, zorder=3,
+                                          label="the same, the hand known\nby 50 Hz poses alone"))]
+    groups = {prefix: [key for key in lines if key[0] not in ours and key[0].split("_")[0] == prefix] for prefix in ENGINES}
+    groups = {prefix: keys for prefix, keys in groups.items() if keys}
+    for i, (prefix, keys) in enumerate(groups.items()):
+        best = min(keys, key=total.get)
+        rest = best[0][len(prefix) + 1:].replace("_", " ")
+        chosen.append((best, dict(color=PEERS[i % len(PEERS)], linewidth=1.3, marker=MARKERS[i], markersize=4, zorder=2,
+                                  label=f"{ENGINES[prefix]}: {rest}")))
+    for axes, factor in zip(panels, (1.0, 100.0)):
+        for key, look in chosen:
+            draw_line(axes, points(lines[key].get(factor, []), measure), **look)
+        log_axes(axes, title=f"scene C, stiffness × {factor:g}", xlabel=TIME_LABEL, ylim=(1e-11, 3.0))
+    panels[0].set_ylabel(MEASURES[measure])
+    save(figure, picture, panels, right=True)
+
+
+def grid(count):
+    columns = min(4, count)
+    rows = -(-count // columns)
+    figure, panels = pyplot.subplots(rows, columns, figsize=(4.0 * columns, 3.9 * rows), squeeze=False)
+    flat = [axes for line in panels for axes in line]
+    for axes in flat[count:]:
+        axes.set_visible(False)
+    return figure, flat[:count]
+
+
+def rods(table, picture):
+    rows = [row for row in by_step(read(table)) if row["shape"] in ("linear", "constant")]
+    names = in_order(row["scene"] for row in rows)
+    methods = in_order(row["method"] for row in rows)
+    figure, panels = grid(len(names))
+    for axes, name in zip(panels, names):
+        here = [row for row in rows if row["scene"] == name]
+        shape = "linear" if any(row["shape"] == "linear" for row in here) else "constant"
+        for i, method in enumerate(methods):
+            line = points([r for r in here if r["method"] == method and r["shape"] == shape], "error_over_largest_deflection")
+            draw_line(axes, line, color=OURS[i % len(OURS)], marker="o", markersize=3.5, linewidth=1.8, label=method)
+        log_axes(axes, title=f"{name}\n({shape})", xlabel=TIME_LABEL, ylim=(1e-12, 10.0))
+        axes.set_ylabel("largest error / largest deflection")
+    save(figure, picture, panels)
+
+
+def shapes(table, picture, rod_table):
+    static = read(table)
+    rows = [r for r in by_step(read(rod_table)) if r["scene"] == "heavy_large_bend" and r["method"] == DEFAULT]
+    figure, (model, integration) = pyplot.subplots(1, 2, figsize=(12.0, 4.8))
+    for i, shape in enumerate(in_order(row["shape"] for row in static)):
+        look = dict(color=OURS[i % len(OURS)], marker="o", markersize=4, linewidth=1.8, label=shape)
+        draw_line(model, [(float(r["alpha"]), float(r["tip_error_over_L"])) for r in static if r["shape"] == shape], **look)
+        draw_line(integration, points([r for r in rows if r["shape"] == shape], "error_over_largest_deflection"), **look)
+    log_axes(model, title="error of the model: tip against the exact elastica", xlabel="load P L² / EI",
+             ylabel="distance of the tips / L")
+    log_axes(integration, title="error of integration: heavy_large_bend, exponential", xlabel=TIME_LABEL,
+             ylabel="largest error / largest deflection")
+    save(figure, picture, [model])
+
+
+def tolerance(table, picture):
+    rows = [row for row in read(table) if row["finite"] == "1" and row["error_over_tolerance"]]
+    if not rows:
+        sys.exit(f"plot_report.py: no run to a tolerance in {table}")
+    methods = in_order(row["method"] for row in rows)
+    figure, panels = grid(len(methods))
+    for axes, method in zip(panels, methods):
+        here = [(float(r["tolerance"]), float(r["tolerance"]) * float(r["error_over_tolerance"])) for r in rows
+                if r["method"] == method]
+        ends = [min(p[0] for p in here), max(p[0] for p in here)]
+        axes.fill_between(ends, [e / 3.0 for e in ends], [e * 3.0 for e in ends], color="#2ca02c", alpha=0.15,
+                          label="within a factor of 3")
+        axes.plot([p[0] for p in here], [max(p[1], LEAST_ERROR) for p in here], "o", color=OURS[0], markersize=4, alpha=0.6,
+                  label="a case and shape")
+        log_axes(axes, title=method, xlabel="tolerance asked [m]", ylabel="error reached [m]")
+    save(figure, picture, panels[:1])
+
+
+def stability(table, picture):
+    rows = read(table)
+    shape = rows[0]["shape"]
+    rows = [row for row in rows if row["shape"] == shape]
+    names = in_order(row["integrator"] for row in rows)
+    stiffnesses = sorted({float(row["stiffness_factor"]) for row in rows})
+    masses = sorted({float(row["mass"]) for row in rows})
+    figure, panels = grid(len(names))
+    for axes, name in zip(panels, names):
+        held, cells = defaultdict(int), defaultdict(int)
+        for row in rows:
+            if row["integrator"] == name:
+                place = float(row["mass"]), float(row["stiffness_factor"])
+                held[place] += int(row["held"])
+                cells[place] += int(row["cells"])
+        share = [[held[m, k] / max(1, cells[m, k]) for k in stiffnesses] for m in masses]
+        image = axes.imshow(share, origin="lower", aspect="auto", cmap="RdYlGn", vmin=0.0, vmax=1.0)
+        for y, line in enumerate(share):
+            for x, value in enumerate(line):
+                if value < 1.0:
+                    axes.text(x, y, f"{math.floor(100.0 * value)}", ha="center", va="center", fontsize=6.5)
+        axes.set_xticks(range(len(stiffnesses)), [f"{math.log10(k):.0f}" for k in stiffnesses])
+        axes.set_yticks(range(len(masses)), ["0" if m == 0.0 else f"1e{math.log10(m):.0f}" for m in masses])
+        total = sum(held.values()), sum(cells.values())
+        axes.set(title=f"{name}\n{total[0]} of {total[1]} cells hold", xlabel="stiffness factor, power of ten", ylabel="mass [kg]")
+    share = 1.0 - 1.3 / figure.get_figwidth()
+    figure.tight_layout(rect=(0, 0, share, 1))
+    bar = figure.colorbar(image, cax=figure.add_axes((share, 0.12, 0.2 / figure.get_figwidth(), 0.72)))
+    bar.set_label("share of cells that hold\n(numbers: per cent, below 100)")
+    figure.savefig(picture, dpi=110)
+
+
+KINDS = {"scene": scene, "overview": overview, "rods": rods, "shapes": shapes, "tolerance": tolerance,
+         "stability": stability}
+
+
+def main(arguments):
+    if len(arguments) < 3 or arguments[0] not in KINDS:
+        sys.exit(__doc__)
+    KINDS[arguments[0]](*arguments[1:])
+
+
+main(sys.argv[1:])

@@ -1,0 +1,135 @@
+#include "benchmark/report/sections.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "benchmark/report/pictures.h"
+#include "benchmark/report/tables.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+std::string as_csv(const std::vector<ErrorRow>& rows) {
+  std::ostringstream out;
+  write_rows(rows, out);
+  return out.str();
+}
+
+PageSection::Figure figure(const Picture& picture, const std::string& folder) {
+  return {draw(picture, folder), picture.caption};
+}
+
+PageSection scenes_section(const Measurements& measured, const Tables& tables, const std::string& folder) {
+  PageSection section;
+  section.title = "Scenes A, B, C: ours and the peers";
+  section.text =
+      "A held body on a spring on a moving hand: A stretch, B torsion, C six coordinates; times a factor on the "
+      "stiffness. The peers are given the hand as a function of time, pose and velocity whenever they ask; so are ours "
+      "(full lines), who ask at the ends of their steps. A user's hand is known by a tracker's poses alone: those are the "
+      "runs \"hand by 50 Hz poses alone\" (dotted), whose error has a floor, since nobody knows the motion between two "
+      "samples. cvode_world is CVODE on the object's pose and velocity, cvode_deflection on the deflection, with "
+      "tolerances of its size. Run times between two settings of a method by a power law.";
+  std::vector<std::string> names;
+  for (const ErrorRow& row : measured.scenes) {
+    if (std::find(names.begin(), names.end(), row.scene) == names.end()) names.push_back(row.scene);
+  }
+  for (const std::string& name : names) {
+    section.figures.push_back(figure({"scene", tables.scenes, "error_against_run_time_" + name + ".png", {name},
+                                      "Scene " + name + ": largest error against run time"}, folder));
+  }
+  for (const double error : {1e-3, 1e-6, 1e-9}) {
+    std::ostringstream title;
+    title << "µs per simulated second for an error of " << error;
+    section.tables.push_back({title.str() + " of the hand's amplitude",
+                              run_time_for_error_csv(measured.scenes, error, &ErrorRow::error_over_hand_amplitude), false});
+    section.tables.push_back(
+        {title.str() + " of the largest deflection",
+         run_time_for_error_csv(measured.scenes, error, &ErrorRow::error_over_largest_deflection), true});
+  }
+  section.tables.push_back({"All runs", as_csv(measured.scenes), true});
+  return section;
+}
+
+PageSection rods_section(const Measurements& measured, const Tables& tables, const std::string& folder) {
+  PageSection section;
+  section.title = "Rods on a tracked hand: every integrator, shape and step";
+  section.text =
+      "The hand is known by its samples, and the motion through them is the same for all, so that what is left is the "
+      "error of integration, against SUNDIALS CVODE at 1e-12; \"recorded\" cases: against the trajectories of another "
+      "solver, good to 2e-9 m. Steps end at samples.";
+  section.figures.push_back(figure({"rods", tables.rods, "rods.png", {}, "Error against run time on the rods"}, folder));
+  for (const std::string& shape : shape_model_names()) {
+    section.tables.push_back({"Step 0.02 s, shape " + shape + ": position, angle (position over the largest deflection), cost",
+                              one_step_per_sample_csv(measured.rods, shape), shape != "linear"});
+  }
+  const auto to_tolerance = [](const ErrorRow& row) { return row.error_over_tolerance > 0.0; };
+  if (std::any_of(measured.rods.begin(), measured.rods.end(), to_tolerance)) {
+    section.figures.push_back(figure({"tolerance", tables.rods, "tolerance.png", {},
+                                      "Tolerance asked and error reached, every case and shape; run through Simulation"},
+                                     folder));
+  }
+  section.tables.push_back({"All runs", as_csv(measured.rods), true});
+  return section;
+}
+
+PageSection shapes_section(const Measurements& measured, double difference, const Tables& tables,
+                           const std::string& folder) {
+  PageSection section;
+  section.title = "Shape models: error of the model beside error of integration";
+  section.text = "A cantilever under a transverse dead load, against the exact elastica by elliptic integrals";
+  if (difference >= 0.0) {
+    std::ostringstream text;
+    text << " (largest difference from the reference table " << difference << ")";
+    section.text += text.str();
+  }
+  section.text += ", beside what integration adds with one step per sample where the fork bends most.";
+  section.figures.push_back(figure({"shapes", tables.elastica, "shapes.png", {tables.rods},
+                                    "Error of the shape models and of integration"}, folder));
+  section.tables.push_back({"", shapes_csv(measured.elastica, measured.rods), false});
+  section.tables.push_back({"All loads", elastica_csv(measured.elastica), true});
+  return section;
+}
+
+PageSection stability_section(const Measurements& measured, const std::vector<StabilityCount>& counts,
+                              const Tables& tables, const std::string& folder) {
+  PageSection section;
+  section.title = "Stability map";
+  section.text =
+      "Stiffness × mass × step × damping × families × hand, run through Simulation as a user runs it, its guards "
+      "included. A cell holds where pose and twist stay finite and within 100 m of the hand, the energy does not grow by "
+      "more than 1e-9 while the hand rests (of the largest elastic and kinetic energy then and the weight times the "
+      "fork's length), and no step was refused. Where an explicit method runs wild, the guard refuses its steps: the "
+      "simulation stays finite, the method has failed.";
+  section.figures.push_back(figure({"stability", tables.map, "stability_map.png", {},
+                                    "Share of the cells that hold, by stiffness and mass"}, folder));
+  section.tables.push_back({"Cells", map_summary_csv(measured.map), false});
+  section.tables.push_back({"The first cells of each integrator that do not hold", failures_csv(measured.map), true});
+  if (!counts.empty()) {
+    section.tables.push_back({"Ours and the peers on scenes A and C: cases of 11 stiffnesses × 5 masses × 4 steps that stay "
+                              "finite and bounded",
+                              stability_counts_csv(counts), false});
+  }
+  return section;
+}
+
+}  // namespace
+
+std::vector<PageSection> page_sections(const Measurements& measured, const std::vector<Verdict>& judged,
+                                       const std::vector<StabilityCount>& counts, double elastica_difference,
+                                       const std::string& step_costs, const Tables& tables,
+                                       const std::string& folder) {
+  PageSection verdict;
+  verdict.title = "Verdicts";
+  verdict.text = "What was promised, what was measured in this run.";
+  verdict.tables.push_back({"", verdicts_csv(judged), false});
+  PageSection costs;
+  costs.title = "What each part of a step costs";
+  costs.text = "exponential, by shape model and number of coordinates: processor time of the thread, the least of many short "
+               "runs [ns].";
+  costs.tables.push_back({"", step_costs, false});
+  return {verdict, scenes_section(measured, tables, folder), rods_section(measured, tables, folder),
+          shapes_section(measured, elastica_difference, tables, folder),
+          stability_section(measured, counts, tables, folder), costs};
+}
+
+}  // namespace spring_workbench::benchmark

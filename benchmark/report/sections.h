@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmark/report/page.h"
+#include "benchmark/stability_table.h"
+#include "benchmark/verdicts.h"
+
+namespace spring_workbench::benchmark {
+
+/// Paths of the CSV files that pictures are drawn from.
+struct Tables {
+  std::string scenes, rods, elastica, map;
+};
+
+/// The page's sections, with pictures drawn into `folder`. `elastica_difference`: as elastica_check(); `step_costs`: as step_cost_csv().
+std::vector<PageSection> page_sections(const Measurements& measured, const std::vector<Verdict>& judged,
+                                       const std::vector<StabilityCount>& counts, double elastica_difference,
+                                       const std::string& step_costs, const Tables& tables,
+                                       const std::string& folder);
+
+}  // namespace spring_workbench::benchmark

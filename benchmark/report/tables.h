@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmark/curve.h"
+#include "benchmark/elastica.h"
+#include "benchmark/stability_map.h"
+#include "benchmark/step_cost.h"
+
+namespace spring_workbench::benchmark {
+
+/// For each scene and stiffness (columns) and method (rows) the run time [µs per simulated second] that an error of
+/// `error` in `measure` costs, as CSV; "-" where no setting reaches it. A method of ours that knows the hand by samples
+/// alone says so.
+std::string run_time_for_error_csv(const std::vector<ErrorRow>& rows, double error, ErrorMeasure measure);
+
+/// Rod cases (rows) by integrator (columns): error over the largest deflection with one step per sample and what it
+/// costs, for one shape.
+std::string one_step_per_sample_csv(const std::vector<ErrorRow>& rods, const std::string& shape);
+
+/// Shape models side by side: error of the model at some loads, cost of an evaluation of the equation of motion, and,
+/// for `exponential` with one step per sample, error of integration and run time on the case with the largest bends.
+std::string shapes_csv(const std::vector<ElasticaRow>& elastica, const std::vector<ErrorRow>& rods);
+
+/// What each part of a step costs (columns: shape model and coordinates) [ns].
+std::string step_cost_csv(const std::vector<StepCost>& costs);
+
+/// Cells of the map by integrator and shape.
+std::string map_summary_csv(const StabilityMap& map);
+
+}  // namespace spring_workbench::benchmark

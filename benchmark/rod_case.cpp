@@ -1,0 +1,206 @@
+#include "benchmark/rod_case.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr double kOutputInterval = 0.02;  // s
+constexpr double kSameTime = 1e-9;        // s
+constexpr double kTwoPi = 6.283185307179586476925286766559;
+
+/// The same numbers from the same seed everywhere.
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+  double between(double low, double high) {
+    return low + (high - low) * (static_cast<double>(engine_()) + 0.5) / 4294967296.0;
+  }
+
+ private:
+  std::mt19937 engine_;
+};
+
+struct Sine {
+  double amplitude, frequency, phase;
+  double at(double t) const { return amplitude * std::sin(kTwoPi * frequency * t + phase); }
+};
+
+/// Three slow sines and a tremor.
+std::array<Sine, 4> one_coordinate(double amplitude, double tremor, Random& random) {
+  std::array<Sine, 4> sines;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double frequency = random.between(0.2, 0.8) * static_cast<double>(i + 1);
+    sines[i] = {random.between(0.5, 1.0) * amplitude / static_cast<double>((i + 1) * (i + 1)), frequency,
+                random.between(0.0, kTwoPi)};
+  }
+  sines[3] = {tremor, random.between(8.0, 12.0), random.between(0.0, kTwoPi)};
+  return sines;
+}
+
+double sum(const std::array<Sine, 4>& sines, double t) {
+  double value = 0.0;
+  for (const Sine& sine : sines) value += sine.at(t);
+  return value;
+}
+
+RodCase rod(const std::string& name, double length, const PerFamily& stiffness) {
+  RodCase one;
+  one.name = name;
+  one.fork.length = length;
+  one.fork.stiffness = stiffness;
+  return one;
+}
+
+RodCase with_dofs(RodCase one, const std::string& name, const ForkDofs& dofs) {
+  one.name = name;
+  one.fork.dofs = dofs;
+  return one;
+}
+
+/// What the synthetic and the recorded cases have in common: everything but the hand.
+std::vector<RodCase> bodies_and_forks() {
+  const RodCase soft = rod("soft_6dof", 0.2, {2000.0, 500.0, 5.0});
+  RodCase underdamped = soft;
+  underdamped.name = "underdamped";
+  underdamped.fork.damping_ratio = {0.1, 0.1, 0.1};
+  RodCase stiff = rod("stiff_6dof", 0.15, {2e5, 5e4, 200.0});
+  stiff.mass = 0.3;
+  stiff.inertia = Vector3d(2e-4, 3e-4, 4e-4);
+  stiff.p_OE = Vector3d(0.01, 0.01, -0.03);
+  RodCase heavy = rod("heavy_large_bend", 0.2, {1500.0, 150.0, 3.0});
+  heavy.mass = 3.0;
+  heavy.inertia = Vector3d(0.02, 0.03, 0.025);
+  heavy.p_OE = Vector3d(0.02, 0.0, -0.06);
+  return {soft,
+          underdamped,
+          stiff,
+          heavy,
+          with_dofs(soft, "bend_only", {false, true, false}),
+          with_dofs(soft, "torsion_only", {false, false, true}),
+          with_dofs(soft, "stretch_only", {true, false, false})};
+}
+
+std::vector<PoseSample> read_motion(const std::string& path) {
+  std::ifstream file(path);
+  std::vector<PoseSample> samples;
+  for (std::string line; std::getline(file, line);) {
+    std::istringstream in(line);
+    double t, x, y, z, qx, qy, qz, qw;
+    if (in >> t >> x >> y >> z >> qx >> qy >> qz >> qw) {
+      samples.push_back({t, make_transform(Quaterniond(qw, qx, qy, qz).normalized(), {x, y, z})});
+    }
+  }
+  return samples;
+}
+
+}  // namespace
+
+std::vector<PoseSample> synthetic_hand(unsigned seed, double duration) {
+  Random random(seed);
+  std::array<std::array<Sine, 4>, 3> place, turn;
+  for (auto& coordinate : place) coordinate = one_coordinate(0.1, 1e-4, random);
+  for (auto& coordinate : turn) coordinate = one_coordinate(0.4, 2e-3, random);
+  const Matrix3d forward_and_up = exp_so3(Vector3d(0.0, 1.0, 0.0));
+  std::vector<PoseSample> samples;
+  for (int i = 0; i * kOutputInterval < duration + 0.5 * kOutputInterval; ++i) {
+    const double t = i * kOutputInterval;
+    PoseSample sample{t, RigidTransform::Identity()};
+    Vector3d angle;
+    for (int axis = 0; axis < 3; ++axis) {
+      sample.X.translation()[axis] = sum(place[static_cast<std::size_t>(axis)], t);
+      angle[axis] = sum(turn[static_cast<std::size_t>(axis)], t);
+    }
+    sample.X.linear() = exp_so3(angle) * forward_and_up;
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+std::vector<RodCase> synthetic_cases(bool quick) {
+  std::vector<RodCase> cases = bodies_and_forks();
+  if (quick) cases = {cases[0], cases[3]};
+  unsigned seed = 1;
+  for (RodCase& one : cases) {
+    one.duration = quick ? 1.0 : 4.0;
+    one.hand = synthetic_hand(seed++, one.duration + 0.5);
+    one.shapes = shape_model_names();
+  }
+  return cases;
+}
+
+std::vector<RodCase> recorded_cases(const std::string& folder) {
+  std::vector<RodCase> cases = bodies_and_forks();
+  cases.push_back(with_dofs(cases[0], "soft_constant_shape", {true, true, true}));
+  cases.push_back(with_dofs(cases[0], "stylus", {true, true, true}));
+  std::vector<RodCase> there;
+  for (RodCase& one : cases) {
+    const bool stiff = one.name == "stiff_6dof";
+    const std::string motion = stiff ? "motion_vicon_1s" : one.name == "stylus" ? "motion_stylus" : "motion_vicon";
+    one.recorded = folder + "/" + one.name + ".csv";
+    one.duration = stiff ? 1.0 : one.name == "stylus" ? 7.96 : 8.0;
+    one.shapes = {one.name == "soft_constant_shape" ? "constant" : "linear"};
+    one.name = "recorded_" + one.name;
+    one.hand = read_motion(folder + "/" + motion + ".tum");
+    if (std::ifstream(one.recorded) && !one.hand.empty()) there.push_back(one);
+  }
+  return there;
+}
+
+HeldBody held_body(const RodCase& one, const std::string& shape) {
+  BodyInertia inertia;
+  inertia.mass = one.mass;
+  inertia.inertia_O = one.inertia.asDiagonal();
+  inertia.X_OE.translation() = one.p_OE;
+  HeldBody body(make_shape_model(shape, one.fork.length), inertia, 9.81);
+  body.set_springs(one.fork.stiffness, one.fork.damping_ratio);
+  body.set_dofs(one.fork.dofs, 0.0, 1.0, body.zero_state());
+  return body;
+}
+
+PoseTrack hand_track(const RodCase& one) {
+  PoseTrack track;
+  for (const PoseSample& sample : one.hand) track.push(sample);
+  return track;
+}
+
+double hand_amplitude(const RodCase& one) {
+  Vector3d mean = Vector3d::Zero();
+  double count = 0.0, amplitude = 0.0;
+  for (const PoseSample& sample : one.hand) {
+    if (sample.t > one.duration) break;
+    mean += sample.X.translation();
+    count += 1.0;
+  }
+  mean /= count;
+  for (const PoseSample& sample : one.hand) {
+    if (sample.t <= one.duration) amplitude = std::max(amplitude, (sample.X.translation() - mean).norm());
+  }
+  return amplitude;
+}
+
+std::vector<double> output_times(const RodCase& one) {
+  std::vector<double> times;
+  for (int i = 0; i <= std::lround(one.duration / kOutputInterval); ++i) times.push_back(i * kOutputInterval);
+  return times;
+}
+
+std::vector<double> step_ends(const RodCase& one) {
+  std::vector<double> ends = output_times(one);
+  const double last = ends.back();
+  for (const PoseSample& sample : one.hand) {
+    if (sample.t > 0.0 && sample.t < last) ends.push_back(sample.t);
+  }
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end(), [](double a, double b) { return b - a < kSameTime; }), ends.end());
+  return ends;
+}
+
+}  // namespace spring_workbench::benchmark

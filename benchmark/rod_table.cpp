@@ -1,0 +1,189 @@
+#include "benchmark/rod_table.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "benchmark/rod_reference.h"
+#include "benchmark/simulated_rod.h"
+#include "spring_workbench/dynamics/integrator.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr double kSameTime = 1e-9;  // s
+constexpr double kOutputInterval = 0.02;
+
+using Clock = std::chrono::steady_clock;
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+bool is_bounded(const RigidTransform& X) {
+  return X.matrix().allFinite() && X.translation().cwiseAbs().maxCoeff() < 1000.0;
+}
+
+/// The fastest of some runs.
+template <typename Run>
+RodRun fastest(const Repetition& repetition, Run&& run) {
+  RodRun best = run();
+  double spent = best.wall_seconds;
+  for (int runs = 1; best.finite && wants_another(repetition, runs, spent); ++runs) {
+    const double again = run().wall_seconds;
+    spent += again;
+    best.wall_seconds = std::min(best.wall_seconds, again);
+  }
+  return best;
+}
+
+}  // namespace
+
+RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
+  RodTablePlan plan;
+  plan.cases = synthetic_cases(quick);
+  if (!quick) {
+    for (RodCase& one : recorded_cases(recorded_folder)) plan.cases.push_back(one);
+  }
+  for (int n = 1; n <= (quick ? 16 : 1024); n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
+  if (has_tolerance_setting()) plan.tolerances = quick ? std::vector<double>{1e-5} : std::vector<double>{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+  plan.longest_run = quick ? 0.005 : 0.025;
+  plan.repetition = quick ? Repetition{1, 0.005} : Repetition{3, 0.05};
+  return plan;
+}
+
+RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& integrator_name, double step) {
+  const HeldBody body = held_body(one, shape);
+  const std::unique_ptr<Integrator> integrator = make_integrator(integrator_name);
+  StrainState state = body.zero_state();
+  PoseTrack track = hand_track(one);
+  const std::vector<double> ends = step_ends(one), times = output_times(one);
+  RodRun run;
+  run.X_WO.reserve(times.size());
+  run.X_WO.push_back(body.object(body.forcing(track.segment(0.0), 0.0), state).X);
+  const Clock::time_point start = Clock::now();
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    const double span = ends[i + 1] - ends[i];
+    const MotionSegment& segment = track.segment(ends[i] + 0.5 * span);
+    const int count = static_cast<int>(std::ceil(span / step * (1.0 - 1e-9)));
+    const double h = span / count;
+    for (int j = 0; j < count; ++j) integrator->step(body, segment, ends[i] + j * h, h, state);
+    run.steps += count;
+    if (ends[i + 1] < times[run.X_WO.size()] - kSameTime) continue;
+    run.X_WO.push_back(body.object(body.forcing(segment, ends[i + 1]), state).X);
+    if (!is_bounded(run.X_WO.back())) return run;
+  }
+  run.wall_seconds = seconds_since(start);
+  run.finite = true;
+  return run;
+}
+
+RodRun run_rod_to_tolerance(const RodCase& one, const std::string& shape, const std::string& integrator,
+                            double tolerance) {
+  SimulationSettings settings = rod_settings(one, shape, integrator, kOutputInterval);
+  YAML::Node values;
+  values["tolerance"] = tolerance;
+  apply_settings(values, "report", settings);
+  Simulation simulation(rod_scene(one), settings);
+  for (const PoseSample& sample : one.hand) simulation.push_stylus(sample);
+  RodRun run;
+  const std::vector<double> times = output_times(one);
+  run.X_WO.reserve(times.size());
+  const Clock::time_point start = Clock::now();
+  for (const double t : times) {
+    const AdvanceReport report = simulation.advance(t);
+    run.steps += report.steps;
+    run.X_WO.push_back(simulation.objects()[0].X_WO);
+    if (!is_bounded(run.X_WO.back()) || report.guards_tripped > 0) return run;
+  }
+  run.wall_seconds = seconds_since(start);
+  run.finite = true;
+  return run;
+}
+
+bool has_tolerance_setting() {
+  const std::vector<SettingDescription> all = setting_descriptions();
+  return std::any_of(all.begin(), all.end(), [](const SettingDescription& one) { return one.key == "tolerance"; });
+}
+
+double error_as_length(const RodCase& one, double position, double angle) {
+  return std::max(position, angle * std::sqrt(0.5 * one.inertia.sum() / one.mass));
+}
+
+std::size_t line_count(const RodTablePlan& plan) {
+  std::size_t pairs = 0;
+  for (const RodCase& one : plan.cases) pairs += one.shapes.size();
+  return pairs * integrator_names().size();
+}
+
+namespace {
+
+class Line {
+ public:
+  Line(const RodTablePlan& plan, const RodCase& one, const std::string& shape, const RodReference& reference,
+       const std::string& integrator)
+      : plan_(plan), case_(one), shape_(shape), reference_(reference), integrator_(integrator) {}
+
+  void add_to(std::vector<ErrorRow>& all) const {
+    std::vector<ErrorRow> rows;
+    for (const int n : plan_.steps_per_output) {
+      const double step = kOutputInterval / n;
+      rows.push_back(row(fastest(plan_.repetition, [&] { return run_rod(case_, shape_, integrator_, step); })));
+      rows.back().step = step;
+      if (line_is_over(rows, plan_.longest_run)) break;
+    }
+    all.insert(all.end(), rows.begin(), rows.end());
+    rows.clear();
+    for (const double tolerance : plan_.tolerances) {
+      rows.push_back(row(run_rod_to_tolerance(case_, shape_, integrator_, tolerance)));
+      ErrorRow& last = rows.back();
+      last.tolerance = tolerance;
+      last.error_over_tolerance = error_as_length(case_, last.error, last.angle_error) / tolerance;
+      if (1e-6 * rows.back().wall_us_per_simulated_second > plan_.longest_run) break;
+    }
+    all.insert(all.end(), rows.begin(), rows.end());
+  }
+
+ private:
+  ErrorRow row(const RodRun& run) const {
+    ErrorRow r;
+    r.scene = case_.name;
+    r.shape = shape_;
+    r.method = integrator_;
+    r.hand = "samples";
+    r.reference_uncertainty = reference_.uncertainty;
+    r.finite = run.finite;
+    if (!run.finite) return r;
+    const PoseDistance distance = largest_distance(run.X_WO, reference_.X_WO);
+    r.error = distance.position;
+    r.angle_error = distance.angle;
+    r.error_over_hand_amplitude = r.error / hand_amplitude(case_);
+    r.error_over_largest_deflection = r.error / reference_.largest_deflection;
+    r.wall_us_per_simulated_second = 1e6 * run.wall_seconds / case_.duration;
+    r.steps_per_second = static_cast<double>(run.steps) / case_.duration;
+    return r;
+  }
+
+  const RodTablePlan& plan_;
+  const RodCase& case_;
+  const std::string& shape_;
+  const RodReference& reference_;
+  const std::string& integrator_;
+};
+
+}  // namespace
+
+std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Progress& progress) {
+  std::vector<ErrorRow> all;
+  for (const RodCase& one : plan.cases) {
+    for (const std::string& shape : one.shapes) {
+      const RodReference reference = rod_reference(one, shape);
+      for (const std::string& integrator : integrator_names()) {
+        progress.next(one.name + ' ' + shape + ' ' + integrator);
+        Line(plan, one, shape, reference, integrator).add_to(all);
+      }
+    }
+  }
+  return all;
+}
+
+}  // namespace spring_workbench::benchmark

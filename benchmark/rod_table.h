@@ -1,0 +1,46 @@
+#pragma once
+
+#include <vector>
+
+#include "benchmark/error_table.h"
+#include "benchmark/rod_case.h"
+
+namespace spring_workbench::benchmark {
+
+/// What the table of rod cases covers.
+struct RodTablePlan {
+  std::vector<RodCase> cases;
+  std::vector<int> steps_per_output;  ///< largest steps of 0.02 s over these; a step also ends at every sample
+  std::vector<double> tolerances;     ///< [m]; with integrators that choose their steps
+  double longest_run = 0.025;         ///< as in ErrorTablePlan [s per simulated second]
+  Repetition repetition;
+};
+
+/// The synthetic cases, and the recorded ones where `recorded_folder` has them.
+RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder);
+
+/// One run of an integrator with the largest step `step` [s], on the body and the integrator alone; the timed loop holds
+/// the segments between the samples, the steps and the poses at the outputs.
+struct RodRun {
+  std::vector<RigidTransform> X_WO;  ///< at output_times(one)
+  double wall_seconds = 0.0;
+  long steps = 0;
+  bool finite = false;
+};
+RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& integrator, double step);
+
+/// The same with a tolerance [m] that chooses the steps, through Simulation.
+RodRun run_rod_to_tolerance(const RodCase& one, const std::string& shape, const std::string& integrator,
+                            double tolerance);
+
+/// Whether this build's Simulation has the setting `tolerance`.
+bool has_tolerance_setting();
+
+/// Number of lines, and the rows of all: every integrator × shape × step of every case, with hand() "samples".
+std::size_t line_count(const RodTablePlan& plan);
+std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Progress& progress);
+
+/// Size of a tolerance's error: the position's, and the angle times the body's radius of gyration [m].
+double error_as_length(const RodCase& one, double position, double angle);
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,214 @@
+#include "benchmark/stability_map.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+
+#include "benchmark/parallel.h"
+#include "benchmark/simulated_rod.h"
+#include "spring_workbench/dynamics/integrator.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr double kFarthest = 100.0;    // m from the hand
+constexpr double kTrackerInterval = 0.02;  // s
+constexpr double kWatchedSteps = 20.0;
+constexpr std::size_t kFailuresKept = 12;  // of an integrator and a shape
+
+RodCase case_of(const StabilityCell& cell) {
+  RodCase one;
+  one.name = "stability";
+  one.mass = cell.mass;
+  one.inertia = cell.mass / 12.0 * Vector3d(0.0125, 0.0425, 0.05);  // a box of 0.2 × 0.1 × 0.05 m
+  const double factor = cell.stiffness_factor, zeta = cell.damping_ratio;
+  one.fork.stiffness = {2000.0 * factor, 500.0 * factor, 5.0 * factor};
+  one.fork.damping_ratio = {zeta, zeta, zeta};
+  one.fork.dofs = cell.families;
+  return one;
+}
+
+/// Watches the energy while the hand rests: elastic, kinetic and potential. Growth is relative to the largest of
+/// elastic and kinetic energy in that time plus the body's weight times the fork's length, the least that still means
+/// something.
+class EnergyWatch {
+ public:
+  EnergyWatch(double weight, double length) : weight_(weight), largest_(weight * length) {}
+
+  void look(const Simulation& simulation) {
+    const ToolState fork = simulation.fork();
+    const double moving = fork.elastic_energy + fork.kinetic_energy;
+    const double energy = moving + weight_ * simulation.objects()[0].X_WO.translation().z();
+    largest_ = std::max(largest_, moving);
+    lowest_ = std::min(lowest_, energy);
+    growth_ = std::max(growth_, energy - lowest_);
+  }
+  double relative_growth() const { return growth_ > 0.0 ? growth_ / largest_ : 0.0; }
+
+ private:
+  double weight_, largest_;
+  double lowest_ = std::numeric_limits<double>::infinity();
+  double growth_ = 0.0;
+};
+
+/// Advances the simulation and looks at what comes out.
+class CellRun {
+ public:
+  CellRun(const RodCase& one, const std::string& integrator, const std::string& shape, double step,
+          const std::vector<PoseSample>& hand)
+      : simulation_(rod_scene(one), rod_settings(one, shape, integrator, step)) {
+    for (const PoseSample& sample : hand) simulation_.push_stylus(sample);
+  }
+
+  /// False when there is no point in going on.
+  bool advance(double t) {
+    outcome_.refused += simulation_.advance(t).guards_tripped;
+    const BodyState& object = simulation_.objects()[0];
+    const Twist& V = object.V_WO_W;
+    outcome_.finite = object.X_WO.matrix().allFinite() && V.linear.allFinite() && V.angular.allFinite();
+    outcome_.bounded =
+        outcome_.finite && (object.X_WO.translation() - simulation_.fork().X_WH.translation()).norm() < kFarthest;
+    return outcome_.bounded;
+  }
+
+  const Simulation& simulation() const { return simulation_; }
+  StabilityOutcome& outcome() { return outcome_; }
+
+ private:
+  Simulation simulation_;
+  StabilityOutcome outcome_;
+};
+
+std::string families_name(const ForkDofs& dofs) {
+  std::string name;
+  if (dofs.stretch) name += 's';
+  if (dofs.bend) name += 'b';
+  if (dofs.torsion) name += 't';
+  return name.empty() ? "none" : name;
+}
+
+/// Cells of one integrator, shape and stiffness: families and hands innermost.
+std::vector<StabilityCell> cells_of(const StabilityPlan& plan, double stiffness_factor) {
+  std::vector<StabilityCell> cells;
+  for (const double mass : plan.masses) {
+    for (const double step : plan.steps) {
+      for (const double zeta : plan.damping_ratios) {
+        for (const ForkDofs& families : plan.families) {
+          for (const MapHand hand : plan.hands) cells.push_back({stiffness_factor, mass, step, zeta, families, hand});
+        }
+      }
+    }
+  }
+  return cells;
+}
+
+std::vector<double> decades(double low, double high, double factor) {
+  std::vector<double> values;
+  for (double value = low; value < 1.5 * high; value *= factor) values.push_back(value);
+  return values;
+}
+
+void add(const StabilityOutcome& outcome, StabilityRow& row) {
+  ++row.cells;
+  row.finite += outcome.finite;
+  row.bounded += outcome.bounded;
+  row.energy_kept += outcome.energy_kept();
+  row.none_refused += outcome.refused == 0;
+  row.held += outcome.held();
+}
+
+}  // namespace
+
+StabilityPlan stability_plan(bool quick) {
+  StabilityPlan plan;
+  plan.integrators = integrator_names();
+  plan.shapes = {"linear"};
+  plan.stiffness_factors = decades(1e-6, 1e12, quick ? 1e6 : 1e2);
+  plan.masses = quick ? std::vector<double>{0.0, 1e-6, 1.0, 1e6}
+                      : std::vector<double>{0.0, 1e-6, 1e-3, 1.0, 1e3, 1e6};
+  plan.steps = quick ? std::vector<double>{0.05} : std::vector<double>{0.05, 0.02, 0.005, 0.001};
+  plan.damping_ratios = quick ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.0, 0.1, 1.0, 10.0};
+  for (int i = 0; i < 8; ++i) plan.families.push_back({(i & 1) != 0, (i & 2) != 0, (i & 4) != 0});
+  plan.hands = {MapHand::lissajous, MapHand::jump, MapHand::flip, MapHand::dropout, MapHand::noise};
+  return plan;
+}
+
+StabilityOutcome run_cell(const std::string& integrator, const std::string& shape, const StabilityCell& cell) {
+  const RodCase one = case_of(cell);
+  const MapHandMotion hand = map_hand_motion(cell.hand, std::max(cell.step, kTrackerInterval), cell.step);
+  CellRun run(one, integrator, shape, cell.step, hand.samples);
+  double reached = 0.0;
+  for (const auto& [begin, end] : hand.rests) {
+    const int looks = std::max(1, static_cast<int>(std::ceil((begin - reached) / kTrackerInterval)));
+    for (int i = 1; i <= looks; ++i) {
+      if (!run.advance(reached + (begin - reached) * i / looks)) return run.outcome();
+    }
+    EnergyWatch watch(one.mass * 9.81, one.fork.length);
+    // Every step at first, and then every 20 ms: what has grown stays above the lowest.
+    for (reached = begin; reached < end + 1e-9; reached += reached - begin < kWatchedSteps * cell.step ? cell.step : kTrackerInterval) {
+      if (!run.advance(reached)) return run.outcome();
+      if (one.mass > 0.0) watch.look(run.simulation());
+    }
+    reached = end;
+    run.outcome().energy_growth = std::max(run.outcome().energy_growth, watch.relative_growth());
+  }
+  return run.outcome();
+}
+
+std::size_t unit_count(const StabilityPlan& plan) {
+  return plan.integrators.size() * plan.shapes.size() * plan.stiffness_factors.size();
+}
+
+StabilityMap stability_map(const StabilityPlan& plan, Progress& progress) {
+  StabilityMap map;
+  const std::size_t per_row = plan.families.size() * plan.hands.size();
+  for (const std::string& integrator : plan.integrators) {
+    for (const std::string& shape : plan.shapes) {
+      std::size_t failures = 0;
+      for (const double factor : plan.stiffness_factors) {
+        progress.next("stability: " + integrator + ' ' + shape);
+        const std::vector<StabilityCell> cells = cells_of(plan, factor);
+        std::vector<StabilityOutcome> outcomes(cells.size());
+        parallel_for(cells.size(), [&](std::size_t i) { outcomes[i] = run_cell(integrator, shape, cells[i]); });
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+          const StabilityCell& cell = cells[i];
+          if (i % per_row == 0) {
+            map.rows.push_back({integrator, shape, factor, cell.mass, cell.step, cell.damping_ratio});
+          }
+          add(outcomes[i], map.rows.back());
+          if (!outcomes[i].held() && failures++ < kFailuresKept) {
+            map.failures.push_back({integrator, shape, cell, outcomes[i]});
+          }
+        }
+      }
+    }
+  }
+  return map;
+}
+
+std::string stability_csv(const StabilityMap& map) {
+  std::ostringstream out;
+  out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,cells,finite,bounded,energy_kept,none_refused,held\n";
+  for (const StabilityRow& row : map.rows) {
+    out << row.integrator << ',' << row.shape << ',' << row.stiffness_factor << ',' << row.mass << ',' << row.step << ','
+        << row.damping_ratio << ',' << row.cells << ',' << row.finite << ',' << row.bounded << ',' << row.energy_kept
+        << ',' << row.none_refused << ',' << row.held << '\n';
+  }
+  return out.str();
+}
+
+std::string failures_csv(const StabilityMap& map) {
+  std::ostringstream out;
+  out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,families,hand,finite,bounded,energy_growth,steps_"
+         "refused\n";
+  for (const StabilityFailure& f : map.failures) {
+    out << f.integrator << ',' << f.shape << ',' << f.cell.stiffness_factor << ',' << f.cell.mass << ',' << f.cell.step
+        << ',' << f.cell.damping_ratio << ',' << families_name(f.cell.families) << ',' << name_of(f.cell.hand) << ','
+        << f.outcome.finite << ',' << f.outcome.bounded << ',' << f.outcome.energy_growth << ',' << f.outcome.refused
+        << '\n';
+  }
+  return out.str();
+}
+
+}  // namespace spring_workbench::benchmark

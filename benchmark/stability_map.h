@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "benchmark/map_hand.h"
+#include "benchmark/progress.h"
+#include "benchmark/rod_case.h"
+
+namespace spring_workbench::benchmark {
+
+/// What is varied. Every combination is a cell.
+struct StabilityPlan {
+  std::vector<std::string> integrators;
+  std::vector<std::string> shapes;
+  std::vector<double> stiffness_factors;  ///< over 2000 N/m, 500 N/m, 5 N·m/rad on 0.2 m
+  std::vector<double> masses;             ///< [kg]; 0: massless
+  std::vector<double> steps;              ///< [s]
+  std::vector<double> damping_ratios;
+  std::vector<ForkDofs> families;
+  std::vector<MapHand> hands;
+};
+StabilityPlan stability_plan(bool quick);
+
+/// One run.
+struct StabilityCell {
+  double stiffness_factor = 1.0;
+  double mass = 1.0;
+  double step = 0.02;
+  double damping_ratio = 1.0;
+  ForkDofs families;
+  MapHand hand = MapHand::lissajous;
+};
+
+/// What came of it.
+struct StabilityOutcome {
+  bool finite = true;          ///< pose and twist of the object
+  bool bounded = true;         ///< within 100 m of the hand; a free fall is 20 m
+  double energy_growth = 0.0;  ///< largest growth while the hand rests, over the largest energy then (see the .cpp)
+  int refused = 0;             ///< steps that Simulation's guard did not take
+  bool energy_kept() const { return energy_growth <= 1e-9; }
+  bool held() const { return finite && bounded && energy_kept() && refused == 0; }
+};
+
+/// Runs a cell through Simulation, as a user would: samples in, poses out; the hand is sampled at 50 Hz, or at the step
+/// where that is longer, since a step ends at every sample.
+StabilityOutcome run_cell(const std::string& integrator, const std::string& shape, const StabilityCell& cell);
+
+/// Counts over families and hands.
+struct StabilityRow {
+  std::string integrator, shape;
+  double stiffness_factor = 0.0, mass = 0.0, step = 0.0, damping_ratio = 0.0;
+  int cells = 0, finite = 0, bounded = 0, energy_kept = 0, none_refused = 0, held = 0;
+};
+
+/// A cell that did not hold.
+struct StabilityFailure {
+  std::string integrator, shape;
+  StabilityCell cell;
+  StabilityOutcome outcome;
+};
+
+struct StabilityMap {
+  std::vector<StabilityRow> rows;
+  std::vector<StabilityFailure> failures;  ///< the first few of each integrator and shape
+};
+
+/// Number of units of progress, and the map; runs cells on all processors at once.
+std::size_t unit_count(const StabilityPlan& plan);
+StabilityMap stability_map(const StabilityPlan& plan, Progress& progress);
+
+std::string stability_csv(const StabilityMap& map);
+std::string failures_csv(const StabilityMap& map);
+
+}  // namespace spring_workbench::benchmark

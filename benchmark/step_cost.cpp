@@ -1,0 +1,118 @@
+#include "benchmark/step_cost.h"
+
+#include <algorithm>
+#include <ctime>
+#include <limits>
+
+#include "benchmark/scenarios.h"
+#include "spring_workbench/dynamics/integrator.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+double thread_nanoseconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
+}
+
+/// Least time of a call over many short runs.
+template <typename Call>
+double least(Call&& call) {
+  constexpr int runs = 40, calls = 200;
+  double best = std::numeric_limits<double>::infinity();
+  for (int run = 0; run < runs; ++run) {
+    const double begin = thread_nanoseconds();
+    for (int i = 0; i < calls; ++i) call(i);
+    best = std::min(best, (thread_nanoseconds() - begin) / calls);
+  }
+  return best;
+}
+
+MotionSegment hand_of(const Scenario& scene, double t) {
+  const auto sample = [&](double at) {
+    const HandState hand = handle_state(scene, at);
+    PoseSample s;
+    s.t = at;
+    s.X.linear() = hand.R_WT;
+    s.X.translation() = hand.p_WT;
+    return s;
+  };
+  const double end = t + scene.output_interval;
+  const HandState a = handle_state(scene, t), b = handle_state(scene, end);
+  return MotionSegment(sample(t), a.v_WT_W, a.w_WT_T, sample(end), b.v_WT_W, b.w_WT_T);
+}
+
+HeldBody body_of(const Scenario& scene, const std::string& shape, const ForkDofs& dofs) {
+  BodyInertia inertia;
+  inertia.mass = scene.mass;
+  inertia.inertia_O = scene.inertia.asDiagonal();
+  inertia.X_OE.translation() = -scene.p_EO;
+  HeldBody body(make_shape_model(shape, scene.length), inertia, scene.gravity);
+  body.set_springs({scene.stiffness[2], scene.stiffness[0], scene.stiffness[5]}, {1.0, 1.0, 1.0});
+  const StrainVector zero = StrainVector::Zero(body.shape().size());
+  body.set_dofs(dofs, 0.0, 1.0, {zero, zero});
+  return body;
+}
+
+void add(const std::string& shape, const ForkDofs& dofs, std::vector<StepCost>& costs) {
+  const Scenario scene = six_dof_scene(100.0);
+  HeldBody body = body_of(scene, shape, dofs);
+  const double h = scene.output_interval;
+  std::vector<MotionSegment> hand;
+  for (int i = 0; i < 200; ++i) hand.push_back(hand_of(scene, i * h));
+  const auto integrator = make_integrator("exponential");
+  StrainState state = body.zero_state();
+  integrator->step(body, hand[0], 0.0, h, state);
+  const StrainState moving = state;
+  const StrainState full = body.full_state(h, moving);
+  const HandleForcing forcing = body.forcing(hand[1], h);
+
+  volatile double sink = 0.0;  // so that nothing is left out
+  TipKinematics tip;
+  const auto note = [&](const char* part, auto&& call) { costs.push_back({shape, body.size(), part, least(call)}); };
+  note("hand at one moment", [&](int i) { sink = body.forcing(hand[1], h * (1.0 + 0.001 * i)).angular_velocity[0]; });
+  note("tip", [&](int) {
+    body.shape().tip(full.q, full.q_dot, tip);
+    sink = tip.p_HE[0];
+  });
+  note("mass matrix", [&](int) { sink = body.mass_matrix(h, moving.q)(0, 0); });
+  note("acceleration", [&](int) { sink = body.acceleration(forcing, moving.q, moving.q_dot)[0]; });
+  note("object", [&](int) { sink = body.object(forcing, moving).velocity.linear[0]; });
+  const auto step = [&](int i, double length) {
+    if (i == 0) state = body.zero_state();
+    integrator->step(body, hand[static_cast<std::size_t>(i)], i * h, length, state);
+    sink = state.q[0];
+  };
+  note("step", [&](int i) { step(i, h); });
+  note("step of a new length", [&](int i) { step(i, i % 2 == 0 ? h : 0.99 * h); });
+  note("step after a change", [&](int i) {
+    body.set_springs({scene.stiffness[2], scene.stiffness[0], scene.stiffness[5]}, {1.0, 1.0, 1.0});
+    step(i, h);
+  });
+}
+
+}  // namespace
+
+std::vector<StepCost> step_costs() {
+  const Scenario scene = six_dof_scene(100.0);
+  std::vector<StepCost> costs;
+  const HandState a = handle_state(scene, 0.0), b = handle_state(scene, scene.output_interval);
+  PoseSample from, to;
+  from.X.linear() = a.R_WT;
+  from.X.translation() = a.p_WT;
+  to.t = scene.output_interval;
+  to.X.linear() = b.R_WT;
+  to.X.translation() = b.p_WT;
+  volatile double sink = 0.0;
+  costs.push_back({"", 0, "hand between two samples", least([&](int) {
+                     sink = MotionSegment(from, a.v_WT_W, a.w_WT_T, to, b.v_WT_W, b.w_WT_T).end();
+                   })});
+  for (const std::string& shape : shape_model_names()) {
+    add(shape, {true, true, true}, costs);
+    add(shape, {true, false, false}, costs);
+  }
+  return costs;
+}
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,199 @@
+// Rod cases, their references, the elastica and the stability map.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+#include "benchmark/elastica.h"
+#include "benchmark/rod_reference.h"
+#include "benchmark/rod_table.h"
+#include "benchmark/simulated_rod.h"
+#include "benchmark/stability_map.h"
+#include "spring_workbench/dynamics/integrator.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+RodCase case_called(const std::string& name, double duration) {
+  for (RodCase one : synthetic_cases(false)) {
+    if (one.name != name) continue;
+    one.duration = duration;
+    return one;
+  }
+  throw std::runtime_error("no case " + name);
+}
+
+TEST(RodCases, HandsAreTheSameFromTheSameSeedAndOthersFromAnother) {
+  const auto a = synthetic_hand(3, 1.0), b = synthetic_hand(3, 1.0), c = synthetic_hand(4, 1.0);
+  ASSERT_EQ(a.size(), 51U);
+  double differs = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    EXPECT_EQ(a[i].X.matrix(), b[i].X.matrix());
+    differs = std::max(differs, (a[i].X.translation() - c[i].X.translation()).norm());
+  }
+  EXPECT_GT(differs, 0.01);
+}
+
+TEST(RodCases, ReferenceOfAStretchingForkOnAHandAtRestIsTheExactOscillator) {
+  // The handle points up and rests: one spring under its weight, from zero extension.
+  for (const double zeta : {0.0, 0.1, 1.0, 3.0}) {
+    RodCase one = case_called("stretch_only", 1.0);
+    one.fork.damping_ratio = {zeta, zeta, zeta};
+    for (PoseSample& sample : one.hand) sample.X = RigidTransform::Identity();
+    const double k = one.fork.stiffness.stretch, m = one.mass, omega = std::sqrt(k / m), sag = m * 9.81 / k;
+    const auto poses = cvode_poses(one, "linear", 1e-12);
+    const auto times = output_times(one);
+    ASSERT_EQ(poses.size(), times.size());
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      const double t = times[i], sigma = zeta * omega;
+      const double root = std::sqrt(std::abs(omega * omega - sigma * sigma));
+      const double c = zeta < 1.0 ? std::cos(root * t) : std::cosh(root * t);
+      const double s = zeta == 1.0 ? t : (zeta < 1.0 ? std::sin(root * t) : std::sinh(root * t)) / root;
+      const double extension = -sag + sag * std::exp(-sigma * t) * (c + sigma * s);
+      EXPECT_NEAR(poses[i].translation().z() - (one.fork.length - one.p_OE.z()), extension, 1e-10) << zeta << ' ' << t;
+    }
+  }
+}
+
+TEST(RodCases, ReferenceAgreesWithRungeKuttaAtATinyStepInEveryShape) {
+  const RodCase one = case_called("heavy_large_bend", 0.3);
+  for (const std::string& shape : one.shapes) {
+    const RodReference reference = rod_reference(one, shape);
+    EXPECT_LT(reference.uncertainty, 1e-8) << shape;
+    EXPECT_GT(reference.largest_deflection, 1e-3) << shape;
+    const PoseDistance distance = largest_distance(run_rod(one, shape, "rk4", 5e-5).X_WO, reference.X_WO);
+    EXPECT_LT(distance.position, 1e-8) << shape;
+    EXPECT_LT(distance.angle, 1e-7) << shape;
+  }
+}
+
+TEST(RodCases, ReferenceMeetsTheRecordedTrajectoriesOfAnotherSolver) {
+  const auto recorded = recorded_cases(SPRING_WORKBENCH_SHARED_DIR "/reference");
+  if (recorded.empty()) GTEST_SKIP() << "no reference trajectories in " SPRING_WORKBENCH_SHARED_DIR "/reference";
+  for (RodCase one : recorded) {
+    one.duration = 0.5;
+    const PoseDistance distance = largest_distance(cvode_poses(one, one.shapes[0], 1e-12), rod_reference(one, one.shapes[0]).X_WO);
+    EXPECT_LT(distance.position, 1e-8) << one.name;
+    EXPECT_LT(distance.angle, 1e-7) << one.name;
+  }
+}
+
+TEST(RodCases, SimulationRunsTheSameCase) {
+  const RodCase one = case_called("soft_6dof", 0.4);
+  const RodRun bare = run_rod(one, "linear", "rk4", 1e-3);
+  Simulation simulation(rod_scene(one), rod_settings(one, "linear", "rk4", 1e-3));
+  for (const PoseSample& sample : one.hand) simulation.push_stylus(sample);
+  std::vector<RigidTransform> poses;
+  for (const double t : output_times(one)) {
+    simulation.advance(t);
+    poses.push_back(simulation.objects()[0].X_WO);
+  }
+  EXPECT_LT(largest_distance(bare.X_WO, poses).position, 1e-12);
+}
+
+TEST(Elastica, ExactSolutionSatisfiesItsDifferentialEquation) {
+  // Shooting: θ'' = −α cos θ from θ = 0 with the slope that energy gives, θ'² = 2 α (sin ψ − sin θ), by RK4.
+  for (const double alpha : {0.1, 1.0, 5.0, 10.0}) {
+    const TipDeflection tip = exact_elastica(alpha);
+    double theta = 0.0, rate = std::sqrt(2.0 * alpha * std::sin(tip.slope)), x = 0.0, z = 0.0;
+    constexpr int count = 4000;
+    const double h = 1.0 / count;
+    for (int i = 0; i < count; ++i) {
+      const auto bend = [&](double angle) { return -alpha * std::cos(angle); };
+      const double k1 = rate, l1 = bend(theta), k2 = rate + 0.5 * h * l1, l2 = bend(theta + 0.5 * h * k1);
+      const double k3 = rate + 0.5 * h * l2, l3 = bend(theta + 0.5 * h * k2), k4 = rate + h * l3, l4 = bend(theta + h * k3);
+      const double middle = theta + 0.5 * h * k1 + 0.125 * h * h * l1, next = theta + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
+      x += h / 6.0 * (std::sin(theta) + 4.0 * std::sin(middle) + std::sin(next));
+      z += h / 6.0 * (std::cos(theta) + 4.0 * std::cos(middle) + std::cos(next));
+      rate += h / 6.0 * (l1 + 2.0 * (l2 + l3) + l4);
+      theta = next;
+    }
+    EXPECT_NEAR(theta, tip.slope, 1e-9) << alpha;
+    EXPECT_NEAR(rate, 0.0, 1e-8) << alpha;
+    EXPECT_NEAR(x, tip.deflection, 1e-8) << alpha;
+    EXPECT_NEAR(1.0 - z, tip.shortening, 1e-8) << alpha;
+  }
+}
+
+TEST(Elastica, ExactSolutionIsTheReferenceTable) {
+  const double difference = elastica_check(SPRING_WORKBENCH_SHARED_DIR "/reference");
+  if (difference < 0.0) GTEST_SKIP() << "no elastica.csv in " SPRING_WORKBENCH_SHARED_DIR "/reference";
+  EXPECT_LT(difference, 1e-9);
+}
+
+TEST(Elastica, RodsComeToTheExactSolutionForSmallLoadsAndMoreTermsAreNearer) {
+  for (const std::string& shape : shape_model_names()) {
+    EXPECT_NEAR(shape_deflection(shape, 1e-3).deflection, 1e-3 / 3.0, 1e-8) << shape;
+  }
+  const auto error = [](const std::string& shape) {
+    return std::abs(shape_deflection(shape, 2.0).deflection - exact_elastica(2.0).deflection);
+  };
+  EXPECT_LT(error("linear"), 0.1 * error("constant"));
+}
+
+TEST(StabilityMap, HandsRestWhenTheySayAndComeInOrder) {
+  for (const MapHand hand : {MapHand::lissajous, MapHand::jump, MapHand::flip, MapHand::dropout, MapHand::noise}) {
+    for (const double step : {0.05, 0.001}) {
+      const MapHandMotion motion = map_hand_motion(hand, std::max(step, 0.02), step);
+      PoseTrack track;
+      for (const PoseSample& sample : motion.samples) EXPECT_TRUE(track.push(sample)) << name_of(hand);
+      ASSERT_FALSE(motion.rests.empty()) << name_of(hand);
+      double last = 0.0;
+      for (const auto& [begin, end] : motion.rests) {
+        EXPECT_LE(last, begin) << name_of(hand);
+        last = end;
+        const RigidTransform X = track.segment(begin).at(begin).X;
+        for (double t = begin; t < end; t += 0.1 * (end - begin)) {
+          const MotionState state = track.segment(t).at(t);
+          EXPECT_LT((state.X.matrix() - X.matrix()).norm(), 1e-12) << name_of(hand) << ' ' << t;
+          EXPECT_LT(state.velocity.linear.norm() + state.velocity.angular.norm(), 1e-12) << name_of(hand) << ' ' << t;
+        }
+      }
+      EXPECT_DOUBLE_EQ(last, motion.samples.back().t) << name_of(hand);
+    }
+  }
+}
+
+StabilityCell cell_with(double omega_step, MapHand hand) {
+  StabilityCell cell;
+  cell.step = 0.02;
+  cell.families = {true, false, false};  // one spring: ω² = k / m
+  cell.damping_ratio = 1.0;
+  cell.stiffness_factor = std::pow(omega_step / cell.step, 2) * cell.mass / 2000.0;
+  cell.hand = hand;
+  return cell;
+}
+
+TEST(StabilityMap, ExplicitMethodsHoldBelowTheirLimitOnOneSpringAndFailAboveIt) {
+  // ζ = 1: semi-implicit Euler with explicit damping to ω h = 0.828, RK4 to 2.785; a method of closed form has no limit.
+  for (const auto& [name, limit] : {std::pair{"semi_implicit_euler", 0.828}, std::pair{"rk4", 2.785}}) {
+    EXPECT_TRUE(run_cell(name, "linear", cell_with(0.5 * limit, MapHand::noise)).held()) << name;
+    EXPECT_FALSE(run_cell(name, "linear", cell_with(3.0 * limit, MapHand::jump)).held()) << name;
+  }
+  for (const double omega_step : {0.5, 5.0, 500.0}) {
+    EXPECT_TRUE(run_cell("closed_form", "linear", cell_with(omega_step, MapHand::lissajous)).held()) << omega_step;
+  }
+}
+
+TEST(StabilityMap, NothingCanFailWhereNothingIsIntegrated) {
+  StabilityPlan plan = stability_plan(true);
+  plan.integrators = {"semi_implicit_euler"};
+  plan.masses = {0.0};
+  plan.stiffness_factors = {1e12};
+  std::ostringstream log;
+  Progress progress(log, false, unit_count(plan));
+  const StabilityMap massless = stability_map(plan, progress);
+  plan.masses = {1.0};
+  plan.families = {{false, false, false}};
+  const StabilityMap rigid = stability_map(plan, progress);
+  for (const StabilityMap& map : {massless, rigid}) {
+    EXPECT_TRUE(map.failures.empty());
+    for (const StabilityRow& row : map.rows) EXPECT_EQ(row.held, row.cells);
+  }
+  EXPECT_EQ(massless.rows[0].cells, static_cast<int>(8 * plan.hands.size()));
+}
+
+}  // namespace
+}  // namespace spring_workbench::benchmark

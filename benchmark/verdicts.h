@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmark/elastica.h"
+#include "benchmark/error_table.h"
+#include "benchmark/stability_map.h"
+
+namespace spring_workbench::benchmark {
+
+/// Everything that was measured.
+struct Measurements {
+  std::vector<ErrorRow> scenes;  ///< A, B, C
+  std::vector<ErrorRow> rods;
+  std::vector<ElasticaRow> elastica;
+  StabilityMap map;
+  double seconds = 0.0;  ///< that the report took
+  bool quick = false;
+};
+
+/// A claim, what was asked, what came out.
+struct Verdict {
+  std::string claim;
+  std::string target;
+  std::string measured;
+  enum class Result { held, not_held, not_measured } result = Result::not_measured;
+};
+std::string name_of(Verdict::Result result);
+
+/// Judges what the project promises of accuracy, speed and stability, from the measurements alone. Figures between two
+/// settings of a method are interpolated as run_time_for_error() does.
+std::vector<Verdict> verdicts(const Measurements& measured);
+
+std::string verdicts_csv(const std::vector<Verdict>& verdicts);
+
+}  // namespace spring_workbench::benchmark

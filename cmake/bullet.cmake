@@ -1,0 +1,11 @@
+# Bullet in double precision. Its other build, in single precision, has the same symbols: nothing that links it may link this.
+find_path(SPRING_WORKBENCH_BULLET_INCLUDE btBulletDynamicsCommon.h PATH_SUFFIXES bullet)
+set(SPRING_WORKBENCH_BULLET_LIBRARIES)
+foreach(part BulletDynamics BulletCollision LinearMath)
+  find_library(SPRING_WORKBENCH_${part}_LIBRARY ${part}-float64)
+  list(APPEND SPRING_WORKBENCH_BULLET_LIBRARIES ${SPRING_WORKBENCH_${part}_LIBRARY})
+endforeach()
+set(SPRING_WORKBENCH_BULLET_FOUND OFF)
+if(SPRING_WORKBENCH_BULLET_INCLUDE AND NOT SPRING_WORKBENCH_BULLET_LIBRARIES MATCHES "NOTFOUND")
+  set(SPRING_WORKBENCH_BULLET_FOUND ON)
+endif()

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+
+#include "spring_workbench/tracker/cadence_clock.h"
+#include "spring_workbench/tracker/live_source.h"
+#include "spring_workbench/tracker/stream_monitor.h"
+#include "spring_workbench/tracker/truth_layer.h"
+
+namespace spring_workbench {
+
+/// One station of a device on its way from the wire: stamped by the device's cadence, then through the truth layer.
+/// The cadence is measured over the first three seconds without a gap; until then a stamp is the moment of receipt.
+class StationStream {
+ public:
+  /// `dropout_after` [s], > 0: see SampleGate. `even_stamps`: false leaves the moments of receipt as they are.
+  StationStream(const TruthSettings& settings, double dropout_after, bool even_stamps)
+      : even_stamps_(even_stamps), truth_(settings, dropout_after), monitor_(dropout_after) {}
+
+  /// The sample's verdict, stamp on the clock of `received` [s], and pose X_TS.
+  TrueSample take(const StationSample& sample);
+  const GateCounts& counts() const { return truth_.counts(); }
+  const StreamFigures& figures() const { return monitor_.figures(); }
+
+ private:
+  double stamp(double received);
+
+  bool even_stamps_;
+  std::optional<CadenceClock> cadence_;
+  double first_ = 0.0, last_ = 0.0;  ///< receipts while the cadence is measured [s]
+  int count_ = 0;                    ///< of them
+  TruthLayer truth_;
+  StreamMonitor monitor_;
+};
+
+}  // namespace spring_workbench

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spring_workbench/simulated_device/line_faults.h"
+
+namespace spring_workbench::fastrak_simulator {
+
+/// What the command line asks for.
+struct Options {
+  bool help = false;
+  std::vector<std::string> motions;  ///< paths; one for each station
+  std::string link;                  ///< path of a link to the pseudo-terminal; empty: none
+  double rate = 120.0;               ///< records per second, of all stations together [Hz]
+  double speed = 1.0;                ///< of the device's clock against the wall's
+  double duration = 0.0;             ///< of the device's clock [s]; 0: until it is interrupted
+  std::vector<Fault> faults;
+  unsigned seed = 1;
+};
+
+/// Throws InputError for everything that cannot be used. Words with := in them (roslaunch gives some) are not looked
+/// at.
+Options parse_options(int argc, char** argv);
+
+/// What `--help` prints.
+std::string help_text();
+
+}  // namespace spring_workbench::fastrak_simulator

@@ -1,0 +1,65 @@
+#include "run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iostream>
+#include <utility>
+
+#include "spring_workbench/simulated_device/fastrak_simulator.h"
+
+namespace spring_workbench::fastrak_simulator {
+namespace {
+
+using std::chrono::duration;
+using std::chrono::steady_clock;
+
+constexpr double kLongestWait = 0.05;  // [s] between looks at `stop`
+
+PlayedMotion read_motion(const std::string& path) {
+  const auto source = open_motion(path);
+  std::vector<StylusSample> samples;
+  while (const auto sample = source->next()) samples.push_back(*sample);
+  return PlayedMotion(samples);
+}
+
+/// Serves the host up to a moment of the wall's clock.
+void serve_until(FastrakSimulator& simulator, steady_clock::time_point moment, const std::function<bool()>& stop) {
+  while (!stop()) {
+    const double left = duration<double>(moment - steady_clock::now()).count();
+    if (left <= 0.0) break;
+    // Waits for the host in whole milliseconds; the rest is slept below, so that cycles are even.
+    if (left > 1e-3) {
+      simulator.serve(std::min(left - 1e-3, kLongestWait));
+    } else {
+      simulator.serve(0.0);
+      timespec rest{0, static_cast<long>(std::min(left, 2e-4) * 1e9)};
+      nanosleep(&rest, nullptr);
+    }
+  }
+}
+
+}  // namespace
+
+void run(const Options& options, const std::function<bool()>& stop) {
+  std::vector<PlayedMotion> motions;
+  for (const std::string& path : options.motions) motions.push_back(read_motion(path));
+  FastrakSimulator simulator(FastrakDevice(std::move(motions)), LineFaults(options.faults, options.seed), options.link);
+  std::string path;
+  const auto start = steady_clock::now();
+  for (long cycle = 0; !stop(); ++cycle) {
+    const double t = static_cast<double>(cycle) / options.rate;
+    if (options.duration > 0.0 && t >= options.duration) break;
+    serve_until(simulator,
+                start + std::chrono::duration_cast<steady_clock::duration>(duration<double>(t / options.speed)), stop);
+    simulator.serve(0.0);
+    simulator.measure(t);
+    if (simulator.path() != path) {
+      path = simulator.path();
+      std::cout << (path.empty() ? "unplugged" : path) << std::endl;
+    }
+  }
+  std::cout << simulator.records_sent() << " records sent, " << simulator.records_dropped()
+            << " dropped because nobody read" << std::endl;
+}
+
+}  // namespace spring_workbench::fastrak_simulator

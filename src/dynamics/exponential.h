@@ -1,0 +1,34 @@
+#pragma once
+
+#include <memory>
+
+#include "spring_workbench/dynamics/integrator.h"
+
+namespace spring_workbench {
+
+/// Exponential collocation: the coupled linear part, frozen near the present state, in closed form through its modes, with
+/// what it leaves over as the cubic through four Lobatto nodes of the step (collocation.h), found by sweeps that start from
+/// the last step's cubic. Order six; exact for linear systems whose handle accelerates as a cubic of time; no stiffness
+/// limits its step. Where the sweeps do not converge, the linear part is taken anew, then the step is halved.
+class Exponential final : public Integrator {
+ public:
+  Exponential();
+  ~Exponential() override;
+
+  std::string name() const override { return "exponential"; }
+  int order() const override { return 6; }
+  bool unlimited() const override { return true; }
+  StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, StrainState& state) override;
+  Response response(const HeldBody& body, double t, double h, const StrainState& state) override;
+
+ private:
+  class Core;  ///< for one number of coordinates
+  template <int n>
+  class CoreOf;
+  Core& core(int n);
+
+  std::unique_ptr<Core> core_;  ///< made anew when the number of coordinates changes
+  int n_ = 0;
+};
+
+}  // namespace spring_workbench

@@ -1,0 +1,213 @@
+#include "implicit_integrators.h"
+
+#include <Eigen/Cholesky>
+#include <cmath>
+
+namespace spring_workbench {
+namespace {
+
+constexpr double strain_difference = 1e-6;  ///< over the length: for derivatives
+constexpr double rate_difference = 1e-4;    ///< over the length [1/s]; the acceleration is quadratic in the rates
+constexpr double time_difference = 1e-4;    ///< of the step
+constexpr int most_newton_steps = 10;
+constexpr double newton_done = 1e-13;       ///< change of the strain against the step's own
+
+}  // namespace
+
+LinearisedMotion::LinearisedMotion(const HeldBody& body, double t, const StrainVector& q)
+    : M(body.mass_matrix(t, q)), K(body.stiffness().asDiagonal()), D(body.damping().asDiagonal()) {}
+
+LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
+                                   const StrainVector& q_ddot)
+    : LinearisedMotion(body, handle.t, state.q) {
+  const StrainVector stiffness = body.stiffness(), damping = body.damping();
+  const double dq = strain_difference / body.shape().length(), dv = rate_difference / body.shape().length();
+  StrainState moved = state;
+  for (int j = 0; j < body.size(); ++j) {
+    moved.q[j] += dq;
+    const double step_q = moved.q[j] - state.q[j];
+    StrainVector force = M * (body.acceleration(handle, moved.q, state.q_dot) - q_ddot);
+    force[j] += stiffness[j] * step_q;
+    K.col(j) -= force / step_q;
+    moved.q[j] = state.q[j];
+
+    moved.q_dot[j] += dv;
+    const double step_v = moved.q_dot[j] - state.q_dot[j];
+    force = M * (body.acceleration(handle, state.q, moved.q_dot) - q_ddot);
+    force[j] += damping[j] * step_v;
+    D.col(j) -= force / step_v;
+    moved.q_dot[j] = state.q_dot[j];
+  }
+}
+
+ImplicitMatrix::ImplicitMatrix(const LinearisedMotion& motion, double d) {
+  const StrainMatrix A = motion.M + d * motion.D + d * d * motion.K;
+  scale_ = A.diagonal().cwiseAbs().cwiseMax(motion.M.diagonal()).cwiseSqrt().cwiseInverse();
+  lu_.compute(scale_.asDiagonal() * A * scale_.asDiagonal());
+}
+
+StrainMatrix ImplicitMatrix::solve(const StrainMatrix& b) const {
+  return scale_.asDiagonal() * lu_.solve(StrainMatrix(scale_.asDiagonal() * b));
+}
+
+StepEstimate ImplicitEuler::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+                                 StrainState& state) {
+  const HandleForcing end = body.forcing(handle, t + h);
+  const StrainVector a_begin = body.acceleration(body.forcing(handle, t), state.q, state.q_dot);
+  // From the state carried on with its own rate; where Newton does not come to rest its first, linearly implicit, step.
+  StrainState next = state;
+  StrainVector a = body.acceleration(end, next.q, next.q_dot);
+  const LinearisedMotion motion(body, end, next, a);
+  const ImplicitMatrix matrix(motion, h);
+  double last_change = 0.0, first_change = 0.0;
+  StrainState linear;
+  for (int i = 0; i < most_newton_steps; ++i) {
+    // q̇ is the unknown, q = q₀ + h q̇: residual q̇ − q̇₀ − h q̈.
+    const StrainVector off_q = state.q + h * next.q_dot - next.q;  // of the first iterate only
+    const StrainVector change =
+        matrix.solve(motion.M * (state.q_dot - next.q_dot + h * a) - h * (motion.K * off_q));
+    next.q_dot += change;
+    next.q = state.q + h * next.q_dot;
+    const double size = change.norm();
+    if (i == 0) {
+      linear = next;
+      first_change = size;
+    } else if (!(size < last_change)) {
+      if (!(size < 1e-6 * first_change)) next = linear;
+      a = body.acceleration(end, next.q, next.q_dot);
+      break;
+    }
+    last_change = size;
+    a = body.acceleration(end, next.q, next.q_dot);
+    if (size <= newton_done * (first_change + next.q_dot.norm())) break;
+  }
+  // What the exact motion, with an acceleration linear in time, leaves over in the two equations of the rule.
+  const StrainVector left_q = -h * h / 6.0 * (a_begin + 2.0 * a);
+  const StrainVector left_v = -0.5 * h * (a - a_begin);
+  const StrainVector error_v = matrix.solve(h * (motion.K * left_q) - motion.M * left_v);
+  state = next;
+  return {h * error_v - left_q, 0.0, error_v};
+}
+
+namespace {
+
+/// RODASP. Stage i: u + Σ a_ij U_j at t + α_i h, and h γ_i times the derivative by time.
+constexpr int stages = 6;
+constexpr double gamma_d = 0.25;
+constexpr double alpha[stages] = {0.0, 0.75, 0.21, 0.63, 1.0, 1.0};
+constexpr double gamma_t[stages] = {0.25, -0.5, -0.023504, -0.0362, 0.0, 0.0};
+constexpr double a_ij[stages][stages] = {
+    {},
+    {3.0},
+    {1.831036793486759, 0.4955183967433795},
+    {2.304376582692669, -0.05249275245743001, -1.176798761832782},
+    {-7.170454962423024, -4.741636671481785, -16.31002631330971, -1.062004044111401},
+    {-7.170454962423024, -4.741636671481785, -16.31002631330971, -1.062004044111401, 1.0}};
+constexpr double c_ij[stages][stages] = {
+    {},
+    {-12.0},
+    {-8.791795173947035, -2.207865586973518},
+    {10.81793056857153, 6.780270611428266, 19.53485944642410},
+    {34.19095006749676, 15.49671153725963, 54.74760875964130, 14.16005392148534},
+    {34.62605830930532, 15.30084976114473, 56.99955578662667, 18.40807009793095, -5.714285714285717}};
+
+/// One step from (q, v), each column a state of its own; `acceleration(c, q, v)` at t + c h, `by_time` its derivative by
+/// time.
+template <typename Matrix, typename Acceleration>
+void rodas_step(const LinearisedMotion& motion, double h, const Acceleration& acceleration, const Matrix& by_time,
+                Matrix& q, Matrix& v) {
+  const double d = gamma_d * h;
+  const ImplicitMatrix matrix(motion, d);
+  Matrix Q[stages], V[stages];
+  for (int i = 0; i < stages; ++i) {
+    Matrix q_i = q, v_i = v;
+    Matrix rest_q = Matrix::Zero(q.rows(), q.cols()), rest_v = rest_q;
+    for (int j = 0; j < i; ++j) {
+      q_i += a_ij[i][j] * Q[j];
+      v_i += a_ij[i][j] * V[j];
+      rest_q += (c_ij[i][j] / h) * Q[j];
+      rest_v += (c_ij[i][j] / h) * V[j];
+    }
+    rest_q += v_i;
+    rest_v += acceleration(alpha[i], q_i, v_i) + (gamma_t[i] * h) * by_time;
+    V[i] = matrix.solve(d * (motion.M * rest_v) - d * d * (motion.K * rest_q));
+    Q[i] = d * (V[i] + rest_q);
+    if (i + 1 == stages) {
+      q = q_i + Q[i];
+      v = v_i + V[i];
+    }
+  }
+}
+
+/// What a step from one state to the next needs to know of the equations at its begin.
+struct StepStart {
+  HandleForcing forcing;
+  StrainVector q_ddot;
+  LinearisedMotion motion;
+
+  StepStart(const HeldBody& body, const MotionSegment& handle, double t, const StrainState& state)
+      : forcing(body.forcing(handle, t)),
+        q_ddot(body.acceleration(forcing, state.q, state.q_dot)),
+        motion(body, forcing, state, q_ddot) {}
+};
+
+StrainState rodas_step(const HeldBody& body, const MotionSegment& handle, double t, double h, const StrainState& from,
+                       const StepStart& start) {
+  const auto acceleration = [&](double c, const StrainVector& q, const StrainVector& v) {
+    return c == 0.0 ? start.q_ddot : body.acceleration(body.forcing(handle, t + c * h), q, v);
+  };
+  const double dt = time_difference * h;
+  const StrainVector by_time = (-3.0 * start.q_ddot + 4.0 * acceleration(time_difference, from.q, from.q_dot) -
+                                acceleration(2.0 * time_difference, from.q, from.q_dot)) /
+                               (2.0 * dt);
+  StrainState to = from;
+  rodas_step(start.motion, h, acceleration, by_time, to.q, to.q_dot);
+  return to;
+}
+
+}  // namespace
+
+StepEstimate Rosenbrock::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+                              StrainState& state) {
+  // Between 2⁴ − 1 of smooth motions and the 2 − 1 of the stiffest.
+  constexpr double finer_by = 10.0;
+  const StepStart begin(body, handle, t, state);
+  const StrainState whole = rodas_step(body, handle, t, h, state, begin);
+  const StrainState half = rodas_step(body, handle, t, 0.5 * h, state, begin);
+  if (!half.q.allFinite() || !half.q_dot.allFinite()) {
+    state = half;
+    return {whole.q, 0.0, whole.q_dot};
+  }
+  const StepStart middle(body, handle, t + 0.5 * h, half);
+  state = rodas_step(body, handle, t + 0.5 * h, 0.5 * h, half, middle);
+  return {(whole.q - state.q) / finer_by, 0.0, (whole.q_dot - state.q_dot) / finer_by};
+}
+
+namespace {
+
+/// Deviations under constant generalised forces, a column each.
+void carry_linear(const LinearisedMotion& motion, double h, const StrainMatrix& force, StrainMatrix& q,
+                  StrainMatrix& v) {
+  const Eigen::LLT<StrainMatrix> M(motion.M);
+  const auto acceleration = [&](double, const StrainMatrix& q_i, const StrainMatrix& v_i) {
+    return StrainMatrix(M.solve(force - motion.K * q_i - motion.D * v_i));
+  };
+  rodas_step(motion, h, acceleration, StrainMatrix(StrainMatrix::Zero(q.rows(), q.cols())), q, v);
+}
+
+}  // namespace
+
+Integrator::Response Rosenbrock::response(const HeldBody& body, double t, double h, const StrainState& state) {
+  const int n = body.size();
+  Response r{StrainMatrix::Zero(n, n), StrainMatrix::Zero(n, n)};
+  carry_linear(LinearisedMotion(body, t, state.q), h, StrainMatrix::Identity(n, n), r.q, r.q_dot);
+  return r;
+}
+
+void carry_deviation(const LinearisedMotion& motion, double h, StrainState& deviation) {
+  StrainMatrix q = deviation.q, v = deviation.q_dot;
+  carry_linear(motion, h, StrainMatrix::Zero(q.rows(), 1), q, v);
+  deviation = {q, v};
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,102 @@
+#include "linear_part.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <cmath>
+
+namespace spring_workbench {
+namespace {
+
+/// Eigenvectors may be worse conditioned than this only where the damping is critical to the last bit; then the linear part
+/// is taken with slightly other damping, and the difference goes to the remainder.
+constexpr double worst_condition = 1e5;
+constexpr int most_attempts = 6;
+
+using ModeMatrix = LinearPart::ModeMatrix;
+
+/// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences, where the springs' own
+/// part is linear.
+StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& handle, const StrainVector& q) {
+  const int n = body.size();
+  StrainMatrix stiffness(n, n);
+  const StrainVector rest = StrainVector::Zero(n);
+  const double moved = 1e-5 / body.shape().length();
+  for (int j = 0; j < n; ++j) {
+    StrainVector up = q, down = q;
+    up[j] += moved;
+    down[j] -= moved;
+    stiffness.col(j) = (body.acceleration(handle, down, rest) - body.acceleration(handle, up, rest)) / (2.0 * moved);
+  }
+  return stiffness;
+}
+
+/// Copies eigenvectors in real columns, a conjugate pair as its real and imaginary part, pairs first. So V⁻¹ is that of what
+/// is kept of the pair, with no more error than its condition makes.
+void sort_modes(const Eigen::EigenSolver<ModeMatrix>& solver, ModeMatrix& V, LinearPart& part) {
+  const auto values = solver.eigenvalues();
+  const auto vectors = solver.eigenvectors().eval();
+  part.pairs = 0;
+  Eigen::Index at = 0;
+  const auto add = [&](const auto& column, std::complex<double> rate) {
+    part.rates[static_cast<std::size_t>(at)] = rate;
+    V.col(at++) = column;
+  };
+  for (Eigen::Index m = 0; m < values.size(); ++m) {
+    if (values[m].imag() <= 0.0) continue;
+    add(vectors.col(m).real(), values[m]);
+    add(vectors.col(m).imag(), values[m]);
+    ++part.pairs;
+  }
+  for (Eigen::Index m = 0; m < values.size(); ++m) {
+    if (values[m].imag() == 0.0) add(vectors.col(m).real(), values[m]);
+  }
+}
+
+}  // namespace
+
+LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const StrainVector& q) {
+  const int n = body.size();
+  LinearPart part;
+  part.q_reference = q;
+  const StrainMatrix M = body.mass_matrix(handle.t, q);
+  part.mass = M.diagonal();
+  part.inverse_mass = M.llt().solve(StrainMatrix::Identity(n, n));
+  part.stiffness = stiffness_at_rest(body, handle, q);
+
+  // Undamped modes of the springs first: in them, with displacements scaled by their frequencies, stiff and soft motions
+  // stand side by side without loss of digits.
+  const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> undamped(StrainMatrix(body.stiffness().asDiagonal()), M);
+  const StrainMatrix shapes = undamped.eigenvectors();
+  const StrainMatrix to_shapes = shapes.transpose() * M;
+  const StrainVector scale = undamped.eigenvalues().cwiseMax(1.0).cwiseSqrt();
+  const StrainMatrix modal_stiffness = to_shapes * part.stiffness * shapes;
+
+  Eigen::EigenSolver<ModeMatrix> solver(2 * n);
+  ModeMatrix V(2 * n, 2 * n), V_inverse;
+  double off_critical = 0.0;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    part.damping = part.inverse_mass * StrainMatrix(body.damping().asDiagonal());
+    for (int i = 0; i < n; ++i) part.damping.col(i) *= 1.0 + off_critical * (i + 1);
+    ModeMatrix A = ModeMatrix::Zero(2 * n, 2 * n);
+    A.topRightCorner(n, n).diagonal() = scale;
+    A.bottomLeftCorner(n, n) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());
+    A.bottomRightCorner(n, n) = -(to_shapes * part.damping * shapes);
+    solver.compute(A);
+    sort_modes(solver, V, part);
+    V_inverse = V.partialPivLu().inverse();
+    if (V.norm() * V_inverse.norm() < worst_condition) break;
+    off_critical = off_critical == 0.0 ? 1e-8 : 10.0 * off_critical;
+  }
+  part.fastest = solver.eigenvalues().cwiseAbs().maxCoeff();
+
+  part.from_modes.resize(2 * n, 2 * n);
+  part.from_modes.topRows(n) = shapes * scale.cwiseInverse().asDiagonal() * V.topRows(n);
+  part.from_modes.bottomRows(n) = shapes * V.bottomRows(n);
+  part.to_modes.resize(2 * n, 2 * n);
+  part.to_modes.leftCols(n) = V_inverse.leftCols(n) * (scale.asDiagonal() * to_shapes);
+  part.to_modes.rightCols(n) = V_inverse.rightCols(n) * to_shapes;
+  return part;
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,196 @@
+#include "spring_workbench/dynamics/step_control.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "energy_limit.h"
+#include "implicit_integrators.h"
+
+namespace spring_workbench {
+namespace {
+
+/// A guarded step with a larger estimate of its error is taken again in halves.
+constexpr double large_error = 0.05;  ///< of the fork's length; of a radian
+constexpr int most_halvings = 6;
+constexpr double most_strain = 1e12;  ///< in the coordinates' own units; no state to go on from has more
+
+constexpr double safety = 0.9;
+constexpr double most_growth = 3.0, least_growth = 0.1;
+constexpr double longest_swing = 1.0;   ///< [s]; over this a rate that no spring stops becomes a strain
+constexpr double smallest_step = 1e-4;  ///< of the span; taken whatever its error
+
+struct Sizes {
+  double position, angle;  ///< [m], [rad]
+};
+
+/// An error of the strain as one of the object's pose.
+Sizes sizes(const HeldBody& body, double t, const StrainVector& q, const StrainVector& error) {
+  const auto J = body.object_jacobian(t, q);
+  return {(J.topRows<3>() * error).norm(), (J.bottomRows<3>() * error).norm()};
+}
+
+/// From rates to the strain that they swing to, mode by mode.
+StrainMatrix swing_of(const LinearisedMotion& motion) {
+  const StrainMatrix K = 0.5 * (motion.K + motion.K.transpose());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> modes(K, motion.M);
+  const StrainVector period = modes.eigenvalues().cwiseAbs().cwiseMax(1.0 / (longest_swing * longest_swing)).cwiseSqrt();
+  return modes.eigenvectors() * period.cwiseInverse().asDiagonal() * modes.eigenvectors().transpose() * motion.M;
+}
+
+double stiffest_omega(const HeldBody& body, double t, const StrainVector& q) {
+  const StrainMatrix K = body.stiffness().asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> modes(K, body.mass_matrix(t, q), Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, modes.eigenvalues().maxCoeff()));
+}
+
+double radius_of_gyration(const BodyInertia& body) { return std::sqrt(0.5 * body.inertia_O.trace() / body.mass); }
+
+}  // namespace
+
+struct StepControl::Span {
+  const HeldBody& body;
+  const MotionSegment& handle;
+  Memory& memory;
+  ControlledStep report;
+
+  /// An error of the strain as one length.
+  double length(double t, const StrainVector& q, const StrainVector& error) const {
+    const Sizes s = sizes(body, t, q, error);
+    return std::hypot(s.position, radius_of_gyration(body.body()) * s.angle);
+  }
+};
+
+StepControl::StepControl(std::unique_ptr<Integrator> integrator, double tolerance)
+    : integrator_(std::move(integrator)), tolerance_(tolerance) {}
+
+ControlledStep StepControl::advance(const HeldBody& body, const MotionSegment& handle, double t, double h,
+                                    StrainState& state, Memory& memory) const {
+  Span span{body, handle, memory, {}};
+  const Memory before = memory;
+  StrainState next = state;
+  span.report.fine = tolerance_ > 0.0              ? steps_to_tolerance(span, t, h, next)
+                     : integrator_->unlimited()    ? step_in_halves(span, t, h, 0, next)
+                                                   : [&] {
+                                                       StepEstimate estimate;
+                                                       return try_step(span, t, h, next, estimate);
+                                                     }();
+  if (span.report.fine) {
+    state = next;
+  } else {
+    memory = before;
+  }
+  return span.report;
+}
+
+bool StepControl::try_step(Span& span, double t, double h, StrainState& state, StepEstimate& estimate) const {
+  const HeldBody& body = span.body;
+  const StrainState begin = state;
+  estimate = integrator_->step(body, span.handle, t, h, state);
+  const bool fine = (state.q.norm() + state.q_dot.norm()) < most_strain &&
+                    body.shape().admissible(body.full_state(t + h, state).q);
+  if (!fine) return false;
+  // The estimate is in the coordinates of the step.
+  const Sizes s = sizes(body, t + h, state.q, estimate.q_error);
+  body.rechart(state);
+  ++span.report.steps;
+  if (integrator_->unlimited() && hold_energy(body, span.handle, t, h, begin, state, span.memory)) {
+    ++span.report.energy_held;
+  }
+  span.report.position_error = std::max(span.report.position_error, s.position);
+  span.report.angle_error = std::max(span.report.angle_error, s.angle);
+  double omega_dt = estimate.omega_dt;
+  if (!(omega_dt > 0.0)) {
+    if (span.memory.omega_version != body.version()) {
+      span.memory.stiffest_omega = stiffest_omega(body, t, begin.q);
+      span.memory.omega_version = body.version();
+    }
+    omega_dt = span.memory.stiffest_omega * h;
+  }
+  span.report.omega_dt = std::max(span.report.omega_dt, omega_dt);
+  span.memory.t = t + h;
+  span.memory.version = body.version();
+  return true;
+}
+
+bool StepControl::step_in_halves(Span& span, double t, double h, int level, StrainState& state) const {
+  const Memory memory = span.memory;
+  const ControlledStep report = span.report;
+  StrainState whole = state;
+  StepEstimate estimate;
+  const bool fine = try_step(span, t, h, whole, estimate);
+  bool good = fine;
+  if (fine) {
+    const Sizes s = sizes(span.body, t + h, whole.q, estimate.q_error);
+    good = s.position < large_error * span.body.shape().length() && s.angle < large_error;
+  }
+  if (good || level == most_halvings) {
+    if (fine) state = whole;
+    return fine;
+  }
+  span.memory = memory;
+  span.report = report;
+  ++span.report.rejected;
+  return step_in_halves(span, t, 0.5 * h, level + 1, state) &&
+         step_in_halves(span, t + 0.5 * h, 0.5 * h, level + 1, state);
+}
+
+bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState& state) const {
+  Memory& memory = span.memory;
+  if (memory.version != span.body.version() || memory.t != t || memory.error.q.size() != span.body.size()) {
+    memory.error = span.body.zero_state();
+    memory.next_h = h;
+  }
+  const double end = t + h, shortest = smallest_step * h, order = integrator_->order();
+  int rejected = 0;
+  const HandleForcing begin = span.body.forcing(span.handle, t);
+  const LinearisedMotion motion(span.body, begin, state, span.body.acceleration(begin, state.q, state.q_dot));
+  const StrainMatrix swing = swing_of(motion);
+  while (end - t > 1e-9 * h) {
+    const double left = end - t;
+    const double dt = memory.next_h > 0.95 * left ? left : memory.next_h;
+    const Memory memory_before = memory;
+    const ControlledStep report_before = span.report;
+    StrainState next = state;
+    StepEstimate estimate;
+    const bool fine = try_step(span, t, dt, next, estimate);
+    StrainState error = memory.error;
+    double growth = least_growth;
+    bool good = false;
+    if (fine) {
+      carry_deviation(motion, dt, error);
+      const auto amplitude = [&](const StrainVector& q, const StrainVector& q_dot) {
+        return std::hypot(span.length(t + dt, next.q, q), span.length(t + dt, next.q, swing * q_dot));
+      };
+      const double left_over = tolerance_ - amplitude(error.q, error.q_dot);
+      const double allowed = std::max(left_over, tolerance_ * dt / undamped_horizon);
+      const double local = amplitude(estimate.q_error, estimate.q_dot_error);
+      error.q += estimate.q_error;
+      error.q_dot += estimate.q_dot_error;
+      good = local <= allowed || amplitude(error.q, error.q_dot) <= tolerance_;
+      const double power = rejected > 0 ? 0.5 : 1.0 / (order + 1.0);  // a stiff step may behave as one of low order
+      growth = local > 0.0 ? safety * std::pow(allowed / local, power) : most_growth;
+    }
+    growth = std::clamp(growth, least_growth, rejected > 0 ? 1.0 : most_growth);
+    if (good || (fine && dt <= shortest)) {
+      memory.error = error;
+      // A step that the span's end has cut short says nothing against a longer one.
+      memory.next_h = std::max(dt < memory_before.next_h ? memory_before.next_h : 0.0, dt * growth);
+      state = next;
+      t += dt;
+      rejected = 0;
+    } else {
+      if (dt <= shortest) return false;
+      memory = memory_before;
+      span.report = report_before;
+      memory.next_h = dt * std::min(growth, 0.8);
+      ++span.report.rejected;
+      ++rejected;
+    }
+  }
+  memory.t = end;
+  return true;
+}
+
+}  // namespace spring_workbench

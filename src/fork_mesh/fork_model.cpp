@@ -1,0 +1,149 @@
+#include "spring_workbench/fork_mesh/fork_model.h"
+
+#include <cmath>
+
+#include "spring_workbench/config/yaml_fields.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double pi = 3.14159265358979323846;
+constexpr double coil_radius = 0.5;     ///< [diameters], of the wire's centre
+constexpr double flange = 0.2;          ///< thickness of the discs that hold the wire's ends [diameters]
+
+void check(const ForkLook& look) {
+  const char* const where = "fork look";
+  check_number(where, "turns", look.turns, between(1, 1000));
+  check_number(where, "points_per_turn", look.points_per_turn, between(3, 1000));
+  check_number(where, "wire_sides", look.wire_sides, between(3, 1000));
+  check_number(where, "round_sides", look.round_sides, between(3, 1000));
+  check_number(where, "wire_radius", look.wire_radius, positive());
+  check_number(where, "shaft_radius", look.shaft_radius, positive());
+  check_number(where, "shaft_length", look.shaft_length, positive());
+  check_number(where, "prong_radius", look.prong_radius, positive());
+  check_number(where, "prong_gap", look.prong_gap, positive());
+  check_number(where, "prong_length", look.prong_length, positive());
+}
+
+/// Two triangles a, b, c and a, c, d.
+void add_quad(int a, int b, int c, int d, ForkModel::Triangles& triangles) {
+  triangles.emplace_back(a, b, c);
+  triangles.emplace_back(a, c, d);
+}
+
+}  // namespace
+
+ForkModel::ForkModel(const ForkLook& look) : look_(look) {
+  check(look);
+  make_shaft();
+  make_end();
+  make_spring();
+}
+
+std::size_t ForkModel::vertex_count() const {
+  return shaft_.size() + end_.size() + wire_.size() * static_cast<std::size_t>(look_.wire_sides);
+}
+
+void ForkModel::make_shaft() {
+  const double rim = coil_radius + look_.wire_radius;
+  revolve({{0.0, -look_.shaft_length},
+           {look_.shaft_radius, -look_.shaft_length},
+           {look_.shaft_radius, -2.0 * flange},
+           {rim, -flange},
+           {rim, 0.0},
+           {0.0, 0.0}},
+          0.0, shaft_);
+}
+
+void ForkModel::make_end() {
+  const double rim = coil_radius + look_.wire_radius, tip = look_.prong_length;
+  revolve({{0.0, 0.0}, {rim, 0.0}, {rim, flange}, {0.0, flange}}, 0.0, end_);
+  for (const double centre : {-look_.prong_gap, 0.0, look_.prong_gap}) {
+    revolve({{0.0, 0.5 * flange}, {look_.prong_radius, 0.5 * flange}, {look_.prong_radius, 0.7 * tip}, {0.0, tip}},
+            centre, end_);
+  }
+}
+
+/// Adds the surface that the profile's points (radius, z), from back to front, sweep about the line x = `centre`, to the
+/// shaft or the end. Edges are sharp: each piece of the profile has its own vertices and normals.
+void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double centre, Vertices& part) {
+  const int sides = look_.round_sides;
+  for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
+    const Eigen::Vector2d along = (profile[k + 1] - profile[k]).normalized();
+    const Eigen::Vector2d outward(along.y(), -along.x());
+    const int first = static_cast<int>(shaft_.size() + end_.size());
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2.0 * pi * i / sides;
+      for (const Eigen::Vector2d& p : {profile[k], profile[k + 1]}) {
+        const double x = centre + p.x() * std::cos(angle), y = p.x() * std::sin(angle);
+        const double phi = std::atan2(y, x), turn = angle - phi;
+        part.push_back({std::hypot(x, y), phi, p.y(), outward.x() * std::cos(turn), outward.x() * std::sin(turn),
+                        outward.y()});
+      }
+      const int a = first + 2 * i, b = first + 2 * ((i + 1) % sides);
+      if (profile[k].x() > 0.0) rigid_triangles_.emplace_back(a, b, b + 1);
+      if (profile[k + 1].x() > 0.0) rigid_triangles_.emplace_back(a, b + 1, a + 1);
+    }
+  }
+}
+
+void ForkModel::make_spring() {
+  const int rings = look_.turns * look_.points_per_turn + 1;
+  const auto ring = [&](int k, double cap) {
+    const double share = static_cast<double>(k) / (rings - 1);
+    wire_.push_back({coil_radius, 2.0 * pi * look_.turns * share, share, cap});
+  };
+  ring(0, -1.0);
+  for (int k = 0; k < rings; ++k) ring(k, 0.0);
+  ring(rings - 1, 1.0);
+
+  const int sides = look_.wire_sides, first = static_cast<int>(shaft_.size() + end_.size());
+  const int begin_cap = first, around = first + sides, end_cap = around + rings * sides;
+  for (int i = 0; i < sides; ++i) {
+    const int next = (i + 1) % sides;
+    for (int k = 0; k + 1 < rings; ++k) {
+      const int a = around + k * sides, b = a + sides;
+      add_quad(a + i, a + next, b + next, b + i, spring_triangles_);
+    }
+    if (i == 0 || next == 0) continue;
+    spring_triangles_.emplace_back(begin_cap, begin_cap + next, begin_cap + i);
+    spring_triangles_.emplace_back(end_cap, end_cap + i, end_cap + next);
+  }
+}
+
+/// The ring's centre is where the deformed cylinder takes it; around it, the wire is round in its own cross section.
+void ForkModel::add_ring(const WireRing& ring, const ForkCurve& curve, double diameter, ForkMesh& mesh) const {
+  const CurvePoint at = curve.at(ring.z);
+  const double phi_rate = 2.0 * pi * look_.turns;  // along the spring
+  const Vector3d out(std::cos(ring.phi), std::sin(ring.phi), 0.0), around(-out.y(), out.x(), 0.0);
+  const Vector3d from_axis = ring.r * diameter * out;
+  const Vector3d centre = at.p + at.R * from_axis;
+  const Vector3d along =
+      (at.p_rate + at.R * (at.turn_rate.cross(from_axis) + ring.r * diameter * phi_rate * around)).normalized();
+  const Vector3d side = along.cross(at.R * out).normalized();
+  const Vector3d outward = side.cross(along);
+  for (int i = 0; i < look_.wire_sides; ++i) {
+    const double angle = 2.0 * pi * i / look_.wire_sides;
+    const Vector3d direction = std::cos(angle) * outward + std::sin(angle) * side;
+    mesh.vertices.push_back(centre + look_.wire_radius * diameter * direction);
+    mesh.normals.push_back(ring.cap == 0.0 ? direction : Vector3d(ring.cap * along));
+  }
+}
+
+void ForkModel::deform(const ForkCurve& curve, double diameter, ForkMesh& mesh) const {
+  mesh.vertices.clear();
+  mesh.normals.clear();
+  const auto add_rigid = [&](const Vertices& part, const RigidTransform& X) {
+    for (const CylindricalVertex& v : part) {
+      const double c = std::cos(v.phi), s = std::sin(v.phi);
+      mesh.vertices.push_back(X * (diameter * Vector3d(v.r * c, v.r * s, v.z)));
+      mesh.normals.push_back(
+          X.linear() * Vector3d(v.normal_r * c - v.normal_phi * s, v.normal_r * s + v.normal_phi * c, v.normal_z));
+    }
+  };
+  add_rigid(shaft_, curve.begin());
+  add_rigid(end_, curve.end());
+  for (const WireRing& ring : wire_) add_ring(ring, curve, diameter, mesh);
+}
+
+}  // namespace spring_workbench

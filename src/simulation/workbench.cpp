@@ -1,0 +1,208 @@
+#include "workbench.h"
+
+#include <algorithm>
+
+#include "spring_workbench/scene/geometry.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double asleep_speed = 2e-3;  ///< [m/s]; a body in contact that stays slower …
+constexpr double asleep_after = 0.2;   ///< [s] … this long goes to sleep
+constexpr double support_gap = 1e-4;   ///< [m]; what is nearer below carries
+constexpr double world_limit = 100.0;  ///< [m] from the origin; a body that flies further stops there
+
+}  // namespace
+
+Workbench::Workbench(const Scene& scene, int bisection_levels) : scene_(scene), contacts_(scene) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    object_of_.push_back(movable_.size());
+    if (scene.bodies[i].movable) movable_.push_back(i);
+  }
+  if (scene.contact == ContactMode::stop) {
+    collision_ = std::make_unique<CollisionWorld>(scene);
+    contact_stepper_ = std::make_unique<ContactStepper>(scene, *collision_, bisection_levels);
+  }
+  reset();
+}
+
+void Workbench::reset() {
+  contacts_.reset(movable_.size());
+  if (scene_.contact == ContactMode::dynamic) dynamic_stepper_ = std::make_unique<DynamicStepper>(scene_);
+  states_.assign(movable_.size(), BodyState());
+  rows_.assign(movable_.size(), {});
+  slow_since_.assign(movable_.size(), 0.0);
+  free_bodies_.clear();
+  free_bodies_.resize(movable_.size());
+  for (std::size_t i = 0; i < movable_.size(); ++i) {
+    states_[i].name = body(i).name;
+    states_[i].X_WO = body(i).X_WO;
+    if (collision_) collision_->set_pose(movable_[i], body(i).X_WO);
+  }
+}
+
+void Workbench::clear_highlights() {
+  for (BodyState& o : states_) o.highlighted = false;
+}
+
+std::optional<std::size_t> Workbench::find(const std::string& name) const {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (states_[i].name == name) return i;
+  }
+  return std::nullopt;
+}
+
+bool Workbench::any_free() const {
+  if (dynamic_stepper_) return dynamic_stepper_->others_awake();
+  return std::any_of(free_bodies_.begin(), free_bodies_.end(), [](const auto& b) { return b != nullptr; });
+}
+
+void Workbench::take_state(std::size_t object, const MotionState& s) {
+  states_[object].X_WO = s.X;
+  states_[object].V_WO_W = s.velocity;
+  if (collision_) collision_->set_pose(movable_[object], s.X);
+}
+
+void Workbench::hold(std::size_t object, double now) {
+  free_bodies_[object].reset();
+  rows_[object].clear();
+  states_[object].held = true;
+  states_[object].highlighted = false;
+  states_[object].asleep = false;
+  wake_what_lies_on(object, now);
+}
+
+void Workbench::let_go(std::size_t object, bool thrown, double now) {
+  BodyState& o = states_[object];
+  o.held = false;
+  if (!thrown || massless(object)) o.V_WO_W = Twist();
+  if (massless(object)) {
+    o.asleep = true;
+    if (dynamic_stepper_) dynamic_stepper_->world().place(movable_[object], o.X_WO, Twist(), false);
+  } else {
+    set_free(object, o.V_WO_W, now);
+  }
+}
+
+void Workbench::set_free(std::size_t object, const Twist& V_WO_W, double now) {
+  states_[object].asleep = false;
+  if (dynamic_stepper_) {
+    dynamic_stepper_->set_free(movable_[object], states_[object].X_WO, V_WO_W);
+    return;
+  }
+  free_bodies_[object] = std::make_unique<FreeBody>(movable_[object], body(object), scene_.gravity,
+                                                    states_[object].X_WO, V_WO_W);
+  slow_since_[object] = now;
+}
+
+void Workbench::wake_what_lies_on(std::size_t object, double now) {
+  if (!collision_) return;
+  std::vector<ContactPoint> found;
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (i == object || !states_[i].asleep || states_[i].held || massless(i)) continue;
+    RigidTransform lowered = states_[i].X_WO;
+    lowered.translation().z() -= support_gap;
+    found.clear();
+    collision_->find_contacts(movable_[i], lowered, 0.0, found);
+    const bool rests_on_it = std::any_of(found.begin(), found.end(), [&](const ContactPoint& c) {
+      return c.other == movable_[object] && c.n_W.z() > 0.1;
+    });
+    if (!rests_on_it) continue;
+    set_free(i, Twist(), now);
+    states_[i].asleep = false;
+    wake_what_lies_on(i, now);
+  }
+}
+
+void Workbench::carry(SteppedBody& stepped, std::size_t object, double h, AdvanceReport& report) {
+  ++report.steps;
+  ContactOutcome outcome;
+  if (contact_stepper_) {
+    contact_stepper_->step(stepped, h, rows_[object], outcome);
+  } else {
+    stepped.remember();
+    if (!stepped.advance(h, Wrench())) {
+      stepped.go_back();
+      stepped.stay(h);
+      outcome.held_back = true;
+    }
+  }
+  take_state(object, stepped.object());
+  report.collision_queries += outcome.queries;
+  if (outcome.held_back) ++report.guards_tripped;
+  states_[object].in_contact = !outcome.rows.empty();
+  contacts_.note(object, states_[object], outcome.rows, h);
+}
+
+void Workbench::step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report) {
+  if (dynamic_stepper_) {
+    step_together(held, h, report);
+    return;
+  }
+  for (const Carried& c : held) carry(*c.body, c.object, h, report);
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (!free_bodies_[i]) continue;
+    carry(*free_bodies_[i], i, h, report);
+    put_to_sleep_if_slow(i, now + h);
+  }
+}
+
+void Workbench::step_together(const std::vector<Carried>& held, double h, AdvanceReport& report) {
+  if (held.empty() && !dynamic_stepper_->others_awake()) return;
+  std::vector<SteppedBody*> bodies;
+  for (const Carried& c : held) bodies.push_back(c.body);
+  const DynamicStepper::Outcome outcome = dynamic_stepper_->step(bodies, h);
+  report.steps += outcome.pieces;
+  report.collision_queries += outcome.pieces;
+  if (outcome.held_back) ++report.guards_tripped;
+  for (const Carried& c : held) take_state(c.object, c.body->object());
+  const RigidWorld& world = dynamic_stepper_->world();
+  for (const std::size_t near : world.bodies_near()) {
+    BodyState& o = states_[object_of_[near]];
+    if (!scene_.bodies[near].movable || o.held) continue;
+    o.X_WO = world.pose(near);
+    o.V_WO_W = world.velocity(near);
+    o.asleep = !world.awake(near);
+  }
+  note_world_contacts(h);
+}
+
+void Workbench::note_world_contacts(double h) {
+  std::vector<std::vector<ContactRow>> rows(states_.size());
+  for (const WorldContact& c : dynamic_stepper_->contacts()) {
+    ContactRow row;
+    row.point = {c.other, c.p_W, c.n_W, c.depth};
+    row.gap = -c.depth;
+    row.load_W = c.impulse_W / h;
+    rows[object_of_[c.body]].push_back(row);
+  }
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (states_[i].asleep && rows[i].empty()) continue;
+    states_[i].in_contact = !rows[i].empty();
+    contacts_.note(i, states_[i], rows[i], h);
+  }
+}
+
+bool Workbench::rests(std::size_t object) const {
+  if (dynamic_stepper_) return !dynamic_stepper_->others_awake();
+  const std::vector<ContactState>& touching = contacts_.touching(object);
+  return std::none_of(touching.begin(), touching.end(), [&](const ContactState& c) {
+    const std::optional<std::size_t> other = find(c.other);
+    return other && !states_[*other].asleep;
+  });
+}
+
+void Workbench::put_to_sleep_if_slow(std::size_t object, double now) {
+  BodyState& o = states_[object];
+  o.asleep = false;
+  const double speed = o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * bounding_radius(body(object));
+  if (!o.in_contact || !rests(object) || speed > asleep_speed) slow_since_[object] = now;
+  const bool away = o.X_WO.translation().norm() > world_limit;
+  if (away || now - slow_since_[object] > asleep_after) {
+    free_bodies_[object].reset();
+    o.V_WO_W = Twist();
+    o.asleep = true;
+  }
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "contact_log.h"
+#include "dynamic_stepper.h"
+#include "free_body.h"
+
+namespace spring_workbench {
+
+/// What a tool holds, to be carried over a step.
+struct Carried {
+  std::size_t object;  ///< in the workbench
+  SteppedBody* body;
+};
+
+/// The movable objects of a scene: their states, those that fly freely and those that sleep, and what they touch.
+/// An object is named by its place in `states()`. A tool takes it with `hold`, carries it, and gives it back with `let_go`.
+class Workbench {
+ public:
+  /// Keeps a reference to `scene`. `bisection_levels`: of the search for contact.
+  Workbench(const Scene& scene, int bisection_levels);
+
+  /// All objects back to their start, asleep.
+  void reset();
+
+  const std::vector<BodyState>& states() const { return states_; }
+  BodyState& state(std::size_t object) { return states_[object]; }
+  const Body& body(std::size_t object) const { return scene_.bodies[movable_[object]]; }
+  std::size_t scene_index(std::size_t object) const { return movable_[object]; }
+  bool massless(std::size_t object) const { return !(body(object).mass_properties.mass > 0.0); }
+  void clear_highlights();
+  std::optional<std::size_t> find(const std::string& name) const;
+  bool with_contact() const { return scene_.contact != ContactMode::none; }
+  /// Whether an object is in free flight: not held and not asleep.
+  bool any_free() const;
+  ContactLog& contacts() { return contacts_; }
+  const ContactLog& contacts() const { return contacts_; }
+
+  /// A tool takes the object at time `now` [s]; what lies on it wakes.
+  void hold(std::size_t object, double now);
+  /// The object flies on with its twist (`thrown`) or from rest; a massless one stays where it is.
+  void let_go(std::size_t object, bool thrown, double now);
+  void take_state(std::size_t object, const MotionState& s);
+
+  /// Wakes the sleepers that rest on `object`, and on one another.
+  void wake_what_lies_on(std::size_t object, double now);
+  /// Whether nothing that a held object could touch moves.
+  bool rests(std::size_t object) const;
+
+  /// Carries what is held and all that flies freely over `h` [s] from `now` on, with contact as the scene has it; who has
+  /// been slow for long enough falls asleep.
+  void step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report);
+
+ private:
+  void step_together(const std::vector<Carried>& held, double h, AdvanceReport& report);
+  void note_world_contacts(double h);
+  void carry(SteppedBody& stepped, std::size_t object, double h, AdvanceReport& report);
+  void set_free(std::size_t object, const Twist& V_WO_W, double now);
+  void put_to_sleep_if_slow(std::size_t object, double now);
+
+  const Scene& scene_;
+  std::unique_ptr<CollisionWorld> collision_;       ///< of contact mode `stop` alone
+  std::unique_ptr<ContactStepper> contact_stepper_;  ///< likewise
+  std::unique_ptr<DynamicStepper> dynamic_stepper_;  ///< of contact mode `dynamic` alone
+  ContactLog contacts_;
+  // All parallel, one entry for each movable object.
+  std::vector<std::size_t> movable_;  ///< index in the scene
+  std::vector<BodyState> states_;
+  std::vector<std::vector<ContactRow>> rows_;
+  std::vector<std::unique_ptr<FreeBody>> free_bodies_;  ///< null while held or asleep
+  std::vector<double> slow_since_;                      ///< [s]
+  std::vector<std::size_t> object_of_;                  ///< by index in the scene; means something for movable bodies
+};
+
+}  // namespace spring_workbench

@@ -1,0 +1,70 @@
+#include <set>
+
+#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/tracker/fastrak_source.h"
+
+namespace spring_workbench {
+
+const std::vector<int>& fastrak_baud_rates() {
+  static const std::vector<int> rates{2400, 4800, 9600, 19200, 38400, 57600, 115200};
+  return rates;
+}
+
+const std::vector<std::string>& fastrak_keys() {
+  static const std::vector<std::string> keys{"port",        "baud",      "format",     "stations",
+                                             "orientation", "redundant", "hemisphere", "stylus"};
+  return keys;
+}
+
+namespace {
+
+/// A list of integers, or one integer.
+std::vector<int> read_stations(const YAML::Node& node, const std::string& where) {
+  std::vector<int> stations;
+  if (node.IsScalar()) stations.push_back(read_integer(node, where, "stations", 1, kFastrakStations));
+  if (node.IsSequence()) {
+    for (const YAML::Node& entry : node) {
+      stations.push_back(read_integer(entry, where, "stations", 1, kFastrakStations));
+    }
+  }
+  const std::set<int> different(stations.begin(), stations.end());
+  if (stations.empty() || different.size() != stations.size()) {
+    throw InputError(where + ": stations: must be a list of some of 1, 2, 3, 4, none twice");
+  }
+  return stations;
+}
+
+int read_baud(const YAML::Node& node, const std::string& where) {
+  std::vector<std::string> names;
+  for (const int rate : fastrak_baud_rates()) names.push_back(std::to_string(rate));
+  return std::stoi(read_choice(node, where, "baud", names));
+}
+
+}  // namespace
+
+FastrakSettings read_fastrak_settings(const YAML::Node& map, const std::string& where) {
+  FastrakSettings settings;
+  if (map["port"]) settings.port = read_string(map["port"], where, "port");
+  if (settings.port.empty()) refuse(where, "port", "(nothing)", "a path");
+  if (map["baud"]) settings.baud = read_baud(map["baud"], where);
+  if (map["format"]) {
+    const bool binary = read_choice(map["format"], where, "format", {"binary", "ascii"}) == "binary";
+    settings.format = binary ? FastrakFormat::binary : FastrakFormat::ascii;
+  }
+  if (map["stations"]) settings.stations = read_stations(map["stations"], where);
+  if (map["orientation"]) {
+    settings.euler = read_choice(map["orientation"], where, "orientation", {"quaternion", "euler"}) == "euler";
+  }
+  if (map["redundant"]) settings.redundant = read_bool(map["redundant"], where, "redundant");
+  if (map["stylus"]) settings.stylus = read_bool(map["stylus"], where, "stylus");
+  if (map["hemisphere"]) {
+    const auto direction = read_numbers(map["hemisphere"], where, "hemisphere", 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      check_number(where, "hemisphere", direction[i], between(-1e3, 1e3));
+      settings.hemisphere[static_cast<Eigen::Index>(i)] = direction[i];
+    }
+  }
+  return settings;
+}
+
+}  // namespace spring_workbench

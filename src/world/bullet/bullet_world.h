@@ -1,0 +1,80 @@
+#pragma once
+
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "bullet_shape.h"
+#include "driven_solver.h"
+#include "spring_workbench/world/rigid_world.h"
+
+namespace spring_workbench {
+
+/// Bullet's world, with what rests taken out of it and driven bodies in its solver.
+class BulletWorld final : public RigidWorld {
+ public:
+  explicit BulletWorld(const Scene& scene);
+  ~BulletWorld() override;
+  BulletWorld(const BulletWorld&) = delete;
+  BulletWorld& operator=(const BulletWorld&) = delete;
+
+  void step(double h, std::vector<DrivenBody>& driven) override;
+  void place(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W, bool awake) override;
+  const RigidTransform& pose(std::size_t body) const override { return items_[body].X_WO; }
+  const Twist& velocity(std::size_t body) const override { return items_[body].V_WO_W; }
+  bool awake(std::size_t body) const override { return awake(items_[body]); }
+  bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                 double margin) const override;
+  const std::vector<WorldContact>& contacts() const override { return contacts_; }
+  const std::vector<std::size_t>& bodies_near() const override { return in_world_; }
+
+ private:
+  struct Item {
+    bool movable = false;
+    bool massless = false;                             ///< movable, but only by what drives it
+    Eigen::AlignedBox3d box_O;
+    double radius = 0.0;
+    RigidTransform X_WO = RigidTransform::Identity();
+    Twist V_WO_W;
+    RigidTransform X_OB = RigidTransform::Identity();  ///< principal axes, where Bullet's tensors are diagonal
+    btDbvtNode* leaf = nullptr;                        ///< null where there is nothing to touch
+    std::unique_ptr<BulletShape> shape;                ///< these two are made when something first comes near
+    std::unique_ptr<btRigidBody> bullet;
+    bool in_world = false;
+    bool driven = false;                               ///< in the present step
+    long near_at = 0;                                  ///< step in which something awake was last near
+  };
+
+  void make_bullet(std::size_t index);
+  void enter(std::size_t index);
+  void leave(std::size_t index);
+  void put(std::size_t index, const RigidTransform& X_WO, const Twist& V_WO_W);
+  void update_box(Item& item);
+  std::vector<std::size_t> inside(const Eigen::AlignedBox3d& box_W) const;
+  Eigen::AlignedBox3d way_of(std::size_t index, double h) const;
+  void begin_driving(std::vector<DrivenBody>& driven, double h);
+  void end_driving(const std::vector<DrivenBody>& driven);
+  void take_states();
+  void take_contacts();
+  bool awake(const Item& item) const {
+    return item.in_world && item.movable && (item.driven || (item.bullet->isActive() && !item.massless));
+  }
+
+  Scene scene_;
+  std::vector<Item> items_;            ///< parallel to the scene's bodies
+  btDbvt tree_;                        ///< of all of them
+  std::vector<std::size_t> in_world_;  ///< those that Bullet has to look at
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  DrivenSolver solver_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  btStaticPlaneShape bench_shape_;
+  std::unique_ptr<btRigidBody> bench_body_;
+  std::vector<WorldContact> contacts_;
+  long steps_ = 0;
+};
+
+}  // namespace spring_workbench

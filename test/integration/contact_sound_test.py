@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+"""contact_sound as a user runs it: contacts in, a WAV file or the sound device out."""
+import array
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+import wave
+
+import roslib.packages
+import rospy
+import rostest
+from spring_workbench.msg import Contact, Contacts
+
+from stack import DEADLINE, wait_for
+
+NODE = roslib.packages.find_node("spring_workbench", "contact_sound")[0]
+
+
+class Player:
+    def __init__(self, *parameters, **environment):
+        self.process = subprocess.Popen([NODE, *parameters],
+                                        env={**os.environ, **environment}, stderr=subprocess.PIPE, text=True)
+
+    def end(self):
+        self.process.send_signal(signal.SIGINT)
+        return self.process.communicate(timeout=DEADLINE)[1], self.process.returncode
+
+
+def contact(phase, impulse=0.0, slip_speed=0.0):
+    return Contacts(contacts=[Contact(object="box", other="workbench", phase=phase, impulse=impulse,
+                                      slip_speed=slip_speed)])
+
+
+class ContactSound(unittest.TestCase):
+    def setUp(self):
+        self.publisher = rospy.Publisher("contacts", Contacts, queue_size=10)
+
+    def test_an_impact_and_a_scrape_are_in_the_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "sound.wav")
+            player = Player("_file:=" + path)
+            wait_for(lambda: self.publisher.get_num_connections() > 0, "the player to listen")
+            time.sleep(0.5)
+            self.publisher.publish(contact(Contact.STARTED, impulse=0.5))
+            time.sleep(0.5)
+            for _ in range(50):
+                self.publisher.publish(contact(Contact.PERSISTING, slip_speed=0.5))
+                time.sleep(0.02)
+            player.end()
+            with wave.open(path) as file:
+                self.assertEqual((file.getnchannels(), file.getsampwidth(), file.getframerate()), (1, 2, 44100))
+                samples = array.array("h", file.readframes(file.getnframes()))
+        self.assertGreater(len(samples), 44100)
+        first = next(i for i, s in enumerate(samples) if abs(s) > 500)
+        ringing = samples[first:first + 2205]
+        later = samples[first + 15000:first + 20000]  # rung out, nothing slips yet
+        scrape = samples[first + 35000:first + 45000]
+        loudness = lambda part: sum(s * s for s in part) / len(part)
+        self.assertGreater(loudness(ringing), 100 * loudness(later) + 1)
+        self.assertGreater(loudness(scrape), 100 * loudness(later) + 1)
+
+    def test_plays_on_a_device(self):
+        player = Player(SDL_AUDIODRIVER="dummy")
+        try:
+            wait_for(lambda: self.publisher.get_num_connections() > 0 or player.process.poll() is not None,
+                     "the player to listen")
+        finally:
+            said, status = player.end()
+        if "built without SDL 2" in said:
+            self.skipTest("built without SDL 2")
+        self.assertEqual(status, 0, said)
+
+    def test_bad_parameters_are_refused_in_one_line(self):
+        for parameter, word in [("_volume:=2", "volume"), ("_file:=/nowhere/a.wav", "/nowhere/a.wav"), ("_x:=1", "x")]:
+            process = subprocess.run([NODE, parameter], capture_output=True,
+                                     text=True, timeout=DEADLINE)
+            rospy.delete_param("contact_sound")
+            self.assertEqual(process.returncode, 2)
+            self.assertEqual(len(process.stderr.strip().splitlines()), 1, process.stderr)
+            self.assertIn(word, process.stderr)
+
+
+if __name__ == "__main__":
+    rospy.init_node("contact_sound_test", disable_signals=True)
+    rostest.rosrun("spring_workbench", "contact_sound_test", ContactSound, sys.argv)

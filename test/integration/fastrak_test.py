@@ -1,0 +1,51 @@
+#!/usr/bin/python3
+"""tracker_driver on a simulated FASTRAK: two stations that slide along x, and a plug that is pulled after 8 s."""
+import sys
+import unittest
+
+import rospy
+import rostest
+from sensor_msgs.msg import Joy
+from tf2_msgs.msg import TFMessage
+
+from stack import Listener, diagnostic_values, diagnostics_listener, wait_for
+
+RATE = 60.0  # [Hz] of each of two stations
+COUNT = 200
+
+
+class Fastrak(unittest.TestCase):
+    def test_passes_the_device_on_and_survives_a_pulled_plug(self):
+        tf, joy, diagnostics = Listener("/tf", TFMessage), Listener("stylus/joy", Joy), diagnostics_listener()
+
+        def of(frame):
+            return [t for m in tf.messages for t in m.transforms if t.child_frame_id == frame]
+
+        wait_for(lambda: min(len(of("stylus")), len(of("stylus_2"))) >= COUNT, "the device's poses")
+        for frame in ["stylus", "stylus_2"]:
+            transforms = of(frame)[:COUNT]
+            stamps = [t.header.stamp.to_sec() for t in transforms]
+            self.assertTrue(all(a < b for a, b in zip(stamps, stamps[1:])))
+            self.assertAlmostEqual((COUNT - 1) / (stamps[-1] - stamps[0]) / RATE, 1.0, delta=0.2)
+            for t in transforms:
+                self.assertEqual(t.header.frame_id, "workbench")
+                # The file: (1 + s, 2, 3) with s from 0 to 0.49; the transmitter is turned by 90 degrees about z.
+                p = t.transform.translation
+                self.assertAlmostEqual(p.x, -2.0, delta=1e-6)
+                self.assertAlmostEqual(p.z, 3.5, delta=1e-6)
+                self.assertTrue(0.999 < p.y < 1.491, p.y)
+        self.assertGreater(len(joy.messages), COUNT / 2)
+
+        def values():
+            return diagnostic_values(diagnostics.messages, "source")
+
+        wait_for(lambda: values().get("times the port was lost") == "1", "the pulled plug to be told")
+        lost = len(of("stylus"))
+        wait_for(lambda: len(of("stylus")) > lost + COUNT, "the device to be found again")
+        wait_for(lambda: "streaming" in values().get("state", ""), "the diagnostics to say so")
+        self.assertTrue(all(abs(t.transform.translation.x + 2.0) < 1e-6 for t in of("stylus")))
+
+
+if __name__ == "__main__":
+    rospy.init_node("fastrak_test")
+    rostest.rosrun("spring_workbench", "fastrak_test", Fastrak, sys.argv)

@@ -1,0 +1,52 @@
+#!/usr/bin/python3
+"""dynamic_reconfigure, the services and ~fork show one and the same fork."""
+import sys
+import unittest
+
+import rospy
+import rostest
+from dynamic_reconfigure.client import Client
+from spring_workbench.msg import ForkState
+from spring_workbench.srv import SetForkDofs, SetForkStiffness, SetIntegrator
+
+from stack import DEADLINE, Listener, wait_for
+
+
+class LiveTuning(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.fork = Listener("manipulation/fork", ForkState)
+        cls.client = Client("manipulation/live", timeout=DEADLINE)
+
+    def test_starts_from_the_settings_not_from_what_was_left(self):
+        state = self.fork.next()
+        self.assertEqual((state.bend_stiffness, state.torsion_on), (500.0, True))
+
+    def test_what_is_set_goes_to_the_simulation(self):
+        answer = self.client.update_configuration({"torsion": False, "bend_stiffness": 321.5, "stretch_damping": 0.25})
+        self.assertEqual(answer["bend_stiffness"], 321.5)
+        state = self.fork.next(lambda m: not m.torsion_on, "torsion to be off")
+        self.assertEqual((state.bend_stiffness, state.stretch_damping_ratio, state.stretch_on), (321.5, 0.25, True))
+        self.client.update_configuration({"torsion": True, "bend_stiffness": 500.0, "stretch_damping": 1.0})
+        self.fork.next(lambda m: m.torsion_on, "torsion to be on")
+
+    def test_what_services_change_is_shown(self):
+        rospy.ServiceProxy("manipulation/set_stiffness", SetForkStiffness)(0.0, 0.0, 7.25)
+        rospy.ServiceProxy("manipulation/set_dofs", SetForkDofs)(False, True, True)
+        rospy.ServiceProxy("manipulation/set_integrator", SetIntegrator)("closed_form", 0.005, 0.0)
+        shown = lambda: self.client.get_configuration(timeout=DEADLINE)
+        wait_for(lambda: shown()["torsion_stiffness"] == 7.25 and not shown()["stretch"] and
+                 shown()["integrator"] == "closed_form" and shown()["step"] == 0.005, "the changes to be shown")
+
+    def test_what_the_simulation_refuses_is_put_back(self):
+        before = self.fork.next().integrator
+        answer = self.client.update_configuration({"integrator": "crystal_ball"})
+        self.assertEqual(answer["integrator"], before)
+        answer = self.client.update_configuration({"bend_stiffness": float("nan")})
+        self.assertGreater(answer["bend_stiffness"], 0.0)
+        self.assertEqual(self.fork.next().integrator, before)
+
+
+if __name__ == "__main__":
+    rospy.init_node("live_tuning_test")
+    rostest.rosrun("spring_workbench", "live_tuning_test", LiveTuning, sys.argv)

@@ -1,0 +1,146 @@
+#!/usr/bin/python3
+"""Every recorded motion and every bag of ../shared/data through `replay`, which has the truth layer of the nodes, with an
+object held: nothing that is no number, and speed, acceleration and wrench within limits, through every gap, flip and jump.
+
+Usage: recordings_test.py REPLAY SHARED_DIR SCENE
+"""
+import csv
+import glob
+import json
+import math
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+REPLAY, SHARED, SCENE = sys.argv[1:4]
+SKIPPED = 77  # exit status that ctest takes for a skipped test
+
+# The hands of the recordings move at up to 2.5 m/s; catching up adds 0.5 m/s. The object on its fork may swing faster
+# than the hand by the fork's own motion. Mass 1 kg: the weight is 9.81 N.
+FASTEST = 4.0        # [m/s]
+STRONGEST = 250.0    # [N]
+SETTINGS = ["contact=none", "grasp.object=box", "start.follow=true", "grasp.tip_in_object=0 0 0 1 0 0 0", "rate=200"]
+BAGS = {  # what is in them: parent, child; or the word of the line that refuses them
+    "evo_tf_example_lz4.bag": ("odom", "base_footprint"),
+    "rosbagjs_turtlesim_tf.bag": ("world", "turtle1"),
+    "fuse_turtlebot3_odom_bz2.bag": "none",
+    "rosbagjs_no-messages.bag": "none",
+    "rosbagjs_not-a-bag.bag": "must be a bag",
+}
+
+
+class Recordings(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def run_replay(self, *arguments):
+        out = os.path.join(tempfile.mkdtemp(dir=self.folder.name), "run.csv")
+        command = [REPLAY, "--scene", SCENE, "--out", out, *arguments]
+        for setting in SETTINGS:
+            command += ["--set", setting]
+        return subprocess.run(command, capture_output=True, text=True), out
+
+    def check(self, *arguments, may_lose=False):
+        """Runs and holds all rows to the limits; the summary."""
+        done, out = self.run_replay(*arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        summary = json.loads(done.stdout.splitlines()[-1])
+        rows = 0
+        fastest = strongest = 0.0
+        with open(out.replace(".csv", ".fork.csv")) as file:
+            held = []
+            for row in csv.DictReader(file):
+                held.append(row["held"] == "box")
+                force = [float(row["tip_f" + axis]) for axis in "xyz"]
+                self.assertTrue(all(map(math.isfinite, force)), row)
+                strongest = max(strongest, math.hypot(*force))
+        self.assertTrue(all(held) or may_lose)
+        with open(out) as file:
+            for row in csv.DictReader(file):
+                values = [float(v) for k, v in row.items() if k != "object"]
+                self.assertTrue(all(map(math.isfinite, values)), row)
+                if held[rows]:  # what was let go of falls
+                    fastest = max(fastest, math.hypot(float(row["vx"]), float(row["vy"]), float(row["vz"])))
+                rows += 1
+        print("%-40s %s\n    %d samples, left out %s, dropouts %d, found again %d; fastest %.2f m/s, strongest %.0f N" %
+              (os.path.basename(arguments[1]), " ".join(arguments[2:]), summary["samples"], summary["left_out"],
+               summary["dropouts"], summary["reengagements"], fastest, strongest))
+        self.assertGreater(rows, 100)
+        self.assertEqual(summary["guards_tripped"], 0)
+        self.assertLess(fastest, FASTEST)
+        self.assertLess(strongest, STRONGEST)
+        return summary
+
+    def test_every_motion(self):
+        files = sorted(glob.glob(SHARED + "/data/motions/*.tum"))
+        self.assertGreaterEqual(len(files), 8)
+        for path in files:
+            with self.subTest(path=path):
+                summary = self.check("--motion", path)
+                left_out = summary["left_out"]
+                if "falcon5" in path:
+                    self.assertEqual(left_out, {"stamp not later": 1300})
+                elif "tango_hard" in path:
+                    self.assertEqual(left_out, {"stamp not later": 277})
+                elif "vicon" in path:
+                    self.assertEqual(left_out, {"stamp not later": 3})
+                elif "room2_gaps" in path:
+                    self.assertEqual(left_out, {})
+                    self.assertEqual((summary["dropouts"], summary["reengagements"]), (6, 6))
+                else:
+                    self.assertEqual(left_out, {})
+                    self.assertEqual(summary["reengagements"], 0)
+
+    def test_a_lost_hand_lets_go(self):
+        summary = self.check("--motion", SHARED + "/data/motions/tumvi_room2_gaps_60s.tum", "--set", "truth.lost=release",
+                             "--set", "truth.lost_after=1.0", may_lose=True)
+        self.assertGreaterEqual(summary["losses"], 1)
+
+    def test_every_bag(self):
+        files = sorted(glob.glob(SHARED + "/data/bags/*.bag"))
+        self.assertEqual({os.path.basename(f) for f in files}, set(BAGS))
+        for path in files:
+            expected = BAGS[os.path.basename(path)]
+            with self.subTest(path=path):
+                if isinstance(expected, tuple):
+                    self.check("--bag", path, "--parent", expected[0], "--child", expected[1])
+                else:
+                    done, out = self.run_replay("--bag", path)
+                    self.assertEqual(done.returncode, 2)
+                    self.assertIn(expected, done.stderr)
+                    self.assertFalse(os.path.exists(out))
+
+    def test_every_ugliness_in_one_hand(self):
+        """A recording spoilt on purpose: lone outliers, flips, jumps to the origin and away, a gap."""
+        source = SHARED + "/data/motions/vicon_handheld_primesense1_60s.tum"
+        with open(source) as file:
+            lines = [line.split() for line in file if line.strip() and not line.startswith("#")][:3000]
+        for k, words in enumerate(lines):
+            if k % 97 == 50:
+                words[1] = str(float(words[1]) + 1.5)
+            if k % 131 == 60:
+                words[4:8] = [str(-float(w)) for w in words[4:8]]
+            if 1000 <= k < 1100:
+                words[1:8] = ["0.0001", "0", "0", "0", "0", "0", "1"]
+            if k >= 2000:
+                words[2] = str(float(words[2]) + 2.0)
+        del lines[1500:1700]
+        path = os.path.join(self.folder.name, "spoilt.tum")
+        with open(path, "w") as file:
+            file.writelines(" ".join(words) + "\n" for words in lines)
+        summary = self.check("--motion", path)
+        left_out = summary["left_out"]
+        self.assertGreater(left_out["too fast"], 20)
+        self.assertEqual(left_out["out of view"], 100)
+        self.assertEqual(summary["dropouts"], 2)
+        self.assertGreaterEqual(summary["reengagements"], 3)
+
+
+if __name__ == "__main__":
+    if not os.path.isdir(SHARED + "/data"):
+        print("skipped: no recordings in " + SHARED)
+        sys.exit(SKIPPED)
+    unittest.main(argv=sys.argv[:1])

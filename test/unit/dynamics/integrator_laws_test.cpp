@@ -1,0 +1,79 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "spring_workbench/dynamics/integrator.h"
+#include "support/held_cases.h"
+
+namespace spring_workbench {
+namespace {
+
+StrainState carried(Integrator& integrator, const Case& c, double t, double h, int steps, StrainState state) {
+  for (int i = 0; i < steps; ++i) integrator.step(c.held, c.hand, t + i * h, h, state);
+  return state;
+}
+
+class EveryIntegrator : public testing::TestWithParam<std::string> {
+ protected:
+  bool limited() const {  // by the stiffest mode: the explicit ones
+    return GetParam() == "rk4" || GetParam() == "semi_implicit_euler";
+  }
+};
+
+TEST_P(EveryIntegrator, HasItsOrderOfAccuracy) {
+  // By step halving, every shape model; against the classical Runge–Kutta method at a fine step.
+  const int order = make_integrator(GetParam())->order();
+  for (const std::string& shape : shape_model_names()) {
+    std::mt19937 random(5);
+    const Case c = random_case(shape, 0.4, 0.2, random);
+    const StrainState begin = c.held.zero_state();
+    const StrainState exact = carried(*make_integrator("rk4"), c, 0.0, 0.2 / 8192, 8192, begin);
+    const auto error = [&](int steps) {
+      return distance(c, 0.2, carried(*make_integrator(GetParam()), c, 0.0, 0.2 / steps, steps, begin), exact);
+    };
+    // Steps of about ω h = 0.2, 1 and, of order one, 1/1000 of the time.
+    const int per_omega = static_cast<int>(0.2 * c.omega);
+    const int steps = order == 1 ? 1000 : limited() ? 5 * per_omega : 5 + per_omega;
+    const double coarse = error(steps), fine = error(2 * steps);
+    EXPECT_NEAR(std::log2(coarse / fine), order, order >= 4 ? 0.5 : 0.1) << shape << " " << coarse << " " << fine;
+  }
+}
+
+TEST_P(EveryIntegrator, EstimatesItsLocalErrorWithinAFactorOfTenInNineStepsOfTen) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int within = 0, all = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    const double zeta = trial % 3 == 0 ? 0.1 : trial % 3 == 1 ? 1.0 : 3.0;
+    const std::string shape = shape_model_names()[static_cast<std::size_t>(trial) % shape_model_names().size()];
+    const Case c = random_case(shape, zeta, 1.0, random);
+    // Steps from well resolved to, where the method can, stiff.
+    const double omega_dt = limited() ? 0.02 * std::pow(20.0, uniform(random)) / (1.0 + zeta)
+                                      : 0.05 * std::pow(1000.0, uniform(random));
+    const double h = std::min(omega_dt / c.omega, 0.05);
+    const int finer = 10 + static_cast<int>(std::ceil(20.0 * (1.0 + zeta) * h * c.omega));
+    const auto integrator = make_integrator(GetParam()), reference = make_integrator("rk4");
+    StrainState state = c.held.zero_state();
+    for (int i = 0; i < 10; ++i) {
+      const StrainState begin = state;
+      const StepEstimate e = integrator->step(c.held, c.hand, i * h, h, state);
+      const StrainState exact = carried(*reference, c, i * h, h / finer, finer, begin);
+      const double t = (i + 1) * h, truth = distance(c, t, state, exact);
+      if (!(truth > 1e-12)) continue;  // rounding
+      const double ratio = distance(c, t, {exact.q + e.q_error, exact.q_dot}, exact) / truth;
+      if (ratio > 0.1 && ratio < 10.0) ++within;
+      ++all;
+    }
+  }
+  ASSERT_GT(all, 200);
+  EXPECT_GT(within, 0.9 * all) << within << " of " << all;
+}
+
+TEST_P(EveryIntegrator, NameRoundTrips) { EXPECT_EQ(make_integrator(GetParam())->name(), GetParam()); }
+
+INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator, testing::ValuesIn(integrator_names()),
+                         [](const auto& instance) { return instance.param; });
+
+}  // namespace
+}  // namespace spring_workbench

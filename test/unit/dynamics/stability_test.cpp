@@ -1,0 +1,130 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <vector>
+
+#include "spring_workbench/dynamics/step_control.h"
+#include "support/held_cases.h"
+
+namespace spring_workbench {
+namespace {
+
+// The cells of the stability map: stiffness × mass × step × damping × families × hand. Samples of the hand come with the
+// steps, at most 50 a second.
+
+constexpr double stiffness_factors[] = {1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9, 1e12};
+constexpr double masses[] = {1e-6, 1e-3, 1.0, 1e3, 1e6};
+constexpr double steps[] = {1.0 / 20, 1.0 / 100, 1.0 / 1000};
+constexpr double damping_ratios[] = {0.0, 0.1, 1.0, 10.0};
+enum class Hand { lissajous, jump, flip, dropout, noise };
+constexpr Hand hands[] = {Hand::lissajous, Hand::jump, Hand::flip, Hand::dropout, Hand::noise};
+
+RigidTransform pose(Hand hand, double t, std::mt19937& random) {
+  const Vector3d on_sines(0.15 * std::sin(6.3 * t), 0.15 * std::sin(8.2 * t + 1.0), 0.15 * std::sin(10.7 * t + 2.0));
+  std::normal_distribution<double> normal;
+  switch (hand) {
+    case Hand::lissajous:
+      return make_transform(Quaterniond(exp_so3(Vector3d(0.6 * std::sin(5.0 * t), 0.6 * std::sin(7.0 * t), 0.0))), on_sines);
+    case Hand::jump: return make_transform(Quaterniond::Identity(), Vector3d(t > 0.2 ? 1.0 : 0.0, 0.0, 0.0));
+    case Hand::flip: return make_transform(Quaterniond(exp_so3(Vector3d(t > 0.2 ? M_PI : 0.0, 0.0, 0.0))), Vector3d::Zero());
+    case Hand::dropout: return make_transform(Quaterniond::Identity(), t < 0.2 ? on_sines : Vector3d(0.1, 0.2, 0.3));
+    case Hand::noise: {
+      const Vector3d p(normal(random), normal(random), normal(random)), w(normal(random), normal(random), normal(random));
+      return make_transform(Quaterniond(exp_so3(M_PI / 180.0 * w)), 1e-3 * p);
+    }
+  }
+  return RigidTransform::Identity();
+}
+
+struct Cell {
+  double factor, mass, step, zeta;
+  int families;  ///< bits: stretch, bend, torsion
+  Hand hand;
+};
+
+HeldBody body_of(const Cell& cell, const std::string& shape) {
+  BodyInertia body;
+  body.mass = cell.mass;
+  body.inertia_O = cell.mass / 12.0 * Vector3d(0.0125, 0.0425, 0.05).asDiagonal().toDenseMatrix();
+  body.X_OE.translation() << 0.08, 0.0, 0.0;
+  HeldBody held(make_shape_model(shape, 0.2), body, 9.81);
+  held.set_springs({5000.0 * cell.factor, 2000.0 * cell.factor, 20.0 * cell.factor}, {cell.zeta, cell.zeta, cell.zeta});
+  const StrainVector zero = StrainVector::Zero(held.shape().size());
+  held.set_dofs({(cell.families & 1) != 0, (cell.families & 2) != 0, (cell.families & 4) != 0}, 0.0, 0.05, {zero, zero});
+  return held;
+}
+
+double energy(const HeldBody& held, const MotionSegment& hand, double t, const StrainState& s) {
+  const HandleForcing f = held.forcing(hand, t);
+  const MotionState o = held.object(f, s);
+  const double height = o.X.translation().z() - held.object(f, held.zero_state()).X.translation().z();
+  return held.elastic_energy(t, s) + held.kinetic_energy(o.velocity, o.X.linear()) + held.body().mass * 9.81 * height;
+}
+
+/// Half a second with the hand moving, then half a second with it at rest. Empty where all is well.
+std::string what_is_wrong(const Cell& cell, const std::string& shape, const std::string& integrator) {
+  const HeldBody held = body_of(cell, shape);
+  const StepControl control(make_integrator(integrator));
+  StepControl::Memory memory;
+  std::mt19937 random(3);
+  PoseTrack track;
+  const double interval = std::max(cell.step, 0.02);
+  for (double t = 0.0; t < 0.5 + 0.5 * interval; t += interval) {
+    if (cell.hand == Hand::dropout && t > 0.2 && t < 0.45) continue;
+    track.push({t, pose(cell.hand, t, random)});
+  }
+  StrainState state = held.zero_state();
+  double lowest = 0.0, scale = 0.0;
+  const double rest_from = track.end();
+  for (double t = 0.0; t < 0.8;) {
+    const MotionSegment segment = track.segment(t + 1e-9);
+    const double h = std::min(cell.step, t < rest_from - 1e-9 ? segment.end() - t : 1.0);
+    const ControlledStep step = control.advance(held, segment, t, h, state, memory);
+    if (!step.fine) state.q_dot.setZero();  // as the simulation does: the body stays
+    t += h;
+    if (!state.q.allFinite() || !state.q_dot.allFinite()) return "not finite";
+    const MotionState o = held.object(held.forcing(segment, t), state);
+    if (o.X.translation().norm() > 1e4) return "not bounded: " + std::to_string(o.X.translation().norm());
+    if (t < rest_from + 1e-9) continue;
+    const MotionSegment rest = track.segment(rest_from + 1.0);
+    const double e = energy(held, rest, t, state);
+    if (scale == 0.0) {
+      lowest = e;
+      const double kinetic = held.kinetic_energy(o.velocity, o.X.linear());
+      scale = kinetic + std::abs(e - kinetic);
+    }
+    lowest = std::min(lowest, e);
+    // Beside it the rounding of the height, in metres.
+    if (e - lowest > 1e-9 * scale + 1e-15 * cell.mass * 9.81) return "energy grows";
+  }
+  return "";
+}
+
+class StableIntegrator : public testing::TestWithParam<std::string> {};
+
+TEST_P(StableIntegrator, EveryCellStaysBoundedAndNoEnergyGrowsWithTheHandAtRest) {
+  std::mt19937 random(17);
+  const auto any = [&](const auto& values) {
+    return values[std::uniform_int_distribution<std::size_t>(0, std::size(values) - 1)(random)];
+  };
+  int wrong = 0;
+  const int trials = 28;
+  for (int trial = 0; trial < trials; ++trial) {
+    const Cell cell{any(stiffness_factors), any(masses), any(steps), any(damping_ratios), 1 + trial % 7, any(hands)};
+    const std::string shape = shape_model_names()[static_cast<std::size_t>(trial) % shape_model_names().size()];
+    const std::string complaint = what_is_wrong(cell, shape, GetParam());
+    if (complaint.empty()) continue;
+    ++wrong;
+    ADD_FAILURE() << shape << ": stiffness × " << cell.factor << ", " << cell.mass << " kg, step " << cell.step << " s, ζ "
+                  << cell.zeta << ", families " << cell.families << ", hand " << static_cast<int>(cell.hand) << ": "
+                  << complaint;
+  }
+  EXPECT_EQ(wrong, 0) << "of " << trials;
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, StableIntegrator, testing::Values("exponential", "rosenbrock", "implicit_euler"),
+                         [](const auto& instance) { return instance.param; });
+
+}  // namespace
+}  // namespace spring_workbench

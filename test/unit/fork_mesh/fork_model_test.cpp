@@ -1,0 +1,165 @@
+#include "spring_workbench/fork_mesh/fork_model.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "random_strain.h"
+#include "spring_workbench/config/input_error.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double L = 0.2, diameter = 0.03;
+
+ForkModel::Triangles all_triangles(const ForkModel& model) {
+  ForkModel::Triangles all = model.spring();
+  all.insert(all.end(), model.shaft_and_end().begin(), model.shaft_and_end().end());
+  return all;
+}
+
+const Vector3d& corner(const ForkMesh& mesh, const Eigen::Vector3i& t, int k) {
+  return mesh.vertices[static_cast<std::size_t>(t[k])];
+}
+
+Vector3d area_vector(const ForkMesh& mesh, const Eigen::Vector3i& t) {
+  return 0.5 * (corner(mesh, t, 1) - corner(mesh, t, 0)).cross(corner(mesh, t, 2) - corner(mesh, t, 0));
+}
+
+double volume(const ForkMesh& mesh, const ForkModel::Triangles& triangles) {
+  double sum = 0.0;
+  for (const Eigen::Vector3i& t : triangles) sum += corner(mesh, t, 0).dot(area_vector(mesh, t)) / 3.0;
+  return sum;
+}
+
+class DeformedFork : public testing::Test {
+ protected:
+  /// A fine fork, deformed at random.
+  void deform() {
+    q_ = random_strain(*shape_, 0.5, random_);
+    X_WH_ = random_.pose(1.0);
+    model_.deform(rod_curve(*shape_, q_, X_WH_), diameter, mesh_);
+  }
+
+  static ForkLook fine() {
+    ForkLook look;
+    look.points_per_turn = 48;
+    look.wire_sides = 16;
+    return look;
+  }
+
+  test_support::Random random_{12};
+  const std::shared_ptr<const ShapeModel> shape_ = make_shape_model("linear", L);
+  const ForkModel model_{fine()};
+  StrainVector q_;
+  RigidTransform X_WH_;
+  ForkMesh mesh_;
+};
+
+TEST_F(DeformedFork, IsClosedAndNormalsAreUnitAndRight) {
+  for (int run = 0; run < 20; ++run) {
+    deform();
+    ASSERT_EQ(mesh_.vertices.size(), model_.vertex_count());
+    ASSERT_EQ(mesh_.normals.size(), model_.vertex_count());
+    for (const Vector3d& n : mesh_.normals) EXPECT_NEAR(n.norm(), 1.0, 1e-12);
+    Vector3d sum = Vector3d::Zero();
+    for (const Eigen::Vector3i& t : all_triangles(model_)) {
+      const Vector3d area = area_vector(mesh_, t);
+      sum += area;
+      ASSERT_GT(area.norm(), 0.0);
+      Vector3d normal = Vector3d::Zero();
+      for (int k = 0; k < 3; ++k) normal += mesh_.normals[static_cast<std::size_t>(t[k])] / 3.0;
+      EXPECT_GT(normal.dot(area.normalized()), 0.93);  // flat facets of something round
+    }
+    EXPECT_LT(sum.norm(), 1e-12);
+    EXPECT_GT(volume(mesh_, model_.spring()), 0.0);
+    EXPECT_GT(volume(mesh_, model_.shaft_and_end()), 0.0);
+  }
+}
+
+TEST_F(DeformedFork, NormalsStandOnTheWire) {
+  // Along the wire, a line of the surface: the normal has nothing along it but what a facet leaves.
+  for (int run = 0; run < 20; ++run) {
+    deform();
+    for (const Eigen::Vector3i& t : model_.spring()) {
+      const Vector3d along = corner(mesh_, t, 2) - corner(mesh_, t, 1);  // first triangle of a quad: b − a
+      const std::size_t a = static_cast<std::size_t>(t[1]), b = static_cast<std::size_t>(t[2]);
+      if (std::abs(t[2] - t[1]) != fine().wire_sides) continue;
+      EXPECT_LT(std::abs((mesh_.normals[a] + mesh_.normals[b]).dot(along)), 5e-3 * 2.0 * along.norm());
+    }
+  }
+}
+
+TEST_F(DeformedFork, WireKeepsItsThicknessAndShaftAndEndTheirShape) {
+  ForkMesh rest;
+  model_.deform(rod_curve(*shape_, StrainVector::Zero(6), RigidTransform::Identity()), diameter, rest);
+  const auto sides = static_cast<std::size_t>(fine().wire_sides);
+  const std::size_t rings = sides * static_cast<std::size_t>(fine().turns * fine().points_per_turn + 3);
+  const std::size_t first = model_.vertex_count() - rings;
+  const RigidTransform X_E_rest = shape_->section(StrainVector::Zero(6), L);
+  for (int run = 0; run < 20; ++run) {
+    deform();
+    for (std::size_t i = first; i < mesh_.vertices.size(); i += sides) {
+      Vector3d centre = Vector3d::Zero();
+      for (std::size_t k = 0; k < sides; ++k) centre += mesh_.vertices[i + k] / static_cast<double>(sides);
+      for (std::size_t k = 0; k < sides; ++k) {
+        EXPECT_NEAR((mesh_.vertices[i + k] - centre).norm(), fine().wire_radius * diameter, 1e-12);
+      }
+    }
+    const RigidTransform X_E = X_WH_ * shape_->section(q_, L) * X_E_rest.inverse();
+    for (std::size_t i = 0; i < first; ++i) {
+      const RigidTransform& X = rest.vertices[i].z() > 0.5 * L ? X_E : X_WH_;
+      EXPECT_LT((mesh_.vertices[i] - X * rest.vertices[i]).norm(), 1e-12);
+      EXPECT_LT((mesh_.normals[i] - X.linear() * rest.normals[i]).norm(), 1e-12);
+    }
+  }
+}
+
+TEST_F(DeformedFork, MiddleProngPointsWhereTheSimulatedTipPoints) {
+  for (int run = 0; run < 20; ++run) {
+    deform();
+    TipKinematics tip;
+    shape_->tip(q_, StrainVector::Zero(6), tip);
+    const RigidTransform X_WE = X_WH_ * make_transform(Quaterniond(tip.R_HE), tip.p_HE);
+    const Vector3d point = X_WE * Vector3d(0.0, 0.0, fine().prong_length * diameter);
+    double nearest = 1.0;
+    for (const Vector3d& p : mesh_.vertices) nearest = std::min(nearest, (p - point).norm());
+    EXPECT_LT(nearest, 1e-9);
+  }
+}
+
+TEST_F(DeformedFork, TorsionTurnsEachPlaceByItsShare) {
+  const auto twisted_by = [&](double twist) {
+    StrainVector q = StrainVector::Zero(6);
+    q[shape_->torsion().begin] = twist / L;
+    ForkMesh mesh;
+    model_.deform(rod_curve(*shape_, q, RigidTransform::Identity()), diameter, mesh);
+    return mesh;
+  };
+  constexpr double twist = 1.3;
+  const ForkMesh straight = twisted_by(0.0), twisted = twisted_by(twist);
+  const auto sides = static_cast<std::size_t>(fine().wire_sides);
+  const auto rings = static_cast<std::size_t>(fine().turns * fine().points_per_turn + 3);
+  const std::size_t first = model_.vertex_count() - sides * rings;
+  for (std::size_t i = first; i < straight.vertices.size(); i += sides) {
+    const auto centre = [&](const ForkMesh& mesh) {
+      Vector3d sum = Vector3d::Zero();
+      for (std::size_t k = 0; k < sides; ++k) sum += mesh.vertices[i + k] / static_cast<double>(sides);
+      return sum;
+    };
+    const Vector3d from = centre(straight), to = centre(twisted);
+    EXPECT_LT((Eigen::AngleAxisd(twist * from.z() / L, Vector3d::UnitZ()) * from - to).norm(), 1e-9);
+  }
+}
+
+TEST(ForkModel, RefusesALookThatIsNoSurface) {
+  ForkLook look;
+  look.wire_sides = 2;
+  EXPECT_THROW(ForkModel{look}, InputError);
+  look = ForkLook();
+  look.prong_length = 0.0;
+  EXPECT_THROW(ForkModel{look}, InputError);
+}
+
+}  // namespace
+}  // namespace spring_workbench

@@ -1,0 +1,101 @@
+#include "spring_workbench/sound/contact_synthesizer.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "spring_workbench/config/input_error.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr std::size_t second = ContactSynthesizer::sample_rate;
+
+double energy(const std::vector<float>& samples) {
+  double sum = 0.0;
+  for (const float s : samples) sum += static_cast<double>(s) * static_cast<double>(s);
+  return sum;
+}
+
+double energy_of_strike(double impulse) {
+  ContactSynthesizer synthesizer(1.0);
+  synthesizer.strike(impulse);
+  return energy(synthesizer.render(second));
+}
+
+std::vector<float> scraping(double speed) {
+  ContactSynthesizer synthesizer(1.0);
+  synthesizer.scrape(speed);
+  synthesizer.render(second / 5);
+  return synthesizer.render(second);
+}
+
+/// Changes of sign in a second.
+int crossings(const std::vector<float>& samples) {
+  int count = 0;
+  for (std::size_t i = 1; i < samples.size(); ++i) count += (samples[i - 1] < 0.0f) != (samples[i] < 0.0f);
+  return count;
+}
+
+TEST(ContactSynthesizer, IsSilentUntilSomethingTouches) { EXPECT_EQ(energy(ContactSynthesizer(1.0).render(second)), 0.0); }
+
+TEST(ContactSynthesizer, AnImpactIsLouderWithItsImpulseAndDiesAway) {
+  double last = 0.0;
+  for (const double impulse : {1e-3, 1e-2, 0.1, 1.0, 10.0}) {
+    const double now = energy_of_strike(impulse);
+    EXPECT_GT(now, last) << impulse;
+    last = now;
+  }
+  EXPECT_NEAR(energy_of_strike(2e-4) / energy_of_strike(1e-4), 4.0, 0.05);  // soft ones: in proportion
+  ContactSynthesizer synthesizer(1.0);
+  synthesizer.strike(1.0);
+  const double first = energy(synthesizer.render(second));
+  EXPECT_LT(energy(synthesizer.render(second)), 1e-10 * first);
+}
+
+TEST(ContactSynthesizer, SlippingIsLouderAndHigherWithItsSpeedAndEnds) {
+  double last_energy = 0.0;
+  int last_crossings = 0;
+  for (const double speed : {0.01, 0.05, 0.2, 1.0}) {
+    const std::vector<float> sound = scraping(speed);
+    EXPECT_GT(energy(sound), last_energy) << speed;
+    EXPECT_GT(crossings(sound), last_crossings) << speed;
+    last_energy = energy(sound);
+    last_crossings = crossings(sound);
+  }
+  ContactSynthesizer synthesizer(1.0);
+  synthesizer.scrape(1.0);
+  const double loud = energy(synthesizer.render(second));
+  synthesizer.scrape(0.0);
+  synthesizer.render(second / 5);
+  EXPECT_LT(energy(synthesizer.render(second)), 1e-9 * loud);
+}
+
+TEST(ContactSynthesizer, SamplesAreBoundedWhateverComes) {
+  ContactSynthesizer synthesizer(1.0);
+  for (const double value : {std::nan(""), std::numeric_limits<double>::infinity(), -1.0, 1e300, 0.0, 0.3}) {
+    synthesizer.strike(value);
+    synthesizer.scrape(value);
+    for (const float s : synthesizer.render(second / 10)) {
+      ASSERT_GE(s, -1.0f);
+      ASSERT_LE(s, 1.0f);
+    }
+  }
+}
+
+TEST(ContactSynthesizer, VolumeScales) {
+  ContactSynthesizer loud(0.8), soft(0.4), mute(0.0);
+  for (ContactSynthesizer* s : {&loud, &soft, &mute}) {
+    s->strike(0.1);
+    s->scrape(0.3);
+  }
+  const std::vector<float> a = loud.render(second), b = soft.render(second);
+  for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], 2.0f * b[i], 1e-6f);
+  EXPECT_EQ(energy(mute.render(second)), 0.0);
+  EXPECT_THROW(ContactSynthesizer(1.1), InputError);
+  EXPECT_THROW(ContactSynthesizer(std::nan("")), InputError);
+}
+
+}  // namespace
+}  // namespace spring_workbench

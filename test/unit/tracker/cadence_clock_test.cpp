@@ -1,0 +1,125 @@
+#include "spring_workbench/tracker/cadence_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include "spring_workbench/tracker/stream_monitor.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double kInterval = 1.0 / 120.0;
+
+/// Standard deviation of x less its mean.
+struct Spread {
+  double sum = 0.0, squares = 0.0;
+  int count = 0;
+  void add(double x) {
+    sum += x;
+    squares += x * x;
+    ++count;
+  }
+  double deviation() const { return std::sqrt(std::max(0.0, squares / count - sum * sum / count / count)); }
+};
+
+struct Line {
+  double drift = 0.0;
+  double mean_delay = 0.0;  ///< exponentially distributed [s]
+  double poll = 0.0;        ///< receipts are at multiples of it, as behind a USB adapter [s]
+};
+
+/// Runs two minutes; the spread of receipts and of stamps about the device's own times, after ten seconds.
+std::pair<double, double> jitter(const Line& line, unsigned seed) {
+  std::mt19937 random(seed);
+  std::exponential_distribution<double> delay(1.0 / line.mean_delay);
+  CadenceClock clock(kInterval);
+  Spread before, after;
+  double receipt = 0.0, last = -1.0;
+  for (int k = 0; k < 120 * 120; ++k) {
+    const double measured = 1000.0 + k * kInterval * (1.0 + line.drift);
+    double came = measured + delay(random);
+    if (line.poll > 0.0) came = std::ceil(came / line.poll) * line.poll;
+    receipt = std::max(receipt, came);  // records stay in order
+    const double stamp = clock.stamp(receipt);
+    EXPECT_GT(stamp, last);
+    EXPECT_LE(stamp, receipt + 1e-4);
+    last = stamp;
+    if (k < 1200) continue;
+    before.add(receipt - measured);
+    after.add(stamp - measured);
+  }
+  EXPECT_NEAR(clock.drift(), line.drift, line.poll > 0.0 ? 3e-4 : 1e-4);
+  return {before.deviation(), after.deviation()};
+}
+
+TEST(CadenceClock, AnEvenStreamIsStampedAsItComes) {
+  CadenceClock clock(kInterval);
+  for (int k = 0; k < 5000; ++k) {
+    const double t = 50.0 + k * kInterval;
+    EXPECT_NEAR(clock.stamp(t), t, 1e-5);
+  }
+}
+
+TEST(CadenceClock, JitterIsAtLeastTenTimesLessWhateverTheDrift) {
+  unsigned seed = 1;
+  for (const double drift : {-1e-3, -1e-4, 0.0, 1e-4, 1e-3}) {
+    for (const double poll : {0.0, 0.016}) {
+      const auto [before, after] = jitter({drift, 0.003, poll}, seed++);
+      std::cout << "drift " << drift << ", poll " << poll << " s: jitter " << 1e3 * before << " ms -> " << 1e3 * after
+                << " ms\n";
+      EXPECT_GT(before, 0.002);
+      EXPECT_LT(after, before / 10.0);
+    }
+  }
+}
+
+TEST(CadenceClock, LostRecordsAndStallsAreGotOver) {
+  std::mt19937 random(9);
+  std::exponential_distribution<double> delay(1.0 / 0.001);
+  CadenceClock clock(kInterval);
+  double receipt = 0.0;
+  int wrong = 0, after_fault = 1000;
+  for (int k = 0; k < 120 * 60; ++k) {
+    const double measured = k * kInterval;
+    receipt = std::max(receipt, measured + delay(random));
+    const bool lost = k % 1000 >= 500 && k % 1000 < 507;
+    if (k % 1000 == 800) receipt += 0.2;  // a stall: the records after it come in one burst
+    if (lost || (k > 3000 && k < 3400)) {
+      after_fault = 0;
+      continue;
+    }
+    const double stamp = clock.stamp(receipt);
+    ++after_fault;
+    if (std::abs(stamp - measured) > 0.5 * kInterval) {
+      ++wrong;
+      EXPECT_LE(after_fault, 61) << k;
+    }
+  }
+  EXPECT_LE(wrong, 8 * 61);
+}
+
+TEST(StreamMonitor, SaysRateJitterGapsAndAge) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> noise(0.0, 1e-3);
+  StreamMonitor monitor(0.5);
+  double age = 0.0;
+  for (int k = 0; k < 5000; ++k) {
+    const double t = k * 0.01 + (k >= 2500 ? 2.0 : 0.0);
+    age = 0.02 + noise(random);
+    monitor.sample(t, t + age);
+  }
+  const StreamFigures& figures = monitor.figures();
+  EXPECT_EQ(figures.samples, 5000u);
+  EXPECT_NEAR(figures.interval, 0.01, 1e-9);
+  EXPECT_LT(figures.stamp_jitter, 1e-9);
+  EXPECT_NEAR(figures.receipt_jitter, std::sqrt(2.0) * 1e-3, 0.4e-3);  // of some fifty samples
+  EXPECT_NEAR(figures.longest_gap, 2.01, 1e-9);
+  EXPECT_NEAR(figures.age, age, 1e-12);
+}
+
+}  // namespace
+}  // namespace spring_workbench
