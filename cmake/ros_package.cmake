@@ -6,7 +6,8 @@ file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages ${CMAKE_
 find_package(catkin REQUIRED COMPONENTS
   interactive_markers message_generation rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
 
-add_message_files(FILES Contact.msg Contacts.msg ForkState.msg ObjectState.msg ObjectStates.msg StepReport.msg)
+add_message_files(FILES Contact.msg Contacts.msg ForkState.msg ObjectState.msg ObjectStates.msg PlacementState.msg StepReport.msg
+  TaskState.msg)
 add_service_files(FILES LoadScene.srv SetForkDamping.srv SetForkDofs.srv SetForkStiffness.srv SetIntegrator.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 

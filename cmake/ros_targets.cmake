@@ -1,5 +1,5 @@
 # The ROS side of the package: room ros_interface, the nodes, and what is installed beside them.
-add_room(ros_interface DEPENDS simulation fork_mesh tracker sound LIBRARIES ${catkin_LIBRARIES})
+add_room(ros_interface DEPENDS operator fork_mesh sound LIBRARIES ${catkin_LIBRARIES})
 target_include_directories(spring_workbench_ros_interface SYSTEM PUBLIC
   ${catkin_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 add_dependencies(spring_workbench_ros_interface ${PROJECT_NAME}_generate_messages_cpp)

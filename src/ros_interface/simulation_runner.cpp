@@ -15,6 +15,7 @@ constexpr double kSlack = 1e-6;  // of a grid step
 SimulationRunner::SimulationRunner(const Scene& scene, const SimulationSettings& settings, const TruthSettings& truth,
                                    double grid)
     : simulation_(std::make_unique<Simulation>(scene, settings)),
+      task_(scene),
       playout_(settings.dropout_after, grid > 0.0),
       hand_(truth),
       grid_(grid) {}
@@ -69,6 +70,7 @@ void SimulationRunner::advance(double target, CycleReport& report) {
   }
   report.advance = simulation_->advance(target);
   if (release) simulation_->release();
+  task_.observe(*simulation_);
 }
 
 void SimulationRunner::apply(const NewEpoch& epoch) {
@@ -91,6 +93,7 @@ void SimulationRunner::apply(const ButtonsKnown& known) { playout_.buttons(known
 
 void SimulationRunner::start_anew() {
   simulation_->reset();
+  task_.reset();
   playout_.clear();
   hand_.restart();
   has_sample_ = false;
@@ -104,6 +107,7 @@ void SimulationRunner::restart() {
 void SimulationRunner::load(const Scene& scene) {
   const std::lock_guard<std::mutex> lock(mutex_);
   simulation_ = std::make_unique<Simulation>(scene, simulation_->settings());
+  task_ = TaskMonitor(scene);
   playout_.clear();
   hand_.restart();
   has_sample_ = false;

@@ -43,6 +43,8 @@ std::vector<std::string> keys_of(const std::string& source) {
   } else if (source == "interactive_marker" || source == "joy") {
     add({"start"});
     if (source == "joy") add(joy_keys());
+  } else if (source == "operator") {
+    add({"offset", "tip", "scene", "seed", "speed", "loop", "pause"});
   } else {
     add({"offset", "tip", "file", "speed", "loop", "pause", "start", "grasp_from", "grasp_until"});
   }
@@ -57,7 +59,7 @@ TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::st
   take_truth_settings(parameters, where, result.truth);
   if (parameters["source"]) {
     result.source = read_choice(parameters["source"], where, "source", 
-                                {"motion_file", "scripted", "fastrak", "interactive_marker", "joy"});
+                                {"motion_file", "scripted", "operator", "fastrak", "interactive_marker", "joy"});
   }
   check_keys(parameters, where, "", keys_of(result.source));
   const bool is_motion = result.source == "motion_file" || result.source == "scripted";
@@ -73,6 +75,10 @@ TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::st
     if (value.empty()) refuse(where, key, "(nothing)", "a string that is not empty");
   };
   if (is_motion) text("file", result.file);
+  if (result.source == "operator") {
+    text("scene", result.scene);
+    if (parameters["seed"]) result.seed = read_integer(parameters["seed"], where, "seed", 0, 1000000000);
+  }
   text("workbench_frame", result.workbench_frame);
   text("stylus_frame", result.stylus_frame);
   text("head_frame", result.head_frame);
@@ -105,6 +111,10 @@ TrackerDriver::TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
       played_(parameters_.truth, parameters_.dropout_after),
       joy_publisher_(node.advertise<sensor_msgs::Joy>("stylus/joy", 100)),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
+  if (parameters_.source == "operator") {
+    eyes_ = std::make_unique<OperatorEyes>(node);
+    return;
+  }
   device_ = open_device(node, private_node);
   if (device_) return;
   const auto first = open()->next();
@@ -112,7 +122,13 @@ TrackerDriver::TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
   if (parameters_.X_BS_first) X_BT_ = *parameters_.X_BS_first * first->X.inverse();
 }
 
-std::unique_ptr<StylusSource> TrackerDriver::open() const {
+std::unique_ptr<StylusSource> TrackerDriver::open() {
+  if (eyes_) {
+    OperatorSettings settings;
+    settings.seed = static_cast<unsigned>(parameters_.seed);
+    eyes_->wait();
+    return std::make_unique<SimulatedOperator>(load_scene(parameters_.scene), settings, [this] { return eyes_->look(); });
+  }
   const std::string path = resolve(parameters_.file);
   if (parameters_.source == "scripted") return std::make_unique<ScriptedSource>(path);
   return std::make_unique<RecordedSource>(read_motion_file(path));

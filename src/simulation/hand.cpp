@@ -145,7 +145,11 @@ std::unique_ptr<ToolHold> Hand::make_fork(std::size_t object, const RigidTransfo
     inertia.inertia_O.setIdentity();
   }
   HeldBody held_body(make_shape_model(settings_.fork.shape, length), inertia, scene_.gravity);
-  held_body.set_springs(settings_.fork.stiffness, settings_.fork.damping_ratio);
+  if (settings_.grasp.calibrate && !massless && tool_ == Tool::spring_fork) {
+    calibrate(held_body);
+  } else {
+    held_body.set_springs(settings_.fork.stiffness, settings_.fork.damping_ratio);
+  }
   const StrainState zero{StrainVector::Zero(held_body.shape().size()), StrainVector::Zero(held_body.shape().size())};
   X_OE_ = X_OE;
   held_body.set_dofs(possible_dofs(object, X_OE), now, settings_.fork.switch_off_time, zero);
@@ -171,14 +175,22 @@ RigidTransform Hand::tip_in_object(std::size_t object, double length) const {
   return workbench_.states()[object].X_WO.inverse() * (X_WH_ * Eigen::Translation3d(0.0, 0.0, length));
 }
 
-void Hand::calibrate_for(std::size_t object) {
-  const Body& body = workbench_.body(object);
-  settings_.fork.stiffness = calibrated_stiffness(body.mass_properties.mass, std::max(bounding_radius(body), 1e-4),
-                                                  settings_.fork.length, scene_.gravity);
+/// Springs for the object as it is grasped; in every direction the damping ratio that is set for the family.
+void Hand::calibrate(HeldBody& held_body) {
+  const ForkCalibration fork_for_it =
+      calibrated_fork(settings_.fork.shape, settings_.fork.length, held_body.body(), scene_.gravity);
+  const PerFamily& ratio = settings_.fork.damping_ratio;
+  const PerFamily& c = fork_for_it.damping;
+  settings_.fork.stiffness = fork_for_it.stiffness;
+  held_body.set_springs_and_dampers(fork_for_it.stiffness, {ratio.stretch * c.stretch, ratio.bend * c.bend,
+                                                            ratio.torsion * c.torsion});
 }
 
 void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now) {
-  if (settings_.grasp.calibrate) calibrate_for(object);
+  const MassProperties& mass = workbench_.body(object).mass_properties;
+  if (settings_.grasp.calibrate && follow_hand && mass.mass > 0.0) {  // the object comes to the tip, wherever that is
+    settings_.fork.length = calibrated_length({mass.mass, mass.inertia_O, RigidTransform::Identity()});
+  }
   held_ = object;
   hold_ = make_hold(object, X_OE ? *X_OE : tip_in_object(object, reach()), reach(), now);
   // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the hand's.
@@ -261,7 +273,7 @@ void Hand::change_integrator() {
 
 bool Hand::calibrate(ChangeReport& change) {
   if (!hold_) return false;
-  calibrate_for(held_);
+  if (!workbench_.massless(held_)) hold_->calibrate([this](HeldBody& held_body) { calibrate(held_body); });
   change.message = "calibrated for " + workbench_.states()[held_].name;
   return true;
 }

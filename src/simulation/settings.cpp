@@ -143,7 +143,7 @@ std::vector<Field> fork_fields() {
 
 std::vector<Field> grasp_fields() {
   return {
-      flag("calibrate", "stiffness from the object's mass and size on every grasp; the damping ratios stay",
+      flag("calibrate", "springs and dampers from the object and its grasp, on every grasp; with start.follow the length too",
            [](S& s) -> bool& { return s.grasp.calibrate; }),
       by_default("none: grasped by button", name("grasp.object", "the name of a movable object of the scene",
                                                  "this object is held from the first sample to the last",

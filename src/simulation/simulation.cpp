@@ -257,10 +257,9 @@ ChangeReport Simulation::set_damping_ratio(const PerFamily& ratio) {
 ChangeReport Simulation::calibrate() {
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
-  const bool done =
-      std::any_of(impl_->hands.begin(), impl_->hands.end(), [&](Hand& hand) { return hand.calibrate(change); });
+  bool done = false;
+  for (Hand& hand : impl_->hands) done = hand.calibrate(change) || done;
   if (!done) throw InputError("calibrate: held object: none is not allowed: must be an object that the fork holds");
-  for (Hand& hand : impl_->hands) hand.change_springs();
   change.elastic_energy_after = impl_->elastic_energy();
   return change;
 }

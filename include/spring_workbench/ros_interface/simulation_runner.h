@@ -8,6 +8,7 @@
 #include "spring_workbench/ros_interface/playout_clock.h"
 #include "spring_workbench/ros_interface/stylus_input.h"
 #include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/task/task_monitor.h"
 #include "spring_workbench/tracker/reengagement.h"
 
 namespace spring_workbench {
@@ -43,6 +44,11 @@ class SimulationRunner {
     const std::lock_guard<std::mutex> lock(mutex_);
     return use(*simulation_);
   }
+  /// The assembly so far.
+  TaskMonitor task() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return task_;
+  }
   /// Stamp of the simulated time; `now` before the first sample.
   ros::Time stamp(const ros::Time& now) const;
   ReengagementCounts hand_counts() const;
@@ -60,6 +66,7 @@ class SimulationRunner {
 
   mutable std::mutex mutex_;
   std::unique_ptr<Simulation> simulation_;
+  TaskMonitor task_;
   PlayoutClock playout_;
   Reengagement hand_;
   double grid_;              ///< [s]; 0: none

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "spring_workbench/ros_interface/diagnostics.h"
+#include "spring_workbench/ros_interface/operator_eyes.h"
 #include "spring_workbench/tracker/fastrak_source.h"
 #include "spring_workbench/tracker/joy_motion.h"
 #include "spring_workbench/tracker/station_stream.h"
@@ -21,8 +22,10 @@ namespace spring_workbench {
 
 /// Private parameters of the node `tracker_driver`.
 struct TrackerParameters {
-  std::string source = "motion_file";  ///< `source`: motion_file, scripted, fastrak, interactive_marker or joy
+  std::string source = "motion_file";  ///< `source`: motion_file, scripted, fastrak, operator, interactive_marker or joy
   std::string file;    ///< `file`, of motion_file and scripted, required: path or package:// URI of the motion or script
+  std::string scene;   ///< `scene`, required by operator: URDF of the scene to assemble
+  int seed = 1;        ///< `seed` of the operator, 0 … 1e9
   double rate = 0.0;   ///< `rate` [Hz], >= 0: the most that is sent; 0: every sample
   double speed = 1.0;  ///< `speed`, 0.01 … 100: 2 plays twice as fast
   bool loop = false;   ///< `loop`: from the start again after the last sample
@@ -72,7 +75,7 @@ class TrackerDriver {
   StationStream& stream_of(int station);
   void wait_until(double t);
   void publish_diagnostics();
-  std::unique_ptr<StylusSource> open() const;
+  std::unique_ptr<StylusSource> open();
   std::unique_ptr<LiveSource> open_device(ros::NodeHandle node, ros::NodeHandle private_node) const;
 
   const TrackerParameters parameters_;
@@ -82,6 +85,7 @@ class TrackerDriver {
   std::map<int, StationStream> streams_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   RigidTransform X_BT_;
+  std::unique_ptr<OperatorEyes> eyes_;  ///< for the operator
   TruthLayer played_;  ///< the motion that is played
   std::size_t sent_ = 0, left_out_ = 0, passes_ = 0;
   double interval_ = 0.0;  ///< between the last two samples sent [s]

@@ -54,6 +54,7 @@ struct ContactState {
   Vector3d n_W = Vector3d::UnitZ();       ///< towards `object`
   double depth = 0.0;                     ///< penetration [m]
   double impulse = 0.0;                   ///< normal impulse in the last step [N·s]
+  double force = 0.0;                     ///< the same as a mean force over that step [N]
   double slip_speed = 0.0;                ///< [m/s]
   ContactPhase phase = ContactPhase::started;
 };
