@@ -1,9 +1,19 @@
 // Changes of the fork while it holds, and what it tells of itself.
 #include "fork_body.h"
+#include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench {
 
 void ForkBody::set_springs(const ForkSettings& fork) { held_.set_springs(fork.stiffness, fork.damping_ratio); }
+
+PerFamily ForkBody::calibrate(const ForkSettings& fork, double gravity) {
+  const ForkCalibration found = calibrated_fork(fork.shape, length(), held_.body(), gravity);
+  const PerFamily& ratio = fork.damping_ratio;
+  const PerFamily& c = found.damping;
+  held_.set_springs_and_dampers(found.stiffness,
+                                {ratio.stretch * c.stretch, ratio.bend * c.bend, ratio.torsion * c.torsion});
+  return found.stiffness;
+}
 
 bool ForkBody::set_dofs(const ForkDofs& dofs, double switch_off_time) {
   const StrainState full = held_.full_state(state_.t, state_.strain);

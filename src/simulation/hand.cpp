@@ -145,11 +145,7 @@ std::unique_ptr<ToolHold> Hand::make_fork(std::size_t object, const RigidTransfo
     inertia.inertia_O.setIdentity();
   }
   HeldBody held_body(make_shape_model(settings_.fork.shape, length), inertia, scene_.gravity);
-  if (settings_.grasp.calibrate && !massless && tool_ == Tool::spring_fork) {
-    calibrate(held_body);
-  } else {
-    held_body.set_springs(settings_.fork.stiffness, settings_.fork.damping_ratio);
-  }
+  held_body.set_springs(settings_.fork.stiffness, settings_.fork.damping_ratio);
   const StrainState zero{StrainVector::Zero(held_body.shape().size()), StrainVector::Zero(held_body.shape().size())};
   X_OE_ = X_OE;
   held_body.set_dofs(possible_dofs(object, X_OE), now, settings_.fork.switch_off_time, zero);
@@ -175,15 +171,10 @@ RigidTransform Hand::tip_in_object(std::size_t object, double length) const {
   return workbench_.states()[object].X_WO.inverse() * (X_WH_ * Eigen::Translation3d(0.0, 0.0, length));
 }
 
-/// Springs for the object as it is grasped; in every direction the damping ratio that is set for the family.
-void Hand::calibrate(HeldBody& held_body) {
-  const ForkCalibration fork_for_it =
-      calibrated_fork(settings_.fork.shape, settings_.fork.length, held_body.body(), scene_.gravity);
-  const PerFamily& ratio = settings_.fork.damping_ratio;
-  const PerFamily& c = fork_for_it.damping;
-  settings_.fork.stiffness = fork_for_it.stiffness;
-  held_body.set_springs_and_dampers(fork_for_it.stiffness, {ratio.stretch * c.stretch, ratio.bend * c.bend,
-                                                            ratio.torsion * c.torsion});
+bool Hand::calibrate_hold() {
+  if (tool_ == Tool::direct || tool_ == Tool::ray) return false;
+  if (!workbench_.massless(held_)) settings_.fork.stiffness = hold_->calibrate(settings_.fork, scene_.gravity);
+  return true;
 }
 
 void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now) {
@@ -193,6 +184,7 @@ void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, 
   }
   held_ = object;
   hold_ = make_hold(object, X_OE ? *X_OE : tip_in_object(object, reach()), reach(), now);
+  if (settings_.grasp.calibrate) calibrate_hold();
   // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the hand's.
   if (!follow_hand && dynamic()) hold_->take_twist(workbench_.states()[object].V_WO_W);
   workbench_.hold(object, now);
@@ -207,6 +199,7 @@ void Hand::select_tool(Tool tool, double now) {
   ray_length_ = std::max(centre_H.z(), least_length);
   const Twist before = workbench_.states()[held_].V_WO_W;
   hold_ = make_hold(held_, tip_in_object(held_, reach()), reach(), now);
+  if (settings_.grasp.calibrate) calibrate_hold();
   if (!workbench_.massless(held_)) {
     // With every family on, a fork can take any twist; what is off then comes to rest without a jump.
     hold_->set_dofs({true, true, true}, settings_.fork.switch_off_time);
@@ -272,8 +265,7 @@ void Hand::change_integrator() {
 }
 
 bool Hand::calibrate(ChangeReport& change) {
-  if (!hold_) return false;
-  if (!workbench_.massless(held_)) hold_->calibrate([this](HeldBody& held_body) { calibrate(held_body); });
+  if (!hold_ || !calibrate_hold()) return false;
   change.message = "calibrated for " + workbench_.states()[held_].name;
   return true;
 }

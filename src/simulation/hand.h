@@ -57,7 +57,7 @@ class Hand {
   void change_dofs(ChangeReport& change);
   void change_springs();
   void change_integrator();
-  /// Springs and dampers from the held object and its grasp. False when nothing is held.
+  /// Springs and dampers from the held object and its grasp. False when nothing is held on a tool with springs.
   bool calibrate(ChangeReport& change);
 
   double elastic_energy() const;
@@ -81,7 +81,8 @@ class Hand {
   /// How far the tip is in front of the hand, along z [m].
   double reach() const;
   RigidTransform tip_in_object(std::size_t object, double length) const;
-  void calibrate(HeldBody& held_body);
+  /// Springs and dampers for what is held; the settings tell the stiffness. False where the tool has no springs.
+  bool calibrate_hold();
 
   const Scene& scene_;
   SimulationSettings& settings_;

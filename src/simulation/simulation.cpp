@@ -259,7 +259,7 @@ ChangeReport Simulation::calibrate() {
   change.elastic_energy_before = impl_->elastic_energy();
   bool done = false;
   for (Hand& hand : impl_->hands) done = hand.calibrate(change) || done;
-  if (!done) throw InputError("calibrate: held object: none is not allowed: must be an object that the fork holds");
+  if (!done) throw InputError("calibrate: held object: none is not allowed: must be an object on a fork or a spring");
   change.elastic_energy_after = impl_->elastic_energy();
   return change;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spring_workbench/dynamics/damped_oscillator.h"
+#include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench {
 namespace {
@@ -34,6 +35,13 @@ void SpringBody::set_hand(const MotionSegment& hand, double t) {
 void SpringBody::set_springs(const ForkSettings& fork) {
   k_ = fork.stiffness.stretch;
   c_ = 2.0 * fork.damping_ratio.stretch * std::sqrt(mass_ * k_);
+}
+
+PerFamily SpringBody::calibrate(const ForkSettings& fork, double gravity) {
+  ForkSettings found = fork;
+  found.stiffness.stretch = calibrated_spring(mass_, fork.length, gravity);
+  set_springs(found);
+  return found.stiffness;
 }
 
 SpringBody::Span SpringBody::span() const {

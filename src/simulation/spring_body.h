@@ -28,7 +28,7 @@ class SpringBody final : public ToolHold {
   void set_hand(const MotionSegment& hand, double t) override;
   void take_twist(const Twist& V_WO_W) override { state_.free.set_twist(V_WO_W); }
   void set_springs(const ForkSettings& fork) override;
-  void calibrate(const std::function<void(HeldBody&)>&) override {}
+  PerFamily calibrate(const ForkSettings& fork, double gravity) override;
   bool set_dofs(const ForkDofs&, double) override { return false; }
   void set_step_control(const DynamicsSettings&) override {}  // it has a rule of its own
   bool sleeps(double, bool) override { return false; }

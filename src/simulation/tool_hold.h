@@ -1,10 +1,8 @@
 #pragma once
 
-#include <functional>
 #include <string>
 
 #include "spring_workbench/simulation/simulation.h"
-#include "spring_workbench/dynamics/held_body.h"
 #include "stepped_body.h"
 
 namespace spring_workbench {
@@ -32,8 +30,9 @@ class ToolHold : public SteppedBody {
   virtual void take_twist(const Twist& V_WO_W) = 0;
   /// New stiffness and damping ratios; the strain stays.
   virtual void set_springs(const ForkSettings& fork) = 0;
-  /// Lets `set` give springs and dampers to the held body. For the fork alone.
-  virtual void calibrate(const std::function<void(HeldBody&)>& set) = 0;
+  /// Springs and dampers from the object as it is held (doc/model.md, "Calibration"); the damping ratios are `fork`'s. The
+  /// object's mass must be > 0. Returns the stiffness.
+  virtual PerFamily calibrate(const ForkSettings& fork, double gravity) = 0;
   /// Switches families; true when one is on its way to zero strain. For the fork alone.
   virtual bool set_dofs(const ForkDofs& dofs, double switch_off_time) = 0;
   virtual void set_step_control(const DynamicsSettings& settings) = 0;

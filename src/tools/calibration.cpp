@@ -79,6 +79,10 @@ ForkCalibration calibrated_fork(const std::string& shape, double length, const B
   return {stiffness, {c * stiffness.stretch, c * stiffness.bend, c * stiffness.torsion}};
 }
 
+double calibrated_spring(double mass, double length, double gravity, const CalibrationGoal& goal) {
+  return mass * (gravity > 0.0 ? gravity : earth) / (goal.sag * length);
+}
+
 double calibrated_length(const BodyInertia& body, const CalibrationGoal& goal) {
   const double gyration = std::sqrt(body.inertia_O.trace() / (3.0 * body.mass));
   return std::clamp(2.0 * goal.twist * gyration / goal.sag, 1e-3, 100.0);

@@ -27,6 +27,10 @@ struct ForkCalibration {
 ForkCalibration calibrated_fork(const std::string& shape, double length, const BodyInertia& body, double gravity,
                                 const CalibrationGoal& goal = {});
 
+/// Stiffness [N/m] of the tool `spring` that the weight of `mass` [kg] extends by `goal.sag` of `length` [m]. Without
+/// gravity as on Earth.
+double calibrated_spring(double mass, double length, double gravity, const CalibrationGoal& goal = {});
+
 /// Length [m] of a fork for a body, from its size: the one with which the weight at a lever of the body's radius of
 /// gyration ρ twists the fork by `goal.twist`, `2 twist ρ / sag`. Limited to 1 mm … 100 m.
 double calibrated_length(const BodyInertia& body, const CalibrationGoal& goal = {});

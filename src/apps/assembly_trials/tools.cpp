@@ -13,6 +13,9 @@ const std::vector<std::pair<std::string, std::string>>& tools() {
       {"spring_fork", "{tool: spring_fork}"},
       {"torsion_resistant", "{tool: spring_fork, fork.dofs.torsion: false}"},
       {"bend_only", "{tool: spring_fork, fork.dofs.torsion: false, fork.dofs.stretch: false}"},
+      {"spring", "{tool: spring}"},
+      {"direct", "{tool: direct}"},
+      {"ray", "{tool: ray}"},
   };
   return all;
 }
