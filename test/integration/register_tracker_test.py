@@ -151,7 +151,7 @@ class RegisterTracker(unittest.TestCase):
         motion = self.motion([place_of(p) for p in PLACES])
         known, out = self.landmarks(PLACES), self.file("live.yaml")
         tip = self.file("tip.yaml", "tip: [0.01, -0.02, 0.15]\n")
-        start = ["workbench.launch", "rviz:=false", "source:=motion_file", "motion:=" + motion]
+        start = ["workbench.launch", "rviz:=false", "input:=motion_file", "motion:=" + motion]
         with Launched(*start, "registration:=" + tip, "pause:=8", "speed:=2"):
             done = self.run_program("--landmarks", known, "--out", out)
         self.assertEqual(done.returncode, 0, done.stderr)
