@@ -16,7 +16,7 @@ class Exponential final : public Integrator {
   ~Exponential() override;
 
   std::string name() const override { return "exponential"; }
-  int order() const override { return 6; }
+  int order() const override { return 5; }
   bool unlimited() const override { return true; }
   StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, StrainState& state) override;
   Response response(const HeldBody& body, double t, double h, const StrainState& state) override;
