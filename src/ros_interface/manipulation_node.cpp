@@ -1,6 +1,7 @@
 #include "spring_workbench/ros_interface/manipulation_node.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "spring_workbench/ros_interface/conversions.h"
 #include "spring_workbench/ros_interface/loop_clock.h"
@@ -23,6 +24,15 @@ std::vector<std::string> senders_of_tf() {
   return senders;
 }
 
+/// The folders that are given, and that of the scene at the start.
+std::vector<std::string> scene_roots(const ManipulationParameters& parameters, SimulationRunner& runner) {
+  std::vector<std::string> roots = parameters.scene_roots;
+  runner.locked([&](const Simulation& simulation) {
+    roots.push_back(std::filesystem::path(simulation.scene().path).parent_path().string());
+  });
+  return roots;
+}
+
 }  // namespace
 
 ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node)
@@ -31,7 +41,7 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
               ros::Time::isSimTime() ? 1.0 / parameters_.rate : 0.0),
       input_(node, parameters_),
       publisher_(private_node, parameters_),
-      services_(private_node, runner_),
+      services_(private_node, runner_, scene_roots(parameters_, runner_)),
       live_tuning_(make_live_tuning(private_node, runner_)),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),

@@ -73,6 +73,10 @@ ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters
   const YAML::Node scene = take(rest, "scene");
   if (!scene) refuse(where, "scene", "(nothing)", "a URDF's path or package:// URI");
   result.scene = read_string(scene, where, "scene");
+  if (const YAML::Node roots = take(rest, "scene_roots")) {
+    if (!roots.IsSequence()) refuse(where, "scene_roots", YAML::Dump(roots), "a list of folders");
+    for (const YAML::Node& root : roots) result.scene_roots.push_back(read_string(root, where, "scene_roots"));
+  }
   take_number(rest, where, "rate", between(1.0, 2000.0), result.rate);
   take_number(rest, where, "markers_rate", between(0.1, 200.0), result.markers_rate);
   if (const YAML::Node curve = take(rest, "fork_curve")) {

@@ -44,7 +44,8 @@ std::string describe(const DynamicsSettings& settings) {
 
 }  // namespace
 
-Services::Services(ros::NodeHandle private_node, SimulationRunner& runner) : runner_(runner) {
+Services::Services(ros::NodeHandle private_node, SimulationRunner& runner, std::vector<std::string> scene_roots)
+    : runner_(runner), scene_roots_(std::move(scene_roots)) {
   servers_ = {private_node.advertiseService("set_dofs", &Services::set_dofs, this),
               private_node.advertiseService("set_stiffness", &Services::set_stiffness, this),
               private_node.advertiseService("set_damping", &Services::set_damping, this),
@@ -83,7 +84,7 @@ bool Services::set_integrator(SetIntegrator::Request& request, SetIntegrator::Re
 
 bool Services::load_scene(LoadScene::Request& request, LoadScene::Response& response) {
   return answer(response, [&] {
-    const Scene scene = spring_workbench::load_scene(request.scene);
+    const Scene scene = spring_workbench::load_scene(request.scene, scene_roots_);
     runner_.load(scene);
     response.message = scene.name + ": " + std::to_string(scene.bodies.size()) + " bodies";
     if (!scene.warnings.empty()) response.message += "; " + join(scene.warnings, "; ");

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <set>
 
+#include "package_path.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/scene/geometry.h"
 
@@ -22,13 +23,22 @@ bool starts_with(const std::string& text, const std::string& start) {
   return text.compare(0, start.size(), start) == 0;
 }
 
-std::string package_file(const std::string& name, PackageFinder find_package, const std::string& where,
-                         const std::string& key) {
+std::string package_file(const std::string& name, const std::string& where, const std::string& key) {
   const std::string rest = name.substr(std::string("package://").size());
   const std::string package = rest.substr(0, rest.find('/'));
-  const std::string folder = find_package(package);
+  const std::string folder = find_package_in_ros_package_path(package);
   if (folder.empty()) refuse(where, key, name, "in a package that can be found");
   return folder + rest.substr(package.size());
+}
+
+/// Links followed.
+bool is_in_a_root(const fs::path& path, const std::vector<std::string>& roots) {
+  std::error_code error;
+  const fs::path file = fs::canonical(path, error);
+  return !error && std::any_of(roots.begin(), roots.end(), [&](const std::string& root) {
+    const fs::path folder = fs::canonical(root, error);
+    return !error && *file.lexically_relative(folder).begin() != "..";
+  });
 }
 
 std::string lower_extension(const std::string& path) {
@@ -116,11 +126,11 @@ bool is_flat(const TriangleMesh& mesh, const Eigen::Vector3i& t) {
 
 }  // namespace
 
-std::string resolve_file(const std::string& name, const std::string& folder, PackageFinder find_package,
+std::string resolve_file(const std::string& name, const std::string& folder, const std::vector<std::string>& roots,
                          const std::string& where, const std::string& key) {
   std::string path;
   if (starts_with(name, "package://")) {
-    path = package_file(name, find_package, where, key);
+    path = package_file(name, where, key);
   } else if (starts_with(name, "file://")) {
     path = name.substr(std::string("file://").size());
   } else {
@@ -128,6 +138,13 @@ std::string resolve_file(const std::string& name, const std::string& folder, Pac
   }
   std::error_code error;
   if (!fs::is_regular_file(path, error)) refuse(where, key, name, "a file that is there (looked for " + path + ")");
+  if (!roots.empty() && !is_in_a_root(path, roots) && !is_in_a_package(path)) {
+    refuse(where, key, name, "in a ROS package or one of the folders " + join(roots));
+  }
+  const std::uintmax_t bytes = fs::file_size(path, error);
+  if (error || bytes > most_bytes) {
+    refuse(where, key, name, "a file of at most " + std::to_string(most_bytes >> 20) + " MiB");
+  }
   return fs::absolute(path).lexically_normal().string();
 }
 
@@ -164,7 +181,7 @@ bool is_closed(const TriangleMesh& mesh) {
 MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale, const std::string& folder,
                         const std::string& where) {
   if (!scale.allFinite() || scale.prod() == 0.0) refuse(where, "mesh scale", name, "finite and not zero");
-  const std::string path = resolve_file(name, folder, find_package_, where, "mesh");
+  const std::string path = resolve_file(name, folder, roots_, where, "mesh");
   MeshPtr& mesh = meshes_[{path, scale.x(), scale.y(), scale.z()}];
   if (mesh) return mesh;
   static const std::array<std::string, 3> formats = {".stl", ".obj", ".dae"};

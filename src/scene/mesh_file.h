@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "spring_workbench/scene/scene.h"
@@ -10,9 +12,13 @@
 namespace spring_workbench {
 
 /// The path that a file name in a scene means: `package://`, `file://`, absolute, or relative to `folder`.
-/// Throws InputError naming `where`, `key` and the name where there is no such file.
-std::string resolve_file(const std::string& name, const std::string& folder, PackageFinder find_package,
+/// Throws InputError naming `where`, `key` and the name where there is no such file, it is neither in one of `roots` nor in
+/// a package (as load_scene() says), or it is larger than a scene's files may be.
+std::string resolve_file(const std::string& name, const std::string& folder, const std::vector<std::string>& roots,
                          const std::string& where, const std::string& key);
+
+/// Largest file that a scene may name [bytes].
+constexpr std::uintmax_t most_bytes = 256u << 20;
 
 /// Largest number of triangles of a mesh.
 constexpr std::size_t most_triangles = 1000000;
@@ -27,13 +33,14 @@ bool is_closed(const TriangleMesh& mesh);
 /// Loads STL, OBJ and DAE files, each once.
 class MeshCache {
  public:
-  explicit MeshCache(PackageFinder find_package) : find_package_(find_package) {}
+  /// `roots`: as of load_scene().
+  explicit MeshCache(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
   /// The mesh called `name` in a URDF in `folder`, times `scale`. Throws InputError naming `where`.
   MeshPtr load(const std::string& name, const Vector3d& scale, const std::string& folder, const std::string& where);
 
  private:
-  PackageFinder find_package_;
+  std::vector<std::string> roots_;
   std::map<std::tuple<std::string, double, double, double>, MeshPtr> meshes_;
 };
 

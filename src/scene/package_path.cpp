@@ -1,3 +1,5 @@
+#include "package_path.h"
+
 #include <tinyxml.h>
 
 #include <cstdlib>
@@ -50,6 +52,18 @@ std::string find_package_in_ros_package_path(const std::string& package) {
     if (!found.empty()) return found;
   }
   return "";
+}
+
+bool is_in_a_package(const fs::path& path) {
+  std::error_code error;
+  fs::path folder = fs::canonical(path, error).parent_path();
+  for (; !error && folder.has_relative_path(); folder = folder.parent_path()) {
+    const std::string name = package_name(folder);
+    if (name.empty()) continue;
+    const std::string found = find_package_in_ros_package_path(name);
+    return !found.empty() && fs::equivalent(found, folder, error);
+  }
+  return false;
 }
 
 }  // namespace spring_workbench

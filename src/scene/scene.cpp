@@ -40,8 +40,8 @@ void lay_on_bench(double bench_height, std::vector<Body>& bodies) {
 /// Puts a scene together from its URDF, the YAML beside it and the URDFs that this names.
 class SceneLoader {
  public:
-  SceneLoader(const std::string& path, PackageFinder find_package)
-      : path_(path), find_package_(find_package), meshes_(find_package) {}
+  SceneLoader(const std::string& path, const std::vector<std::string>& roots)
+      : path_(path), roots_(roots), meshes_(roots) {}
 
   Scene load() {
     const fs::path yaml = fs::path(path_).replace_extension(".yaml");
@@ -83,7 +83,7 @@ class SceneLoader {
   void add_object(const std::string& name, const ObjectEntry& entry) {
     const std::string key = "objects." + name + ".urdf";
     const std::string folder = fs::path(path_).parent_path().string();
-    const UrdfFile urdf = read_urdf(resolve_file(*entry.urdf, folder, find_package_, entry.where, key));
+    const UrdfFile urdf = read_urdf(resolve_file(*entry.urdf, folder, roots_, entry.where, key));
     const auto material = [&](const std::string&) { return entry.material; };
     std::vector<Body> bodies =
         build_bodies(urdf, entry.X_WL.value_or(RigidTransform::Identity()), material, meshes_, scene_.warnings);
@@ -109,7 +109,7 @@ class SceneLoader {
   }
 
   std::string path_;
-  PackageFinder find_package_;
+  std::vector<std::string> roots_;
   MeshCache meshes_;
   SceneFile file_;
   Scene scene_;
@@ -117,9 +117,9 @@ class SceneLoader {
 
 }  // namespace
 
-Scene load_scene(const std::string& path_or_uri, PackageFinder find_package) {
-  const std::string path = resolve_file(path_or_uri, "", find_package, "scene", "path");
-  return SceneLoader(path, find_package).load();
+Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots) {
+  const std::string path = resolve_file(path_or_uri, "", roots, "scene", "path");
+  return SceneLoader(path, roots).load();
 }
 
 std::optional<std::size_t> find_body(const Scene& scene, const std::string& name) {

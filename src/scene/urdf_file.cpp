@@ -15,6 +15,9 @@
 namespace spring_workbench {
 namespace {
 
+constexpr int most_nesting = 64;           ///< elements in each other; a URDF has six
+constexpr std::size_t most_links = 10000;  ///< a chain of them is walked by recursion
+
 std::string one_line(std::string text) {
   std::replace(text.begin(), text.end(), '\n', ' ');
   return text;
@@ -133,11 +136,28 @@ void try_elements(TiXmlElement& link, UrdfFile& file) {
   }
 }
 
+/// How deep the elements lie in each other, roughly: TinyXML takes a stack frame for each.
+int nesting(const std::string& xml) {
+  int depth = 0, deepest = 0;
+  for (std::size_t at = xml.find('<'); at != std::string::npos && at + 1 < xml.size(); at = xml.find('<', at + 1)) {
+    const std::size_t end = xml.find('>', at);
+    if (xml[at + 1] == '/') {
+      --depth;
+    } else if (xml[at + 1] != '!' && xml[at + 1] != '?' && (end == std::string::npos || xml[end - 1] != '/')) {
+      deepest = std::max(deepest, ++depth);
+    }
+  }
+  return deepest;
+}
+
 TiXmlDocument load_xml(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream text;
   if (!in || !(text << in.rdbuf())) {
     throw InputError(path + ": cannot be read: must be a URDF file");
+  }
+  if (nesting(text.str()) > most_nesting) {
+    throw InputError(path + ": nesting: must be at most " + std::to_string(most_nesting) + " elements deep");
   }
   TiXmlDocument document;
   document.Parse(text.str().c_str());
@@ -166,7 +186,9 @@ UrdfFile read_urdf_file(const std::string& path) {
   UrdfFile file;
   file.path = path;
   if (TiXmlElement* robot = document.FirstChildElement("robot")) {
+    std::size_t links = 0;
     for (TiXmlElement* link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
+      if (++links > most_links) throw InputError(path + ": links: must be at most " + std::to_string(most_links));
       if (link->Attribute("name") == nullptr) throw InputError(place(path, link->Row()) + ": link: name is missing");
       file.link_lines[link->Attribute("name")] = link->Row();
       try_elements(*link, file);

@@ -16,8 +16,8 @@ namespace spring_workbench {
 /// with `success = false` and one line, and changes nothing.
 class Services {
  public:
-  /// `runner` must outlive this.
-  Services(ros::NodeHandle private_node, SimulationRunner& runner);
+  /// `runner` must outlive this; `scene_roots`: the folders that scenes may be loaded from, as of load_scene().
+  Services(ros::NodeHandle private_node, SimulationRunner& runner, std::vector<std::string> scene_roots);
 
  private:
   bool set_dofs(SetForkDofs::Request& request, SetForkDofs::Response& response);
@@ -30,6 +30,7 @@ class Services {
   bool release(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   SimulationRunner& runner_;
+  std::vector<std::string> scene_roots_;
   std::vector<ros::ServiceServer> servers_;
 };
 

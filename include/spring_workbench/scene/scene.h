@@ -90,15 +90,13 @@ struct Scene {
   std::vector<std::string> warnings;            ///< what was mended on loading; each names the link
 };
 
-/// Finds the folder of a ROS package, or an empty string. The core knows no ROS: a node passes rospack's answer.
-using PackageFinder = std::string (*)(const std::string& package);
-
-/// Finds packages in the colon-separated folders of ROS_PACKAGE_PATH: no ROS needed.
+/// The folder of a package in the colon-separated folders of ROS_PACKAGE_PATH, or an empty string: no ROS needed.
 std::string find_package_in_ros_package_path(const std::string& package);
 
-/// Reads a scene from a URDF file path or `package://` URI, with the YAML beside it where there is one.
+/// Reads a scene from a URDF file path or `package://` URI, with the YAML beside it where there is one. It and all
+/// that it names must lie, links followed, in one of the folders `roots` or in a ROS package; without any, anywhere.
 /// Throws InputError with file, field, value and rule for everything that cannot be used.
-Scene load_scene(const std::string& path_or_uri, PackageFinder find_package = find_package_in_ros_package_path);
+Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots = {});
 
 /// Index of the body called `name`, or nothing.
 std::optional<std::size_t> find_body(const Scene& scene, const std::string& name);

@@ -458,5 +458,76 @@ TEST_F(LoadScene, LoadsTheSameFromManyThreads) {
   for (const std::size_t count : warnings) EXPECT_EQ(count, 1u);
 }
 
+const std::string one_link = "<robot name='r'><link name='a'/></robot>";
+
+std::string refusal_from(const std::string& path, const std::vector<std::string>& roots) {
+  try {
+    load_scene(path, roots);
+  } catch (const InputError& e) {
+    return e.what();
+  }
+  return "(loaded)";
+}
+
+TEST_F(LoadScene, ReadsFromTheFoldersAllowedAndFromPackagesAlone) {
+  folder_.write("allowed/scene.urdf", one_link);
+  folder_.write("elsewhere/scene.urdf", one_link);
+  folder_.write("elsewhere/t.obj", tetrahedron_obj);
+  folder_.write("allowed/up.urdf", "<robot name='r'><link name='a'><collision><geometry><mesh filename='../elsewhere/t.obj'/>"
+                                   "</geometry></collision></link></robot>");
+  std::filesystem::create_symlink(folder_.path("elsewhere/scene.urdf"), folder_.path("allowed/link.urdf"));
+  const std::vector<std::string> roots = {folder_.path("nowhere"), folder_.path("allowed")};
+  EXPECT_EQ(refusal_from(folder_.path("allowed/scene.urdf"), roots), "(loaded)");
+  for (const std::string path : {"elsewhere/scene.urdf", "allowed/../elsewhere/scene.urdf", "allowed/link.urdf", "allowed/up.urdf"}) {
+    EXPECT_TRUE(has(refusal_from(folder_.path(path), roots), "one of the folders")) << path;
+    EXPECT_EQ(refusal_from(folder_.path(path), {}), "(loaded)") << path;
+  }
+  folder_.write("elsewhere/package.xml", "<package><name>somewhere_else</name></package>");
+  const char* before = std::getenv("ROS_PACKAGE_PATH");
+  const std::string saved = before != nullptr ? before : "";
+  setenv("ROS_PACKAGE_PATH", folder_.path("").c_str(), 1);
+  EXPECT_EQ(refusal_from(folder_.path("elsewhere/scene.urdf"), roots), "(loaded)");
+  EXPECT_EQ(refusal_from("package://somewhere_else/scene.urdf", roots), "(loaded)");
+  EXPECT_TRUE(has(refusal_from("package://somewhere_else/../nothing.urdf", roots), "file that is there"));
+  setenv("ROS_PACKAGE_PATH", saved.c_str(), 1);
+}
+
+// Files made to eat time or memory.
+TEST_F(LoadScene, RefusesHostileFiles) {
+  std::string deep = "<robot name='r'>";
+  for (int i = 0; i < 1000000; ++i) deep += "<a>";
+  folder_.write("deep.urdf", deep);
+  EXPECT_TRUE(has(refusal_from(folder_.path("deep.urdf"), {}), "nesting"));
+
+  std::string chain = "<robot name='r'><link name='l0'/>";
+  for (int i = 1; i < 10001; ++i) {
+    const std::string a = std::to_string(i - 1), b = std::to_string(i);
+    chain += "<link name='l" + b + "'/><joint name='j" + b + "' type='fixed'><parent link='l" + a + "'/><child link='l" + b + "'/></joint>";
+  }
+  folder_.write("chain.urdf", chain + "</robot>");
+  EXPECT_TRUE(has(refusal_from(folder_.path("chain.urdf"), {}), "links"));
+
+  std::string bomb = "<!DOCTYPE r [<!ENTITY a0 'ha'>";
+  for (int i = 1; i < 40; ++i) {
+    const std::string a = "&a" + std::to_string(i - 1) + ";";
+    bomb += "<!ENTITY a" + std::to_string(i) + " '" + a + a + "'>";
+  }
+  folder_.write("bomb.urdf", bomb + "]><robot name='&a39;'><link name='a'/></robot>");
+  EXPECT_FALSE(has(refusal_from(folder_.path("bomb.urdf"), {}), "(loaded)"));
+
+  folder_.write("large.urdf", one_link);
+  std::filesystem::resize_file(folder_.path("large.urdf"), std::uintmax_t{1} << 31);
+  EXPECT_TRUE(has(refusal_from(folder_.path("large.urdf"), {}), "MiB"));
+
+  EXPECT_TRUE(has(refusal("<link name='a'/>", "gravity: " + std::string(100000, '[')), "not YAML"));
+  std::string aliases = "a0: &a0 [1, 1]\n";
+  for (int i = 1; i < 60; ++i) {
+    const std::string a = "*a" + std::to_string(i - 1);
+    aliases += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + a + ", " + a + "]\n";
+  }
+  EXPECT_TRUE(has(refusal("<link name='a'/>", aliases), "a0"));
+  EXPECT_TRUE(has(refusal("<link name='a'/>", "objects:\n  b:\n    " + std::string("pose: &a [&b [1, 1], *b]\n")), "pose"));
+}
+
 }  // namespace
 }  // namespace spring_workbench
