@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "spring_workbench/tracker/cadence_clock.h"
 #include "spring_workbench/tracker/live_source.h"
@@ -27,8 +28,7 @@ class StationStream {
 
   bool even_stamps_;
   std::optional<CadenceClock> cadence_;
-  double first_ = 0.0, last_ = 0.0;  ///< receipts while the cadence is measured [s]
-  int count_ = 0;                    ///< of them
+  std::vector<double> receipts_;  ///< while the cadence is measured [s]
   TruthLayer truth_;
   StreamMonitor monitor_;
 };
