@@ -22,7 +22,7 @@ namespace spring_workbench {
 
 /// Before the bench and above it, the x axis towards 0.1 m above its middle, y to the left.
 inline RigidTransform head_before_the_bench() {
-  const Vector3d p(0.0, -0.7, 0.6), x = (Vector3d(0.0, 0.0, 0.1) - p).normalized(), y(-1.0, 0.0, 0.0);
+  const Vector3d p(0.0, -0.85, 0.7), x = (Vector3d(0.0, 0.0, 0.1) - p).normalized(), y(-1.0, 0.0, 0.0);
   Matrix3d R;
   R << x, y, x.cross(y);
   return make_transform(Quaterniond(R), p);
