@@ -21,6 +21,7 @@ double StationStream::stamp(double received) {
   constexpr double measured_for = 3.0;  // [s]
   constexpr double longest_gap = 0.25;  // [s]
   if (!even_stamps_) return received;
+  if (cadence_ && cadence_->is_astray()) cadence_.reset();  // records were lost while it was measured
   if (cadence_) return cadence_->stamp(received);
   if (!receipts_.empty() && received - receipts_.back() > longest_gap) receipts_.clear();
   receipts_.push_back(received);
