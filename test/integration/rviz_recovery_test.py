@@ -62,7 +62,7 @@ class Stack:
                 process.wait()
 
     def master(self):
-        process = self.start("/usr/bin/roscore", "-p", str(self.port))
+        process = self.start("roscore", "-p", str(self.port))
         self.until(lambda: subprocess.run(["rosparam", "list"], env=self.environment, capture_output=True).returncode == 0,
                    "the master")
         return process
@@ -82,7 +82,7 @@ class Stack:
         path = os.path.join(self.folder, "view.rviz")
         with open(path, "w") as file:
             yaml.safe_dump(config, file)
-        return self.start("/usr/bin/rviz", "-d", path)
+        return self.start("rviz", "-d", path)
 
     def pixels(self):
         raw = subprocess.run(["import", "-window", "root", "-depth", "8", "rgb:-"], check=True, capture_output=True,

@@ -120,7 +120,7 @@ def run(folder, lost):
     hand(motion)
     scene = "package://spring_workbench/scenes/single_box.urdf"
     nodes = DEVEL + "/lib/spring_workbench/"
-    processes = [start(BENCH, MASTER, "/usr/bin/roscore", stdout=subprocess.DEVNULL)]
+    processes = [start(BENCH, MASTER, "roscore", stdout=subprocess.DEVNULL)]
     try:
         ready = lambda: subprocess.run(["ip", "netns", "exec", BENCH, "rosparam", "list"], capture_output=True,
                                        env=dict(os.environ, ROS_MASTER_URI="http://%s:11311" % MASTER)).returncode == 0
