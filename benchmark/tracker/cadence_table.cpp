@@ -59,7 +59,8 @@ class Jitter {
   }
 
   void write(const std::string& stream, const std::string& line, std::ostream& out) {
-    std::sort(intervals_.begin(), intervals_.end(), [](const Interval& a, const Interval& b) { return a.receipts < b.receipts; });
+    std::sort(intervals_.begin(), intervals_.end(),
+              [](const Interval& a, const Interval& b) { return a.receipts < b.receipts; });
     const double usual = intervals_.empty() ? 0.0 : intervals_[intervals_.size() / 2].receipts;
     for (const Interval& interval : intervals_) {
       if (interval.stamps > 1.5 * usual) ++breaks_;
@@ -68,8 +69,8 @@ class Jitter {
       before_.add(interval.receipts / std::sqrt(2.0));
       after_.add(interval.stamps / std::sqrt(2.0));
     }
-    out << stream << ',' << line << ',' << before_.count() << ',' << 1e3 * usual << ',' << 1e3 * before_.deviation() << ','
-        << 1e3 * after_.deviation() << ',' << breaks_ << std::endl;
+    out << stream << ',' << line << ',' << before_.count() << ',' << 1e3 * usual << ',' << 1e3 * before_.deviation()
+        << ',' << 1e3 * after_.deviation() << ',' << breaks_ << std::endl;
   }
 
  private:
@@ -123,7 +124,8 @@ void delayed(const std::string& path, double delay, double poll, const std::stri
   jitter.write(file_name(path), line, out);
 }
 
-/// The simulator on a thread of its own, at 120 records a second from each station; x of a hand says when it was measured.
+/// The simulator on a thread of its own, at 120 records a second from each station; x of a hand says when it was
+/// measured.
 void simulated(int stations, std::ostream& out) {
   constexpr double length = 40.0, rate = 120.0, speed = 0.02;  // [s], [Hz] of a station, [m/s]
   std::vector<StylusSample> way(2);
@@ -143,8 +145,7 @@ void simulated(int stations, std::ostream& out) {
   std::thread device([&] {
     for (long cycle = 0; !over; ++cycle) {
       const double t = static_cast<double>(cycle) / (rate * stations);
-      std::this_thread::sleep_until(
-          start + std::chrono::duration_cast<steady_clock::duration>(duration<double>(t)));
+      std::this_thread::sleep_until(start + std::chrono::duration_cast<steady_clock::duration>(duration<double>(t)));
       simulator.serve(0.0);
       simulator.measure(t);
     }

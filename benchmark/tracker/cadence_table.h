@@ -11,7 +11,8 @@ namespace spring_workbench {
 /// Jitter is a standard deviation. Behind a line and on the pseudo-terminal it is that of the stamp less the moment of
 /// measuring, which there is known; of a motion as it was recorded it is that of the time between neighbours, over √2,
 /// where none is missing between them.
-/// The first ten seconds, in which the cadence is learnt, are left out. Throws InputError where a motion cannot be read.
+/// The first ten seconds, in which the cadence is learnt, are left out. Throws InputError where a motion cannot be
+/// read.
 void write_cadence_table(const std::vector<std::string>& motions, std::ostream& out);
 
 }  // namespace spring_workbench

@@ -54,7 +54,9 @@ double lag_of(const std::vector<PoseSample>& given, PoseTrack& track) {
 double jitter_of(const std::vector<PoseSample>& given) {
   double sum = 0.0;
   for (std::size_t i = 1; i + 1 < given.size(); ++i) {
-    sum += (given[i - 1].X.translation() - 2.0 * given[i].X.translation() + given[i + 1].X.translation()).squaredNorm() / 6.0;
+    sum +=
+        (given[i - 1].X.translation() - 2.0 * given[i].X.translation() + given[i + 1].X.translation()).squaredNorm() /
+        6.0;
   }
   return std::sqrt(sum / static_cast<double>(given.size() - 2));
 }

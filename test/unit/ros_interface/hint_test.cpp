@@ -10,7 +10,9 @@ namespace {
 /// What may be wrong, and the words that the hint must have.
 TEST(HintForSilence, NamesWhatToLookAt) {
   InputStatistics input;
-  const auto hint = [&](const std::vector<std::string>& senders = {}) { return hint_for_silence(input, senders, "stylus"); };
+  const auto hint = [&](const std::vector<std::string>& senders = {}) {
+    return hint_for_silence(input, senders, "stylus");
+  };
   const auto expect = [](const std::string& text, const std::string& word) {
     EXPECT_NE(text.find(word), std::string::npos) << text;
     EXPECT_EQ(text.find('\n'), std::string::npos);
