@@ -41,7 +41,7 @@ class Stack:
         self.folder = folder
         reader, writer = os.pipe()
         self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % SIZE, "+extension",
-                                        "GLX"], pass_fds=[writer], stderr=subprocess.DEVNULL)
+                                        "GLX", "-noreset"], pass_fds=[writer], stderr=subprocess.DEVNULL)
         self.port = free_port()
         self.environment = dict(os.environ, DISPLAY=":" + os.read(reader, 16).decode().strip(), LIBGL_ALWAYS_SOFTWARE="1",
                                 ROS_MASTER_URI="http://localhost:%d" % self.port, ROS_HOME=folder)
