@@ -2,7 +2,9 @@
 
 #include <ros/init.h>
 
+#include <algorithm>
 #include <chrono>
+#include <mutex>
 #include <thread>
 
 namespace spring_workbench {
@@ -20,13 +22,23 @@ void sleep_until_simulated(double t) {
   }
 }
 
+double attended_time(double wall) {
+  constexpr double longest = 0.01;  // [s]
+  static std::mutex mutex;
+  static double last = wall, attended = 0.0;
+  const std::lock_guard<std::mutex> lock(mutex);
+  attended += std::clamp(wall - last, 0.0, longest);
+  last = std::max(last, wall);
+  return attended;
+}
+
 }  // namespace
 
 double loop_time() { return local_time().loop; }
 
 LocalTime local_time() {
   const double wall = duration<double>(steady_clock::now().time_since_epoch()).count();
-  return {ros::Time::isSimTime() ? ros::Time::now().toSec() : wall, wall};
+  return {ros::Time::isSimTime() ? ros::Time::now().toSec() : wall, attended_time(wall)};
 }
 
 void sleep_until_loop_time(double t) {

@@ -6,7 +6,7 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double kShortestSilence = 0.2;  // [s] by the wall clock
+constexpr double kShortestSilence = 0.2;  // [s] of attended time
 
 }  // namespace
 
@@ -25,15 +25,15 @@ double PlayoutClock::target(const LocalTime& now) const {
   const double waited = std::max(now.loop - arrival_.loop, 0.0);
   const double target = newest_ + waited - interval_;
   if (!simulated_time_) return waited > dropout_after_ ? target : std::min(target, newest_);
-  const bool silent = waited > dropout_after_ && now.wall - arrival_.wall > kShortestSilence;
+  const bool silent = waited > dropout_after_ && now.attended - arrival_.attended > kShortestSilence;
   if (silent) return std::max(target, before_newest_);
-  const bool buttons_come = now.wall - buttons_arrival_ < kShortestSilence;
+  const bool buttons_come = now.attended - buttons_arrival_ < kShortestSilence;
   return buttons_come ? std::min(before_newest_, buttons_until_) : before_newest_;
 }
 
 void PlayoutClock::buttons(double t, const LocalTime& arrival) {
   buttons_until_ = std::max(buttons_until_, t);
-  buttons_arrival_ = arrival.wall;
+  buttons_arrival_ = arrival.attended;
 }
 
 void PlayoutClock::clear() {

@@ -9,7 +9,7 @@
 namespace spring_workbench {
 namespace {
 
-constexpr uint32_t queue = 100;  // simulated time may go on by many steps at once
+constexpr uint32_t queue = 1000;  // simulated time may go on by many steps at once, without pause
 constexpr double shortest_lifetime = 2.0;  // of markers [s]
 const char* const handle_frame = "fork_handle";
 const char* const tip_frame = "fork_tip";

@@ -36,14 +36,26 @@ RawSample raw(const geometry_msgs::Transform& T, double t) {
           Quaterniond(T.rotation.w, T.rotation.x, T.rotation.y, T.rotation.z)};
 }
 
-constexpr double kSlip = 0.1;  // [s] a clock that is set right by less goes on
+constexpr uint32_t kQueue = 2000;  // messages; what a busy machine holds up for a second, those of this node itself among it
+constexpr double kSlip = 0.1;      // [s] a clock that is set right by less goes on
 
 /// Keeps the newest few.
 template <typename Message>
 void keep(const Message& message, std::deque<Message>& kept) {
-  constexpr std::size_t most = 1000;
+  constexpr std::size_t most = 2000;
   kept.push_back(message);
   if (kept.size() > most) kept.pop_front();
+}
+
+/// What was kept since time went back for the last time.
+template <typename Message>
+std::deque<Message> newest_pass(std::deque<Message> kept) {
+  for (std::size_t i = kept.size(); i-- > 1;) {
+    if ((kept[i - 1].header.stamp - kept[i].header.stamp).toSec() <= kSlip) continue;
+    kept.erase(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(i));
+    break;
+  }
+  return kept;
 }
 
 std::string number(double value) {
@@ -63,8 +75,8 @@ StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& par
   }
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   static_subscriber_ = node.subscribe("/tf_static", 100, &StylusInput::on_static_transforms, this, hints);
-  tf_subscriber_ = node.subscribe("/tf", 100, &StylusInput::on_transforms, this, hints);
-  joy_subscriber_ = node.subscribe("stylus/joy", 100, &StylusInput::on_joy, this, hints);
+  tf_subscriber_ = node.subscribe("/tf", kQueue, &StylusInput::on_transforms, this, hints);
+  joy_subscriber_ = node.subscribe("stylus/joy", kQueue, &StylusInput::on_joy, this, hints);
 }
 
 std::vector<StylusEvent> StylusInput::take_events() {
@@ -134,7 +146,7 @@ void StylusInput::on_stylus(const geometry_msgs::TransformStamped& transform, co
                                             parameters_.workbench_frame + " or tied to it on /tf_static");
     }
   }
-  poses_.newest = std::max(poses_.newest, transform.header.stamp);
+  go_on_to(transform.header.stamp, poses_, early_poses_);
   offer(transform, X_WP, age);
 }
 
@@ -170,11 +182,19 @@ void StylusInput::on_buttons(const sensor_msgs::Joy& message, const ros::Time& n
   }
   const bool usable_stamp = std::abs((now - stamp).toSec()) <= parameters_.max_age;
   const double t = seconds(usable_stamp ? stamp : now);
-  if (usable_stamp) buttons_.newest = std::max(buttons_.newest, stamp);
+  if (usable_stamp) go_on_to(stamp, buttons_, early_buttons_);
   const bool pressed = message.buttons[0] != 0;
   if (pressed != pressed_) events_.push_back(StylusButton{t, pressed});
   pressed_ = pressed;
   events_.push_back(ButtonsKnown{t, local_time()});
+}
+
+/// A stream that goes on shows that what was kept of it was out of order, and not after a jump.
+template <typename Message>
+void StylusInput::go_on_to(const ros::Time& stamp, Stream& stream, std::deque<Message>& early) {
+  if (stamp <= stream.newest) return;
+  stream.newest = stamp;
+  early.clear();
 }
 
 /// The time now, for a message with this stamp of this stream; nothing when it belongs to the time after a jump back for
@@ -182,23 +202,28 @@ void StylusInput::on_buttons(const sensor_msgs::Joy& message, const ros::Time& n
 /// come after it: a stamp that goes on where its stream was, near what the clock said then, belongs to the time before.
 std::optional<ros::Time> StylusInput::moment_of(const ros::Time& stamp, Stream& stream) {
   const ros::Time now = ros::Time::now();
-  jumped_ |= !last_now_.isZero() && (last_now_ - now).toSec() > kSlip;
+  // The clock went back; or the whole way back was missed, and only the stamps show it.
+  const bool clock_jumped = !last_now_.isZero() && (last_now_ - now).toSec() > kSlip;
+  const bool stamps_jumped = ros::Time::isSimTime() && !stream.newest.isZero() &&
+                             (stream.newest - stamp).toSec() > kSlip && (stream.newest - now).toSec() > kSlip;
+  if (!jumped_ && (clock_jumped || stamps_jumped)) {
+    jumped_ = true;
+    jumped_at_ = local_time().attended;
+  }
   if (!jumped_) last_now_ = now;
   const bool goes_on = ros::Time::isSimTime() && !stream.newest.isZero() && stamp > stream.newest &&
                        std::abs((last_now_ - stamp).toSec()) < parameters_.max_age;
   if (jumped_ && !goes_on) return std::nullopt;
-  stream.arrival = local_time().wall;
   return last_now_;
 }
 
-/// Starts anew unless the other stream, which was alive a moment ago, has not come to the jump yet.
+/// Starts anew unless a stream that there is has not come to the jump yet.
 void StylusInput::start_anew_when_due() {
-  constexpr double patience = 0.2;  // [s] by the wall clock
-  const double wall = local_time().wall;
-  const auto awaited = [&](const Stream& stream, bool has_jumped) {
-    return ros::Time::isSimTime() && !has_jumped && wall - stream.arrival < patience;
-  };
-  if (awaited(poses_, !early_poses_.empty()) || awaited(buttons_, !early_buttons_.empty())) return;
+  constexpr double patience = 1.0;  // [s] of attended time; a player on a busy machine may stop for a while, too
+  const bool patient = ros::Time::isSimTime() && local_time().attended - jumped_at_ < patience;
+  const bool poses_awaited = !poses_.newest.isZero() && early_poses_.empty();
+  const bool buttons_awaited = !buttons_.newest.isZero() && early_buttons_.empty();
+  if (patient && (poses_awaited || buttons_awaited)) return;
   const ros::Time now = ros::Time::now();
   ROS_INFO("time went back by %.3g s: starting anew", (last_now_ - now).toSec());
   jumped_ = pressed_ = false;
@@ -207,8 +232,14 @@ void StylusInput::start_anew_when_due() {
   truth_.restart();
   monitor_.restart();
   ++statistics_.restarts;
-  for (const geometry_msgs::TransformStamped& transform : std::exchange(early_poses_, {})) on_stylus(transform, now);
-  for (const sensor_msgs::Joy& message : std::exchange(early_buttons_, {})) on_buttons(message, now);
+  // By now the clock of a bag that is played quickly may be far on: what waited is as old as it was.
+  const auto came_at = [&](const ros::Time& stamp) { return ros::Time::isSimTime() && !stamp.isZero() ? stamp : now; };
+  for (const geometry_msgs::TransformStamped& transform : newest_pass(std::exchange(early_poses_, {}))) {
+    on_stylus(transform, came_at(transform.header.stamp));
+  }
+  for (const sensor_msgs::Joy& message : newest_pass(std::exchange(early_buttons_, {}))) {
+    on_buttons(message, came_at(message.header.stamp));
+  }
 }
 
 double StylusInput::seconds(const ros::Time& stamp) {

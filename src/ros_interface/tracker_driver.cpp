@@ -55,7 +55,7 @@ std::vector<std::string> keys_of(const std::string& source) {
                                 "interpupillary_distance", "dropout_after"};
   const auto add = [&](const std::vector<std::string>& more) { keys.insert(keys.end(), more.begin(), more.end()); };
   if (source == "fastrak") {
-    add({"offset", "tip", "even_stamps"});
+    add({"offset", "tip", "even_stamps", "head_station"});
     add(fastrak_keys());
   } else if (source == "interactive_marker" || source == "joy") {
     add({"start"});
@@ -66,6 +66,14 @@ std::vector<std::string> keys_of(const std::string& source) {
     add({"offset", "tip", "file", "speed", "loop", "pause", "start", "grasp_from", "grasp_until"});
   }
   return keys;
+}
+
+int read_head_station(const YAML::Node& value, const std::string& where, const std::vector<int>& stations) {
+  const int station = read_integer(value, where, "head_station", 0, kFastrakStations);
+  if (station == 1 || (station > 0 && std::count(stations.begin(), stations.end(), station) == 0)) {
+    refuse(where, "head_station", std::to_string(station), "0, or one of stations but 1, which is the stylus");
+  }
+  return station;
 }
 
 }  // namespace
@@ -82,6 +90,10 @@ TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::st
   const bool is_motion = result.source == "motion_file" || result.source == "scripted";
   result.even_stamps = result.source == "fastrak";
   if (result.source == "fastrak") result.fastrak = read_fastrak_settings(parameters, where);
+  if (parameters["head_station"]) {
+    result.head_station = read_head_station(parameters["head_station"], where, result.fastrak.stations);
+    if (result.head_station > 0) result.X_BHead = RigidTransform::Identity();
+  }
   if (result.source == "joy") result.joy = read_joy_settings(parameters, where);
   constexpr double unbounded = std::numeric_limits<double>::max();
   const auto number = [&](const char* key, const NumberRule& rule, double& value) {
@@ -265,18 +277,30 @@ void TrackerDriver::send(const StationSample& sample) {
     ++left_out_;
     return;
   }
-  const std::string& stylus = parameters_.stylus_frame;
-  std::vector<geometry_msgs::TransformStamped> transforms{
-      to_transform(X_BT_ * taken.sample.X * Eigen::Translation3d(sample.station == 1 ? parameters_.p_ST : Vector3d::Zero()),
-                   parameters_.workbench_frame,
-                   sample.station == 1 ? stylus : stylus + "_" + std::to_string(sample.station), stamp)};
+  std::vector<geometry_msgs::TransformStamped> transforms{transform_of(sample.station, taken.sample.X, stamp)};
   if (sample.station == parameters_.fastrak.stations.front()) {
-    transforms.push_back(to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
+    if (parameters_.head_station == 0) {
+      transforms.push_back(to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
+    }
     if (!newest.isZero()) interval_ = (stamp - newest).toSec();
   }
   transforms_.sendTransform(transforms);
   newest = stamp;
   ++sent_;
+}
+
+geometry_msgs::TransformStamped TrackerDriver::transform_of(int station, const RigidTransform& X_TS,
+                                                            const ros::Time& stamp) const {
+  RigidTransform X_BF = X_BT_ * X_TS;
+  std::string frame = parameters_.stylus_frame + "_" + std::to_string(station);
+  if (station == 1) {
+    X_BF = X_BF * Eigen::Translation3d(parameters_.p_ST);
+    frame = parameters_.stylus_frame;
+  } else if (station == parameters_.head_station) {
+    X_BF = X_BF * parameters_.X_BHead;
+    frame = parameters_.head_frame;
+  }
+  return to_transform(X_BF, parameters_.workbench_frame, frame, stamp);
 }
 
 void TrackerDriver::wait_until(double t) {

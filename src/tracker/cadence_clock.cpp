@@ -35,6 +35,10 @@ double CadenceClock::stamp(double receipt) {
   return stamp_;
 }
 
+bool CadenceClock::is_astray() const {
+  return quickest_.size() == kBuckets && std::abs(slope_) >= kLargestDrift * interval_;
+}
+
 void CadenceClock::recount(double receipt) {
   const double lateness = receipt - first_ - k_ * interval_ - line(k_);
   recent_.push_back({receipt, lateness});

@@ -1,20 +1,36 @@
 #include "spring_workbench/tracker/station_stream.h"
 
 namespace spring_workbench {
+namespace {
+
+/// Slope of the least-squares line through moments at even intervals [s]; its ends alone would carry their own delays.
+double mean_interval(const std::vector<double>& receipts) {
+  const double middle = 0.5 * static_cast<double>(receipts.size() - 1);
+  double products = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < receipts.size(); ++k) {
+    const double from_middle = static_cast<double>(k) - middle;
+    products += from_middle * (receipts[k] - receipts.front());
+    squares += from_middle * from_middle;
+  }
+  return products / squares;
+}
+
+}  // namespace
 
 double StationStream::stamp(double received) {
   constexpr double measured_for = 3.0;  // [s]
   constexpr double longest_gap = 0.25;  // [s]
   if (!even_stamps_) return received;
+  if (cadence_ && cadence_->is_astray()) cadence_.reset();  // records were lost while it was measured
   if (cadence_) return cadence_->stamp(received);
-  if (count_ == 0 || received - last_ > longest_gap) {
-    first_ = received;
-    count_ = 0;
-  }
-  ++count_;
-  last_ = received;
-  if (received - first_ >= measured_for) cadence_.emplace((received - first_) / (count_ - 1));
-  return received;
+  if (!receipts_.empty() && received - receipts_.back() > longest_gap) receipts_.clear();
+  receipts_.push_back(received);
+  if (received - receipts_.front() < measured_for) return received;
+  cadence_.emplace(mean_interval(receipts_));
+  double stamp = received;
+  for (const double receipt : receipts_) stamp = cadence_->stamp(receipt);
+  receipts_.clear();
+  return stamp;
 }
 
 TrueSample StationStream::take(const StationSample& sample) {

@@ -21,6 +21,14 @@ SKIPPED = 77  # exit status that ctest takes for a skipped test
 # than the hand by the fork's own motion. Mass 1 kg: the weight is 9.81 N.
 FASTEST = 4.0        # [m/s]
 STRONGEST = 250.0    # [N]
+HARDEST_TURN = 25.0  # [N m]
+LEFT_OUT = {  # every other file: nothing
+    "falcon5_unsorted_stamps.tum": {"stamp not later": 1300},
+    "tango_hard_caligula_60s.tum": {"stamp not later": 277},
+    "vicon_handheld_primesense1_60s.tum": {"stamp not later": 3},
+    "tumvi_room2_gaps_60s.tum": {"too close to the last": 5},  # stamps that crowd after a dropout
+}
+DROPOUTS = {"tumvi_room2_gaps_60s.tum": 6}
 SETTINGS = ["contact=none", "grasp.object=box", "start.follow=true", "grasp.tip_in_object=0 0 0 1 0 0 0", "rate=200"]
 BAGS = {  # what is in them: parent, child; or the word of the line that refuses them
     "evo_tf_example_lz4.bag": ("odom", "base_footprint"),
@@ -49,14 +57,16 @@ class Recordings(unittest.TestCase):
         self.assertEqual(done.returncode, 0, done.stderr)
         summary = json.loads(done.stdout.splitlines()[-1])
         rows = 0
-        fastest = strongest = 0.0
+        fastest = strongest = hardest_turn = 0.0
         with open(out.replace(".csv", ".fork.csv")) as file:
             held = []
             for row in csv.DictReader(file):
                 held.append(row["held"] == "box")
                 force = [float(row["tip_f" + axis]) for axis in "xyz"]
-                self.assertTrue(all(map(math.isfinite, force)), row)
+                torque = [float(row["tip_m" + axis]) for axis in "xyz"]
+                self.assertTrue(all(map(math.isfinite, force + torque)), row)
                 strongest = max(strongest, math.hypot(*force))
+                hardest_turn = max(hardest_turn, math.hypot(*torque))
         self.assertTrue(all(held) or may_lose)
         with open(out) as file:
             for row in csv.DictReader(file):
@@ -65,13 +75,14 @@ class Recordings(unittest.TestCase):
                 if held[rows]:  # what was let go of falls
                     fastest = max(fastest, math.hypot(float(row["vx"]), float(row["vy"]), float(row["vz"])))
                 rows += 1
-        print("%-40s %s\n    %d samples, left out %s, dropouts %d, found again %d; fastest %.2f m/s, strongest %.0f N" %
+        print("%-40s %s\n    %d samples, left out %s, dropouts %d, found again %d; fastest %.2f m/s, strongest %.0f N, %.2f N m" %
               (os.path.basename(arguments[1]), " ".join(arguments[2:]), summary["samples"], summary["left_out"],
-               summary["dropouts"], summary["reengagements"], fastest, strongest))
+               summary["dropouts"], summary["reengagements"], fastest, strongest, hardest_turn))
         self.assertGreater(rows, 100)
         self.assertEqual(summary["guards_tripped"], 0)
         self.assertLess(fastest, FASTEST)
         self.assertLess(strongest, STRONGEST)
+        self.assertLess(hardest_turn, HARDEST_TURN)
         return summary
 
     def test_every_motion(self):
@@ -80,21 +91,10 @@ class Recordings(unittest.TestCase):
         for path in files:
             with self.subTest(path=path):
                 summary = self.check("--motion", path)
-                left_out = summary["left_out"]
-                if "falcon5" in path:
-                    self.assertEqual(left_out, {"stamp not later": 1300})
-                elif "tango_hard" in path:
-                    self.assertEqual(left_out, {"stamp not later": 277})
-                elif "vicon" in path:
-                    self.assertEqual(left_out, {"stamp not later": 3})
-                elif "room2_gaps" in path:
-                    left_out.pop("too close to the last", None)  # stamps that crowd say no velocity
-                    self.assertEqual(left_out, {})
-                    self.assertEqual((summary["dropouts"], summary["reengagements"]), (6, 6))
-                else:
-                    left_out.pop("too close to the last", None)  # stamps that crowd say no velocity
-                    self.assertEqual(left_out, {})
-                    self.assertEqual(summary["reengagements"], 0)
+                name = os.path.basename(path)
+                self.assertEqual(summary["left_out"], LEFT_OUT.get(name, {}))
+                self.assertEqual(summary["dropouts"], DROPOUTS.get(name, 0))
+                self.assertEqual(summary["reengagements"], DROPOUTS.get(name, 0))
 
     def test_a_lost_hand_lets_go(self):
         summary = self.check("--motion", SHARED + "/data/motions/tumvi_room2_gaps_60s.tum", "--set", "truth.lost=release",

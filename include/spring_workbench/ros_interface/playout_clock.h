@@ -12,8 +12,8 @@ namespace spring_workbench {
 /// count.
 ///
 /// In simulated time, where messages and clock come at moments of their own, it never goes past the sample before the
-/// newest, so that what is simulated depends on the samples alone; and silence must also have lasted 0.2 s by the wall
-/// clock, so that a bag played quickly is not taken for one that stopped. While messages about buttons come it does not
+/// newest, so that what is simulated depends on the samples alone; and silence must also have lasted 0.2 s of attended
+/// time, so that a bag played quickly is not taken for one that stopped. While messages about buttons come it does not
 /// go past the newest of these either, so that a button takes effect at its own stamp, by whatever way it comes.
 class PlayoutClock {
  public:
@@ -37,7 +37,7 @@ class PlayoutClock {
   double before_newest_ = -std::numeric_limits<double>::infinity();
   LocalTime arrival_;
   double buttons_until_ = -std::numeric_limits<double>::infinity();
-  double buttons_arrival_ = -std::numeric_limits<double>::infinity();  ///< by the wall clock
+  double buttons_arrival_ = -std::numeric_limits<double>::infinity();  ///< in attended time
   double interval_ = 0.0;  ///< smoothed time between samples [s]
 };
 

@@ -75,6 +75,8 @@ class StylusInput {
   void on_stylus(const geometry_msgs::TransformStamped& transform, const ros::Time& now);
   void on_buttons(const sensor_msgs::Joy& message, const ros::Time& now);
   struct Stream;
+  template <typename Message>
+  void go_on_to(const ros::Time& stamp, Stream& stream, std::deque<Message>& early);
   std::optional<ros::Time> moment_of(const ros::Time& stamp, Stream& stream);
   void start_anew_when_due();
   void offer(const geometry_msgs::TransformStamped& transform, const RigidTransform& X_WP, double age);
@@ -93,14 +95,14 @@ class StylusInput {
   std::deque<geometry_msgs::TransformStamped> early_poses_;
   std::deque<sensor_msgs::Joy> early_buttons_;
   struct Stream {
-    ros::Time newest;      ///< stamp, of this epoch
-    double arrival = 0.0;  ///< of the newest message, by the wall clock [s]
+    ros::Time newest;  ///< stamp, of this epoch; zero before the first message
   };
   Stream poses_, buttons_;
   std::map<std::string, ros::WallTime> told_;  ///< when a reason to leave a sample out was last logged
   ros::Time zero_;                             ///< of the epoch; zero before the first input
   ros::Time last_now_;
   bool jumped_ = false;  ///< ROS time went back, and the streams have not both followed yet
+  double jumped_at_ = 0.0;  ///< when that was noticed, in attended time [s]
   bool pressed_ = false;
   ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;
 };

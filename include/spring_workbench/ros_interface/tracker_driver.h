@@ -20,6 +20,14 @@
 
 namespace spring_workbench {
 
+/// Before the bench and above it, the x axis towards 0.1 m above its middle, y to the left.
+inline RigidTransform head_before_the_bench() {
+  const Vector3d p(0.0, -0.85, 0.7), x = (Vector3d(0.0, 0.0, 0.1) - p).normalized(), y(-1.0, 0.0, 0.0);
+  Matrix3d R;
+  R << x, y, x.cross(y);
+  return make_transform(Quaterniond(R), p);
+}
+
 /// Private parameters of the node `tracker_driver`.
 struct TrackerParameters {
   std::string source = "motion_file";  ///< `source`: motion_file, scripted, fastrak, operator, interactive_marker or joy
@@ -37,7 +45,8 @@ struct TrackerParameters {
       RigidTransform::Identity();  ///< `offset` (x y z qx qy qz qw): the recording's base frame in the workbench
   std::optional<RigidTransform>
       X_BS_first;  ///< `start` (x y z qx qy qz qw): where the first sample lies; of a motion, instead of `offset`
-  RigidTransform X_BHead = make_transform(Quaterniond::Identity(), Vector3d(0.0, -0.7, 0.6));  ///< `head` (pose)
+  int head_station = 0;  ///< `head_station` of a FASTRAK: the one on the head, 2 … 4; 0: none
+  RigidTransform X_BHead = head_before_the_bench();  ///< `head` (pose); with head_station in the frame of its receiver
   double grasp_from = std::numeric_limits<double>::infinity();  ///< `grasp_from` [s]: the button goes down …
   double grasp_until = std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up, beside the file's own
   Vector3d p_ST = Vector3d::Zero();      ///< `tip` (x y z) [m]: the handle's origin in the tracked frame of the stylus
@@ -55,7 +64,7 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
 /// The node `tracker_driver`: plays a motion in its own time, or passes a device's samples on, or those of
 /// a stylus that is moved by messages (a marker in rviz, a game pad), as tf frames (stylus,
 /// head) and buttons (`stylus/joy`, 0: grasp, 1: next tool), stamped with the moment at which each sample is due (a
-/// device's: at which it came). A device's station 1 is the stylus; station k is the frame stylus_k.
+/// device's: at which it came). A device's station 1 is the stylus, head_station the head, station k else the frame stylus_k.
 class TrackerDriver {
  public:
   /// Throws InputError when a parameter or the file cannot be used.
@@ -69,6 +78,7 @@ class TrackerDriver {
   void stream();
   void send(const StationSample& sample);
   void send_buttons(bool grasp, bool next_tool, const ros::Time& stamp);
+  geometry_msgs::TransformStamped transform_of(int station, const RigidTransform& X_TS, const ros::Time& stamp) const;
   void add_health(DiagnosticStatusBuilder& status) const;
   void send(const StylusSample& sample, const ros::Time& stamp);
   void send_eyes();

@@ -25,6 +25,8 @@ class CadenceClock {
   double stamp(double receipt);
   /// Relative to the interval given, how much longer the device's is.
   double drift() const { return slope_ / interval_; }
+  /// Whether after ten seconds the device's interval still is not found within 0.5 % of the one given.
+  bool is_astray() const;
   /// Forgets all receipts.
   void restart() { *this = CadenceClock(interval_); }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "spring_workbench/tracker/cadence_clock.h"
 #include "spring_workbench/tracker/live_source.h"
@@ -10,7 +11,7 @@
 namespace spring_workbench {
 
 /// One station of a device on its way from the wire: stamped by the device's cadence, then through the truth layer.
-/// The cadence is measured over the first three seconds without a gap; until then a stamp is the moment of receipt.
+/// The cadence is measured over three seconds without a gap, anew if it proves wrong; until then a stamp is the moment of receipt.
 class StationStream {
  public:
   /// `dropout_after` [s], > 0: see SampleGate. `even_stamps`: false leaves the moments of receipt as they are.
@@ -27,8 +28,7 @@ class StationStream {
 
   bool even_stamps_;
   std::optional<CadenceClock> cadence_;
-  double first_ = 0.0, last_ = 0.0;  ///< receipts while the cadence is measured [s]
-  int count_ = 0;                    ///< of them
+  std::vector<double> receipts_;  ///< while the cadence is measured [s]
   TruthLayer truth_;
   StreamMonitor monitor_;
 };

@@ -105,7 +105,10 @@ TEST(TrackerParameters, RefusesWithTheKeyInTheMessage) {
       {"{file: a, looop: true}", "looop"},
       {"{file: a, port: /dev/x}", "port"},
       {"{source: fastrak, file: a}", "file"},
-      {"{source: fastrak, baud: 1}", "baud"}};
+      {"{source: fastrak, baud: 1}", "baud"},
+      {"{source: fastrak, head_station: 1}", "head_station"},
+      {"{source: fastrak, stations: [1, 2], head_station: 3}", "head_station"},
+      {"{source: joy, head_station: 2}", "head_station"}};
   for (const auto& [yaml, key] : cases) {
     const std::string message = refusal_of_tracker(yaml);
     EXPECT_NE(message.find(" " + key + ":"), std::string::npos) << yaml << ": " << message;

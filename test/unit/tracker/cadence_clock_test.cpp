@@ -123,6 +123,57 @@ TEST(StreamMonitor, SaysRateJitterGapsAndAge) {
   EXPECT_NEAR(figures.age, age, 1e-12);
 }
 
+/// The cadence that the stream finds by itself serves as well as one that is known.
+TEST(StationStream, StampsByTheCadenceThatItMeasures) {
+  for (const double rate : {15.0, 50.0, 100.0, 120.0}) {
+    for (const double poll : {0.0, 0.016}) {
+      for (const unsigned seed : {1u, 2u, 3u}) {
+        std::mt19937 random(seed);
+        std::exponential_distribution<double> delay(1.0 / 0.003);
+        StationStream stream(TruthSettings(), 0.5, true);
+        Spread before, after;
+        double receipt = -1.0;
+        for (int k = 0; k < static_cast<int>(60.0 * rate); ++k) {
+          const double measured = k / rate;
+          double came = measured + delay(random);
+          if (poll > 0.0) came = std::ceil(came / poll) * poll;
+          receipt = std::max(receipt + 1e-6, came);
+          const StationSample sample{1, receipt, Vector3d(0.3, 0.0, 0.4), Quaterniond::Identity(), false, ' '};
+          const TrueSample taken = stream.take(sample);
+          if (measured < 10.0) continue;
+          EXPECT_TRUE(usable(taken.verdict));
+          before.add(receipt - measured);
+          after.add(taken.sample.t - measured);
+        }
+        std::cout << rate << " Hz, poll " << poll << " s: jitter " << 1e3 * before.deviation() << " ms -> "
+                  << 1e3 * after.deviation() << " ms\n";
+        EXPECT_LT(after.deviation(), before.deviation() / (poll > 0.0 ? 5.0 : 20.0));
+      }
+    }
+  }
+}
+
+/// Records that are lost just while the cadence is measured make it wrong for some ten seconds, and not for good.
+TEST(StationStream, MeasuresAnewACadenceThatProvesWrong) {
+  std::mt19937 random(8);
+  std::exponential_distribution<double> delay(1.0 / 0.003);
+  StationStream stream(TruthSettings(), 0.5, true);
+  Spread before, after;
+  double receipt = -1.0;
+  for (int k = 0; k < 120 * 60; ++k) {
+    const double measured = k * kInterval;
+    receipt = std::max(receipt + 1e-6, measured + delay(random));
+    if (k > 100 && k < 300 && k % 20 < 3) continue;
+    const StationSample sample{1, receipt, Vector3d(0.3, 0.0, 0.4), Quaterniond::Identity(), false, ' '};
+    const TrueSample taken = stream.take(sample);
+    if (measured < 30.0 || !usable(taken.verdict)) continue;
+    before.add(receipt - measured);
+    after.add(taken.sample.t - measured);
+  }
+  EXPECT_EQ(after.count, 30 * 120);
+  EXPECT_LT(after.deviation(), before.deviation() / 20.0);
+}
+
 /// A hand that goes evenly along x at 1 m/s, read in bursts from the very start: what is played between the samples must
 /// stay on its way. Samples microseconds apart would make velocities of a thousand metres per second.
 TEST(StationStream, BurstsMakeNoJumpBetweenSamples) {

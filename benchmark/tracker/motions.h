@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spring_workbench/tracker/stylus_source.h"
+
+namespace spring_workbench {
+
+/// All samples of a motion file or script. Throws InputError where it cannot be read.
+inline std::vector<StylusSample> read_samples(const std::string& path) {
+  std::vector<StylusSample> samples;
+  const auto source = open_motion(path);
+  while (const auto sample = source->next()) samples.push_back(*sample);
+  return samples;
+}
+
+/// The name of the file without folders.
+inline std::string file_name(const std::string& path) { return path.substr(path.rfind('/') + 1); }
+
+}  // namespace spring_workbench

@@ -1,0 +1,204 @@
+#!/usr/bin/python3
+"""What rviz shows while nodes come and go, by the pixels of its window: no fork is left of a node that has ended, and
+display, markers and panel are there again when the node, rviz or the ROS master is started anew, or another scene loaded.
+Needs the setup file sourced; where rviz' plugins or a program for a virtual display are missing it is skipped (exit status
+77). Usage: rviz_recovery_test.py DEVEL_SPACE"""
+import os
+import shutil
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import yaml
+
+SKIPPED = 77
+DEVEL = sys.argv[1]
+PLUGINS = DEVEL + "/lib/libspring_workbench_rviz.so"
+SIZE = (1000, 700)
+BACKGROUND = bytes([38, 42, 48])
+DEADLINE = 90.0  # [s] for each thing waited for; far more than it takes
+SCENES = "package://spring_workbench/scenes/"
+DISPLAYS = {
+    "fork": {"Class": "spring_workbench/SpringFork", "Name": "Fork", "Topic": "/manipulation/fork"},
+    "markers": {"Class": "rviz/MarkerArray", "Name": "Markers", "Marker Topic": "/manipulation/markers"},
+}
+
+
+def free_port():
+    with socket.socket() as s:
+        s.bind(("", 0))
+        return s.getsockname()[1]
+
+
+class Stack:
+    """A display, a master, and what is started beside them."""
+
+    def __init__(self, folder):
+        self.folder = folder
+        reader, writer = os.pipe()
+        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % SIZE, "+extension",
+                                        "GLX", "-noreset"], pass_fds=[writer], stderr=subprocess.DEVNULL)
+        self.port = free_port()
+        self.environment = dict(os.environ, DISPLAY=":" + os.read(reader, 16).decode().strip(), LIBGL_ALWAYS_SOFTWARE="1",
+                                ROS_MASTER_URI="http://localhost:%d" % self.port, ROS_HOME=folder)
+        self.processes = []
+
+    def start(self, *command):
+        process = subprocess.Popen(command, env=self.environment, start_new_session=True, stdout=subprocess.DEVNULL)
+        self.processes.append(process)
+        return process
+
+    def stop(self, process):
+        if process.poll() is None:
+            os.killpg(process.pid, signal.SIGINT)
+            try:
+                process.wait(15)
+            except subprocess.TimeoutExpired:
+                os.killpg(process.pid, signal.SIGKILL)
+                process.wait()
+
+    def master(self):
+        process = self.start("roscore", "-p", str(self.port))
+        self.until(lambda: subprocess.run(["rosparam", "list"], env=self.environment, capture_output=True).returncode == 0,
+                   "the master")
+        return process
+
+    def manipulation(self, scene):
+        return self.start(DEVEL + "/lib/spring_workbench/manipulation", "_scene:=%s%s.urdf" % (SCENES, scene))
+
+    def rviz(self, kind):
+        config = {
+            "Panels": [{"Class": "spring_workbench/Workbench", "Name": "Workbench"}],
+            "Visualization Manager": {
+                "Class": "", "Displays": [{"Enabled": True, "Value": True, **DISPLAYS[kind]}], "Enabled": True, "Value": True,
+                "Global Options": {"Background Color": "38; 42; 48", "Fixed Frame": "world", "Frame Rate": 30},
+                "Views": {"Current": {"Class": "rviz/Orbit", "Name": "Current View", "Distance": 1.2, "Pitch": 0.4,
+                                      "Yaw": 4.4, "Focal Point": {"X": 0, "Y": 0, "Z": 0.2}, "Target Frame": "world"}}},
+            "Window Geometry": {"Width": SIZE[0], "Height": SIZE[1], "X": 0, "Y": 0}}
+        path = os.path.join(self.folder, "view.rviz")
+        with open(path, "w") as file:
+            yaml.safe_dump(config, file)
+        return self.start("rviz", "-d", path)
+
+    def pixels(self):
+        raw = subprocess.run(["import", "-window", "root", "-depth", "8", "rgb:-"], check=True, capture_output=True,
+                             env=self.environment).stdout
+        return [raw[i:i + 3] for i in range(0, len(raw), 3)]
+
+    def until(self, condition, what):
+        end = time.monotonic() + DEADLINE
+        value = condition()
+        while not value:
+            assert time.monotonic() < end, "waited in vain for " + what
+            time.sleep(0.2)
+            value = condition()
+        return value
+
+    def close(self):
+        for process in reversed(self.processes):
+            self.stop(process)
+        self.server.terminate()
+        self.server.wait()
+
+
+class Recovery(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.stack = Stack(folder.name)
+        self.addCleanup(self.stack.close)
+
+    def look(self):
+        """How much is drawn in the view, and how much more black writing the panel has than when it is grey."""
+        pixels = self.stack.pixels()
+        drawn = sum(pixels[i] != BACKGROUND for i in self.view)
+        left = [pixels[y * SIZE[0] + x] for y in range(40, SIZE[1] - 60) for x in range(0, self.panel_width, 1)]
+        return drawn, sum(max(p) < 60 for p in left) - self.grey
+
+    def open_rviz(self, kind):
+        """rviz without anything in it; where its view is."""
+        rviz = self.stack.rviz(kind)
+
+        def view():
+            places = [i for i, p in enumerate(self.stack.pixels()) if p == BACKGROUND]
+            return places if len(places) > SIZE[0] * SIZE[1] // 4 else None
+
+        self.stack.until(view, "rviz to show its view")
+        time.sleep(3.0)  # its docks get their width
+        self.view = view()
+        self.panel_width = min(i % SIZE[0] for i in self.view) - 5
+        self.grey = 0
+        self.grey = self.look()[1]
+        return rviz
+
+    def expect_shown(self, drawn, writing, what):
+        def shown():
+            now = self.look()
+            return abs(now[0] - drawn) < 0.1 * drawn and abs(now[1] - writing) < 0.2 * writing
+
+        try:
+            self.stack.until(shown, what)
+        except AssertionError:
+            self.fail("%s: %s, not %s" % (what, self.look(), (drawn, writing)))
+
+    def expect_gone(self, what):
+        self.stack.until(lambda: self.look()[0] == 0, what)
+
+    def settled(self):
+        """What is shown, once it has been the same for two seconds."""
+        last = None
+        while True:
+            now = self.look()
+            if last and now[0] == last[0] > 100 and abs(now[1] - last[1]) < 0.1 * last[1]:
+                return now
+            last = now
+            time.sleep(2.0)
+
+    def check(self, kind):
+        stack = self.stack
+        master = stack.master()
+        rviz = self.open_rviz(kind)
+        self.assertEqual(self.look()[0], 0)
+        node = stack.manipulation("single_box")
+        stack.until(lambda: self.look()[0] > 100, "something to be drawn")
+        drawn, writing = self.settled()
+        print("%s: %d pixels drawn, %d of the panel's writing" % (kind, drawn, writing))
+        self.assertGreater(writing, 500)
+
+        stack.stop(node)
+        self.expect_gone("what the node drew to go")
+        node = stack.manipulation("single_box")
+        self.expect_shown(drawn, writing, "a new node to be shown")
+
+        stack.stop(node)
+        stack.stop(master)
+        self.expect_gone("what the node drew to go, without a master")
+        master = stack.master()
+        node = stack.manipulation("single_box")
+        self.expect_shown(drawn, writing, "a new node of a new master to be shown")
+
+        for scene in ["mini_world", "single_box"]:
+            subprocess.run(["rosservice", "call", "/manipulation/load_scene", "scene: '%s%s.urdf'" % (SCENES, scene)],
+                           env=stack.environment, check=True, stdout=subprocess.DEVNULL)
+        self.expect_shown(drawn, writing, "the scene that was loaded last, and nothing of the one before")
+
+        stack.stop(rviz)
+        rviz = stack.rviz(kind)
+        self.expect_shown(drawn, writing, "a new rviz to show what the old one did")
+
+    def test_fork_of_the_display(self):
+        self.check("fork")
+
+    def test_markers(self):
+        self.check("markers")
+
+
+if __name__ == "__main__":
+    if not os.path.exists(PLUGINS) or not all(map(shutil.which, ["Xvfb", "import", "rviz"])):
+        print("skipped: needs the rviz plugins, Xvfb and ImageMagick")
+        sys.exit(SKIPPED)
+    unittest.main(argv=sys.argv[:1])
