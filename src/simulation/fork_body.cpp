@@ -71,9 +71,12 @@ Matrix6d ForkBody::proxy_compliance(double h) const {
   return P;
 }
 
+RigidTransform ForkBody::returned_offset(double h) const {
+  return state_.behind ? shrunk(state_.offset, std::exp(-h / return_time)) : RigidTransform::Identity();
+}
+
 RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
-  const RigidTransform returned =
-      state_.behind ? shrunk(state_.offset, std::exp(-h / return_time)) : RigidTransform::Identity();
+  const RigidTransform returned = returned_offset(h);
   if (contact_W.force.isZero(0.0) && contact_W.moment.isZero(0.0)) return returned;
   Vector6d wrench;
   wrench << contact_W.force, contact_W.moment;

@@ -79,13 +79,15 @@ class ForkBody final : public ToolHold {
   static constexpr double no_offset = 1e-9;  ///< [m, rad]; the proxy has come back
   /// How the proxy gives way to a wrench at the centre of mass over a step; zero while the coordinates can follow.
   Matrix6d proxy_compliance(double h) const;
-  /// The proxy's offset at the end of a step under the wrench.
+  /// The proxy's offset at the end of a step without a load.
+  RigidTransform returned_offset(double h) const;
+  /// The same under the wrench.
   RigidTransform next_offset(double h, const Wrench& contact_W) const;
   /// The seen handle's motion over a step that ends with this offset.
   MotionSegment seen_motion(double h, const RigidTransform& offset_end) const;
   StrainMatrix inverse_mass() const;
-  /// The strain at which the object comes nearest to `X_WO`, by its mass; `handle` the hand itself.
-  void fit(const HandleForcing& handle, const RigidTransform& X_WO);
+  /// The strain with the object at `X_WO`, `h` [s] after the last; `handle` the hand itself.
+  void fit(const HandleForcing& handle, const RigidTransform& X_WO, double h);
   /// Energy added (see energy_added()) by a step of `h` from `begin` to `end` along the handle's `motion`.
   double added_energy(const MotionSegment& motion, double h, const StrainState& begin, const StrainState& end) const;
   using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates>;

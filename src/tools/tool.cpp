@@ -21,6 +21,8 @@ Tool tool_called(const std::string& name, const std::string& where) {
 
 bool can_hold(Tool tool) { return tool != Tool::spring_probe; }
 
+bool turns(Tool tool) { return can_hold(tool) && tool != Tool::spring; }
+
 Tool next_tool(Tool tool, bool holding) {
   const Tool next = static_cast<Tool>((static_cast<std::size_t>(tool) + 1) % tool_names().size());
   return holding && !can_hold(next) ? next_tool(next, holding) : next;

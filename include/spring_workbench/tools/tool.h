@@ -19,6 +19,8 @@ std::string name_of(Tool tool);
 /// Throws InputError naming `where` for a name that is not in tool_names().
 Tool tool_called(const std::string& name, const std::string& where);
 bool can_hold(Tool tool);
+/// Whether what is held turns with the hand.
+bool turns(Tool tool);
 /// The one after it; of those that can hold where `holding`.
 Tool next_tool(Tool tool, bool holding);
 

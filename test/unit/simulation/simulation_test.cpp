@@ -9,43 +9,14 @@
 #include "spring_workbench/config/input_error.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/so3.h"
+#include "support/bench_scenes.h"
 
 namespace spring_workbench {
 namespace {
 
 /// One box, 0.1 × 0.06 × 0.04 m and 1 kg, with its centre at `centre`.
 Scene box_scene(const Vector3d& centre, ContactMode contact = ContactMode::stop, double friction = 0.5) {
-  Scene scene;
-  scene.name = scene.path = "box";
-  scene.contact = contact;
-  scene.bench_material.friction = friction;
-  Body box;
-  box.name = "box";
-  box.movable = true;
-  box.X_WO.translation() = centre;
-  const Vector3d size(0.1, 0.06, 0.04);
-  box.mass_properties.mass = 1.0;
-  const Vector3d s2 = size.cwiseProduct(size);
-  box.mass_properties.inertia_O =
-      (1.0 / 12.0 * Vector3d(s2.y() + s2.z(), s2.x() + s2.z(), s2.x() + s2.y())).asDiagonal();
-  box.material.friction = friction;
-  box.collision.push_back({Box{size}});
-  scene.bodies.push_back(box);
-  return scene;
-}
-
-/// The fork's axis pointing down, the handle at `p`.
-RigidTransform pointing_down(const Vector3d& p, double turned = 0.0) {
-  return make_transform(Quaterniond(Eigen::AngleAxisd(turned, Vector3d::UnitZ())) * Quaterniond(0.0, 1.0, 0.0, 0.0), p);
-}
-
-/// Samples at 50 Hz of a handle that goes from `a` to `b` in minimum jerk and turns about the vertical.
-void push_move(Simulation& simulation, double t0, double t1, const Vector3d& a, const Vector3d& b, double turn = 0.0) {
-  for (double t = t0; t < t1 + 1e-9; t += 0.02) {
-    const double u = (t - t0) / (t1 - t0);
-    const double s = u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
-    simulation.push_stylus({t, pointing_down(a + s * (b - a), s * turn)});
-  }
+  return scene_of({box("box", {0.1, 0.06, 0.04}, 1.0, centre, friction)}, contact, friction);
 }
 
 SimulationSettings settings() { return SimulationSettings(); }
