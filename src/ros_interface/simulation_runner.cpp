@@ -80,20 +80,19 @@ void SimulationRunner::advance(double target, CycleReport& report) {
     report.more = next + grid_ <= target - kSlack * grid_;
     target = next;
   }
-  const std::optional<double> release = take_release(target);
+  const auto release = take_release(target);
   if (release) {
-    target = std::max(*release, simulation_->time());
+    target = std::max(release->t, simulation_->time());
     report.more = true;
   }
   report.advance = simulation_->advance(target);
-  if (release) simulation_->release();
+  if (release) simulation_->release(release->hand);
   task_.observe(*simulation_);
 }
 
-/// The first time [s] up to `target` at which a hand is lost and lets go.
-std::optional<double> SimulationRunner::take_release(double target) {
+std::optional<SimulationRunner::Loss> SimulationRunner::take_release(double target) {
   for (HandInput& input : inputs_) {
-    if (const auto release = input.reengagement.take_release(target - input.shift)) return *release + input.shift;
+    if (const auto release = input.reengagement.take_release(target - input.shift)) return Loss{*release + input.shift, input.hand};
   }
   return std::nullopt;
 }

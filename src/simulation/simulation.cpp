@@ -227,10 +227,14 @@ void Simulation::reset() {
 
 bool Simulation::release() {
   bool released = false;
-  for (Hand& hand : impl_->hands) {
-    released = released || hand.holds();
-    hand.let_go(impl_->settings.grasp.release == "thrown", impl_->now);
-  }
+  for (std::size_t hand = 0; hand < most_hands; ++hand) released = release(hand) || released;
+  return released;
+}
+
+bool Simulation::release(std::size_t hand) {
+  Hand& of = impl_->hand(hand);
+  const bool released = of.holds();
+  of.let_go(impl_->settings.grasp.release == "thrown", impl_->now);
   return released;
 }
 

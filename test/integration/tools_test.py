@@ -9,7 +9,7 @@ import rostest
 from geometry_msgs.msg import WrenchStamped
 from sensor_msgs.msg import Joy
 from spring_workbench.msg import ForkState, ObjectStates
-from spring_workbench.srv import SelectTool
+from spring_workbench.srv import SelectTool, SetForkStiffness
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
@@ -48,7 +48,8 @@ class Tools(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.services = {}
-        for name, kind in [("select_tool", SelectTool), ("reset", Trigger), ("calibrate", Trigger), ("release", Trigger)]:
+        for name, kind in [("select_tool", SelectTool), ("set_stiffness", SetForkStiffness), ("reset", Trigger),
+                           ("calibrate", Trigger), ("release", Trigger)]:
             rospy.wait_for_service("manipulation/" + name, DEADLINE)
             cls.services[name] = rospy.ServiceProxy("manipulation/" + name, kind)
         cls.objects = Listener("manipulation/objects", ObjectStates)
@@ -66,6 +67,7 @@ class Tools(unittest.TestCase):
         self.hand.run(0.2)
         for stylus in [1, 2]:
             self.call("select_tool", "spring_fork", stylus)
+        self.call("set_stiffness", 2000.0, 500.0, 5.0)
         self.call("reset")
         self.hand.run(0.2)
 

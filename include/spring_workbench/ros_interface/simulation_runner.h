@@ -77,7 +77,12 @@ class SimulationRunner {
   void apply(HandInput& input, const ButtonsKnown& known);
   bool joins(const HandInput& input, const NewEpoch& epoch) const;
   double target(const LocalTime& now) const;
-  std::optional<double> take_release(double target);
+  struct Loss {
+    double t;
+    std::size_t hand;
+  };
+  /// A hand that is lost up to `target` [s] and lets go.
+  std::optional<Loss> take_release(double target);
   void feed(const LocalTime& now);
   bool has_more(double target) const;
   double next_on_grid() const;

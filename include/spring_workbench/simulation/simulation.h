@@ -127,6 +127,8 @@ class Simulation {
   void reset();
   /// Every hand lets go of what it holds. False when nothing was held.
   bool release();
+  /// The same of one hand.
+  bool release(std::size_t hand);
 
   // Changes while running, of the tools in all hands; pose and twist of the object go on without a jump. Bad values throw
   // InputError and change nothing.
