@@ -23,6 +23,7 @@ class ForkBody final : public ToolHold {
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
   void stay(double h) override;
+  void go_along(double h) override;
   Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const override;
   void follow(double h, const MotionState& object, const Wrench& pull_W) override;
 
