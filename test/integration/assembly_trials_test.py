@@ -2,6 +2,7 @@
 """assembly_trials as a user runs it: scores, table, recorded hand, bad input. Usage: assembly_trials_test.py PROGRAM REPLAY SOURCE"""
 import csv
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
@@ -22,21 +23,21 @@ class AssemblyTrials(unittest.TestCase):
             arguments = ["--scene", SCENE, "--settings", SETTINGS, "--tool", "direct", "--trials", "2", "--seed", "3"]
             done = run(*arguments, "--out", files["trials.csv"], "--table", files["table.md"], "--record", files["hand.tum"])
             self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", ""))
-            text = open(files["trials.csv"]).read()
+            text = pathlib.Path(files["trials.csv"]).read_text()
             self.assertEqual(run(*arguments).stdout, text)  # same seed, same bytes
             rows = list(csv.DictReader(text.splitlines()))
             self.assertEqual([(r["tool"], r["seed"]) for r in rows], [("direct", "3"), ("direct", "4")])
             for row in rows:
                 self.assertEqual((row["placed"], row["targets"], row["drops"]), ("7", "7", "0"))
             self.assertNotEqual(rows[0]["time_s"], rows[1]["time_s"])
-            table = open(files["table.md"]).read().splitlines()
+            table = pathlib.Path(files["table.md"]).read_text().splitlines()
             self.assertEqual(len(table), 3)
             self.assertTrue(table[2].startswith("| `direct` | 2 | 100 %"), table[2])
             # The recorded hand does the same work again.
             again = subprocess.run([REPLAY, "--scene", SCENE, "--settings", SETTINGS, "--set", "tool=direct", "--motion",
                                     files["hand.tum"], "--out", files["run.csv"]], capture_output=True, text=True)
             self.assertEqual(again.returncode, 0, again.stderr)
-            last = {row["object"]: row for row in csv.DictReader(open(files["run.csv"]))}
+            last = {row["object"]: row for row in csv.DictReader(pathlib.Path(files["run.csv"]).read_text().splitlines())}
             for name in ["red_box", "green_box", "yellow_box", "orange_box", "purple_sphere", "steel_sphere", "white_sphere"]:
                 self.assertTrue(0.13 < float(last[name]["x"]) < 0.42, name)
                 self.assertTrue(-0.1 < float(last[name]["y"]) < 0.1, name)
