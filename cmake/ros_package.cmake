@@ -8,7 +8,7 @@ find_package(catkin REQUIRED COMPONENTS
 
 add_message_files(FILES Contact.msg Contacts.msg ForkState.msg ObjectState.msg ObjectStates.msg PlacementState.msg StepReport.msg
   TaskState.msg)
-add_service_files(FILES LoadScene.srv SetForkDamping.srv SetForkDofs.srv SetForkStiffness.srv SetIntegrator.srv)
+add_service_files(FILES LoadScene.srv SelectTool.srv SetForkDamping.srv SetForkDofs.srv SetForkStiffness.srv SetIntegrator.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
 find_package(dynamic_reconfigure QUIET)   # optional: live tuning

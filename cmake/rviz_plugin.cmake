@@ -14,7 +14,7 @@ target_compile_definitions(spring_workbench_rviz PRIVATE QT_NO_KEYWORDS)
 target_include_directories(spring_workbench_rviz SYSTEM PRIVATE
   ${catkin_INCLUDE_DIRS} ${rviz_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 target_link_libraries(spring_workbench_rviz PRIVATE
-  spring_workbench_fork_mesh spring_workbench_dynamics ${catkin_LIBRARIES} ${rviz_LIBRARIES} Qt5::Widgets)
+  spring_workbench_fork_mesh spring_workbench_tools ${catkin_LIBRARIES} ${rviz_LIBRARIES} Qt5::Widgets)
 add_dependencies(spring_workbench_rviz ${PROJECT_NAME}_generate_messages_cpp)
 set(SPRING_WORKBENCH_RVIZ_FOUND TRUE)
 

@@ -413,6 +413,17 @@ double HeldBody::elastic_energy(double t, const StrainState& state) const {
   return 0.5 * full.q.dot(K_.cwiseProduct(full.q)) + shape_->condensed_energy(full.q);
 }
 
+StrainVector HeldBody::elastic_force(double t, const StrainVector& q) const {
+  const StrainState full = full_state(t, {q, StrainVector::Zero(size())});
+  TipKinematics tip;
+  shape_->tip(full.q, full.q_dot, tip);
+  StrainVector all = K_.cwiseProduct(full.q);
+  if (tip.condensed_force.size() > 0) all += tip.condensed_force;
+  StrainVector force(size());
+  for (int i = 0; i < size(); ++i) force[i] = all[active_[static_cast<std::size_t>(i)]];
+  return force;
+}
+
 double HeldBody::kinetic_energy(const Twist& V, const Matrix3d& R_WO) const {
   const Vector3d w_O = R_WO.transpose() * V.angular;
   return 0.5 * body_.mass * V.linear.squaredNorm() + 0.5 * w_O.dot(body_.inertia_O * w_O);

@@ -97,9 +97,7 @@ void SimulatedOperator::decide() {
 void SimulatedOperator::choose() {
   job_ = nullptr;
   for (Job& job : jobs_) {
-    const BodyState& o = state_of(job.object);
-    const bool settled = judge_placement(job.body, job.target, o.X_WO, o.held).in_place;
-    if (settled || job.attempts >= most_attempts) continue;
+    if (done(job) || job.attempts >= most_attempts) continue;
     if (job_ == nullptr || job.attempts < job_->attempts) job_ = &job;
   }
   if (job_ == nullptr) {
@@ -110,6 +108,17 @@ void SimulatedOperator::choose() {
   ++job_->attempts;
   corrections_ = 0;
   reach(hand_over(state_of(job_->object).X_WO.translation() + carry_height_ * Vector3d::UnitZ()), Phase::above);
+}
+
+bool SimulatedOperator::done(const Job& job) const {
+  const BodyState& o = state_of(job.object);
+  const Placement placement = judge_placement(job.body, job.target, o.X_WO, o.held);
+  const bool as_near_as_can_be = !can_turn(job.target) && placement.position_error <= job.target.position_tolerance;
+  return placement.in_place || (as_near_as_can_be && !o.held);
+}
+
+bool SimulatedOperator::can_turn(const Target& target) const {
+  return angle_matters(target) && seen_.front().view.turns;
 }
 
 void SimulatedOperator::insert() {
@@ -183,7 +192,7 @@ RigidTransform SimulatedOperator::hand_over(const Vector3d& p_WE) const {
 
 RigidTransform SimulatedOperator::goal(double lift) const {
   RigidTransform X_WO = job_->target.X_WL * job_->body.X_OL.inverse();
-  if (!angle_matters(job_->target)) X_WO.linear() = state_of(job_->object).X_WO.linear();
+  if (!can_turn(job_->target)) X_WO.linear() = state_of(job_->object).X_WO.linear();
   X_WO.translation().z() += lift;
   return X_WO;
 }

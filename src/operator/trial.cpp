@@ -1,5 +1,7 @@
 #include "spring_workbench/operator/trial.h"
 
+#include "spring_workbench/tools/tool.h"
+
 namespace spring_workbench {
 
 Trial run_trial(const Scene& scene, const SimulationSettings& simulation_settings,
@@ -11,6 +13,7 @@ Trial run_trial(const Scene& scene, const SimulationSettings& simulation_setting
     OperatorView view;
     view.objects = simulation.objects();
     view.X_HE.translation().z() = tool.length;
+    view.turns = turns(tool_called(tool.tool, "trial"));
     return view;
   };
   SimulatedOperator hand(simulation.scene(), operator_settings, look);

@@ -74,6 +74,7 @@ ForkState to_message(const ToolState& tool) {
   ForkState message;
   message.tool = tool.tool;
   message.held_object = tool.held_object;
+  message.touched = tool.touched;
   message.shape = tool.shape;
   message.integrator = tool.integrator;
   message.stretch_on = tool.dofs.stretch;
@@ -96,6 +97,11 @@ ForkState to_message(const ToolState& tool) {
   message.tip_wrench = to_wrench(tool.tip_wrench_W);
   message.elastic_energy = tool.elastic_energy;
   message.kinetic_energy = tool.kinetic_energy;
+  message.force_scale = tool.force_scale;
+  message.weight = tool.weight;
+  message.torque = tool.torque;
+  message.material_stiffness = tool.material_stiffness;
+  message.material_stiffness_uncertainty = tool.material_stiffness_uncertainty;
   return message;
 }
 

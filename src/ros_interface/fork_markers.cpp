@@ -16,9 +16,9 @@ const Color moment_color(0.75, 0.45, 1.0, 1.0);
 const Color gap_color(1.0, 0.3, 0.8, 1.0);
 const Color text_color(1.0, 1.0, 1.0, 1.0);
 
-void add_triangles(int id, const ForkModel::Triangles& triangles, const ForkMesh& mesh, const Color& color,
+void add_triangles(const std::string& ns, int id, const ForkModel::Triangles& triangles, const ForkMesh& mesh, const Color& color,
                    MarkerList& markers) {
-  Marker& marker = markers.add("fork", id, Marker::TRIANGLE_LIST, RigidTransform::Identity(), color);
+  Marker& marker = markers.add(ns, id, Marker::TRIANGLE_LIST, RigidTransform::Identity(), color);
   marker.points.reserve(3 * triangles.size());
   for (const Eigen::Vector3i& t : triangles) {
     for (const int corner : t) marker.points.push_back(to_point(mesh.vertices[static_cast<std::size_t>(corner)]));
@@ -47,13 +47,13 @@ void draw_readout(const Scene& scene, const ToolState& tool, MarkerList& markers
 }  // namespace
 
 void draw_fork(const ForkModel& model, const ForkMesh& mesh, const ToolState& tool, const Color& spring_color,
-               MarkerList& markers) {
+               const std::string& number, MarkerList& markers) {
   constexpr double smallest_gap = 1e-5;  // [m]
-  add_triangles(0, model.spring(), mesh, spring_color, markers);
-  add_triangles(1, model.shaft_and_end(), mesh, rigid_color, markers);
+  add_triangles("fork" + number, 0, model.spring(), mesh, spring_color, markers);
+  add_triangles("fork" + number, 1, model.shaft_and_end(), mesh, rigid_color, markers);
   const Vector3d hand = tool.X_WH.translation(), seen = tool.X_WH_seen.translation();
   if ((hand - seen).norm() < smallest_gap) return;
-  markers.add_points("gap", 0, Marker::LINE_LIST, {hand, seen}, gap_color).scale.x = 0.01 * tool.length;
+  markers.add_points("gap" + number, 0, Marker::LINE_LIST, {hand, seen}, gap_color).scale.x = 0.01 * tool.length;
 }
 
 void draw_load(const Scene& scene, const ToolState& tool, MarkerList& markers) {

@@ -6,8 +6,9 @@
 namespace spring_workbench {
 
 /// The fork's spring in the colour of its load, its shaft and prongs, and the gap between the hand and the seen handle.
+/// `number` of the hand: "" of the first, "_2" of the second.
 void draw_fork(const ForkModel& model, const ForkMesh& mesh, const ToolState& tool, const Color& spring_color,
-               MarkerList& markers);
+               const std::string& number, MarkerList& markers);
 /// Force and moment at the tip as arrows, half the fork's length for the held object's weight and for that weight at a
 /// fifth of the fork's length; both as a line of text in vkg, N and N·m.
 void draw_load(const Scene& scene, const ToolState& tool, MarkerList& markers);

@@ -5,14 +5,14 @@
 
 #include "spring_workbench/ros_interface/conversions.h"
 #include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench {
 namespace {
 
-constexpr double earth = 9.81;  // [m/s²]
 const Color text_color(0.9, 0.9, 0.9, 1.0);
 
-double gravity_for_weights(const Scene& scene) { return scene.gravity > 0.0 ? scene.gravity : earth; }
+double gravity_for_weights(const Scene& scene) { return weighing_gravity(scene.gravity); }
 
 /// Left, back and bottom of all bodies where they start, but the bench.
 Vector3d legend_corner(const Scene& scene) {

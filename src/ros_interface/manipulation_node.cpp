@@ -39,7 +39,8 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
     : parameters_(read_manipulation_parameters(private_parameters(private_node), private_node.getNamespace())),
       runner_(load_scene(parameters_.scene), parameters_.simulation, parameters_.truth,
               ros::Time::isSimTime() ? 1.0 / parameters_.rate : 0.0),
-      input_(node, parameters_),
+      input_(node, parameters_, parameters_.stylus_frame, "stylus/joy"),
+      second_input_(node, parameters_, parameters_.stylus_frame + "_2", "stylus_2/joy"),
       publisher_(private_node, parameters_),
       services_(private_node, runner_, scene_roots(parameters_, runner_)),
       live_tuning_(make_live_tuning(private_node, runner_)),
@@ -77,7 +78,7 @@ void ManipulationNode::run_cycle(double due) {
 bool ManipulationNode::run_step(double due) {
   const LocalTime local = local_time();
   const double now = local.loop;
-  const CycleReport report = runner_.cycle(input_.take_events(), local);
+  const CycleReport report = runner_.cycle({input_.take_events(), second_input_.take_events()}, local);
   const ros::Time stamp = runner_.stamp(ros::Time::now());
   runner_.locked([&](const Simulation& simulation) { publisher_.publish(simulation, stamp, now); });
   const bool deadline_missed = loop_time() > std::max(due, now) + 1.0 / parameters_.rate;

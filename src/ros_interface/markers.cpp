@@ -16,23 +16,31 @@ MarkerBuilder::MarkerBuilder(std::string fork_curve, double lifetime)
 MarkerArray MarkerBuilder::build(const Simulation& simulation, const std_msgs::Header& header) {
   const Scene& scene = simulation.scene();
   const ToolState tool = simulation.fork();
-  auto shape = make_shape_model(tool.shape, tool.length);
-  if (auto stiff = shape->for_stiffness(tool.stiffness)) shape = std::move(stiff);
-  fork_.deform(make_fork_curve(fork_curve_, *shape, tool.strain, tool.X_WH_seen), coil_diameter(tool.length),
-               fork_mesh_);
   const LoadScale scale(scene);
+  deform(tool);
 
   MarkerList list(header, lifetime_);
   draw_bodies(simulation, list);
   draw_targets(scene, list);
   draw_shadows(simulation, fork_mesh_.vertices, list);
-  draw_fork(fork_, fork_mesh_, tool, scale.color(LoadScale::load(tool)), list);
+  draw_fork(fork_, fork_mesh_, tool, scale.color(LoadScale::load(tool)), "", list);
+  if (const ToolState second = simulation.fork(1); second.present) {
+    deform(second);
+    draw_fork(fork_, fork_mesh_, second, scale.color(LoadScale::load(second)), "_2", list);
+  }
   draw_load(scene, tool, list);
   scale.draw_legend(scene, list);
   draw_contacts(simulation.contacts(), tool.length, list);
   MarkerArray markers = list.take();
   delete_what_is_gone(header, markers);
   return markers;
+}
+
+void MarkerBuilder::deform(const ToolState& tool) {
+  auto shape = make_shape_model(tool.shape, tool.length);
+  if (auto stiff = shape->for_stiffness(tool.stiffness)) shape = std::move(stiff);
+  fork_.deform(make_fork_curve(fork_curve_, *shape, tool.strain, tool.X_WH_seen), coil_diameter(tool.length),
+               fork_mesh_);
 }
 
 void MarkerBuilder::delete_what_is_gone(const std_msgs::Header& header, MarkerArray& markers) {

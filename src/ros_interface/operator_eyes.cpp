@@ -1,5 +1,7 @@
 #include "spring_workbench/ros_interface/operator_eyes.h"
 
+#include "spring_workbench/tools/tool.h"
+
 namespace spring_workbench {
 
 OperatorEyes::OperatorEyes(ros::NodeHandle node)
@@ -36,6 +38,9 @@ void OperatorEyes::on_objects(const ObjectStates& message) {
   }
 }
 
-void OperatorEyes::on_fork(const ForkState& message) { view_.X_HE.translation().z() = message.length; }
+void OperatorEyes::on_fork(const ForkState& message) {
+  view_.X_HE.translation().z() = message.length;
+  view_.turns = turns(tool_called(message.tool, "fork"));
+}
 
 }  // namespace spring_workbench

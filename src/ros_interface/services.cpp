@@ -1,5 +1,6 @@
 #include "spring_workbench/ros_interface/services.h"
 
+#include <algorithm>
 #include <cstdio>
 
 #include "spring_workbench/config/yaml_fields.h"
@@ -46,7 +47,8 @@ std::string describe(const DynamicsSettings& settings) {
 
 Services::Services(ros::NodeHandle private_node, SimulationRunner& runner, std::vector<std::string> scene_roots)
     : runner_(runner), scene_roots_(std::move(scene_roots)) {
-  servers_ = {private_node.advertiseService("set_dofs", &Services::set_dofs, this),
+  servers_ = {private_node.advertiseService("select_tool", &Services::select_tool, this),
+              private_node.advertiseService("set_dofs", &Services::set_dofs, this),
               private_node.advertiseService("set_stiffness", &Services::set_stiffness, this),
               private_node.advertiseService("set_damping", &Services::set_damping, this),
               private_node.advertiseService("set_integrator", &Services::set_integrator, this),
@@ -54,6 +56,14 @@ Services::Services(ros::NodeHandle private_node, SimulationRunner& runner, std::
               private_node.advertiseService("calibrate", &Services::calibrate, this),
               private_node.advertiseService("reset", &Services::reset, this),
               private_node.advertiseService("release", &Services::release, this)};
+}
+
+bool Services::select_tool(SelectTool::Request& request, SelectTool::Response& response) {
+  return answer(response, [&] {
+    check_number("select_tool", "stylus", request.stylus, between(0.0, Simulation::most_hands));
+    const std::size_t hand = request.stylus > 0 ? request.stylus - 1 : 0;
+    fill(runner_.locked([&](Simulation& s) { return s.select_tool(request.tool, hand); }), response);
+  });
 }
 
 bool Services::set_dofs(SetForkDofs::Request& request, SetForkDofs::Response& response) {
@@ -108,8 +118,13 @@ bool Services::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& r
 bool Services::release(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
   return answer(response, [&] {
     const std::string held = runner_.locked([](Simulation& s) {
-      const std::string name = s.fork().held_object;
-      return s.release() ? name : std::string();
+      std::vector<std::string> names;
+      for (std::size_t hand = 0; hand < Simulation::most_hands; ++hand) {
+        const std::string name = s.fork(hand).held_object;
+        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      }
+      s.release();
+      return join(names);
     });
     if (held.empty()) throw InputError("release: nothing is held: must be called while an object is held");
     response.message = "released " + held;

@@ -16,36 +16,53 @@ SimulationRunner::SimulationRunner(const Scene& scene, const SimulationSettings&
                                    double grid)
     : simulation_(std::make_unique<Simulation>(scene, settings)),
       task_(scene),
-      playout_(settings.dropout_after, grid > 0.0),
-      hand_(truth),
-      grid_(grid) {}
+      grid_(grid) {
+  for (std::size_t hand = 0; hand < Simulation::most_hands; ++hand) {
+    inputs_.emplace_back(hand, truth, settings.dropout_after, grid > 0.0);
+  }
+}
 
-CycleReport SimulationRunner::cycle(const std::vector<StylusEvent>& events, const LocalTime& now) {
+CycleReport SimulationRunner::cycle(const HandEvents& events, const LocalTime& now) {
   constexpr double longest_catch_up = 5.0;  // [s] beyond this, time has leapt
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto begin = std::chrono::steady_clock::now();
-  waiting_.insert(waiting_.end(), events.begin(), events.end());
+  for (HandInput& input : inputs_) {
+    input.waiting.insert(input.waiting.end(), events[input.hand].begin(), events[input.hand].end());
+  }
   feed(now);
   CycleReport report;
-  const double target = playout_.target(now);
+  const double target = this->target(now);
   if (has_sample_ && target > simulation_->time() + longest_catch_up) {
     start_anew();
     report.leapt = true;
   } else if (has_sample_ && target > simulation_->time()) {
     advance(target, report);
   }
-  report.more |= !waiting_.empty();
+  for (const HandInput& input : inputs_) report.more |= !input.waiting.empty();
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
 }
 
 void SimulationRunner::feed(const LocalTime& now) {
-  while (!waiting_.empty()) {
-    const bool new_epoch = std::holds_alternative<NewEpoch>(waiting_.front());
-    if (new_epoch && grid_ > 0.0 && has_sample_ && has_more(playout_.target(now))) return;
-    std::visit([this](const auto& e) { apply(e); }, waiting_.front());
-    waiting_.pop_front();
+  for (HandInput& input : inputs_) {
+    while (!input.waiting.empty()) {
+      const auto* epoch = std::get_if<NewEpoch>(&input.waiting.front());
+      const bool restarts = epoch != nullptr && !joins(input, *epoch);
+      if (restarts && grid_ > 0.0 && has_sample_ && has_more(target(now))) break;
+      // What comes from before a jump of time that another hand has told of already is of no use.
+      if (input.in_epoch || epoch != nullptr) std::visit([&](const auto& e) { apply(input, e); }, input.waiting.front());
+      input.waiting.pop_front();
+    }
   }
+}
+
+/// As far as the slowest hand allows.
+double SimulationRunner::target(const LocalTime& now) const {
+  double target = std::numeric_limits<double>::infinity();
+  for (const HandInput& input : inputs_) {
+    if (input.has_sample) target = std::min(target, input.playout.target(now) + input.shift);
+  }
+  return std::isfinite(target) ? target : -std::numeric_limits<double>::infinity();
 }
 
 /// Whether the next step of the grid lies before the target, not on it: there the segment begins whose velocity hangs on
@@ -63,39 +80,74 @@ void SimulationRunner::advance(double target, CycleReport& report) {
     report.more = next + grid_ <= target - kSlack * grid_;
     target = next;
   }
-  const std::optional<double> release = hand_.take_release(target);
+  const auto release = take_release(target);
   if (release) {
-    target = std::max(*release, simulation_->time());
+    target = std::max(release->t, simulation_->time());
     report.more = true;
   }
   report.advance = simulation_->advance(target);
-  if (release) simulation_->release();
+  if (release) simulation_->release(release->hand);
   task_.observe(*simulation_);
 }
 
-void SimulationRunner::apply(const NewEpoch& epoch) {
-  start_anew();
-  zero_ = epoch.zero;
-}
-
-void SimulationRunner::apply(const StylusPose& pose) {
-  constexpr double never = -std::numeric_limits<double>::infinity();
-  const double simulated_until = has_sample_ ? simulation_->time() : never;
-  for (const PoseSample& sample : hand_.follow(pose.sample, pose.new_place, simulated_until)) {
-    has_sample_ |= simulation_->push_stylus(sample);
+std::optional<SimulationRunner::Loss> SimulationRunner::take_release(double target) {
+  for (HandInput& input : inputs_) {
+    if (const auto release = input.reengagement.take_release(target - input.shift)) return Loss{*release + input.shift, input.hand};
   }
-  playout_.sample(pose.sample.t, pose.arrival);  // a late one, too: simulated time waits for what is under way
+  return std::nullopt;
 }
 
-void SimulationRunner::apply(const StylusButton& button) { simulation_->push_button(button.t, button.pressed); }
+/// Whether a stylus that begins there comes to the others that are under way, rather than that all time has jumped.
+bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
+  constexpr double slip = 1.5;  // [s]: in simulated time an epoch begins at the whole second before its first sample
+  return has_sample_ && !input.in_epoch && (epoch.zero - zero_).toSec() > simulation_->time() - slip;
+}
 
-void SimulationRunner::apply(const ButtonsKnown& known) { playout_.buttons(known.t, known.arrival); }
+void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
+  if (!joins(input, epoch)) {
+    start_anew();
+    zero_ = epoch.zero;
+    for (HandInput& other : inputs_) other.in_epoch = false;
+  }
+  input.in_epoch = true;
+  input.shift = (epoch.zero - zero_).toSec();
+}
+
+void SimulationRunner::apply(HandInput& input, const StylusPose& pose) {
+  constexpr double never = -std::numeric_limits<double>::infinity();
+  const double simulated_until = has_sample_ ? simulation_->time() - input.shift : never;
+  for (PoseSample sample : input.reengagement.follow(pose.sample, pose.new_place, simulated_until)) {
+    sample.t += input.shift;
+    input.has_sample |= simulation_->push_stylus(sample, input.hand);
+  }
+  has_sample_ |= input.has_sample;
+  input.playout.sample(pose.sample.t, pose.arrival);  // a late one, too: simulated time waits for what is under way
+}
+
+void SimulationRunner::apply(HandInput& input, const StylusButton& button) {
+  simulation_->push_button(button.t + input.shift, button.pressed, input.hand);
+}
+
+void SimulationRunner::apply(HandInput& input, const NextTool& press) {
+  simulation_->push_next_tool(press.t + input.shift, input.hand);
+}
+
+void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {
+  input.playout.buttons(known.t, known.arrival);
+}
 
 void SimulationRunner::start_anew() {
   simulation_->reset();
   task_.reset();
-  playout_.clear();
-  hand_.restart();
+  forget_hands();
+}
+
+void SimulationRunner::forget_hands() {
+  for (HandInput& input : inputs_) {
+    input.playout.clear();
+    input.reengagement.restart();
+    input.has_sample = false;
+  }
   has_sample_ = false;
 }
 
@@ -108,9 +160,7 @@ void SimulationRunner::load(const Scene& scene) {
   const std::lock_guard<std::mutex> lock(mutex_);
   simulation_ = std::make_unique<Simulation>(scene, simulation_->settings());
   task_ = TaskMonitor(scene);
-  playout_.clear();
-  hand_.restart();
-  has_sample_ = false;
+  forget_hands();
 }
 
 ros::Time SimulationRunner::stamp(const ros::Time& now) const {
@@ -118,9 +168,9 @@ ros::Time SimulationRunner::stamp(const ros::Time& now) const {
   return has_sample_ ? zero_ + ros::Duration(simulation_->time()) : now;
 }
 
-ReengagementCounts SimulationRunner::hand_counts() const {
+ReengagementCounts SimulationRunner::hand_counts(std::size_t hand) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return hand_.counts();
+  return inputs_.at(hand).reengagement.counts();
 }
 
 }  // namespace spring_workbench

@@ -11,8 +11,8 @@ namespace {
 
 constexpr uint32_t queue = 1000;  // simulated time may go on by many steps at once, without pause
 constexpr double shortest_lifetime = 2.0;  // of markers [s]
-const char* const handle_frame = "fork_handle";
-const char* const tip_frame = "fork_tip";
+const std::string handle_frame = "fork_handle";
+const std::string tip_frame = "fork_tip";
 
 }  // namespace
 
@@ -22,6 +22,7 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
       markers_(parameters.fork_curve, std::max(shortest_lifetime, 3.0 / parameters.markers_rate)),
       objects_publisher_(private_node.advertise<ObjectStates>("objects", queue)),
       fork_publisher_(private_node.advertise<ForkState>("fork", queue)),
+      second_fork_publisher_(private_node.advertise<ForkState>("fork_2", queue)),
       wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", queue)),
       contacts_publisher_(private_node.advertise<Contacts>("contacts", queue)),
       markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 10)),
@@ -33,22 +34,30 @@ void StatePublisher::publish(const Simulation& simulation, const ros::Time& stam
   header.frame_id = world_frame_;
   header.stamp = stamp;
   const ToolState tool = simulation.fork();
-  publish_transforms(simulation, tool, stamp);
+  publish_transforms(simulation, stamp);
   if (objects_publisher_.getNumSubscribers() > 0) {
     ObjectStates message = to_message(simulation.objects());
     message.header = header;
     objects_publisher_.publish(message);
   }
-  publish_tool(tool, header);
+  publish_fork(fork_publisher_, tool, header);
+  if (const ToolState second = simulation.fork(1); second.present) publish_fork(second_fork_publisher_, second, header);
+  publish_wrench(tool, header);
   publish_contacts(simulation, header);
   publish_markers(simulation, header, now);
 }
 
-void StatePublisher::publish_transforms(const Simulation& simulation, const ToolState& tool, const ros::Time& stamp) {
+void StatePublisher::publish_transforms(const Simulation& simulation, const ros::Time& stamp) {
   if (stamp.isZero() || stamp == last_transforms_) return;
   last_transforms_ = stamp;
-  std::vector<geometry_msgs::TransformStamped> transforms{to_transform(tool.X_WH, world_frame_, handle_frame, stamp),
-                                                          to_transform(tool.X_WE, world_frame_, tip_frame, stamp)};
+  std::vector<geometry_msgs::TransformStamped> transforms;
+  for (std::size_t hand = 0; hand < Simulation::most_hands; ++hand) {
+    const ToolState tool = simulation.fork(hand);
+    if (hand > 0 && !tool.present) continue;
+    const std::string number = hand > 0 ? "_" + std::to_string(hand + 1) : "";
+    transforms.push_back(to_transform(tool.X_WH, world_frame_, handle_frame + number, stamp));
+    transforms.push_back(to_transform(tool.X_WE, world_frame_, tip_frame + number, stamp));
+  }
   for (const BodyState& object : simulation.objects()) {
     const Body& body = simulation.scene().bodies[*find_body(simulation.scene(), object.name)];
     transforms.push_back(to_transform(object.X_WO * body.X_OL, world_frame_, object.name, stamp));
@@ -56,19 +65,23 @@ void StatePublisher::publish_transforms(const Simulation& simulation, const Tool
   transforms_.sendTransform(transforms);
 }
 
-void StatePublisher::publish_tool(const ToolState& tool, const std_msgs::Header& header) {
-  if (fork_publisher_.getNumSubscribers() > 0) {
-    ForkState message = to_message(tool);
-    message.header = header;
-    fork_publisher_.publish(message);
-  }
-  if (wrench_publisher_.getNumSubscribers() > 0) {
-    geometry_msgs::WrenchStamped message;
-    message.header.stamp = header.stamp;
-    message.header.frame_id = handle_frame;
-    message.wrench = to_wrench(tool.handle_wrench_H);
-    wrench_publisher_.publish(message);
-  }
+void StatePublisher::publish_fork(const ros::Publisher& publisher, const ToolState& tool,
+                                  const std_msgs::Header& header) {
+  if (publisher.getNumSubscribers() == 0) return;
+  ForkState message = to_message(tool);
+  message.header = header;
+  publisher.publish(message);
+}
+
+/// In real units: what the hand would feel.
+void StatePublisher::publish_wrench(const ToolState& tool, const std_msgs::Header& header) {
+  if (wrench_publisher_.getNumSubscribers() == 0) return;
+  geometry_msgs::WrenchStamped message;
+  message.header.stamp = header.stamp;
+  message.header.frame_id = handle_frame;
+  const Wrench& felt = tool.handle_wrench_H;
+  message.wrench = to_wrench({felt.force / tool.force_scale, felt.moment / tool.force_scale});
+  wrench_publisher_.publish(message);
 }
 
 void StatePublisher::publish_contacts(const Simulation& simulation, const std_msgs::Header& header) {

@@ -66,8 +66,11 @@ std::string number(double value) {
 
 }  // namespace
 
-StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters)
+StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame,
+                         std::string joy)
     : parameters_(parameters),
+      frame_(std::move(frame)),
+      joy_(std::move(joy)),
       truth_(parameters.truth, parameters.simulation.dropout_after),
       monitor_(parameters.simulation.dropout_after) {
   if (parameters.workbench_frame != parameters.world_frame) {
@@ -76,7 +79,7 @@ StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& par
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   static_subscriber_ = node.subscribe("/tf_static", 100, &StylusInput::on_static_transforms, this, hints);
   tf_subscriber_ = node.subscribe("/tf", kQueue, &StylusInput::on_transforms, this, hints);
-  joy_subscriber_ = node.subscribe("stylus/joy", kQueue, &StylusInput::on_joy, this, hints);
+  joy_subscriber_ = node.subscribe(joy_, kQueue, &StylusInput::on_joy, this, hints);
 }
 
 std::vector<StylusEvent> StylusInput::take_events() {
@@ -118,7 +121,7 @@ void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessag
   for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
     constexpr std::size_t most_frames = 20;  // that a hint can name
     if (statistics_.frames.size() < most_frames) statistics_.frames.insert(frame(transform.child_frame_id));
-    if (frame(transform.child_frame_id) != parameters_.stylus_frame) continue;
+    if (frame(transform.child_frame_id) != frame_) continue;
     if (const std::optional<ros::Time> now = moment_of(transform.header.stamp, poses_)) {
       on_stylus(transform, *now);
     } else {
@@ -168,7 +171,7 @@ void StylusInput::offer(const geometry_msgs::TransformStamped& transform, const 
 void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (message->buttons.empty()) {
-    return leave_out("no buttons", "stylus/joy: buttons: [] is not allowed: must be at least one button");
+    return leave_out("no buttons", joy_ + ": buttons: [] is not allowed: must be at least one button");
   }
   if (const std::optional<ros::Time> now = moment_of(message->header.stamp, buttons_)) return on_buttons(*message, *now);
   keep(*message, early_buttons_);
@@ -186,6 +189,9 @@ void StylusInput::on_buttons(const sensor_msgs::Joy& message, const ros::Time& n
   const bool pressed = message.buttons[0] != 0;
   if (pressed != pressed_) events_.push_back(StylusButton{t, pressed});
   pressed_ = pressed;
+  const bool next_tool = message.buttons.size() > 1 && message.buttons[1] != 0;
+  if (next_tool && !next_tool_) events_.push_back(NextTool{t});
+  next_tool_ = next_tool;
   events_.push_back(ButtonsKnown{t, local_time()});
 }
 
@@ -226,7 +232,7 @@ void StylusInput::start_anew_when_due() {
   if (patient && (poses_awaited || buttons_awaited)) return;
   const ros::Time now = ros::Time::now();
   ROS_INFO("time went back by %.3g s: starting anew", (last_now_ - now).toSec());
-  jumped_ = pressed_ = false;
+  jumped_ = pressed_ = next_tool_ = false;
   zero_ = poses_.newest = buttons_.newest = ros::Time();
   last_now_ = now;
   truth_.restart();

@@ -20,11 +20,13 @@
 #include "error_plot.h"
 #include "log_slider.h"
 #include "spring_workbench/LoadScene.h"
+#include "spring_workbench/SelectTool.h"
 #include "spring_workbench/SetForkDamping.h"
 #include "spring_workbench/SetForkDofs.h"
 #include "spring_workbench/SetForkStiffness.h"
 #include "spring_workbench/SetIntegrator.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/tools/tool.h"
 
 namespace spring_workbench {
 namespace {
@@ -98,14 +100,17 @@ void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
   auto* grid = new QGridLayout;
   integrator_ = new QComboBox(this);
   for (const std::string& name : integrator_names()) integrator_->addItem(QString::fromStdString(name));
-  tool_ = new QLabel(this);
-  tool_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // the panel keeps its width whatever is held
+  tool_ = new QComboBox(this);
+  for (const std::string& name : tool_names()) tool_->addItem(QString::fromStdString(name));
+  held_ = new QLabel(this);
+  held_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // the panel keeps its width whatever is held
   scene_ = new QLineEdit("package://spring_workbench/scenes/mini_world.urdf", this);
   auto* load = new QPushButton("Load", this);
   grid->addWidget(new QLabel("Integrator", this), 0, 0);
   grid->addWidget(integrator_, 0, 1, 1, 2);
   grid->addWidget(new QLabel("Tool", this), 1, 0);
-  grid->addWidget(tool_, 1, 1, 1, 2);
+  grid->addWidget(tool_, 1, 1);
+  grid->addWidget(held_, 1, 2);
   grid->addWidget(new QLabel("Scene", this), 2, 0);
   grid->addWidget(scene_, 2, 1);
   grid->addWidget(load, 2, 2);
@@ -115,6 +120,12 @@ void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
     request.name = integrator_->currentText().toStdString();
     free_at_ = panel_time() + settling;
     services_.call<SetIntegrator>("integrator", node + "set_integrator", request);
+  });
+  connect(tool_, QOverload<int>::of(&QComboBox::activated), this, [this] {
+    SelectTool::Request request;
+    request.tool = tool_->currentText().toStdString();
+    free_at_ = panel_time() + settling;
+    services_.call<SelectTool>("tool", node + "select_tool", request);
   });
   connect(load, &QPushButton::clicked, this, [this] {
     LoadScene::Request request;
@@ -210,11 +221,12 @@ void WorkbenchPanel::show_fork() {
     families_[i].stiffness->show_value(stiffness[i]);
     families_[i].damping->show_value(damping[i]);
   }
-  tool_->setText(QString::fromStdString(fork.tool + (fork.held_object.empty() ? "" : ", holds " + fork.held_object)));
-  if (panel_time() < free_at_ || integrator_->view()->isVisible()) return;
+  held_->setText(QString::fromStdString(fork.held_object.empty() ? fork.touched : fork.held_object));
+  if (panel_time() < free_at_ || integrator_->view()->isVisible() || tool_->view()->isVisible()) return;
   const std::array<bool, 3> on{fork.stretch_on != 0, fork.bend_on != 0, fork.torsion_on != 0};
   for (std::size_t i = 0; i < 3; ++i) families_[i].on->setChecked(on[i]);
   integrator_->setCurrentText(QString::fromStdString(fork.integrator));
+  tool_->setCurrentText(QString::fromStdString(fork.tool));
 }
 
 void WorkbenchPanel::show_steps() {

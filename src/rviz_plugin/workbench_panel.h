@@ -75,10 +75,10 @@ class WorkbenchPanel : public rviz::Panel {
 
   QWidget* controls_;
   std::array<Family, 3> families_{};  ///< stretch, bend, torsion
-  QComboBox* integrator_;
+  QComboBox *integrator_, *tool_;
   QCheckBox* grasp_;
   QLineEdit* scene_;
-  QLabel *tool_, *figures_, *left_out_, *answer_;
+  QLabel *held_, *figures_, *left_out_, *answer_;
   ErrorPlot* plot_;
   ServiceCaller services_;
 };

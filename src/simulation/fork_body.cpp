@@ -12,7 +12,6 @@ namespace spring_workbench {
 namespace {
 
 constexpr double return_time = 0.05;          ///< [s] on which the proxy comes back to the hand
-constexpr double no_offset = 1e-9;            ///< [m, rad]; the proxy has come back
 constexpr double proxy_share = 1e-4;          ///< of a free body's compliance, beside coordinates that can follow in part
 // Below these an object on a hand at rest stops (the paper's threshold, section 3.3).
 constexpr double rest_speed = 1e-7;           ///< [m/s], and of a turning times the fork's length
@@ -72,9 +71,12 @@ Matrix6d ForkBody::proxy_compliance(double h) const {
   return P;
 }
 
+RigidTransform ForkBody::returned_offset(double h) const {
+  return state_.behind ? shrunk(state_.offset, std::exp(-h / return_time)) : RigidTransform::Identity();
+}
+
 RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
-  const RigidTransform returned =
-      state_.behind ? shrunk(state_.offset, std::exp(-h / return_time)) : RigidTransform::Identity();
+  const RigidTransform returned = returned_offset(h);
   if (contact_W.force.isZero(0.0) && contact_W.moment.isZero(0.0)) return returned;
   Vector6d wrench;
   wrench << contact_W.force, contact_W.moment;
@@ -115,6 +117,7 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   }
   state_.t += h;
   state_.strain = next;
+  state_.pull_W.reset();
   state_.behind = behind;
   state_.offset = behind ? offset : RigidTransform::Identity();
   if (held_.returning() && held_.drop_finished_returns(state_.t) && held_.size() == 0) state_.strain = held_.zero_state();
@@ -163,9 +166,8 @@ void ForkBody::remember() { remembered_ = state_; }
 
 void ForkBody::go_back() { state_ = remembered_; }
 
-Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates> ForkBody::jacobian_W() const {
-  auto J = held_.object_jacobian(state_.t, state_.strain.q);
-  const Matrix3d R_WH = handle().X_WH.linear();
+ForkBody::Jacobian ForkBody::jacobian_W(const Matrix3d& R_WH, double t) const {
+  Jacobian J = held_.object_jacobian(t, state_.strain.q);
   for (int i = 0; i < J.cols(); ++i) {
     J.col(i).head<3>() = (R_WH * J.col(i).head<3>()).eval();
     J.col(i).tail<3>() = (R_WH * J.col(i).tail<3>()).eval();

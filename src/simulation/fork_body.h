@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "spring_workbench/dynamics/step_control.h"
 #include "tool_hold.h"
@@ -23,6 +24,8 @@ class ForkBody final : public ToolHold {
   void add_impulse(const Wrench& impulse_W) override;
   void stay(double h) override;
   void go_along(double h) override;
+  Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const override;
+  void follow(double h, const MotionState& object, const Wrench& pull_W) override;
 
   /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
   void set_hand(const MotionSegment& hand, double t) override;
@@ -72,17 +75,25 @@ class ForkBody final : public ToolHold {
     RigidTransform offset = RigidTransform::Identity();    ///< seen handle = offset · hand, in world
     double energy_added = 0.0;                             ///< [J]
     StepControl::Memory stepping;
+    std::optional<Wrench> pull_W;                          ///< on the object at its centre, where it was shared last
   };
+  static constexpr double no_offset = 1e-9;  ///< [m, rad]; the proxy has come back
   /// How the proxy gives way to a wrench at the centre of mass over a step; zero while the coordinates can follow.
   Matrix6d proxy_compliance(double h) const;
-  /// The proxy's offset at the end of a step under the wrench.
+  /// The proxy's offset at the end of a step without a load.
+  RigidTransform returned_offset(double h) const;
+  /// The same under the wrench.
   RigidTransform next_offset(double h, const Wrench& contact_W) const;
   /// The seen handle's motion over a step that ends with this offset.
   MotionSegment seen_motion(double h, const RigidTransform& offset_end) const;
   StrainMatrix inverse_mass() const;
+  /// The strain with the object at `X_WO`, `h` [s] after the last; `handle` the hand itself.
+  void fit(const HandleForcing& handle, const RigidTransform& X_WO, double h);
   /// Energy added (see energy_added()) by a step of `h` from `begin` to `end` along the handle's `motion`.
   double added_energy(const MotionSegment& motion, double h, const StrainState& begin, const StrainState& end) const;
-  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates> jacobian_W() const;
+  using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates>;
+  Jacobian jacobian_W() const { return jacobian_W(handle().X_WH.linear(), state_.t); }
+  Jacobian jacobian_W(const Matrix3d& R_WH, double t) const;
 
   std::size_t index_;
   HeldBody held_;

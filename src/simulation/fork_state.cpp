@@ -44,10 +44,12 @@ void ForkBody::describe(bool massless, ToolState& f) const {
   // What the rod does to the object: its change of momentum less gravity and contact.
   const Matrix3d I_W = o.X.linear() * held_.body().inertia_O * o.X.linear().transpose();
   const Wrench& contact = held_.external_wrench();
-  const Vector3d force =
-      held_.body().mass * (o.acceleration.linear + held_.gravity() * Vector3d::UnitZ()) - contact.force;
-  const Vector3d moment =
-      I_W * o.acceleration.angular + o.velocity.angular.cross(I_W * o.velocity.angular) - contact.moment;
+  Vector3d force = held_.body().mass * (o.acceleration.linear + held_.gravity() * Vector3d::UnitZ()) - contact.force;
+  Vector3d moment = I_W * o.acceleration.angular + o.velocity.angular.cross(I_W * o.velocity.angular) - contact.moment;
+  if (state_.pull_W) {
+    force = state_.pull_W->force;
+    moment = state_.pull_W->moment;
+  }
   f.tip_wrench_W.force = force;
   f.tip_wrench_W.moment = moment + (o.X.translation() - f.X_WE.translation()).cross(force);
   const Vector3d at_handle = moment + (o.X.translation() - f.X_WH_seen.translation()).cross(force);

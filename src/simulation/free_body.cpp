@@ -30,6 +30,11 @@ void FreeBody::set_twist(const Twist& V_WO_W) {
   state_.angular_momentum = R * inertia_O_ * R.transpose() * V_WO_W.angular;
 }
 
+void FreeBody::set_motion(const MotionState& object) {
+  state_.X_WO = object.X;
+  set_twist(object.velocity);
+}
+
 void FreeBody::set_motion_of_centre(const Vector3d& p_WO, const Vector3d& v_WO_W) {
   state_.X_WO.translation() = p_WO;
   state_.velocity = v_WO_W;

@@ -23,6 +23,8 @@ class FreeBody final : public SteppedBody {
   void stay(double h) override;
 
   void set_twist(const Twist& V_WO_W);
+  /// Pose and velocity.
+  void set_motion(const MotionState& object);
   /// Position [m] and velocity [m/s] of the centre of mass, world axes; the rotation goes on as it is.
   void set_motion_of_centre(const Vector3d& p_WO, const Vector3d& v_WO_W);
 

@@ -7,15 +7,12 @@
 #include "fork_body.h"
 #include "spring_body.h"
 #include "spring_workbench/rod/shape_model.h"
-#include "spring_workbench/scene/geometry.h"
-#include "spring_workbench/scene/ray.h"
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double longest_ray = 2.0;    ///< [m]
 constexpr double least_length = 1e-4;  ///< [m] of a rigid tool
 constexpr double point_mass_radius = 1e-2;  ///< of the fork's length: radius of gyration of a point mass
 constexpr double on_the_axis = 1e-3;        ///< of the fork's length; a point mass so near to the fork's axis cannot twist it
@@ -38,6 +35,8 @@ void Hand::reset() {
   selection_ = GraspSelection();
   grasped_by_name_ = false;
   hold_.reset();
+  probe_.reset();
+  pushes_ = false;
 }
 
 double Hand::next_sample(double now) {
@@ -62,63 +61,30 @@ double Hand::reach() const {
   return tool_ == Tool::ray ? std::max(ray_length_, least_length) : settings_.fork.length;
 }
 
-void Hand::select(double now) {
-  constexpr double stays = 0.8;  // another object must be nearer than the present one by this factor
-  const std::optional<std::size_t> before = selection_.inserted();
-  selection_.set_inserted(std::nullopt);
-  if (hold_ || !known(now)) return;
-  const std::vector<BodyState>& objects = workbench_.states();
-  // The nearest thing in the way of the hand, and the objects that the tip is in.
-  double blocked_at = tool_ == Tool::ray ? longest_ray : reach();
-  const Body* blocking = nullptr;
-  const auto look = [&](const Body& body, const RigidTransform& X_WO) {
-    const RigidTransform X_OH = X_WO.inverse() * X_WH_;
-    const auto at = distance_along_ray(body, X_OH.translation(), X_OH.linear().col(2), blocked_at);
-    const bool inside = tool_ != Tool::ray && contains(body, X_OH * Vector3d(0.0, 0.0, reach()));
-    if (!at || inside) return;
-    blocked_at = *at;
-    blocking = &body;
-  };
-  for (const Body& body : scene_.bodies) {
-    if (!body.movable) look(body, body.X_WO);
+void Hand::apply_buttons(double now) {
+  if (!settings_.grasp.object.empty() && !grasped_by_name_ && known(now)) {
+    const std::optional<std::size_t> object = workbench_.find(settings_.grasp.object);
+    if (object && !workbench_.states()[*object].held && can_hold(tool_)) {
+      grasp(*object, settings_.grasp.X_OE, settings_.grasp.start_follow, now);
+    }
+    grasped_by_name_ = true;
   }
-  for (std::size_t i = 0; i < objects.size(); ++i) look(workbench_.body(i), objects[i].X_WO);
-  ray_length_ = blocked_at;
-  double nearest = never;
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    if (objects[i].held) continue;
-    const Vector3d tip = X_WH_ * Vector3d(0.0, 0.0, reach());
-    const bool pierced = tool_ == Tool::ray ? blocking == &workbench_.body(i)
-                                            : !blocking && contains(workbench_.body(i), objects[i].X_WO.inverse() * tip);
-    const double distance = (objects[i].X_WO.translation() - tip).norm() * (before == i ? stays : 1.0);
-    if (!pierced || distance >= nearest) continue;
-    nearest = distance;
-    selection_.set_inserted(i);
-  }
-  if (selection_.inserted() && settings_.grasp.object.empty()) {
-    workbench_.state(*selection_.inserted()).highlighted = true;
+  while (!buttons_.empty() && buttons_.front().t <= now + same_time) {
+    const Press press = buttons_.front().press;
+    buttons_.pop_front();
+    if (press == Press::next_tool) {
+      select_tool(next_tool(tool_, hold_ != nullptr), now);
+    } else if (settings_.grasp.object.empty()) {
+      apply_grasp_button(press == Press::grasp, now);
+    }
   }
 }
 
-void Hand::apply_buttons(double now) {
-  if (!settings_.grasp.object.empty()) {
-    if (!grasped_by_name_ && known(now)) {
-      const std::optional<std::size_t> object = workbench_.find(settings_.grasp.object);
-      if (object && !workbench_.states()[*object].held) {
-        grasp(*object, settings_.grasp.X_OE, settings_.grasp.start_follow, now);
-      }
-      grasped_by_name_ = true;
-    }
-    return;
-  }
-  while (!buttons_.empty() && buttons_.front().t <= now + same_time) {
-    const bool pressed = buttons_.front().pressed;
-    buttons_.pop_front();
-    switch (selection_.set_button(pressed, hold_ != nullptr)) {
-      case GraspEvent::grasp: grasp(*selection_.inserted(), std::nullopt, false, now); break;
-      case GraspEvent::release: let_go(settings_.grasp.release == "thrown", now); break;
-      case GraspEvent::none: break;
-    }
+void Hand::apply_grasp_button(bool pressed, double now) {
+  switch (selection_.set_button(pressed, hold_ != nullptr)) {
+    case GraspEvent::grasp: grasp(*selection_.inserted(), std::nullopt, false, now); break;
+    case GraspEvent::release: let_go(settings_.grasp.release == "thrown", now); break;
+    case GraspEvent::none: break;
   }
 }
 
@@ -172,7 +138,7 @@ RigidTransform Hand::tip_in_object(std::size_t object, double length) const {
 }
 
 bool Hand::calibrate_hold() {
-  if (tool_ == Tool::direct || tool_ == Tool::ray) return false;
+  if (!hold_ || tool_ == Tool::direct || tool_ == Tool::ray) return false;
   if (!workbench_.massless(held_)) settings_.fork.stiffness = hold_->calibrate(settings_.fork, scene_.gravity);
   return true;
 }
@@ -187,13 +153,15 @@ void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, 
   if (settings_.grasp.calibrate) calibrate_hold();
   // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the hand's.
   if (!follow_hand && dynamic()) hold_->take_twist(workbench_.states()[object].V_WO_W);
-  workbench_.hold(object, now);
+  workbench_.hold(object, Workbench::Grip::grasp, now);
   workbench_.take_state(object, hold_->object());
 }
 
 void Hand::select_tool(Tool tool, double now) {
   if (tool == tool_) return;
   tool_ = tool;
+  leave_with_probe(now);
+  if (!can_hold(tool)) let_go(true, now);
   if (!hold_) return;
   const Vector3d centre_H = X_WH_.inverse() * workbench_.states()[held_].X_WO.translation();
   ray_length_ = std::max(centre_H.z(), least_length);
@@ -211,12 +179,26 @@ void Hand::select_tool(Tool tool, double now) {
 
 void Hand::let_go(bool thrown, double now) {
   if (!hold_) return;
-  workbench_.let_go(held_, thrown, now);
+  workbench_.let_go(held_, Workbench::Grip::grasp, thrown, now);
   hold_.reset();
 }
 
+std::optional<std::size_t> Hand::carried() const {
+  return hold_ || pushes_ ? std::optional<std::size_t>(held_) : std::nullopt;
+}
+
+CoupledTool* Hand::begin_shared_step(double now) {
+  moved_ = true;
+  workbench_.state(held_).asleep = false;
+  if (probe_) {
+    probe_->set_hand(track_.segment(now), now);
+    return probe_.get();
+  }
+  hold_->set_hand(track_.segment(now), now);
+  return hold_.get();
+}
+
 SteppedBody* Hand::begin_step(double now, double h) {
-  if (!hold_) return nullptr;
   hold_->set_hand(track_.segment(now), now);
   energy_added_before_ = hold_->energy_added();
   BodyState& o = workbench_.state(held_);
@@ -258,6 +240,7 @@ void Hand::change_dofs(ChangeReport& change) {
 
 void Hand::change_springs() {
   if (hold_) hold_->set_springs(settings_.fork);
+  if (probe_) probe_->set_springs(settings_.fork);
 }
 
 void Hand::change_integrator() {
@@ -265,15 +248,19 @@ void Hand::change_integrator() {
 }
 
 bool Hand::calibrate(ChangeReport& change) {
-  if (!hold_ || !calibrate_hold()) return false;
+  if (!calibrate_hold()) return false;
   change.message = "calibrated for " + workbench_.states()[held_].name;
   return true;
 }
 
-double Hand::elastic_energy() const { return hold_ ? hold_->elastic_energy() : 0.0; }
+double Hand::elastic_energy() const {
+  if (probe_) return probe_->elastic_energy();
+  return hold_ ? hold_->elastic_energy() : 0.0;
+}
 
 ToolState Hand::state() const {
   ToolState f;
+  f.present = !track_.empty();
   f.tool = name_of(tool_);
   f.shape = settings_.fork.shape;
   f.integrator = settings_.dynamics.integrator;
@@ -290,6 +277,10 @@ ToolState Hand::state() const {
     f.held_object = workbench_.states()[held_].name;
     hold_->describe(workbench_.massless(held_), f);
   }
+  if (probe_) probe_->describe(X_WH_, f);
+  f.force_scale = scene_.force_scale;
+  f.weight = f.tip_wrench_W.force.z() / weighing_gravity(scene_.gravity);
+  f.torque = f.tip_wrench_W.moment.dot(f.X_WE.linear().col(2));
   return f;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "probe.h"
 #include "spring_workbench/tools/grasp_selection.h"
 #include "spring_workbench/tools/tool.h"
 #include "tool_hold.h"
@@ -12,7 +13,8 @@
 
 namespace spring_workbench {
 
-constexpr double same_time = 1e-9;  ///< [s]; stamps nearer to each other are one
+constexpr double same_time = 1e-9;   ///< [s]; stamps nearer to each other are one
+constexpr double longest_ray = 2.0;  ///< [m]
 
 /// One stylus: its motion and button, the tool in it, and what that holds.
 class Hand {
@@ -24,7 +26,8 @@ class Hand {
   void reset();
 
   bool push(const PoseSample& sample) { return track_.push(sample); }
-  void push_button(double t, bool pressed) { buttons_.push_back({t, pressed}); }
+  void push_button(double t, bool pressed) { buttons_.push_back({t, pressed ? Press::grasp : Press::release}); }
+  void push_next_tool(double t) { buttons_.push_back({t, Press::next_tool}); }
   const PoseTrack& track() const { return track_; }
   /// Whether a sample says where the hand is at time `now` [s].
   bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
@@ -37,16 +40,19 @@ class Hand {
   void follow(double now);
   void forget_before(double now);
 
-  /// What is the tip in (highlight)?
+  /// What is the tip in (highlight), or the probe on?
   void select(double now);
-  /// Grasps and releases, as the button's edges up to `now` and `grasp.object` say.
+  /// Grasps, releases and changes tool, as the buttons' edges up to `now` and `grasp.object` say.
   void apply_buttons(double now);
   bool holds() const { return hold_ != nullptr; }
   void let_go(bool thrown, double now);
-  /// What is held, ready to be carried over the next `h` [s]; null where nothing is held, or where it rests and nothing has
-  /// to be done.
+  /// What the tool carries, in the workbench: the object that is held, or pushed by the probe.
+  std::optional<std::size_t> carried() const;
+  /// What is held by this tool alone, ready to be carried over the next `h` [s]; null where it rests and nothing has to be
+  /// done.
   SteppedBody* begin_step(double now, double h);
-  std::size_t held() const { return held_; }  ///< in the workbench
+  /// The tool as one of several on what it carries, or pushing it.
+  CoupledTool* begin_shared_step(double now);
   /// After it has been carried.
   void end_step(AdvanceReport& report);
 
@@ -67,10 +73,18 @@ class Hand {
   ToolState state() const;
 
  private:
+  enum class Press { grasp, release, next_tool };
   struct ButtonEvent {
     double t;
-    bool pressed;
+    Press press;
   };
+  void apply_grasp_button(bool pressed, double now);
+  /// The nearest thing within `reach` [m] in front of the hand. `passes(body)`: not in the way.
+  template <typename Passes>
+  InFront look_ahead(double reach, Passes&& passes) const;
+  void select_pierced();
+  void touch_with_probe(double now);
+  void leave_with_probe(double now);
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now);
   bool dynamic() const { return hold_ && hold_->coordinates() > 0; }  ///< there is something for an integrator to do
   /// The families that the object can move: of those switched on, the ones in which it has an inertia.
@@ -95,6 +109,8 @@ class Hand {
   GraspSelection selection_;
   bool grasped_by_name_ = false;
   std::unique_ptr<ToolHold> hold_;       ///< while something is held
+  std::unique_ptr<Probe> probe_;         ///< while the probe touches something
+  bool pushes_ = false;                  ///< what the probe touches can move, and is held_
   RigidTransform X_OE_;                  ///< its grasp
   bool moved_ = false;                   ///< what is held, in this call of advance
   double energy_added_before_ = 0.0;

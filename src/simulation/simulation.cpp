@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <limits>
+#include <map>
 
 #include "hand.h"
+#include "shared_body.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/rod/shape_model.h"
@@ -40,6 +43,12 @@ Scene set_up(Scene scene, const SimulationSettings& settings) {
   return scene;
 }
 
+Body body_of_unit_mass() {
+  Body body;
+  body.mass_properties = {1.0, Matrix3d::Identity()};
+  return body;
+}
+
 }  // namespace
 
 struct Simulation::Impl {
@@ -47,6 +56,7 @@ struct Simulation::Impl {
   const Scene scene;
   Workbench workbench;
   std::vector<Hand> hands;
+  const Body unit_mass = body_of_unit_mass();
   bool started = false;
   double now = 0.0;
 
@@ -105,13 +115,29 @@ double Simulation::Impl::end_of_step(double t_end) {
   return std::min(end, next_button);
 }
 
+/// An object that one tool holds is that tool's; one that several hold, or that is pushed, is a body with tools on it.
 void Simulation::Impl::step(double end, AdvanceReport& report) {
   const double h = end - now;
-  std::vector<Carried> held;
+  std::map<std::size_t, std::vector<Hand*>> tools_on;
   for (Hand& hand : hands) {
-    if (SteppedBody* body = hand.begin_step(now, h)) held.push_back({hand.held(), body});
+    if (const auto object = hand.carried()) tools_on[*object].push_back(&hand);
   }
-  workbench.step(held, now, h, report);
+  std::vector<Carried> carried;
+  std::deque<SharedBody> shared;
+  for (const auto& [object, on_it] : tools_on) {
+    if (on_it.size() == 1 && on_it.front()->holds()) {
+      if (SteppedBody* body = on_it.front()->begin_step(now, h)) carried.push_back({object, body});
+      continue;
+    }
+    std::vector<CoupledTool*> tools;
+    for (Hand* hand : on_it) tools.push_back(hand->begin_shared_step(now));
+    const BodyState& o = workbench.states()[object];
+    const bool massless = workbench.massless(object);
+    const Body& body = massless ? unit_mass : workbench.body(object);  // which is of no effect where all tools are rigid
+    shared.emplace_back(workbench.scene_index(object), body, massless ? 0.0 : scene.gravity, o.X_WO, o.V_WO_W, tools);
+    carried.push_back({object, &shared.back()});
+  }
+  workbench.step(carried, now, h, report);
   for (Hand& hand : hands) hand.end_step(report);
   now = end;
   for (Hand& hand : hands) {
@@ -177,6 +203,8 @@ bool Simulation::push_stylus(const PoseSample& sample, std::size_t hand) { retur
 
 void Simulation::push_button(double t, bool pressed, std::size_t hand) { impl_->hand(hand).push_button(t, pressed); }
 
+void Simulation::push_next_tool(double t, std::size_t hand) { impl_->hand(hand).push_next_tool(t); }
+
 double Simulation::newest_sample() const {
   double newest = -std::numeric_limits<double>::infinity();
   for (const Hand& hand : impl_->hands) {
@@ -199,10 +227,14 @@ void Simulation::reset() {
 
 bool Simulation::release() {
   bool released = false;
-  for (Hand& hand : impl_->hands) {
-    released = released || hand.holds();
-    hand.let_go(impl_->settings.grasp.release == "thrown", impl_->now);
-  }
+  for (std::size_t hand = 0; hand < most_hands; ++hand) released = release(hand) || released;
+  return released;
+}
+
+bool Simulation::release(std::size_t hand) {
+  Hand& of = impl_->hand(hand);
+  const bool released = of.holds();
+  of.let_go(impl_->settings.grasp.release == "thrown", impl_->now);
   return released;
 }
 
@@ -210,9 +242,10 @@ ChangeReport Simulation::select_tool(const std::string& name, std::size_t hand) 
   const Tool tool = tool_called(name, "select_tool");
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
+  const bool held = impl_->hand(hand).holds();
   impl_->hand(hand).select_tool(tool, impl_->now);
   change.elastic_energy_after = impl_->elastic_energy();
-  change.message = "tool: " + name;
+  change.message = "tool: " + name + (held && !impl_->hand(hand).holds() ? "; it cannot hold, the object is let go" : "");
   return change;
 }
 

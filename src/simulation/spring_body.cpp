@@ -9,6 +9,7 @@
 namespace spring_workbench {
 namespace {
 
+constexpr double least_stiffness = 1e-9;  ///< of what would hold the mass within a step, so that no direction is without any
 constexpr double no_length = 1e-12;  ///< [m]; a shorter span has no direction
 
 Vector3d direction(const Vector3d& d) { return d.norm() > no_length ? Vector3d(d.normalized()) : Vector3d(0, 0, -1); }
@@ -109,6 +110,29 @@ SteppedBody::Answer SpringBody::answer(double h) const {
   answer.displacement.topLeftCorner<3, 3>() = (across.xg * Matrix3d::Identity() + (along.xg - across.xg) * radial) / mass_;
   answer.velocity.topLeftCorner<3, 3>() = (across.vg * Matrix3d::Identity() + (along.vg - across.vg) * radial) / mass_;
   return answer;
+}
+
+Coupling SpringBody::coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const {
+  const MotionState hand = hand_.at(state_.t), next = hand_.at(state_.t + h);
+  const Vector3d d = X_WO.translation() - hand.X.translation();
+  const Vector3d n = direction(d);
+  const double taut = d.norm() > rest_length_ ? k_ * (1.0 - rest_length_ / d.norm()) : 0.0;
+  const double least = least_stiffness / (h * h * mobility(0, 0));
+  const double along = std::max(k_ + c_ / h, least), across = std::max(taut, least);
+  const Matrix3d radial = n * n.transpose();
+  const Matrix3d compliance = radial / along + (Matrix3d::Identity() - radial) / across;
+  Coupling c;
+  c.directions.setZero(6, 3);
+  c.directions.topRows<3>().setIdentity();
+  c.compliance = compliance;
+  const Vector3d moved = next.X.translation() - hand.X.translation();
+  c.relaxed = moved - k_ * (d.norm() - rest_length_) / along * n;
+  return c;
+}
+
+void SpringBody::follow(double h, const MotionState& object, const Wrench&) {
+  state_.free.set_motion(object);
+  state_.t += h;
 }
 
 void SpringBody::stay(double h) {

@@ -24,6 +24,8 @@ class SpringBody final : public ToolHold {
   Matrix6d mobility() const override { return state_.free.mobility(); }
   void add_impulse(const Wrench& impulse_W) override { state_.free.add_impulse(impulse_W); }
   void stay(double h) override;
+  Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const override;
+  void follow(double h, const MotionState& object, const Wrench& pull_W) override;
 
   void set_hand(const MotionSegment& hand, double t) override;
   void take_twist(const Twist& V_WO_W) override { state_.free.set_twist(V_WO_W); }

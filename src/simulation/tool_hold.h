@@ -3,7 +3,7 @@
 #include <string>
 
 #include "spring_workbench/simulation/simulation.h"
-#include "stepped_body.h"
+#include "coupled_tool.h"
 
 namespace spring_workbench {
 
@@ -18,8 +18,11 @@ struct StepEstimates {
 };
 
 /// A tool's hold on an object: the object as the hand moves it through the tool.
-class ToolHold : public SteppedBody {
+class ToolHold : public SteppedBody, public CoupledTool {
  public:
+  // One state, whether the object is carried by this tool alone or shared.
+  void remember() override = 0;
+  void go_back() override = 0;
   /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
   virtual void set_hand(const MotionSegment& hand, double t) = 0;
   /// Whether nothing moves for the next `h` [s], and nothing need be done but let_pass(): the hand is at rest and the

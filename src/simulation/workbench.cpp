@@ -32,6 +32,7 @@ void Workbench::reset() {
   states_.assign(movable_.size(), BodyState());
   rows_.assign(movable_.size(), {});
   slow_since_.assign(movable_.size(), 0.0);
+  tools_.assign(movable_.size(), Tools());
   free_bodies_.clear();
   free_bodies_.resize(movable_.size());
   for (std::size_t i = 0; i < movable_.size(); ++i) {
@@ -63,18 +64,23 @@ void Workbench::take_state(std::size_t object, const MotionState& s) {
   if (collision_) collision_->set_pose(movable_[object], s.X);
 }
 
-void Workbench::hold(std::size_t object, double now) {
+void Workbench::hold(std::size_t object, Grip grip, double now) {
+  ++(grip == Grip::grasp ? tools_[object].grasping : tools_[object].pushing);
   free_bodies_[object].reset();
   rows_[object].clear();
-  states_[object].held = true;
-  states_[object].highlighted = false;
-  states_[object].asleep = false;
+  BodyState& o = states_[object];
+  o.held = tools_[object].grasping > 0;
+  if (o.held) o.highlighted = false;
+  o.asleep = false;
   wake_what_lies_on(object, now);
 }
 
-void Workbench::let_go(std::size_t object, bool thrown, double now) {
+void Workbench::let_go(std::size_t object, Grip grip, bool thrown, double now) {
+  Tools& tools = tools_[object];
+  --(grip == Grip::grasp ? tools.grasping : tools.pushing);
   BodyState& o = states_[object];
-  o.held = false;
+  o.held = tools.grasping > 0;
+  if (tools.grasping + tools.pushing > 0) return;
   if (!thrown || massless(object)) o.V_WO_W = Twist();
   if (massless(object)) {
     o.asleep = true;

@@ -40,10 +40,12 @@ class Workbench {
   ContactLog& contacts() { return contacts_; }
   const ContactLog& contacts() const { return contacts_; }
 
-  /// A tool takes the object at time `now` [s]; what lies on it wakes.
-  void hold(std::size_t object, double now);
-  /// The object flies on with its twist (`thrown`) or from rest; a massless one stays where it is.
-  void let_go(std::size_t object, bool thrown, double now);
+  enum class Grip { grasp, push };
+  /// A tool takes the object, or begins to push it, at time `now` [s]; what lies on it wakes.
+  void hold(std::size_t object, Grip grip, double now);
+  /// A tool that took the object leaves it. After the last one it flies on with its twist (`thrown`) or from rest; a
+  /// massless one stays where it is.
+  void let_go(std::size_t object, Grip grip, bool thrown, double now);
   void take_state(std::size_t object, const MotionState& s);
 
   /// Wakes the sleepers that rest on `object`, and on one another.
@@ -72,6 +74,10 @@ class Workbench {
   std::vector<BodyState> states_;
   std::vector<std::vector<ContactRow>> rows_;
   std::vector<std::unique_ptr<FreeBody>> free_bodies_;  ///< null while held or asleep
+  struct Tools {
+    int grasping = 0, pushing = 0;
+  };
+  std::vector<Tools> tools_;                            ///< that carry it
   std::vector<double> slow_since_;                      ///< [s]
   std::vector<std::size_t> object_of_;                  ///< by index in the scene; means something for movable bodies
 };

@@ -48,9 +48,11 @@ StrainVector equilibrium(const HeldBody& held, const RigidTransform& X_WH, Strai
 
 }  // namespace
 
+double weighing_gravity(double gravity) { return gravity > 0.0 ? gravity : earth; }
+
 ForkCalibration calibrated_fork(const std::string& shape, double length, const BodyInertia& body, double gravity,
                                 const CalibrationGoal& goal) {
-  const double g = gravity > 0.0 ? gravity : earth;
+  const double g = weighing_gravity(gravity);
   const double sag = goal.sag * length;
   const double omega = std::sqrt(g / sag);
   // Of a body of 1 kg: all forces are proportional to the mass.
@@ -80,7 +82,7 @@ ForkCalibration calibrated_fork(const std::string& shape, double length, const B
 }
 
 double calibrated_spring(double mass, double length, double gravity, const CalibrationGoal& goal) {
-  return mass * (gravity > 0.0 ? gravity : earth) / (goal.sag * length);
+  return mass * weighing_gravity(gravity) / (goal.sag * length);
 }
 
 double calibrated_length(const BodyInertia& body, const CalibrationGoal& goal) {

@@ -7,7 +7,7 @@
 namespace spring_workbench {
 
 const std::vector<std::string>& tool_names() {
-  static const std::vector<std::string> names = {"spring", "spring_fork", "direct", "ray"};
+  static const std::vector<std::string> names = {"spring", "spring_fork", "spring_probe", "direct", "ray"};
   return names;
 }
 
@@ -19,8 +19,13 @@ Tool tool_called(const std::string& name, const std::string& where) {
   return static_cast<Tool>(found - tool_names().begin());
 }
 
-Tool next_tool(Tool tool) {
-  return static_cast<Tool>((static_cast<std::size_t>(tool) + 1) % tool_names().size());
+bool can_hold(Tool tool) { return tool != Tool::spring_probe; }
+
+bool turns(Tool tool) { return can_hold(tool) && tool != Tool::spring; }
+
+Tool next_tool(Tool tool, bool holding) {
+  const Tool next = static_cast<Tool>((static_cast<std::size_t>(tool) + 1) % tool_names().size());
+  return holding && !can_hold(next) ? next_tool(next, holding) : next;
 }
 
 }  // namespace spring_workbench

@@ -17,7 +17,7 @@ EXTERNAL = [  # headers, rooms that may use them, whether their public headers m
     (re.compile(r"^SDL"), {"sound"}, False),
     (re.compile(r"^(urdf\w*|assimp)/"), {"scene"}, False),
 ]
-USERS = {"rviz_plugin": {"fork_mesh", "dynamics"}, "nodes": {"ros_interface"}, "apps": {"simulation", "tracker", "simulated_device", "operator"}}  # folders of executables, not rooms
+USERS = {"rviz_plugin": {"fork_mesh", "tools"}, "nodes": {"ros_interface"}, "apps": {"simulation", "tracker", "simulated_device", "operator"}}  # folders of executables, not rooms
 
 
 def rooms_of(cmake_text):

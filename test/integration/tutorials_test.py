@@ -83,6 +83,10 @@ class Tutorials(unittest.TestCase):
         rospy.set_param("/use_sim_time", False)
         self.run_tutorial("tune_a_fork.md")
 
+    def test_assemble(self):
+        rospy.set_param("/use_sim_time", False)
+        self.run_tutorial("assemble.md")
+
     def test_your_own_urdf(self):
         rospy.set_param("/use_sim_time", False)
         self.run_tutorial("your_own_urdf.md", bad=["## What bad input looks like"])

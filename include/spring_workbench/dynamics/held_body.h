@@ -95,6 +95,8 @@ class HeldBody {
   StrainVector project_twist(const HandleForcing& handle, const StrainVector& q, const Twist& V_WO_W) const;
 
   double elastic_energy(double t, const StrainState& state) const;  ///< [J]
+  /// ∂U/∂q of the active coordinates at time `t`.
+  StrainVector elastic_force(double t, const StrainVector& q) const;
   double kinetic_energy(const Twist& V_WO_W, const Matrix3d& R_WO) const;  ///< [J]
 
  private:

@@ -27,12 +27,14 @@ struct OperatorSettings {
 struct OperatorView {
   std::vector<BodyState> objects;                          ///< the movable ones
   RigidTransform X_HE = RigidTransform::Identity();        ///< the tool's tip at rest, in the handle
+  bool turns = true;                                       ///< the tool turns what it holds: all but `spring` do
 };
 
 /// A simulated person who assembles the scene: takes each object that is not at its target with the tool in the hand,
 /// carries it there and sets it down, by looking at where the object is and correcting, whatever the tool does. Reaches
 /// are minimum-jerk motions whose duration follows Fitts' law (J. Exp. Psychology 47, 1954); each ends a little off its
-/// goal, and what is seen is seen late. It knows of a tool nothing but where its tip is at rest.
+/// goal, and what is seen is seen late. It knows of a tool where its tip is at rest, and whether it turns what it holds: with
+/// one that does not, it carries objects as they are, and leaves alone one that is in its place but turned.
 /// It is not a person: no learning, no tiring, no second thoughts.
 class SimulatedOperator final : public StylusSource {
  public:
@@ -74,6 +76,8 @@ class SimulatedOperator final : public StylusSource {
   RigidTransform hand_lifted() const;
   RigidTransform goal(double lift) const;   ///< of the held object's frame O: its target, `lift` [m] above
   bool off(const RigidTransform& X_WO_goal, bool height_too) const;
+  bool done(const Job& job) const;
+  bool can_turn(const Target& target) const;
   /// Moves the hand; `look` says whether what comes then waits until the end of the reach is seen.
   void reach(const RigidTransform& X_WH, Phase then, bool look = true);
   void wait(double seconds, Phase then);

@@ -37,7 +37,7 @@ class ManipulationNode {
 
   const ManipulationParameters parameters_;
   SimulationRunner runner_;
-  StylusInput input_;
+  StylusInput input_, second_input_;
   StatePublisher publisher_;
   Services services_;
   std::unique_ptr<LiveTuning> live_tuning_;

@@ -25,6 +25,7 @@ class MarkerBuilder {
  private:
   using MarkerKey = std::pair<std::string, int>;
 
+  void deform(const ToolState& tool);
   void delete_what_is_gone(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers);
 
   std::string fork_curve_;

@@ -4,6 +4,7 @@
 #include <std_srvs/Trigger.h>
 
 #include "spring_workbench/LoadScene.h"
+#include "spring_workbench/SelectTool.h"
 #include "spring_workbench/SetForkDamping.h"
 #include "spring_workbench/SetForkDofs.h"
 #include "spring_workbench/SetForkStiffness.h"
@@ -20,6 +21,7 @@ class Services {
   Services(ros::NodeHandle private_node, SimulationRunner& runner, std::vector<std::string> scene_roots);
 
  private:
+  bool select_tool(SelectTool::Request& request, SelectTool::Response& response);
   bool set_dofs(SetForkDofs::Request& request, SetForkDofs::Response& response);
   bool set_stiffness(SetForkStiffness::Request& request, SetForkStiffness::Response& response);
   bool set_damping(SetForkDamping::Request& request, SetForkDamping::Response& response);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -21,7 +22,11 @@ struct CycleReport {
   bool more = false;       ///< the samples allow to go on at once: call `cycle` again
 };
 
-/// The simulation with the lock that keeps physics, services and publishers apart, fed with the stylus' events.
+/// What came of each stylus since the last cycle.
+using HandEvents = std::array<std::vector<StylusEvent>, Simulation::most_hands>;
+
+/// The simulation with the lock that keeps physics, services and publishers apart, fed with the styluses' events. Times
+/// count from the epoch of the stylus that came first; another one joins it.
 class SimulationRunner {
  public:
   /// `grid` [s]: 0, or in simulated time the step by which time goes on from the epoch's zero: each call of `cycle`
@@ -31,7 +36,7 @@ class SimulationRunner {
 
   /// Feeds the events, then simulates as far as the tracker's samples allow at local time `now`. In simulated time what
   /// the samples before a new epoch decide is simulated first, and the epoch waits for the next call.
-  CycleReport cycle(const std::vector<StylusEvent>& events, const LocalTime& now);
+  CycleReport cycle(const HandEvents& events, const LocalTime& now);
 
   /// Objects back to their start, nothing held; goes on with the next sample.
   void restart();
@@ -51,28 +56,47 @@ class SimulationRunner {
   }
   /// Stamp of the simulated time; `now` before the first sample.
   ros::Time stamp(const ros::Time& now) const;
-  ReengagementCounts hand_counts() const;
+  ReengagementCounts hand_counts(std::size_t hand = 0) const;
 
  private:
-  void apply(const NewEpoch& epoch);
-  void apply(const StylusPose& pose);
-  void apply(const StylusButton& button);
-  void apply(const ButtonsKnown& known);
+  struct HandInput {
+    explicit HandInput(std::size_t number, const TruthSettings& truth, double dropout_after, bool simulated_time)
+        : hand(number), playout(dropout_after, simulated_time), reengagement(truth) {}
+    std::size_t hand;
+    PlayoutClock playout;
+    Reengagement reengagement;
+    std::deque<StylusEvent> waiting;  ///< not fed yet
+    double shift = 0.0;               ///< from its times to the simulation's [s]
+    bool has_sample = false;          ///< since the last start
+    bool in_epoch = false;            ///< its times are those of the present epoch
+  };
+  void apply(HandInput& input, const NewEpoch& epoch);
+  void apply(HandInput& input, const StylusPose& pose);
+  void apply(HandInput& input, const StylusButton& button);
+  void apply(HandInput& input, const NextTool& press);
+  void apply(HandInput& input, const ButtonsKnown& known);
+  bool joins(const HandInput& input, const NewEpoch& epoch) const;
+  double target(const LocalTime& now) const;
+  struct Loss {
+    double t;
+    std::size_t hand;
+  };
+  /// A hand that is lost up to `target` [s] and lets go.
+  std::optional<Loss> take_release(double target);
   void feed(const LocalTime& now);
   bool has_more(double target) const;
   double next_on_grid() const;
   void advance(double target, CycleReport& report);
   void start_anew();
+  void forget_hands();
 
   mutable std::mutex mutex_;
   std::unique_ptr<Simulation> simulation_;
   TaskMonitor task_;
-  PlayoutClock playout_;
-  Reengagement hand_;
+  std::vector<HandInput> inputs_;
   double grid_;              ///< [s]; 0: none
-  std::deque<StylusEvent> waiting_;  ///< not fed yet
-  ros::Time zero_;           ///< of the stylus' times
-  bool has_sample_ = false;  ///< since the last start
+  ros::Time zero_;           ///< of the simulation's times
+  bool has_sample_ = false;  ///< of any hand since the last start
 };
 
 }  // namespace spring_workbench

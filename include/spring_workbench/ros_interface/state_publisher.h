@@ -11,7 +11,7 @@
 
 namespace spring_workbench {
 
-/// Sends what the simulation shows: /tf, ~objects, ~fork, ~wrench, ~contacts, ~markers, ~steps and ~task.
+/// Sends what the simulation shows: /tf, ~objects, ~fork, ~fork_2, ~wrench, ~contacts, ~markers, ~steps and ~task.
 /// Messages are made only while somebody listens; /tf is sent when the simulated time has gone on.
 class StatePublisher {
  public:
@@ -24,8 +24,9 @@ class StatePublisher {
   void publish_task(const SimulationRunner& runner, const ros::Time& stamp);
 
  private:
-  void publish_transforms(const Simulation& simulation, const ToolState& tool, const ros::Time& stamp);
-  void publish_tool(const ToolState& tool, const std_msgs::Header& header);
+  void publish_transforms(const Simulation& simulation, const ros::Time& stamp);
+  void publish_fork(const ros::Publisher& publisher, const ToolState& tool, const std_msgs::Header& header);
+  void publish_wrench(const ToolState& tool, const std_msgs::Header& header);
   void publish_contacts(const Simulation& simulation, const std_msgs::Header& header);
   void publish_markers(const Simulation& simulation, const std_msgs::Header& header, double now);
 
@@ -37,7 +38,7 @@ class StatePublisher {
   bool markers_were_built_ = false;  ///< in this cycle
   MarkerBuilder markers_;
   tf2_ros::TransformBroadcaster transforms_;
-  ros::Publisher objects_publisher_, fork_publisher_, wrench_publisher_, contacts_publisher_, markers_publisher_,
+  ros::Publisher objects_publisher_, fork_publisher_, second_fork_publisher_, wrench_publisher_, contacts_publisher_, markers_publisher_,
       steps_publisher_, task_publisher_;
 };
 

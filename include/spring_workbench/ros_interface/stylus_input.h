@@ -42,7 +42,11 @@ struct ButtonsKnown {
   double t = 0.0;
   LocalTime arrival;
 };
-using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, ButtonsKnown>;
+/// The button for the next tool went down at time `t` [s].
+struct NextTool {
+  double t = 0.0;
+};
+using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, NextTool, ButtonsKnown>;
 
 /// What came in so far.
 struct InputStatistics {
@@ -56,11 +60,12 @@ struct InputStatistics {
   double newest_arrival = 0.0;                  ///< local time [s]
 };
 
-/// Listens to /tf, /tf_static and stylus/joy, and keeps what came, in order, until it is taken. What cannot be used is
+/// One stylus: listens to /tf, /tf_static and its buttons, and keeps what came, in order, until it is taken. What cannot be used is
 /// left out, counted by reason and told in one throttled line.
 class StylusInput {
  public:
-  StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters);
+  /// Listens to the child frame `frame` and to `joy` (`stylus/joy`: button 0 grasps while it is down, 1 takes the next tool).
+  StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame, std::string joy);
 
   /// What came since the last call. The first event ever, and the first after a jump of time, is a NewEpoch.
   std::vector<StylusEvent> take_events();
@@ -84,6 +89,7 @@ class StylusInput {
   void leave_out(const std::string& reason, const std::string& line);
 
   const ManipulationParameters parameters_;
+  const std::string frame_, joy_;
   mutable std::mutex mutex_;
   tf2::BufferCore static_frames_;
   bool workbench_known_ = false;
@@ -103,7 +109,7 @@ class StylusInput {
   ros::Time last_now_;
   bool jumped_ = false;  ///< ROS time went back, and the streams have not both followed yet
   double jumped_at_ = 0.0;  ///< when that was noticed, in attended time [s]
-  bool pressed_ = false;
+  bool pressed_ = false, next_tool_ = false;
   ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;
 };
 

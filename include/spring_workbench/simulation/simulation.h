@@ -22,10 +22,12 @@ struct BodyState {
   bool asleep = true;
 };
 
-/// State of the fork.
+/// State of the tool in a hand.
 struct ToolState {
+  bool present = false;                                          ///< a sample of this hand is known
   std::string tool = "spring_fork";
   std::string held_object;                                       ///< empty when nothing is held
+  std::string touched;                                           ///< what the probe is on, "workbench" for the bench; else empty
   std::string shape;
   std::string integrator;
   ForkDofs dofs;                                                 ///< families switched on
@@ -43,6 +45,11 @@ struct ToolState {
   Wrench handle_wrench_H;                                        ///< what the hand would feel, at and in the handle frame
   double elastic_energy = 0.0;                                   ///< [J]
   double kinetic_energy = 0.0;                                   ///< of the held object, in world [J]
+  double force_scale = 1.0;                                      ///< virtual per real unit of force
+  double weight = 0.0;                                           ///< the tool as a scale: upward force on the object over g [vkg]
+  double torque = 0.0;                                           ///< the tool as a torque wrench: moment about its axis at the tip [N·m]
+  double material_stiffness = 0.0;                               ///< that the probe reads [N/m]; infinite: rigid; 0: no reading
+  double material_stiffness_uncertainty = 0.0;                   ///< one standard deviation [N/m]
 };
 
 enum class ContactPhase { started, persisting, ended };
@@ -107,6 +114,9 @@ class Simulation {
   bool push_stylus(const PoseSample& sample, std::size_t hand = 0);
   /// The grasp button goes down or up at time `t` [s]; takes effect at the first step that begins at or after `t`.
   void push_button(double t, bool pressed, std::size_t hand = 0);
+  /// The second button of the stylus is pressed at time `t` [s]: the next of tool_names(), or, while something is held, the
+  /// next that can hold it.
+  void push_next_tool(double t, std::size_t hand = 0);
   /// Time of the newest sample of any hand, or time() where there is none.
   double newest_sample() const;
 
@@ -117,9 +127,13 @@ class Simulation {
   void reset();
   /// Every hand lets go of what it holds. False when nothing was held.
   bool release();
+  /// The same of one hand.
+  bool release(std::size_t hand);
 
-  // Changes while running, of the tools in all hands; pose and twist of the object go on without a jump. Bad values throw InputError and change nothing.
-  /// One of tool_names(), for one hand. The object that it holds goes on; the new tool starts without strain.
+  // Changes while running, of the tools in all hands; pose and twist of the object go on without a jump. Bad values throw
+  // InputError and change nothing.
+  /// One of tool_names(), for one hand. The object that it holds goes on; the new tool starts without strain. The probe
+  /// cannot hold: with it the object is let go.
   ChangeReport select_tool(const std::string& name, std::size_t hand = 0);
   ChangeReport set_dofs(const ForkDofs& dofs);
   /// A family with 0 keeps its stiffness.

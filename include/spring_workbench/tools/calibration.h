@@ -19,6 +19,9 @@ struct ForkCalibration {
   PerFamily damping;    ///< coefficients, the unit of the stiffness times s
 };
 
+/// The acceleration [m/s²] that tells a weight from a mass: the scene's gravity, and without any the Earth's.
+double weighing_gravity(double gravity);
+
 /// Constants of a fork of shape model `shape` and `length` [m] for the body as it is grasped (`body.X_OE`). Hanging from
 /// the upright fork it extends the fork by `goal.sag` of its length; held level, gravity along −x of the handle, it
 /// deflects the tip by as much: both in the full nonlinear equilibrium. Then every direction, twisting too, has the

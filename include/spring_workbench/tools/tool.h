@@ -7,16 +7,21 @@ namespace spring_workbench {
 
 /// The tools of doc/model.md, in the order in which the stylus' second button goes through them.
 enum class Tool {
-  spring,       ///< a spring-damper between the hand and the object's centre
-  spring_fork,  ///< the rod
-  direct,       ///< rigid, at the hand
-  ray,          ///< rigid, picked by a ray along z of the hand
+  spring,        ///< a spring-damper between the hand and the object's centre
+  spring_fork,   ///< the rod
+  spring_probe,  ///< a spring along its axis that pushes and presses
+  direct,        ///< rigid, at the hand
+  ray,           ///< rigid, picked by a ray along z of the hand
 };
 
 const std::vector<std::string>& tool_names();
 std::string name_of(Tool tool);
 /// Throws InputError naming `where` for a name that is not in tool_names().
 Tool tool_called(const std::string& name, const std::string& where);
-Tool next_tool(Tool tool);
+bool can_hold(Tool tool);
+/// Whether what is held turns with the hand.
+bool turns(Tool tool);
+/// The one after it; of those that can hold where `holding`.
+Tool next_tool(Tool tool, bool holding);
 
 }  // namespace spring_workbench

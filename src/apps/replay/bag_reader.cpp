@@ -51,8 +51,10 @@ class BagReader {
     rosbag::View view(bag);
     for (const rosbag::MessageInstance& message : view) take(message);
     if (motion_.samples.empty()) refuse_missing();
-    for (const auto& [stamp, pressed] : buttons_) {
-      add_button(std::max(0.0, seconds_between(first_stamp_, stamp)), pressed, motion_.buttons);
+    for (const Buttons& b : buttons_) {
+      const double t = std::max(0.0, seconds_between(first_stamp_, b.stamp));
+      add_button(t, b.grasp, motion_.buttons);
+      add_button(t, b.next_tool, motion_.next_tool);
     }
     return std::move(motion_);
   }
@@ -64,7 +66,8 @@ class BagReader {
     if (message.getDataType() == "sensor_msgs/Joy" && topic == "stylus/joy") {
       const auto joy = message.instantiate<sensor_msgs::Joy>();
       if (!joy || joy->buttons.empty()) return;
-      buttons_.emplace_back(joy->header.stamp.isZero() ? message.getTime() : joy->header.stamp, joy->buttons[0] != 0);
+      buttons_.push_back({joy->header.stamp.isZero() ? message.getTime() : joy->header.stamp, joy->buttons[0] != 0,
+                          joy->buttons.size() > 1 && joy->buttons[1] != 0});
     } else if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {  // also the older tf/tfMessage
       for (const auto& transform : tf->transforms) take(transform, message.getTime());
     }
@@ -92,7 +95,11 @@ class BagReader {
   std::string path_, parent_, child_;
   Motion motion_;
   ros::Time first_stamp_;
-  std::vector<std::pair<ros::Time, bool>> buttons_;
+  struct Buttons {
+    ros::Time stamp;
+    bool grasp, next_tool;
+  };
+  std::vector<Buttons> buttons_;
   std::set<std::string> pairs_;  ///< all that are in the bag, for the message
 };
 

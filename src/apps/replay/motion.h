@@ -16,6 +16,7 @@ struct ButtonEvent {
 struct Motion {
   std::vector<PoseSample> samples;   ///< never empty
   std::vector<ButtonEvent> buttons;  ///< changes of the grasp button, which starts up
+  std::vector<ButtonEvent> next_tool;  ///< the same of the button for the next tool
 };
 
 /// Notes that the button is down or up from `t` on; what is no change, or lies before the last change, is put right.
@@ -24,7 +25,7 @@ void add_button(double t, bool pressed, std::vector<ButtonEvent>& buttons);
 /// Everything that the source has.
 Motion read_motion(StylusSource& source);
 
-/// The transforms `parent` → `child` of a bag, and button 0 of stylus/joy. Throws InputError.
+/// The transforms `parent` → `child` of a bag, and buttons 0 and 1 of stylus/joy. Throws InputError.
 Motion read_bag(const std::string& path, const std::string& parent, const std::string& child);
 
 }  // namespace spring_workbench::replay

@@ -47,6 +47,9 @@ void push_motion(const Motion& motion, const Options& options, Reengagement& han
     for (const PoseSample& s : hand.follow(taken.sample, new_place, nothing_simulated)) simulation.push_stylus(s);
   }
   summary.gate = truth.counts();
+  for (const ButtonEvent& event : motion.next_tool) {
+    if (event.pressed) simulation.push_next_tool(event.t);
+  }
   if (!options.settings.grasp.object.empty()) return;
   for (const ButtonEvent& event : motion.buttons) simulation.push_button(event.t, event.pressed);
 }

@@ -7,52 +7,20 @@
 
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/simulation/simulation.h"
+#include "support/bench_scenes.h"
 
 namespace spring_workbench {
 namespace {
 
 constexpr double g = 9.81;
 
-Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO, double friction = 0.5) {
-  Body b;
-  b.name = name;
-  b.movable = mass > 0.0;
-  b.X_WO.translation() = p_WO;
-  b.mass_properties.mass = mass;
-  const Vector3d s = size.cwiseAbs2();
-  b.mass_properties.inertia_O =
-      (mass / 12.0 * Vector3d(s.y() + s.z(), s.x() + s.z(), s.x() + s.y())).asDiagonal();
-  b.material.friction = friction;
-  b.collision.push_back({Box{size}});
-  return b;
-}
-
 Scene scene_of(std::vector<Body> bodies, double friction = 0.5) {
-  Scene s;
-  s.name = s.path = "dynamic";
-  s.contact = ContactMode::dynamic;
-  s.bodies = std::move(bodies);
-  s.bench_material.friction = friction;
-  return s;
-}
-
-RigidTransform pointing_down(const Vector3d& p) { return make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), p); }
-
-/// Samples at 50 Hz from `a` to `b` in minimum jerk.
-void push_move(Simulation& simulation, double t0, double t1, const Vector3d& a, const Vector3d& b) {
-  for (double t = t0; t < t1 + 1e-9; t += 0.02) {
-    const double u = (t - t0) / (t1 - t0);
-    simulation.push_stylus({t, pointing_down(a + u * u * u * (10.0 + u * (-15.0 + 6.0 * u)) * (b - a))});
-  }
+  return spring_workbench::scene_of(std::move(bodies), ContactMode::dynamic, friction);
 }
 
 /// Samples at 50 Hz from `a` to `b` at constant speed.
 void push_line(Simulation& simulation, double t0, double t1, const Vector3d& a, const Vector3d& b) {
   for (double t = t0; t < t1 + 1e-9; t += 0.02) simulation.push_stylus({t, pointing_down(a + (t - t0) / (t1 - t0) * (b - a))});
-}
-
-const BodyState& object(const Simulation& s, const std::string& name) {
-  return *std::find_if(s.objects().begin(), s.objects().end(), [&](const BodyState& o) { return o.name == name; });
 }
 
 // The drag scene: 5 kg pressed 0.1 m below the plane by the hand, dragged 0.5 m; with springs that do not bend into each

@@ -5,47 +5,19 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <random>
 
 #include "spring_workbench/config/input_error.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/so3.h"
+#include "support/bench_scenes.h"
 
 namespace spring_workbench {
 namespace {
 
 /// One box, 0.1 × 0.06 × 0.04 m and 1 kg, with its centre at `centre`.
 Scene box_scene(const Vector3d& centre, ContactMode contact = ContactMode::stop, double friction = 0.5) {
-  Scene scene;
-  scene.name = scene.path = "box";
-  scene.contact = contact;
-  scene.bench_material.friction = friction;
-  Body box;
-  box.name = "box";
-  box.movable = true;
-  box.X_WO.translation() = centre;
-  const Vector3d size(0.1, 0.06, 0.04);
-  box.mass_properties.mass = 1.0;
-  const Vector3d s2 = size.cwiseProduct(size);
-  box.mass_properties.inertia_O =
-      (1.0 / 12.0 * Vector3d(s2.y() + s2.z(), s2.x() + s2.z(), s2.x() + s2.y())).asDiagonal();
-  box.material.friction = friction;
-  box.collision.push_back({Box{size}});
-  scene.bodies.push_back(box);
-  return scene;
-}
-
-/// The fork's axis pointing down, the handle at `p`.
-RigidTransform pointing_down(const Vector3d& p, double turned = 0.0) {
-  return make_transform(Quaterniond(Eigen::AngleAxisd(turned, Vector3d::UnitZ())) * Quaterniond(0.0, 1.0, 0.0, 0.0), p);
-}
-
-/// Samples at 50 Hz of a handle that goes from `a` to `b` in minimum jerk and turns about the vertical.
-void push_move(Simulation& simulation, double t0, double t1, const Vector3d& a, const Vector3d& b, double turn = 0.0) {
-  for (double t = t0; t < t1 + 1e-9; t += 0.02) {
-    const double u = (t - t0) / (t1 - t0);
-    const double s = u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
-    simulation.push_stylus({t, pointing_down(a + s * (b - a), s * turn)});
-  }
+  return scene_of({box("box", {0.1, 0.06, 0.04}, 1.0, centre, friction)}, contact, friction);
 }
 
 SimulationSettings settings() { return SimulationSettings(); }
@@ -401,19 +373,84 @@ TEST(Simulation, NothingHeldNothingStepped) {
   EXPECT_EQ(simulation.advance(1.0).steps, 0);
 }
 
-TEST(Tools, SpringExtendsByTheWeightAndExertsNoMoment) {
-  SimulationSettings set = settings();
+SimulationSettings spring_settings(double stiffness) {
+  SimulationSettings set;
   set.tool = "spring";
-  Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), set);
-  simulation.push_stylus({0.0, pointing_down({0.01, 0.0, 1.2})});
+  set.fork.stiffness.stretch = stiffness;
+  set.dynamics.step = 1e-3;
+  return set;
+}
+
+TEST(Tools, SpringExtendsByTheWeightAndExertsNoMoment) {
+  for (const double k : {200.0, 2000.0, 2e6}) {
+    Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), spring_settings(k));
+    simulation.push_stylus({0.0, pointing_down({0.0, 0.0, 1.2})});
+    simulation.push_button(0.0, true);
+    simulation.advance(10.0);
+    const ToolState tool = simulation.fork();
+    EXPECT_EQ(tool.tool, "spring");
+    EXPECT_NEAR(tool.stretch, 9.81 / k, 1e-9 * 9.81 / k);
+    EXPECT_NEAR(tool.weight, 1.0, 1e-9);
+    EXPECT_EQ(simulation.objects()[0].V_WO_W.angular.norm(), 0.0);
+    EXPECT_EQ(tool.tip_wrench_W.moment.norm(), 0.0);
+  }
+}
+
+TEST(Tools, SpringSwingsWithThePeriodOfItsPendulum) {
+  Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), spring_settings(2e5));
+  const double aside = 0.01;
+  simulation.push_stylus({0.0, pointing_down({aside, 0.0, 1.2})});
   simulation.push_button(0.0, true);
-  simulation.advance(30.0);
-  const ToolState tool = simulation.fork();
-  EXPECT_EQ(tool.tool, "spring");
-  // It swings about the vertical, so the mean pull is the weight only nearly; along the spring it is in balance.
-  EXPECT_NEAR(tool.stretch, 9.81 / 2000.0, 0.02 * 9.81 / 2000.0);
-  EXPECT_EQ(simulation.objects()[0].V_WO_W.angular.norm(), 0.0);
-  EXPECT_EQ(tool.tip_wrench_W.moment.norm(), 0.0);
+  const double length = std::hypot(0.2, aside) + 9.81 / 2e5, angle = aside / length;
+  const double period = 2.0 * 3.14159265358979323846 * std::sqrt(length / 9.81) * (1.0 + angle * angle / 16.0);
+  // Ten crossings of the vertical in the same direction, the first a quarter of a period after the start.
+  double before = -1.0, crossed = 0.0;
+  int crossings = 0;
+  for (double t = 1e-3; crossings < 10; t += 1e-3) {
+    simulation.advance(t);
+    const double x = simulation.objects()[0].X_WO.translation().x() - aside;
+    if (before < 0.0 && x >= 0.0) {
+      ++crossings;
+      crossed = t - 1e-3 * x / (x - before);
+    }
+    before = x;
+  }
+  EXPECT_NEAR(crossed, 9.25 * period, 1e-4 * crossed);
+}
+
+/// From nothing to 300 vkg, as the paper's users had it, at a tracker's 50 Hz with its noise.
+TEST(Calibrated, NoWeightAndThreeHundredKilogramsAreBothEasyToMove) {
+  for (const double mass : {0.0, 1e-3, 1.0, 300.0}) {
+    SimulationSettings set;
+    set.grasp.calibrate = true;
+    Scene scene = box_scene({0.0, 0.0, 0.5}, ContactMode::none);
+    scene.bodies[0].mass_properties.inertia_O *= mass;
+    scene.bodies[0].mass_properties.mass = mass;
+    Simulation simulation(scene, set);
+    const Vector3d from(0.0, 0.0, 0.7), to(0.3, 0.1, 0.8);
+    std::mt19937 random(1);
+    std::normal_distribution<double> noise(0.0, 1e-4);
+    for (int i = 0; i <= 150; ++i) {
+      const double u = std::min(i / 50.0, 1.0), s = u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
+      const Vector3d jitter(noise(random), noise(random), noise(random));
+      simulation.push_stylus({0.02 * i, pointing_down(from + s * (to - from) + jitter)});
+    }
+    simulation.push_button(0.0, true);
+    int guards = 0;
+    double farthest = 0.0;
+    for (int i = 1; i <= 150; ++i) {
+      guards += simulation.advance(0.02 * i).guards_tripped;
+      farthest = std::max(farthest, simulation.objects()[0].X_WO.translation().x());
+      const Vector3d behind = simulation.objects()[0].X_WO.translation() + Vector3d(0, 0, 0.2) - simulation.fork().X_WH.translation();
+      EXPECT_LT(behind.head<2>().norm(), 0.1) << mass;
+      if (i > 100) {
+        const double sag = mass > 0.0 ? 0.02 : 0.0;
+        EXPECT_LT((simulation.objects()[0].X_WO.translation() - Vector3d(0.3, 0.1, 0.6 - sag)).norm(), 3e-3) << mass;
+      }
+    }
+    EXPECT_LT(farthest, 0.3 + 0.03) << mass;
+    EXPECT_EQ(guards, 0) << mass;
+  }
 }
 
 TEST(Tools, DirectAndRayAreRigid) {

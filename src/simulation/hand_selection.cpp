@@ -1,0 +1,88 @@
+// What a hand points at, is in, or touches with the probe.
+#include <algorithm>
+#include <limits>
+
+#include "hand.h"
+#include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/scene/ray.h"
+
+namespace spring_workbench {
+
+template <typename Passes>
+InFront Hand::look_ahead(double reach, Passes&& passes) const {
+  InFront found{reach, nullptr, nullptr};
+  const auto look = [&](const Body& body, const RigidTransform& X_WO) {
+    const RigidTransform X_OH = X_WO.inverse() * X_WH_;
+    const auto at = distance_along_ray(body, X_OH.translation(), X_OH.linear().col(2), found.distance);
+    if (at && !passes(body, X_OH)) found = {*at, &body, &body.material};
+  };
+  for (const Body& body : scene_.bodies) {
+    if (!body.movable) look(body, body.X_WO);
+  }
+  const std::vector<BodyState>& objects = workbench_.states();
+  for (std::size_t i = 0; i < objects.size(); ++i) look(workbench_.body(i), objects[i].X_WO);
+  return found;
+}
+
+void Hand::select(double now) {
+  if (tool_ == Tool::spring_probe) {
+    selection_.set_inserted(std::nullopt);
+    return touch_with_probe(now);
+  }
+  if (hold_ || !known(now)) return selection_.set_inserted(std::nullopt);
+  select_pierced();
+}
+
+void Hand::select_pierced() {
+  constexpr double stays = 0.8;  // another object must be nearer than the present one by this factor
+  const std::optional<std::size_t> before = selection_.inserted();
+  selection_.set_inserted(std::nullopt);
+  const bool picks = tool_ == Tool::ray;
+  // The nearest thing in the way of the hand, and the objects that the tip is in.
+  const InFront front = look_ahead(picks ? longest_ray : reach(), [&](const Body& body, const RigidTransform& X_OH) {
+    return !picks && contains(body, X_OH * Vector3d(0.0, 0.0, reach()));
+  });
+  ray_length_ = front.distance;
+  const Vector3d tip = X_WH_ * Vector3d(0.0, 0.0, reach());
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < workbench_.states().size(); ++i) {
+    const RigidTransform& X_WO = workbench_.states()[i].X_WO;
+    const bool pierced = picks ? front.body == &workbench_.body(i)
+                               : front.body == nullptr && contains(workbench_.body(i), X_WO.inverse() * tip);
+    const double distance = (X_WO.translation() - tip).norm() * (before == i ? stays : 1.0);
+    if (!pierced || distance >= nearest) continue;
+    nearest = distance;
+    selection_.set_inserted(i);
+  }
+  if (selection_.inserted() && settings_.grasp.object.empty()) {
+    workbench_.state(*selection_.inserted()).highlighted = true;
+  }
+}
+
+void Hand::touch_with_probe(double now) {
+  if (!known(now)) return leave_with_probe(now);
+  const double length = settings_.fork.length;
+  InFront front = look_ahead(length, [](const Body&, const RigidTransform&) { return false; });
+  const double down = -X_WH_.linear()(2, 2), height = X_WH_.translation().z() - scene_.bench_height;
+  if (height > 0.0 && down * front.distance > height) front = {height / down, nullptr, &scene_.bench_material};
+  const bool touches = front.material != nullptr && front.distance > 0.0;  // at 0 the hand itself is inside
+  if (probe_ && (!touches || front.body != probe_->body())) leave_with_probe(now);
+  if (!touches) return;
+  if (probe_) {
+    probe_->touch(front);
+  } else {
+    probe_ = std::make_unique<Probe>(length, settings_.fork, front);
+    const std::optional<std::size_t> object = front.body != nullptr ? workbench_.find(front.body->name) : std::nullopt;
+    pushes_ = object && !workbench_.massless(*object);
+    if (pushes_) workbench_.hold(held_ = *object, Workbench::Grip::push, now);
+  }
+  if (!pushes_) probe_->press();
+}
+
+void Hand::leave_with_probe(double now) {
+  if (pushes_) workbench_.let_go(held_, Workbench::Grip::push, true, now);
+  pushes_ = false;
+  probe_.reset();
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,178 @@
+#!/usr/bin/python3
+"""The tools of `manipulation` and its second stylus, by topics and services: scenes/single_box, hands on their own clock."""
+import math
+import sys
+import unittest
+
+import rospy
+import rostest
+from geometry_msgs.msg import WrenchStamped
+from sensor_msgs.msg import Joy
+from spring_workbench.msg import ForkState, ObjectStates
+from spring_workbench.srv import SelectTool, SetForkStiffness
+from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
+
+from stack import DEADLINE, DOWN, Hand, Listener, stylus_transform, wait_for
+
+LENGTH, WEIGHT, FORCE_SCALE = 0.2, 9.81, 4.0
+IN_BOX, LIFTED, AWAY = (0.02, 0.0, 0.02 + LENGTH), (0.02, 0.0, 0.30 + LENGTH), (0.02, 0.3, 0.30 + LENGTH)
+
+
+class Hands(Hand):
+    """The first stylus, its buttons, and, where it has a place, a second one that rests there."""
+
+    def __init__(self):
+        super().__init__()
+        self.next_tool, self.second, self.second_pressed = False, None, False
+        self.second_joy = rospy.Publisher("stylus_2/joy", Joy, queue_size=100)
+
+    def send(self, transform):
+        transforms = [transform]
+        if self.second:
+            transforms.append(stylus_transform(transform.header.stamp, self.second, DOWN))
+            transforms[-1].child_frame_id = "stylus_2"
+        self.tf.publish(TFMessage(transforms))
+
+    def send_button(self):
+        joy = Joy()
+        joy.header.stamp = self.now()
+        joy.buttons = [int(self.pressed), int(self.next_tool)]
+        self.joy.publish(joy)
+        if self.second:
+            joy.buttons = [int(self.second_pressed), 0]
+            self.second_joy.publish(joy)
+
+
+class Tools(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.services = {}
+        for name, kind in [("select_tool", SelectTool), ("set_stiffness", SetForkStiffness), ("reset", Trigger),
+                           ("calibrate", Trigger), ("release", Trigger)]:
+            rospy.wait_for_service("manipulation/" + name, DEADLINE)
+            cls.services[name] = rospy.ServiceProxy("manipulation/" + name, kind)
+        cls.objects = Listener("manipulation/objects", ObjectStates)
+        cls.fork = Listener("manipulation/fork", ForkState)
+        cls.fork_2 = Listener("manipulation/fork_2", ForkState)
+        cls.wrench = Listener("manipulation/wrench", WrenchStamped)
+        cls.tf = Listener("/tf", TFMessage)
+        cls.hand = Hands()
+        cls.hand.wait_for_node()
+        wait_for(lambda: cls.hand.second_joy.get_num_connections() > 0, "the node to listen to stylus_2/joy")
+
+    def setUp(self):
+        self.hand.pressed = self.hand.second_pressed = self.hand.next_tool = False
+        self.hand.second, self.hand.position = None, AWAY
+        self.hand.run(0.2)
+        for stylus in [1, 2]:
+            self.call("select_tool", "spring_fork", stylus)
+        self.call("set_stiffness", 2000.0, 500.0, 5.0)
+        self.call("reset")
+        self.hand.run(0.2)
+
+    def call(self, service, *arguments):
+        answer = self.services[service](*arguments)
+        self.assertTrue(answer.success, answer.message)
+        return answer
+
+    def box(self):
+        return self.objects.next().objects[0]
+
+    def lift(self):
+        self.hand.move(IN_BOX, DOWN, 0.5)
+        self.hand.run(0.1)
+        self.hand.pressed = True
+        self.hand.run(0.2)
+        self.hand.move(LIFTED, DOWN, 1.0)
+        self.hand.run(2.0)
+        self.assertEqual(self.fork.next().held_object, "box")
+
+    def test_select_tool_while_holding_does_not_jump(self):
+        self.lift()
+        for tool in ["spring", "direct", "ray", "spring_fork"]:
+            before = self.box().pose.position
+            self.assertIn(tool, self.call("select_tool", tool, 0).message)
+            self.assertEqual(self.fork.next().tool, tool)
+            after = self.box().pose.position
+            self.assertLess(math.dist((before.x, before.y, before.z), (after.x, after.y, after.z)), 1e-9)
+            self.hand.run(0.5)
+            self.assertEqual(self.fork.next().held_object, "box")
+        self.assertIn("let go", self.call("select_tool", "spring_probe", 1).message)
+        self.hand.run(0.2)
+        self.assertFalse(self.box().held)
+
+    def test_bad_tools_are_refused(self):
+        for arguments, words in [(("tongs", 1), ("tongs", "spring_probe")), (("spring", 3), ("stylus", "3"))]:
+            answer = self.services["select_tool"](*arguments)
+            self.assertFalse(answer.success)
+            for word in words:
+                self.assertIn(word, answer.message)
+        self.assertEqual(self.fork.next().tool, "spring_fork")
+
+    def test_second_button_takes_the_next_tool(self):
+        for tool in ["spring_probe", "direct", "ray", "spring", "spring_fork"]:
+            self.hand.next_tool = True
+            self.hand.run(0.1)
+            self.hand.next_tool = False
+            self.hand.run(0.1)
+            self.assertEqual(self.fork.next().tool, tool)
+
+    def test_scale_and_torque_wrench_in_virtual_and_real_units(self):
+        self.lift()
+        fork, wrench = self.fork.next(), self.wrench.next()
+        self.assertEqual(fork.force_scale, FORCE_SCALE)
+        self.assertAlmostEqual(fork.weight, 1.0, delta=1e-3)  # [vkg]
+        self.assertAlmostEqual(fork.tip_wrench.force.z, WEIGHT, delta=0.01)
+        self.assertAlmostEqual(wrench.wrench.force.z, WEIGHT / FORCE_SCALE, delta=0.05 * WEIGHT / FORCE_SCALE)
+        self.assertLess(abs(fork.torque), 1e-3)  # held upright, the box does not twist it
+        self.call("calibrate")
+        self.hand.run(2.0)
+        self.assertAlmostEqual(self.fork.next().stretch, 0.1 * LENGTH, delta=1e-3 * LENGTH)
+
+    def test_probe_presses_the_box_on_the_bench(self):
+        self.call("select_tool", "spring_probe", 1)
+        self.hand.position = (0.02, 0.0, 0.4)
+        self.hand.run(0.2)
+        self.hand.move((0.02, 0.0, 0.04 + LENGTH - 0.02), DOWN, 0.5)
+        self.hand.run(1.0)
+        fork = self.fork.next()
+        self.assertEqual((fork.touched, fork.held_object), ("box", ""))
+        self.assertAlmostEqual(fork.stretch, -0.02, delta=1e-3)  # the box is rigid
+        self.assertEqual(fork.material_stiffness, math.inf)
+        self.assertFalse(self.box().held)
+
+    def test_second_stylus_takes_the_object_over(self):
+        self.lift()
+        self.hand.second = (-0.03, 0.0, LIFTED[2])
+        self.hand.run(0.3)
+        self.hand.second_pressed = True
+        self.hand.run(1.5)
+        first, second = self.fork.next(), self.fork_2.next()
+        self.assertEqual((first.held_object, second.held_object), ("box", "box"))
+        self.assertAlmostEqual(first.tip_wrench.force.z + second.tip_wrench.force.z, WEIGHT, delta=0.01)
+        frames = {t.child_frame_id for m in self.tf.messages for t in m.transforms}
+        self.assertLessEqual({"fork_handle", "fork_tip", "fork_handle_2", "fork_tip_2"}, frames)
+        self.hand.pressed = False
+        self.hand.run(1.5)
+        self.assertEqual((self.fork.next().held_object, self.fork_2.next().held_object), ("", "box"))
+        self.assertTrue(self.box().held)
+        self.assertAlmostEqual(self.fork_2.next().weight, 1.0, delta=1e-3)
+        self.assertIn("box", self.call("release").message)
+
+    def test_both_start_anew_when_time_jumps_back(self):
+        self.lift()
+        self.hand.second = (-0.03, 0.0, LIFTED[2])
+        self.hand.second_pressed = True
+        self.hand.run(0.5)
+        self.hand.tick -= round(30.0 / Hand.STEP)
+        self.hand.pressed = self.hand.second_pressed = False
+        self.hand.run(0.6)
+        self.assertAlmostEqual(self.box().pose.position.z, 0.02, delta=1e-9)
+        newest = self.fork_2.next(lambda m: abs((m.header.stamp - self.hand.now()).to_sec()) < 0.5, "the second stylus").handle
+        self.assertAlmostEqual(newest.position.x, -0.03, delta=1e-9)
+
+
+if __name__ == "__main__":
+    rospy.init_node("tools_test")
+    rostest.rosrun("spring_workbench", "tools_test", Tools, sys.argv)

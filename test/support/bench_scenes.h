@@ -1,0 +1,55 @@
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "spring_workbench/simulation/simulation.h"
+
+namespace spring_workbench {
+
+/// A box of `size` with its centre at `p_WO`; one without mass stands fixed.
+inline Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO, double friction = 0.5) {
+  Body b;
+  b.name = name;
+  b.movable = mass > 0.0;
+  b.X_WO.translation() = p_WO;
+  b.mass_properties.mass = mass;
+  const Vector3d s = size.cwiseAbs2();
+  b.mass_properties.inertia_O = (mass / 12.0 * Vector3d(s.y() + s.z(), s.x() + s.z(), s.x() + s.y())).asDiagonal();
+  b.material.friction = friction;
+  b.collision.push_back({Box{size}});
+  return b;
+}
+
+inline Scene scene_of(std::vector<Body> bodies, ContactMode contact, double friction = 0.5) {
+  Scene scene;
+  scene.name = scene.path = "test";
+  scene.contact = contact;
+  scene.bodies = std::move(bodies);
+  scene.bench_material.friction = friction;
+  return scene;
+}
+
+/// The fork's axis pointing down, the handle at `p`.
+inline RigidTransform pointing_down(const Vector3d& p, double turned = 0.0) {
+  return make_transform(Quaterniond(Eigen::AngleAxisd(turned, Vector3d::UnitZ())) * Quaterniond(0.0, 1.0, 0.0, 0.0), p);
+}
+
+/// Samples at 50 Hz of a handle that goes from `a` to `b` in minimum jerk and turns about the vertical.
+inline void push_move(Simulation& simulation, double t0, double t1, const Vector3d& a, const Vector3d& b,
+                      double turn = 0.0, std::size_t hand = 0) {
+  for (double t = t0; t < t1 + 1e-9; t += 0.02) {
+    const double u = (t - t0) / (t1 - t0);
+    const double s = u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
+    simulation.push_stylus({t, pointing_down(a + s * (b - a), s * turn)}, hand);
+  }
+}
+
+inline const BodyState& object(const Simulation& simulation, const std::string& name) {
+  return *std::find_if(simulation.objects().begin(), simulation.objects().end(),
+                       [&](const BodyState& o) { return o.name == name; });
+}
+
+}  // namespace spring_workbench

@@ -1,0 +1,71 @@
+// Every well-formed URDF of the shared collection in the hand.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/scene/geometry.h"
+#include "support/bench_scenes.h"
+
+namespace spring_workbench {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path collection = fs::path(SPRING_WORKBENCH_SHARED_DIR) / "data" / "urdf";
+
+/// Grasped at its centre by a calibrated fork, lifted 0.2 m, put down and let go.
+void lift_and_put_down(const Scene& scene, const Body& body) {
+  SimulationSettings set;
+  set.grasp.object = body.name;
+  set.grasp.calibrate = true;
+  Simulation simulation(scene, set);
+  const Vector3d start = body.X_WO.translation(), hand = start + Vector3d(0.0, 0.0, set.fork.length);
+  push_move(simulation, 0.0, 1.0, hand, hand + Vector3d(0.0, 0.0, 0.2 + 0.1 * set.fork.length));  // and what it sags
+  push_move(simulation, 2.0, 3.0, hand + Vector3d(0.0, 0.0, 0.22), hand);
+  double highest = start.z();
+  const double size = bounding_radius(body);
+  const auto look = [&](double until) {
+    for (double t = simulation.time() + 0.05; t < until; t += 0.05) {
+      simulation.advance(t);
+      const BodyState& o = object(simulation, body.name);
+      ASSERT_TRUE(o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite() && o.V_WO_W.angular.allFinite());
+      ASSERT_LT(o.V_WO_W.linear.norm(), 3.0);
+      ASSERT_LT((o.X_WO.translation() - start).norm(), 0.5 + size);
+      highest = std::max(highest, o.X_WO.translation().z());
+    }
+  };
+  look(3.2);
+  EXPECT_NEAR(highest, start.z() + 0.2, 0.01);
+  simulation.release();
+  look(4.0);
+  EXPECT_LT(object(simulation, body.name).X_WO.translation().z(), start.z() + 0.02);
+}
+
+TEST(RealUrdfs, EveryMovableLinkIsGraspedLiftedAndPutDown) {
+  if (!fs::exists(collection / "README.md")) GTEST_SKIP() << "no URDF collection at " << collection;
+  setenv("ROS_PACKAGE_PATH", collection.c_str(), 1);
+  int held = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(collection)) {
+    if (entry.path().extension() != ".urdf") continue;
+    SCOPED_TRACE(entry.path().string());
+    Scene scene;
+    try {
+      scene = load_scene(entry.path().string());
+    } catch (const InputError&) {
+      continue;  // what has to be refused is test_scene's affair
+    }
+    for (const Body& body : scene.bodies) {
+      if (!body.movable || body.collision.empty()) continue;
+      ++held;
+      lift_and_put_down(scene, body);
+    }
+  }
+  EXPECT_GE(held, 10);
+}
+
+}  // namespace
+}  // namespace spring_workbench

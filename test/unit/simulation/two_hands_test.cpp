@@ -1,0 +1,221 @@
+// Two styluses: two tools on one object and on two.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "spring_workbench/math/so3.h"
+#include "spring_workbench/simulation/simulation.h"
+#include "support/bench_scenes.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double g = 9.81;
+const Vector3d size(0.2, 0.06, 0.04);
+const Vector3d left(-0.05, 0.0, 0.7), right(0.05, 0.0, 0.7);  // handles: the tips are in the box at 0.5 m
+
+SimulationSettings with_stiffness(double stretch, double bend, double torsion, const std::string& shape = "linear") {
+  SimulationSettings set;
+  set.fork.shape = shape;
+  set.fork.stiffness = {stretch, bend, torsion};
+  return set;
+}
+
+/// A box that both hands grasp, one after the other, the hands at rest.
+struct BothHold {
+  explicit BothHold(const SimulationSettings& set, double mass = 2.0, ContactMode contact = ContactMode::none)
+      : simulation(scene_of({box("box", size, mass, Vector3d(0, 0, 0.5))}, contact), set) {
+    rest(0, left);
+    rest(1, right);
+    simulation.push_button(0.0, true, 0);
+    simulation.push_button(0.02, true, 1);
+    simulation.advance(0.2);
+  }
+  void rest(std::size_t hand, const Vector3d& p) {
+    simulation.push_stylus({0.0, pointing_down(p)}, hand);
+    simulation.push_stylus({0.02, pointing_down(p)}, hand);
+  }
+  Vector3d p() const { return simulation.objects()[0].X_WO.translation(); }
+  Simulation simulation;
+};
+
+TEST(TwoHands, ObjectOfTwoKilogramsOnTwoForksSagsHalf) {
+  for (const std::string& shape : shape_model_names()) {
+    for (const double k : {2e2, 2e3, 2e5, 2e9}) {
+      const SimulationSettings set = with_stiffness(k, 500.0, 5.0, shape);
+      BothHold two(set);
+      ASSERT_EQ(two.simulation.fork(0).held_object, "box");
+      ASSERT_EQ(two.simulation.fork(1).held_object, "box");
+      two.simulation.advance(6.0);
+      // Each began without strain: the first one sagged before the other grasped, so each has its own share.
+      const ToolState a = two.simulation.fork(0), b = two.simulation.fork(1);
+      EXPECT_NEAR(a.tip_wrench_W.force.z() + b.tip_wrench_W.force.z(), 2.0 * g, 1e-5 * 2.0 * g) << shape << k;
+      EXPECT_LT(two.simulation.objects()[0].V_WO_W.linear.norm(), 1e-6) << shape << k;
+    }
+  }
+  // Both at once: half the weight, and half the sag of one fork, on each.
+  const double k = 2000.0;
+  Simulation simulation(scene_of({box("box", size, 2.0, Vector3d(0, 0, 0.5))}, ContactMode::none), with_stiffness(k, 500.0, 5.0));
+  for (std::size_t hand = 0; hand < 2; ++hand) {
+    simulation.push_stylus({0.0, pointing_down(hand == 0 ? left : right)}, hand);
+    simulation.push_button(0.0, true, hand);
+  }
+  simulation.advance(6.0);
+  EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.5 - 0.5 * 2.0 * g / k, 1e-6);
+  for (std::size_t hand = 0; hand < 2; ++hand) {
+    EXPECT_NEAR(simulation.fork(hand).stretch, 0.5 * 2.0 * g / k, 1e-6);
+    EXPECT_NEAR(simulation.fork(hand).tip_wrench_W.force.z(), g, 1e-5);
+    EXPECT_NEAR(simulation.fork(hand).weight, 1.0, 1e-6);
+  }
+}
+
+TEST(TwoHands, OneSpringAndOneForkShareTheWeight) {
+  BothHold two(with_stiffness(2000.0, 500.0, 5.0));
+  two.simulation.select_tool("spring", 1);
+  two.simulation.advance(20.0);
+  const double sum = two.simulation.fork(0).tip_wrench_W.force.z() + two.simulation.fork(1).tip_wrench_W.force.z();
+  EXPECT_NEAR(sum, 2.0 * g, 1e-4);
+  EXPECT_GT(two.simulation.fork(1).tip_wrench_W.force.norm(), 0.1);
+}
+
+TEST(TwoHands, NoStiffnessMakesItBlowUp) {
+  for (const double k : {0.0, 1.0, 1e6, 1e12}) {
+    for (const std::string& shape : shape_model_names()) {
+      for (const ForkDofs& dofs : {ForkDofs{true, true, true}, ForkDofs{false, true, false}, ForkDofs{false, false, false}}) {
+        SimulationSettings set = with_stiffness(k, k, 1e-2 * k, shape);
+        set.fork.dofs = dofs;
+        BothHold two(set, 0.5, ContactMode::stop);
+        push_move(two.simulation, 0.22, 1.0, left, left + Vector3d(0.1, 0.05, 0.1), 0.4, 0);
+        push_move(two.simulation, 0.22, 1.0, right, right + Vector3d(0.1, 0.05, 0.1), 0.4, 1);
+        for (double t = 0.3; t < 2.0; t += 0.05) {
+          two.simulation.advance(t);
+          const BodyState& o = two.simulation.objects()[0];
+          ASSERT_TRUE(o.X_WO.matrix().allFinite()) << k << shape;
+          ASSERT_LT(o.V_WO_W.linear.norm(), 5.0) << k << shape;
+          ASSERT_LT(o.X_WO.translation().norm(), 1.0) << k << shape;
+        }
+      }
+    }
+  }
+}
+
+TEST(TwoHands, HandoverDoesNotJumpAndWithStiffForksMovesTheObjectLessThanAMillimetre) {
+  BothHold two(with_stiffness(1e5, 1e5, 1e3));
+  two.simulation.advance(1.0);
+  const BodyState before = two.simulation.objects()[0];
+  two.simulation.push_button(1.0, false, 0);
+  two.simulation.advance(1.0 + 1e-6);
+  EXPECT_EQ(two.simulation.fork(0).held_object, "");
+  EXPECT_EQ(two.simulation.fork(1).held_object, "box");
+  EXPECT_TRUE(two.simulation.objects()[0].held);
+  EXPECT_LT((two.p() - before.X_WO.translation()).norm(), 1e-9);
+  double farthest = 0.0;
+  for (double t = 1.02; t < 3.0; t += 0.02) {
+    two.simulation.advance(t);
+    farthest = std::max(farthest, (two.p() - before.X_WO.translation()).norm());
+  }
+  EXPECT_LT(farthest, 1e-3);
+  // And what then hangs on the second fork alone hangs there exactly.
+  EXPECT_NEAR(two.simulation.fork(1).tip_wrench_W.force.z(), 2.0 * g, 1e-5);
+}
+
+TEST(TwoHands, HandoverBetweenRigidToolsMovesNothing) {
+  SimulationSettings set;
+  set.tool = "direct";
+  Simulation simulation(scene_of({box("box", size, 2.0, Vector3d(0, 0, 0.5))}, ContactMode::none), set);
+  for (std::size_t hand = 0; hand < 2; ++hand) {
+    simulation.push_stylus({0.0, pointing_down({hand == 0 ? -0.05 : 0.05, 0.0, 0.5})}, hand);
+  }
+  simulation.push_button(0.0, true, 0);
+  simulation.push_button(0.5, true, 1);
+  simulation.push_button(1.0, false, 0);
+  for (double t = 0.1; t < 2.0; t += 0.1) {
+    simulation.advance(t);
+    EXPECT_LT((simulation.objects()[0].X_WO.translation() - Vector3d(0, 0, 0.5)).norm(), 1e-4) << t;
+  }
+  EXPECT_EQ(simulation.fork(1).held_object, "box");
+}
+
+TEST(TwoHands, TwoObjectsAreHeldIndependently) {
+  const auto run = [](bool second) {
+    Simulation simulation(scene_of({box("a", {0.06, 0.06, 0.04}, 1.0, Vector3d(-0.05, 0, 0.5)),
+                                    box("b", {0.06, 0.06, 0.04}, 2.0, Vector3d(0.05, 0, 0.5))},
+                                   ContactMode::none),
+                          SimulationSettings());
+    push_move(simulation, 0.0, 1.0, left, left + Vector3d(0.1, 0.0, 0.1), 0.5, 0);
+    simulation.push_button(0.0, true, 0);
+    if (second) {
+      push_move(simulation, 0.0, 1.0, right, right + Vector3d(0.0, 0.2, 0.1), -0.5, 1);
+      simulation.push_button(0.0, true, 1);
+    }
+    simulation.advance(1.5);
+    return simulation;
+  };
+  const Simulation one = run(false), both = run(true);
+  EXPECT_EQ(both.fork(0).held_object, "a");
+  EXPECT_EQ(both.fork(1).held_object, "b");
+  EXPECT_TRUE(object(one, "a").X_WO.matrix() == object(both, "a").X_WO.matrix());
+  EXPECT_GT(object(both, "b").X_WO.translation().y(), 0.1);
+}
+
+TEST(TwoHands, LetGoByBothItFalls) {
+  BothHold two(with_stiffness(2000.0, 500.0, 5.0));
+  two.simulation.push_button(0.3, false, 0);
+  two.simulation.push_button(0.4, false, 1);
+  two.simulation.advance(0.4);
+  EXPECT_FALSE(two.simulation.objects()[0].held);
+  const double z = two.p().z(), v = two.simulation.objects()[0].V_WO_W.linear.z();
+  two.simulation.advance(0.6);
+  EXPECT_NEAR(two.p().z(), z + 0.2 * v - 0.5 * g * 0.04, 1e-9);
+}
+
+TEST(TwoHands, AnObjectWithoutMassIsHeldByBothAndStays) {
+  Scene scene = scene_of({box("box", size, 1.0, Vector3d(0, 0, 0.5))}, ContactMode::none);
+  scene.bodies[0].mass_properties = MassProperties();
+  Simulation simulation(scene, SimulationSettings());
+  for (std::size_t hand = 0; hand < 2; ++hand) {
+    push_move(simulation, 0.0, 1.0, hand == 0 ? left : right, (hand == 0 ? left : right) + Vector3d(0.1, 0.0, 0.1), 0.0, hand);
+    simulation.push_button(0.0, true, hand);
+  }
+  simulation.advance(1.0);
+  EXPECT_LT((simulation.objects()[0].X_WO.translation() - Vector3d(0.1, 0.0, 0.6)).norm(), 1e-5);
+}
+
+TEST(NextTool, GoesThroughAllTools) {
+  Simulation simulation(scene_of({}, ContactMode::none), SimulationSettings());
+  simulation.push_stylus({0.0, pointing_down(left)});
+  std::vector<std::string> seen;
+  for (int press = 0; press < 5; ++press) {
+    simulation.push_next_tool(0.01 * press);
+    simulation.advance(0.01 * press);
+    seen.push_back(simulation.fork().tool);
+  }
+  EXPECT_EQ(seen, (std::vector<std::string>{"spring_probe", "direct", "ray", "spring", "spring_fork"}));
+}
+
+TEST(NextTool, WhileHoldingGoesThroughThoseThatHoldWithoutAJump) {
+  Simulation simulation(scene_of({box("box", size, 1.0, Vector3d(0, 0, 0.5))}, ContactMode::none), SimulationSettings());
+  push_move(simulation, 0.0, 2.0, left, left + Vector3d(0.2, 0.0, 0.0), 1.0);
+  std::vector<std::string> seen;
+  simulation.push_button(0.1, true);
+  simulation.advance(0.3);
+  ASSERT_EQ(simulation.fork().held_object, "box");
+  seen.clear();
+  for (int press = 0; press < 4; ++press) {
+    const double t = 0.4 + 0.1 * press;
+    simulation.advance(t);
+    const BodyState before = simulation.objects()[0];
+    simulation.push_next_tool(t);
+    simulation.advance(t);
+    simulation.advance(t + 1e-6);
+    const BodyState& after = simulation.objects()[0];
+    EXPECT_LT((after.X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-5) << press;
+    EXPECT_LT((after.V_WO_W.linear - before.V_WO_W.linear).norm(), 1e-3) << press;
+    EXPECT_EQ(simulation.fork().held_object, "box");
+    seen.push_back(simulation.fork().tool);
+  }
+  EXPECT_EQ(seen, (std::vector<std::string>{"direct", "ray", "spring", "spring_fork"}));
+}
+
+}  // namespace
+}  // namespace spring_workbench
