@@ -65,6 +65,7 @@ BulletWorld::BulletWorld(const Scene& scene)
     item.X_WO = body.X_WO;
     if (item.box_O.isEmpty()) continue;  // nothing to touch
     item.radius = bounding_radius(body);
+    item.outline_O = outline(body);
     item.leaf = tree_.insert(volume(placed(item.box_O, item.X_WO)), nullptr);
     item.leaf->dataAsInt = static_cast<int>(i);
   }
@@ -258,6 +259,23 @@ void BulletWorld::step(double h, std::vector<DrivenBody>& driven) {
   }
 }
 
+void BulletWorld::remember() {
+  remembered_.clear();
+  for (const std::size_t i : in_world_) {
+    const Item& item = items_[i];
+    if (!item.movable) continue;
+    remembered_.push_back({i, item.X_WO, item.V_WO_W, item.bullet->getActivationState(), item.bullet->getDeactivationTime()});
+  }
+}
+
+void BulletWorld::go_back() {
+  for (const Remembered& r : remembered_) {
+    put(r.body, r.X_WO, r.V_WO_W);
+    items_[r.body].bullet->forceActivationState(r.activation);
+    items_[r.body].bullet->setDeactivationTime(r.slow_for);
+  }
+}
+
 void BulletWorld::place(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W, bool awake) {
   Item& item = items_[body];
   if (!awake && item.in_world) leave(body);
@@ -281,6 +299,39 @@ bool BulletWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const
   if (way.min().z() < scene_.bench_height) return true;
   const std::vector<std::size_t> found = inside(way);
   return std::any_of(found.begin(), found.end(), [&](std::size_t i) { return i != body; });
+}
+
+RigidWorld::Freedom BulletWorld::freedom(std::size_t body, const RigidTransform& X_WO, const std::vector<Twist>& twists_W,
+                                         double least, double longest) const {
+  const Item& item = items_[body];
+  Freedom freedom{longest, longest, false};
+  double fastest = 0.0;
+  for (const Twist& V : twists_W) fastest = std::max(fastest, V.linear.norm() + item.radius * V.angular.norm());
+  const auto limit = [&](const BoxGap& gap, bool exact) {
+    const bool near = gap.gap < 2.0 * contact_skin + least;
+    freedom.near = freedom.near || near;
+    double speed = near && !exact ? fastest : 0.0;
+    for (const Twist& V : twists_W) {
+      speed = std::max(speed, -gap.n_W.dot(V.linear) + item.radius * gap.n_W.cross(V.angular).norm());
+    }
+    const double way = near ? least : gap.gap - 2.0 * contact_skin;
+    double& time = near ? freedom.towards_near : freedom.until_near;
+    if (way < speed * time) time = way / speed;
+  };
+  const Vector3d reach = Vector3d::Constant(fastest * longest + 2.0 * contact_skin);
+  const Extent box = placed(item.box_O, X_WO);
+  const std::vector<std::size_t> near = inside(Extent(box.min() - reach, box.max() + reach));
+  for (const OutlineBox& own : item.outline_O) {
+    const OutlineBox here{X_WO * own.X, own.half, own.exact};
+    limit(gap_above(here, scene_.bench_height), own.exact);
+    for (const std::size_t i : near) {
+      if (i == body) continue;
+      for (const OutlineBox& other : items_[i].outline_O) {
+        limit(gap_between(here, {items_[i].X_WO * other.X, other.half, other.exact}), own.exact && other.exact);
+      }
+    }
+  }
+  return freedom;
 }
 
 std::unique_ptr<RigidWorld> make_rigid_world(const Scene& scene) { return std::make_unique<BulletWorld>(scene); }
