@@ -18,6 +18,7 @@ constexpr double asleep_speed = 2e-3;     ///< [m/s] of every point of a body â€
 constexpr double asleep_after = 0.5;      ///< [s] â€¦ for so long: it goes to sleep
 constexpr double rest_speed = 0.02;       ///< [m/s]; a slower approach does not bounce
 constexpr double penetration_share = 0.2; ///< of a penetration that is undone in a step, where it pushes free bodies
+constexpr double least_into = 8e-5;       ///< [m] that a body may go on into another before its contact is looked for anew
 constexpr double closed_gap = 1e-5;       ///< [m]; a contact without impulse is told while its gap is smaller
 
 using Extent = Eigen::AlignedBox3d;
@@ -314,7 +315,8 @@ RigidWorld::Freedom BulletWorld::freedom(std::size_t body, const RigidTransform&
     for (const Twist& V : twists_W) {
       speed = std::max(speed, -gap.n_W.dot(V.linear) + item.radius * gap.n_W.cross(V.angular).norm());
     }
-    const double way = near ? least : gap.gap - 2.0 * contact_skin;
+    const double near_way = exact ? std::max(gap.gap, 0.0) + least_into : least;
+    const double way = near ? near_way : gap.gap - 2.0 * contact_skin;
     double& time = near ? freedom.towards_near : freedom.until_near;
     if (way < speed * time) time = way / speed;
   };

@@ -8,7 +8,7 @@
 
 #include "bullet_shape.h"
 #include "driven_solver.h"
-#include "outline.h"
+#include "spring_workbench/scene/outline.h"
 #include "spring_workbench/world/rigid_world.h"
 
 namespace spring_workbench {

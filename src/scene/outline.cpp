@@ -1,4 +1,4 @@
-#include "outline.h"
+#include "spring_workbench/scene/outline.h"
 
 #include <limits>
 
