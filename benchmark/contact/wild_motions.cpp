@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <random>
 #include <stdexcept>
 
+#include "benchmark/contact/processor_time.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/simulation/simulation.h"
 
@@ -22,12 +22,6 @@ constexpr double room = 0.25, wall = 0.001;                    // m: from the mi
 constexpr double ring_radius = 0.05, tube_radius = 0.01;       // m
 constexpr int ring_segments = 24, tube_segments = 12;
 constexpr double pin_radius = 0.005, pin_length = 4.0;         // m, of the rod through the ring
-
-double processor_time() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 Body fixed(const std::string& name, const Geometry& geometry, const RigidTransform& X_WO) {
   Body body;
@@ -211,7 +205,8 @@ WildResult run(const WildMotion& motion) {
   for (double t = 0.0; t < duration + 1e-9; t += 0.002) {
     const AdvanceReport report = simulation.advance(t);
     result.steps += report.steps;
-    result.guards_tripped += report.guards_tripped;
+    result.held_back += report.held_back;
+    result.refused += report.guards_tripped;
     look(motion, setting, simulation.objects()[0].X_WO, result);
   }
   result.seconds = processor_time() - begin;

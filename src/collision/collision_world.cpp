@@ -178,8 +178,9 @@ struct CollisionWorld::Impl {
     }
   }
 
-  /// Which part of the way `move`, `turn` (in the body's axes) the body can go from `X_WO` on and no box around one of its
-  /// pieces reaches a box around another's, at most `longest`: conservative advancement along the axis of the widest gap.
+  /// Which part of the way `move`, `turn` (in the body's axes) the body can surely go from `X_WO` on, at most `longest`:
+  /// conservative advancement along the axis of the widest gap between boxes around the pieces, or where the boxes overlap
+  /// by the gap between the surfaces.
   double clear_way(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
                    double longest) {
     const double radius = bodies[body].radius;
@@ -196,7 +197,16 @@ struct CollisionWorld::Impl {
       const OutlineBox own = pieces[i].outline(X_WO * pieces[i].X_OS);
       limit(gap_above(own, bench_height));
       find_near(body, grown(box, fastest * clear));
-      for (const std::size_t other : near) limit(gap_between(own, pieces[other].outline(pieces[other].X_WS)));
+      for (const std::size_t other : near) {
+        const OutlineBox others = pieces[other].outline(pieces[other].X_WS);
+        const BoxGap boxes = gap_between(own, others);
+        if (boxes.gap > 0.0 || (own.exact && others.exact)) {
+          limit(boxes);
+        } else {
+          clear = std::min(clear, narrow.gap(pieces[i].solid, X_WO * pieces[i].X_OS, pieces[other].solid,
+                                             pieces[other].X_WS) / fastest);
+        }
+      }
     }
     return clear;
   }

@@ -18,7 +18,8 @@ constexpr double closed = 2e-5;            ///< [m]; on its way a body in contac
 constexpr double most_bow = 5e-5;          ///< [m] between the way and the straight one that is swept
 constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
 constexpr double shortest_share = 1e-3;    ///< of a step: a shorter piece is not tried
-constexpr int most_tries = 200;            ///< pieces tried in a step
+constexpr double stay_share = 0.1;         ///< of a step, for which a body stays where nothing fits
+constexpr int most_tries = 100;            ///< pieces tried in a step
 constexpr int most_solutions = 8;          ///< solutions of one piece of a step, each about the last
 
 /// Where a row's point of the body, fixed in the object frame at `X0`, is when the body is at `X1`.
@@ -205,7 +206,8 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
   const bool possible = in_contact ? advance_in_contact(body, h, solved, outcome) : body.advance(h, Wrench());
   if (!possible) {
     body.go_back();
-    return {false, smaller, {}};
+    outcome.refused = outcome.refused || !in_contact;
+    return {false, in_contact ? smaller : 0.0, {}};
   }
   const MotionState end = body.object();
   if (in_contact || collision_.may_touch(index, begin.X, end.X, most_bow)) {
@@ -256,7 +258,7 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
     if (tried.free * piece > shortest_share * h) {
       piece *= tried.free;
     } else if (tried.touched.empty() || !meet(body, tried.touched, rows)) {
-      stay(std::min(left, std::max(piece, 10.0 * shortest_share * h)));
+      stay(std::min(left, std::max(piece, stay_share * h)));
     }
   }
   if (left > 1e-9 * h) stay(left);

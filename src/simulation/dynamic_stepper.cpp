@@ -74,7 +74,7 @@ void DynamicStepper::go_freely(const std::vector<SteppedBody*>& held, const std:
     if (!candidates[i].possible) {
       held[i]->go_back();
       held[i]->stay(h);
-      outcome.held_back = true;
+      outcome.refused = true;
     }
     load_W_.erase(held[i]->index());
     const MotionState s = held[i]->object();

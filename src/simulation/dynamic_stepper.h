@@ -20,7 +20,8 @@ class DynamicStepper {
 
   struct Outcome {
     int pieces = 0;
-    bool held_back = false;  ///< a held body could not be carried on and was stopped
+    bool held_back = false;  ///< contact left a held body no way, and it was stopped
+    bool refused = false;    ///< a piece without contact would not have been finite or bounded
   };
   /// Carries the held bodies and the world over `h` [s].
   Outcome step(const std::vector<SteppedBody*>& held, double h);
