@@ -119,7 +119,9 @@ struct CollisionWorld::Impl {
 
   explicit Impl(const Scene& scene) : bench_height(scene.bench_height) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(i, scene.bodies[i]);
-    for (Piece& piece : pieces) broadphase.registerObject(piece.in_broadphase.get());
+    std::vector<fcl::CollisionObjectd*> objects;
+    for (const Piece& piece : pieces) objects.push_back(piece.in_broadphase.get());
+    broadphase.registerObjects(objects);  // all at once: a balanced tree
     broadphase.setup();
   }
 
