@@ -19,7 +19,7 @@ constexpr double asleep_speed = 2e-3;     ///< [m/s] of every point of a body �
 constexpr double asleep_after = 0.5;      ///< [s] … for so long: it goes to sleep
 constexpr double rest_speed = 0.02;       ///< [m/s]; a slower approach does not bounce
 constexpr double penetration_share = 0.2; ///< of a penetration that is undone in a step, where it pushes free bodies
-constexpr double least_into = 8e-5;       ///< [m] that a body may go on into another before its contact is looked for anew
+constexpr double least_into = 4e-5;       ///< [m] that a body may go on into another before its contact is looked for anew
 constexpr double closed_gap = 1e-5;       ///< [m]; a contact without impulse is told while its gap is smaller
 
 using Extent = Eigen::AlignedBox3d;
@@ -33,7 +33,7 @@ Extent placed(const Extent& box_O, const RigidTransform& X_WO) {
 
 btDbvtVolume volume(const Extent& box) { return btDbvtVolume::FromMM(to_bullet(box.min()), to_bullet(box.max())); }
 
-/// For how long [s] no corner of a box goes on by more than its height above the plane of `gap` and `into` [m], with a body
+/// For how long [s] no corner of a box goes deeper under the plane of `gap` than `into` [m], or by a quarter of that, with a body
 /// of this radius about `p_WO` that moves with V. What turning adds to a corner's speed grows by r ω² t at most.
 double time_to_plane(const OutlineBox& box, const BoxGap& gap, double into, const Vector3d& p_WO, double radius,
                      const Twist& V) {
@@ -42,7 +42,7 @@ double time_to_plane(const OutlineBox& box, const BoxGap& gap, double into, cons
   for (int i = 0; i < 8; ++i) {
     const Vector3d sign((i & 1) ? 1.0 : -1.0, (i & 2) ? 1.0 : -1.0, (i & 4) ? 1.0 : -1.0);
     const Vector3d corner = box.X * box.half.cwiseProduct(sign);
-    const double way = std::max(0.0, std::max(0.0, gap.n_W.dot(corner) - gap.level) + into);
+    const double way = std::max(gap.n_W.dot(corner) - gap.level + into, std::max(0.0, 0.25 * into));
     const double speed = std::max(0.0, -gap.n_W.dot(V.linear + V.angular.cross(corner - p_WO)));
     const double divisor = speed + std::sqrt(speed * speed + 2.0 * bending * way);
     if (divisor > 0.0) time = std::min(time, 2.0 * way / divisor);
