@@ -12,6 +12,7 @@
 #include "narrow_phase.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/scene/outline.h"
 #include "thin_out.h"
 
 namespace spring_workbench {
@@ -55,6 +56,10 @@ struct Piece {
   Eigen::AlignedBox3d box_at(const RigidTransform& X) const {
     if (!std::holds_alternative<MeshPtr>(geometry)) return bounding_box(geometry, X);
     return bounding_box(Box{extent.sizes()}, X * Eigen::Translation3d(extent.center()));
+  }
+  /// A box around it in its own axes.
+  OutlineBox outline(const RigidTransform& X) const {
+    return {X * Eigen::Translation3d(extent.center()), 0.5 * extent.sizes(), std::holds_alternative<Box>(geometry)};
   }
 };
 
@@ -114,7 +119,9 @@ struct CollisionWorld::Impl {
 
   explicit Impl(const Scene& scene) : bench_height(scene.bench_height) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(i, scene.bodies[i]);
-    for (Piece& piece : pieces) broadphase.registerObject(piece.in_broadphase.get());
+    std::vector<fcl::CollisionObjectd*> objects;
+    for (const Piece& piece : pieces) objects.push_back(piece.in_broadphase.get());
+    broadphase.registerObjects(objects);  // all at once: a balanced tree
     broadphase.setup();
   }
 
@@ -173,6 +180,39 @@ struct CollisionWorld::Impl {
     }
   }
 
+  /// Which part of the way `move`, `turn` (in the body's axes) the body can surely go from `X_WO` on, at most `longest`:
+  /// conservative advancement along the axis of the widest gap between boxes around the pieces, or where the boxes overlap
+  /// by the gap between the surfaces.
+  double clear_way(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
+                   double longest) {
+    const double radius = bodies[body].radius;
+    const Vector3d turn_W = X_WO.linear() * turn_O;
+    const double fastest = move_W.norm() + radius * turn_W.norm();
+    double clear = longest;
+    const auto limit = [&](const BoxGap& gap) {
+      // The axis of turning is the same on the whole way.
+      const double speed = std::max(0.0, -gap.n_W.dot(move_W)) + radius * gap.n_W.cross(turn_W).norm();
+      if (std::max(0.0, gap.gap) < speed * clear) clear = std::max(0.0, gap.gap) / speed;
+    };
+    for (std::size_t i = bodies[body].begin; i < bodies[body].end && clear > 0.0; ++i) {
+      const Eigen::AlignedBox3d box = pieces[i].box_at(X_WO * pieces[i].X_OS);
+      const OutlineBox own = pieces[i].outline(X_WO * pieces[i].X_OS);
+      limit(gap_above(own, bench_height));
+      find_near(body, grown(box, fastest * clear));
+      for (const std::size_t other : near) {
+        const OutlineBox others = pieces[other].outline(pieces[other].X_WS);
+        const BoxGap boxes = gap_between(own, others);
+        if (boxes.gap > 0.0 || (own.exact && others.exact)) {
+          limit(boxes);
+        } else {
+          clear = std::min(clear, narrow.gap(pieces[i].solid, X_WO * pieces[i].X_OS, pieces[other].solid,
+                                             pieces[other].X_WS) / fastest);
+        }
+      }
+    }
+    return clear;
+  }
+
   /// Around a piece on the whole way: the boxes at both ends, and what the arc between adds to them, which is at most
   /// r θ²/8 for a point at r (the error of linear interpolation); or the ball around the body, where that is less.
   Eigen::AlignedBox3d swept_box(const Piece& piece, const RigidTransform& X0, const RigidTransform& X1) const {
@@ -221,21 +261,22 @@ SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO,
   const double way = (X1_WO.translation() - X0_WO.translation()).norm() + impl_->bodies[body].radius * turn.norm();
   if (!(resolution > 0.0) || !std::isfinite(way)) throw std::invalid_argument("sweep: resolution or poses");
   if (!may_touch(body, X0_WO, X1_WO, std::max(0.0, -tolerance))) return {};
-  const auto touches_at = [&](double fraction) {
-    return touches(body, between(X0_WO, X1_WO, turn, fraction), tolerance);
-  };
-  if (touches_at(0.0)) return {true, 0.0, 0.0};
-  const double pieces = std::max(1.0, std::ceil(way / resolution));
+  const auto at = [&](double fraction) { return between(X0_WO, X1_WO, turn, fraction); };
+  if (touches(body, X0_WO, tolerance)) return {true, 0.0, 0.0};
+  const double least = std::min(1.0, resolution / std::max(way, resolution));
   double free = 0.0;
-  for (double piece = 1.0; piece <= pieces; piece += 1.0) {
-    double touching = piece / pieces;
-    if (!touches_at(touching)) {
-      free = touching;
+  while (free < 1.0) {
+    const double clear =
+        tolerance < 0.0 ? 0.0 : impl_->clear_way(body, at(free), X1_WO.translation() - X0_WO.translation(), turn, 1.0 - free);
+    const double looked_at = std::min(1.0, free + std::max(least, clear));
+    if (looked_at - free <= clear || !touches(body, at(looked_at), tolerance)) {
+      free = looked_at;
       continue;
     }
+    double touching = looked_at;
     for (int level = 0; level < levels; ++level) {
       const double middle = 0.5 * (free + touching);
-      (touches_at(middle) ? touching : free) = middle;
+      (touches(body, at(middle), tolerance) ? touching : free) = middle;
     }
     return {true, free, touching};
   }

@@ -5,6 +5,7 @@
 #include <fcl/geometry/shape/sphere.h>
 #include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
 #include <limits>
@@ -88,6 +89,14 @@ void NarrowPhase::append_contacts(std::size_t own_index, const RigidTransform& X
   } else {
     surfaces(own, X_WA, other, X_WB, tolerance, contacts);
   }
+}
+
+double NarrowPhase::gap(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB) const {
+  const Triangles* a = solids_[own].triangles.get();
+  const Triangles* b = solids_[other].triangles.get();
+  if (a == nullptr || b == nullptr) return 0.0;
+  fcl::DistanceResultd result;
+  return std::max(0.0, fcl::distance(a, X_WA, b, X_WB, fcl::DistanceRequestd(), result));
 }
 
 void NarrowPhase::sphere_and(const Solid& sphere, const RigidTransform& X_WS, const Solid& other,

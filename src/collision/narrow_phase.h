@@ -26,6 +26,9 @@ class NarrowPhase {
   void append_contacts(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
                        double tolerance, std::vector<ContactPoint>& contacts);
 
+  /// The gap between the surfaces of two shapes [m]; 0 where they touch or one of them has no triangles.
+  double gap(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB) const;
+
  private:
   struct Solid;
   struct Fcl;

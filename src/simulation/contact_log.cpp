@@ -16,6 +16,7 @@ bool contains_pair(const std::vector<ContactState>& list, const ContactState& c)
 
 void ContactLog::reset(std::size_t objects) {
   touching_.assign(objects, {});
+  with_contacts_.clear();
   before_.clear();
   ended_.clear();
   told_.clear();
@@ -44,12 +45,17 @@ void ContactLog::note(std::size_t object, const BodyState& state, const std::vec
     ended_.push_back(c);
   }
   touching_[object] = std::move(now_touching);
+  if (touching_[object].empty()) {
+    with_contacts_.erase(object);
+  } else {
+    with_contacts_.insert(object);
+  }
 }
 
 std::vector<ContactState> ContactLog::all() const {
   std::vector<ContactState> list;
-  for (const std::vector<ContactState>& of_object : touching_) {
-    list.insert(list.end(), of_object.begin(), of_object.end());
+  for (const std::size_t object : with_contacts_) {
+    list.insert(list.end(), touching_[object].begin(), touching_[object].end());
   }
   return list;
 }

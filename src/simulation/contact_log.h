@@ -1,5 +1,6 @@
 #pragma once
 
+#include <set>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ class ContactLog {
 
   const Scene& scene_;
   std::vector<std::vector<ContactState>> touching_;  ///< by object: contacts after its last step
+  std::set<std::size_t> with_contacts_;              ///< objects that touch something
   std::vector<ContactState> before_;                 ///< when the call began
   std::vector<ContactState> ended_;                  ///< since they were told last
   std::vector<ContactState> told_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/scene/geometry.h"
 
 namespace spring_workbench {
 namespace {
@@ -12,9 +13,13 @@ constexpr double touching = 1e-6;          ///< [m]; what is not deeper is free
 constexpr double slack = 0.5 * touching;   ///< [m] left to a body between two others that leave it no room
 constexpr double probe_depth = 1e-4;       ///< [m] by which the body is pushed to see what it touches
 constexpr double same_point = 2e-3;        ///< [m]; contacts nearer to each other are one
-constexpr double sweep_resolution = 2e-3;  ///< [m] between the poses that a sweep looks at
+constexpr double sweep_resolution = 2e-4;  ///< [m] between the poses that a sweep looks at, where boxes overlap
+constexpr double closed = 2e-5;            ///< [m]; on its way a body in contact may be so deep
+constexpr double most_bow = 5e-5;          ///< [m] between the way and the straight one that is swept
 constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
-constexpr int most_hits = 6;               ///< cuts of one step at new contacts
+constexpr double shortest_share = 1e-3;    ///< of a step: a shorter piece is not tried
+constexpr double stay_share = 0.1;         ///< of a step, for which a body stays where nothing fits
+constexpr int most_tries = 100;            ///< pieces tried in a step
 constexpr int most_solutions = 8;          ///< solutions of one piece of a step, each about the last
 
 /// Where a row's point of the body, fixed in the object frame at `X0`, is when the body is at `X1`.
@@ -22,10 +27,31 @@ Vector3d moved(const RigidTransform& X0, const RigidTransform& X1, const Vector3
   return X1 * (X0.inverse() * p_W);
 }
 
+/// Where the sweep from `X0` to `X1` is after a part of it.
+RigidTransform between(const RigidTransform& X0, const RigidTransform& X1, double fraction) {
+  RigidTransform X;
+  X.linear() = X0.linear() * exp_so3(fraction * log_so3(X0.linear().transpose() * X1.linear()));
+  X.translation() = X0.translation() + fraction * (X1.translation() - X0.translation());
+  X.makeAffine();
+  return X;
+}
+
+bool is_same(const ContactPoint& a, const ContactPoint& b) {
+  return a.other == b.other && a.n_W.dot(b.n_W) > 0.99 && (a.p_W - b.p_W).norm() < same_point;
+}
+
+double deepest(const std::vector<ContactRow>& rows) {
+  double depth = 0.0;
+  for (const ContactRow& row : rows) depth = std::max(depth, -row.gap);
+  return depth;
+}
+
 }  // namespace
 
 ContactStepper::ContactStepper(const Scene& scene, CollisionWorld& collision, int bisection_levels)
-    : scene_(scene), collision_(collision), levels_(bisection_levels) {}
+    : scene_(scene), collision_(collision), levels_(bisection_levels) {
+  for (const Body& body : scene.bodies) radius_.push_back(body.collision.empty() ? 0.0 : bounding_radius(body));
+}
 
 double ContactStepper::friction(std::size_t body, std::size_t other) const {
   const Material& b = other == CollisionWorld::bench ? scene_.bench_material : scene_.bodies[other].material;
@@ -38,10 +64,7 @@ void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, 
   collision_.find_contacts(body, X_WO, tolerance, found);
   ++outcome.queries;
   for (const ContactPoint& point : found) {
-    const auto same = std::find_if(rows.begin(), rows.end(), [&](const ContactRow& row) {
-      return row.point.other == point.other && row.point.n_W.dot(point.n_W) > 0.99 &&
-             (row.point.p_W - point.p_W).norm() < same_point;
-    });
+    const auto same = std::find_if(rows.begin(), rows.end(), [&](const ContactRow& row) { return is_same(row.point, point); });
     ContactRow& row = same == rows.end() ? rows.emplace_back() : *same;
     row.point = point;
     row.friction = friction(body, point.other);
@@ -166,86 +189,93 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
   return false;
 }
 
-void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) {
-  double left = h;
-  refresh(body, rows, outcome);
-  for (int hit = 0; hit <= most_hits && left > 1e-9 * h; ++hit) {
-    const RigidTransform X0 = body.object().X;
-    body.remember();
-    if (!body.advance(left, Wrench())) {
+bool ContactStepper::is_straight(std::size_t body, const MotionState& begin, const MotionState& end, double h) const {
+  const double bow = (end.velocity.linear - begin.velocity.linear).norm() +
+                     radius_[body] * (end.velocity.angular - begin.velocity.angular).norm();
+  return h / 8.0 * bow <= most_bow;
+}
+
+ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std::vector<ContactRow>& rows,
+                                                ContactOutcome& outcome) const {
+  constexpr double smaller = 0.25;
+  const std::size_t index = body.index();
+  const MotionState begin = body.object();
+  const bool in_contact = !rows.empty();
+  std::vector<ContactRow> solved = rows;
+  body.remember();
+  const bool possible = in_contact ? advance_in_contact(body, h, solved, outcome) : body.advance(h, Wrench());
+  if (!possible) {
+    body.go_back();
+    outcome.refused = outcome.refused || !in_contact;
+    return {false, in_contact ? smaller : 0.0, {}};
+  }
+  const MotionState end = body.object();
+  if (in_contact || collision_.may_touch(index, begin.X, end.X, most_bow)) {
+    if (!is_straight(index, begin, end, h)) {
       body.go_back();
-      body.stay(left);
-      outcome.held_back = true;
-      left = 0.0;
-      break;
+      return {false, 0.5, {}};
     }
-    const RigidTransform candidate = body.object().X;
-    if (rows.empty()) {
-      if (!collision_.may_touch(body.index(), X0, candidate, 2.0 * touching)) {
-        left = 0.0;
-        break;
-      }
-      const SweepResult sweep =
-          collision_.sweep(body.index(), X0, candidate, touching, sweep_resolution, levels_);
-      ++outcome.queries;
-      if (!sweep.hit) {
-        left = 0.0;
-        break;
-      }
-      // Up to the contact, then on with it.
+    // A start that is in something already may not go deeper.
+    const double tolerance = in_contact ? std::max(closed, deepest(rows) + touching) : touching;
+    const SweepResult sweep = collision_.sweep(index, begin.X, end.X, tolerance, sweep_resolution, levels_);
+    ++outcome.queries;
+    if (sweep.hit) {
+      Piece piece{false, sweep.free_fraction, {}};
       body.go_back();
-      const double free = sweep.free_fraction * left;
-      if (free > 0.0 && !body.advance(free, Wrench())) body.stay(free);
-      left -= free;
-      RigidTransform probe = body.object().X;
-      add_contacts(body.index(), candidate, touching, rows, outcome);
-      const std::vector<ContactRow> deep = std::move(rows);
-      rows.clear();
-      // The contacts of the touching pose: their normals are good where the penetration is small.
-      const double a = sweep.touching_fraction;
-      RigidTransform touch;
-      touch.linear() = X0.linear() * exp_so3(a * log_so3(X0.linear().transpose() * candidate.linear()));
-      touch.translation() = X0.translation() + a * (candidate.translation() - X0.translation());
-      touch.makeAffine();
-      add_contacts(body.index(), touch, touching, rows, outcome);
-      if (rows.empty()) rows = deep;
-      for (ContactRow& row : rows) {
-        const Vector3d here = moved(touch, probe, row.point.p_W);
+      const RigidTransform touch = between(begin.X, end.X, sweep.touching_fraction);
+      add_contacts(index, touch, touching, piece.touched, outcome);
+      for (ContactRow& row : piece.touched) {
+        const Vector3d here = moved(touch, begin.X, row.point.p_W);
         row.gap = std::max(0.0, row.gap + (here - row.point.p_W).dot(row.point.n_W));
         row.point.p_W = here;
       }
-    } else {
-      body.go_back();
-    }
-    collide(body, rows);
-    // In pieces short enough for contacts found at a piece's end to have good normals.
-    const double travel = (candidate.translation() - X0.translation()).norm();
-    const int pieces = std::clamp(static_cast<int>(std::ceil(travel / (5.0 * sweep_resolution))), 1, 20);
-    bool free = true;
-    for (int i = 0; i < pieces && free; ++i) {
-      const double dt = left / pieces;
-      if (i > 0) {
-        refresh(body, rows, outcome);
-        if (rows.empty()) {
-          left -= i * dt;
-          free = false;
-          break;
-        }
-        collide(body, rows);
-      }
-      if (!advance_in_contact(body, dt, rows, outcome)) {
-        body.stay(dt);
-        outcome.held_back = true;
-      }
-      if (i + 1 == pieces) left = 0.0;
+      return piece;
     }
   }
-  if (left > 1e-9 * h) {  // more new contacts than cuts: no time is lost
-    body.stay(left);
+  rows = std::move(solved);
+  return {true, 1.0, {}};
+}
+
+void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) {
+  double left = h, piece = h;
+  const auto stay = [&](double duration) {
+    body.stay(duration);
     outcome.held_back = true;
+    left -= duration;
+    piece = left;
+  };
+  refresh(body, rows, outcome);
+  collide(body, rows);
+  for (int i = 0; i < most_tries && left > 1e-9 * h; ++i) {
+    piece = std::min(piece, left);
+    Piece tried = try_piece(body, piece, rows, outcome);
+    if (tried.done) {
+      left -= piece;
+      piece *= 2.0;
+      if (left > 1e-9 * h) refresh(body, rows, outcome);
+      continue;
+    }
+    if (tried.free * piece > shortest_share * h) {
+      piece *= tried.free;
+    } else if (tried.touched.empty() || !meet(body, tried.touched, rows)) {
+      stay(std::min(left, std::max(piece, stay_share * h)));
+    }
   }
+  if (left > 1e-9 * h) stay(left);
   rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap > probe_depth; }), rows.end());
   outcome.rows = rows;
+}
+
+bool ContactStepper::meet(SteppedBody& body, const std::vector<ContactRow>& touched, std::vector<ContactRow>& rows) const {
+  bool met = false;
+  for (const ContactRow& row : touched) {
+    const bool known = std::any_of(rows.begin(), rows.end(), [&](const ContactRow& r) { return is_same(r.point, row.point); });
+    if (known) continue;
+    rows.push_back(row);
+    met = true;
+  }
+  if (met) collide(body, rows);
+  return met;
 }
 
 }  // namespace spring_workbench

@@ -12,6 +12,7 @@ struct ContactOutcome {
   std::vector<ContactRow> rows;   ///< the contacts at the end of the step; `load_W` [N]
   int queries = 0;
   bool held_back = false;         ///< nothing fitted and the body was stopped
+  bool refused = false;           ///< a step without contact would not have been finite or bounded
 };
 
 /// Contact mode `stop` (doc/model.md; the paper's section 5): the candidate step is swept, cut at the first contact by
@@ -34,10 +35,23 @@ class ContactStepper {
   void collide(SteppedBody& body, const std::vector<ContactRow>& rows) const;
   /// Goes `h` on under loads that leave the rows' gaps closed or open. False when it did not come out free.
   bool advance_in_contact(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
+  /// What a piece of a step has come to.
+  struct Piece {
+    bool done = false;                  ///< the body has gone it
+    double free = 0.0;                  ///< else: the part of it that is worth trying, 0 … 1
+    std::vector<ContactRow> touched;    ///< else: what was in the way
+  };
+  /// Tries to go `h` on, under the rows' loads where there are rows. Not done, the body is where it was.
+  Piece try_piece(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
+  /// Adds those contacts that are new and takes away the speed with which they approach. False when none was.
+  bool meet(SteppedBody& body, const std::vector<ContactRow>& touched, std::vector<ContactRow>& rows) const;
+  /// Whether the way between two states is as good as straight.
+  bool is_straight(std::size_t body, const MotionState& begin, const MotionState& end, double h) const;
 
   const Scene& scene_;
   CollisionWorld& collision_;
   int levels_;
+  std::vector<double> radius_;  ///< of every body of the scene [m]
 };
 
 }  // namespace spring_workbench

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "spring_workbench/world/rigid_world.h"
@@ -19,7 +20,8 @@ class DynamicStepper {
 
   struct Outcome {
     int pieces = 0;
-    bool held_back = false;  ///< a held body could not be carried on and was stopped
+    bool held_back = false;  ///< contact left a held body no way, and it was stopped
+    bool refused = false;    ///< a piece without contact would not have been finite or bounded
   };
   /// Carries the held bodies and the world over `h` [s].
   Outcome step(const std::vector<SteppedBody*>& held, double h);
@@ -31,22 +33,37 @@ class DynamicStepper {
   const std::vector<WorldContact>& contacts() const { return contacts_; }
 
  private:
-  struct Way {
-    RigidTransform X0, X1;
-    Twist V1;  ///< at the end, world axes
+  /// A held body's way over a piece under the contact load of the last one, at whose end the body then is, and how that
+  /// end would answer to more.
+  struct Candidate {
+    MotionState begin, end;
+    Wrench load_W;
+    SteppedBody::Answer answer;
     bool possible = false;
+    RigidWorld::Freedom freedom;
   };
-  Way way(SteppedBody& body, double h) const;
-  /// Carries all over one piece.
-  void piece(const std::vector<SteppedBody*>& held, double h, Outcome& outcome);
+  Candidate try_piece(SteppedBody& body, double h) const;
+  /// Candidates over a piece of at most `h` [s], which becomes so short that nothing new comes near.
+  std::vector<Candidate> try_pieces(const std::vector<SteppedBody*>& held, double& h) const;
+  /// What goes into the world of a candidate: its way without the load.
+  static DrivenBody driven_body(std::size_t body, const Candidate& candidate, double h);
+  RigidWorld::Freedom freedom(const SteppedBody& body, const MotionState& begin, const MotionState& end, double h) const;
+  /// The candidates are where the bodies go.
+  void go_freely(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double h,
+                 Outcome& outcome);
+  /// Carries all over one piece with contact. False where that has brought a body so far that it may have gone through
+  /// something; then all are where they were, and `h` is how long the piece may be.
+  bool go_in_contact(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double& h,
+                     Outcome& outcome);
   void add_contacts();
   bool comes_first(std::size_t body, std::size_t other) const;
 
   const Scene& scene_;
   std::unique_ptr<RigidWorld> world_;
-  std::vector<double> radius_;  ///< of every body of the scene [m]
   std::vector<WorldContact> contacts_;
   std::vector<std::size_t> held_;  ///< in the last step
+  std::map<std::size_t, Wrench> load_W_;  ///< of contact on held bodies in the last piece
+  double shortest_piece_ = 0.0;    ///< [s] of the present step
 };
 
 }  // namespace spring_workbench

@@ -55,7 +55,7 @@ void Hand::select_pierced() {
     selection_.set_inserted(i);
   }
   if (selection_.inserted() && settings_.grasp.object.empty()) {
-    workbench_.state(*selection_.inserted()).highlighted = true;
+    workbench_.highlight(*selection_.inserted());
   }
 }
 

@@ -1,6 +1,7 @@
 #include "workbench.h"
 
 #include <algorithm>
+#include <map>
 
 #include "spring_workbench/scene/geometry.h"
 
@@ -33,6 +34,9 @@ void Workbench::reset() {
   rows_.assign(movable_.size(), {});
   slow_since_.assign(movable_.size(), 0.0);
   tools_.assign(movable_.size(), Tools());
+  highlighted_.clear();
+  free_.clear();
+  in_contact_.clear();
   free_bodies_.clear();
   free_bodies_.resize(movable_.size());
   for (std::size_t i = 0; i < movable_.size(); ++i) {
@@ -43,7 +47,13 @@ void Workbench::reset() {
 }
 
 void Workbench::clear_highlights() {
-  for (BodyState& o : states_) o.highlighted = false;
+  for (const std::size_t object : highlighted_) states_[object].highlighted = false;
+  highlighted_.clear();
+}
+
+void Workbench::highlight(std::size_t object) {
+  states_[object].highlighted = true;
+  highlighted_.push_back(object);
 }
 
 std::optional<std::size_t> Workbench::find(const std::string& name) const {
@@ -55,7 +65,7 @@ std::optional<std::size_t> Workbench::find(const std::string& name) const {
 
 bool Workbench::any_free() const {
   if (dynamic_stepper_) return dynamic_stepper_->others_awake();
-  return std::any_of(free_bodies_.begin(), free_bodies_.end(), [](const auto& b) { return b != nullptr; });
+  return !free_.empty();
 }
 
 void Workbench::take_state(std::size_t object, const MotionState& s) {
@@ -67,6 +77,7 @@ void Workbench::take_state(std::size_t object, const MotionState& s) {
 void Workbench::hold(std::size_t object, Grip grip, double now) {
   ++(grip == Grip::grasp ? tools_[object].grasping : tools_[object].pushing);
   free_bodies_[object].reset();
+  free_.erase(object);
   rows_[object].clear();
   BodyState& o = states_[object];
   o.held = tools_[object].grasping > 0;
@@ -98,6 +109,7 @@ void Workbench::set_free(std::size_t object, const Twist& V_WO_W, double now) {
   }
   free_bodies_[object] = std::make_unique<FreeBody>(movable_[object], body(object), scene_.gravity,
                                                     states_[object].X_WO, V_WO_W);
+  free_.insert(object);
   slow_since_[object] = now;
 }
 
@@ -130,12 +142,13 @@ void Workbench::carry(SteppedBody& stepped, std::size_t object, double h, Advanc
     if (!stepped.advance(h, Wrench())) {
       stepped.go_back();
       stepped.go_along(h);
-      outcome.held_back = true;
+      outcome.refused = true;
     }
   }
   take_state(object, stepped.object());
   report.collision_queries += outcome.queries;
-  if (outcome.held_back) ++report.guards_tripped;
+  if (outcome.held_back) ++report.held_back;
+  if (outcome.refused) ++report.guards_tripped;
   states_[object].in_contact = !outcome.rows.empty();
   contacts_.note(object, states_[object], outcome.rows, h);
 }
@@ -146,8 +159,8 @@ void Workbench::step(const std::vector<Carried>& held, double now, double h, Adv
     return;
   }
   for (const Carried& c : held) carry(*c.body, c.object, h, report);
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    if (!free_bodies_[i]) continue;
+  const std::set<std::size_t> free = free_;
+  for (const std::size_t i : free) {
     carry(*free_bodies_[i], i, h, report);
     put_to_sleep_if_slow(i, now + h);
   }
@@ -160,7 +173,8 @@ void Workbench::step_together(const std::vector<Carried>& held, double h, Advanc
   const DynamicStepper::Outcome outcome = dynamic_stepper_->step(bodies, h);
   report.steps += outcome.pieces;
   report.collision_queries += outcome.pieces;
-  if (outcome.held_back) ++report.guards_tripped;
+  if (outcome.held_back) ++report.held_back;
+  if (outcome.refused) ++report.guards_tripped;
   for (const Carried& c : held) take_state(c.object, c.body->object());
   const RigidWorld& world = dynamic_stepper_->world();
   for (const std::size_t near : world.bodies_near()) {
@@ -174,7 +188,8 @@ void Workbench::step_together(const std::vector<Carried>& held, double h, Advanc
 }
 
 void Workbench::note_world_contacts(double h) {
-  std::vector<std::vector<ContactRow>> rows(states_.size());
+  std::map<std::size_t, std::vector<ContactRow>> rows;
+  for (const std::size_t object : in_contact_) rows[object];
   for (const WorldContact& c : dynamic_stepper_->contacts()) {
     ContactRow row;
     row.point = {c.other, c.p_W, c.n_W, c.depth};
@@ -182,10 +197,15 @@ void Workbench::note_world_contacts(double h) {
     row.load_W = c.impulse_W / h;
     rows[object_of_[c.body]].push_back(row);
   }
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    if (states_[i].asleep && rows[i].empty()) continue;
-    states_[i].in_contact = !rows[i].empty();
-    contacts_.note(i, states_[i], rows[i], h);
+  for (const auto& [object, of_object] : rows) {
+    if (of_object.empty() && states_[object].asleep) continue;
+    states_[object].in_contact = !of_object.empty();
+    contacts_.note(object, states_[object], of_object, h);
+    if (of_object.empty()) {
+      in_contact_.erase(object);
+    } else {
+      in_contact_.insert(object);
+    }
   }
 }
 
@@ -206,6 +226,7 @@ void Workbench::put_to_sleep_if_slow(std::size_t object, double now) {
   const bool away = o.X_WO.translation().norm() > world_limit;
   if (away || now - slow_since_[object] > asleep_after) {
     free_bodies_[object].reset();
+    free_.erase(object);
     o.V_WO_W = Twist();
     o.asleep = true;
   }

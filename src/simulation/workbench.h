@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ class Workbench {
   std::size_t scene_index(std::size_t object) const { return movable_[object]; }
   bool massless(std::size_t object) const { return !(body(object).mass_properties.mass > 0.0); }
   void clear_highlights();
+  void highlight(std::size_t object);
   std::optional<std::size_t> find(const std::string& name) const;
   bool with_contact() const { return scene_.contact != ContactMode::none; }
   /// Whether an object is in free flight: not held and not asleep.
@@ -80,6 +82,10 @@ class Workbench {
   std::vector<Tools> tools_;                            ///< that carry it
   std::vector<double> slow_since_;                      ///< [s]
   std::vector<std::size_t> object_of_;                  ///< by index in the scene; means something for movable bodies
+  // Few of many: a step looks at no others.
+  std::vector<std::size_t> highlighted_;
+  std::set<std::size_t> free_;           ///< those with a free body
+  std::set<std::size_t> in_contact_;     ///< in the world of contact mode `dynamic`
 };
 
 }  // namespace spring_workbench

@@ -51,9 +51,10 @@ class CollisionWorld {
   void find_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance,
                      std::vector<ContactPoint>& contacts) const;
 
-  /// The paper's search (section 5): the way from `X0` to `X1` (straight in position, constant axis in rotation) is looked
-  /// at in pieces in which no point of the body moves further than `resolution` [m]; in the first piece that touches, the
-  /// free and the touching fraction are found by `levels` halvings.
+  /// The paper's search (section 5) on the whole way from `X0` to `X1` (straight in position, constant axis in rotation).
+  /// It goes on by as much as boxes around the shapes keep clear of each other, and where they do not, by pieces in which
+  /// no point of the body moves further than `resolution` [m]. In the first piece that touches, the free and the touching
+  /// fraction are found by `levels` halvings.
   SweepResult sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double tolerance,
                     double resolution, int levels) const;
 

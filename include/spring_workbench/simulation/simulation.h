@@ -78,6 +78,7 @@ struct AdvanceReport {
   int collision_queries = 0;
   int steps_rejected = 0;                 ///< steps tried and taken again shorter, for their error
   int energy_held = 0;                    ///< steps whose gain of energy, with the hand at rest, was taken away
+  int held_back = 0;                      ///< steps in which contact left a body no way that was found, and it stayed
   int guards_tripped = 0;                 ///< times a step was refused because it would not have been finite or bounded
   std::vector<std::string> parts_run;     ///< e.g. "stretch", "gravity", "collision"
   std::vector<std::string> parts_left_out;

@@ -45,6 +45,10 @@ class RigidWorld {
   /// Goes `h` [s] > 0 on. Driven bodies are only looked at: place() them afterwards.
   virtual void step(double h, std::vector<DrivenBody>& driven) = 0;
 
+  /// The state of all bodies that are not driven, to come back to, and coming back to it.
+  virtual void remember() = 0;
+  virtual void go_back() = 0;
+
   /// Puts a movable body somewhere, awake or asleep.
   virtual void place(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W, bool awake) = 0;
 
@@ -55,6 +59,17 @@ class RigidWorld {
   /// Broadphase: whether anything else (bench included) comes within `margin` [m] of the body's way, rotation covered.
   virtual bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                          double margin) const = 0;
+
+  /// How long the body, from `X_WO` on with twists no larger than these, is sure not to go through anything: until something
+  /// new comes near, or until it has gone on by `least` [m] towards something near. At most `longest` [s]; others are taken
+  /// to stand still.
+  struct Freedom {
+    double until_near = 0.0;      ///< [s]
+    double towards_near = 0.0;    ///< [s]
+    bool near = false;            ///< something is so near that contact has to be looked for
+  };
+  virtual Freedom freedom(std::size_t body, const RigidTransform& X_WO, const std::vector<Twist>& twists_W, double least,
+                          double longest) const = 0;
 
   /// Contacts of the last step that pressed or were closed.
   virtual const std::vector<WorldContact>& contacts() const = 0;

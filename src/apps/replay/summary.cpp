@@ -52,6 +52,7 @@ void Summary::add(const AdvanceReport& report) {
   total_.collision_queries += report.collision_queries;
   total_.steps_rejected += report.steps_rejected;
   total_.energy_held += report.energy_held;
+  total_.held_back += report.held_back;
   total_.guards_tripped += report.guards_tripped;
   parts_run_.insert(report.parts_run.begin(), report.parts_run.end());
   parts_left_out_.insert(report.parts_left_out.begin(), report.parts_left_out.end());
@@ -84,7 +85,7 @@ std::string Summary::json() const {
       << ", \"energy_drift\": " << total_.energy_added << ", \"stiffest_omega_dt\": " << total_.stiffest_omega_dt
       << ", \"contacts\": " << contacts_ << ", \"collision_queries\": " << total_.collision_queries
       << ", \"steps_rejected\": " << total_.steps_rejected << ", \"energy_held\": " << total_.energy_held
-      << ", \"guards_tripped\": " << total_.guards_tripped << ", \"parts_run\": " << list_of(parts_run_)
+      << ", \"held_back\": " << total_.held_back << ", \"guards_tripped\": " << total_.guards_tripped << ", \"parts_run\": " << list_of(parts_run_)
       << ", \"parts_left_out\": " << list_of(never_run) << "}";
   return out.str();
 }

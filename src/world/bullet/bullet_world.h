@@ -8,6 +8,7 @@
 
 #include "bullet_shape.h"
 #include "driven_solver.h"
+#include "spring_workbench/scene/outline.h"
 #include "spring_workbench/world/rigid_world.h"
 
 namespace spring_workbench {
@@ -21,12 +22,16 @@ class BulletWorld final : public RigidWorld {
   BulletWorld& operator=(const BulletWorld&) = delete;
 
   void step(double h, std::vector<DrivenBody>& driven) override;
+  void remember() override;
+  void go_back() override;
   void place(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W, bool awake) override;
   const RigidTransform& pose(std::size_t body) const override { return items_[body].X_WO; }
   const Twist& velocity(std::size_t body) const override { return items_[body].V_WO_W; }
   bool awake(std::size_t body) const override { return awake(items_[body]); }
   bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                  double margin) const override;
+  Freedom freedom(std::size_t body, const RigidTransform& X_WO, const std::vector<Twist>& twists_W, double least,
+                  double longest) const override;
   const std::vector<WorldContact>& contacts() const override { return contacts_; }
   const std::vector<std::size_t>& bodies_near() const override { return in_world_; }
 
@@ -36,6 +41,7 @@ class BulletWorld final : public RigidWorld {
     bool massless = false;                             ///< movable, but only by what drives it
     Eigen::AlignedBox3d box_O;
     double radius = 0.0;
+    std::vector<OutlineBox> outline_O;                 ///< a box around each shape
     RigidTransform X_WO = RigidTransform::Identity();
     Twist V_WO_W;
     RigidTransform X_OB = RigidTransform::Identity();  ///< principal axes, where Bullet's tensors are diagonal
@@ -45,6 +51,14 @@ class BulletWorld final : public RigidWorld {
     bool in_world = false;
     bool driven = false;                               ///< in the present step
     long near_at = 0;                                  ///< step in which something awake was last near
+  };
+
+  struct Remembered {
+    std::size_t body;
+    RigidTransform X_WO;
+    Twist V_WO_W;
+    int activation;
+    double slow_for;  ///< [s]
   };
 
   void make_bullet(std::size_t index);
@@ -74,6 +88,7 @@ class BulletWorld final : public RigidWorld {
   btStaticPlaneShape bench_shape_;
   std::unique_ptr<btRigidBody> bench_body_;
   std::vector<WorldContact> contacts_;
+  std::vector<Remembered> remembered_;
   long steps_ = 0;
 };
 

@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <random>
 
-#include "spring_workbench/math/so3.h"
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
@@ -86,46 +84,9 @@ TEST(DynamicContact, PushesANeighbourAlong) {
   EXPECT_NEAR(object(s, "pushed").X_WO.translation().z(), 0.03, 1e-4);
 }
 
-TEST(DynamicContact, NoHeldObjectGoesThroughAThinWall) {
-  std::mt19937 random(7);
-  std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  for (int run = 0; run < 4; ++run) {
-    // A room of 1 mm walls; a long thin box inside, swung about at up to 5 m/s and 50 rad/s.
-    std::vector<Body> bodies{box("rod", Vector3d(0.3, 0.01, 0.01), 0.3, Vector3d(0, 0, 0.5), 0.3)};
-    for (int axis = 0; axis < 3; ++axis) {
-      for (const double side : {-0.25, 0.25}) {
-        Vector3d size(0.6, 0.6, 0.6), centre(0, 0, 0.5);
-        size[axis] = 0.001;
-        centre[axis] += side;
-        bodies.push_back(box("wall" + std::to_string(bodies.size()), size, 0.0, centre));
-      }
-    }
-    SimulationSettings set;
-    set.grasp.object = "rod";
-    set.fork.length = 0.05;
-    set.fork.stiffness = {2000.0, 2000.0, 2.0};
-    Simulation s(scene_of(bodies), set);
-    const Vector3d v = 5.0 * Vector3d(unit(random), unit(random), unit(random)) / std::sqrt(3.0);
-    const Vector3d w = 50.0 * Vector3d(unit(random), unit(random), unit(random)) / std::sqrt(3.0);
-    for (int k = 0; k <= 10; ++k) {
-      RigidTransform X = pointing_down({0, 0, 0.55});
-      X.translation() += 0.02 * k * v;
-      X.linear() = exp_so3(0.02 * k * w) * X.linear();
-      s.push_stylus({0.02 * k, X});
-    }
-    s.advance(0.2);
-    const RigidTransform& X = s.objects()[0].X_WO;
-    ASSERT_TRUE(X.matrix().allFinite());
-    for (const double end : {-0.15, 0.15}) {
-      const Vector3d p = X * Vector3d(end, 0, 0) - Vector3d(0, 0, 0.5);
-      EXPECT_LT(p.cwiseAbs().maxCoeff(), 0.25 + 1e-4) << run;
-    }
-  }
-}
-
 TEST(DynamicContact, LightAndHeavyStiffAndSoftAgainstAWallStayBounded) {
-  for (const double mass : {0.1, 1.0, 1e6}) {
-    for (const double k : {1e1, 1e3, 1e5}) {
+  for (const double mass : {1e-6, 1e-3, 1.0, 1e6}) {
+    for (const double k : {1e-2, 1e1, 1e3, 1e6, 1e9}) {
       Scene scene = scene_of({box("box", Vector3d(0.1, 0.1, 0.1), mass, Vector3d(0, 0, 0.5)),
                               box("wall", Vector3d(0.1, 1.0, 1.0), 0.0, Vector3d(0.3, 0, 0.5))});
       scene.gravity = 0.0;
@@ -136,11 +97,16 @@ TEST(DynamicContact, LightAndHeavyStiffAndSoftAgainstAWallStayBounded) {
       const Vector3d start(0, 0, 0.5 + set.fork.length);
       push_move(s, 0.0, 0.5, start, start + Vector3d(0.22, 0, 0));
       push_move(s, 0.52, 1.0, start + Vector3d(0.22, 0, 0), start + Vector3d(0.22, 0, 0));
-      s.advance(1.0);
-      const RigidTransform& X = s.objects()[0].X_WO;
-      ASSERT_TRUE(X.matrix().allFinite()) << mass << " " << k;
-      EXPECT_LT(X.translation().x(), 0.2 + 1e-3) << mass << " " << k;
-      EXPECT_LT((X.translation() - Vector3d(0, 0, 0.5)).norm(), 1.0) << mass << " " << k;
+      for (double t = 0.02; t < 1.0 + 1e-9; t += 0.02) {
+        EXPECT_EQ(s.advance(t).guards_tripped, 0) << mass << " " << k;
+        const BodyState& box_state = s.objects()[0];
+        const RigidTransform& X = box_state.X_WO;
+        ASSERT_TRUE(X.matrix().allFinite()) << mass << " " << k;
+        const double reach = X.linear().row(0).cwiseAbs().sum() * 0.05;
+        EXPECT_LT(X.translation().x() + reach, 0.25 + 2e-4) << mass << " " << k << " " << t;
+        EXPECT_LT((X.translation() - Vector3d(0, 0, 0.5)).norm(), 0.25) << mass << " " << k;
+        EXPECT_LT(box_state.V_WO_W.linear.norm(), 2.0) << mass << " " << k;  // the hand's fastest is 0.83 m/s
+      }
     }
   }
 }

@@ -1,0 +1,84 @@
+#include "benchmark/contact/trials.h"
+
+#include <algorithm>
+
+#include "benchmark/contact/scale.h"
+#include "benchmark/contact/wild_motions.h"
+#include "spring_workbench/config/yaml_fields.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr const char* where = "command line";
+
+const char* name_of(ContactMode mode) {
+  if (mode == ContactMode::none) return "none";
+  return mode == ContactMode::stop ? "stop" : "dynamic";
+}
+
+int count_at(const std::vector<std::string>& arguments, std::size_t index, int otherwise) {
+  if (index >= arguments.size()) return otherwise;
+  const std::string& text = arguments[index];
+  const bool digits = !text.empty() && text.size() < 9 && std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return c >= '0' && c <= '9';
+  });
+  if (!digits) refuse(where, "argument", text, "a whole number");
+  return std::stoi(text);
+}
+
+void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes, std::ostream& out) {
+  out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,held_back,refused,cpu_s_per_motion\n";
+  for (const ContactMode mode : {ContactMode::stop, ContactMode::dynamic}) {
+    for (const WildScene scene : scenes) {
+      WildResult sum;
+      int passed = 0, over = 0, worst_seed = first_seed;
+      for (int seed = first_seed; seed < first_seed + motions; ++seed) {
+        const WildResult r = run({scene, mode, static_cast<unsigned>(seed)});
+        if (r.penetration > sum.penetration) worst_seed = seed;
+        sum.penetration = std::max(sum.penetration, r.penetration);
+        passed += r.passed_through ? 1 : 0;
+        over += r.penetration > 1e-4 ? 1 : 0;
+        sum.held_back += r.held_back;
+        sum.refused += r.refused;
+        sum.seconds += r.seconds;
+      }
+      out << name_of(mode) << ',' << name_of(scene) << ',' << motions << ',' << passed << ',' << over << ','
+          << 1e3 * sum.penetration << ',' << worst_seed << ',' << sum.held_back << ',' << sum.refused << ','
+          << sum.seconds / std::max(motions, 1) << std::endl;
+    }
+  }
+}
+
+std::vector<WildScene> scenes_at(const std::vector<std::string>& arguments, std::size_t index) {
+  if (index >= arguments.size()) return wild_scenes();
+  for (const WildScene scene : wild_scenes()) {
+    if (name_of(scene) == arguments[index]) return {scene};
+  }
+  refuse(where, "scene", arguments[index], "rod_in_room or ring_on_rod");
+}
+
+void run_scale(int most, std::ostream& out) {
+  out << "contact,objects,start_ms,memory_MB,step_us\n";
+  for (const ContactMode mode : {ContactMode::none, ContactMode::stop, ContactMode::dynamic}) {
+    for (int objects = 10; objects <= most; objects *= 10) {
+      const ScaleRow row = measure_scale(mode, objects);
+      out << name_of(mode) << ',' << objects << ',' << 1e3 * row.start << ',' << row.memory / 1e6 << ','
+          << 1e6 * row.step << std::endl;
+    }
+  }
+}
+
+}  // namespace
+
+void run_contact_trials(const std::vector<std::string>& arguments, std::ostream& out) {
+  const std::string what = arguments.empty() ? "" : arguments[0];
+  if (what == "wild" && arguments.size() <= 4) {
+    run_wild(count_at(arguments, 1, 100), count_at(arguments, 2, 0), scenes_at(arguments, 3), out);
+  } else if (what == "scale" && arguments.size() <= 2) {
+    run_scale(count_at(arguments, 1, 10000), out);
+  } else {
+    refuse(where, "arguments", what, "wild [N [FIRST_SEED [SCENE]]] or scale [MOST]");
+  }
+}
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace spring_workbench::benchmark {
+
+/// The program `contact_trials`; a CSV on `out`.
+///     contact_trials wild [N [FIRST_SEED [SCENE]]]   N (default 100) seeded motions in both contact modes
+///     contact_trials scale [MOST]                    10, 100, … MOST (default 10,000) resting objects in every contact mode
+/// Throws InputError for other arguments.
+void run_contact_trials(const std::vector<std::string>& arguments, std::ostream& out);
+
+}  // namespace spring_workbench::benchmark

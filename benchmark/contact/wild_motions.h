@@ -1,0 +1,36 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "spring_workbench/scene/scene.h"
+
+namespace spring_workbench::benchmark {
+
+/// What a wildly moved object may not go through.
+enum class WildScene {
+  rod_in_room,  ///< a box of 300 × 10 × 10 mm is held in a closed room of 0.5 m whose walls are 1 mm thick
+  ring_on_rod   ///< a torus of triangles is held around a fixed rod that goes on beyond the hand's reach
+};
+const std::vector<WildScene>& wild_scenes();
+std::string name_of(WildScene scene);
+
+/// One motion: 0.2 s of a hand sampled at 50 Hz, at up to 5 m/s and 50 rad/s, its velocities drawn anew after 0.1 s.
+struct WildMotion {
+  WildScene scene = WildScene::rod_in_room;
+  ContactMode contact = ContactMode::dynamic;
+  unsigned seed = 0;  ///< of the motion, of the pose at the start and of the fork's stiffness (200 … 20 000 N/m)
+};
+
+struct WildResult {
+  double penetration = 0.0;      ///< largest, looked for every 2 ms [m]; exact, from the shapes' own geometry
+  bool passed_through = false;   ///< outside at the end, or no longer linked
+  double seconds = 0.0;          ///< processor time
+  int steps = 0;
+  int held_back = 0;             ///< steps
+  int refused = 0;               ///< steps
+};
+
+WildResult run(const WildMotion& motion);
+
+}  // namespace spring_workbench::benchmark

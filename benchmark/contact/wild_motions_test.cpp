@@ -1,0 +1,25 @@
+#include "benchmark/contact/wild_motions.h"
+
+#include <gtest/gtest.h>
+
+namespace spring_workbench::benchmark {
+namespace {
+
+// Some of the motions that `contact_trials wild 10000 0 rod_in_room` runs.
+class RodInRoom : public ::testing::TestWithParam<ContactMode> {};
+
+TEST_P(RodInRoom, GoesThroughNoWall) {
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    const WildResult result = run({WildScene::rod_in_room, GetParam(), seed});
+    EXPECT_FALSE(result.passed_through) << seed;
+    EXPECT_LE(result.penetration, 1e-4) << seed;
+    EXPECT_GT(result.steps, 0) << seed;
+    EXPECT_EQ(result.refused, 0) << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, RodInRoom, ::testing::Values(ContactMode::stop, ContactMode::dynamic),
+                         [](const auto& tested) { return tested.param == ContactMode::stop ? "stop" : "dynamic"; });
+
+}  // namespace
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <vector>
+
+#include "spring_workbench/scene/scene.h"
+
+namespace spring_workbench {
+
+/// A box around one shape of a body.
+struct OutlineBox {
+  RigidTransform X = RigidTransform::Identity();  ///< of the box's middle and axes
+  Vector3d half = Vector3d::Zero();               ///< half edges [m]
+  bool exact = false;                             ///< the shape is this box
+};
+
+/// The boxes around a body's collision shapes, in its object frame.
+std::vector<OutlineBox> outline(const Body& body);
+
+/// Along which direction two boxes are furthest apart, and by how much: at least the gap between them. Negative where they
+/// overlap; its size is then the least way that separates them (the fifteen axes of the separating axis theorem).
+struct BoxGap {
+  double gap = 0.0;                 ///< [m]
+  Vector3d n_W = Vector3d::UnitZ(); ///< unit, from `b` towards `a`
+  double level = 0.0;               ///< n·p of the points of `b` that are furthest along it [m]
+};
+BoxGap gap_between(const OutlineBox& a, const OutlineBox& b);
+
+/// The same for a box above the half-space below `height`.
+BoxGap gap_above(const OutlineBox& box, double height);
+
+}  // namespace spring_workbench

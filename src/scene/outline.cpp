@@ -1,0 +1,48 @@
+#include "spring_workbench/scene/outline.h"
+
+#include <limits>
+
+#include "spring_workbench/scene/geometry.h"
+
+namespace spring_workbench {
+
+std::vector<OutlineBox> outline(const Body& body) {
+  std::vector<OutlineBox> boxes;
+  for (const Shape& shape : body.collision) {
+    const Eigen::AlignedBox3d around = bounding_box(shape.geometry);
+    boxes.push_back({shape.X_OS * Eigen::Translation3d(around.center()), 0.5 * around.sizes(),
+                     std::holds_alternative<Box>(shape.geometry)});
+  }
+  return boxes;
+}
+
+BoxGap gap_between(const OutlineBox& a, const OutlineBox& b) {
+  const Matrix3d& A = a.X.linear();
+  const Matrix3d& B = b.X.linear();
+  const Vector3d between = a.X.translation() - b.X.translation();
+  BoxGap best{-std::numeric_limits<double>::infinity(), Vector3d::UnitZ(), 0.0};
+  const auto look = [&](const Vector3d& axis) {
+    const double size = axis.norm();
+    if (size < 1e-6) return;  // parallel edges: the faces' axes cover it
+    const double reach_b = (B.transpose() * axis).cwiseAbs().dot(b.half);
+    const double reach = (A.transpose() * axis).cwiseAbs().dot(a.half) + reach_b;
+    const double apart = between.dot(axis);
+    const double gap = (std::abs(apart) - reach) / size;
+    if (gap <= best.gap) return;
+    const Vector3d n = axis / (apart < 0.0 ? -size : size);
+    best = {gap, n, n.dot(b.X.translation()) + reach_b / size};
+  };
+  for (int i = 0; i < 3; ++i) {
+    look(A.col(i));
+    look(B.col(i));
+    for (int k = 0; k < 3; ++k) look(A.col(i).cross(B.col(k)));
+  }
+  return best;
+}
+
+BoxGap gap_above(const OutlineBox& box, double height) {
+  const double reach = box.X.linear().row(2).cwiseAbs().dot(box.half);
+  return {box.X.translation().z() - reach - height, Vector3d::UnitZ(), height};
+}
+
+}  // namespace spring_workbench
