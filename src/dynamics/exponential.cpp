@@ -70,10 +70,12 @@ class Exponential::CoreOf final : public Core {
     if (version_ != body.version()) return false;
     prepare(h);
     // The remainder is M⁻¹ Q at all nodes.
-    Operator sum = node_[last][0];
-    for (std::size_t j = 1; j < nodes; ++j) sum.add(node_[last][j]);
     Eigen::Matrix<double, 2 * n, n> modes;
-    for (int i = 0; i < n; ++i) modes.col(i) = sum * Modes(force_to_modes_.col(i));
+    for (int i = 0; i < n; ++i) {
+      NodeModes constant;
+      for (int m = 0; m < 2 * n; ++m) constant[at(m)] = Pack{} + force_to_modes_(m, i);
+      modes.col(i) = at_node(last, driven(Start{}, constant));
+    }
     const Eigen::Matrix<double, 2 * n, n> end = from_modes_ * modes * linear_.inverse_mass;
     r.q = end.template topRows<n>();
     r.q_dot = end.template bottomRows<n>();
@@ -92,27 +94,40 @@ class Exponential::CoreOf final : public Core {
     Modes error = Modes::Zero();  ///< of the resulting strain and strain rate
     bool converged = false;
   };
+  /// Modes, strains or strain rates at the nodes: a pack each.
+  using NodeModes = std::array<Pack, 2 * n>;
+  using NodeStrains = std::array<Pack, n>;
   /// A function of the linear part, in modes: x ↦ own x + other x with the members of each pair exchanged.
+  template <typename S>
   struct Operator {
-    Modes own = Modes::Zero(), other = Modes::Zero();
-    void add(const Operator& o) {
-      own += o.own;
-      other += o.other;
+    std::array<S, 2 * n> own{}, other{};
+    template <typename Other>
+    SPRING_WORKBENCH_INLINE S of(const Other& x, int m) const {
+      return own[at(m)] * x(m) + other[at(m)] * x(m ^ 1);
     }
-    Modes operator*(const Modes& x) const {
-      Modes r;
-      for (int i = 0; i < n; ++i) {
-        r[2 * i] = own[2 * i] * x[2 * i] + other[2 * i] * x[2 * i + 1];
-        r[2 * i + 1] = own[2 * i + 1] * x[2 * i + 1] + other[2 * i + 1] * x[2 * i];
-      }
-      return r;
-    }
-    void set(int mode, double value) { own[mode] = value; }
-    void set_pair(int mode, std::complex<double> value) {  // z = x₀ − i x₁
-      own[mode] = own[mode + 1] = value.real();
-      other[mode] = value.imag();
-      other[mode + 1] = -value.imag();
-    }
+  };
+  template <typename S>
+  static void set(Operator<S>& o, std::size_t lane_of, int mode, double value) {
+    set_lane(o.own[at(mode)], static_cast<int>(lane_of), value);
+    set_lane(o.other[at(mode)], static_cast<int>(lane_of), 0.0);
+  }
+  template <typename S>
+  static void set(Operator<S>& o, std::size_t lane_of, int mode, std::complex<double> value) {  // z = x₀ − i x₁
+    const int k = static_cast<int>(lane_of);
+    set_lane(o.own[at(mode)], k, value.real());
+    set_lane(o.own[at(mode + 1)], k, value.real());
+    set_lane(o.other[at(mode)], k, value.imag());
+    set_lane(o.other[at(mode + 1)], k, -value.imag());
+  }
+  static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  static Modes at_node(std::size_t i, const NodeModes& x) {
+    Modes r;
+    for (int m = 0; m < 2 * n; ++m) r[m] = x[at(m)][i];
+    return r;
+  }
+  /// What the remainder does not change of the modes at the nodes.
+  struct Start {
+    NodeModes x{};
   };
 
   void linearise(const HeldBody& body, const HandleForcing& handle, const Strain& q) {
@@ -137,25 +152,17 @@ class Exponential::CoreOf final : public Core {
     if (std::abs(h - h_) <= same_length * h) return;
     h_ = h;
     for (int m = 0; m < 2 * n; ++m) {
-      weight_[m] = 1.0 / std::max(1.0 / h, std::abs(linear_.rates[static_cast<std::size_t>(m)]));
+      weight_[m] = 1.0 / std::max(1.0 / h, std::abs(linear_.rates[at(m)]));
     }
-    const auto take = [this, h](const auto& w, const auto& set) {
+    const auto take = [this, h](int m, const auto& w) {
       for (std::size_t i = 1; i < nodes; ++i) {
-        set(decay_[i], w.decay[i]);
-        for (std::size_t j = 0; j < nodes; ++j) set(node_[i][j], h * w.node[i][j]);
+        set(decay_, i, m, w.decay[i]);
+        for (std::size_t j = 0; j < nodes; ++j) set(node_[j], i, m, h * w.node[i][j]);
       }
-      set(error_, h * w.error);
+      set(error_, 0, m, h * w.error);
     };
-    for (int m = 0; m < 2 * linear_.pairs; m += 2) {
-      take(Collocation::weights(h * linear_.rates[static_cast<std::size_t>(m)]),
-           [m](Operator& o, std::complex<double> value) { o.set_pair(m, value); });
-    }
-    for (int m = 2 * linear_.pairs; m < 2 * n; ++m) {
-      take(Collocation::weights(h * linear_.rates[static_cast<std::size_t>(m)].real()), [m](Operator& o, double value) {
-        o.set(m, value);
-        o.other[m] = 0.0;
-      });
-    }
+    for (int m = 0; m < 2 * linear_.pairs; m += 2) take(m, Collocation::weights(h * linear_.rates[at(m)]));
+    for (int m = 2 * linear_.pairs; m < 2 * n; ++m) take(m, Collocation::weights(h * linear_.rates[at(m)].real()));
   }
 
   Modes modes_of(const State& s) const {
@@ -173,6 +180,37 @@ class Exponential::CoreOf final : public Core {
                      times(stiffness_, Strain(s.q - q_reference_)) + times(damping_, s.q_dot);
     return times(force_to_modes_, r);
   }
+  /// The same at the nodes.
+  NodeModes remainder(const HeldBody& body, const HandleForcings& handle, const NodeModes& x) const {
+    NodeStrains moved, rate, q, r;
+    for (int i = 0; i < n; ++i) {
+      moved[at(i)] = from_modes_(i, 0) * x[0];
+      rate[at(i)] = from_modes_(n + i, 0) * x[0];
+      for (int m = 1; m < 2 * n; ++m) {
+        moved[at(i)] += from_modes_(i, m) * x[at(m)];
+        rate[at(i)] += from_modes_(n + i, m) * x[at(m)];
+      }
+      q[at(i)] = moved[at(i)] + q_reference_[i];
+    }
+    body.template acceleration<n>(handle, q.data(), rate.data(), r.data());
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) r[at(i)] += stiffness_(i, j) * moved[at(j)] + damping_(i, j) * rate[at(j)];
+    }
+    NodeModes result;
+    for (int m = 0; m < 2 * n; ++m) {
+      result[at(m)] = force_to_modes_(m, 0) * r[0];
+      for (int i = 1; i < n; ++i) result[at(m)] += force_to_modes_(m, i) * r[at(i)];
+    }
+    return result;
+  }
+  /// Modes at the nodes under the cubic through these remainders.
+  NodeModes driven(const Start& start, const NodeModes& remainders) const {
+    NodeModes x = start.x;
+    for (std::size_t j = 0; j < nodes; ++j) {
+      for (int m = 0; m < 2 * n; ++m) x[at(m)] += node_[j].of([&](int k) { return remainders[at(k)][j]; }, m);
+    }
+    return x;
+  }
   /// Size of what is in modes [m √kg]: displacements as they are, velocities times what is left of them over a step.
   double size(const Modes& x) const { return weight_.cwiseProduct(x).norm(); }
 
@@ -186,37 +224,47 @@ class Exponential::CoreOf final : public Core {
     const double ratio = last_h_ / h;
     if (ratio != continued_ratio_) {
       continued_ratio_ = ratio;
-      continued_ = Collocation::continued(ratio);
-    }
-    const std::array<Modes, nodes> before = remainder_before_;
-    for (std::size_t i = 1; i < nodes; ++i) {
-      remainder_[i] = remainder_[0];
-      for (std::size_t j = 0; j < nodes; ++j) {
-        remainder_[i] += (continued_[i][j] - (j == last ? 1.0 : 0.0)) * before[j];
+      const auto rows = Collocation::continued(ratio);
+      for (std::size_t i = 0; i < nodes; ++i) {
+        for (std::size_t j = 0; j < nodes; ++j) continued_[j][i] = i == 0 ? 0.0 : rows[i][j] - (j == last ? 1.0 : 0.0);
       }
+    }
+    for (int m = 0; m < 2 * n; ++m) {
+      const Pack before = remainder_[at(m)];
+      Pack x = Pack{} + start_remainder_[m];
+      for (std::size_t j = 0; j < nodes; ++j) x += continued_[j] * before[j];
+      remainder_[at(m)] = x;
     }
   }
 
   /// Error of the cubic: its fourth difference, taken to follow on the second and third in a geometric series.
   Modes cubic_error() const {
-    const auto difference = [this](const Collocation::Row& row) -> Modes {
-      return row[0] * remainder_[0] + row[1] * remainder_[1] + row[2] * remainder_[2] + row[3] * remainder_[3];
+    const auto difference = [this](const Collocation::Row& row) {
+      Modes d;
+      for (int m = 0; m < 2 * n; ++m) {
+        const Pack& x = remainder_[at(m)];
+        d[m] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3] * x[3];
+      }
+      return d;
     };
     const Modes third = difference(Collocation::third_difference());
-    const double second = difference(Collocation::second_difference()).norm();
-    const double ratio = third.norm() < second ? third.norm() / second : 1.0;
-    return error_ * Modes(ratio * third);
+    const double second = difference(Collocation::second_difference()).squaredNorm();
+    const double third_size = third.squaredNorm();
+    const double ratio = third_size < second ? std::sqrt(third_size / second) : 1.0;
+    Modes e;
+    for (int m = 0; m < 2 * n; ++m) e[m] = ratio * error_.of([&](int k) { return third[k]; }, m);
+    return e;
   }
 
   Estimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, State& state, int halvings) {
-    std::array<HandleForcing, nodes> forcing;
-    for (std::size_t i = 0; i < nodes; ++i) forcing[i] = body.forcing(handle, t + Collocation::nodes[i] * h);
+    constexpr auto& c = Collocation::nodes;
+    const HandleForcings forcing = body.forcing(handle, t + Pack{c[0], c[1], c[2], c[3]} * h);
     const State begin = state;
-    if (version_ != body.version()) linearise(body, forcing[0], state.q);
+    if (version_ != body.version()) linearise(body, forcing.at(0), state.q);
     Estimate e = sweep(body, forcing, h, state);
     if (e.converged) return e;
     if (begin.q != q_reference_) {
-      linearise(body, forcing[0], begin.q);
+      linearise(body, forcing.at(0), begin.q);
       state = begin;
       e = sweep(body, forcing, h, state);
     }
@@ -230,38 +278,39 @@ class Exponential::CoreOf final : public Core {
     return e;
   }
 
-  Estimate sweep(const HeldBody& body, const std::array<HandleForcing, nodes>& forcing, double h, State& state) {
+  Estimate sweep(const HeldBody& body, const HandleForcings& forcing, double h, State& state) {
     prepare(h);
     const Modes x0 = modes_of(state);
-    const double begin_t = forcing[0].t;
-    const bool follows = goes_on(begin_t, state);
+    const bool follows = goes_on(forcing.t[0], state);
     const bool known = follows && load_version_ == body.load_version() &&
-                       same(end_acceleration_, forcing[0].acceleration_less_gravity) &&
-                       same(end_angular_acceleration_, forcing[0].angular_acceleration);
-    remainder_[0] = known ? remainder_before_[last] : remainder(body, forcing[0], state);
+                       same(end_acceleration_, vector(forcing.of_H.a_B, 0)) &&
+                       same(end_angular_acceleration_, vector(forcing.of_H.alpha_B, 0));
+    start_remainder_ = known ? at_node(last, remainder_) : remainder(body, forcing.at(0), state);
     if (follows && h < farthest_continued * last_h_) {
       continue_cubic(h);
     } else {
-      for (std::size_t i = 1; i < nodes; ++i) remainder_[i] = remainder_[0];
+      for (int m = 0; m < 2 * n; ++m) remainder_[at(m)] = Pack{} + start_remainder_[m];
     }
-    std::array<Modes, nodes> base;
-    for (std::size_t i = 1; i < nodes; ++i) base[i] = decay_[i] * x0 + node_[i][0] * remainder_[0];
-    const auto at_node = [&](std::size_t i) -> Modes {
-      return base[i] + node_[i][1] * remainder_[1] + node_[i][2] * remainder_[2] + node_[i][3] * remainder_[3];
-    };
+    Start start;
+    for (int m = 0; m < 2 * n; ++m) start.x[at(m)] = decay_.of([&](int k) { return x0[k]; }, m);
 
     Estimate e;
-    Modes end = at_node(last);
+    NodeModes x = driven(start, remainder_);
+    Modes end = at_node(last, x);
+    const double size_of_start = size(x0);
     double change = 0.0;
     for (int sweeps = 1; sweeps <= most_sweeps && !e.converged; ++sweeps) {
-      for (std::size_t i = 1; i < nodes; ++i) remainder_[i] = remainder(body, forcing[i], state_of(at_node(i)));
-      const Modes next = at_node(last);
+      for (int m = 0; m < 2 * n; ++m) x[at(m)][0] = x0[m];
+      remainder_ = remainder(body, forcing, x);
+      for (int m = 0; m < 2 * n; ++m) remainder_[at(m)][0] = start_remainder_[m];
+      x = driven(start, remainder_);
+      const Modes next = at_node(last, x);
       const Modes changed = next - end;
       const double change_before = change;
       change = size(changed);
       end = next;
       if (!(change < 1e300)) break;
-      const double rounding = share_of_strain * std::max(size(end), size(x0));
+      const double rounding = share_of_strain * std::max(size(end), size_of_start);
       if (sweeps == 1) {
         contraction_ = std::min(1.0, contraction_ * forget_contraction);
       } else if (change > rounding) {
@@ -275,13 +324,12 @@ class Exponential::CoreOf final : public Core {
     }
     e.error = times(from_modes_, e.error);
     state = state_of(end);
-    remainder_before_ = remainder_;
     last_h_ = h;
-    t_end_ = forcing[last].t;
+    t_end_ = forcing.t[last];
     end_ = state;
     load_version_ = body.load_version();
-    end_acceleration_ = forcing[last].acceleration_less_gravity;
-    end_angular_acceleration_ = forcing[last].angular_acceleration;
+    end_acceleration_ = vector(forcing.of_H.a_B, static_cast<int>(last));
+    end_angular_acceleration_ = vector(forcing.of_H.alpha_B, static_cast<int>(last));
     return e;
   }
 
@@ -294,18 +342,19 @@ class Exponential::CoreOf final : public Core {
 
   double h_ = 0.0;  ///< what the operators are for
   Modes weight_;
-  std::array<Operator, nodes> decay_;
-  std::array<std::array<Operator, nodes>, nodes> node_;
-  Operator error_;
+  Operator<Pack> decay_;                      ///< to the nodes
+  std::array<Operator<Pack>, nodes> node_{};  ///< of the remainder at each node
+  Operator<double> error_;
 
-  std::array<Modes, nodes> remainder_, remainder_before_;  ///< at the nodes of this step and the last one
+  NodeModes remainder_;    ///< at the nodes of this step, or the last one
+  Modes start_remainder_;
   double contraction_ = 1.0;                               ///< of a sweep's change by the next
   double last_h_ = 0.0, t_end_ = 0.0;
   State end_;
   long load_version_ = -1;
   Vector3d end_acceleration_, end_angular_acceleration_;
   double continued_ratio_ = 0.0;
-  std::array<Collocation::Row, nodes> continued_;
+  std::array<Pack, nodes> continued_;
 };
 
 Exponential::Exponential() = default;

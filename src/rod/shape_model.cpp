@@ -11,6 +11,21 @@ const std::vector<std::string>& shape_model_names() {
   return names;
 }
 
+void ShapeModel::tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const {
+  TipOf<double> tip_of;
+  tip(q.data(), q_dot.data(), tip_of);
+  out.R_HE = matrix(tip_of.R_HE, 0);
+  out.p_HE = vector(tip_of.p_HE);
+  out.angular.resize(3, size());
+  out.linear.resize(3, size());
+  for (int i = 0; i < size(); ++i) {
+    out.angular.col(i) = vector(tip_of.angular[i]);
+    out.linear.col(i) = vector(tip_of.linear[i]);
+  }
+  out.angular_bias = vector(tip_of.angular_bias);
+  out.linear_bias = vector(tip_of.linear_bias);
+}
+
 bool ShapeModel::rechart(StrainVector&, StrainVector&) const { return false; }
 
 std::shared_ptr<const ShapeModel> make_shape_model(const std::string& name, double length) {

@@ -36,7 +36,10 @@ TEST_P(EveryIntegrator, HasItsOrderOfAccuracy) {
     const int per_omega = static_cast<int>(0.2 * c.omega);
     const int steps = order == 1 ? 1000 : limited() ? 5 * per_omega : 5 + per_omega;
     const double coarse = error(steps), fine = error(2 * steps);
-    EXPECT_NEAR(std::log2(coarse / fine), order, order >= 4 ? 0.5 : 0.1) << shape << " " << coarse << " " << fine;
+    const double found = std::log2(coarse / fine), tolerance = order >= 4 ? 0.5 : 0.1;
+    EXPECT_GT(found, order - tolerance) << shape << " " << coarse << " " << fine;
+    // Collocation is of order six, with sweeps that stop at an error of order five.
+    EXPECT_LT(found, order + tolerance + (GetParam() == "exponential" ? 1.0 : 0.0)) << shape << " " << coarse << " " << fine;
   }
 }
 
