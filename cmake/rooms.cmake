@@ -8,7 +8,7 @@ set(SPRING_WORKBENCH_ARITHMETIC -fno-math-errno -fno-trapping-math -fcx-limited-
 # Packs of four numbers are passed by reference only, or inlined: the calling convention for them does not matter.
 add_compile_options(-Wno-psabi)
 
-# The bushing's step takes about 40 % less time with AVX2 and FMA. Eigen's types keep the alignment that libraries built
+# With AVX2 and FMA a pack is one register. Eigen's types keep the alignment that libraries built
 # without them expect.
 option(SPRING_WORKBENCH_NATIVE "For processors with AVX2 and FMA only" OFF)
 if(SPRING_WORKBENCH_NATIVE)
