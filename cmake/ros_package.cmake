@@ -4,9 +4,10 @@ set(SPRING_WORKBENCH_MESSAGE_PACKAGES diagnostic_msgs geometry_msgs sensor_msgs 
 # catkin writes the tests' environment while it is found, and leaves out of it the folders that are not there yet.
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages ${CMAKE_BINARY_DIR}/devel/lib/pkgconfig)
 find_package(catkin REQUIRED COMPONENTS
-  message_generation rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
+  interactive_markers message_generation rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
 
-add_message_files(FILES Contact.msg Contacts.msg ForkState.msg ObjectState.msg ObjectStates.msg StepReport.msg)
+add_message_files(FILES Contact.msg Contacts.msg ForkState.msg ObjectState.msg ObjectStates.msg PlacementState.msg StepReport.msg
+  TaskState.msg)
 add_service_files(FILES LoadScene.srv SetForkDamping.srv SetForkDofs.srv SetForkStiffness.srv SetIntegrator.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
@@ -16,4 +17,4 @@ if(dynamic_reconfigure_FOUND)
 endif()
 
 catkin_package(CATKIN_DEPENDS
-  message_runtime rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
+  interactive_markers message_runtime rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})

@@ -1,5 +1,5 @@
 # The ROS side of the package: room ros_interface, the nodes, and what is installed beside them.
-add_room(ros_interface DEPENDS simulation fork_mesh tracker sound LIBRARIES ${catkin_LIBRARIES})
+add_room(ros_interface DEPENDS operator fork_mesh sound LIBRARIES ${catkin_LIBRARIES})
 target_include_directories(spring_workbench_ros_interface SYSTEM PUBLIC
   ${catkin_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 add_dependencies(spring_workbench_ros_interface ${PROJECT_NAME}_generate_messages_cpp)
@@ -13,7 +13,7 @@ else()
   target_sources(spring_workbench_ros_interface PRIVATE src/ros_interface/live_tuning/without_dynamic_reconfigure.cpp)
 endif()
 
-set(SPRING_WORKBENCH_NODES contact_sound manipulation tracker_driver)
+set(SPRING_WORKBENCH_NODES contact_sound manipulation register_tracker tracker_driver)
 foreach(node ${SPRING_WORKBENCH_NODES})
   add_executable(${node} src/nodes/${node}.cpp)
   target_compile_options(${node} PRIVATE ${SPRING_WORKBENCH_WARNINGS})

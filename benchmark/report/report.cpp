@@ -1,3 +1,4 @@
+#include "benchmark/fork_curve.h"
 #include "benchmark/report/report.h"
 
 #include <unistd.h>
@@ -103,6 +104,7 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   if (!counts.empty()) keep("stability_counts.csv", stability_counts_csv(counts));
   const std::string costs = step_cost_csv(step_costs());
   keep("step_cost.csv", costs);
+  keep("fork_curve.csv", fork_curves_csv(measure_fork_curves()));
   page.sections = page_sections(measured, judged, counts, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), costs, tables,
                                 options.out);
   const std::string path = write_file(options.out, "report.html", html_page(page));

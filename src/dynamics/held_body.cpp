@@ -53,6 +53,7 @@ void HeldBody::set_springs(const PerFamily& stiffness, const PerFamily& damping_
 }
 
 void HeldBody::set_springs_and_dampers(const PerFamily& stiffness, const PerFamily& damping) {
+  if (auto shape = shape_->for_stiffness(stiffness)) shape_ = std::move(shape);
   K_ = shape_->stiffness(stiffness);
   D_ = shape_->stiffness(damping);  // (c_f / k_f) K_f, without dividing by k_f
   changed();
@@ -274,6 +275,9 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const FrameForcing
   }
   TipOf<S> tip;
   shape_->tip(q_all, q_dot_all, tip);
+  if (tip.condensed) {
+    for (int i = 0; i < n; ++i) springs[i] -= tip.condensed_force[active_[static_cast<std::size_t>(i)]];
+  }
   const Rigid<S> rigid = without_strain_acceleration(h, tip, q_dot_all, q_ddot_all);
 
   if constexpr (n == 6) {
@@ -453,7 +457,7 @@ StrainVector HeldBody::project_twist(const HandleForcing& h, const StrainVector&
 
 double HeldBody::elastic_energy(double t, const StrainState& state) const {
   const StrainState full = full_state(t, state);
-  return 0.5 * full.q.dot(K_.cwiseProduct(full.q));
+  return 0.5 * full.q.dot(K_.cwiseProduct(full.q)) + shape_->condensed_energy(full.q);
 }
 
 double HeldBody::kinetic_energy(const Twist& V, const Matrix3d& R_WO) const {

@@ -71,6 +71,9 @@ LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const 
   const StrainMatrix shapes = undamped.eigenvectors();
   const StrainMatrix to_shapes = shapes.transpose() * M;
   const StrainVector scale = undamped.eigenvalues().cwiseMax(1.0).cwiseSqrt();
+  // A free mode has no two eigenvectors: the frozen part gets the stiffness of 1 rad/s, and the rest takes it back.
+  const StrainVector missing = (1.0 - undamped.eigenvalues().array()).cwiseMax(0.0);
+  part.stiffness += shapes * missing.asDiagonal() * to_shapes;
   const StrainMatrix modal_stiffness = to_shapes * part.stiffness * shapes;
 
   Eigen::EigenSolver<ModeMatrix> solver(2 * n);

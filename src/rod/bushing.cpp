@@ -35,6 +35,7 @@ SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S
   out.angular_bias = (k.b_slope * t_dot) * s + (k.c_slope * t_dot) * cross(phi, s) + k.c * cross(phi_dot, s);
   out.linear_bias = zero;
   out.separate = true;
+  out.condensed = false;
   out.inverse_angular = symmetric_and_skew(k.d, S(1.0 - k.d * t), S(S{} - 0.5), phi);
 }
 

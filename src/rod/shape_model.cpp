@@ -1,13 +1,14 @@
 #include "spring_workbench/rod/shape_model.h"
 
 #include "bushing.h"
+#include "quadratic_rod.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "strain_rod.h"
 
 namespace spring_workbench {
 
 const std::vector<std::string>& shape_model_names() {
-  static const std::vector<std::string> names = {"constant", "linear", "bushing"};
+  static const std::vector<std::string> names = {"constant", "linear", "quadratic", "bushing"};
   return names;
 }
 
@@ -24,7 +25,15 @@ void ShapeModel::tip(const StrainVector& q, const StrainVector& q_dot, TipKinema
   }
   out.angular_bias = vector(tip_of.angular_bias);
   out.linear_bias = vector(tip_of.linear_bias);
+  out.condensed_force.setZero(size());
+  if (tip_of.condensed) {
+    for (int i = 0; i < size(); ++i) out.condensed_force[i] = tip_of.condensed_force[i];
+  }
 }
+
+std::shared_ptr<const ShapeModel> ShapeModel::for_stiffness(const PerFamily&) const { return nullptr; }
+
+double ShapeModel::condensed_energy(const StrainVector&) const { return 0.0; }
 
 bool ShapeModel::rechart(StrainVector&, StrainVector&) const { return false; }
 
@@ -32,6 +41,7 @@ std::shared_ptr<const ShapeModel> make_shape_model(const std::string& name, doub
   check_number("fork", "length", length, positive());
   if (name == "constant") return std::make_shared<StrainRod>(name, length, 1);
   if (name == "linear") return std::make_shared<StrainRod>(name, length, 2);
+  if (name == "quadratic") return std::make_shared<QuadraticRod>(length, PerFamily());
   if (name == "bushing") return std::make_shared<Bushing>(length);
   refuse("fork", "shape", name, "one of " + join(shape_model_names()));
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "piece_rotation.h"
 #include "spring_workbench/math/quadrature.h"
 
 namespace spring_workbench {
@@ -11,8 +12,8 @@ namespace {
 
 constexpr int most_nodes = 8;            ///< of the quadrature on a piece
 constexpr double angle_per_piece = 2.5;  ///< [rad]; the quadrature is exact to 1e-10 there
-constexpr double angle_of_five = 1.2;    ///< [rad]; five nodes are as exact up to there
-constexpr double angle_of_four = 0.5;    ///< [rad]; and four up to here
+constexpr double wave_of_six = 2.4;      ///< as wave(); six nodes are as exact up to there
+constexpr double wave_of_five = 1.3;     ///< and five up to here
 constexpr double most_turned = 64.0;     ///< [rad]; a rod wound up further is refused
 constexpr double least_stretch = 0.02;   ///< of the rest length; a rod compressed further is refused
 
@@ -20,64 +21,6 @@ template <int nodes>
 const GaussLegendre<nodes>& rule() {
   static const GaussLegendre<nodes> gauss;
   return gauss;
-}
-
-template <typename S>
-struct Quaternion {
-  Three<S> v;
-  S w;
-};
-template <typename S>
-SPRING_WORKBENCH_INLINE Quaternion<S> operator*(const Quaternion<S>& a, const Quaternion<S>& b) {
-  return {a.w * b.v + b.w * a.v + cross(a.v, b.v), a.w * b.w - dot(a.v, b.v)};
-}
-template <typename S>
-SPRING_WORKBENCH_INLINE ThreeByThree<S> rotation_matrix(const Quaternion<S>& q) {
-  return symmetric_and_skew(S(S{} + 2.0), S(1.0 - 2.0 * dot(q.v, q.v)), S(2.0 * q.w), q.v);
-}
-
-/// The rotation along a piece of the rod whose strain is linear, as a power series of its quaternion about the middle.
-/// The series of q' = ½ q (a + b u) converges for every strain; pieces are short enough that its terms leave 1e-13.
-template <typename S>
-class PieceRotation {
- public:
-  /// `a` = h k(middle), `b` = h² dk/ds: the strain over the piece of length h is (a + b u) / h for u = −½ … ½.
-  /// `angle`: a bound of |a| + |b| / 2 [rad].
-  SPRING_WORKBENCH_INLINE PieceRotation(const Three<S>& a, const Three<S>& b, double angle) {
-    pairs_ = angle < 0.5 ? 7 : angle < 1.2 ? 8 : most_pairs;
-    c_[0] = {none<S>(), S{} + 1.0};
-    c_[1] = {0.5 * a, S{}};
-    for (int n = 1; n + 1 < 2 * pairs_; ++n) {
-      const double f = 0.5 / (n + 1);
-      c_[n + 1].v = f * (c_[n].w * a + cross(c_[n].v, a) + c_[n - 1].w * b + cross(c_[n - 1].v, b));
-      c_[n + 1].w = -f * (dot(c_[n].v, a) + dot(c_[n - 1].v, b));
-    }
-  }
-
-  struct Two {
-    Quaternion<S> before, after;
-  };
-  /// Rotation from the piece's middle to −u and u.
-  SPRING_WORKBENCH_INLINE Two at(double u) const {
-    const double t = u * u;
-    Quaternion<S> even = c_[2 * pairs_ - 2], odd = c_[2 * pairs_ - 1];
-    for (int n = pairs_ - 2; n >= 0; --n) {
-      even = {c_[2 * n].v + t * even.v, c_[2 * n].w + t * even.w};
-      odd = {c_[2 * n + 1].v + t * odd.v, c_[2 * n + 1].w + t * odd.w};
-    }
-    return {{even.v - u * odd.v, even.w - u * odd.w}, {even.v + u * odd.v, even.w + u * odd.w}};
-  }
-
- private:
-  static constexpr int most_pairs = 11;
-
-  int pairs_;
-  Quaternion<S> c_[2 * most_pairs];
-};
-
-template <typename S>
-SPRING_WORKBENCH_INLINE Quaternion<S> conjugate(const Quaternion<S>& q) {
-  return {-1.0 * q.v, q.w};
 }
 
 }  // namespace
@@ -111,6 +54,11 @@ SPRING_WORKBENCH_INLINE double StrainRod::turned_angle(const LinearStrain<S>& k)
                      0.5 * length() * std::sqrt(largest(dot(k.slope, k.slope))));
 }
 
+template <typename S>
+SPRING_WORKBENCH_INLINE double StrainRod::wave(const LinearStrain<S>& k, double angle) const {
+  return std::sqrt(angle * angle + 4.0 * length() * length() * std::sqrt(largest(dot(k.slope, k.slope))));
+}
+
 int StrainRod::pieces(double angle) const {
   return 1 + static_cast<int>(std::min(angle, most_turned) / angle_per_piece);
 }
@@ -125,7 +73,7 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   const Three<S> zero = none<S>();
 
   // Integrals from the handle to the start of the piece, then to the tip. Velocities in the axes of H.
-  Quaternion<S> turned{zero, S{} + 1.0};
+  QuaternionOf<S> turned{zero, S{} + 1.0};
   Three<S> p = zero;  // ∫ d3 (position at unit stretch)
   Three<S> w = zero;  // ∫ R k̇
   // Moments about the handle; they are shifted to the tip at the end: ∫ f × (p_tip − p) = (∫ f) × p_tip − ∫ f × p.
@@ -139,10 +87,10 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
 
   for (int piece = 0; piece < count; ++piece) {
     const double s_begin = piece * h;
-    const PieceRotation<S> rotation(h * (k.value + (s_begin + 0.5 * h - 0.5 * length()) * k.slope), (h * h) * k.slope,
-                                    angle / count);
+    const PieceRotation<1, S> rotation(
+        {h * (k.value + (s_begin + 0.5 * h - 0.5 * length()) * k.slope), (h * h) * k.slope}, angle / count);
     const auto ends = rotation.at(0.5);
-    const Quaternion<S> to_middle = turned * conjugate(ends.before);
+    const QuaternionOf<S> to_middle = turned * conjugate(ends.before);
     ThreeByThree<S> R[nodes];
     for (int i = 0; i < (nodes + 1) / 2; ++i) {
       const auto both = rotation.at(0.5 - gauss.nodes[i]);
@@ -192,8 +140,7 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
     w += w_rise;
   }
 
-  const S shorten = 1.5 - 0.5 * (dot(turned.v, turned.v) + turned.w * turned.w);  // a Newton step towards unit length
-  out.R_HE = rotation_matrix(Quaternion<S>{shorten * turned.v, shorten * turned.w});
+  out.R_HE = rotation_matrix(normalised(turned));
   out.p_HE = stretched * p;
   const auto set = [&](int c, int i) {
     out.angular[c] = f[i];
@@ -208,14 +155,16 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   out.angular_bias = bias;
   out.linear_bias =
       stretched * (cross(bias, p) - bias_cross_p + centripetal) + (2.0 * stretching) * coriolis;
-  out.separate = false;
+  out.separate = out.condensed = false;
 }
 
 template <typename S>
 SPRING_WORKBENCH_INLINE void StrainRod::tip_of(const S* q, const S* q_dot, TipOf<S>& out) const {
-  const double angle = turned_angle(curvature(q));
-  if (angle < angle_of_four) return integrate<4>(q, q_dot, 1, angle, out);
-  if (angle < angle_of_five) return integrate<5>(q, q_dot, 1, angle, out);
+  const LinearStrain<S> k = curvature(q);
+  const double angle = turned_angle(k);
+  const double most = wave(k, angle);
+  if (most < wave_of_five) return integrate<5>(q, q_dot, 1, angle, out);
+  if (most < wave_of_six) return integrate<6>(q, q_dot, 1, angle, out);
   return integrate<most_nodes>(q, q_dot, pieces(angle), angle, out);
 }
 
@@ -232,13 +181,13 @@ RigidTransform StrainRod::section(const StrainVector& q, double s) const {
   const double angle = turned_angle(k) * s / length();
   const int count = pieces(angle);
   const double h = s / count;
-  Quaternion<double> turned{none<double>(), 1.0};
+  QuaternionOf<double> turned{none<double>(), 1.0};
   Three<double> p = none<double>();
   for (int piece = 0; piece < count; ++piece) {
-    const PieceRotation<double> rotation(h * (k.value + ((piece + 0.5) * h - 0.5 * length()) * k.slope),
-                                         (h * h) * k.slope, angle / count);
+    const PieceRotation<1, double> rotation(
+        {h * (k.value + ((piece + 0.5) * h - 0.5 * length()) * k.slope), (h * h) * k.slope}, angle / count);
     const auto ends = rotation.at(0.5);
-    const Quaternion<double> to_middle = turned * conjugate(ends.before);
+    const QuaternionOf<double> to_middle = turned * conjugate(ends.before);
     for (int i = 0; i < most_nodes / 2; ++i) {
       const auto both = rotation.at(0.5 - gauss.nodes[i]);
       p += (h * gauss.weights[i]) *

@@ -33,6 +33,11 @@ class StrainRod final : public ShapeModel {
   /// Upper bound of the angle through which the rod is turned [rad].
   template <typename S>
   double turned_angle(const LinearStrain<S>& k) const;
+  /// By how much the quadrature's integrand is multiplied with each derivative, over the whole rod: where the strain
+  /// changes along it, the ten to twelve derivatives that count are larger than those of the angle alone, as those of
+  /// exp(i b u²/2) are.
+  template <typename S>
+  double wave(const LinearStrain<S>& k, double angle) const;
   template <typename S>
   void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
   /// The tip by `count` pieces of the rod with so many nodes each; `angle`: as turned_angle().

@@ -118,6 +118,32 @@ Contacts to_message(const std::vector<ContactState>& contacts) {
   return message;
 }
 
+TaskState to_message(const std::vector<Placement>& placements, const TaskScore& score) {
+  TaskState message;
+  for (const Placement& placement : placements) {
+    PlacementState p;
+    p.object = placement.object;
+    p.position_error = placement.position_error;
+    p.angle_error = placement.angle_error;
+    p.in_place = placement.in_place;
+    message.placements.push_back(p);
+  }
+  message.targets = static_cast<uint32_t>(score.targets);
+  message.placed = static_cast<uint32_t>(score.placed);
+  message.complete = score.complete();
+  message.time = score.time;
+  message.hand_path = score.hand_path;
+  message.object_path = score.object_path;
+  message.grasps = static_cast<uint32_t>(score.grasps);
+  message.collisions = static_cast<uint32_t>(score.collisions);
+  message.drops = static_cast<uint32_t>(score.drops);
+  message.largest_force = score.largest_force;
+  message.position_error = score.position_error;
+  message.angle_error = score.angle_error;
+  message.csv = score_csv(score);
+  return message;
+}
+
 StepReport to_message(const AdvanceReport& report) {
   StepReport message;
   message.simulated_time = report.simulated_time;

@@ -72,6 +72,7 @@ bool ManipulationNode::run_step(double due) {
   runner_.locked([&](const Simulation& simulation) { publisher_.publish(simulation, stamp, now); });
   const bool deadline_missed = loop_time() > std::max(due, now) + 1.0 / parameters_.rate;
   const std::string integrator = runner_.locked([](const Simulation& s) { return s.settings().dynamics.integrator; });
+  publisher_.publish_task(runner_, stamp);
   publisher_.publish_steps(report, integrator, stamp, deadline_missed);
   count(report, deadline_missed);
   return report.more;

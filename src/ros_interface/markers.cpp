@@ -16,7 +16,8 @@ MarkerBuilder::MarkerBuilder(std::string fork_curve, double lifetime)
 MarkerArray MarkerBuilder::build(const Simulation& simulation, const std_msgs::Header& header) {
   const Scene& scene = simulation.scene();
   const ToolState tool = simulation.fork();
-  const auto shape = make_shape_model(tool.shape, tool.length);
+  auto shape = make_shape_model(tool.shape, tool.length);
+  if (auto stiff = shape->for_stiffness(tool.stiffness)) shape = std::move(stiff);
   fork_.deform(make_fork_curve(fork_curve_, *shape, tool.strain, tool.X_WH_seen), coil_diameter(tool.length),
                fork_mesh_);
   const LoadScale scale(scene);

@@ -4,6 +4,11 @@
 #include <cmath>
 
 namespace spring_workbench {
+namespace {
+
+constexpr double kShortestSilence = 0.2;  // [s] by the wall clock
+
+}  // namespace
 
 void PlayoutClock::sample(double t, const LocalTime& arrival) {
   constexpr double share_of_new = 0.1;  // smooths over some ten samples
@@ -17,12 +22,24 @@ void PlayoutClock::sample(double t, const LocalTime& arrival) {
 }
 
 double PlayoutClock::target(const LocalTime& now) const {
-  constexpr double shortest_silence = 0.2;  // [s] by the wall clock
   const double waited = std::max(now.loop - arrival_.loop, 0.0);
   const double target = newest_ + waited - interval_;
   if (!simulated_time_) return waited > dropout_after_ ? target : std::min(target, newest_);
-  const bool silent = waited > dropout_after_ && now.wall - arrival_.wall > shortest_silence;
-  return silent ? std::max(target, before_newest_) : before_newest_;
+  const bool silent = waited > dropout_after_ && now.wall - arrival_.wall > kShortestSilence;
+  if (silent) return std::max(target, before_newest_);
+  const bool buttons_come = now.wall - buttons_arrival_ < kShortestSilence;
+  return buttons_come ? std::min(before_newest_, buttons_until_) : before_newest_;
+}
+
+void PlayoutClock::buttons(double t, const LocalTime& arrival) {
+  buttons_until_ = std::max(buttons_until_, t);
+  buttons_arrival_ = arrival.wall;
+}
+
+void PlayoutClock::clear() {
+  const double buttons_arrival = buttons_arrival_;
+  *this = PlayoutClock(dropout_after_, simulated_time_);
+  buttons_arrival_ = buttons_arrival;
 }
 
 }  // namespace spring_workbench

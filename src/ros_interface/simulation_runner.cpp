@@ -6,10 +6,16 @@
 #include <limits>
 
 namespace spring_workbench {
+namespace {
+
+constexpr double kSlack = 1e-6;  // of a grid step
+
+}  // namespace
 
 SimulationRunner::SimulationRunner(const Scene& scene, const SimulationSettings& settings, const TruthSettings& truth,
                                    double grid)
     : simulation_(std::make_unique<Simulation>(scene, settings)),
+      task_(scene),
       playout_(settings.dropout_after, grid > 0.0),
       hand_(truth),
       grid_(grid) {}
@@ -18,7 +24,8 @@ CycleReport SimulationRunner::cycle(const std::vector<StylusEvent>& events, cons
   constexpr double longest_catch_up = 5.0;  // [s] beyond this, time has leapt
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto begin = std::chrono::steady_clock::now();
-  for (const StylusEvent& event : events) std::visit([this](const auto& e) { apply(e); }, event);
+  waiting_.insert(waiting_.end(), events.begin(), events.end());
+  feed(now);
   CycleReport report;
   const double target = playout_.target(now);
   if (has_sample_ && target > simulation_->time() + longest_catch_up) {
@@ -27,17 +34,33 @@ CycleReport SimulationRunner::cycle(const std::vector<StylusEvent>& events, cons
   } else if (has_sample_ && target > simulation_->time()) {
     advance(target, report);
   }
+  report.more |= !waiting_.empty();
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
 }
 
+void SimulationRunner::feed(const LocalTime& now) {
+  while (!waiting_.empty()) {
+    const bool new_epoch = std::holds_alternative<NewEpoch>(waiting_.front());
+    if (new_epoch && grid_ > 0.0 && has_sample_ && has_more(playout_.target(now))) return;
+    std::visit([this](const auto& e) { apply(e); }, waiting_.front());
+    waiting_.pop_front();
+  }
+}
+
+/// Whether the next step of the grid lies before the target, not on it: there the segment begins whose velocity hangs on
+/// a sample that may not be here yet.
+bool SimulationRunner::has_more(double target) const { return next_on_grid() <= target - kSlack * grid_; }
+
+double SimulationRunner::next_on_grid() const {
+  return grid_ * (std::floor(simulation_->time() / grid_ + kSlack) + 1.0);
+}
+
 void SimulationRunner::advance(double target, CycleReport& report) {
   if (grid_ > 0.0) {
-    constexpr double slack = 1e-6;  // of a grid step
-    const double next = grid_ * (std::floor(simulation_->time() / grid_ + slack) + 1.0);
-    // Before the target, not onto it: there the segment begins whose velocity hangs on a sample that may not be here yet.
-    if (next > target - slack * grid_) return;
-    report.more = next + grid_ <= target - slack * grid_;
+    if (!has_more(target)) return;
+    const double next = next_on_grid();
+    report.more = next + grid_ <= target - kSlack * grid_;
     target = next;
   }
   const std::optional<double> release = hand_.take_release(target);
@@ -47,6 +70,7 @@ void SimulationRunner::advance(double target, CycleReport& report) {
   }
   report.advance = simulation_->advance(target);
   if (release) simulation_->release();
+  task_.observe(*simulation_);
 }
 
 void SimulationRunner::apply(const NewEpoch& epoch) {
@@ -65,8 +89,11 @@ void SimulationRunner::apply(const StylusPose& pose) {
 
 void SimulationRunner::apply(const StylusButton& button) { simulation_->push_button(button.t, button.pressed); }
 
+void SimulationRunner::apply(const ButtonsKnown& known) { playout_.buttons(known.t, known.arrival); }
+
 void SimulationRunner::start_anew() {
   simulation_->reset();
+  task_.reset();
   playout_.clear();
   hand_.restart();
   has_sample_ = false;
@@ -80,6 +107,7 @@ void SimulationRunner::restart() {
 void SimulationRunner::load(const Scene& scene) {
   const std::lock_guard<std::mutex> lock(mutex_);
   simulation_ = std::make_unique<Simulation>(scene, simulation_->settings());
+  task_ = TaskMonitor(scene);
   playout_.clear();
   hand_.restart();
   has_sample_ = false;

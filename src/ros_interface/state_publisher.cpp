@@ -9,7 +9,7 @@
 namespace spring_workbench {
 namespace {
 
-constexpr uint32_t queue = 10;
+constexpr uint32_t queue = 100;  // simulated time may go on by many steps at once
 constexpr double shortest_lifetime = 2.0;  // of markers [s]
 const char* const handle_frame = "fork_handle";
 const char* const tip_frame = "fork_tip";
@@ -24,8 +24,9 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
       fork_publisher_(private_node.advertise<ForkState>("fork", queue)),
       wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", queue)),
       contacts_publisher_(private_node.advertise<Contacts>("contacts", queue)),
-      markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", queue)),
-      steps_publisher_(private_node.advertise<StepReport>("steps", queue)) {}
+      markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 10)),
+      steps_publisher_(private_node.advertise<StepReport>("steps", queue)),
+      task_publisher_(private_node.advertise<TaskState>("task", queue)) {}
 
 void StatePublisher::publish(const Simulation& simulation, const ros::Time& stamp, double now) {
   std_msgs::Header header;
@@ -101,6 +102,15 @@ void StatePublisher::publish_steps(const CycleReport& report, const std::string&
   message.integrator = integrator;
   message.deadline_missed = deadline_missed;
   steps_publisher_.publish(message);
+}
+
+void StatePublisher::publish_task(const SimulationRunner& runner, const ros::Time& stamp) {
+  if (task_publisher_.getNumSubscribers() == 0) return;
+  const TaskMonitor task = runner.task();
+  TaskState message = to_message(task.placements(), task.score());
+  message.header.frame_id = world_frame_;
+  message.header.stamp = stamp;
+  task_publisher_.publish(message);
 }
 
 }  // namespace spring_workbench

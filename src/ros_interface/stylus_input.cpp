@@ -36,6 +36,16 @@ RawSample raw(const geometry_msgs::Transform& T, double t) {
           Quaterniond(T.rotation.w, T.rotation.x, T.rotation.y, T.rotation.z)};
 }
 
+constexpr double kSlip = 0.1;  // [s] a clock that is set right by less goes on
+
+/// Keeps the newest few.
+template <typename Message>
+void keep(const Message& message, std::deque<Message>& kept) {
+  constexpr std::size_t most = 1000;
+  kept.push_back(message);
+  if (kept.size() > most) kept.pop_front();
+}
+
 std::string number(double value) {
   std::ostringstream out;
   out << value;
@@ -91,27 +101,26 @@ void StylusInput::on_static_transforms(const tf2_msgs::TFMessageConstPtr& messag
 
 void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event) {
   if (event.getPublisherName() == ros::this_node::getName()) return;
-  const ros::Time now = ros::Time::now();
   const std::lock_guard<std::mutex> lock(mutex_);
   ++statistics_.messages;
   for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
     constexpr std::size_t most_frames = 20;  // that a hint can name
     if (statistics_.frames.size() < most_frames) statistics_.frames.insert(frame(transform.child_frame_id));
     if (frame(transform.child_frame_id) != parameters_.stylus_frame) continue;
-    notice_jump(now);
-    on_stylus(transform, now);
+    if (const std::optional<ros::Time> now = moment_of(transform.header.stamp, poses_)) {
+      on_stylus(transform, *now);
+    } else {
+      keep(transform, early_poses_);
+      start_anew_when_due();
+    }
   }
 }
 
 void StylusInput::on_stylus(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {
   const double age = (now - transform.header.stamp).toSec();
   statistics_.newest_offer_age = age;
+  if (ros::Time::isSimTime() && (poses_.newest - transform.header.stamp).toSec() > kSlip) keep(transform, early_poses_);
   if (std::abs(age) > parameters_.max_age) {
-    if (age > 0.0 && ros::Time::isSimTime()) {
-      constexpr std::size_t most = 20;
-      early_.push_back(transform);
-      if (early_.size() > most) early_.pop_front();
-    }
     return leave_out(age > 0.0 ? "too old" : "from the future",
                      place(transform) + "stamp: an age of " + number(age) + " s is not allowed: must be within " +
                          "max_age = " + number(parameters_.max_age) + " s (a bag needs --clock and use_sim_time)");
@@ -125,6 +134,7 @@ void StylusInput::on_stylus(const geometry_msgs::TransformStamped& transform, co
                                             parameters_.workbench_frame + " or tied to it on /tf_static");
     }
   }
+  poses_.newest = std::max(poses_.newest, transform.header.stamp);
   offer(transform, X_WP, age);
 }
 
@@ -144,31 +154,61 @@ void StylusInput::offer(const geometry_msgs::TransformStamped& transform, const 
 }
 
 void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
-  const ros::Time now = ros::Time::now();
   const std::lock_guard<std::mutex> lock(mutex_);
-  notice_jump(now);
   if (message->buttons.empty()) {
     return leave_out("no buttons", "stylus/joy: buttons: [] is not allowed: must be at least one button");
   }
-  const bool pressed = message->buttons[0] != 0;
-  if (pressed == pressed_) return;
-  pressed_ = pressed;
-  const bool usable_stamp = std::abs((now - message->header.stamp).toSec()) <= parameters_.max_age;
-  events_.push_back(StylusButton{seconds(usable_stamp ? message->header.stamp : now), pressed});
+  if (const std::optional<ros::Time> now = moment_of(message->header.stamp, buttons_)) return on_buttons(*message, *now);
+  keep(*message, early_buttons_);
+  start_anew_when_due();
 }
 
-void StylusInput::notice_jump(const ros::Time& now) {
-  constexpr double slip = 0.1;  // [s] a clock that is set right by less goes on
-  if (!last_now_.isZero() && (last_now_ - now).toSec() > slip) {
-    zero_ = ros::Time();
-    pressed_ = false;
-    truth_.restart();
-    monitor_.restart();
-    ++statistics_.restarts;
-    ROS_INFO("time went back by %.3g s: starting anew", (last_now_ - now).toSec());
-    for (const geometry_msgs::TransformStamped& transform : std::exchange(early_, {})) on_stylus(transform, now);
+void StylusInput::on_buttons(const sensor_msgs::Joy& message, const ros::Time& now) {
+  const ros::Time& stamp = message.header.stamp;
+  if (ros::Time::isSimTime() && !stamp.isZero() && (buttons_.newest - stamp).toSec() > kSlip) {
+    return keep(message, early_buttons_);
   }
+  const bool usable_stamp = std::abs((now - stamp).toSec()) <= parameters_.max_age;
+  const double t = seconds(usable_stamp ? stamp : now);
+  if (usable_stamp) buttons_.newest = std::max(buttons_.newest, stamp);
+  const bool pressed = message.buttons[0] != 0;
+  if (pressed != pressed_) events_.push_back(StylusButton{t, pressed});
+  pressed_ = pressed;
+  events_.push_back(ButtonsKnown{t, local_time()});
+}
+
+/// The time now, for a message with this stamp of this stream; nothing when it belongs to the time after a jump back for
+/// which it has to wait. The clock and both streams come by ways of their own, and what was sent before the jump may
+/// come after it: a stamp that goes on where its stream was, near what the clock said then, belongs to the time before.
+std::optional<ros::Time> StylusInput::moment_of(const ros::Time& stamp, Stream& stream) {
+  const ros::Time now = ros::Time::now();
+  jumped_ |= !last_now_.isZero() && (last_now_ - now).toSec() > kSlip;
+  if (!jumped_) last_now_ = now;
+  const bool goes_on = ros::Time::isSimTime() && !stream.newest.isZero() && stamp > stream.newest &&
+                       std::abs((last_now_ - stamp).toSec()) < parameters_.max_age;
+  if (jumped_ && !goes_on) return std::nullopt;
+  stream.arrival = local_time().wall;
+  return last_now_;
+}
+
+/// Starts anew unless the other stream, which was alive a moment ago, has not come to the jump yet.
+void StylusInput::start_anew_when_due() {
+  constexpr double patience = 0.2;  // [s] by the wall clock
+  const double wall = local_time().wall;
+  const auto awaited = [&](const Stream& stream, bool has_jumped) {
+    return ros::Time::isSimTime() && !has_jumped && wall - stream.arrival < patience;
+  };
+  if (awaited(poses_, !early_poses_.empty()) || awaited(buttons_, !early_buttons_.empty())) return;
+  const ros::Time now = ros::Time::now();
+  ROS_INFO("time went back by %.3g s: starting anew", (last_now_ - now).toSec());
+  jumped_ = pressed_ = false;
+  zero_ = poses_.newest = buttons_.newest = ros::Time();
   last_now_ = now;
+  truth_.restart();
+  monitor_.restart();
+  ++statistics_.restarts;
+  for (const geometry_msgs::TransformStamped& transform : std::exchange(early_poses_, {})) on_stylus(transform, now);
+  for (const sensor_msgs::Joy& message : std::exchange(early_buttons_, {})) on_buttons(message, now);
 }
 
 double StylusInput::seconds(const ros::Time& stamp) {

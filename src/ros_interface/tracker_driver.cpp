@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "interactive_marker_source.h"
+#include "joy_source.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/ros_interface/conversions.h"
 #include "spring_workbench/ros_interface/diagnostics.h"
@@ -30,6 +32,25 @@ std::string resolve(const std::string& path_or_uri) {
   return folder + rest.substr(package.size());
 }
 
+/// The parameters that go with a source.
+std::vector<std::string> keys_of(const std::string& source) {
+  std::vector<std::string> keys{"source", "rate", "workbench_frame", "stylus_frame", "head_frame", "head",
+                                "interpupillary_distance", "dropout_after"};
+  const auto add = [&](const std::vector<std::string>& more) { keys.insert(keys.end(), more.begin(), more.end()); };
+  if (source == "fastrak") {
+    add({"offset", "tip", "even_stamps"});
+    add(fastrak_keys());
+  } else if (source == "interactive_marker" || source == "joy") {
+    add({"start"});
+    if (source == "joy") add(joy_keys());
+  } else if (source == "operator") {
+    add({"offset", "tip", "scene", "seed", "speed", "loop", "pause"});
+  } else {
+    add({"offset", "tip", "file", "speed", "loop", "pause", "start", "grasp_from", "grasp_until"});
+  }
+  return keys;
+}
+
 }  // namespace
 
 TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::string& where) {
@@ -37,16 +58,14 @@ TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::st
   TrackerParameters result;
   take_truth_settings(parameters, where, result.truth);
   if (parameters["source"]) {
-    result.source = read_choice(parameters["source"], where, "source", {"motion_file", "scripted", "fastrak"});
+    result.source = read_choice(parameters["source"], where, "source", 
+                                {"motion_file", "scripted", "operator", "fastrak", "interactive_marker", "joy"});
   }
-  const bool live = result.source == "fastrak";
-  std::vector<std::string> keys{"source", "rate", "workbench_frame", "stylus_frame", "head_frame", "offset", "head", "tip",
-                                "interpupillary_distance", "dropout_after"};
-  const std::vector<std::string> of_motions{"file", "speed", "loop", "pause", "start", "grasp_from", "grasp_until"};
-  for (const std::string& key : live ? fastrak_keys() : of_motions) keys.push_back(key);
-  if (live) keys.push_back("even_stamps");
-  check_keys(parameters, where, "", keys);
-  if (live) result.fastrak = read_fastrak_settings(parameters, where);
+  check_keys(parameters, where, "", keys_of(result.source));
+  const bool is_motion = result.source == "motion_file" || result.source == "scripted";
+  result.even_stamps = result.source == "fastrak";
+  if (result.source == "fastrak") result.fastrak = read_fastrak_settings(parameters, where);
+  if (result.source == "joy") result.joy = read_joy_settings(parameters, where);
   constexpr double unbounded = std::numeric_limits<double>::max();
   const auto number = [&](const char* key, const NumberRule& rule, double& value) {
     if (parameters[key]) value = read_number(parameters[key], where, key, rule);
@@ -55,7 +74,11 @@ TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::st
     if (parameters[key]) value = read_string(parameters[key], where, key);
     if (value.empty()) refuse(where, key, "(nothing)", "a string that is not empty");
   };
-  if (!live) text("file", result.file);
+  if (is_motion) text("file", result.file);
+  if (result.source == "operator") {
+    text("scene", result.scene);
+    if (parameters["seed"]) result.seed = read_integer(parameters["seed"], where, "seed", 0, 1000000000);
+  }
   text("workbench_frame", result.workbench_frame);
   text("stylus_frame", result.stylus_frame);
   text("head_frame", result.head_frame);
@@ -88,19 +111,39 @@ TrackerDriver::TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
       played_(parameters_.truth, parameters_.dropout_after),
       joy_publisher_(node.advertise<sensor_msgs::Joy>("stylus/joy", 100)),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
-  if (parameters_.source == "fastrak") {
-    device_ = std::make_unique<FastrakSource>(parameters_.fastrak);
+  if (parameters_.source == "operator") {
+    eyes_ = std::make_unique<OperatorEyes>(node);
     return;
   }
+  device_ = open_device(node, private_node);
+  if (device_) return;
   const auto first = open()->next();
   if (!first) throw InputError(parameters_.file + ": no samples: must be at least one");
   if (parameters_.X_BS_first) X_BT_ = *parameters_.X_BS_first * first->X.inverse();
 }
 
-std::unique_ptr<StylusSource> TrackerDriver::open() const {
+std::unique_ptr<StylusSource> TrackerDriver::open() {
+  if (eyes_) {
+    OperatorSettings settings;
+    settings.seed = static_cast<unsigned>(parameters_.seed);
+    eyes_->wait();
+    return std::make_unique<SimulatedOperator>(load_scene(parameters_.scene), settings, [this] { return eyes_->look(); });
+  }
   const std::string path = resolve(parameters_.file);
   if (parameters_.source == "scripted") return std::make_unique<ScriptedSource>(path);
   return std::make_unique<RecordedSource>(read_motion_file(path));
+}
+
+/// Nothing where the source is a motion.
+std::unique_ptr<LiveSource> TrackerDriver::open_device(ros::NodeHandle node, ros::NodeHandle private_node) const {
+  const RigidTransform above = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.4));
+  const RigidTransform X_WB = parameters_.X_BS_first.value_or(above);
+  if (parameters_.source == "fastrak") return std::make_unique<FastrakSource>(parameters_.fastrak);
+  if (parameters_.source == "joy") return std::make_unique<JoySource>(node, parameters_.joy, X_WB);
+  if (parameters_.source == "interactive_marker") {
+    return std::make_unique<InteractiveMarkerSource>(private_node, parameters_.workbench_frame, X_WB);
+  }
+  return nullptr;
 }
 
 /// Eyes beside each other in the head's axes: x forward, y left (REP 103).
@@ -156,15 +199,16 @@ void TrackerDriver::send(const StylusSample& sample, const ros::Time& stamp) {
   transforms_.sendTransform(
       {to_transform(X_BT_ * sample.X * Eigen::Translation3d(parameters_.p_ST), parameters_.workbench_frame, parameters_.stylus_frame, stamp),
        to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp)});
-  send_buttons(sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), stamp);
+  send_buttons(sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), false,
+               stamp);
   ++sent_;
 }
 
-void TrackerDriver::send_buttons(bool grasp, const ros::Time& stamp) {
+void TrackerDriver::send_buttons(bool grasp, bool next_tool, const ros::Time& stamp) {
   sensor_msgs::Joy joy;
   joy.header.stamp = stamp;
   joy.header.frame_id = parameters_.stylus_frame;
-  joy.buttons = {grasp ? 1 : 0, 0};
+  joy.buttons = {grasp ? 1 : 0, next_tool ? 1 : 0};
   joy_publisher_.publish(joy);
 }
 
@@ -191,7 +235,9 @@ StationStream& TrackerDriver::stream_of(int station) {
 void TrackerDriver::send(const StationSample& sample) {
   const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
   const TrueSample taken = stream_of(sample.station).take(sample);
-  if (sample.station == 1) send_buttons(sample.button, ros::Time::now() - ros::Duration(now.count() - sample.received));
+  if (sample.station == 1) {
+    send_buttons(sample.button, sample.next_tool, ros::Time::now() - ros::Duration(now.count() - sample.received));
+  }
   if (!usable(taken.verdict)) {
     ++left_out_;
     return;

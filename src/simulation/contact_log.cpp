@@ -30,7 +30,8 @@ void ContactLog::note(std::size_t object, const BodyState& state, const std::vec
     c.p_W = row.point.p_W;
     c.n_W = row.point.n_W;
     c.depth = std::max(0.0, -row.gap);
-    c.impulse = h * std::max(0.0, row.load_W.dot(row.point.n_W));
+    c.force = std::max(0.0, row.load_W.dot(row.point.n_W));
+    c.impulse = h * c.force;
     const Vector3d v =
         state.V_WO_W.linear + state.V_WO_W.angular.cross(row.point.p_W - state.X_WO.translation());
     c.slip_speed = (v - row.point.n_W * v.dot(row.point.n_W)).norm();
@@ -39,7 +40,7 @@ void ContactLog::note(std::size_t object, const BodyState& state, const std::vec
   // What was touched and is no more, until it has been told.
   for (ContactState& c : touching_[object]) {
     if (contains_pair(now_touching, c)) continue;
-    c.impulse = 0.0;
+    c.impulse = c.force = 0.0;
     ended_.push_back(c);
   }
   touching_[object] = std::move(now_touching);

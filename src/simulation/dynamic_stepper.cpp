@@ -11,6 +11,7 @@ namespace spring_workbench {
 namespace {
 
 constexpr double longest_piece = 2e-3;     ///< [s]
+constexpr double shortest_step = 1e-9;     ///< [s]; of a step shorter than this contact takes no notice
 constexpr double longest_travel = 5e-4;    ///< [m] of any point of a held body in a piece
 constexpr int most_pieces = 2000;
 /// Contact keeps clear the way over a piece for the most part, and for this part the way that the velocity at its end would
@@ -51,7 +52,7 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<SteppedBody*>& he
     const double turned = log_so3(w.X0.linear().transpose() * w.X1.linear()).norm();
     travel = std::max(travel, (w.X1.translation() - w.X0.translation()).norm() + radius_[body->index()] * turned);
   }
-  if (!near) {
+  if (!near || h < shortest_step) {
     outcome.pieces = 1;
     for (SteppedBody* body : held) {
       body->remember();

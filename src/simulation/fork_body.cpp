@@ -239,9 +239,9 @@ void ForkBody::stay(double h) {
   state_.behind = true;
 }
 
-ForkBody::Estimates ForkBody::take_estimates() {
-  const Estimates e = estimates_;
-  estimates_ = Estimates();
+StepEstimates ForkBody::take_estimates() {
+  const StepEstimates e = estimates_;
+  estimates_ = StepEstimates();
   return e;
 }
 

@@ -3,14 +3,13 @@
 #include <memory>
 
 #include "spring_workbench/dynamics/step_control.h"
-#include "spring_workbench/simulation/simulation.h"
-#include "stepped_body.h"
+#include "tool_hold.h"
 
 namespace spring_workbench {
 
 /// The body on the fork: strain coordinates, the hand's motion, and, where the coordinates cannot follow what a contact
 /// asks, a handle that stays behind the hand as its proxy (doc/model.md, "When the coordinates cannot follow").
-class ForkBody final : public SteppedBody {
+class ForkBody final : public ToolHold {
  public:
   ForkBody(std::size_t index, HeldBody held, StepControl control, double t);
 
@@ -25,14 +24,20 @@ class ForkBody final : public SteppedBody {
   void stay(double h) override;
 
   /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
-  void set_hand(const MotionSegment& hand, double t);
-  /// Whether nothing moves for the next `h` [s], and nothing need be done but let_pass(): the hand is at rest and the
-  /// object has come to rest on it. `may_fall_asleep`: false where something else may move it.
-  bool sleeps(double h, bool may_fall_asleep);
-  void let_pass(double h) { state_.t += h; }
+  void set_hand(const MotionSegment& hand, double t) override;
+  bool sleeps(double h, bool may_fall_asleep) override;
+  void let_pass(double h) override { state_.t += h; }
 
   /// Sets strain rates so that the object's twist comes as near as it can to this one.
-  void take_twist(const Twist& V_WO_W);
+  void take_twist(const Twist& V_WO_W) override;
+  void set_springs(const ForkSettings& fork) override;
+  PerFamily calibrate(const ForkSettings& fork, double gravity) override;
+  bool set_dofs(const ForkDofs& dofs, double switch_off_time) override;
+  void set_step_control(const DynamicsSettings& settings) override { control_ = make_step_control(settings); }
+  static StepControl make_step_control(const DynamicsSettings& settings);
+  int coordinates() const override { return held_.size(); }
+  double length() const override { return held_.shape().length(); }
+  double elastic_energy() const override;
 
   HeldBody& held() { return held_; }
   const HeldBody& held() const { return held_; }
@@ -41,7 +46,6 @@ class ForkBody final : public SteppedBody {
     state_.strain = state;
     sleep_ = Sleep();
   }
-  void set_step_control(StepControl control) { control_ = std::move(control); }
 
   double time() const { return state_.t; }
   HandleForcing handle() const;        ///< the handle that the object sees, at present
@@ -52,20 +56,12 @@ class ForkBody final : public SteppedBody {
   /// Energy [J] that integration has added since the grasp: what the object and the fork have gained beyond the work of
   /// hand, gravity, contact and damping. That work is a three-point quadrature over each step, so the figure means
   /// something where the step resolves the motion (ω·dt below about 1). While a family returns to zero nothing is added.
-  double energy_added() const { return state_.energy_added; }
+  double energy_added() const override { return state_.energy_added; }
 
   /// Fills in what the fork knows of its state. `massless`: the object has no mass, and forces mean nothing.
-  void describe(bool massless, ToolState& state) const;
-  /// Pose of the rod's section at arc length `s` [m] of the rest shape, in world.
-  RigidTransform section(double s) const;
+  void describe(bool massless, ToolState& state) const override;
 
-  // What the steps since the last call said.
-  struct Estimates {
-    double position = 0.0, angle = 0.0, omega_dt = 0.0;
-    int extra_steps = 0;  ///< beside one for each call of advance()
-    int rejected = 0, energy_held = 0;
-  };
-  Estimates take_estimates();
+  StepEstimates take_estimates() override;
 
  private:
   struct State {
@@ -92,7 +88,7 @@ class ForkBody final : public SteppedBody {
   StepControl control_;
   MotionSegment hand_;
   State state_, remembered_;
-  Estimates estimates_;
+  StepEstimates estimates_;
   /// What a sleeper's rest rests on.
   struct Sleep {
     long version = -1;  ///< of the equations; −1: awake

@@ -1,7 +1,31 @@
-// What the fork tells of itself.
+// Changes of the fork while it holds, and what it tells of itself.
 #include "fork_body.h"
+#include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench {
+
+void ForkBody::set_springs(const ForkSettings& fork) { held_.set_springs(fork.stiffness, fork.damping_ratio); }
+
+PerFamily ForkBody::calibrate(const ForkSettings& fork, double gravity) {
+  const ForkCalibration found = calibrated_fork(fork.shape, length(), held_.body(), gravity);
+  const PerFamily& ratio = fork.damping_ratio;
+  const PerFamily& c = found.damping;
+  held_.set_springs_and_dampers(found.stiffness,
+                                {ratio.stretch * c.stretch, ratio.bend * c.bend, ratio.torsion * c.torsion});
+  return found.stiffness;
+}
+
+bool ForkBody::set_dofs(const ForkDofs& dofs, double switch_off_time) {
+  const StrainState full = held_.full_state(state_.t, state_.strain);
+  set_state(held_.set_dofs(dofs, state_.t, switch_off_time, full));
+  return held_.returning();
+}
+
+StepControl ForkBody::make_step_control(const DynamicsSettings& settings) {
+  return StepControl(make_integrator(settings.integrator), settings.tolerance);
+}
+
+double ForkBody::elastic_energy() const { return held_.elastic_energy(state_.t, state_.strain); }
 
 void ForkBody::describe(bool massless, ToolState& f) const {
   const StrainState full = held_.full_state(state_.t, state_.strain);
@@ -14,7 +38,7 @@ void ForkBody::describe(bool massless, ToolState& f) const {
   f.bend = X_HE_bent.translation().head<2>();
   f.X_WE = f.X_WH_seen * X_HE_bent;
   const MotionState o = object_with_acceleration();
-  f.elastic_energy = held_.elastic_energy(state_.t, state_.strain);
+  f.elastic_energy = elastic_energy();
   if (massless) return;
   f.kinetic_energy = held_.kinetic_energy(o.velocity, o.X.linear());
   // What the rod does to the object: its change of momentum less gravity and contact.

@@ -21,8 +21,18 @@ FreeBody::FreeBody(std::size_t index, const Body& body, double gravity, const Ri
       inverse_inertia_O_(inertia_O_.inverse()),
       gravity_(gravity) {
   state_.X_WO = X_WO;
+  set_twist(V_WO_W);
+}
+
+void FreeBody::set_twist(const Twist& V_WO_W) {
+  const Matrix3d& R = state_.X_WO.linear();
   state_.velocity = V_WO_W.linear;
-  state_.angular_momentum = X_WO.linear() * inertia_O_ * X_WO.linear().transpose() * V_WO_W.angular;
+  state_.angular_momentum = R * inertia_O_ * R.transpose() * V_WO_W.angular;
+}
+
+void FreeBody::set_motion_of_centre(const Vector3d& p_WO, const Vector3d& v_WO_W) {
+  state_.X_WO.translation() = p_WO;
+  state_.velocity = v_WO_W;
 }
 
 Vector3d FreeBody::angular_velocity(const Matrix3d& R_WO, const Vector3d& angular_momentum) const {

@@ -22,6 +22,10 @@ class FreeBody final : public SteppedBody {
   void add_impulse(const Wrench& impulse_W) override;
   void stay(double h) override;
 
+  void set_twist(const Twist& V_WO_W);
+  /// Position [m] and velocity [m/s] of the centre of mass, world axes; the rotation goes on as it is.
+  void set_motion_of_centre(const Vector3d& p_WO, const Vector3d& v_WO_W);
+
  private:
   struct State {
     RigidTransform X_WO;

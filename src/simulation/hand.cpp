@@ -4,25 +4,32 @@
 #include <limits>
 #include <utility>
 
+#include "fork_body.h"
+#include "spring_body.h"
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/scene/ray.h"
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double longest_ray = 2.0;    ///< [m]
+constexpr double least_length = 1e-4;  ///< [m] of a rigid tool
 constexpr double point_mass_radius = 1e-2;  ///< of the fork's length: radius of gyration of a point mass
 constexpr double on_the_axis = 1e-3;        ///< of the fork's length; a point mass so near to the fork's axis cannot twist it
 
 }  // namespace
 
-Hand::Hand(const Scene& scene, SimulationSettings& settings, Workbench& workbench)
+Hand::Hand(const Scene& scene, SimulationSettings& settings, Workbench& workbench, Tool tool)
     : scene_(scene),
       settings_(settings),
       workbench_(workbench),
+      tool_(tool),
       track_(settings.dropout_after),
-      X_WH_(scene.X_WH_start) {}
+      X_WH_(scene.X_WH_start),
+      ray_length_(longest_ray) {}
 
 void Hand::reset() {
   track_.clear();
@@ -50,18 +57,43 @@ void Hand::forget_before(double now) {
   if (!track_.empty() && track_.begin() < now) track_.forget_before(now);
 }
 
+double Hand::reach() const {
+  if (tool_ == Tool::direct) return least_length;
+  return tool_ == Tool::ray ? std::max(ray_length_, least_length) : settings_.fork.length;
+}
+
 void Hand::select(double now) {
+  constexpr double stays = 0.8;  // another object must be nearer than the present one by this factor
+  const std::optional<std::size_t> before = selection_.inserted();
   selection_.set_inserted(std::nullopt);
   if (hold_ || !known(now)) return;
-  const Vector3d tip = X_WH_ * Vector3d(0.0, 0.0, settings_.fork.length);
   const std::vector<BodyState>& objects = workbench_.states();
+  // The nearest thing in the way of the hand, and the objects that the tip is in.
+  double blocked_at = tool_ == Tool::ray ? longest_ray : reach();
+  const Body* blocking = nullptr;
+  const auto look = [&](const Body& body, const RigidTransform& X_WO) {
+    const RigidTransform X_OH = X_WO.inverse() * X_WH_;
+    const auto at = distance_along_ray(body, X_OH.translation(), X_OH.linear().col(2), blocked_at);
+    const bool inside = tool_ != Tool::ray && contains(body, X_OH * Vector3d(0.0, 0.0, reach()));
+    if (!at || inside) return;
+    blocked_at = *at;
+    blocking = &body;
+  };
+  for (const Body& body : scene_.bodies) {
+    if (!body.movable) look(body, body.X_WO);
+  }
+  for (std::size_t i = 0; i < objects.size(); ++i) look(workbench_.body(i), objects[i].X_WO);
+  ray_length_ = blocked_at;
   double nearest = never;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    const double distance = (objects[i].X_WO.translation() - tip).norm();
-    if (!objects[i].held && distance < nearest && contains(workbench_.body(i), objects[i].X_WO.inverse() * tip)) {
-      nearest = distance;
-      selection_.set_inserted(i);
-    }
+    if (objects[i].held) continue;
+    const Vector3d tip = X_WH_ * Vector3d(0.0, 0.0, reach());
+    const bool pierced = tool_ == Tool::ray ? blocking == &workbench_.body(i)
+                                            : !blocking && contains(workbench_.body(i), objects[i].X_WO.inverse() * tip);
+    const double distance = (objects[i].X_WO.translation() - tip).norm() * (before == i ? stays : 1.0);
+    if (!pierced || distance >= nearest) continue;
+    nearest = distance;
+    selection_.set_inserted(i);
   }
   if (selection_.inserted() && settings_.grasp.object.empty()) {
     workbench_.state(*selection_.inserted()).highlighted = true;
@@ -91,7 +123,7 @@ void Hand::apply_buttons(double now) {
 }
 
 ForkDofs Hand::possible_dofs(std::size_t object, const RigidTransform& X_OE) const {
-  if (workbench_.massless(object)) return {false, false, false};
+  if (workbench_.massless(object) || tool_ != Tool::spring_fork) return {false, false, false};
   ForkDofs dofs = settings_.fork.dofs;
   const Vector3d lever = X_OE.linear().col(2).cross(X_OE.translation());
   const bool point_mass = settings_.dynamics.inertia == "point_mass";
@@ -99,11 +131,7 @@ ForkDofs Hand::possible_dofs(std::size_t object, const RigidTransform& X_OE) con
   return dofs;
 }
 
-StepControl Hand::make_step_control() const {
-  return StepControl(make_integrator(settings_.dynamics.integrator), settings_.dynamics.tolerance);
-}
-
-HeldBody Hand::make_held(std::size_t object, const RigidTransform& X_OE, double now) const {
+std::unique_ptr<ToolHold> Hand::make_fork(std::size_t object, const RigidTransform& X_OE, double length, double now) {
   const Body& b = workbench_.body(object);
   BodyInertia inertia{b.mass_properties.mass, b.mass_properties.inertia_O, X_OE};
   if (settings_.dynamics.inertia == "point_mass") {
@@ -116,34 +144,69 @@ HeldBody Hand::make_held(std::size_t object, const RigidTransform& X_OE, double 
     inertia.mass = 1.0;  // of no effect: nothing bends a fork that carries nothing
     inertia.inertia_O.setIdentity();
   }
-  HeldBody held_body(make_shape_model(settings_.fork.shape, settings_.fork.length), inertia, scene_.gravity);
+  HeldBody held_body(make_shape_model(settings_.fork.shape, length), inertia, scene_.gravity);
   held_body.set_springs(settings_.fork.stiffness, settings_.fork.damping_ratio);
   const StrainState zero{StrainVector::Zero(held_body.shape().size()), StrainVector::Zero(held_body.shape().size())};
+  X_OE_ = X_OE;
   held_body.set_dofs(possible_dofs(object, X_OE), now, settings_.fork.switch_off_time, zero);
-  return held_body;
+  return std::make_unique<ForkBody>(workbench_.scene_index(object), std::move(held_body),
+                                    ForkBody::make_step_control(settings_.dynamics), now);
 }
 
-void Hand::calibrate_for(std::size_t object) {
-  const Body& body = workbench_.body(object);
-  settings_.fork.stiffness = calibrated_stiffness(body.mass_properties.mass, std::max(bounding_radius(body), 1e-4),
-                                                  settings_.fork.length, scene_.gravity);
+std::unique_ptr<ToolHold> Hand::make_hold(std::size_t object, const RigidTransform& X_OE, double length, double now) {
+  const RigidTransform& X_WO = workbench_.states()[object].X_WO;
+  std::unique_ptr<ToolHold> hold;
+  if (tool_ == Tool::spring && !workbench_.massless(object)) {
+    const double rest_length = std::max((X_WO.translation() - X_WH_.translation()).norm(), least_length);
+    hold = std::make_unique<SpringBody>(workbench_.scene_index(object), workbench_.body(object), scene_.gravity, X_WO,
+                                        rest_length, settings_.fork);
+  } else {
+    hold = make_fork(object, X_OE, length, now);
+  }
+  hold->set_hand(track_.segment(now), now);
+  return hold;
+}
+
+RigidTransform Hand::tip_in_object(std::size_t object, double length) const {
+  return workbench_.states()[object].X_WO.inverse() * (X_WH_ * Eigen::Translation3d(0.0, 0.0, length));
+}
+
+bool Hand::calibrate_hold() {
+  if (tool_ == Tool::direct || tool_ == Tool::ray) return false;
+  if (!workbench_.massless(held_)) settings_.fork.stiffness = hold_->calibrate(settings_.fork, scene_.gravity);
+  return true;
 }
 
 void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now) {
-  RigidTransform X_HE = RigidTransform::Identity();
-  X_HE.translation().z() = settings_.fork.length;
-  const MotionSegment& segment = track_.segment(now);
-  const BodyState& o = workbench_.states()[object];
-  const RigidTransform X_WE = segment.at(now).X * X_HE;
-  const RigidTransform G = X_OE ? *X_OE : RigidTransform(o.X_WO.inverse() * X_WE);
-  if (settings_.grasp.calibrate) calibrate_for(object);
+  const MassProperties& mass = workbench_.body(object).mass_properties;
+  if (settings_.grasp.calibrate && follow_hand && mass.mass > 0.0) {  // the object comes to the tip, wherever that is
+    settings_.fork.length = calibrated_length({mass.mass, mass.inertia_O, RigidTransform::Identity()});
+  }
   held_ = object;
-  hold_ = std::make_unique<ForkBody>(workbench_.scene_index(object), make_held(object, G, now), make_step_control(), now);
-  hold_->set_hand(segment, now);
-  // Strain is zero now. The object keeps its motion as far as the fork lets it; one that follows starts with the hand's.
-  if (!follow_hand && dynamic()) hold_->take_twist(o.V_WO_W);
+  hold_ = make_hold(object, X_OE ? *X_OE : tip_in_object(object, reach()), reach(), now);
+  if (settings_.grasp.calibrate) calibrate_hold();
+  // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the hand's.
+  if (!follow_hand && dynamic()) hold_->take_twist(workbench_.states()[object].V_WO_W);
   workbench_.hold(object, now);
   workbench_.take_state(object, hold_->object());
+}
+
+void Hand::select_tool(Tool tool, double now) {
+  if (tool == tool_) return;
+  tool_ = tool;
+  if (!hold_) return;
+  const Vector3d centre_H = X_WH_.inverse() * workbench_.states()[held_].X_WO.translation();
+  ray_length_ = std::max(centre_H.z(), least_length);
+  const Twist before = workbench_.states()[held_].V_WO_W;
+  hold_ = make_hold(held_, tip_in_object(held_, reach()), reach(), now);
+  if (settings_.grasp.calibrate) calibrate_hold();
+  if (!workbench_.massless(held_)) {
+    // With every family on, a fork can take any twist; what is off then comes to rest without a jump.
+    hold_->set_dofs({true, true, true}, settings_.fork.switch_off_time);
+    hold_->take_twist(before);
+    hold_->set_dofs(possible_dofs(held_, X_OE_), settings_.fork.switch_off_time);
+  }
+  workbench_.take_state(held_, hold_->object());
 }
 
 void Hand::let_go(bool thrown, double now) {
@@ -172,7 +235,7 @@ SteppedBody* Hand::begin_step(double now, double h) {
 void Hand::end_step(AdvanceReport& report) {
   if (!hold_) return;
   report.energy_added += hold_->energy_added() - energy_added_before_;
-  const ForkBody::Estimates e = hold_->take_estimates();
+  const StepEstimates e = hold_->take_estimates();
   report.position_error = std::max(report.position_error, e.position);
   report.angle_error = std::max(report.angle_error, e.angle);
   report.stiffest_omega_dt = std::max(report.stiffest_omega_dt, e.omega_dt);
@@ -182,50 +245,46 @@ void Hand::end_step(AdvanceReport& report) {
 }
 
 ForkDofs Hand::families_run() const {
-  return hold_ && moved_ ? possible_dofs(held_, hold_->held().body().X_OE) : ForkDofs{false, false, false};
+  return hold_ && moved_ ? possible_dofs(held_, X_OE_) : ForkDofs{false, false, false};
 }
 
 void Hand::change_dofs(ChangeReport& change) {
-  if (!hold_ || workbench_.massless(held_)) return;
-  HeldBody& held = hold_->held();
-  const StrainState full = held.full_state(hold_->time(), hold_->state());
-  const ForkDofs possible = possible_dofs(held_, held.body().X_OE);
-  hold_->set_state(held.set_dofs(possible, hold_->time(), settings_.fork.switch_off_time, full));
-  if (held.returning()) {
+  if (!hold_ || workbench_.massless(held_) || tool_ != Tool::spring_fork) return;
+  if (hold_->set_dofs(possible_dofs(held_, X_OE_), settings_.fork.switch_off_time)) {
     change.message += "; the strain of what went off returns to zero with a time constant of " +
                       std::to_string(settings_.fork.switch_off_time) + " s and gives back its energy";
   }
 }
 
 void Hand::change_springs() {
-  if (hold_) hold_->held().set_springs(settings_.fork.stiffness, settings_.fork.damping_ratio);
+  if (hold_) hold_->set_springs(settings_.fork);
 }
 
 void Hand::change_integrator() {
-  if (hold_) hold_->set_step_control(make_step_control());
+  if (hold_) hold_->set_step_control(settings_.dynamics);
 }
 
 bool Hand::calibrate(ChangeReport& change) {
-  if (!hold_) return false;
-  calibrate_for(held_);
+  if (!hold_ || !calibrate_hold()) return false;
   change.message = "calibrated for " + workbench_.states()[held_].name;
   return true;
 }
 
-double Hand::elastic_energy() const { return hold_ ? hold_->held().elastic_energy(hold_->time(), hold_->state()) : 0.0; }
+double Hand::elastic_energy() const { return hold_ ? hold_->elastic_energy() : 0.0; }
 
 ToolState Hand::state() const {
   ToolState f;
+  f.tool = name_of(tool_);
   f.shape = settings_.fork.shape;
   f.integrator = settings_.dynamics.integrator;
   f.dofs = settings_.fork.dofs;
-  f.length = settings_.fork.length;
+  f.length = hold_ ? hold_->length() : reach();
   f.strain = StrainVector::Zero(make_shape_model(f.shape, f.length)->size());
   f.stiffness = settings_.fork.stiffness;
   f.damping_ratio = settings_.fork.damping_ratio;
   f.X_WH = f.X_WH_seen = X_WH_;
   RigidTransform X_HE = RigidTransform::Identity();
-  X_HE.translation().z() = settings_.fork.length;
+  X_HE.translation().z() = f.length;
   f.X_WE = X_WH_ * X_HE;
   if (hold_) {
     f.held_object = workbench_.states()[held_].name;

@@ -5,8 +5,9 @@
 #include <optional>
 #include <vector>
 
-#include "fork_body.h"
 #include "spring_workbench/tools/grasp_selection.h"
+#include "spring_workbench/tools/tool.h"
+#include "tool_hold.h"
 #include "workbench.h"
 
 namespace spring_workbench {
@@ -16,8 +17,8 @@ constexpr double same_time = 1e-9;  ///< [s]; stamps nearer to each other are on
 /// One stylus: its motion and button, the tool in it, and what that holds.
 class Hand {
  public:
-  /// Keeps references to all three; `settings` is changed by calibration.
-  Hand(const Scene& scene, SimulationSettings& settings, Workbench& workbench);
+  /// Keeps references to scene, settings (changed by calibration) and workbench.
+  Hand(const Scene& scene, SimulationSettings& settings, Workbench& workbench, Tool tool);
 
   /// Forgets samples and buttons, holds nothing. The workbench is reset beside it.
   void reset();
@@ -49,11 +50,14 @@ class Hand {
   /// After it has been carried.
   void end_step(AdvanceReport& report);
 
+  /// Another tool, also while holding: the object goes on from its pose and twist, the new tool's strain is zero.
+  void select_tool(Tool tool, double now);
+
   // Changes of the settings reach what is held. The settings are changed before.
   void change_dofs(ChangeReport& change);
   void change_springs();
   void change_integrator();
-  /// Stiffness from the held object's mass and size. False when nothing is held.
+  /// Springs and dampers from the held object and its grasp. False when nothing is held on a tool with springs.
   bool calibrate(ChangeReport& change);
 
   double elastic_energy() const;
@@ -68,23 +72,31 @@ class Hand {
     bool pressed;
   };
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now);
-  bool dynamic() const { return hold_ && hold_->held().size() > 0; }  ///< there is something for an integrator to do
+  bool dynamic() const { return hold_ && hold_->coordinates() > 0; }  ///< there is something for an integrator to do
   /// The families that the object can move: of those switched on, the ones in which it has an inertia.
   ForkDofs possible_dofs(std::size_t object, const RigidTransform& X_OE) const;
-  StepControl make_step_control() const;
-  HeldBody make_held(std::size_t object, const RigidTransform& X_OE, double now) const;
-  void calibrate_for(std::size_t object);
+  /// A hold on the object at its pose, free of strain; `X_OE`: the tip in the object.
+  std::unique_ptr<ToolHold> make_hold(std::size_t object, const RigidTransform& X_OE, double length, double now);
+  std::unique_ptr<ToolHold> make_fork(std::size_t object, const RigidTransform& X_OE, double length, double now);
+  /// How far the tip is in front of the hand, along z [m].
+  double reach() const;
+  RigidTransform tip_in_object(std::size_t object, double length) const;
+  /// Springs and dampers for what is held; the settings tell the stiffness. False where the tool has no springs.
+  bool calibrate_hold();
 
   const Scene& scene_;
   SimulationSettings& settings_;
   Workbench& workbench_;
+  Tool tool_;
   PoseTrack track_;
   std::deque<ButtonEvent> buttons_;
   RigidTransform X_WH_;
+  double ray_length_;  ///< to what the ray hits [m]
   GraspSelection selection_;
   bool grasped_by_name_ = false;
-  std::unique_ptr<ForkBody> hold_;  ///< while something is held
-  bool moved_ = false;              ///< what is held, in this call of advance
+  std::unique_ptr<ToolHold> hold_;       ///< while something is held
+  RigidTransform X_OE_;                  ///< its grasp
+  bool moved_ = false;                   ///< what is held, in this call of advance
   double energy_added_before_ = 0.0;
   std::size_t held_ = 0;            ///< in the workbench
 };

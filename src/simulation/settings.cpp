@@ -8,6 +8,7 @@
 
 #include "spring_workbench/dynamics/step_control.h"
 #include "spring_workbench/rod/shape_model.h"
+#include "spring_workbench/tools/tool.h"
 
 namespace spring_workbench {
 namespace {
@@ -87,7 +88,7 @@ std::vector<Field> scene_fields() {
   const std::string as_scene = "as the scene says";
   return {
       by_default(as_scene,
-                 choice("tool", {"spring_fork"}, "the tool in the hand", [](S& s) -> std::string& { return s.tool; })),
+                 choice("tool", tool_names(), "the tool in the hand", [](S& s) -> std::string& { return s.tool; })),
       by_default(as_scene, choice("contact", {"none", "stop"},
                                   "none: nothing is felt; stop: the held object stops at everything else and slides on",
                                   [](S& s) -> std::string& { return s.contact; })),
@@ -142,7 +143,7 @@ std::vector<Field> fork_fields() {
 
 std::vector<Field> grasp_fields() {
   return {
-      flag("calibrate", "stiffness from the object's mass and size on every grasp; the damping ratios stay",
+      flag("calibrate", "springs and dampers from the object and its grasp, on every grasp; with start.follow the length too",
            [](S& s) -> bool& { return s.grasp.calibrate; }),
       by_default("none: grasped by button", name("grasp.object", "the name of a movable object of the scene",
                                                  "this object is held from the first sample to the last",

@@ -6,6 +6,7 @@
 
 #include "hand.h"
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/rod/shape_model.h"
 #include "workbench.h"
 
@@ -19,8 +20,8 @@ Scene set_up(Scene scene, const SimulationSettings& settings) {
   if (settings.contact == "none") scene.contact = ContactMode::none;
   if (settings.contact == "stop") scene.contact = ContactMode::stop;
   if (settings.contact == "dynamic") scene.contact = ContactMode::dynamic;
-  const std::string tool = settings.tool.empty() ? scene.tool : settings.tool;
-  if (tool != "spring_fork") refuse(scene.path, "tool", tool, "spring_fork: this version has no other tool");
+  if (!settings.tool.empty()) scene.tool = settings.tool;
+  tool_called(scene.tool, scene.path);
   if (!settings.grasp.object.empty()) {
     const std::optional<std::size_t> index = find_body(scene, settings.grasp.object);
     if (!index || !scene.bodies[*index].movable) {
@@ -51,7 +52,7 @@ struct Simulation::Impl {
 
   Impl(const Scene& s, const SimulationSettings& set)
       : settings(set), scene(set_up(s, set)), workbench(scene, set.bisection_levels) {
-    for (std::size_t i = 0; i < most_hands; ++i) hands.emplace_back(scene, settings, workbench);
+    for (std::size_t i = 0; i < most_hands; ++i) hands.emplace_back(scene, settings, workbench, tool_called(scene.tool, scene.path));
   }
   Hand& hand(std::size_t index) { return hands.at(index); }
 
@@ -205,6 +206,16 @@ bool Simulation::release() {
   return released;
 }
 
+ChangeReport Simulation::select_tool(const std::string& name, std::size_t hand) {
+  const Tool tool = tool_called(name, "select_tool");
+  ChangeReport change;
+  change.elastic_energy_before = impl_->elastic_energy();
+  impl_->hand(hand).select_tool(tool, impl_->now);
+  change.elastic_energy_after = impl_->elastic_energy();
+  change.message = "tool: " + name;
+  return change;
+}
+
 ChangeReport Simulation::set_dofs(const ForkDofs& dofs) {
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
@@ -246,10 +257,9 @@ ChangeReport Simulation::set_damping_ratio(const PerFamily& ratio) {
 ChangeReport Simulation::calibrate() {
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
-  const bool done =
-      std::any_of(impl_->hands.begin(), impl_->hands.end(), [&](Hand& hand) { return hand.calibrate(change); });
-  if (!done) throw InputError("calibrate: held object: none is not allowed: must be an object that the fork holds");
-  for (Hand& hand : impl_->hands) hand.change_springs();
+  bool done = false;
+  for (Hand& hand : impl_->hands) done = hand.calibrate(change) || done;
+  if (!done) throw InputError("calibrate: held object: none is not allowed: must be an object on a fork or a spring");
   change.elastic_energy_after = impl_->elastic_energy();
   return change;
 }

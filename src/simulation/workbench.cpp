@@ -85,6 +85,7 @@ void Workbench::let_go(std::size_t object, bool thrown, double now) {
 }
 
 void Workbench::set_free(std::size_t object, const Twist& V_WO_W, double now) {
+  states_[object].asleep = false;
   if (dynamic_stepper_) {
     dynamic_stepper_->set_free(movable_[object], states_[object].X_WO, V_WO_W);
     return;

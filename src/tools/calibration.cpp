@@ -1,14 +1,91 @@
 #include "spring_workbench/tools/calibration.h"
 
+#include <Eigen/LU>
 #include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/math/so3.h"
 
 namespace spring_workbench {
+namespace {
 
-PerFamily calibrated_stiffness(double mass, double half_extent, double length, double gravity,
-                               const CalibrationGoal& goal) {
-  constexpr double earth = 9.81, least_mass = 1e-6;
-  const double weight = std::max(mass, least_mass) * (gravity > 0.0 ? gravity : earth);
-  return {weight / (goal.extension * length), weight / (goal.deflection * length), weight * half_extent / goal.twist};
+constexpr double pi = 3.14159265358979323846;
+constexpr double earth = 9.81;  // [m/s²]
+
+/// Generalised force on the strain coordinates of a body at rest.
+StrainVector force(const HeldBody& held, const HandleForcing& handle, const StrainVector& q) {
+  return held.mass_matrix(0.0, q) * held.acceleration(handle, q, StrainVector::Zero(q.size()));
+}
+
+/// Newton's method from `q`, each step halved until the force becomes smaller.
+StrainVector equilibrium(const HeldBody& held, const RigidTransform& X_WH, StrainVector q) {
+  constexpr double step = 1e-6;
+  const HandleForcing handle = held.forcing(MotionSegment(X_WH), 0.0);
+  StrainVector f = force(held, handle, q);
+  for (int iteration = 0; iteration < 30 && f.norm() > 1e-10 * held.gravity(); ++iteration) {
+    StrainMatrix slope(q.size(), q.size());
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      StrainVector ahead = q, behind = q;
+      ahead[i] += step;
+      behind[i] -= step;
+      slope.col(i) = (force(held, handle, ahead) - force(held, handle, behind)) / (2.0 * step);
+    }
+    StrainVector change = -slope.partialPivLu().solve(f);
+    if (!change.allFinite()) break;
+    for (int halving = 0; halving < 20; ++halving, change *= 0.5) {
+      const StrainVector tried = q + change;
+      if (!held.shape().admissible(tried)) continue;
+      const StrainVector f_tried = force(held, handle, tried);
+      if (f_tried.allFinite() && f_tried.norm() < f.norm()) {
+        q = tried;
+        f = f_tried;
+        break;
+      }
+    }
+  }
+  return q;
+}
+
+}  // namespace
+
+ForkCalibration calibrated_fork(const std::string& shape, double length, const BodyInertia& body, double gravity,
+                                const CalibrationGoal& goal) {
+  const double g = gravity > 0.0 ? gravity : earth;
+  const double sag = goal.sag * length;
+  const double omega = std::sqrt(g / sag);
+  // Of a body of 1 kg: all forces are proportional to the mass.
+  const BodyInertia unit{1.0, body.inertia_O / body.mass, body.X_OE};
+  HeldBody held(make_shape_model(shape, length), unit, g);
+  const int size = held.shape().size();
+  const StrainState zero{StrainVector::Zero(size), StrainVector::Zero(size)};
+  held.set_dofs({true, true, true}, 0.0, 1.0, zero);
+  RigidTransform hanging = RigidTransform::Identity(), level = RigidTransform::Identity();
+  hanging.linear() = exp_so3(Vector3d(pi, 0.0, 0.0));     // z of the handle is down
+  level.linear() = exp_so3(Vector3d(0.0, -0.5 * pi, 0.0)); // x of the handle is up
+  PerFamily k{g / sag, g / sag, held.axial_inertia() * omega * omega};
+  StrainVector q_hanging = zero.q, q_level = zero.q;
+  for (int iteration = 0; iteration < 40; ++iteration) {
+    held.set_springs(k, {1.0, 1.0, 1.0});
+    q_hanging = equilibrium(held, hanging, q_hanging);
+    q_level = equilibrium(held, level, q_level);
+    const double extension = std::abs(held.shape().extension(q_hanging)) / sag;
+    const double deflection = held.shape().section(q_level, length).translation().head<2>().norm() / sag;
+    if (std::max(std::abs(extension - 1.0), std::abs(deflection - 1.0)) < 1e-5) break;
+    k.stretch *= std::clamp(extension, 0.2, 5.0);
+    k.bend *= std::clamp(deflection, 0.2, 5.0);
+  }
+  const double m = body.mass, c = 2.0 * goal.damping_ratio / omega;
+  const PerFamily stiffness{m * k.stretch, m * k.bend, m * k.torsion};
+  return {stiffness, {c * stiffness.stretch, c * stiffness.bend, c * stiffness.torsion}};
+}
+
+double calibrated_spring(double mass, double length, double gravity, const CalibrationGoal& goal) {
+  return mass * (gravity > 0.0 ? gravity : earth) / (goal.sag * length);
+}
+
+double calibrated_length(const BodyInertia& body, const CalibrationGoal& goal) {
+  const double gyration = std::sqrt(body.inertia_O.trace() / (3.0 * body.mass));
+  return std::clamp(2.0 * goal.twist * gyration / goal.sag, 1e-3, 100.0);
 }
 
 }  // namespace spring_workbench

@@ -11,6 +11,8 @@ namespace {
 constexpr double kFreeDistance = 5e-3;       // [m]
 constexpr double kFreeAngle = 0.05;          // [rad]
 constexpr double kShortestInterval = 0.5e-9; // [s] half of what ROS time resolves, as PoseTrack has it
+constexpr double kClosest = 5e-5;            // [s] and no closer than kClosestShare of the usual interval
+constexpr double kClosestShare = 0.25;
 constexpr double kAwayFromOrigin = 10.0;     // radii; a hand that was nearer may have come to the origin by itself
 
 /// Angle of the rotation from a to b [rad], 0 … π, the signs of the quaternions aside.
@@ -28,6 +30,7 @@ std::string to_string(Verdict verdict) {
     case Verdict::bad_quaternion: return "not a unit quaternion";
     case Verdict::too_far: return "too far";
     case Verdict::not_later: return "stamp not later";
+    case Verdict::too_close: return "too close to the last";
     case Verdict::too_fast: return "too fast";
     case Verdict::turns_too_fast: return "turns too fast";
     case Verdict::out_of_view: return "out of view";
@@ -61,6 +64,9 @@ std::string complaint(Verdict verdict, const RawSample& sample, const TruthSetti
     case Verdict::not_later:
       out << "stamp: " << sample.t << " s is not allowed: must be later than the last one";
       break;
+    case Verdict::too_close:
+      out << "stamp: " << sample.t << " s is not allowed: must be a quarter of the usual interval after the last one";
+      break;
     case Verdict::too_fast:
       out << position.str() << "reached at max_speed = " << settings.max_speed << " m/s or less";
       break;
@@ -81,6 +87,7 @@ void SampleGate::restart() {
   newest_.reset();
   candidate_.reset();
   in_a_row_ = 0;
+  interval_ = 0.0;
 }
 
 Verdict SampleGate::offer(const RawSample& sample) {
@@ -99,6 +106,7 @@ Verdict SampleGate::judge(const RawSample& sample) const {
   if (!(sample.p.norm() <= settings_.max_distance)) return Verdict::too_far;
   if (!newest_) return Verdict::accepted;
   if (!(sample.t - newest_->t >= kShortestInterval)) return Verdict::not_later;
+  if (sample.t - newest_->t < std::max(kClosest, kClosestShare * interval_)) return Verdict::too_close;
   if (is_out_of_view(sample)) return Verdict::out_of_view;
   return judge_move(*newest_, sample);
 }
@@ -133,6 +141,11 @@ bool SampleGate::is_from_candidate(const RawSample& sample) const {
 Verdict SampleGate::accept(const RawSample& sample, bool jumped) {
   const bool after_dropout = newest_ && sample.t - newest_->t > dropout_after_;
   const bool first = !newest_;
+  if (!first && !after_dropout) {
+    constexpr double share_of_new = 0.1;  // smooths over some ten samples
+    const double dt = sample.t - newest_->t;
+    interval_ = interval_ > 0.0 ? interval_ + share_of_new * (dt - interval_) : dt;
+  }
   counts_.dropouts += after_dropout ? 1 : 0;
   counts_.new_places += jumped ? 1 : 0;
   counts_.sign_flips += newest_ && newest_->q.dot(sample.q) < 0.0 ? 1 : 0;

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "spring_workbench/config/yaml_fields.h"
-#include "spring_workbench/math/so3.h"
+#include "spring_workbench/motion/minimum_jerk.h"
 
 namespace spring_workbench {
 namespace {
@@ -19,9 +19,6 @@ StylusSample read_waypoint(const YAML::Node& node, const std::string& path, cons
   if (node["button"]) waypoint.button = read_bool(node["button"], path, name + ".button");
   return waypoint;
 }
-
-/// Goes from 0 to 1 while u does, at rest at both ends.
-double minimum_jerk(double u) { return u * u * u * (10.0 + u * (-15.0 + 6.0 * u)); }
 
 }  // namespace
 
@@ -62,9 +59,7 @@ StylusSample ScriptedSource::at(double t) const {
   StylusSample sample = a;
   sample.t = t;
   if (later == waypoints_.end()) return sample;
-  const double s = minimum_jerk((t - a.t) / (later->t - a.t));
-  sample.X.translation() += s * (later->X.translation() - a.X.translation());
-  sample.X.linear() = a.X.linear() * exp_so3(s * log_so3(a.X.linear().transpose() * later->X.linear()));
+  sample.X = minimum_jerk_pose(a.X, later->X, (t - a.t) / (later->t - a.t));
   return sample;
 }
 

@@ -11,13 +11,13 @@ OWN = "spring_workbench/"
 # What may use ROS; apps only where bags are read.
 ROS_ROOMS = {"ros_interface", "nodes", "rviz_plugin"}
 EXTERNAL = [  # headers, rooms that may use them, whether their public headers may as well
-    (re.compile(r"^(ros|rosbag|tf2\w*|\w+_msgs|std_srvs|dynamic_reconfigure|pluginlib|rviz|XmlRpc\w*)(/|\.h|$)"), ROS_ROOMS, True),
+    (re.compile(r"^(ros|rosbag|tf2\w*|\w+_msgs|std_srvs|dynamic_reconfigure|pluginlib|rviz|interactive_markers|XmlRpc\w*)(/|\.h|$)"), ROS_ROOMS, True),
     (re.compile(r"^(bt|Bullet|LinearMath/)"), {"world"}, False),
     (re.compile(r"^fcl/"), {"collision"}, False),
     (re.compile(r"^SDL"), {"sound"}, False),
     (re.compile(r"^(urdf\w*|assimp)/"), {"scene"}, False),
 ]
-USERS = {"nodes": {"ros_interface"}, "apps": {"simulation", "tracker", "simulated_device"}}  # folders of executables, not rooms
+USERS = {"rviz_plugin": {"fork_mesh", "dynamics"}, "nodes": {"ros_interface"}, "apps": {"simulation", "tracker", "simulated_device", "operator"}}  # folders of executables, not rooms
 
 
 def rooms_of(cmake_text):

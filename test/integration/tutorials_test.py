@@ -71,6 +71,10 @@ class Tutorials(unittest.TestCase):
                     self.objects.next(what="objects after " + command)
         self.assertFalse(bad)
 
+    def test_first_grasp(self):
+        rospy.set_param("/use_sim_time", False)
+        self.run_tutorial("first_grasp.md")
+
     def test_record_and_play_back(self):
         rospy.set_param("/use_sim_time", False)
         self.run_tutorial("record_and_play_back.md")

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """The tracker on one host, manipulation on another: two network namespaces joined by a cable that is pulled out for two
-seconds. Needs root and `ip`; exit status 77 (skipped) without. Usage: two_hosts_test.py DEVEL_SPACE"""
+seconds. Needs root, `ip`, and the setup file sourced; exit status 77 (skipped) without root. Run by hand: two_hosts_test.py DEVEL_SPACE"""
 import math
 import os
 import shutil
@@ -122,6 +122,7 @@ def run(folder, lost):
         watch = Watch()
         processes.append(watch.process)
         deaf = start(TRACKER, "", nodes + "tracker_driver", "_file:=" + motion)  # without ROS_IP
+        processes.append(deaf)
         hint = watch.until(lambda v: "ROS_IP" in v["hint"], "the hint about ROS_IP")["hint"]
         assert "/tracker_driver" in hint, hint
         stop(deaf)

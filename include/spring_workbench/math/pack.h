@@ -49,6 +49,13 @@ SPRING_WORKBENCH_INLINE Vector3d vector(const Three<S>& v, int i) {
   return {lane(v.x, i), lane(v.y, i), lane(v.z, i)};
 }
 
+template <typename S>
+SPRING_WORKBENCH_INLINE void set_lane(Three<S>& p, int i, const Three<double>& v) {
+  set_lane(p.x, i, v.x);
+  set_lane(p.y, i, v.y);
+  set_lane(p.z, i, v.z);
+}
+
 template <typename S, typename T>
 SPRING_WORKBENCH_INLINE auto operator+(const Three<S>& a, const Three<T>& b) -> Three<decltype(a.x + b.x)> {
   return {a.x + b.x, a.y + b.y, a.z + b.z};
@@ -91,6 +98,13 @@ SPRING_WORKBENCH_INLINE Matrix3d matrix(const ThreeByThree<S>& m, int i) {
   r << vector(m.x, i), vector(m.y, i), vector(m.z, i);
   return r;
 }
+template <typename S>
+SPRING_WORKBENCH_INLINE void set_lane(ThreeByThree<S>& p, int i, const ThreeByThree<double>& m) {
+  set_lane(p.x, i, m.x);
+  set_lane(p.y, i, m.y);
+  set_lane(p.z, i, m.z);
+}
+
 template <typename S, typename T>
 SPRING_WORKBENCH_INLINE auto operator*(const ThreeByThree<S>& m, const Three<T>& v) -> Three<decltype(m.x.x * v.x)> {
   return v.x * m.x + v.y * m.y + v.z * m.z;

@@ -14,7 +14,9 @@
 #include "spring_workbench/ForkState.h"
 #include "spring_workbench/ObjectStates.h"
 #include "spring_workbench/StepReport.h"
+#include "spring_workbench/TaskState.h"
 #include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/task/task_monitor.h"
 
 namespace spring_workbench {
 
@@ -29,6 +31,7 @@ geometry_msgs::TransformStamped to_transform(const RigidTransform& X, const std:
 
 ObjectStates to_message(const std::vector<BodyState>& objects);
 ForkState to_message(const ToolState& tool);
+TaskState to_message(const std::vector<Placement>& placements, const TaskScore& score);
 Contacts to_message(const std::vector<ContactState>& contacts);
 /// Everything but `wall_time`, `integrator` and `deadline_missed`, which the core does not know.
 StepReport to_message(const AdvanceReport& report);

@@ -13,7 +13,8 @@ namespace spring_workbench {
 ///
 /// In simulated time, where messages and clock come at moments of their own, it never goes past the sample before the
 /// newest, so that what is simulated depends on the samples alone; and silence must also have lasted 0.2 s by the wall
-/// clock, so that a bag played quickly is not taken for one that stopped.
+/// clock, so that a bag played quickly is not taken for one that stopped. While messages about buttons come it does not
+/// go past the newest of these either, so that a button takes effect at its own stamp, by whatever way it comes.
 class PlayoutClock {
  public:
   /// `dropout_after` [s], > 0. `simulated_time`: whether the local clock is ROS time that somebody publishes.
@@ -22,10 +23,12 @@ class PlayoutClock {
 
   /// A sample stamped `t` [s] came.
   void sample(double t, const LocalTime& arrival);
+  /// The buttons are known up to `t` [s].
+  void buttons(double t, const LocalTime& arrival);
   /// The time to simulate to [s]; −infinity before the first sample.
   double target(const LocalTime& now) const;
-  /// Forgets all samples.
-  void clear() { *this = PlayoutClock(dropout_after_, simulated_time_); }
+  /// Forgets all samples; of the buttons, all but that there are some.
+  void clear();
 
  private:
   double dropout_after_;
@@ -33,6 +36,8 @@ class PlayoutClock {
   double newest_ = -std::numeric_limits<double>::infinity();
   double before_newest_ = -std::numeric_limits<double>::infinity();
   LocalTime arrival_;
+  double buttons_until_ = -std::numeric_limits<double>::infinity();
+  double buttons_arrival_ = -std::numeric_limits<double>::infinity();  ///< by the wall clock
   double interval_ = 0.0;  ///< smoothed time between samples [s]
 };
 

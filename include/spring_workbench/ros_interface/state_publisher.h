@@ -11,7 +11,7 @@
 
 namespace spring_workbench {
 
-/// Sends what the simulation shows: /tf, ~objects, ~fork, ~wrench, ~contacts, ~markers and ~steps.
+/// Sends what the simulation shows: /tf, ~objects, ~fork, ~wrench, ~contacts, ~markers, ~steps and ~task.
 /// Messages are made only while somebody listens; /tf is sent when the simulated time has gone on.
 class StatePublisher {
  public:
@@ -21,6 +21,7 @@ class StatePublisher {
   void publish(const Simulation& simulation, const ros::Time& stamp, double now);
   void publish_steps(const CycleReport& report, const std::string& integrator, const ros::Time& stamp,
                      bool deadline_missed);
+  void publish_task(const SimulationRunner& runner, const ros::Time& stamp);
 
  private:
   void publish_transforms(const Simulation& simulation, const ToolState& tool, const ros::Time& stamp);
@@ -37,7 +38,7 @@ class StatePublisher {
   MarkerBuilder markers_;
   tf2_ros::TransformBroadcaster transforms_;
   ros::Publisher objects_publisher_, fork_publisher_, wrench_publisher_, contacts_publisher_, markers_publisher_,
-      steps_publisher_;
+      steps_publisher_, task_publisher_;
 };
 
 }  // namespace spring_workbench

@@ -37,7 +37,12 @@ struct StylusButton {
   double t = 0.0;
   bool pressed = false;
 };
-using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton>;
+/// The buttons are known up to time `t` [s]: a message about them came, whether or not one of them changed.
+struct ButtonsKnown {
+  double t = 0.0;
+  LocalTime arrival;
+};
+using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, ButtonsKnown>;
 
 /// What came in so far.
 struct InputStatistics {
@@ -68,8 +73,11 @@ class StylusInput {
   void on_static_transforms(const tf2_msgs::TFMessageConstPtr& message);
   void on_joy(const sensor_msgs::JoyConstPtr& message);
   void on_stylus(const geometry_msgs::TransformStamped& transform, const ros::Time& now);
+  void on_buttons(const sensor_msgs::Joy& message, const ros::Time& now);
+  struct Stream;
+  std::optional<ros::Time> moment_of(const ros::Time& stamp, Stream& stream);
+  void start_anew_when_due();
   void offer(const geometry_msgs::TransformStamped& transform, const RigidTransform& X_WP, double age);
-  void notice_jump(const ros::Time& now);
   double seconds(const ros::Time& stamp);
   void leave_out(const std::string& reason, const std::string& line);
 
@@ -81,10 +89,18 @@ class StylusInput {
   InputStatistics statistics_;
   TruthLayer truth_;
   StreamMonitor monitor_;
-  std::deque<geometry_msgs::TransformStamped> early_;  ///< too old for the clock, which may not have jumped back yet
+  /// What was stamped before the newest: it waits for the clock, or for the other stream, to jump back.
+  std::deque<geometry_msgs::TransformStamped> early_poses_;
+  std::deque<sensor_msgs::Joy> early_buttons_;
+  struct Stream {
+    ros::Time newest;      ///< stamp, of this epoch
+    double arrival = 0.0;  ///< of the newest message, by the wall clock [s]
+  };
+  Stream poses_, buttons_;
   std::map<std::string, ros::WallTime> told_;  ///< when a reason to leave a sample out was last logged
   ros::Time zero_;                             ///< of the epoch; zero before the first input
   ros::Time last_now_;
+  bool jumped_ = false;  ///< ROS time went back, and the streams have not both followed yet
   bool pressed_ = false;
   ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;
 };

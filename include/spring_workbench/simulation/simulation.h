@@ -54,6 +54,7 @@ struct ContactState {
   Vector3d n_W = Vector3d::UnitZ();       ///< towards `object`
   double depth = 0.0;                     ///< penetration [m]
   double impulse = 0.0;                   ///< normal impulse in the last step [N·s]
+  double force = 0.0;                     ///< the same as a mean force over that step [N]
   double slip_speed = 0.0;                ///< [m/s]
   ContactPhase phase = ContactPhase::started;
 };
@@ -118,6 +119,8 @@ class Simulation {
   bool release();
 
   // Changes while running, of the tools in all hands; pose and twist of the object go on without a jump. Bad values throw InputError and change nothing.
+  /// One of tool_names(), for one hand. The object that it holds goes on; the new tool starts without strain.
+  ChangeReport select_tool(const std::string& name, std::size_t hand = 0);
   ChangeReport set_dofs(const ForkDofs& dofs);
   /// A family with 0 keeps its stiffness.
   ChangeReport set_stiffness(const PerFamily& stiffness);

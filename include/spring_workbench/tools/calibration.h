@@ -1,19 +1,38 @@
 #pragma once
 
-#include "spring_workbench/rod/settings.h"
+#include <string>
+
+#include "spring_workbench/dynamics/held_body.h"
 
 namespace spring_workbench {
 
-/// What the fork does under the object's weight when it is calibrated (paper, sections 3.1 and 4).
+/// What a calibrated fork does under the weight of the object that it holds (paper, sections 3.1 and 4).
 struct CalibrationGoal {
-  double extension = 0.05;   ///< static extension, hanging, as a fraction of the fork's length
-  double deflection = 0.1;   ///< static transverse deflection, held level, as a fraction of the fork's length
-  double twist = 0.2;        ///< static twist under the weight at the object's half extent [rad]
+  double sag = 0.1;            ///< static extension, hanging, and static deflection of the tip, held level: part of the length
+  double twist = 0.35;         ///< static twist under the weight at a lever of the object's radius of gyration [rad]
+  double damping_ratio = 1.0;  ///< of every direction
 };
 
-/// Stiffness of a fork of `length` [m] for an object of `mass` [kg] ≥ 0 and `half_extent` [m] > 0 in a gravity of
-/// `gravity` [m/s²]; without gravity as on Earth. A massless object gets the stiffness of one of 1 mg.
-PerFamily calibrated_stiffness(double mass, double half_extent, double length, double gravity,
-                               const CalibrationGoal& goal = {});
+/// Spring and damping constants of a fork.
+struct ForkCalibration {
+  PerFamily stiffness;  ///< [N/m, N/m, N·m/rad]
+  PerFamily damping;    ///< coefficients, the unit of the stiffness times s
+};
+
+/// Constants of a fork of shape model `shape` and `length` [m] for the body as it is grasped (`body.X_OE`). Hanging from
+/// the upright fork it extends the fork by `goal.sag` of its length; held level, gravity along −x of the handle, it
+/// deflects the tip by as much: both in the full nonlinear equilibrium. Then every direction, twisting too, has the
+/// natural frequency `ω = sqrt(g / (sag · length))`, whatever the mass, and the same damping `c = 2 ζ k / ω`.
+/// Without gravity as on Earth.
+ForkCalibration calibrated_fork(const std::string& shape, double length, const BodyInertia& body, double gravity,
+                                const CalibrationGoal& goal = {});
+
+/// Stiffness [N/m] of the tool `spring` that the weight of `mass` [kg] extends by `goal.sag` of `length` [m]. Without
+/// gravity as on Earth.
+double calibrated_spring(double mass, double length, double gravity, const CalibrationGoal& goal = {});
+
+/// Length [m] of a fork for a body, from its size: the one with which the weight at a lever of the body's radius of
+/// gyration ρ twists the fork by `goal.twist`, `2 twist ρ / sag`. Limited to 1 mm … 100 m.
+double calibrated_length(const BodyInertia& body, const CalibrationGoal& goal = {});
 
 }  // namespace spring_workbench

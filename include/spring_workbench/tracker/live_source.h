@@ -17,6 +17,7 @@ struct StationSample {
   Quaterniond q_TS = Quaterniond::Identity();  ///< finite, its norm near 1; not normalised
   bool button = false;                         ///< the stylus' button is down; false for stations without one
   char warning = ' ';                          ///< the device's own letter for "I doubt this one"; blank: none
+  bool next_tool = false;                      ///< the button for the next tool is down
 };
 
 /// What a live source says about itself.

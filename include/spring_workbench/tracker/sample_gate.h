@@ -24,6 +24,7 @@ enum class Verdict {
   bad_quaternion,  ///< far from unit length
   too_far,
   not_later,       ///< repeated or backward stamp
+  too_close,       ///< a stamp right after the last one, as a burst has them: a step over that time says no velocity
   too_fast,
   turns_too_fast,
   out_of_view,
@@ -70,6 +71,7 @@ class SampleGate {
   double dropout_after_;
   GateCounts counts_;
   std::optional<RawSample> newest_;     ///< accepted
+  double interval_ = 0.0;               ///< between accepted samples, smoothed [s]
   std::optional<RawSample> candidate_;  ///< the newest one that was too far off
   int in_a_row_ = 0;                    ///< samples up to `candidate_` that fit to each other
 };

@@ -35,7 +35,6 @@ btDbvtVolume volume(const Extent& box) { return btDbvtVolume::FromMM(to_bullet(b
 
 BulletWorld::BulletWorld(const Scene& scene)
     : scene_(scene), bench_shape_(btVector3(0, 0, 1), scene.bench_height + contact_skin) {
-  gContactBreakingThreshold = 4.0 * contact_skin;
   gDeactivationTime = asleep_after;
   btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
   configuration_.setPlaneConvexMultipointIterations(4, 4);  // a flush face touches with its corners from the first step on

@@ -128,6 +128,12 @@ DrivenSolver::Rows DrivenSolver::make_rows(const btContactSolverInfo& info) {
       const bool pushes = !(a_driven || n.answer_a.isZero(0.0)) || !(b_driven || n.answer_b.isZero(0.0));
       n.target += (pushes ? info.m_erp2 : 1.0) * penetration / h_;
     }
+    // Bullet lets a body bounce before it is there, and then loses the bounce on the rest of the way.
+    const double way_left = -penetration / h_, restitution = point.m_combinedRestitution;
+    if (way_left > 0.0 && restitution > 0.0) {
+      const double approach = (n.target + way_left) / (1.0 + restitution);
+      n.target = approach > way_left ? n.target + way_left : approach - way_left;
+    }
     rows.normal.push_back(n);
     rows.normal.back().apply(point.m_appliedImpulse, rows.change);  // from the last step's impulses on
     const double before[2] = {point.m_appliedImpulseLateral1, point.m_appliedImpulseLateral2};

@@ -7,6 +7,8 @@
 #include <iostream>
 #include <random>
 
+#include "spring_workbench/motion/pose_track.h"
+#include "spring_workbench/tracker/station_stream.h"
 #include "spring_workbench/tracker/stream_monitor.h"
 
 namespace spring_workbench {
@@ -119,6 +121,40 @@ TEST(StreamMonitor, SaysRateJitterGapsAndAge) {
   EXPECT_NEAR(figures.receipt_jitter, std::sqrt(2.0) * 1e-3, 0.4e-3);  // of some fifty samples
   EXPECT_NEAR(figures.longest_gap, 2.01, 1e-9);
   EXPECT_NEAR(figures.age, age, 1e-12);
+}
+
+/// A hand that goes evenly along x at 1 m/s, read in bursts from the very start: what is played between the samples must
+/// stay on its way. Samples microseconds apart would make velocities of a thousand metres per second.
+TEST(StationStream, BurstsMakeNoJumpBetweenSamples) {
+  for (const double rate : {50.0, 120.0, 1000.0}) {
+    std::mt19937 random(4);
+    std::exponential_distribution<double> delay(1.0 / 0.5e-3), between_reads(1.0 / 4e-3);
+    StationStream stream(TruthSettings(), 0.5, true);
+    PoseTrack track(0.5);
+    double read_at = 0.0, last = 0.0, farthest = 0.0;
+    int used = 0, sent = 0;
+    for (int k = 0; k < static_cast<int>(10.0 * rate); ++k) {
+      const double measured = k / rate, due = measured + delay(random);
+      while (read_at < due) read_at += between_reads(random);
+      last = std::max(read_at, last + 1e-6);  // what is read at once is received a microsecond apart
+      const StationSample sample{1, last, Vector3d(measured, 0.0, 0.0), Quaterniond::Identity(), false, ' '};
+      const TrueSample taken = stream.take(sample);
+      ++sent;
+      if (!usable(taken.verdict)) continue;
+      const double before = track.empty() ? taken.sample.t : track.end();
+      used += track.push(taken.sample);
+      if (track.begin() < before) {
+        for (int i = 0; i <= 20; ++i) {
+          const double t = before - 1e-9 + 0.05 * i * (taken.sample.t - before);
+          if (t < track.begin()) continue;
+          farthest = std::max(farthest, std::abs(track.segment(t).at(t).X.translation().x() - t));
+        }
+      }
+    }
+    std::cout << rate << " Hz: " << used << " of " << sent << " samples, way between them off by " << farthest << " m\n";
+    EXPECT_GT(used, sent / 3);
+    EXPECT_LT(farthest, 0.05);  // the longest time between reads, at 1 m/s
+  }
 }
 
 }  // namespace

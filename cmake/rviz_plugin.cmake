@@ -1,0 +1,22 @@
+# Room rviz_plugin: panel, display and view of rviz. Built only where rviz and Qt 5 are found.
+find_package(rviz QUIET)
+find_package(Qt5 QUIET COMPONENTS Widgets)
+if(NOT rviz_FOUND OR NOT Qt5_FOUND)
+  message(STATUS "rviz or Qt 5 (librviz-dev, qtbase5-dev) not found: no rviz plugins; rviz shows ~markers")
+  return()
+endif()
+
+file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/rviz_plugin/*.cpp ${PROJECT_SOURCE_DIR}/src/rviz_plugin/*.h)
+add_library(spring_workbench_rviz SHARED ${sources})
+set_target_properties(spring_workbench_rviz PROPERTIES AUTOMOC ON)
+target_compile_options(spring_workbench_rviz PRIVATE ${SPRING_WORKBENCH_WARNINGS})
+target_compile_definitions(spring_workbench_rviz PRIVATE QT_NO_KEYWORDS)
+target_include_directories(spring_workbench_rviz SYSTEM PRIVATE
+  ${catkin_INCLUDE_DIRS} ${rviz_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
+target_link_libraries(spring_workbench_rviz PRIVATE
+  spring_workbench_fork_mesh spring_workbench_dynamics ${catkin_LIBRARIES} ${rviz_LIBRARIES} Qt5::Widgets)
+add_dependencies(spring_workbench_rviz ${PROJECT_NAME}_generate_messages_cpp)
+set(SPRING_WORKBENCH_RVIZ_FOUND TRUE)
+
+install(TARGETS spring_workbench_rviz LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+install(FILES plugin_description.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

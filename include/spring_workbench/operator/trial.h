@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "spring_workbench/operator/simulated_operator.h"
+#include "spring_workbench/task/task_monitor.h"
+
+namespace spring_workbench {
+
+/// One assembly by the simulated operator.
+struct Trial {
+  TaskScore score;
+  std::vector<Placement> placements;
+  std::vector<StylusSample> motion;  ///< of the hand, as it was sampled
+  int guards_tripped = 0;
+};
+
+/// Runs one: no clock, no ROS; the same arguments give the same bits. The simulation runs one sample behind the hand, as
+/// it does live. Ends when the operator does, or after `time_limit` [s]. Throws InputError as Simulation does.
+Trial run_trial(const Scene& scene, const SimulationSettings& simulation_settings,
+                const OperatorSettings& operator_settings, double time_limit = 300.0);
+
+}  // namespace spring_workbench

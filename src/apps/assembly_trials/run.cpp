@@ -1,0 +1,65 @@
+#include "run.h"
+
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/operator/trial.h"
+#include "table.h"
+#include "tools.h"
+
+namespace spring_workbench::assembly_trials {
+namespace {
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  if (!file) throw InputError(path + ": cannot be written: must be a file that can");
+}
+
+/// The hand as a motion file (doc/reference.md): to 10 µm and 10 µrad, less than the tracker's noise.
+std::string motion_text(const std::vector<StylusSample>& motion) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << "# t x y z qx qy qz qw button\n" << std::fixed;
+  for (const StylusSample& sample : motion) {
+    const Vector3d& p = sample.X.translation();
+    const Quaterniond q(sample.X.linear());
+    text << std::setprecision(3) << sample.t << std::setprecision(5) << ' ' << p.x() << ' ' << p.y() << ' ' << p.z()
+         << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << ' ' << q.w() << ' ' << (sample.button ? 1 : 0) << '\n';
+  }
+  return text.str();
+}
+
+}  // namespace
+
+void run(const Options& options) {
+  const Scene scene = load_scene(options.scene);
+  if (scene.targets.empty()) throw InputError(scene.path + ": targets: none is not allowed: must be at least one");
+  for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
+  std::string csv = "tool,seed," + score_csv_header() + "\n";
+  std::vector<ToolTrials> all;
+  for (const std::string& label : options.tool.empty() ? tool_labels() : std::vector<std::string>{options.tool}) {
+    all.push_back({label, {}});
+    const SimulationSettings settings = with_tool(label, options.settings);
+    for (int k = 0; k < options.trials; ++k) {
+      OperatorSettings hand;
+      hand.seed = static_cast<unsigned>(options.seed + k);
+      const Trial trial = run_trial(scene, settings, hand);
+      all.back().scores.push_back(trial.score);
+      csv += label + "," + std::to_string(hand.seed) + "," + score_csv(trial.score) + "\n";
+      if (!options.record.empty() && all.size() == 1 && k == 0) write_file(options.record, motion_text(trial.motion));
+    }
+  }
+  if (!options.table.empty()) write_file(options.table, markdown_table(all));
+  if (options.out.empty()) {
+    std::cout << csv;
+  } else {
+    write_file(options.out, csv);
+  }
+}
+
+}  // namespace spring_workbench::assembly_trials

@@ -1,0 +1,35 @@
+#include "spring_workbench/operator/trial.h"
+
+namespace spring_workbench {
+
+Trial run_trial(const Scene& scene, const SimulationSettings& simulation_settings,
+                const OperatorSettings& operator_settings, double time_limit) {
+  Simulation simulation(scene, simulation_settings);
+  TaskMonitor monitor(simulation.scene());
+  const auto look = [&] {
+    const ToolState tool = simulation.fork();
+    OperatorView view;
+    view.objects = simulation.objects();
+    view.X_HE.translation().z() = tool.length;
+    return view;
+  };
+  SimulatedOperator hand(simulation.scene(), operator_settings, look);
+  Trial trial;
+  bool pressed = false;
+  while (const std::optional<StylusSample> sample = hand.next()) {
+    if (sample->t > time_limit) break;
+    simulation.push_stylus(*sample);
+    if (sample->button != pressed) simulation.push_button(sample->t, sample->button);
+    pressed = sample->button;
+    if (!trial.motion.empty()) {
+      trial.guards_tripped += simulation.advance(trial.motion.back().t).guards_tripped;
+      monitor.observe(simulation);
+    }
+    trial.motion.push_back(*sample);
+  }
+  trial.score = monitor.score();
+  trial.placements = monitor.placements();
+  return trial;
+}
+
+}  // namespace spring_workbench

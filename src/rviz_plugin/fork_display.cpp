@@ -1,0 +1,199 @@
+#include "fork_display.h"
+
+#include <OgreManualObject.h>
+#include <OgreMaterialManager.h>
+#include <OgreSceneManager.h>
+#include <OgreSceneNode.h>
+#include <OgreTechnique.h>
+#include <pluginlib/class_list_macros.hpp>
+#include <ros/message_traits.h>
+#include <rviz/display_context.h>
+#include <rviz/frame_manager.h>
+#include <rviz/properties/float_property.h>
+#include <rviz/properties/ros_topic_property.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "spring_workbench/config/input_error.h"
+
+namespace spring_workbench {
+namespace {
+
+using rviz::StatusProperty;
+
+constexpr double longest_silence = 2.0;  // [s]
+
+Ogre::Vector3 to_ogre(const Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+double norm(const geometry_msgs::Vector3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
+
+/// Steel blue without load, over yellow, to red at `share` = 1: the colours of ~markers.
+Ogre::ColourValue load_color(double share) {
+  const Ogre::ColourValue none(0.27F, 0.51F, 0.71F), half(0.95F, 0.85F, 0.2F), full(0.85F, 0.1F, 0.1F);
+  const float s = static_cast<float>(std::clamp(share, 0.0, 1.0));
+  return s < 0.5F ? none + (half - none) * (2.0F * s) : half + (full - half) * (2.0F * s - 1.0F);
+}
+
+Ogre::MaterialPtr make_material(const Ogre::ColourValue& color) {
+  static int count = 0;
+  const Ogre::MaterialPtr material = Ogre::MaterialManager::getSingleton().create(
+      "spring_workbench/fork/" + std::to_string(count++), Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
+  material->setReceiveShadows(false);
+  material->getTechnique(0)->setLightingEnabled(true);
+  material->setAmbient(color * 0.5F);
+  material->setDiffuse(color);
+  material->setCullingMode(Ogre::CULL_NONE);
+  return material;
+}
+
+bool is_finite(const geometry_msgs::Pose& pose) {
+  const auto& p = pose.position;
+  const auto& q = pose.orientation;
+  return std::isfinite(p.x + p.y + p.z) && std::abs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1.0) < 0.1;
+}
+
+}  // namespace
+
+ForkDisplay::ForkDisplay() : model_(ForkLook()) {
+  topic_ = new rviz::RosTopicProperty(
+      "Topic", "/manipulation/fork", QString::fromStdString(ros::message_traits::datatype<ForkState>()),
+      "The state of the fork, ~fork of manipulation.", this, SLOT(subscribe()), this);
+  full_load_ = new rviz::FloatProperty("Full Load", 10.0F, "Force at the tip at which the spring is red [N].", this);
+  full_load_->setMin(1e-6F);
+}
+
+ForkDisplay::~ForkDisplay() {
+  subscriber_.shutdown();
+  if (object_) scene_manager_->destroyManualObject(object_);
+}
+
+void ForkDisplay::onInitialize() {
+  object_ = scene_manager_->createManualObject();
+  object_->setDynamic(true);
+  scene_node_->attachObject(object_);
+  spring_material_ = make_material(load_color(0.0));
+  rigid_material_ = make_material(Ogre::ColourValue(0.55F, 0.58F, 0.63F));
+  master_ = MasterWatch::shared();
+}
+
+void ForkDisplay::onEnable() { subscribe(); }
+
+void ForkDisplay::onDisable() {
+  subscriber_.shutdown();
+  hide();
+}
+
+void ForkDisplay::setTopic(const QString& topic, const QString&) { topic_->setString(topic); }
+
+void ForkDisplay::subscribe() {
+  if (!initialized()) return;
+  subscriber_.shutdown();
+  hide();
+  if (!isEnabled() || topic_->getTopicStd().empty()) return;
+  setStatus(StatusProperty::Warn, "Topic", "No message yet");
+  subscriber_ = update_nh_.subscribe(topic_->getTopicStd(), 1, &ForkDisplay::on_fork, this,
+                                     ros::TransportHints().tcpNoDelay());
+}
+
+void ForkDisplay::reset() {
+  Display::reset();
+  subscribe();
+}
+
+void ForkDisplay::on_fork(const ForkStateConstPtr& message) {
+  newest_ = message;
+  silence_ = 0.0;
+}
+
+void ForkDisplay::update(float wall_dt, float) {
+  silence_ += static_cast<double>(wall_dt);
+  if (silence_ > longest_silence && object_->isVisible()) {
+    hide();
+    setStatus(StatusProperty::Warn, "Topic", "Silent: is manipulation running?");
+  }
+  if (!newest_) return;
+  const ForkStateConstPtr fork = newest_;
+  newest_.reset();
+  if (!place(*fork) || !deform(*fork)) return hide();
+  draw(*fork);
+  setStatus(StatusProperty::Ok, "Topic", "Drawing");
+  context_->queueRender();
+}
+
+/// The world frame of the message in the fixed frame of rviz.
+bool ForkDisplay::place(const ForkState& fork) {
+  Ogre::Vector3 position = Ogre::Vector3::ZERO;
+  Ogre::Quaternion rotation = Ogre::Quaternion::IDENTITY;
+  if (fork.header.frame_id != fixed_frame_.toStdString() &&
+      !context_->getFrameManager()->getTransform(fork.header.frame_id, ros::Time(), position, rotation)) {
+    setStatus(StatusProperty::Error, "Transform",
+              "No transform from " + QString::fromStdString(fork.header.frame_id) + " to " + fixed_frame_);
+    return false;
+  }
+  deleteStatus("Transform");
+  scene_node_->setPosition(position);
+  scene_node_->setOrientation(rotation);
+  return true;
+}
+
+bool ForkDisplay::deform(const ForkState& fork) {
+  try {
+    const auto shape = make_shape_model(fork.shape, fork.length);
+    const StrainVector q = Eigen::Map<const Eigen::VectorXd>(fork.strain.data(), std::min<Eigen::Index>(
+        static_cast<Eigen::Index>(fork.strain.size()), max_strain_coordinates));
+    if (q.size() != shape->size() || !shape->admissible(q) || !is_finite(fork.handle_seen)) {
+      throw InputError("strain: must be what a rod of shape " + fork.shape + " can have");
+    }
+    const auto& p = fork.handle_seen.position;
+    const auto& r = fork.handle_seen.orientation;
+    const RigidTransform X_WH = make_transform(Quaterniond(r.w, r.x, r.y, r.z), Vector3d(p.x, p.y, p.z));
+    model_.deform(rod_curve(*shape, q, X_WH), coil_diameter(fork.length), mesh_);
+    return true;
+  } catch (const InputError& error) {
+    setStatus(StatusProperty::Error, "Topic", error.what());
+    return false;
+  }
+}
+
+void ForkDisplay::draw(const ForkState& fork) {
+  const double load = std::max(norm(fork.tip_wrench.force), norm(fork.tip_wrench.torque) / fork.length);
+  const Ogre::ColourValue color = load_color(load / static_cast<double>(full_load_->getFloat()));
+  spring_material_->setAmbient(color * 0.5F);
+  spring_material_->setDiffuse(color);
+  const bool is_new = object_->getSections().empty();
+  fill(0, model_.spring(), spring_material_, is_new);
+  fill(1, model_.shaft_and_end(), rigid_material_, is_new);
+  object_->setVisible(true);
+}
+
+void ForkDisplay::fill(unsigned int section, const ForkModel::Triangles& triangles, const Ogre::MaterialPtr& material,
+                       bool is_new) {
+  if (is_new) {
+    object_->estimateVertexCount(mesh_.vertices.size());
+    object_->estimateIndexCount(3 * triangles.size());
+    object_->begin(material->getName(), Ogre::RenderOperation::OT_TRIANGLE_LIST, material->getGroup());
+  } else {
+    object_->beginUpdate(section);
+  }
+  for (std::size_t i = 0; i < mesh_.vertices.size(); ++i) {
+    object_->position(to_ogre(mesh_.vertices[i]));
+    object_->normal(to_ogre(mesh_.normals[i]));
+  }
+  for (const Eigen::Vector3i& t : triangles) {
+    object_->triangle(static_cast<unsigned>(t[0]), static_cast<unsigned>(t[1]), static_cast<unsigned>(t[2]));
+  }
+  object_->end();
+}
+
+void ForkDisplay::hide() {
+  newest_.reset();
+  if (object_) object_->setVisible(false);
+}
+
+}  // namespace spring_workbench
+
+PLUGINLIB_EXPORT_CLASS(spring_workbench::ForkDisplay, rviz::Display)

@@ -1,0 +1,263 @@
+#include "workbench_panel.h"
+
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+
+#include <QAbstractItemView>
+#include <QCheckBox>
+#include <QComboBox>
+#include <QGridLayout>
+#include <QLabel>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QTimer>
+#include <QVBoxLayout>
+#include <pluginlib/class_list_macros.hpp>
+
+#include <algorithm>
+#include <string>
+
+#include "error_plot.h"
+#include "log_slider.h"
+#include "spring_workbench/LoadScene.h"
+#include "spring_workbench/SetForkDamping.h"
+#include "spring_workbench/SetForkDofs.h"
+#include "spring_workbench/SetForkStiffness.h"
+#include "spring_workbench/SetIntegrator.h"
+#include "spring_workbench/dynamics/integrator.h"
+
+namespace spring_workbench {
+namespace {
+
+const std::string node = "/manipulation/";
+constexpr double longest_silence = 2.0;  // [s]
+constexpr double settling = 0.7;         // [s] until an answer is in the state
+
+QString list(const std::vector<std::string>& words) {
+  QStringList names;
+  for (const std::string& word : words) names << QString::fromStdString(word);
+  return names.isEmpty() ? QString("nothing") : names.join(", ");
+}
+
+}  // namespace
+
+WorkbenchPanel::WorkbenchPanel(QWidget* parent)
+    : rviz::Panel(parent), services_([this](const std::string& text) { Q_EMIT answered(QString::fromStdString(text)); }) {
+  controls_ = make_controls();
+  answer_ = new QLabel(this);
+  answer_->setWordWrap(true);
+  auto* layout = new QVBoxLayout(this);
+  layout->addWidget(controls_);
+  layout->addWidget(make_figures());
+  layout->addWidget(answer_);
+  layout->addStretch(1);
+  connect(this, &WorkbenchPanel::answered, answer_, &QLabel::setText, Qt::QueuedConnection);
+}
+
+WorkbenchPanel::~WorkbenchPanel() = default;
+
+QWidget* WorkbenchPanel::make_controls() {
+  auto* controls = new QWidget(this);
+  auto* layout = new QVBoxLayout(controls);
+  layout->setContentsMargins(0, 0, 0, 0);
+  make_families(layout);
+  make_choices(layout);
+  make_buttons(layout);
+  return controls;
+}
+
+void WorkbenchPanel::make_families(QVBoxLayout* layout) {
+  struct Look {
+    const char* name;
+    double softest, stiffest;
+    const char* unit;
+  };
+  const std::array<Look, 3> looks{{{"Stretch", 1.0, 1e6, "N/m"}, {"Bend", 1.0, 1e6, "N/m"}, {"Torsion", 1e-3, 1e4, "N m"}}};
+  auto* grid = new QGridLayout;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int row = 2 * static_cast<int>(i);
+    Family& family = families_[i];
+    family.on = new QCheckBox(looks[i].name, this);
+    family.stiffness = new LogSlider(looks[i].softest, looks[i].stiffest, looks[i].unit, this);
+    family.damping = new LogSlider(0.01, 10.0, "", this);
+    family.on->setToolTip("off: rigid");
+    family.stiffness->setToolTip("stiffness");
+    family.damping->setToolTip("damping ratio: 1 is critical");
+    grid->addWidget(family.on, row, 0);
+    grid->addWidget(family.stiffness, row, 1);
+    grid->addWidget(new QLabel("  damping", this), row + 1, 0);
+    grid->addWidget(family.damping, row + 1, 1);
+    connect(family.on, &QCheckBox::clicked, this, [this] { set_dofs(); });
+    connect(family.stiffness, &LogSlider::moved, this, [this, i] { set_stiffness(i); });
+    connect(family.damping, &LogSlider::moved, this, [this] { set_damping(); });
+  }
+  layout->addLayout(grid);
+}
+
+void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
+  auto* grid = new QGridLayout;
+  integrator_ = new QComboBox(this);
+  for (const std::string& name : integrator_names()) integrator_->addItem(QString::fromStdString(name));
+  tool_ = new QLabel(this);
+  tool_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // the panel keeps its width whatever is held
+  scene_ = new QLineEdit("package://spring_workbench/scenes/mini_world.urdf", this);
+  auto* load = new QPushButton("Load", this);
+  grid->addWidget(new QLabel("Integrator", this), 0, 0);
+  grid->addWidget(integrator_, 0, 1, 1, 2);
+  grid->addWidget(new QLabel("Tool", this), 1, 0);
+  grid->addWidget(tool_, 1, 1, 1, 2);
+  grid->addWidget(new QLabel("Scene", this), 2, 0);
+  grid->addWidget(scene_, 2, 1);
+  grid->addWidget(load, 2, 2);
+  layout->addLayout(grid);
+  connect(integrator_, QOverload<int>::of(&QComboBox::activated), this, [this] {
+    SetIntegrator::Request request;
+    request.name = integrator_->currentText().toStdString();
+    free_at_ = panel_time() + settling;
+    services_.call<SetIntegrator>("integrator", node + "set_integrator", request);
+  });
+  connect(load, &QPushButton::clicked, this, [this] {
+    LoadScene::Request request;
+    request.scene = scene_->text().toStdString();
+    services_.call<LoadScene>("scene", node + "load_scene", request);
+  });
+}
+
+void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
+  auto* row = new QHBoxLayout;
+  for (const char* name : {"Calibrate", "Reset", "Release"}) {
+    auto* button = new QPushButton(name, this);
+    row->addWidget(button);
+    const std::string service = node + QString(name).toLower().toStdString();
+    connect(button, &QPushButton::clicked, this, [this, service] { trigger(service); });
+  }
+  layout->addLayout(row);
+  grasp_ = new QCheckBox("Grasp (mouse)", this);
+  grasp_->setToolTip("the grasp button of the stylus that the mouse moves");
+  layout->addWidget(grasp_);
+  connect(grasp_, &QCheckBox::clicked, this, [this](bool on) {
+    std_srvs::SetBool::Request request;
+    request.data = on ? 1 : 0;
+    free_at_ = panel_time() + settling;
+    services_.call<std_srvs::SetBool>("grasp", "/tracker_driver/grasp", request);
+  });
+}
+
+QWidget* WorkbenchPanel::make_figures() {
+  auto* box = new QWidget(this);
+  auto* layout = new QVBoxLayout(box);
+  layout->setContentsMargins(0, 0, 0, 0);
+  figures_ = new QLabel(box);
+  figures_->setWordWrap(true);
+  left_out_ = new QLabel(box);
+  left_out_->setWordWrap(true);
+  plot_ = new ErrorPlot(box);
+  layout->addWidget(figures_);
+  layout->addWidget(left_out_);
+  layout->addWidget(plot_);
+  return box;
+}
+
+void WorkbenchPanel::onInitialize() {
+  ros::NodeHandle handle;
+  fork_subscriber_ = handle.subscribe(node + "fork", 1, &WorkbenchPanel::on_fork, this);
+  steps_subscriber_ = handle.subscribe(node + "steps", 200, &WorkbenchPanel::on_steps, this);
+  joy_subscriber_ = handle.subscribe("/stylus/joy", 1, &WorkbenchPanel::on_joy, this);
+  master_ = MasterWatch::shared();
+  auto* timer = new QTimer(this);
+  connect(timer, &QTimer::timeout, this, &WorkbenchPanel::refresh);
+  timer->start(100);
+  refresh();
+}
+
+void WorkbenchPanel::on_fork(const ForkStateConstPtr& message) {
+  fork_ = message;
+  fork_received_ = panel_time();
+}
+
+void WorkbenchPanel::on_steps(const StepReportConstPtr& message) {
+  steps_ = message;
+  if (message->deadline_missed) ++missed_;
+  plot_->add(panel_time(), message->wall_time, message->position_error);
+}
+
+void WorkbenchPanel::on_joy(const sensor_msgs::JoyConstPtr& message) {
+  if (!message->buttons.empty() && panel_time() > free_at_) grasp_->setChecked(message->buttons[0] != 0);
+}
+
+void WorkbenchPanel::refresh() {
+  const double now = panel_time();
+  const bool alive = now - fork_received_ < longest_silence;
+  if (alive != controls_->isEnabled() || (!alive && fork_)) {
+    controls_->setEnabled(alive);
+    answer_->setText(alive ? "" : "manipulation is silent: is it running?");
+  }
+  if (!alive) {
+    fork_.reset();
+    steps_.reset();
+    missed_ = 0;
+  }
+  if (fork_) show_fork();
+  show_steps();
+  plot_->refresh(now);
+}
+
+void WorkbenchPanel::show_fork() {
+  const ForkState& fork = *fork_;
+  const std::array<double, 3> stiffness{fork.stretch_stiffness, fork.bend_stiffness, fork.torsion_stiffness};
+  const std::array<double, 3> damping{fork.stretch_damping_ratio, fork.bend_damping_ratio, fork.torsion_damping_ratio};
+  for (std::size_t i = 0; i < 3; ++i) {
+    families_[i].stiffness->show_value(stiffness[i]);
+    families_[i].damping->show_value(damping[i]);
+  }
+  tool_->setText(QString::fromStdString(fork.tool + (fork.held_object.empty() ? "" : ", holds " + fork.held_object)));
+  if (panel_time() < free_at_ || integrator_->view()->isVisible()) return;
+  const std::array<bool, 3> on{fork.stretch_on != 0, fork.bend_on != 0, fork.torsion_on != 0};
+  for (std::size_t i = 0; i < 3; ++i) families_[i].on->setChecked(on[i]);
+  integrator_->setCurrentText(QString::fromStdString(fork.integrator));
+}
+
+void WorkbenchPanel::show_steps() {
+  if (!steps_) {
+    figures_->setText("no figures");
+    left_out_->clear();
+    return;
+  }
+  figures_->setText(QString("step %1 ms, error %2 m, %3 deadlines missed")
+                        .arg(1e3 * steps_->wall_time, 0, 'f', 3)
+                        .arg(steps_->position_error, 0, 'g', 2)
+                        .arg(missed_));
+  left_out_->setText("left out: " + list(steps_->parts_left_out));
+}
+
+void WorkbenchPanel::set_dofs() {
+  SetForkDofs::Request request;
+  request.stretch = families_[0].on->isChecked() ? 1 : 0;
+  request.bend = families_[1].on->isChecked() ? 1 : 0;
+  request.torsion = families_[2].on->isChecked() ? 1 : 0;
+  free_at_ = panel_time() + settling;
+  services_.call<SetForkDofs>("dofs", node + "set_dofs", request);
+}
+
+void WorkbenchPanel::set_stiffness(std::size_t family) {
+  SetForkStiffness::Request request;  // 0 keeps what is there
+  const std::array<double*, 3> fields{&request.stretch, &request.bend, &request.torsion};
+  *fields[family] = families_[family].stiffness->value();
+  services_.call<SetForkStiffness>("stiffness " + std::to_string(family), node + "set_stiffness", request);
+}
+
+void WorkbenchPanel::set_damping() {
+  SetForkDamping::Request request;
+  request.stretch = families_[0].damping->value();
+  request.bend = families_[1].damping->value();
+  request.torsion = families_[2].damping->value();
+  services_.call<SetForkDamping>("damping", node + "set_damping", request);
+}
+
+void WorkbenchPanel::trigger(const std::string& service) {
+  services_.call<std_srvs::Trigger>(service, service, std_srvs::Trigger::Request());
+}
+
+}  // namespace spring_workbench
+
+PLUGINLIB_EXPORT_CLASS(spring_workbench::WorkbenchPanel, rviz::Panel)

@@ -1,0 +1,86 @@
+#pragma once
+
+#ifndef Q_MOC_RUN
+#include <ros/subscriber.h>
+#include <rviz/panel.h>
+#include <sensor_msgs/Joy.h>
+
+#include <array>
+#include <memory>
+
+#include "master_watch.h"
+#include "service_caller.h"
+#include "spring_workbench/ForkState.h"
+#include "spring_workbench/StepReport.h"
+#endif
+
+class QCheckBox;
+class QComboBox;
+class QGridLayout;
+class QLabel;
+class QLineEdit;
+class QPushButton;
+class QVBoxLayout;
+
+namespace spring_workbench {
+
+class ErrorPlot;
+class LogSlider;
+
+/// Tunes the fork of the node `manipulation` while it is used. What it shows comes from `~fork` and `~steps` alone; what a
+/// hand moves is asked of the node's services. Grey while the node is silent.
+class WorkbenchPanel : public rviz::Panel {
+  Q_OBJECT
+ public:
+  explicit WorkbenchPanel(QWidget* parent = nullptr);
+  ~WorkbenchPanel() override;
+  void onInitialize() override;
+
+ Q_SIGNALS:
+  /// One line about a call that was made; from any thread.
+  void answered(const QString& text);
+
+ private:
+  struct Family {
+    QCheckBox* on;
+    LogSlider* stiffness;
+    LogSlider* damping;
+  };
+
+  QWidget* make_controls();
+  void make_families(QVBoxLayout* layout);
+  void make_choices(QVBoxLayout* layout);
+  void make_buttons(QVBoxLayout* layout);
+  QWidget* make_figures();
+
+  void on_fork(const ForkStateConstPtr& message);
+  void on_steps(const StepReportConstPtr& message);
+  void on_joy(const sensor_msgs::JoyConstPtr& message);
+  void refresh();
+  void show_fork();
+  void show_steps();
+
+  void set_dofs();
+  void set_stiffness(std::size_t family);
+  void set_damping();
+  void trigger(const std::string& service);
+
+  std::shared_ptr<MasterWatch> master_;
+  ros::Subscriber fork_subscriber_, steps_subscriber_, joy_subscriber_;
+  ForkStateConstPtr fork_;
+  StepReportConstPtr steps_;
+  double fork_received_ = -1e9;  ///< [s]
+  double free_at_ = 0.0;         ///< when switches and choices follow the node again [s]
+  std::size_t missed_ = 0;       ///< deadlines
+
+  QWidget* controls_;
+  std::array<Family, 3> families_{};  ///< stretch, bend, torsion
+  QComboBox* integrator_;
+  QCheckBox* grasp_;
+  QLineEdit* scene_;
+  QLabel *tool_, *figures_, *left_out_, *answer_;
+  ErrorPlot* plot_;
+  ServiceCaller services_;
+};
+
+}  // namespace spring_workbench

@@ -1,0 +1,149 @@
+#include "spring_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/dynamics/damped_oscillator.h"
+#include "spring_workbench/tools/calibration.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double no_length = 1e-12;  ///< [m]; a shorter span has no direction
+
+Vector3d direction(const Vector3d& d) { return d.norm() > no_length ? Vector3d(d.normalized()) : Vector3d(0, 0, -1); }
+
+}  // namespace
+
+SpringBody::SpringBody(std::size_t index, const Body& body, double gravity, const RigidTransform& X_WO,
+                       double rest_length, const ForkSettings& fork)
+    : mass_(body.mass_properties.mass),
+      gravity_(gravity),
+      rest_length_(rest_length),
+      hand_(RigidTransform::Identity()),
+      state_{0.0, FreeBody(index, body, gravity, X_WO, Twist())},
+      remembered_(state_),
+      inertia_O_(body.mass_properties.inertia_O) {
+  set_springs(fork);
+}
+
+void SpringBody::set_hand(const MotionSegment& hand, double t) {
+  hand_ = hand;
+  state_.t = t;
+}
+
+void SpringBody::set_springs(const ForkSettings& fork) {
+  k_ = fork.stiffness.stretch;
+  c_ = 2.0 * fork.damping_ratio.stretch * std::sqrt(mass_ * k_);
+}
+
+PerFamily SpringBody::calibrate(const ForkSettings& fork, double gravity) {
+  ForkSettings found = fork;
+  found.stiffness.stretch = calibrated_spring(mass_, fork.length, gravity);
+  set_springs(found);
+  return found.stiffness;
+}
+
+SpringBody::Span SpringBody::span() const {
+  const MotionState hand = hand_.at(state_.t);
+  const MotionState o = object();
+  return {o.X.translation() - hand.X.translation(), o.velocity.linear - hand.velocity.linear};
+}
+
+SpringBody::Linear SpringBody::linear(const Span& s) const {
+  Linear a;
+  a.d = s.d;
+  a.n = direction(s.d);
+  a.radial = k_ / mass_;
+  a.alpha = 0.5 * c_ / mass_;
+  a.transverse = s.d.norm() > rest_length_ ? a.radial * (1.0 - rest_length_ / s.d.norm()) : 0.0;
+  return a;
+}
+
+Vector3d SpringBody::acceleration(const Span& s, const Vector3d& rest_W) const {
+  const Vector3d n = direction(s.d);
+  return rest_W - (k_ * (s.d.norm() - rest_length_) + c_ * n.dot(s.rate)) / mass_ * n;
+}
+
+Vector3d SpringBody::remainder(const Linear& a, const Span& s, const Vector3d& rest_W) const {
+  const Vector3d x = s.d - a.d;
+  const double along = a.n.dot(x);
+  return acceleration(s, rest_W) + (a.radial * along + 2.0 * a.alpha * a.n.dot(s.rate)) * a.n +
+         a.transverse * (x - along * a.n);
+}
+
+SpringBody::Span SpringBody::respond(const Linear& a, const Span& s, double h, const Vector3d& remainder) {
+  const OscillatorStep along = damped_oscillator(a.alpha, a.radial, h);
+  const OscillatorStep across = damped_oscillator(0.0, a.transverse, h);
+  const double v = a.n.dot(s.rate), g = a.n.dot(remainder);
+  const Vector3d v_across = s.rate - v * a.n, g_across = remainder - g * a.n;
+  return {a.d + (along.xv * v + along.xg * g) * a.n + across.xv * v_across + across.xg * g_across,
+          (along.vv * v + along.vg * g) * a.n + across.vv * v_across + across.vg * g_across};
+}
+
+bool SpringBody::advance(double h, const Wrench& contact_W) {
+  const auto rest = [&](double t) {  // what accelerates beside the spring
+    return Vector3d(contact_W.force / mass_ - gravity_ * Vector3d::UnitZ() - hand_.at(t).acceleration.linear);
+  };
+  const Span begin = span();
+  const Linear a = linear(begin);
+  const Vector3d at_begin = remainder(a, begin, rest(state_.t));
+  const Span middle = respond(a, begin, 0.5 * h, at_begin);
+  const Span end = respond(a, begin, h, remainder(a, middle, rest(state_.t + 0.5 * h)));
+  State next = state_;
+  if (!end.d.allFinite() || !end.rate.allFinite() || !next.free.advance(h, contact_W)) return false;
+  const MotionState hand = hand_.at(state_.t + h);
+  next.free.set_motion_of_centre(hand.X.translation() + end.d, hand.velocity.linear + end.rate);
+  next.t += h;
+  state_ = next;
+  estimates_.position = std::max(estimates_.position, (respond(a, begin, h, at_begin).d - end.d).norm());
+  estimates_.omega_dt = std::max(estimates_.omega_dt, std::sqrt(a.radial) * h);
+  return true;
+}
+
+SteppedBody::Answer SpringBody::answer(double h) const {
+  Answer answer = state_.free.answer(h);
+  const Linear a = linear(span());
+  const OscillatorStep along = damped_oscillator(a.alpha, a.radial, h), across = damped_oscillator(0.0, a.transverse, h);
+  const Matrix3d radial = a.n * a.n.transpose();
+  answer.displacement.topLeftCorner<3, 3>() = (across.xg * Matrix3d::Identity() + (along.xg - across.xg) * radial) / mass_;
+  answer.velocity.topLeftCorner<3, 3>() = (across.vg * Matrix3d::Identity() + (along.vg - across.vg) * radial) / mass_;
+  return answer;
+}
+
+void SpringBody::stay(double h) {
+  state_.free.stay(h);
+  state_.t += h;
+}
+
+double SpringBody::elastic_energy() const {
+  const double extension = span().d.norm() - rest_length_;
+  return 0.5 * k_ * extension * extension;
+}
+
+StepEstimates SpringBody::take_estimates() {
+  const StepEstimates e = estimates_;
+  estimates_ = StepEstimates();
+  return e;
+}
+
+void SpringBody::describe(bool, ToolState& state) const {
+  const Span s = span();
+  const Vector3d n = direction(s.d);
+  const MotionState o = object();
+  const RigidTransform X_WH = hand_.at(state_.t).X;
+  state.stretch = s.d.norm() - rest_length_;
+  // Drawn straight from the hand to the object's centre.
+  state.X_WH_seen = X_WH;
+  state.X_WH_seen.linear() = Quaterniond::FromTwoVectors(X_WH.linear().col(2), n).toRotationMatrix() * X_WH.linear();
+  state.X_WE = state.X_WH_seen * Eigen::Translation3d(0.0, 0.0, s.d.norm());
+  const double drawn = state.shape == "bushing" ? state.stretch : state.stretch / rest_length_;
+  state.strain[state.strain.size() - 1] = drawn;
+  state.tip_wrench_W.force = -(k_ * state.stretch + c_ * n.dot(s.rate)) * n;
+  state.handle_wrench_H.force = -(X_WH.linear().transpose() * state.tip_wrench_W.force);
+  state.elastic_energy = elastic_energy();
+  const Vector3d w_O = o.X.linear().transpose() * o.velocity.angular;
+  state.kinetic_energy = 0.5 * mass_ * o.velocity.linear.squaredNorm() + 0.5 * w_O.dot(inertia_O_ * w_O);
+}
+
+}  // namespace spring_workbench

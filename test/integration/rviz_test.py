@@ -1,0 +1,176 @@
+#!/usr/bin/python3
+"""rviz with the panel, the fork's display and the marker of the mouse, worked by clicks and drags on a virtual display."""
+import contextlib
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import rospkg
+import rospy
+import rostest
+import rosgraph
+import yaml
+from sensor_msgs.msg import Joy
+from spring_workbench.msg import ForkState, ObjectStates
+
+from stack import Launched, Listener, wait_for
+
+PACKAGE = rospkg.RosPack().get_path("spring_workbench")
+PLUGINS = os.environ["CMAKE_PREFIX_PATH"].split(":")[0] + "/lib/libspring_workbench_rviz.so"
+SIZE = (1200, 760)
+FOCUS, DISTANCE = 0.25, 1.0  # height [m] that the camera looks at, along +y, and from how far
+
+
+def xdotool(*arguments):
+    subprocess.run(["xdotool", *[str(a) for a in arguments]], check=True)
+
+
+def config(folder):
+    """The shipped one, looking along +y, with the fork drawn by its display."""
+    content = yaml.safe_load(open(PACKAGE + "/rviz/workbench.rviz"))
+    manager = content["Visualization Manager"]
+    for display in manager["Displays"]:
+        if display["Class"] == "spring_workbench/SpringFork":
+            display["Enabled"] = display["Value"] = True
+    manager["Views"]["Current"].update({"Pitch": 0.0, "Yaw": 4.712389, "Distance": DISTANCE,
+                                        "Focal Point": {"X": 0.0, "Y": 0.0, "Z": FOCUS}})
+    content["Window Geometry"] = {"Width": SIZE[0], "Height": SIZE[1], "X": 0, "Y": 0}
+    path = os.path.join(folder, "view.rviz")
+    with open(path, "w") as file:
+        yaml.safe_dump(content, file)
+    return path
+
+
+@contextlib.contextmanager
+def display():
+    reader, writer = os.pipe()
+    server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % SIZE, "+extension", "GLX"],
+                              pass_fds=[writer], stderr=subprocess.DEVNULL)
+    os.environ["DISPLAY"] = ":" + os.read(reader, 16).decode().strip()
+    os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
+    windows = subprocess.Popen(["openbox"], stderr=subprocess.DEVNULL)
+    try:
+        yield
+    finally:
+        for process in [windows, server]:
+            process.terminate()
+            process.wait()
+
+
+class Picture:
+    """Where rviz shows the scene in its window, by the colour of its background, and where a point is on it."""
+
+    def __init__(self):
+        width, height = SIZE
+        pixels = subprocess.run(["import", "-window", "root", "-depth", "8", "rgb:-"], check=True, capture_output=True).stdout
+        rows = [pixels[3 * width * y:3 * width * (y + 1)] for y in range(height)]
+        background = bytes([38, 42, 48])
+        wide = [y for y, row in enumerate(rows) if row.count(background) > width // 4]
+        self.ready = bool(wide)
+        if not self.ready:
+            return
+        columns = [x for x in range(width) if rows[wide[0] + 20][3 * x:3 * x + 3] == background]
+        left, right, top = columns[0], columns[-1], wide[0]
+        grey = rows[height - 4][3 * (width // 2):3 * (width // 2) + 3]  # of the status bar
+        bottom = next(y for y in range(height - 4, top, -1) if rows[y][3 * (left + 5):3 * (left + 5) + 3] != grey)
+        self.centre = ((left + right) / 2, (top + bottom) / 2)
+        self.metres = 2 * DISTANCE * 0.41421356 / (bottom - top)  # a pixel, at the distance of the focal point
+
+    def pixel(self, position):
+        return (round(self.centre[0] + position.x / self.metres),
+                round(self.centre[1] - (position.z - FOCUS) / self.metres))
+
+
+@unittest.skipUnless(os.path.exists(PLUGINS), "the rviz plugins were not built")
+@unittest.skipUnless(all(map(shutil.which, ["Xvfb", "openbox", "xdotool", "import"])),
+                     "Xvfb, openbox, xdotool or ImageMagick is not installed")
+class Rviz(unittest.TestCase):
+    def setUp(self):
+        rospy.set_param("/use_sim_time", False)
+        self.fork, self.joy = Listener("manipulation/fork", ForkState), Listener("stylus/joy", Joy)
+        self.objects = Listener("manipulation/objects", ObjectStates)
+        self.stack = contextlib.ExitStack()
+        folder = self.stack.enter_context(tempfile.TemporaryDirectory())
+        self.stack.enter_context(display())
+        self.stack.enter_context(Launched("workbench.launch", "input:=mouse", "rviz_config:=" + config(folder),
+                                          "scene:=package://spring_workbench/scenes/single_box.urdf",
+                                          "settings:=" + PACKAGE + "/config/demo_fork.yaml"))
+        subscribers = lambda: dict(rosgraph.Master("/test").getSystemState()[1])
+        wait_for(lambda: "/rviz" in subscribers().get("/manipulation/fork", []), "the panel to listen")
+        self.picture = wait_for(lambda: (lambda p: p.ready and p)(Picture()), "rviz to show the scene")
+        wait_for(lambda: "/rviz" in subscribers().get("/stylus/marker/update", []), "rviz to know the marker")
+        time.sleep(2.0)  # the marker is drawn soon after
+
+    def tearDown(self):
+        self.stack.close()
+
+    def hand(self):
+        return self.fork.last.handle.position
+
+    def grab(self):
+        """A place on the marker's ball, beside the arrow that points at us."""
+        x, y = self.picture.pixel(self.hand())
+        return x - 12, y + 8
+
+    def drag_to(self, x, z):
+        """The marker's arrows, until the hand is there."""
+        self.picture = Picture()  # the panel may have changed its width
+        arrow = 0.115 / self.picture.metres  # from the handle [pixels]
+        for _ in range(8):
+            dx, dz = x - self.hand().x, z - self.hand().z
+            if abs(dx) < 0.006 and abs(dz) < 0.006:
+                return
+            if abs(dz) >= 0.006:
+                self.drag((0, -arrow), (0, -dz / self.picture.metres))
+            if abs(dx) >= 0.006:
+                self.drag((arrow, 0), (dx / self.picture.metres, 0))
+        self.fail("the hand is at %s, not at x %g, z %g" % (self.hand(), x, z))
+
+    def drag(self, grip, way):
+        """From a place beside the handle, by a way; pixels."""
+        begin = [a + b for a, b in zip(self.picture.pixel(self.hand()), grip)]
+        steps = 20
+        xdotool("mousemove", round(begin[0]), round(begin[1]), "sleep", 0.4, "mousedown", 1)
+        for k in range(1, steps + 1):
+            xdotool("mousemove", *[round(a + b * k / steps) for a, b in zip(begin, way)], "sleep", 0.04)
+        xdotool("sleep", 0.5, "mouseup", 1, "sleep", 0.8)
+
+    def choose_grasp(self, down):
+        xdotool("mousemove", *self.grab(), "sleep", 0.3, "click", 3, "sleep", 1.0, "mousemove_relative", 40, 12,
+                "sleep", 0.3, "click", 1)
+        wait_for(lambda: self.joy.last.buttons[0] == down, "the grasp button %s" % ("down" if down else "up"), 15.0)
+
+    def test_panel_switches_torsion(self):
+        box_column = 16
+        self.assertTrue(self.fork.next().torsion_on)
+        for y in range(84, 300, 12):  # down the column of switches
+            xdotool("mousemove", box_column, y, "sleep", 0.1, "click", 1, "sleep", 1.5)
+            if not self.fork.last.torsion_on:
+                break
+        self.assertFalse(self.fork.next().torsion_on)
+        xdotool("click", 1)
+        self.fork.next(lambda m: m.torsion_on, "torsion on again")
+
+    def test_object_is_moved_with_the_mouse_alone(self):
+        box = self.objects.next().objects[0]
+        lying = box.pose.position
+        self.drag_to(lying.x, lying.z + 0.2)  # the fork is 0.2 m long
+        self.choose_grasp(1)
+        self.objects.next(lambda m: m.objects[0].held, "the box to be held")
+        self.drag_to(lying.x, 0.4)
+        self.objects.next(lambda m: m.objects[0].pose.position.z > lying.z + 0.08, "the box to be lifted")
+        self.drag_to(lying.x + 0.12, 0.4)
+        self.drag_to(lying.x + 0.12, lying.z + 0.21)
+        self.choose_grasp(0)
+        there = self.objects.next(lambda m: not m.objects[0].held and m.objects[0].asleep, "the box at rest").objects[0]
+        self.assertAlmostEqual(there.pose.position.x, lying.x + 0.12, delta=0.03)
+        self.assertAlmostEqual(there.pose.position.z, lying.z, delta=0.005)
+
+
+if __name__ == "__main__":
+    rospy.init_node("rviz_test", disable_rostime=True)
+    rostest.rosrun("spring_workbench", "rviz_test", Rviz, sys.argv)
