@@ -13,14 +13,23 @@ namespace {
 constexpr std::size_t nodes = Collocation::count;
 constexpr std::size_t last = nodes - 1;
 
-constexpr int most_sweeps = 7;
+constexpr int most_sweeps = 12;
 constexpr int most_halvings = 4;
+/// A step that takes no more sweeps than this is at its best. When the others' sweeps beyond it have cost what a linear part
+/// costs, it is taken anew.
+constexpr int few_sweeps = 3;
+constexpr int worth_a_linear_part = 150;
 /// Sweeps stop when what they would still change is below this share of the error that the cubic itself makes, or below
 /// this share of the strain.
-constexpr double share_of_error = 0.1;
+constexpr double share_of_error = 0.5;
 constexpr double share_of_strain = 1e-12;
-/// A sweep that leaves more than this of the last one's change will not come to an end soon.
-constexpr double slow_contraction = 0.6;
+/// Squared, of the last step's cubic's error: a sweep that leaves more is not the last one.
+constexpr double far_from_done = 25.0;
+/// From the fourth sweep on, one that leaves more than this of the last one's change will not come to an end soon.
+constexpr double slow_contraction = 0.7;
+constexpr int sweeps_to_judge = 3;
+/// The most that the sweeps' own way is continued by, of a sweep.
+constexpr double most_continued = 3.0;
 /// From one step to the next the sweeps' contraction, where it is not measured, is taken to get worse by this factor.
 constexpr double forget_contraction = 1.3;
 /// The last step's cubic is continued to this many times its length, and no further.
@@ -72,9 +81,10 @@ class Exponential::CoreOf final : public Core {
     // The remainder is M⁻¹ Q at all nodes.
     Eigen::Matrix<double, 2 * n, n> modes;
     for (int i = 0; i < n; ++i) {
-      NodeModes constant;
+      NodeModes constant, x;
       for (int m = 0; m < 2 * n; ++m) constant[at(m)] = Pack{} + force_to_modes_(m, i);
-      modes.col(i) = at_node(last, driven(Start{}, constant));
+      drive(NodeModes{}, constant, x);
+      modes.col(i) = at_node(last, x);
     }
     const Eigen::Matrix<double, 2 * n, n> end = from_modes_ * modes * linear_.inverse_mass;
     r.q = end.template topRows<n>();
@@ -125,10 +135,6 @@ class Exponential::CoreOf final : public Core {
     for (int m = 0; m < 2 * n; ++m) r[m] = x[at(m)][i];
     return r;
   }
-  /// What the remainder does not change of the modes at the nodes.
-  struct Start {
-    NodeModes x{};
-  };
 
   void linearise(const HeldBody& body, const HandleForcing& handle, const Strain& q) {
     const LinearPart part = linear_part(body, handle, q);
@@ -145,6 +151,8 @@ class Exponential::CoreOf final : public Core {
     h_ = 0.0;
     t_end_ = std::numeric_limits<double>::quiet_NaN();
     contraction_ = 1.0;
+    slow_sweeps_ = 0;
+    squared_cubic_ = std::numeric_limits<double>::infinity();
   }
 
   /// The operators for a step of h.
@@ -152,10 +160,11 @@ class Exponential::CoreOf final : public Core {
     if (std::abs(h - h_) <= same_length * h) return;
     h_ = h;
     for (int m = 0; m < 2 * n; ++m) {
-      weight_[m] = 1.0 / std::max(1.0 / h, std::abs(linear_.rates[at(m)]));
+      const double weight = 1.0 / std::max(1.0 / h, std::abs(linear_.rates[at(m)]));
+      squared_weight_[m] = weight * weight;
     }
     const auto take = [this, h](int m, const auto& w) {
-      for (std::size_t i = 1; i < nodes; ++i) {
+      for (std::size_t i = 0; i < nodes; ++i) {
         set(decay_, i, m, w.decay[i]);
         for (std::size_t j = 0; j < nodes; ++j) set(node_[j], i, m, h * w.node[i][j]);
       }
@@ -181,7 +190,7 @@ class Exponential::CoreOf final : public Core {
     return times(force_to_modes_, r);
   }
   /// The same at the nodes.
-  NodeModes remainder(const HeldBody& body, const HandleForcings& handle, const NodeModes& x) const {
+  void remainder(const HeldBody& body, const HandleForcings& handle, const NodeModes& x, NodeModes& result) const {
     NodeStrains moved, rate, q, r;
     for (int i = 0; i < n; ++i) {
       moved[at(i)] = from_modes_(i, 0) * x[0];
@@ -196,23 +205,29 @@ class Exponential::CoreOf final : public Core {
     for (int i = 0; i < n; ++i) {
       for (int j = 0; j < n; ++j) r[at(i)] += stiffness_(i, j) * moved[at(j)] + damping_(i, j) * rate[at(j)];
     }
-    NodeModes result;
     for (int m = 0; m < 2 * n; ++m) {
       result[at(m)] = force_to_modes_(m, 0) * r[0];
       for (int i = 1; i < n; ++i) result[at(m)] += force_to_modes_(m, i) * r[at(i)];
     }
-    return result;
   }
-  /// Modes at the nodes under the cubic through these remainders.
-  NodeModes driven(const Start& start, const NodeModes& remainders) const {
-    NodeModes x = start.x;
-    for (std::size_t j = 0; j < nodes; ++j) {
-      for (int m = 0; m < 2 * n; ++m) x[at(m)] += node_[j].of([&](int k) { return remainders[at(k)][j]; }, m);
+  /// Modes `x` at the nodes under the cubic through these remainders; `start`: what they are without.
+  void drive(const NodeModes& start, const NodeModes& remainders, NodeModes& x) const {
+    for (int m = 0; m < 2 * n; ++m) {
+      const Pack own = remainders[at(m)], other = remainders[at(m ^ 1)];
+      Pack sum = start[at(m)];
+      for (std::size_t j = 0; j < nodes; ++j) {
+        sum += node_[j].own[at(m)] * own[j] + node_[j].other[at(m)] * other[j];
+      }
+      x[at(m)] = sum;
     }
-    return x;
   }
-  /// Size of what is in modes [m √kg]: displacements as they are, velocities times what is left of them over a step.
-  double size(const Modes& x) const { return weight_.cwiseProduct(x).norm(); }
+  /// Squared size of what is in modes [m² kg]: displacements as they are, velocities times what is left of them over a step.
+  double squared_size(const Modes& x) const { return squared_weight_.dot(x.cwiseAbs2()); }
+  Pack squared_size(const NodeModes& x, const NodeModes& y) const {
+    Pack sum{};
+    for (int m = 0; m < 2 * n; ++m) sum += squared_weight_[m] * x[at(m)] * y[at(m)];
+    return sum;
+  }
 
   /// Whether a step from here goes on from the last one.
   bool goes_on(double t, const State& s) const {
@@ -260,7 +275,9 @@ class Exponential::CoreOf final : public Core {
     constexpr auto& c = Collocation::nodes;
     const HandleForcings forcing = body.forcing(handle, t + Pack{c[0], c[1], c[2], c[3]} * h);
     const State begin = state;
-    if (version_ != body.version()) linearise(body, forcing.at(0), state.q);
+    if (version_ != body.version() || (slow_sweeps_ > worth_a_linear_part && state.q != q_reference_)) {
+      linearise(body, forcing.at(0), state.q);
+    }
     Estimate e = sweep(body, forcing, h, state);
     if (e.converged) return e;
     if (begin.q != q_reference_) {
@@ -278,9 +295,8 @@ class Exponential::CoreOf final : public Core {
     return e;
   }
 
-  Estimate sweep(const HeldBody& body, const HandleForcings& forcing, double h, State& state) {
-    prepare(h);
-    const Modes x0 = modes_of(state);
+  /// The remainders at the nodes, as far as they are known before the first sweep.
+  void predict(const HeldBody& body, const HandleForcings& forcing, double h, const State& state) {
     const bool follows = goes_on(forcing.t[0], state);
     const bool known = follows && load_version_ == body.load_version() &&
                        same(end_acceleration_, vector(forcing.of_H.a_B, 0)) &&
@@ -291,39 +307,60 @@ class Exponential::CoreOf final : public Core {
     } else {
       for (int m = 0; m < 2 * n; ++m) remainder_[at(m)] = Pack{} + start_remainder_[m];
     }
-    Start start;
-    for (int m = 0; m < 2 * n; ++m) start.x[at(m)] = decay_.of([&](int k) { return x0[k]; }, m);
+  }
+
+  /// Sweeps, from the second on continued along the way that they take (Anderson's acceleration of depth one).
+  Estimate sweep(const HeldBody& body, const HandleForcings& forcing, double h, State& state) {
+    prepare(h);
+    const Modes x0 = modes_of(state);
+    predict(body, forcing, h, state);
+    NodeModes start, x;
+    Swept swept[2]{};  // this sweep's and the last one's, in turns
+    for (int m = 0; m < 2 * n; ++m) start[at(m)] = decay_.of([&](int k) { return x0[k]; }, m);
 
     Estimate e;
-    NodeModes x = driven(start, remainder_);
-    Modes end = at_node(last, x);
-    const double size_of_start = size(x0);
-    double change = 0.0;
-    for (int sweeps = 1; sweeps <= most_sweeps && !e.converged; ++sweeps) {
-      for (int m = 0; m < 2 * n; ++m) x[at(m)][0] = x0[m];
-      remainder_ = remainder(body, forcing, x);
-      for (int m = 0; m < 2 * n; ++m) remainder_[at(m)][0] = start_remainder_[m];
-      x = driven(start, remainder_);
-      const Modes next = at_node(last, x);
-      const Modes changed = next - end;
-      const double change_before = change;
-      change = size(changed);
-      end = next;
-      if (!(change < 1e300)) break;
-      const double rounding = share_of_strain * std::max(size(end), size_of_start);
-      if (sweeps == 1) {
-        contraction_ = std::min(1.0, contraction_ * forget_contraction);
-      } else if (change > rounding) {
-        contraction_ = change / change_before;
-        if (sweeps > 2 && contraction_ > slow_contraction) break;
+    drive(start, remainder_, x);
+    const double squared_start = squared_size(x0);
+    double all_before = 0.0;
+    int sweeps = 0;
+    while (sweeps < most_sweeps && !e.converged) {
+      ++sweeps;
+      Swept& now = swept[sweeps % 2];
+      const Swept& before = swept[1 - sweeps % 2];
+      remainder(body, forcing, x, remainder_);
+      drive(start, remainder_, now.x);
+      for (int m = 0; m < 2 * n; ++m) now.moved[at(m)] = now.x[at(m)] - x[at(m)];
+      const Pack squares = squared_size(now.moved, now.moved);
+      const double squared_change = squares[last], all = squares[1] + squares[2] + squares[3];
+      if (!(all < 1e300)) break;
+      const double squared_rounding =
+          share_of_strain * share_of_strain * std::max(squared_size(now.x, now.x)[last], squared_start);
+      double contraction = std::min(1.0, contraction_ * forget_contraction);
+      if (sweeps > 1 && squared_change > squared_rounding) {
+        contraction = std::sqrt(all / all_before);
+        if (sweeps == 2) contraction_ = contraction;
+        if (sweeps > sweeps_to_judge && contraction > slow_contraction) break;
       }
-      const Modes cubic = cubic_error();
-      const double left = contraction_ < 1.0 ? contraction_ / (1.0 - contraction_) : 1e3;  // of the change
-      e.converged = left * change <= std::max(share_of_error * size(cubic), rounding) || change <= rounding;
-      e.error = -(cubic + left * changed);
+      const double left = contraction < 1.0 ? contraction / (1.0 - contraction) : 1e3;  // of the change
+      const double squared_left = left * left * squared_change;
+      e.converged = squared_change <= squared_rounding || squared_left <= squared_rounding;
+      // Where the last step's cubic tells that this is not the last sweep, this one's is not asked.
+      if (e.converged || sweeps == most_sweeps || squared_left < far_from_done * squared_cubic_) {
+        const Modes cubic = cubic_error();
+        squared_cubic_ = squared_size(cubic);
+        e.converged = e.converged || squared_left <= share_of_error * share_of_error * squared_cubic_;
+        e.error = -(cubic + left * at_node(last, now.moved));
+      }
+      if (sweeps > 1) {
+        continue_sweeps(now, before, x);
+      } else {
+        x = now.x;
+      }
+      all_before = all;
     }
+    slow_sweeps_ += std::max(0, sweeps - few_sweeps);
     e.error = times(from_modes_, e.error);
-    state = state_of(end);
+    state = state_of(at_node(last, x));
     last_h_ = h;
     t_end_ = forcing.t[last];
     end_ = state;
@@ -331,6 +368,23 @@ class Exponential::CoreOf final : public Core {
     end_acceleration_ = vector(forcing.of_H.a_B, static_cast<int>(last));
     end_angular_acceleration_ = vector(forcing.of_H.alpha_B, static_cast<int>(last));
     return e;
+  }
+
+  /// What comes out of a sweep, and by how much it differs from what went in.
+  struct Swept {
+    NodeModes x, moved;
+  };
+  /// From two sweeps, where the next one is to start.
+  void continue_sweeps(const Swept& now, const Swept& before, NodeModes& x) const {
+    Pack along{}, all{};
+    for (int m = 0; m < 2 * n; ++m) {
+      const Pack less = before.moved[at(m)] - now.moved[at(m)];
+      along += squared_weight_[m] * less * now.moved[at(m)];
+      all += squared_weight_[m] * less * less;
+    }
+    const double further = (along[1] + along[2] + along[3]) / (all[1] + all[2] + all[3]);
+    const double f = std::abs(further) < most_continued ? further : 0.0;
+    for (int m = 0; m < 2 * n; ++m) x[at(m)] = now.x[at(m)] + f * (now.x[at(m)] - before.x[at(m)]);
   }
 
   LinearPart linear_;
@@ -341,14 +395,16 @@ class Exponential::CoreOf final : public Core {
   Eigen::Matrix<double, 2 * n, n> force_to_modes_;
 
   double h_ = 0.0;  ///< what the operators are for
-  Modes weight_;
+  Modes squared_weight_;
   Operator<Pack> decay_;                      ///< to the nodes
   std::array<Operator<Pack>, nodes> node_{};  ///< of the remainder at each node
   Operator<double> error_;
 
   NodeModes remainder_;    ///< at the nodes of this step, or the last one
   Modes start_remainder_;
-  double contraction_ = 1.0;                               ///< of a sweep's change by the next
+  double contraction_ = 1.0;                               ///< of the first sweep's change by the second
+  double squared_cubic_ = 0.0;                             ///< size of the cubic's error in the last step
+  int slow_sweeps_ = 0;                                    ///< beyond few_sweeps, with this linear part
   double last_h_ = 0.0, t_end_ = 0.0;
   State end_;
   long load_version_ = -1;
