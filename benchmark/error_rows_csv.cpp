@@ -9,7 +9,7 @@ namespace {
 constexpr const char* kHeader =
     "scene,stiffness_factor,shape,method,hand,step,tolerance,own_reference,reference_uncertainty,error,angle_error,"
     "error_over_hand_amplitude,error_over_largest_deflection,wall_us_per_simulated_second,steps_per_second,"
-    "error_over_tolerance,finite";
+    "error_over_tolerance,finite,given_up";
 
 }  // namespace
 
@@ -29,7 +29,7 @@ void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out) {
     } else {
       out << ",,,,,,";
     }
-    out << ',' << row.finite << '\n';
+    out << ',' << row.finite << ',' << row.given_up << '\n';
   }
 }
 

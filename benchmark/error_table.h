@@ -42,6 +42,7 @@ struct ErrorRow {
   double steps_per_second = 0.0;       ///< taken, per simulated second; 0: not known
   double error_over_tolerance = 0.0;   ///< of rods run to a tolerance: error_as_length() over it
   bool finite = false;
+  bool given_up = false;               ///< of rods run to a tolerance: not finished in the time that was left for it
 };
 
 /// The limit to which a method converges: three runs with steps halved twice from `output_interval / steps`, by

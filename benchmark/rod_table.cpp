@@ -5,7 +5,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
+#include "benchmark/isolated.h"
+#include "benchmark/parallel.h"
 #include "benchmark/rod_reference.h"
 #include "benchmark/simulated_rod.h"
 #include "spring_workbench/dynamics/integrator.h"
@@ -47,6 +51,7 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
   for (int n = 1; n <= (quick ? 16 : 1024); n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
   if (has_tolerance_setting()) plan.tolerances = quick ? std::vector<double>{1e-5} : std::vector<double>{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
   plan.longest_run = quick ? 0.005 : 0.025;
+  plan.tolerance_time_limit = quick ? 0.1 : 1.0;
   plan.repetition = quick ? Repetition{1, 0.005} : Repetition{3, 0.05};
   return plan;
 }
@@ -112,10 +117,74 @@ double error_as_length(const RodCase& one, double position, double angle) {
 std::size_t line_count(const RodTablePlan& plan) {
   std::size_t pairs = 0;
   for (const RodCase& one : plan.cases) pairs += one.shapes.size();
-  return pairs * integrator_names().size();
+  return pairs * (1 + integrator_names().size());
 }
 
 namespace {
+
+/// What comes before the poses.
+struct Header {
+  double wall_seconds;
+  long steps;
+  bool finite;
+};
+
+using PoseNumbers = Eigen::Matrix<double, 3, 4>;
+
+std::string packed(const RodRun& run) {
+  const Header header{run.wall_seconds, run.steps, run.finite};
+  std::string data(reinterpret_cast<const char*>(&header), sizeof(header));
+  for (const RigidTransform& X : run.X_WO) {
+    const PoseNumbers numbers = X.matrix().topRows<3>();
+    data.append(reinterpret_cast<const char*>(numbers.data()), sizeof(double) * 12);
+  }
+  return data;
+}
+
+RodRun unpacked(const std::string& data) {
+  Header header{};
+  std::memcpy(&header, data.data(), sizeof(header));
+  RodRun run;
+  run.wall_seconds = header.wall_seconds;
+  run.steps = header.steps;
+  run.finite = header.finite;
+  for (std::size_t at = sizeof(header); at < data.size(); at += sizeof(double) * 12) {
+    PoseNumbers numbers;
+    std::memcpy(numbers.data(), data.data() + at, sizeof(double) * 12);
+    run.X_WO.push_back(RigidTransform::Identity());
+    run.X_WO.back().matrix().topRows<3>() = numbers;
+  }
+  return run;
+}
+
+/// In a child process, given up after `time_limit` [s].
+RodRun run_rod_to_tolerance_isolated(const RodCase& one, const std::string& shape, const std::string& integrator,
+                                     double tolerance, double time_limit) {
+  const auto data = run_in_child([&] { return packed(run_rod_to_tolerance(one, shape, integrator, tolerance)); }, time_limit);
+  if (data) return unpacked(*data);
+  RodRun run;
+  run.given_up = true;
+  return run;
+}
+
+std::vector<std::pair<const RodCase*, std::string>> pairs_of(const std::vector<RodCase>& cases) {
+  std::vector<std::pair<const RodCase*, std::string>> pairs;
+  for (const RodCase& one : cases) {
+    for (const std::string& shape : one.shapes) pairs.emplace_back(&one, shape);
+  }
+  return pairs;
+}
+
+/// Of every case and shape, in their order; on all processors, since nothing is timed.
+std::vector<RodReference> rod_references(const std::vector<RodCase>& cases, Progress& progress) {
+  const auto pairs = pairs_of(cases);
+  std::vector<RodReference> references(pairs.size());
+  parallel_for(pairs.size(), [&](std::size_t i) {
+    progress.next("reference: " + pairs[i].first->name + ' ' + pairs[i].second);
+    references[i] = rod_reference(*pairs[i].first, pairs[i].second);
+  });
+  return references;
+}
 
 class Line {
  public:
@@ -134,9 +203,10 @@ class Line {
     all.insert(all.end(), rows.begin(), rows.end());
     rows.clear();
     for (const double tolerance : plan_.tolerances) {
-      rows.push_back(row(run_rod_to_tolerance(case_, shape_, integrator_, tolerance)));
+      rows.push_back(row(run_rod_to_tolerance_isolated(case_, shape_, integrator_, tolerance, plan_.tolerance_time_limit)));
       ErrorRow& last = rows.back();
       last.tolerance = tolerance;
+      if (last.given_up) break;
       last.error_over_tolerance = error_as_length(case_, last.error, last.angle_error) / tolerance;
       if (1e-6 * rows.back().wall_us_per_simulated_second > plan_.longest_run) break;
     }
@@ -152,6 +222,7 @@ class Line {
     r.hand = "samples";
     r.reference_uncertainty = reference_.uncertainty;
     r.finite = run.finite;
+    r.given_up = run.given_up;
     if (!run.finite) return r;
     const PoseDistance distance = largest_distance(run.X_WO, reference_.X_WO);
     r.error = distance.position;
@@ -173,10 +244,12 @@ class Line {
 }  // namespace
 
 std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Progress& progress) {
+  const std::vector<RodReference> references = rod_references(plan.cases, progress);
   std::vector<ErrorRow> all;
+  auto next = references.begin();
   for (const RodCase& one : plan.cases) {
     for (const std::string& shape : one.shapes) {
-      const RodReference reference = rod_reference(one, shape);
+      const RodReference& reference = *next++;
       for (const std::string& integrator : integrator_names()) {
         progress.next(one.name + ' ' + shape + ' ' + integrator);
         Line(plan, one, shape, reference, integrator).add_to(all);

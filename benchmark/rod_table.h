@@ -13,6 +13,7 @@ struct RodTablePlan {
   std::vector<int> steps_per_output;  ///< largest steps of 0.02 s over these; a step also ends at every sample
   std::vector<double> tolerances;     ///< [m]; with integrators that choose their steps
   double longest_run = 0.025;         ///< as in ErrorTablePlan [s per simulated second]
+  double tolerance_time_limit = 1.0;  ///< a run to a tolerance that takes longer is given up, and so are finer ones [s]
   Repetition repetition;
 };
 
@@ -26,6 +27,7 @@ struct RodRun {
   double wall_seconds = 0.0;
   long steps = 0;
   bool finite = false;
+  bool given_up = false;  ///< at the time limit
 };
 RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& integrator, double step);
 

@@ -179,10 +179,14 @@ void tolerance(const Measurements& m, std::vector<Verdict>& out) {
   }
   for (const std::string& method : methods) {
     double least = std::numeric_limits<double>::infinity(), largest = 0.0;
-    int within = 0, not_above = 0, count = 0;
+    int within = 0, not_above = 0, count = 0, given_up = 0;
     for (const ErrorRow& row : m.rods) {
       // Where one step per sample is better than asked there is nothing to choose.
       if (row.tolerance <= 0.0 || row.method != method) continue;
+      if (row.given_up) {
+        ++given_up;
+        continue;
+      }
       ++count;
       if (!row.finite) continue;
       least = std::min(least, row.error_over_tolerance);
@@ -190,11 +194,12 @@ void tolerance(const Measurements& m, std::vector<Verdict>& out) {
       not_above += row.error_over_tolerance <= 3.0;
       within += row.error_over_tolerance <= 3.0 && row.error_over_tolerance >= 1.0 / 3.0;
     }
+    if (count == 0) continue;
     const std::string figure = text(least) + " … " + text(largest) + " of it; " + std::to_string(within) + " of " +
                                std::to_string(count) + " within a factor of 3 both ways, " + std::to_string(not_above) +
-                               " no more than 3 above";
+                               " no more than 3 above; " + std::to_string(given_up) + " took too long";
     out.push_back(judged("Tolerance mode, " + method + ", all rods", "error within a factor of 3 of what was asked",
-                         figure, count > 0 && not_above == count));
+                         figure, not_above == count));
   }
   if (methods.empty()) {
     out.push_back({"Tolerance mode", "error within a factor of 3 of what was asked", "this build has no such mode",

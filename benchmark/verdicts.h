@@ -5,7 +5,10 @@
 
 #include "benchmark/elastica.h"
 #include "benchmark/error_table.h"
+#include "benchmark/fork_curve.h"
 #include "benchmark/stability_map.h"
+#include "benchmark/stability_table.h"
+#include "benchmark/step_cost.h"
 
 namespace spring_workbench::benchmark {
 
@@ -15,6 +18,9 @@ struct Measurements {
   std::vector<ErrorRow> rods;
   std::vector<ElasticaRow> elastica;
   StabilityMap map;
+  std::vector<StabilityCount> stability_counts;
+  std::vector<StepCost> step_costs;
+  std::vector<ForkCurveRow> fork_curves;
   double seconds = 0.0;  ///< that the report took
   bool quick = false;
 };

@@ -1,4 +1,3 @@
-#include "benchmark/fork_curve.h"
 #include "benchmark/report/report.h"
 
 #include <unistd.h>
@@ -16,7 +15,6 @@
 #include "benchmark/report/sections.h"
 #include "benchmark/report/tables.h"
 #include "benchmark/rod_table.h"
-#include "benchmark/stability_table.h"
 #include "benchmark/verdicts.h"
 
 namespace spring_workbench::benchmark {
@@ -84,9 +82,10 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   measured.scenes = error_table(methods, plan.scenes, progress);
   measured.rods = rod_table(plan.rods, progress);
   measured.elastica = elastica_table();
-  std::vector<StabilityCount> counts;
-  if (!options.quick) counts = stability_table(methods, progress);
+  if (!options.quick) measured.stability_counts = stability_table(methods, progress);
   measured.map = stability_map(plan.map, progress);
+  measured.step_costs = step_costs();
+  measured.fork_curves = measure_fork_curves();
   progress.finish();
   measured.seconds = progress.elapsed();
   const std::vector<Verdict> judged = verdicts(measured);
@@ -101,12 +100,10 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   tables.map = keep("stability_map.csv", stability_csv(measured.map));
   keep("stability_failures.csv", failures_csv(measured.map));
   keep("verdicts.csv", verdicts_csv(judged));
-  if (!counts.empty()) keep("stability_counts.csv", stability_counts_csv(counts));
-  const std::string costs = step_cost_csv(step_costs());
-  keep("step_cost.csv", costs);
-  keep("fork_curve.csv", fork_curves_csv(measure_fork_curves()));
-  page.sections = page_sections(measured, judged, counts, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), costs, tables,
-                                options.out);
+  if (!options.quick) keep("stability_counts.csv", stability_counts_csv(measured.stability_counts));
+  keep("step_cost.csv", step_cost_csv(measured.step_costs));
+  keep("fork_curve.csv", fork_curves_csv(measured.fork_curves));
+  page.sections = page_sections(measured, judged, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), tables, options.out);
   const std::string path = write_file(options.out, "report.html", html_page(page));
   print(judged, out);
   log << "wrote " << path << '\n';

@@ -87,11 +87,12 @@ PageSection shapes_section(const Measurements& measured, double difference, cons
                                     "Error of the shape models and of integration"}, folder));
   section.tables.push_back({"", shapes_csv(measured.elastica, measured.rods), false});
   section.tables.push_back({"All loads", elastica_csv(measured.elastica), true});
+  section.tables.push_back({"The drawn fork's curve against the exact elastica, driven by the exact tip, and what it costs",
+                            fork_curves_csv(measured.fork_curves), false});
   return section;
 }
 
-PageSection stability_section(const Measurements& measured, const std::vector<StabilityCount>& counts,
-                              const Tables& tables, const std::string& folder) {
+PageSection stability_section(const Measurements& measured, const Tables& tables, const std::string& folder) {
   PageSection section;
   section.title = "Stability map";
   section.text =
@@ -104,10 +105,10 @@ PageSection stability_section(const Measurements& measured, const std::vector<St
                                     "Share of the cells that hold, by stiffness and mass"}, folder));
   section.tables.push_back({"Cells", map_summary_csv(measured.map), false});
   section.tables.push_back({"The first cells of each integrator that do not hold", failures_csv(measured.map), true});
-  if (!counts.empty()) {
+  if (!measured.stability_counts.empty()) {
     section.tables.push_back({"Ours and the peers on scenes A and C: cases of 11 stiffnesses × 5 masses × 4 steps that stay "
                               "finite and bounded",
-                              stability_counts_csv(counts), false});
+                              stability_counts_csv(measured.stability_counts), false});
   }
   return section;
 }
@@ -115,9 +116,7 @@ PageSection stability_section(const Measurements& measured, const std::vector<St
 }  // namespace
 
 std::vector<PageSection> page_sections(const Measurements& measured, const std::vector<Verdict>& judged,
-                                       const std::vector<StabilityCount>& counts, double elastica_difference,
-                                       const std::string& step_costs, const Tables& tables,
-                                       const std::string& folder) {
+                                       double elastica_difference, const Tables& tables, const std::string& folder) {
   PageSection verdict;
   verdict.title = "Verdicts";
   verdict.text = "What was promised, what was measured in this run.";
@@ -126,10 +125,10 @@ std::vector<PageSection> page_sections(const Measurements& measured, const std::
   costs.title = "What each part of a step costs";
   costs.text = "exponential, by shape model and number of coordinates: processor time of the thread, the least of many short "
                "runs [ns].";
-  costs.tables.push_back({"", step_costs, false});
+  costs.tables.push_back({"", step_cost_csv(measured.step_costs), false});
   return {verdict, scenes_section(measured, tables, folder), rods_section(measured, tables, folder),
           shapes_section(measured, elastica_difference, tables, folder),
-          stability_section(measured, counts, tables, folder), costs};
+          stability_section(measured, tables, folder), costs};
 }
 
 }  // namespace spring_workbench::benchmark

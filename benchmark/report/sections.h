@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "benchmark/report/page.h"
-#include "benchmark/stability_table.h"
 #include "benchmark/verdicts.h"
 
 namespace spring_workbench::benchmark {
@@ -14,10 +13,8 @@ struct Tables {
   std::string scenes, rods, elastica, map;
 };
 
-/// The page's sections, with pictures drawn into `folder`. `elastica_difference`: as elastica_check(); `step_costs`: as step_cost_csv().
+/// The page's sections, with pictures drawn into `folder`. `elastica_difference`: as elastica_check().
 std::vector<PageSection> page_sections(const Measurements& measured, const std::vector<Verdict>& judged,
-                                       const std::vector<StabilityCount>& counts, double elastica_difference,
-                                       const std::string& step_costs, const Tables& tables,
-                                       const std::string& folder);
+                                       double elastica_difference, const Tables& tables, const std::string& folder);
 
 }  // namespace spring_workbench::benchmark

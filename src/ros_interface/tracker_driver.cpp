@@ -32,6 +32,23 @@ std::string resolve(const std::string& path_or_uri) {
   return folder + rest.substr(package.size());
 }
 
+/// ROS's time at which the steady clock showed `t` [s]. The two are read beside each other, once more where the process
+/// was interrupted in between.
+ros::Time ros_time(double t) {
+  constexpr double interrupted = 50e-6;  // [s]
+  const auto steady = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
+  ros::Time now;
+  double before = 0.0;
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    before = steady();
+    now = ros::Time::now();
+    if (steady() - before < interrupted) break;
+  }
+  return now - ros::Duration(before - t);
+}
+
 /// The parameters that go with a source.
 std::vector<std::string> keys_of(const std::string& source) {
   std::vector<std::string> keys{"source", "rate", "workbench_frame", "stylus_frame", "head_frame", "head",
@@ -233,16 +250,15 @@ StationStream& TrackerDriver::stream_of(int station) {
 }
 
 void TrackerDriver::send(const StationSample& sample) {
-  const std::chrono::duration<double> now = std::chrono::steady_clock::now().time_since_epoch();
   const TrueSample taken = stream_of(sample.station).take(sample);
   if (sample.station == 1) {
-    send_buttons(sample.button, sample.next_tool, ros::Time::now() - ros::Duration(now.count() - sample.received));
+    send_buttons(sample.button, sample.next_tool, ros_time(sample.received));
   }
   if (!usable(taken.verdict)) {
     ++left_out_;
     return;
   }
-  const ros::Time stamp = ros::Time::now() - ros::Duration(now.count() - taken.sample.t);
+  const ros::Time stamp = ros_time(taken.sample.t);
   ros::Time& newest = newest_[sample.station];
   const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
   if (stamp <= newest || (stamp - newest).toSec() < shortest) {

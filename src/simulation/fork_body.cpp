@@ -239,6 +239,11 @@ void ForkBody::stay(double h) {
   state_.behind = true;
 }
 
+void ForkBody::go_along(double h) {
+  state_.strain.q_dot.setZero();
+  state_.t += h;
+}
+
 StepEstimates ForkBody::take_estimates() {
   const StepEstimates e = estimates_;
   estimates_ = StepEstimates();

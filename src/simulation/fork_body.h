@@ -22,6 +22,7 @@ class ForkBody final : public ToolHold {
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
   void stay(double h) override;
+  void go_along(double h) override;
 
   /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
   void set_hand(const MotionSegment& hand, double t) override;

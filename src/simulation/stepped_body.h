@@ -31,6 +31,9 @@ class SteppedBody {
   virtual void add_impulse(const Wrench& impulse_W) = 0;
   /// Lets `h` [s] pass at rest where it is: the way out when nothing else fits.
   virtual void stay(double h) = 0;
+  /// Lets `h` [s] pass with its tool rigid, as one that has come to the end of its way: the way out where nothing can be in
+  /// the way. Adds no energy while the hand rests.
+  virtual void go_along(double h) { stay(h); }
 };
 
 }  // namespace spring_workbench

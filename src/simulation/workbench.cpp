@@ -123,7 +123,7 @@ void Workbench::carry(SteppedBody& stepped, std::size_t object, double h, Advanc
     stepped.remember();
     if (!stepped.advance(h, Wrench())) {
       stepped.go_back();
-      stepped.stay(h);
+      stepped.go_along(h);
       outcome.held_back = true;
     }
   }
