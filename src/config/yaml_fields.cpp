@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <set>
 #include <sstream>
 
 namespace spring_workbench {
 namespace {
 
 std::string number_text(double value) {
+  if (std::isnan(value)) return "nan";  // without a sign
   std::ostringstream out;
   out.precision(12);
   out << value;
@@ -59,7 +61,7 @@ std::string NumberRule::text() const {
 }
 
 void refuse(const std::string& where, const std::string& key, const std::string& value, const std::string& rule) {
-  throw InputError(where + ": " + key + ": " + value + " is not allowed: must be " + rule);
+  throw InputError(where + ": " + key + ": " + (value.empty() ? "(nothing)" : value) + " is not allowed: must be " + rule);
 }
 
 void check_number(const std::string& where, const std::string& key, double value, const NumberRule& rule) {
@@ -131,11 +133,13 @@ RigidTransform read_pose(const YAML::Node& node, const std::string& where, const
 void check_keys(const YAML::Node& map, const std::string& where, const std::string& prefix,
                 const std::vector<std::string>& allowed) {
   if (!map.IsDefined() || !map.IsMap()) refuse_node(map, where, prefix.empty() ? "(top level)" : prefix, "a map");
+  std::set<std::string> seen;
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : YAML::Dump(entry.first);
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
       throw InputError(place(entry.first, where) + ": " + prefix + key + ": unknown key; known are " + join(allowed));
     }
+    if (!seen.insert(key).second) throw InputError(place(entry.first, where) + ": " + prefix + key + ": given twice");
   }
 }
 

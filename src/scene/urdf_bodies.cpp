@@ -9,6 +9,8 @@
 namespace spring_workbench {
 namespace {
 
+constexpr double most_mass = 1e12;  // [kg]
+
 RigidTransform to_transform(const urdf::Pose& pose, const std::string& where) {
   const urdf::Rotation& q = pose.rotation;
   const Vector3d p(pose.position.x, pose.position.y, pose.position.z);
@@ -114,6 +116,7 @@ class BodyBuilder {
     const std::vector<Shape>& shapes = body.collision.empty() ? body.visual : body.collision;
     const RigidMass mass = mended_mass(given_L, shapes, body.material.density, where, warnings_);
     if (body.collision.empty()) warnings_.push_back(where + ": no collision shape: the body touches nothing");
+    check_number(where, "mass", mass.mass, between(0.0, most_mass));
     body.mass_properties = {mass.mass, mass.inertia};
     body.X_OL.translation() = -mass.centre;
     body.X_WO = body.X_WO * body.X_OL.inverse();

@@ -147,6 +147,13 @@ TiXmlDocument load_xml(const std::string& path) {
   return document;
 }
 
+/// With all that hang on it.
+std::size_t count_links(const urdf::Link& link) {
+  std::size_t count = 1;
+  for (const auto& child : link.child_links) count += count_links(*child);
+  return count;
+}
+
 }  // namespace
 
 std::string UrdfFile::where(const std::string& link) const {
@@ -171,6 +178,9 @@ UrdfFile read_urdf_file(const std::string& path) {
         path + ": not a URDF: " + (result.complaints.empty() ? "refused without a reason" : result.complaints.front()));
   }
   file.model = result.model;
+  if (count_links(*file.model->getRoot()) < file.model->links_.size()) {
+    throw InputError(path + ": not a URDF: there are links that hang in a loop, not on " + file.model->getRoot()->name);
+  }
   for (const std::string& complaint : result.complaints) file.warnings.push_back(path + ": " + complaint);
   return file;
 }

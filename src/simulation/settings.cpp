@@ -89,8 +89,9 @@ std::vector<Field> scene_fields() {
   return {
       by_default(as_scene,
                  choice("tool", tool_names(), "the tool in the hand", [](S& s) -> std::string& { return s.tool; })),
-      by_default(as_scene, choice("contact", {"none", "stop"},
-                                  "none: nothing is felt; stop: the held object stops at everything else and slides on",
+      by_default(as_scene, choice("contact", {"none", "stop", "dynamic"},
+                                  "none: nothing is felt; stop: the held object stops at everything else and slides on; "
+                                  "dynamic: it pushes, lifts and carries what it touches",
                                   [](S& s) -> std::string& { return s.contact; })),
       by_default(as_scene, number("gravity", "m/s²", between(0.0, 1e3), "along −z of world",
                                   [](S& s) -> double& { return s.gravity; })),

@@ -47,7 +47,7 @@ std::vector<double> read_numbers(const YAML::Node& node, const std::string& wher
 /// A pose as `x y z qx qy qz qw` (list or string) [m, –]; the quaternion is normalised, a zero one is refused.
 RigidTransform read_pose(const YAML::Node& node, const std::string& where, const std::string& key);
 
-/// Refuses a node that is not a map, or one with a key that is not in `allowed`; `prefix` goes before the key in messages.
+/// Refuses a node that is not a map, or one with a key that is not in `allowed` or is there twice; `prefix` goes before the key in messages.
 void check_keys(const YAML::Node& map, const std::string& where, const std::string& prefix,
                 const std::vector<std::string>& allowed);
 

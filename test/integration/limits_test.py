@@ -1,0 +1,173 @@
+#!/usr/bin/python3
+"""Walks the tables of doc/limits.md: what they say is refused is refused, with the answer that they give, and what was
+there before stays."""
+import os
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import genpy
+import rosgraph
+import rosservice
+import rospkg
+import rospy
+import rostest
+import yaml
+
+from spring_workbench.msg import ForkState, ObjectStates
+from stack import Listener, wait_for
+
+PACKAGE = rospkg.RosPack().get_path("spring_workbench")
+PROGRAMS = os.environ["CMAKE_PREFIX_PATH"].split(":")[0] + "/lib/spring_workbench/"
+SCENE = PACKAGE + "/scenes/single_box.urdf"
+LONGEST = 60.0  # [s] that any refusal may take; there to find what hangs
+
+
+def tables():
+    """Section -> rows of two or three cells."""
+    found, section = {}, None
+    with open(PACKAGE + "/doc/limits.md") as file:
+        for line in file:
+            if line.startswith("## "):
+                section = line[3:].strip()
+            elif line.startswith("| ") and not line.startswith("| ---"):
+                cells = [c.strip().replace("\\|", "|") for c in re.split(r"(?<!\\)\|", line)[1:-1]]
+                found.setdefault(section, []).append([re.sub(r"^`+ ?(.*?) ?`+$", r"\1", c) for c in cells])
+    return {name: rows[1:] for name, rows in found.items()}
+
+
+def write(path, text):
+    with open(path, "w") as file:
+        file.write(text)
+    return path
+
+
+def one_line(done, program):
+    """What a program said that ended with status 2."""
+    lines = [line for line in done.stderr.splitlines() if line.strip()]
+    if done.returncode != 2 or len(lines) != 1:
+        return "status %d, %d lines: %s" % (done.returncode, len(lines), done.stderr[-500:])
+    return lines[0].replace(program + ": ", "", 1)
+
+
+class Limits(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.tables = tables()
+        cls.node = subprocess.Popen([PROGRAMS + "manipulation", "__name:=manipulation", "_scene:=" + SCENE])
+        cls.fork = Listener("manipulation/fork", ForkState)
+        cls.objects = Listener("manipulation/objects", ObjectStates)
+        wait_for(lambda: cls.fork.last and cls.objects.last, "the node")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.node.terminate()
+        cls.node.wait(LONGEST)
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        write(self.folder + "/hand.tum", "0 0 0 0.4 1 0 0 0\n0.02 0 0 0.4 1 0 0 0\n")
+        with open(SCENE) as file:
+            self.urdf = file.read()
+        self.scene_yaml = ""
+
+    def run_program(self, words):
+        before = sorted(os.listdir(self.folder))
+        done = subprocess.run([PROGRAMS + words[0]] + words[1:], cwd=self.folder, timeout=LONGEST, text=True,
+                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertEqual(sorted(os.listdir(self.folder)), before, "something was written")
+        return one_line(done, words[0])
+
+    def replay(self, *more, motion="hand.tum"):
+        write(self.folder + "/scene.urdf", self.urdf)
+        write(self.folder + "/scene.yaml", self.scene_yaml)
+        return self.run_program(["replay", "--scene", "scene.urdf", "--motion", motion, "--out", "run.csv", *more])
+
+    def walk(self, section, answer_of):
+        """Every row of a section, its last cell being the answer."""
+        self.assertGreater(len(self.tables[section]), 0)
+        for row in self.tables[section]:
+            with self.subTest(section=section, given=row[:-1]):
+                answer = answer_of(*row[:-1])
+                self.assertIn(row[-1], answer.replace(self.folder + "/", ""))
+
+    def test_programs(self):
+        write(self.folder + "/scene.urdf", self.urdf)
+        self.walk("Programs", lambda command: self.run_program(shlex.split(command)))
+
+    def test_settings(self):
+        self.walk("Settings", lambda setting: self.replay("--set", setting))
+
+    def test_urdf(self):
+        good = self.urdf
+
+        def answer(old, new):
+            old, new = old.replace("⏎", "\n"), new.replace("⏎", "\n")
+            self.assertIn(old, good)
+            self.urdf = good.replace(old, new, 1)
+            return self.replay()
+
+        self.walk("Scenes, the URDF", answer)
+
+    def test_scene_yaml(self):
+        def answer(text):
+            self.scene_yaml = text.replace("⏎", "\n") + "\n"
+            return self.replay()
+
+        self.walk("Scenes, the YAML beside it", answer)
+
+    def test_motions(self):
+        def answer(name, text):
+            write(self.folder + "/" + name, text.replace("⏎", "\n"))
+            return self.replay(motion=name)
+
+        self.walk("Motions", answer)
+
+    def test_parameters(self):
+        master = rosgraph.Master("/limits_test")
+
+        def answer(node, parameters):
+            name = "/" + node + "_refused"
+            master.setParam(name, dict({"scene": SCENE} if node == "manipulation" else {}, **yaml.safe_load(parameters)))
+            try:
+                done = subprocess.run([PROGRAMS + node, "__name:=" + name[1:]], timeout=LONGEST, text=True,
+                                      stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+            finally:
+                master.deleteParam(name)
+            return one_line(done, node)
+
+        self.walk("Parameters", answer)
+
+    def state(self):
+        fork, objects = self.fork.next(), self.objects.next()
+        return (fork.tool, fork.integrator, fork.stretch_on, fork.bend_on, fork.torsion_on, fork.stretch_stiffness,
+                fork.bend_stiffness, fork.torsion_stiffness, fork.stretch_damping_ratio, fork.bend_damping_ratio,
+                fork.torsion_damping_ratio,
+                [(o.name, o.pose.position.x, o.pose.position.y, o.pose.position.z) for o in objects.objects])
+
+    def test_services(self):
+        before = self.state()
+
+        def answer(service, request):
+            name = "/manipulation/" + service
+            kind = rosservice.get_service_class_by_name(name)
+            message = kind._request_class()
+            genpy.message.fill_message_args(message, [yaml.safe_load(request)])
+            response = rospy.ServiceProxy(name, kind)(message)
+            self.assertFalse(response.success)
+            self.assertEqual(len(response.message.splitlines()), 1)
+            return response.message
+
+        self.walk("Services", answer)
+        self.assertEqual(self.state(), before)
+        self.assertIsNone(self.node.poll())
+
+
+if __name__ == "__main__":
+    rospy.init_node("limits_test")
+    rostest.rosrun("spring_workbench", "limits_test", Limits, sys.argv)
