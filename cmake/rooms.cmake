@@ -5,6 +5,16 @@ set(SPRING_WORKBENCH_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -We
 # Results stay those of IEEE arithmetic.
 set(SPRING_WORKBENCH_ARITHMETIC -fno-math-errno -fno-trapping-math -fcx-limited-range)
 
+# Packs of four numbers are passed by reference only, or inlined: the calling convention for them does not matter.
+add_compile_options(-Wno-psabi)
+
+# With AVX2 and FMA a pack is one register. Eigen's types keep the alignment that libraries built without them expect.
+# Among the flags, so that the report names them.
+option(SPRING_WORKBENCH_NATIVE "For processors with AVX2 and FMA only" OFF)
+if(SPRING_WORKBENCH_NATIVE)
+  string(APPEND CMAKE_CXX_FLAGS " -mavx2 -mfma -DEIGEN_MAX_ALIGN_BYTES=16")
+endif()
+
 # add_room(<name> [FOLDER <folder>] [DEPENDS <rooms>...] [LIBRARIES <external libraries>...] [INCLUDES <external folders>...]
 #          [DEFINITIONS <of its own sources>...] [OPTIONS <compile options>...])
 # Builds src/<name>/*.cpp (with FOLDER: src/<name>/<folder>/*.cpp) into the library spring_workbench_<name>.

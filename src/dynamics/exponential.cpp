@@ -13,14 +13,23 @@ namespace {
 constexpr std::size_t nodes = Collocation::count;
 constexpr std::size_t last = nodes - 1;
 
-constexpr int most_sweeps = 7;
+constexpr int most_sweeps = 12;
 constexpr int most_halvings = 4;
+/// A step that takes no more sweeps than this is at its best. When the others' sweeps beyond it have cost what a linear part
+/// costs, it is taken anew.
+constexpr int few_sweeps = 3;
+constexpr int worth_a_linear_part = 150;
 /// Sweeps stop when what they would still change is below this share of the error that the cubic itself makes, or below
 /// this share of the strain.
-constexpr double share_of_error = 0.1;
+constexpr double share_of_error = 0.5;
 constexpr double share_of_strain = 1e-12;
-/// A sweep that leaves more than this of the last one's change will not come to an end soon.
-constexpr double slow_contraction = 0.6;
+/// Squared, of the last step's cubic's error: a sweep that leaves more is not the last one.
+constexpr double far_from_done = 25.0;
+/// From the fourth sweep on, one that leaves more than this of the last one's change will not come to an end soon.
+constexpr double slow_contraction = 0.7;
+constexpr int sweeps_to_judge = 3;
+/// The most that the sweeps' own way is continued by, of a sweep.
+constexpr double most_continued = 3.0;
 /// From one step to the next the sweeps' contraction, where it is not measured, is taken to get worse by this factor.
 constexpr double forget_contraction = 1.3;
 /// The last step's cubic is continued to this many times its length, and no further.
@@ -70,10 +79,13 @@ class Exponential::CoreOf final : public Core {
     if (version_ != body.version()) return false;
     prepare(h);
     // The remainder is M⁻¹ Q at all nodes.
-    Operator sum = node_[last][0];
-    for (std::size_t j = 1; j < nodes; ++j) sum.add(node_[last][j]);
     Eigen::Matrix<double, 2 * n, n> modes;
-    for (int i = 0; i < n; ++i) modes.col(i) = sum * Modes(force_to_modes_.col(i));
+    for (int i = 0; i < n; ++i) {
+      NodeModes constant, x;
+      for (int m = 0; m < 2 * n; ++m) constant[at(m)] = Pack{} + force_to_modes_(m, i);
+      drive(NodeModes{}, constant, x);
+      modes.col(i) = at_node(last, x);
+    }
     const Eigen::Matrix<double, 2 * n, n> end = from_modes_ * modes * linear_.inverse_mass;
     r.q = end.template topRows<n>();
     r.q_dot = end.template bottomRows<n>();
@@ -92,28 +104,37 @@ class Exponential::CoreOf final : public Core {
     Modes error = Modes::Zero();  ///< of the resulting strain and strain rate
     bool converged = false;
   };
+  /// Modes, strains or strain rates at the nodes: a pack each.
+  using NodeModes = std::array<Pack, 2 * n>;
+  using NodeStrains = std::array<Pack, n>;
   /// A function of the linear part, in modes: x ↦ own x + other x with the members of each pair exchanged.
+  template <typename S>
   struct Operator {
-    Modes own = Modes::Zero(), other = Modes::Zero();
-    void add(const Operator& o) {
-      own += o.own;
-      other += o.other;
-    }
-    Modes operator*(const Modes& x) const {
-      Modes r;
-      for (int i = 0; i < n; ++i) {
-        r[2 * i] = own[2 * i] * x[2 * i] + other[2 * i] * x[2 * i + 1];
-        r[2 * i + 1] = own[2 * i + 1] * x[2 * i + 1] + other[2 * i + 1] * x[2 * i];
-      }
-      return r;
-    }
-    void set(int mode, double value) { own[mode] = value; }
-    void set_pair(int mode, std::complex<double> value) {  // z = x₀ − i x₁
-      own[mode] = own[mode + 1] = value.real();
-      other[mode] = value.imag();
-      other[mode + 1] = -value.imag();
+    std::array<S, 2 * n> own{}, other{};
+    template <typename Other>
+    SPRING_WORKBENCH_INLINE S of(const Other& x, int m) const {
+      return own[at(m)] * x(m) + other[at(m)] * x(m ^ 1);
     }
   };
+  template <typename S>
+  static void set(Operator<S>& o, std::size_t lane_of, int mode, double value) {
+    set_lane(o.own[at(mode)], static_cast<int>(lane_of), value);
+    set_lane(o.other[at(mode)], static_cast<int>(lane_of), 0.0);
+  }
+  template <typename S>
+  static void set(Operator<S>& o, std::size_t lane_of, int mode, std::complex<double> value) {  // z = x₀ − i x₁
+    const int k = static_cast<int>(lane_of);
+    set_lane(o.own[at(mode)], k, value.real());
+    set_lane(o.own[at(mode + 1)], k, value.real());
+    set_lane(o.other[at(mode)], k, value.imag());
+    set_lane(o.other[at(mode + 1)], k, -value.imag());
+  }
+  static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+  static Modes at_node(std::size_t i, const NodeModes& x) {
+    Modes r;
+    for (int m = 0; m < 2 * n; ++m) r[m] = x[at(m)][i];
+    return r;
+  }
 
   void linearise(const HeldBody& body, const HandleForcing& handle, const Strain& q) {
     const LinearPart part = linear_part(body, handle, q);
@@ -130,6 +151,8 @@ class Exponential::CoreOf final : public Core {
     h_ = 0.0;
     t_end_ = std::numeric_limits<double>::quiet_NaN();
     contraction_ = 1.0;
+    slow_sweeps_ = 0;
+    squared_cubic_ = std::numeric_limits<double>::infinity();
   }
 
   /// The operators for a step of h.
@@ -137,25 +160,18 @@ class Exponential::CoreOf final : public Core {
     if (std::abs(h - h_) <= same_length * h) return;
     h_ = h;
     for (int m = 0; m < 2 * n; ++m) {
-      weight_[m] = 1.0 / std::max(1.0 / h, std::abs(linear_.rates[static_cast<std::size_t>(m)]));
+      const double weight = 1.0 / std::max(1.0 / h, std::abs(linear_.rates[at(m)]));
+      squared_weight_[m] = weight * weight;
     }
-    const auto take = [this, h](const auto& w, const auto& set) {
-      for (std::size_t i = 1; i < nodes; ++i) {
-        set(decay_[i], w.decay[i]);
-        for (std::size_t j = 0; j < nodes; ++j) set(node_[i][j], h * w.node[i][j]);
+    const auto take = [this, h](int m, const auto& w) {
+      for (std::size_t i = 0; i < nodes; ++i) {
+        set(decay_, i, m, w.decay[i]);
+        for (std::size_t j = 0; j < nodes; ++j) set(node_[j], i, m, h * w.node[i][j]);
       }
-      set(error_, h * w.error);
+      set(error_, 0, m, h * w.error);
     };
-    for (int m = 0; m < 2 * linear_.pairs; m += 2) {
-      take(Collocation::weights(h * linear_.rates[static_cast<std::size_t>(m)]),
-           [m](Operator& o, std::complex<double> value) { o.set_pair(m, value); });
-    }
-    for (int m = 2 * linear_.pairs; m < 2 * n; ++m) {
-      take(Collocation::weights(h * linear_.rates[static_cast<std::size_t>(m)].real()), [m](Operator& o, double value) {
-        o.set(m, value);
-        o.other[m] = 0.0;
-      });
-    }
+    for (int m = 0; m < 2 * linear_.pairs; m += 2) take(m, Collocation::weights(h * linear_.rates[at(m)]));
+    for (int m = 2 * linear_.pairs; m < 2 * n; ++m) take(m, Collocation::weights(h * linear_.rates[at(m)].real()));
   }
 
   Modes modes_of(const State& s) const {
@@ -173,8 +189,45 @@ class Exponential::CoreOf final : public Core {
                      times(stiffness_, Strain(s.q - q_reference_)) + times(damping_, s.q_dot);
     return times(force_to_modes_, r);
   }
-  /// Size of what is in modes [m √kg]: displacements as they are, velocities times what is left of them over a step.
-  double size(const Modes& x) const { return weight_.cwiseProduct(x).norm(); }
+  /// The same at the nodes.
+  void remainder(const HeldBody& body, const HandleForcings& handle, const NodeModes& x, NodeModes& result) const {
+    NodeStrains moved, rate, q, r;
+    for (int i = 0; i < n; ++i) {
+      moved[at(i)] = from_modes_(i, 0) * x[0];
+      rate[at(i)] = from_modes_(n + i, 0) * x[0];
+      for (int m = 1; m < 2 * n; ++m) {
+        moved[at(i)] += from_modes_(i, m) * x[at(m)];
+        rate[at(i)] += from_modes_(n + i, m) * x[at(m)];
+      }
+      q[at(i)] = moved[at(i)] + q_reference_[i];
+    }
+    body.template acceleration<n>(handle, q.data(), rate.data(), r.data());
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) r[at(i)] += stiffness_(i, j) * moved[at(j)] + damping_(i, j) * rate[at(j)];
+    }
+    for (int m = 0; m < 2 * n; ++m) {
+      result[at(m)] = force_to_modes_(m, 0) * r[0];
+      for (int i = 1; i < n; ++i) result[at(m)] += force_to_modes_(m, i) * r[at(i)];
+    }
+  }
+  /// Modes `x` at the nodes under the cubic through these remainders; `start`: what they are without.
+  void drive(const NodeModes& start, const NodeModes& remainders, NodeModes& x) const {
+    for (int m = 0; m < 2 * n; ++m) {
+      const Pack own = remainders[at(m)], other = remainders[at(m ^ 1)];
+      Pack sum = start[at(m)];
+      for (std::size_t j = 0; j < nodes; ++j) {
+        sum += node_[j].own[at(m)] * own[j] + node_[j].other[at(m)] * other[j];
+      }
+      x[at(m)] = sum;
+    }
+  }
+  /// Squared size of what is in modes [m² kg]: displacements as they are, velocities times what is left of them over a step.
+  double squared_size(const Modes& x) const { return squared_weight_.dot(x.cwiseAbs2()); }
+  Pack squared_size(const NodeModes& x, const NodeModes& y) const {
+    Pack sum{};
+    for (int m = 0; m < 2 * n; ++m) sum += squared_weight_[m] * x[at(m)] * y[at(m)];
+    return sum;
+  }
 
   /// Whether a step from here goes on from the last one.
   bool goes_on(double t, const State& s) const {
@@ -186,37 +239,49 @@ class Exponential::CoreOf final : public Core {
     const double ratio = last_h_ / h;
     if (ratio != continued_ratio_) {
       continued_ratio_ = ratio;
-      continued_ = Collocation::continued(ratio);
-    }
-    const std::array<Modes, nodes> before = remainder_before_;
-    for (std::size_t i = 1; i < nodes; ++i) {
-      remainder_[i] = remainder_[0];
-      for (std::size_t j = 0; j < nodes; ++j) {
-        remainder_[i] += (continued_[i][j] - (j == last ? 1.0 : 0.0)) * before[j];
+      const auto rows = Collocation::continued(ratio);
+      for (std::size_t i = 0; i < nodes; ++i) {
+        for (std::size_t j = 0; j < nodes; ++j) continued_[j][i] = i == 0 ? 0.0 : rows[i][j] - (j == last ? 1.0 : 0.0);
       }
+    }
+    for (int m = 0; m < 2 * n; ++m) {
+      const Pack before = remainder_[at(m)];
+      Pack x = Pack{} + start_remainder_[m];
+      for (std::size_t j = 0; j < nodes; ++j) x += continued_[j] * before[j];
+      remainder_[at(m)] = x;
     }
   }
 
   /// Error of the cubic: its fourth difference, taken to follow on the second and third in a geometric series.
   Modes cubic_error() const {
-    const auto difference = [this](const Collocation::Row& row) -> Modes {
-      return row[0] * remainder_[0] + row[1] * remainder_[1] + row[2] * remainder_[2] + row[3] * remainder_[3];
+    const auto difference = [this](const Collocation::Row& row) {
+      Modes d;
+      for (int m = 0; m < 2 * n; ++m) {
+        const Pack& x = remainder_[at(m)];
+        d[m] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3] * x[3];
+      }
+      return d;
     };
     const Modes third = difference(Collocation::third_difference());
-    const double second = difference(Collocation::second_difference()).norm();
-    const double ratio = third.norm() < second ? third.norm() / second : 1.0;
-    return error_ * Modes(ratio * third);
+    const double second = difference(Collocation::second_difference()).squaredNorm();
+    const double third_size = third.squaredNorm();
+    const double ratio = third_size < second ? std::sqrt(third_size / second) : 1.0;
+    Modes e;
+    for (int m = 0; m < 2 * n; ++m) e[m] = ratio * error_.of([&](int k) { return third[k]; }, m);
+    return e;
   }
 
   Estimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, State& state, int halvings) {
-    std::array<HandleForcing, nodes> forcing;
-    for (std::size_t i = 0; i < nodes; ++i) forcing[i] = body.forcing(handle, t + Collocation::nodes[i] * h);
+    constexpr auto& c = Collocation::nodes;
+    const HandleForcings forcing = body.forcing(handle, t + Pack{c[0], c[1], c[2], c[3]} * h);
     const State begin = state;
-    if (version_ != body.version()) linearise(body, forcing[0], state.q);
+    if (version_ != body.version() || (slow_sweeps_ > worth_a_linear_part && state.q != q_reference_)) {
+      linearise(body, forcing.at(0), state.q);
+    }
     Estimate e = sweep(body, forcing, h, state);
     if (e.converged) return e;
     if (begin.q != q_reference_) {
-      linearise(body, forcing[0], begin.q);
+      linearise(body, forcing.at(0), begin.q);
       state = begin;
       e = sweep(body, forcing, h, state);
     }
@@ -230,59 +295,97 @@ class Exponential::CoreOf final : public Core {
     return e;
   }
 
-  Estimate sweep(const HeldBody& body, const std::array<HandleForcing, nodes>& forcing, double h, State& state) {
-    prepare(h);
-    const Modes x0 = modes_of(state);
-    const double begin_t = forcing[0].t;
-    const bool follows = goes_on(begin_t, state);
+  /// The remainders at the nodes, as far as they are known before the first sweep.
+  void predict(const HeldBody& body, const HandleForcings& forcing, double h, const State& state) {
+    const bool follows = goes_on(forcing.t[0], state);
     const bool known = follows && load_version_ == body.load_version() &&
-                       same(end_acceleration_, forcing[0].acceleration_less_gravity) &&
-                       same(end_angular_acceleration_, forcing[0].angular_acceleration);
-    remainder_[0] = known ? remainder_before_[last] : remainder(body, forcing[0], state);
+                       same(end_acceleration_, vector(forcing.of_H.a_B, 0)) &&
+                       same(end_angular_acceleration_, vector(forcing.of_H.alpha_B, 0));
+    start_remainder_ = known ? at_node(last, remainder_) : remainder(body, forcing.at(0), state);
+    if (!known) contraction_ = 1.0;  // what the sweeps have to mend is of another kind than in the last step
     if (follows && h < farthest_continued * last_h_) {
       continue_cubic(h);
     } else {
-      for (std::size_t i = 1; i < nodes; ++i) remainder_[i] = remainder_[0];
+      for (int m = 0; m < 2 * n; ++m) remainder_[at(m)] = Pack{} + start_remainder_[m];
     }
-    std::array<Modes, nodes> base;
-    for (std::size_t i = 1; i < nodes; ++i) base[i] = decay_[i] * x0 + node_[i][0] * remainder_[0];
-    const auto at_node = [&](std::size_t i) -> Modes {
-      return base[i] + node_[i][1] * remainder_[1] + node_[i][2] * remainder_[2] + node_[i][3] * remainder_[3];
-    };
+  }
+
+  /// Sweeps, from the second on continued along the way that they take (Anderson's acceleration of depth one).
+  Estimate sweep(const HeldBody& body, const HandleForcings& forcing, double h, State& state) {
+    prepare(h);
+    const Modes x0 = modes_of(state);
+    predict(body, forcing, h, state);
+    NodeModes start, x;
+    Swept swept[2]{};  // this sweep's and the last one's, in turns
+    for (int m = 0; m < 2 * n; ++m) start[at(m)] = decay_.of([&](int k) { return x0[k]; }, m);
 
     Estimate e;
-    Modes end = at_node(last);
-    double change = 0.0;
-    for (int sweeps = 1; sweeps <= most_sweeps && !e.converged; ++sweeps) {
-      for (std::size_t i = 1; i < nodes; ++i) remainder_[i] = remainder(body, forcing[i], state_of(at_node(i)));
-      const Modes next = at_node(last);
-      const Modes changed = next - end;
-      const double change_before = change;
-      change = size(changed);
-      end = next;
-      if (!(change < 1e300)) break;
-      const double rounding = share_of_strain * std::max(size(end), size(x0));
-      if (sweeps == 1) {
-        contraction_ = std::min(1.0, contraction_ * forget_contraction);
-      } else if (change > rounding) {
-        contraction_ = change / change_before;
-        if (sweeps > 2 && contraction_ > slow_contraction) break;
+    drive(start, remainder_, x);
+    const double squared_start = squared_size(x0);
+    double all_before = 0.0;
+    int sweeps = 0;
+    while (sweeps < most_sweeps && !e.converged) {
+      ++sweeps;
+      Swept& now = swept[sweeps % 2];
+      const Swept& before = swept[1 - sweeps % 2];
+      remainder(body, forcing, x, remainder_);
+      drive(start, remainder_, now.x);
+      for (int m = 0; m < 2 * n; ++m) now.moved[at(m)] = now.x[at(m)] - x[at(m)];
+      const Pack squares = squared_size(now.moved, now.moved);
+      const double squared_change = squares[last], all = squares[1] + squares[2] + squares[3];
+      if (!(all < 1e300)) break;
+      const double squared_rounding =
+          share_of_strain * share_of_strain * std::max(squared_size(now.x, now.x)[last], squared_start);
+      double contraction = std::min(1.0, contraction_ * forget_contraction);
+      if (sweeps > 1 && squared_change > squared_rounding) {
+        contraction = std::sqrt(all / all_before);
+        if (sweeps == 2) contraction_ = contraction;
+        if (sweeps > sweeps_to_judge && contraction > slow_contraction) break;
       }
-      const Modes cubic = cubic_error();
-      const double left = contraction_ < 1.0 ? contraction_ / (1.0 - contraction_) : 1e3;  // of the change
-      e.converged = left * change <= std::max(share_of_error * size(cubic), rounding) || change <= rounding;
-      e.error = -(cubic + left * changed);
+      const double left = contraction < 1.0 ? contraction / (1.0 - contraction) : 1e3;  // of the change
+      const double squared_left = left * left * squared_change;
+      e.converged = squared_change <= squared_rounding || squared_left <= squared_rounding;
+      // Where the last step's cubic tells that this is not the last sweep, this one's is not asked.
+      if (e.converged || sweeps == most_sweeps || squared_left < far_from_done * squared_cubic_) {
+        const Modes cubic = cubic_error();
+        squared_cubic_ = squared_size(cubic);
+        e.converged = e.converged || squared_left <= share_of_error * share_of_error * squared_cubic_;
+        e.error = -(cubic + left * at_node(last, now.moved));
+      }
+      if (sweeps > 1) {
+        continue_sweeps(now, before, x);
+      } else {
+        x = now.x;
+      }
+      all_before = all;
     }
+    slow_sweeps_ += std::max(0, sweeps - few_sweeps);
     e.error = times(from_modes_, e.error);
-    state = state_of(end);
-    remainder_before_ = remainder_;
+    state = state_of(at_node(last, x));
     last_h_ = h;
-    t_end_ = forcing[last].t;
+    t_end_ = forcing.t[last];
     end_ = state;
     load_version_ = body.load_version();
-    end_acceleration_ = forcing[last].acceleration_less_gravity;
-    end_angular_acceleration_ = forcing[last].angular_acceleration;
+    end_acceleration_ = vector(forcing.of_H.a_B, static_cast<int>(last));
+    end_angular_acceleration_ = vector(forcing.of_H.alpha_B, static_cast<int>(last));
     return e;
+  }
+
+  /// What comes out of a sweep, and by how much it differs from what went in.
+  struct Swept {
+    NodeModes x, moved;
+  };
+  /// From two sweeps, where the next one is to start.
+  void continue_sweeps(const Swept& now, const Swept& before, NodeModes& x) const {
+    Pack along{}, all{};
+    for (int m = 0; m < 2 * n; ++m) {
+      const Pack less = before.moved[at(m)] - now.moved[at(m)];
+      along += squared_weight_[m] * less * now.moved[at(m)];
+      all += squared_weight_[m] * less * less;
+    }
+    const double further = (along[1] + along[2] + along[3]) / (all[1] + all[2] + all[3]);
+    const double f = std::abs(further) < most_continued ? further : 0.0;
+    for (int m = 0; m < 2 * n; ++m) x[at(m)] = now.x[at(m)] + f * (now.x[at(m)] - before.x[at(m)]);
   }
 
   LinearPart linear_;
@@ -293,19 +396,22 @@ class Exponential::CoreOf final : public Core {
   Eigen::Matrix<double, 2 * n, n> force_to_modes_;
 
   double h_ = 0.0;  ///< what the operators are for
-  Modes weight_;
-  std::array<Operator, nodes> decay_;
-  std::array<std::array<Operator, nodes>, nodes> node_;
-  Operator error_;
+  Modes squared_weight_;
+  Operator<Pack> decay_;                      ///< to the nodes
+  std::array<Operator<Pack>, nodes> node_{};  ///< of the remainder at each node
+  Operator<double> error_;
 
-  std::array<Modes, nodes> remainder_, remainder_before_;  ///< at the nodes of this step and the last one
-  double contraction_ = 1.0;                               ///< of a sweep's change by the next
+  NodeModes remainder_;    ///< at the nodes of this step, or the last one
+  Modes start_remainder_;
+  double contraction_ = 1.0;                               ///< of the first sweep's change by the second
+  double squared_cubic_ = 0.0;                             ///< size of the cubic's error in the last step
+  int slow_sweeps_ = 0;                                    ///< beyond few_sweeps, with this linear part
   double last_h_ = 0.0, t_end_ = 0.0;
   State end_;
   long load_version_ = -1;
   Vector3d end_acceleration_, end_angular_acceleration_;
   double continued_ratio_ = 0.0;
-  std::array<Collocation::Row, nodes> continued_;
+  std::array<Pack, nodes> continued_;
 };
 
 Exponential::Exponential() = default;

@@ -22,7 +22,8 @@ HeldBody::HeldBody(std::shared_ptr<const ShapeModel> shape, const BodyInertia& b
   p_EO_ = -(body.X_OE.linear().transpose() * p_OE_);
   R_EO_ = body.X_OE.linear().transpose();
   inverse_inertia_O_ = body.inertia_O.inverse();
-  K_ = D_ = StrainVector::Zero(shape_->size());
+  shape_size_ = shape_->size();
+  K_ = D_ = StrainVector::Zero(shape_size_);
   mode_.fill(Mode::active);
   changed();
 }
@@ -109,8 +110,9 @@ bool HeldBody::drop_finished_returns(double t) {
   return dropped;
 }
 
-void HeldBody::prescribed(double t, StrainVector& q, StrainVector& q_dot, StrainVector& q_ddot) const {
-  for (int i = 0; i < shape_->size(); ++i) {
+template <typename S>
+void HeldBody::prescribe(double t, int k, S* q, S* q_dot, S* q_ddot) const {
+  for (int i = 0; i < shape_size_; ++i) {
     const auto c = static_cast<std::size_t>(i);
     if (mode_[c] != Mode::returning) continue;
     // (B + A τ) e^{−τ/T}: the paper's critically damped closed form (section 3.3).
@@ -119,9 +121,10 @@ void HeldBody::prescribed(double t, StrainVector& q, StrainVector& q_dot, Strain
     const double tau = t - r.t0;
     const double decay = std::exp(-rate * tau);
     const double A = r.rate0 + rate * r.q0;
-    q[i] = (r.q0 + A * tau) * decay;
-    q_dot[i] = A * decay - rate * q[i];
-    q_ddot[i] = -rate * A * decay - rate * q_dot[i];
+    const double x = (r.q0 + A * tau) * decay, v = A * decay - rate * x;
+    set_lane(q[i], k, x);
+    set_lane(q_dot[i], k, v);
+    set_lane(q_ddot[i], k, -rate * A * decay - rate * v);
   }
 }
 
@@ -144,9 +147,8 @@ HandleForcing HeldBody::forcing(const MotionSegment& handle, double t) const {
   return f;
 }
 
-template <typename Active>
-void HeldBody::expand(double t, const Active& q, const Active& q_dot, StrainVector& q_all, StrainVector& q_dot_all,
-                      StrainVector& q_ddot_all) const {
+void HeldBody::expand(double t, const StrainVector& q, const StrainVector& q_dot, StrainVector& q_all,
+                      StrainVector& q_dot_all, StrainVector& q_ddot_all) const {
   q_all.setZero(shape_->size());
   q_dot_all.setZero(shape_->size());
   for (int i = 0; i < q.size(); ++i) {
@@ -155,8 +157,22 @@ void HeldBody::expand(double t, const Active& q, const Active& q_dot, StrainVect
   }
   if (returning_ > 0) {
     q_ddot_all.setZero(shape_->size());
-    prescribed(t, q_all, q_dot_all, q_ddot_all);
+    prescribe(t, 0, q_all.data(), q_dot_all.data(), q_ddot_all.data());
   }
+}
+
+HandleForcings HeldBody::forcing(const MotionSegment& handle, const Pack& t) const {
+  return {t, handle.forcing(t, gravity_)};
+}
+
+HandleForcing HandleForcings::at(int i) const {
+  HandleForcing f;
+  f.t = lane(t, i);
+  f.X_WH.linear() = matrix(of_H.R_WB, i);
+  f.angular_velocity = vector(of_H.w_B, i);
+  f.angular_acceleration = vector(of_H.alpha_B, i);
+  f.acceleration_less_gravity = vector(of_H.a_B, i);
+  return f;
 }
 
 void HeldBody::kinematics(double t, const StrainVector& q, const StrainVector& q_dot, Kinematics& k) const {
@@ -193,114 +209,145 @@ StrainMatrix HeldBody::mass_matrix(const Kinematics& k, Matrix3d& I_H) const {
   return M;
 }
 
+template <typename S>
 struct HeldBody::Rigid {
-  Vector3d r_EO;     ///< from tip to centre of mass, axes of H
-  Matrix3d R_HO;
-  Vector3d force;    ///< mass times acceleration of O, less gravity and contact, axes of H
-  Vector3d moment_O; ///< rate of the angular momentum about O, less the contact's moment, axes of O
+  Three<S> r_EO;      ///< from tip to centre of mass, axes of H
+  ThreeByThree<S> R_HO;
+  Three<S> force;     ///< mass times acceleration of O, less gravity and contact, axes of H
+  Three<S> moment_O;  ///< rate of the angular momentum about O, less the contact's moment, axes of O
 };
 
-HeldBody::Rigid HeldBody::without_strain_acceleration(const HandleForcing& h, const TipKinematics& tip,
-                                                      const StrainVector& q_dot, const StrainVector& q_ddot) const {
-  Rigid r;
-  r.r_EO.noalias() = tip.R_HE * p_EO_;
-  r.R_HO.noalias() = tip.R_HE * R_EO_;
-  const Vector3d p_HO = tip.p_HE + r.r_EO;
-  Vector3d w_rel, v_E;  // of the tip, in the turning frame H
-  if (q_dot.size() == max_strain_coordinates) {  // with loops that the compiler can unroll
-    using Columns = Eigen::Map<const Eigen::Matrix<double, 3, max_strain_coordinates>>;
-    const Eigen::Matrix<double, max_strain_coordinates, 1> rate = q_dot;
-    w_rel = Columns(tip.angular.data()).lazyProduct(rate);
-    v_E = Columns(tip.linear.data()).lazyProduct(rate);
+template <typename S>
+SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration(const FrameForcing<S>& h,
+                                                                                 const TipOf<S>& tip, const S* q_dot,
+                                                                                 const S* q_ddot) const {
+  Rigid<S> r;
+  r.r_EO = tip.R_HE * three(p_EO_);
+  r.R_HO = tip.R_HE * three_by_three(R_EO_);
+  const Three<S> p_HO = tip.p_HE + r.r_EO;
+  Three<S> w_rel = none<S>(), v_E = none<S>();  // of the tip, in the turning frame H
+  Three<S> alpha_rel = tip.angular_bias, a_E = tip.linear_bias;
+  if (tip.separate) {
+    w_rel = q_dot[2] * tip.angular[2] + q_dot[3] * tip.angular[3] + q_dot[4] * tip.angular[4];
+    v_E = {q_dot[0], q_dot[1], q_dot[5]};
   } else {
-    w_rel = tip.angular * q_dot;
-    v_E = tip.linear * q_dot;
+    for (int i = 0; i < shape_size_; ++i) {
+      w_rel += q_dot[i] * tip.angular[i];
+      v_E += q_dot[i] * tip.linear[i];
+    }
   }
-  Vector3d alpha_rel = tip.angular_bias, a_E = tip.linear_bias;
   if (returning_ > 0) {
-    alpha_rel += tip.angular * q_ddot;
-    a_E += tip.linear * q_ddot;
+    for (int i = 0; i < shape_size_; ++i) {
+      alpha_rel += q_ddot[i] * tip.angular[i];
+      a_E += q_ddot[i] * tip.linear[i];
+    }
   }
-  const Vector3d v_rel = v_E + w_rel.cross(r.r_EO);
-  const Vector3d& w_H = h.angular_velocity;
-  const Vector3d a = h.acceleration_less_gravity + h.angular_acceleration.cross(p_HO) +
-                     w_H.cross(w_H.cross(p_HO) + 2.0 * v_rel) + a_E + alpha_rel.cross(r.r_EO) +
-                     w_rel.cross(w_rel.cross(r.r_EO));
-  const Vector3d alpha_O = r.R_HO.transpose() * (h.angular_acceleration + w_H.cross(w_rel) + alpha_rel);
-  const Vector3d w_O = r.R_HO.transpose() * (w_H + w_rel);
+  const Three<S> v_rel = v_E + cross(w_rel, r.r_EO);
+  const Three<S>& w_H = h.w_B;
+  const Three<S> a = h.a_B + a_E + cross(h.alpha_B, p_HO) + cross(w_H, cross(w_H, p_HO) + 2.0 * v_rel) +
+                     cross(alpha_rel, r.r_EO) + cross(w_rel, cross(w_rel, r.r_EO));
+  const Three<S> alpha_O = transposed(r.R_HO, h.alpha_B + cross(w_H, w_rel) + alpha_rel);
+  const Three<S> w_O = transposed(r.R_HO, w_H + w_rel);
+  const ThreeByThree<double> I = three_by_three(body_.inertia_O);
   r.force = body_.mass * a;
-  r.moment_O = body_.inertia_O * alpha_O + w_O.cross(body_.inertia_O * w_O);
+  r.moment_O = I * alpha_O + cross(w_O, I * w_O);
   if (loaded_) {
-    const auto R_HW = h.X_WH.linear().transpose();
-    r.force -= R_HW * external_W_.force;
-    r.moment_O -= r.R_HO.transpose() * (R_HW * external_W_.moment);
+    r.force = r.force - transposed(h.R_WB, three(external_W_.force));
+    r.moment_O = r.moment_O - transposed(r.R_HO, transposed(h.R_WB, three(external_W_.moment)));
   }
   return r;
+}
+
+template <int n, typename S>
+SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const FrameForcing<S>& h, const S* q, const S* q_dot,
+                                                  S* q_ddot) const {
+  S q_all[max_strain_coordinates]{}, q_dot_all[max_strain_coordinates]{}, q_ddot_all[max_strain_coordinates];
+  S springs[n];
+  for (int i = 0; i < n; ++i) {
+    const int c = active_[static_cast<std::size_t>(i)];
+    q_all[c] = q[i];
+    q_dot_all[c] = q_dot[i];
+    springs[i] = -K_[c] * q[i] - D_[c] * q_dot[i];
+  }
+  if (returning_ > 0) {
+    for (S& x : q_ddot_all) x = S{};
+    for (int k = 0; k < lanes<S>; ++k) prescribe(lane(t, k), k, q_all, q_dot_all, q_ddot_all);
+  }
+  TipOf<S> tip;
+  shape_->tip(q_all, q_dot_all, tip);
+  if (tip.condensed) {
+    for (int i = 0; i < n; ++i) springs[i] -= tip.condensed_force[active_[static_cast<std::size_t>(i)]];
+  }
+  const Rigid<S> rigid = without_strain_acceleration(h, tip, q_dot_all, q_ddot_all);
+
+  if constexpr (n == 6) {
+    if (tip.separate) {
+      // Newton and Euler for the body under the tip's wrench, then back to the coordinates: no mass matrix.
+      const Three<S> force{springs[0], springs[1], springs[5]};
+      const Three<S> moment_E = transposed(tip.inverse_angular, Three<S>{springs[2], springs[3], springs[4]});
+      const Three<S> a_O = (1.0 / body_.mass) * (force - rigid.force);
+      const Three<S> moment_O = transposed(rigid.R_HO, moment_E - cross(rigid.r_EO, force)) - rigid.moment_O;
+      const Three<S> alpha = rigid.R_HO * (three_by_three(inverse_inertia_O_) * moment_O);
+      const Three<S> a_E = a_O - cross(alpha, rigid.r_EO);
+      const Three<S> turn = tip.inverse_angular * alpha;
+      q_ddot[0] = a_E.x;
+      q_ddot[1] = a_E.y;
+      q_ddot[2] = turn.x;
+      q_ddot[3] = turn.y;
+      q_ddot[4] = turn.z;
+      q_ddot[5] = a_E.z;
+      return;
+    }
+  }
+  Three<S> linear[n], angular[n], momentum[n];  // of O: axes of H and of O
+  const ThreeByThree<double> I = three_by_three(body_.inertia_O);
+  for (int i = 0; i < n; ++i) {
+    const int c = active_[static_cast<std::size_t>(i)];
+    linear[i] = tip.linear[c] + cross(tip.angular[c], rigid.r_EO);
+    angular[i] = transposed(rigid.R_HO, tip.angular[c]);
+    momentum[i] = I * angular[i];
+  }
+  S M[n * n];
+  for (int j = 0; j < n; ++j) {
+    for (int i = j; i < n; ++i) M[i * n + j] = body_.mass * dot(linear[i], linear[j]) + dot(angular[i], momentum[j]);
+    q_ddot[j] = springs[j] - dot(linear[j], rigid.force) - dot(angular[j], rigid.moment_O);
+  }
+  solve_positive_definite<n>(M, q_ddot);
 }
 
 template <int n>
 Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleForcing& h, const Eigen::Matrix<double, n, 1>& q,
                                                    const Eigen::Matrix<double, n, 1>& q_dot) const {
-  using Vector = Eigen::Matrix<double, n, 1>;
-  StrainVector q_all, q_dot_all, q_ddot_all;
-  expand(h.t, q, q_dot, q_all, q_dot_all, q_ddot_all);
-  TipKinematics tip;
-  shape_->tip(q_all, q_dot_all, tip);
-  const Rigid rigid = without_strain_acceleration(h, tip, q_dot_all, q_ddot_all);
+  const FrameForcing<double> forcing{three_by_three(h.X_WH.linear()), three(h.angular_velocity),
+                                     three(h.angular_acceleration), three(h.acceleration_less_gravity)};
+  Eigen::Matrix<double, n, 1> q_ddot;
+  accelerate<n>(h.t, forcing, q.data(), q_dot.data(), q_ddot.data());
+  return q_ddot;
+}
 
-  Vector springs;
-  for (int i = 0; i < n; ++i) {
-    const int c = active_[static_cast<std::size_t>(i)];
-    springs[i] = -K_[c] * q[i] - D_[c] * q_dot[i];
-  }
-  if (tip.condensed_force.size() > 0) {
-    for (int i = 0; i < n; ++i) springs[i] -= tip.condensed_force[active_[static_cast<std::size_t>(i)]];
-  }
-  if constexpr (n == 6) {
-    if (tip.separate) {
-      // Newton and Euler for the body under the tip's wrench, then back to the coordinates: no mass matrix.
-      const Vector3d force(springs[0], springs[1], springs[5]);
-      const Vector3d moment_E = tip.inverse_angular.transpose() * springs.template segment<3>(2);
-      const Vector3d a_O = (force - rigid.force) * (1.0 / body_.mass);
-      const Vector3d moment_O = rigid.R_HO.transpose() * (moment_E - rigid.r_EO.cross(force)) - rigid.moment_O;
-      const Vector3d alpha = rigid.R_HO * (inverse_inertia_O_ * moment_O);
-      const Vector3d a_E = a_O - alpha.cross(rigid.r_EO);
-      Vector q_ddot;
-      q_ddot << a_E[0], a_E[1], tip.inverse_angular * alpha, a_E[2];
-      return q_ddot;
-    }
-  }
-  Eigen::Matrix<double, 3, n> linear, angular;  // of O: axes of H and of O
-  for (int i = 0; i < n; ++i) {
-    const int c = active_[static_cast<std::size_t>(i)];
-    const Vector3d axis = tip.angular.col(c);
-    linear.col(i) = tip.linear.col(c) + axis.cross(rigid.r_EO);
-    angular.col(i).noalias() = rigid.R_HO.transpose() * axis;
-  }
-  const Eigen::Matrix<double, 3, n> momentum = body_.inertia_O.lazyProduct(angular);
-  Eigen::Matrix<double, n, n> M;
-  Vector rhs;
-  for (int j = 0; j < n; ++j) {
-    for (int i = j; i < n; ++i) {
-      M(i, j) = body_.mass * linear.col(i).dot(linear.col(j)) + angular.col(i).dot(momentum.col(j));
-    }
-    rhs[j] = springs[j] - linear.col(j).dot(rigid.force) - angular.col(j).dot(rigid.moment_O);
-  }
-  return solve_positive_definite<n>(M, rhs);
+template <int n>
+void HeldBody::acceleration(const HandleForcings& h, const Pack* q, const Pack* q_dot, Pack* q_ddot) const {
+  accelerate<n>(h.t, h.of_H, q, q_dot, q_ddot);
 }
 
 template Eigen::Matrix<double, 1, 1> HeldBody::acceleration<1>(const HandleForcing&, const Eigen::Matrix<double, 1, 1>&,
                                                                const Eigen::Matrix<double, 1, 1>&) const;
+template void HeldBody::acceleration<1>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
 template Eigen::Matrix<double, 2, 1> HeldBody::acceleration<2>(const HandleForcing&, const Eigen::Matrix<double, 2, 1>&,
                                                                const Eigen::Matrix<double, 2, 1>&) const;
+template void HeldBody::acceleration<2>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
 template Eigen::Matrix<double, 3, 1> HeldBody::acceleration<3>(const HandleForcing&, const Eigen::Matrix<double, 3, 1>&,
                                                                const Eigen::Matrix<double, 3, 1>&) const;
+template void HeldBody::acceleration<3>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
 template Eigen::Matrix<double, 4, 1> HeldBody::acceleration<4>(const HandleForcing&, const Eigen::Matrix<double, 4, 1>&,
                                                                const Eigen::Matrix<double, 4, 1>&) const;
+template void HeldBody::acceleration<4>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
 template Eigen::Matrix<double, 5, 1> HeldBody::acceleration<5>(const HandleForcing&, const Eigen::Matrix<double, 5, 1>&,
                                                                const Eigen::Matrix<double, 5, 1>&) const;
+template void HeldBody::acceleration<5>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
 template Eigen::Matrix<double, 6, 1> HeldBody::acceleration<6>(const HandleForcing&, const Eigen::Matrix<double, 6, 1>&,
                                                                const Eigen::Matrix<double, 6, 1>&) const;
+template void HeldBody::acceleration<6>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
 
 StrainVector HeldBody::acceleration(const HandleForcing& h, const StrainVector& q, const StrainVector& q_dot) const {
   const auto of = [&](auto size) -> StrainVector {
@@ -333,7 +380,7 @@ StrainState HeldBody::full_state(double t, const StrainState& state) const {
   }
   if (returning_ > 0) {
     StrainVector q_ddot = StrainVector::Zero(shape_->size());
-    prescribed(t, full.q, full.q_dot, q_ddot);
+    prescribe(t, 0, full.q.data(), full.q_dot.data(), q_ddot.data());
   }
   return full;
 }

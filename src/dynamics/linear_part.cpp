@@ -8,7 +8,8 @@
 namespace spring_workbench {
 namespace {
 
-/// Eigenvectors may be worse conditioned than this only where the damping is critical to the last bit; then the linear part
+/// Eigenvectors are worse conditioned than this only where the damping is critical to the last bit, or nothing holds the
+/// body; then the linear part
 /// is taken with slightly other damping, and the difference goes to the remainder.
 constexpr double worst_condition = 1e5;
 constexpr int most_attempts = 6;
@@ -81,6 +82,7 @@ LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const 
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     part.damping = part.inverse_mass * StrainMatrix(body.damping().asDiagonal());
     for (int i = 0; i < n; ++i) part.damping.col(i) *= 1.0 + off_critical * (i + 1);
+    part.damping += shapes * (off_critical * scale).asDiagonal() * to_shapes;  // also where neither spring nor damper is
     ModeMatrix A = ModeMatrix::Zero(2 * n, 2 * n);
     A.topRightCorner(n, n).diagonal() = scale;
     A.bottomLeftCorner(n, n) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());

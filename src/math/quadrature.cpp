@@ -46,6 +46,8 @@ GaussLegendre<N>::GaussLegendre() {
   }
 }
 
+template struct GaussLegendre<5>;
+template struct GaussLegendre<6>;
 template struct GaussLegendre<8>;
 
 }  // namespace spring_workbench

@@ -3,40 +3,7 @@
 #include <cmath>
 
 namespace spring_workbench {
-namespace {
-
-/// e = (1/2 − b) / t and g = (1/6 − c) / t: from these two all coefficients follow without cancellation.
-struct Tails {
-  double e, g;
-};
-
-/// Their Taylor series up to the power `n` of t.
-template <int n>
-Tails taylor_tails(double t, double e = 1.0, double g = 1.0) {
-  if constexpr (n == 0) {
-    return {e * (1.0 / 24.0), g * (1.0 / 120.0)};
-  } else {
-    constexpr double next_e = 1.0 / ((2 * n + 3) * (2 * n + 4)), next_g = 1.0 / ((2 * n + 4) * (2 * n + 5));
-    return taylor_tails<n - 1>(t, 1.0 - next_e * t * e, 1.0 - next_g * t * g);
-  }
-}
-
-So3Coefficients from_tails(double t, const Tails& k) {
-  So3Coefficients f;
-  f.b = 0.5 - t * k.e;
-  f.c = 1.0 / 6.0 - t * k.g;
-  f.a = 1.0 - t * f.c;
-  f.b_slope = k.e - 0.5 * f.c;
-  f.c_slope = 1.5 * k.g - 0.5 * k.e;
-  f.d = -f.b_slope / f.b;
-  return f;
-}
-
-}  // namespace
-
-So3Coefficients so3_coefficients(double t) {
-  if (t < 1e-2) return from_tails(t, taylor_tails<4>(t));
-  if (t < 1.0) return from_tails(t, taylor_tails<8>(t));
+So3Coefficients so3_coefficients_of_angle(double t) {
   const double theta = std::sqrt(t);
   const double s = std::sin(theta);
   const double half = std::sin(0.5 * theta);
@@ -56,17 +23,8 @@ Matrix3d skew(const Vector3d& v) {
   return m;
 }
 
-Matrix3d exp_so3(const Vector3d& theta) { return exp_so3(theta, so3_coefficients(theta.squaredNorm())); }
-
-Matrix3d exp_so3(const Vector3d& theta, const So3Coefficients& k) {
-  const double x = theta.x(), y = theta.y(), z = theta.z();
-  const double bx = k.b * x, by = k.b * y, bz = k.b * z;
-  const double ax = k.a * x, ay = k.a * y, az = k.a * z;
-  Matrix3d R;
-  R << 1.0 - by * y - bz * z, bx * y - az, bx * z + ay,  //
-      bx * y + az, 1.0 - bx * x - bz * z, by * z - ax,   //
-      bx * z - ay, by * z + ax, 1.0 - bx * x - by * y;
-  return R;
+Matrix3d exp_so3(const Vector3d& theta) {
+  return matrix(exp_so3(three(theta), so3_coefficients(theta.squaredNorm())), 0);
 }
 
 Vector3d log_so3(const Matrix3d& R) {

@@ -61,6 +61,23 @@ MotionSegment::MotionSegment(const MotionSample& a, const MotionSample& b)
 double MotionSegment::begin() const { return begin_; }
 double MotionSegment::end() const { return end_; }
 
+template <typename S>
+SPRING_WORKBENCH_INLINE MotionSegment::Turn<S> MotionSegment::turn(const S& u, double per_second) const {
+  const Three<S> theta = rotation_.value(u);
+  const Three<S> theta_dot = per_second * rotation_.first(u);
+  const Three<S> theta_ddot = (per_second * per_second) * rotation_.second(u);
+  const So3CoefficientsOf<S> k = so3_coefficients(dot(theta, theta));
+  // J_r v = v − b θ×v + c θ×(θ×v), and its derivative along the motion with v = θ̇.
+  const Three<S> s = cross(theta, theta_dot), s_s = cross(theta, s), a = cross(theta, theta_ddot);
+  const S t_dot = 2.0 * dot(theta, theta_dot);
+  const S b_dot = k.b_slope * t_dot, c_dot = k.c_slope * t_dot;
+  Turn<S> turn;
+  turn.R = exp_so3(theta, k);
+  turn.w_B = theta_dot - k.b * s + k.c * s_s;
+  turn.alpha_B = theta_ddot - k.b * a + k.c * (cross(theta, a) + cross(theta_dot, s)) - b_dot * s + c_dot * s_s;
+  return turn;
+}
+
 OwnAxesMotion MotionSegment::in_own_axes(double t) const {
   OwnAxesMotion m;
   m.X = X_a_;
@@ -68,25 +85,33 @@ OwnAxesMotion MotionSegment::in_own_axes(double t) const {
 
   const double per_second = 1.0 / (end_ - begin_);
   const double u = (t - begin_) * per_second;
-  m.X.translation() += position_.value(u);
-  m.v_W = position_.first(u) * per_second;
-  m.a_W = position_.second(u) * (per_second * per_second);
+  m.X.translation() += vector(position_.value(u));
+  m.v_W = vector(per_second * position_.first(u));
+  m.a_W = vector((per_second * per_second) * position_.second(u));
   if (!turning_) return m;
-
-  const Vector3d theta = rotation_.value(u);
-  const Vector3d theta_dot = rotation_.first(u) * per_second;
-  const Vector3d theta_ddot = rotation_.second(u) * (per_second * per_second);
-  const So3Coefficients k = so3_coefficients(theta.squaredNorm());
-  m.X.linear().noalias() = X_a_.linear() * exp_so3(theta, k);
-  // J_r v = v − b θ×v + c θ×(θ×v), and its derivative along the motion with v = θ̇.
-  const Vector3d s = theta.cross(theta_dot);
-  const Vector3d s_s = theta.cross(s);
-  const Vector3d a = theta.cross(theta_ddot);
-  const double t_dot = 2.0 * theta.dot(theta_dot);
-  m.w_B = theta_dot - k.b * s + k.c * s_s;
-  m.alpha_B = theta_ddot - k.b * a + k.c * theta.cross(a) - k.b_slope * t_dot * s + k.c_slope * t_dot * s_s +
-              k.c * theta_dot.cross(s);
+  const Turn<double> by = turn(u, per_second);
+  m.X.linear().noalias() = X_a_.linear() * matrix(by.R, 0);
+  m.w_B = vector(by.w_B);
+  m.alpha_B = vector(by.alpha_B);
   return m;
+}
+
+FrameForcing<Pack> MotionSegment::forcing(const Pack& t, double gravity) const {
+  const ThreeByThree<double> R_a = three_by_three(X_a_.linear());
+  const Three<double> up = gravity * Three<double>{R_a.x.z, R_a.y.z, R_a.z.z};
+  const Three<Pack> zero = none<Pack>();
+  FrameForcing<Pack> f{{zero + R_a.x, zero + R_a.y, zero + R_a.z}, zero, zero, zero + up};
+  if (!moving_) return f;
+  const double per_second = 1.0 / (end_ - begin_);
+  const Pack u = (t - begin_) * per_second;
+  f.a_B += transposed(R_a, (per_second * per_second) * position_.second(u));
+  if (!turning_) return f;
+  const Turn<Pack> by = turn(u, per_second);
+  f.R_WB = R_a * by.R;
+  f.w_B = by.w_B;
+  f.alpha_B = by.alpha_B;
+  f.a_B = transposed(by.R, f.a_B);
+  return f;
 }
 
 MotionState MotionSegment::at(double t) const {

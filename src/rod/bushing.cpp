@@ -5,21 +5,6 @@
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench {
-namespace {
-
-/// `p φ φᵀ + q I + r [φ]×`.
-Matrix3d symmetric_and_skew(double p, double q, double r, const Vector3d& phi) {
-  const double x = phi.x(), y = phi.y(), z = phi.z();
-  const double px = p * x, py = p * y, pz = p * z, rx = r * x, ry = r * y, rz = r * z;
-  Matrix3d m;
-  m << px * x + q, px * y - rz, px * z + ry,  //
-      px * y + rz, py * y + q, py * z - rx,   //
-      px * z - ry, py * z + rx, pz * z + q;
-  return m;
-}
-
-}  // namespace
-
 StrainVector Bushing::stiffness(const PerFamily& k) const {
   const double slope = k.bend * length() * length() / 3.0;
   StrainVector K(6);
@@ -27,26 +12,35 @@ StrainVector Bushing::stiffness(const PerFamily& k) const {
   return K;
 }
 
-void Bushing::tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const {
-  const Vector3d phi = q.segment<3>(2);
-  const Vector3d phi_dot = q_dot.segment<3>(2);
-  const So3Coefficients k = so3_coefficients(phi.squaredNorm());
+template <typename S>
+SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S>& out) const {
+  const Three<S> phi{q[2], q[3], q[4]}, phi_dot{q_dot[2], q_dot[3], q_dot[4]}, zero = none<S>();
+  const S t = dot(phi, phi), one = S{} + 1.0;
+  const So3CoefficientsOf<S> k = so3_coefficients(t);
   out.R_HE = exp_so3(phi, k);
-  out.p_HE << q[0], q[1], length() + q[5];
-  Eigen::Matrix<double, 3, 6> angular = Eigen::Matrix<double, 3, 6>::Zero(), linear = angular;
+  out.p_HE = {q[0], q[1], q[5] + length()};
   // The left Jacobian, for rates in the axes of H: (1 − c θ²) I + b [φ]× + c φ φᵀ.
-  angular.middleCols<3>(2) = symmetric_and_skew(k.c, 1.0 - k.c * phi.squaredNorm(), k.b, phi);
-  linear(0, 0) = linear(1, 1) = linear(2, 5) = 1.0;
-  out.angular = angular;
-  out.linear = linear;
+  const ThreeByThree<S> J = symmetric_and_skew(k.c, S(1.0 - k.c * t), k.b, phi);
+  out.angular[0] = out.angular[1] = out.angular[5] = zero;
+  out.angular[2] = J.x;
+  out.angular[3] = J.y;
+  out.angular[4] = J.z;
+  out.linear[0] = {one, S{}, S{}};
+  out.linear[1] = {S{}, one, S{}};
+  out.linear[2] = out.linear[3] = out.linear[4] = zero;
+  out.linear[5] = {S{}, S{}, one};
   // d/dt (left Jacobian) φ̇, where what is along φ̇ × φ̇ is none.
-  const Vector3d s = phi.cross(phi_dot);
-  const double t_dot = 2.0 * phi.dot(phi_dot);
-  out.angular_bias = k.b_slope * t_dot * s + k.c_slope * t_dot * phi.cross(s) + k.c * phi_dot.cross(s);
-  out.linear_bias.setZero();
+  const Three<S> s = cross(phi, phi_dot);
+  const S t_dot = 2.0 * dot(phi, phi_dot);
+  out.angular_bias = (k.b_slope * t_dot) * s + (k.c_slope * t_dot) * cross(phi, s) + k.c * cross(phi_dot, s);
+  out.linear_bias = zero;
   out.separate = true;
-  out.inverse_angular = symmetric_and_skew(k.d, 1.0 - k.d * phi.squaredNorm(), -0.5, phi);
+  out.condensed = false;
+  out.inverse_angular = symmetric_and_skew(k.d, S(1.0 - k.d * t), S(S{} - 0.5), phi);
 }
+
+void Bushing::tip(const double* q, const double* q_dot, TipOf<double>& out) const { tip_of(q, q_dot, out); }
+void Bushing::tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const { tip_of(q, q_dot, out); }
 
 RigidTransform Bushing::section(const StrainVector& q, double s) const {
   // No curve of its own: drawn as the cubic with the end positions and slopes, rotation spread evenly.

@@ -14,12 +14,18 @@ class Bushing final : public ShapeModel {
   int size() const override { return 6; }
   CoordinateRange bend() const override { return {0, 4}; }
   StrainVector stiffness(const PerFamily& k) const override;
-  void tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const override;
+  using ShapeModel::tip;
+  void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
+  void tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const override;
   double extension(const StrainVector& q) const override { return q[5]; }
   double twist(const StrainVector& q) const override { return q[4]; }
   RigidTransform section(const StrainVector& q, double s) const override;
   bool rechart(StrainVector& q, StrainVector& q_dot) const override;
   bool admissible(const StrainVector& q) const override;
+
+ private:
+  template <typename S>
+  void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
 };
 
 }  // namespace spring_workbench

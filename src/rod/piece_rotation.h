@@ -1,57 +1,95 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
-#include "spring_workbench/math/rigid_transform.h"
+#include "spring_workbench/math/pack.h"
 
 namespace spring_workbench {
+
+/// A rotation, v + w with v the vector part, for one number or several.
+template <typename S>
+struct QuaternionOf {
+  Three<S> v;
+  S w;
+};
+template <typename S>
+SPRING_WORKBENCH_INLINE QuaternionOf<S> operator*(const QuaternionOf<S>& a, const QuaternionOf<S>& b) {
+  return {a.w * b.v + b.w * a.v + cross(a.v, b.v), a.w * b.w - dot(a.v, b.v)};
+}
+template <typename S>
+SPRING_WORKBENCH_INLINE QuaternionOf<S> conjugate(const QuaternionOf<S>& q) {
+  return {-1.0 * q.v, q.w};
+}
+/// A Newton step towards unit length: for quaternions that have left it by rounding.
+template <typename S>
+SPRING_WORKBENCH_INLINE QuaternionOf<S> normalised(const QuaternionOf<S>& q) {
+  const S f = 1.5 - 0.5 * (dot(q.v, q.v) + q.w * q.w);
+  return {f * q.v, f * q.w};
+}
+template <typename S>
+SPRING_WORKBENCH_INLINE ThreeByThree<S> rotation_matrix(const QuaternionOf<S>& q) {
+  return symmetric_and_skew(S(S{} + 2.0), S(1.0 - 2.0 * dot(q.v, q.v)), S(2.0 * q.w), q.v);
+}
 
 /// The rotation along a piece of a rod whose strain is a polynomial of `degree`, as a power series of its quaternion about
 /// the middle. The series of q' = ½ q (a₀ + a₁ u + …) converges for every strain; pieces that turn by less than 2.5 rad
 /// leave 1e-13.
-template <int degree>
+template <int degree, typename S>
 class PieceRotation {
  public:
-  /// The strain over the piece of length h is (a[0] + a[1] u + …) / h for u = −½ … ½.
-  explicit PieceRotation(const std::array<Vector3d, degree + 1>& a) {
-    double angle = 0.0, power = 1.0;
-    for (const Vector3d& term : a) {
-      angle += power * term.norm();
-      power *= 0.5;
-    }
-    terms_ = angle < 0.5 ? 13 : angle < 1.2 ? 16 : most_terms;
-    coefficients_[0] << 0.0, 0.0, 0.0, 1.0;
-    coefficients_[1] = 0.5 * times(coefficients_[0], a[0]);
-    for (int n = 1; n + 1 < terms_; ++n) {
-      Coefficients sum = times(coefficients_[n], a[0]);
-      for (int d = 1; d <= degree && d <= n; ++d) sum += times(coefficients_[n - d], a[static_cast<std::size_t>(d)]);
-      coefficients_[n + 1] = 0.5 / (n + 1) * sum;
-    }
-    from_start_ = at_middle(-0.5).conjugate();
-  }
+  using Strain = std::array<Three<S>, degree + 1>;
 
-  /// Rotation from the piece's start to `u`.
-  Quaterniond at(double u) const { return from_start_ * at_middle(u); }
+  /// The strain over the piece of length h is (a[0] + a[1] u + …) / h for u = −½ … ½.
+  /// `angle`: a bound of |a[0]| + |a[1]| / 2 + |a[2]| / 4 … [rad].
+  SPRING_WORKBENCH_INLINE PieceRotation(const Strain& a, double angle) {
+    pairs_ = angle < 0.5 ? 7 : angle < 1.2 ? 8 : most_pairs;
+    c_[0] = {none<S>(), S{} + 1.0};
+    c_[1] = {0.5 * a[0], S{}};
+    for (int n = 1; n + 1 < 2 * pairs_; ++n) {
+      QuaternionOf<S> sum = times(c_[n], a[0]);
+      for (int d = 1; d <= degree && d <= n; ++d) {
+        const QuaternionOf<S> term = times(c_[n - d], a[static_cast<std::size_t>(d)]);
+        sum.v += term.v;
+        sum.w += term.w;
+      }
+      const double f = 0.5 / (n + 1);
+      c_[n + 1] = {f * sum.v, f * sum.w};
+    }
+  }
+  SPRING_WORKBENCH_INLINE explicit PieceRotation(const Strain& a) : PieceRotation(a, bound(a)) {}
+
+  struct Two {
+    QuaternionOf<S> before, after;
+  };
+  /// Rotation from the piece's middle to −u and u.
+  SPRING_WORKBENCH_INLINE Two at(double u) const {
+    const double t = u * u;
+    QuaternionOf<S> even = c_[2 * pairs_ - 2], odd = c_[2 * pairs_ - 1];
+    for (int n = pairs_ - 2; n >= 0; --n) {
+      even = {c_[2 * n].v + t * even.v, c_[2 * n].w + t * even.w};
+      odd = {c_[2 * n + 1].v + t * odd.v, c_[2 * n + 1].w + t * odd.w};
+    }
+    return {{even.v - u * odd.v, even.w - u * odd.w}, {even.v + u * odd.v, even.w + u * odd.w}};
+  }
 
  private:
-  static constexpr int most_terms = 21;
-  using Coefficients = Eigen::Vector4d;  // x, y, z, w
+  static constexpr int most_pairs = 11;
 
-  static Coefficients times(const Coefficients& q, const Vector3d& v) {
-    Coefficients r;
-    r.head<3>() = q[3] * v + q.head<3>().cross(v);
-    r[3] = -q.head<3>().dot(v);
-    return r;
+  static double bound(const Strain& a) {
+    double angle = 0.0, power = 1.0;
+    for (const Three<S>& term : a) {
+      angle += power * std::sqrt(largest(dot(term, term)));
+      power *= 0.5;
+    }
+    return angle;
   }
-  Quaterniond at_middle(double u) const {
-    Coefficients sum = coefficients_[terms_ - 1];
-    for (int n = terms_ - 2; n >= 0; --n) sum = coefficients_[n] + u * sum;
-    return Quaterniond(sum);
+  SPRING_WORKBENCH_INLINE static QuaternionOf<S> times(const QuaternionOf<S>& q, const Three<S>& v) {
+    return {q.w * v + cross(q.v, v), S{} - dot(q.v, v)};
   }
 
-  int terms_;
-  Coefficients coefficients_[most_terms];
-  Quaterniond from_start_;
+  int pairs_;
+  QuaternionOf<S> c_[2 * most_pairs];
 };
 
 }  // namespace spring_workbench

@@ -90,9 +90,34 @@ double QuadraticRod::condensed_energy(const StrainVector& q) const {
   return 0.5 * r.dot(K_.tail<2>().cwiseProduct(r));
 }
 
-void QuadraticRod::tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const {
+void QuadraticRod::tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const {
+  out.separate = false;
+  out.condensed = true;
+  for (int k = 0; k < pack_size; ++k) {
+    double q_k[6], q_dot_k[6];
+    for (int i = 0; i < 6; ++i) {
+      q_k[i] = q[i][k];
+      q_dot_k[i] = q_dot[i][k];
+    }
+    TipOf<double> one;
+    tip(q_k, q_dot_k, one);
+    set_lane(out.R_HE, k, one.R_HE);
+    set_lane(out.p_HE, k, one.p_HE);
+    set_lane(out.angular_bias, k, one.angular_bias);
+    set_lane(out.linear_bias, k, one.linear_bias);
+    for (int i = 0; i < 6; ++i) {
+      set_lane(out.angular[i], k, one.angular[i]);
+      set_lane(out.linear[i], k, one.linear[i]);
+      set_lane(out.condensed_force[i], k, one.condensed_force[i]);
+    }
+  }
+}
+
+void QuadraticRod::tip(const double* q_begin, const double* q_dot_begin, TipOf<double>& out) const {
+  using Vector = Eigen::Matrix<double, 6, 1>;
+  const Eigen::Map<const Vector> q_dot(q_dot_begin);
   const double L = length();
-  const Condensed c = condense(q);
+  const Condensed c = condense(Eigen::Map<const Vector>(q_begin));
   const ThreeTermRod rod(c.x);
   // Rows to metres; columns from strain times length to strain.
   const auto scaled = [L](Matrix6 J) {
@@ -102,14 +127,18 @@ void QuadraticRod::tip(const StrainVector& q, const StrainVector& q_dot, TipKine
   };
   const Eigen::Matrix<double, 6, 2> J2 = rod.jacobian().rightCols<2>();
   const Matrix6 J = scaled(rod.jacobian().leftCols<6>() + J2 * c.slope);
-  out.R_HE = rod.rotation();
-  out.p_HE = L * rod.position();
-  out.linear = J.topRows<3>();
-  out.angular = J.bottomRows<3>();
-  out.condensed_force = c.slope.transpose() * K_.tail<2>().cwiseProduct(c.x.tail<2>());
-  out.condensed_force.head<5>() *= L;
-  out.linear_bias.setZero();
-  out.angular_bias.setZero();
+  out.R_HE = three_by_three(rod.rotation());
+  out.p_HE = three(L * rod.position());
+  Vector condensed_force = c.slope.transpose() * K_.tail<2>().cwiseProduct(c.x.tail<2>());
+  condensed_force.head<5>() *= L;
+  out.separate = false;
+  out.condensed = true;
+  for (int i = 0; i < 6; ++i) {
+    out.linear[i] = three(J.block<3, 1>(0, i));
+    out.angular[i] = three(J.block<3, 1>(3, i));
+    out.condensed_force[i] = condensed_force[i];
+  }
+  out.linear_bias = out.angular_bias = none<double>();
 
   Strain x_dot;
   x_dot.head<6>() << L * q_dot.head<5>(), q_dot[5];
@@ -131,8 +160,8 @@ void QuadraticRod::tip(const StrainVector& q, const StrainVector& q_dot, TipKine
   }
   const Vector6 bias = speed * speed / difference *
                         (velocity_change - J2 * (c.inverse * residual_curvature) / difference);
-  out.linear_bias = L * bias.head<3>();
-  out.angular_bias = bias.tail<3>();
+  out.linear_bias = three(L * bias.head<3>());
+  out.angular_bias = three(bias.tail<3>());
 }
 
 RigidTransform QuadraticRod::section(const StrainVector& q, double s) const {

@@ -20,7 +20,9 @@ class QuadraticRod final : public ShapeModel {
   StrainVector stiffness(const PerFamily& k) const override;
   std::shared_ptr<const ShapeModel> for_stiffness(const PerFamily& k) const override;
   double condensed_energy(const StrainVector& q) const override;
-  void tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const override;
+  using ShapeModel::tip;
+  void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
+  void tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const override;
   double extension(const StrainVector& q) const override { return q[5] * length(); }
   double twist(const StrainVector& q) const override { return q[4] * length(); }
   RigidTransform section(const StrainVector& q, double s) const override;

@@ -12,6 +12,25 @@ const std::vector<std::string>& shape_model_names() {
   return names;
 }
 
+void ShapeModel::tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const {
+  TipOf<double> tip_of;
+  tip(q.data(), q_dot.data(), tip_of);
+  out.R_HE = matrix(tip_of.R_HE, 0);
+  out.p_HE = vector(tip_of.p_HE);
+  out.angular.resize(3, size());
+  out.linear.resize(3, size());
+  for (int i = 0; i < size(); ++i) {
+    out.angular.col(i) = vector(tip_of.angular[i]);
+    out.linear.col(i) = vector(tip_of.linear[i]);
+  }
+  out.angular_bias = vector(tip_of.angular_bias);
+  out.linear_bias = vector(tip_of.linear_bias);
+  out.condensed_force.setZero(size());
+  if (tip_of.condensed) {
+    for (int i = 0; i < size(); ++i) out.condensed_force[i] = tip_of.condensed_force[i];
+  }
+}
+
 std::shared_ptr<const ShapeModel> ShapeModel::for_stiffness(const PerFamily&) const { return nullptr; }
 
 double ShapeModel::condensed_energy(const StrainVector&) const { return 0.0; }

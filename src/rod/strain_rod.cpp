@@ -10,13 +10,16 @@
 namespace spring_workbench {
 namespace {
 
-constexpr int nodes_per_piece = 8;
+constexpr int most_nodes = 8;            ///< of the quadrature on a piece
 constexpr double angle_per_piece = 2.5;  ///< [rad]; the quadrature is exact to 1e-10 there
+constexpr double wave_of_six = 2.4;      ///< as wave(); six nodes are as exact up to there
+constexpr double wave_of_five = 1.3;     ///< and five up to here
 constexpr double most_turned = 64.0;     ///< [rad]; a rod wound up further is refused
 constexpr double least_stretch = 0.02;   ///< of the rest length; a rod compressed further is refused
 
-const GaussLegendre<nodes_per_piece>& rule() {
-  static const GaussLegendre<nodes_per_piece> gauss;
+template <int nodes>
+const GaussLegendre<nodes>& rule() {
+  static const GaussLegendre<nodes> gauss;
   return gauss;
 }
 
@@ -38,129 +41,166 @@ StrainVector StrainRod::stiffness(const PerFamily& k) const {
   return K;
 }
 
-StrainRod::LinearStrain StrainRod::curvature(const StrainVector& q) const {
-  LinearStrain k;
-  k.value << q[0], q[bend_terms_], q[torsion().begin];
-  if (bend_terms_ == 2) k.slope << 2.0 / length() * q[1], 2.0 / length() * q[3], 0.0;
-  return k;
+template <typename S>
+SPRING_WORKBENCH_INLINE StrainRod::LinearStrain<S> StrainRod::curvature(const S* q) const {
+  if (bend_terms_ == 1) return {{q[0], q[1], q[2]}, none<S>()};
+  const double per_length = 2.0 / length();
+  return {{q[0], q[2], q[4]}, {per_length * q[1], per_length * q[3], S{}}};
 }
 
-double StrainRod::turned_angle(const LinearStrain& k) const {
-  return length() * (k.value.norm() + 0.5 * length() * k.slope.norm());
+template <typename S>
+SPRING_WORKBENCH_INLINE double StrainRod::turned_angle(const LinearStrain<S>& k) const {
+  return length() * (std::sqrt(largest(dot(k.value, k.value))) +
+                     0.5 * length() * std::sqrt(largest(dot(k.slope, k.slope))));
+}
+
+template <typename S>
+SPRING_WORKBENCH_INLINE double StrainRod::wave(const LinearStrain<S>& k, double angle) const {
+  return std::sqrt(angle * angle + 4.0 * length() * length() * std::sqrt(largest(dot(k.slope, k.slope))));
 }
 
 int StrainRod::pieces(double angle) const {
   return 1 + static_cast<int>(std::min(angle, most_turned) / angle_per_piece);
 }
 
-void StrainRod::tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const {
-  using Nodes = Eigen::Matrix<double, 3, nodes_per_piece>;
-  const LinearStrain k = curvature(q);
-  const LinearStrain k_dot = curvature(q_dot);
-  const double stretched = 1.0 + q[stretch().begin];
-  const double stretching = q_dot[stretch().begin];
-  const int count = pieces(turned_angle(k));
+template <int nodes, typename S>
+SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, int count, double angle,
+                                                  TipOf<S>& out) const {
+  const LinearStrain<S> k = curvature(q), k_dot = curvature(q_dot);
+  const S stretched = 1.0 + q[stretch().begin], stretching = q_dot[stretch().begin];
   const double h = length() / count;
-  const GaussLegendre<nodes_per_piece>& gauss = rule();
+  const GaussLegendre<nodes>& gauss = rule<nodes>();
+  const Three<S> zero = none<S>();
 
   // Integrals from the handle to the start of the piece, then to the tip. Velocities in the axes of H.
-  Quaterniond turned = Quaterniond::Identity();
-  Vector3d p = Vector3d::Zero();            // ∫ d3 (position at unit stretch)
-  Vector3d w = Vector3d::Zero();            // ∫ R k̇
+  QuaternionOf<S> turned{zero, S{} + 1.0};
+  Three<S> p = zero;  // ∫ d3 (position at unit stretch)
+  Three<S> w = zero;  // ∫ R k̇
   // Moments about the handle; they are shifted to the tip at the end: ∫ f × (p_tip − p) = (∫ f) × p_tip − ∫ f × p.
-  StrainJacobian f = StrainJacobian::Zero(3, size());         // ∫ P_j R e
-  StrainJacobian f_cross_p = StrainJacobian::Zero(3, size()); // ∫ P_j R e × p
-  Vector3d bias = Vector3d::Zero();          // ∫ w × R k̇
-  Vector3d bias_cross_p = Vector3d::Zero();  // ∫ (w × R k̇) × p
-  Vector3d centripetal = Vector3d::Zero();   // ∫ w × (w × d3)
-  Vector3d coriolis = Vector3d::Zero();      // ∫ w × d3
+  // For d1 and d2, then the same times σ = −1 … 1 along the rod, then d3.
+  Three<S> f[5] = {zero, zero, zero, zero, zero};          // ∫ P_j R e
+  Three<S> f_cross_p[5] = {zero, zero, zero, zero, zero};  // ∫ P_j R e × p
+  Three<S> bias = zero;          // ∫ w × R k̇
+  Three<S> bias_cross_p = zero;  // ∫ (w × R k̇) × p
+  Three<S> centripetal = zero;   // ∫ w × (w × d3)
+  Three<S> coriolis = zero;      // ∫ w × d3
 
   for (int piece = 0; piece < count; ++piece) {
     const double s_begin = piece * h;
-    Nodes d1, d2, d3, rates;
-    const Vector3d middle = k.value + k.slope * (s_begin + 0.5 * h - 0.5 * length());
-    const PieceRotation<1> rotation({h * middle, h * h * k.slope});
-    for (int i = 0; i < nodes_per_piece; ++i) {
-      const double s = gauss.nodes[i] * h;
-      const Matrix3d R = (turned * rotation.at(gauss.nodes[i] - 0.5)).toRotationMatrix();
-      d1.col(i) = R.col(0);
-      d2.col(i) = R.col(1);
-      d3.col(i) = R.col(2);
-      rates.col(i) = R * (k_dot.value + k_dot.slope * (s_begin + s - 0.5 * length()));
+    const PieceRotation<1, S> rotation(
+        {h * (k.value + (s_begin + 0.5 * h - 0.5 * length()) * k.slope), (h * h) * k.slope}, angle / count);
+    const auto ends = rotation.at(0.5);
+    const QuaternionOf<S> to_middle = turned * conjugate(ends.before);
+    ThreeByThree<S> R[nodes];
+    for (int i = 0; i < (nodes + 1) / 2; ++i) {
+      const auto both = rotation.at(0.5 - gauss.nodes[i]);
+      R[i] = rotation_matrix(to_middle * both.before);
+      R[nodes - 1 - i] = rotation_matrix(to_middle * both.after);
     }
-    turned = turned * rotation.at(0.5);
+    turned = to_middle * ends.after;
+    Three<S> rates[nodes];
+    for (int i = 0; i < nodes; ++i) {
+      rates[i] = R[i] * (k_dot.value + (s_begin + gauss.nodes[i] * h - 0.5 * length()) * k_dot.slope);
+    }
 
-    const Eigen::Matrix<double, nodes_per_piece, nodes_per_piece> cumulative = h * gauss.cumulative;
-    Nodes p_at, w_at;
-    p_at.noalias() = d3 * cumulative.transpose();
-    w_at.noalias() = rates * cumulative.transpose();
-    for (int i = 0; i < nodes_per_piece; ++i) {
+    Three<S> p_rise = zero, w_rise = zero;
+    for (int i = 0; i < nodes; ++i) {
       const double weight = h * gauss.weights[i];
       const double sigma = 2.0 * (s_begin + gauss.nodes[i] * h) / length() - 1.0;
-      const Vector3d p_i = p + p_at.col(i);
-      const Vector3d w_i = w + w_at.col(i);
-      const Vector3d d[2] = {weight * d1.col(i), weight * d2.col(i)};
-      const Vector3d d3_i = weight * d3.col(i);
-      for (int axis = 0; axis < 2; ++axis) {
-        const Vector3d moment = d[axis].cross(p_i);
-        const int c = axis * bend_terms_;
-        f.col(c) += d[axis];
-        f_cross_p.col(c) += moment;
-        if (bend_terms_ == 2) {
-          f.col(c + 1) += sigma * d[axis];
-          f_cross_p.col(c + 1) += sigma * moment;
-        }
+      Three<S> p_i = p, w_i = w;
+      for (int j = 0; j < nodes; ++j) {
+        const double part = h * gauss.cumulative(i, j);
+        p_i += part * R[j].z;
+        w_i += part * rates[j];
       }
-      f.col(torsion().begin) += d3_i;
-      f_cross_p.col(torsion().begin) += d3_i.cross(p_i);
-      const Vector3d turning = weight * w_i.cross(rates.col(i));
+      p_rise += weight * R[i].z;
+      w_rise += weight * rates[i];
+      const Three<S> d1 = weight * R[i].x, d2 = weight * R[i].y, d3 = weight * R[i].z;
+      const Three<S> m1 = cross(d1, p_i), m2 = cross(d2, p_i);
+      f[0] += d1;
+      f[1] += d2;
+      f_cross_p[0] += m1;
+      f_cross_p[1] += m2;
+      if (bend_terms_ == 2) {
+        f[2] += sigma * d1;
+        f[3] += sigma * d2;
+        f_cross_p[2] += sigma * m1;
+        f_cross_p[3] += sigma * m2;
+      }
+      f[4] += d3;
+      f_cross_p[4] += cross(d3, p_i);
+      const Three<S> turning = weight * cross(w_i, rates[i]);
       bias += turning;
-      bias_cross_p += turning.cross(p_i);
-      const Vector3d w_cross_d3 = w_i.cross(d3_i);
+      bias_cross_p += cross(turning, p_i);
+      const Three<S> w_cross_d3 = cross(w_i, d3);
       coriolis += w_cross_d3;
-      centripetal += w_i.cross(w_cross_d3);
+      centripetal += cross(w_i, w_cross_d3);
     }
-    p += h * (d3 * gauss.weights);
-    w += h * (rates * gauss.weights);
+    p += p_rise;
+    w += w_rise;
   }
 
-  turned.normalize();
-  out.R_HE = turned.toRotationMatrix();
+  out.R_HE = rotation_matrix(normalised(turned));
   out.p_HE = stretched * p;
-  out.angular = f;
-  out.linear.resize(3, size());
-  for (int c = 0; c < size() - 1; ++c) out.linear.col(c) = stretched * (f.col(c).cross(p) - f_cross_p.col(c));
-  out.angular.col(stretch().begin).setZero();
-  out.linear.col(stretch().begin) = p;
+  const auto set = [&](int c, int i) {
+    out.angular[c] = f[i];
+    out.linear[c] = stretched * (cross(f[i], p) - f_cross_p[i]);
+  };
+  for (int axis = 0; axis < 2; ++axis) {
+    for (int term = 0; term < bend_terms_; ++term) set(axis * bend_terms_ + term, axis + 2 * term);
+  }
+  set(torsion().begin, 4);
+  out.angular[stretch().begin] = zero;
+  out.linear[stretch().begin] = p;
   out.angular_bias = bias;
   out.linear_bias =
-      stretched * (bias.cross(p) - bias_cross_p + centripetal) + 2.0 * stretching * coriolis;
+      stretched * (cross(bias, p) - bias_cross_p + centripetal) + (2.0 * stretching) * coriolis;
+  out.separate = out.condensed = false;
 }
+
+template <typename S>
+SPRING_WORKBENCH_INLINE void StrainRod::tip_of(const S* q, const S* q_dot, TipOf<S>& out) const {
+  const LinearStrain<S> k = curvature(q);
+  const double angle = turned_angle(k);
+  const double most = wave(k, angle);
+  if (most < wave_of_five) return integrate<5>(q, q_dot, 1, angle, out);
+  if (most < wave_of_six) return integrate<6>(q, q_dot, 1, angle, out);
+  return integrate<most_nodes>(q, q_dot, pieces(angle), angle, out);
+}
+
+void StrainRod::tip(const double* q, const double* q_dot, TipOf<double>& out) const { tip_of(q, q_dot, out); }
+void StrainRod::tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const { tip_of(q, q_dot, out); }
 
 double StrainRod::extension(const StrainVector& q) const { return q[stretch().begin] * length(); }
 
 double StrainRod::twist(const StrainVector& q) const { return q[torsion().begin] * length(); }
 
 RigidTransform StrainRod::section(const StrainVector& q, double s) const {
-  const LinearStrain k = curvature(q);
-  const GaussLegendre<nodes_per_piece>& gauss = rule();
-  const int count = pieces(turned_angle(k) * s / length());
+  const LinearStrain<double> k = curvature(q.data());
+  const GaussLegendre<most_nodes>& gauss = rule<most_nodes>();
+  const double angle = turned_angle(k) * s / length();
+  const int count = pieces(angle);
   const double h = s / count;
-  Quaterniond turned = Quaterniond::Identity();
-  Vector3d p = Vector3d::Zero();
+  QuaternionOf<double> turned{none<double>(), 1.0};
+  Three<double> p = none<double>();
   for (int piece = 0; piece < count; ++piece) {
-    const Vector3d middle = k.value + k.slope * ((piece + 0.5) * h - 0.5 * length());
-    const PieceRotation<1> rotation({h * middle, h * h * k.slope});
-    for (int i = 0; i < nodes_per_piece; ++i) {
-      p += h * gauss.weights[i] * (turned * rotation.at(gauss.nodes[i] - 0.5) * Vector3d::UnitZ());
+    const PieceRotation<1, double> rotation(
+        {h * (k.value + ((piece + 0.5) * h - 0.5 * length()) * k.slope), (h * h) * k.slope}, angle / count);
+    const auto ends = rotation.at(0.5);
+    const QuaternionOf<double> to_middle = turned * conjugate(ends.before);
+    for (int i = 0; i < most_nodes / 2; ++i) {
+      const auto both = rotation.at(0.5 - gauss.nodes[i]);
+      p += (h * gauss.weights[i]) *
+           (rotation_matrix(to_middle * both.before).z + rotation_matrix(to_middle * both.after).z);
     }
-    turned = turned * rotation.at(0.5);
+    turned = to_middle * ends.after;
   }
-  return make_transform(turned, (1.0 + q[stretch().begin]) * p);
+  return make_transform(Quaterniond(turned.w, turned.v.x, turned.v.y, turned.v.z),
+                        (1.0 + q[stretch().begin]) * vector(p));
 }
 
 bool StrainRod::admissible(const StrainVector& q) const {
-  return q.allFinite() && 1.0 + q[stretch().begin] > least_stretch && turned_angle(curvature(q)) < most_turned;
+  return q.allFinite() && 1.0 + q[stretch().begin] > least_stretch && turned_angle(curvature(q.data())) < most_turned;
 }
 
 }  // namespace spring_workbench

@@ -14,7 +14,9 @@ class StrainRod final : public ShapeModel {
   int size() const override { return 2 * bend_terms_ + 2; }
   CoordinateRange bend() const override { return {0, 2 * bend_terms_}; }
   StrainVector stiffness(const PerFamily& k) const override;
-  void tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const override;
+  using ShapeModel::tip;
+  void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
+  void tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const override;
   double extension(const StrainVector& q) const override;
   double twist(const StrainVector& q) const override;
   RigidTransform section(const StrainVector& q, double s) const override;
@@ -22,13 +24,25 @@ class StrainRod final : public ShapeModel {
 
  private:
   /// Strain of the rod along its length: `value + slope (s − L/2)`.
+  template <typename S>
   struct LinearStrain {
-    Vector3d value = Vector3d::Zero();
-    Vector3d slope = Vector3d::Zero();
+    Three<S> value, slope;
   };
-  LinearStrain curvature(const StrainVector& q) const;
+  template <typename S>
+  LinearStrain<S> curvature(const S* q) const;
   /// Upper bound of the angle through which the rod is turned [rad].
-  double turned_angle(const LinearStrain& k) const;
+  template <typename S>
+  double turned_angle(const LinearStrain<S>& k) const;
+  /// By how much the quadrature's integrand is multiplied with each derivative, over the whole rod: where the strain
+  /// changes along it, the ten to twelve derivatives that count are larger than those of the angle alone, as those of
+  /// exp(i b u²/2) are.
+  template <typename S>
+  double wave(const LinearStrain<S>& k, double angle) const;
+  template <typename S>
+  void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
+  /// The tip by `count` pieces of the rod with so many nodes each; `angle`: as turned_angle().
+  template <int nodes, typename S>
+  void integrate(const S* q, const S* q_dot, int count, double angle, TipOf<S>& out) const;
   int pieces(double angle) const;
 
   std::string name_;

@@ -15,8 +15,10 @@ constexpr double least_stretch = 0.02;   ///< of the rest length; a rod compress
 using Strain = ThreeTermRod::Strain;
 using Columns = Eigen::Matrix<double, 3, ThreeTermRod::size>;
 
-const GaussLegendre<8>& rule() {
-  static const GaussLegendre<8> gauss;
+constexpr int rule_nodes = 8;  ///< of the quadrature on a piece
+
+const GaussLegendre<rule_nodes>& rule() {
+  static const GaussLegendre<rule_nodes> gauss;
   return gauss;
 }
 
@@ -31,11 +33,25 @@ int pieces(double angle) { return 1 + static_cast<int>(std::min(angle, most_turn
 double legendre2(double sigma) { return 1.5 * sigma * sigma - 0.5; }
 
 /// Rotation over the piece of length `h` whose middle is at `s`.
-PieceRotation<2> piece_rotation(const Strain& x, double s, double h) {
+PieceRotation<2, double> piece_rotation(const Strain& x, double s, double h) {
   const Vector3d mean(x[0], x[2], x[4]), first(x[1], x[3], 0.0), second(x[6], x[7], 0.0);
   const double sigma = 2.0 * s - 1.0;
-  return PieceRotation<2>({h * (mean + sigma * first + legendre2(sigma) * second),
-                           2.0 * h * h * (first + 3.0 * sigma * second), 6.0 * h * h * h * second});
+  return PieceRotation<2, double>({three(h * (mean + sigma * first + legendre2(sigma) * second)),
+                                   three(2.0 * h * h * (first + 3.0 * sigma * second)),
+                                   three(6.0 * h * h * h * second)});
+}
+
+/// Attitude at the nodes and, returned, at the end of a piece that starts at `begin`.
+QuaternionOf<double> turned_at_nodes(const PieceRotation<2, double>& rotation, const QuaternionOf<double>& begin,
+                                     Matrix3d* R) {
+  const auto ends = rotation.at(0.5);
+  const QuaternionOf<double> to_middle = begin * conjugate(ends.before);
+  for (int i = 0; i < rule_nodes / 2; ++i) {
+    const auto both = rotation.at(0.5 - rule().nodes[i]);
+    R[i] = matrix(rotation_matrix(to_middle * both.before), 0);
+    R[rule_nodes - 1 - i] = matrix(rotation_matrix(to_middle * both.after), 0);
+  }
+  return to_middle * ends.after;
 }
 
 /// What each strain rate turns the section at `s` of attitude `R` by, over arc length.
@@ -52,16 +68,15 @@ Columns turning(const Matrix3d& R, double s) {
 RigidTransform ThreeTermRod::section(const Strain& x, double s) {
   const int count = pieces(turned_angle(x) * s);
   const double h = s / count;
-  Quaterniond turned = Quaterniond::Identity();
+  QuaternionOf<double> turned{none<double>(), 1.0};
   Vector3d p = Vector3d::Zero();
   for (int piece = 0; piece < count; ++piece) {
-    const PieceRotation<2> rotation = piece_rotation(x, (piece + 0.5) * h, h);
-    for (int i = 0; i < nodes_per_piece; ++i) {
-      p += h * rule().weights[i] * (turned * rotation.at(rule().nodes[i] - 0.5) * Vector3d::UnitZ());
-    }
-    turned = turned * rotation.at(0.5);
+    Matrix3d R[nodes_per_piece];
+    turned = turned_at_nodes(piece_rotation(x, (piece + 0.5) * h, h), turned, R);
+    for (int i = 0; i < nodes_per_piece; ++i) p += h * rule().weights[i] * R[i].col(2);
   }
-  return make_transform(turned, (1.0 + x[stretch]) * p);
+  const QuaternionOf<double> end = normalised(turned);
+  return make_transform(Quaterniond(end.w, end.v.x, end.v.y, end.v.z), (1.0 + x[stretch]) * p);
 }
 
 bool ThreeTermRod::admissible(const Strain& x) {
@@ -70,16 +85,15 @@ bool ThreeTermRod::admissible(const Strain& x) {
 
 ThreeTermRod::ThreeTermRod(const Strain& x) : stretched_(1.0 + x[stretch]), pieces_(pieces(turned_angle(x))) {
   const double h = 1.0 / pieces_;
-  Quaterniond turned = Quaterniond::Identity();
+  QuaternionOf<double> turned{none<double>(), 1.0};
   Vector3d p = Vector3d::Zero();
   // Moments about the origin, shifted to the tip at the end: ∫ c × (p_tip − p) = (∫ c) × p_tip − ∫ c × p.
   Columns c_sum = Columns::Zero(), c_cross_p = Columns::Zero();
   for (int piece = 0; piece < pieces_; ++piece) {
-    const PieceRotation<2> rotation = piece_rotation(x, (piece + 0.5) * h, h);
     Node* const nodes = nodes_ + nodes_per_piece * piece;
-    for (int i = 0; i < nodes_per_piece; ++i) {
-      nodes[i].R = (turned * rotation.at(rule().nodes[i] - 0.5)).toRotationMatrix();
-    }
+    Matrix3d R[nodes_per_piece];
+    turned = turned_at_nodes(piece_rotation(x, (piece + 0.5) * h, h), turned, R);
+    for (int i = 0; i < nodes_per_piece; ++i) nodes[i].R = R[i];
     Vector3d p_end = p;
     for (int i = 0; i < nodes_per_piece; ++i) {
       nodes[i].p = p;
@@ -90,9 +104,8 @@ ThreeTermRod::ThreeTermRod(const Strain& x) : stretched_(1.0 + x[stretch]), piec
       for (int v = 0; v < size; ++v) c_cross_p.col(v) += c.col(v).cross(nodes[i].p);
     }
     p = p_end;
-    turned = turned * rotation.at(0.5);
   }
-  R_ = turned.normalized().toRotationMatrix();
+  R_ = matrix(rotation_matrix(normalised(turned)), 0);
   p_ = stretched_ * p;
   for (int v = 0; v < size; ++v) J_.col(v) << stretched_ * (c_sum.col(v).cross(p) - c_cross_p.col(v)), c_sum.col(v);
   J_.col(stretch) << p, Vector3d::Zero();

@@ -148,6 +148,12 @@ class ReferenceTrajectory : public testing::TestWithParam<Case> {
   test_support::TemporaryFolder folder_;
 };
 
+TEST_P(ReferenceTrajectory, IsMetWithOneStepPerSample) {
+  const Distance distance = run("0.02", GetParam().motion == "motion_vicon_1s" ? 1.0 : 8.0);
+  EXPECT_LT(distance.position, 1e-5);
+  EXPECT_LT(distance.angle, 1e-4);
+}
+
 TEST_P(ReferenceTrajectory, IsMetAtAMillisecond) {
   const Distance distance = run("0.001", GetParam().motion == "motion_vicon_1s" ? 1.0 : 8.0);
   EXPECT_LT(distance.position, 1e-5);

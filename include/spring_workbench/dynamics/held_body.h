@@ -25,6 +25,13 @@ struct HandleForcing {
   Vector3d acceleration_less_gravity = Vector3d::Zero();  ///< of the origin of H [m/s²]
 };
 
+/// The same at several moments, for integrators.
+struct HandleForcings {
+  Pack t;
+  FrameForcing<Pack> of_H;
+  HandleForcing at(int i) const;  ///< without pose and velocity but for the rotation
+};
+
 /// State of the held body in the strain coordinates that are active.
 struct StrainState {
   StrainVector q;      ///< strain
@@ -73,12 +80,16 @@ class HeldBody {
   StrainVector damping() const;    ///< diagonal of D, active coordinates
 
   HandleForcing forcing(const MotionSegment& handle, double t) const;
+  HandleForcings forcing(const MotionSegment& handle, const Pack& t) const;
   /// q̈ of the active coordinates.
   StrainVector acceleration(const HandleForcing& handle, const StrainVector& q, const StrainVector& q_dot) const;
   /// The same for `n` = size(), 1 … 6, known to the compiler: for integrators.
   template <int n>
   Eigen::Matrix<double, n, 1> acceleration(const HandleForcing& handle, const Eigen::Matrix<double, n, 1>& q,
                                            const Eigen::Matrix<double, n, 1>& q_dot) const;
+  /// The same at several moments: `n` packs each.
+  template <int n>
+  void acceleration(const HandleForcings& handle, const Pack* q, const Pack* q_dot, Pack* q_ddot) const;
   /// Mass matrix M(q) of the active coordinates at time `t` (which matters while a family returns).
   StrainMatrix mass_matrix(double t, const StrainVector& q) const;
   /// ShapeModel::rechart of the active coordinates; not while a family returns to zero strain.
@@ -115,14 +126,19 @@ class HeldBody {
     StrainVector q, q_dot;   ///< all coordinates
   };
   /// All coordinates' strain and rate at time `t` from the active ones' and what is prescribed.
-  template <typename Active>
-  void expand(double t, const Active& q, const Active& q_dot, StrainVector& q_all, StrainVector& q_dot_all,
+  void expand(double t, const StrainVector& q, const StrainVector& q_dot, StrainVector& q_all, StrainVector& q_dot_all,
               StrainVector& q_ddot_all) const;
+  template <int n, typename S>
+  void accelerate(const S& t, const FrameForcing<S>& handle, const S* q, const S* q_dot, S* q_ddot) const;
+  template <typename S>
   struct Rigid;  ///< the object's inertial and contact wrench for q̈ = 0
-  Rigid without_strain_acceleration(const HandleForcing& handle, const TipKinematics& tip, const StrainVector& q_dot,
-                                    const StrainVector& q_ddot) const;
+  template <typename S>
+  Rigid<S> without_strain_acceleration(const FrameForcing<S>& handle, const TipOf<S>& tip, const S* q_dot,
+                                       const S* q_ddot) const;
   void kinematics(double t, const StrainVector& q, const StrainVector& q_dot, Kinematics& k) const;
-  void prescribed(double t, StrainVector& q, StrainVector& q_dot, StrainVector& q_ddot) const;
+  /// Sets lane `k` of the coordinates that follow a prescribed motion.
+  template <typename S>
+  void prescribe(double t, int k, S* q, S* q_dot, S* q_ddot) const;
   StrainMatrix mass_matrix(const Kinematics& k, Matrix3d& I_H) const;
   void changed();
 
@@ -139,6 +155,7 @@ class HeldBody {
   std::array<Return, max_strain_coordinates> return_;
   std::array<int, max_strain_coordinates> active_;  ///< indices of the active coordinates
   int active_count_ = 0;
+  int shape_size_ = 0;
   int returning_ = 0;
   Wrench external_W_;
   bool loaded_ = false;  ///< the external wrench is not zero

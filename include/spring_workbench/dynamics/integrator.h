@@ -27,6 +27,8 @@ class Integrator {
   virtual int order() const = 0;
   /// Whether no stiffness, however large, limits the step: what StepControl guards.
   virtual bool unlimited() const { return false; }
+  /// Whether the estimate holds, too, in a step that begins with a jump of the handle's acceleration.
+  virtual bool estimates_after_jumps() const { return true; }
 
   /// Carries `state` from `t` to `t + h` [s], h > 0; `handle` must cover that time.
   virtual StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h,

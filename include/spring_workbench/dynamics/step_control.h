@@ -60,6 +60,8 @@ class StepControl {
  private:
   struct Span;  ///< one call's arguments
 
+  /// One step, or with a tolerance, where the integrator's own estimate would not do, the same in two halves.
+  StepEstimate step_with_estimate(const Span& span, double t, double h, StrainState& state) const;
   bool try_step(Span& span, double t, double h, StrainState& state, StepEstimate& estimate) const;
   bool step_in_halves(Span& span, double t, double h, int level, StrainState& state) const;
   bool steps_to_tolerance(Span& span, double t, double h, StrainState& state) const;

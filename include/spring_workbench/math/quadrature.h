@@ -15,6 +15,8 @@ struct GaussLegendre {
   GaussLegendre();
 };
 
+extern template struct GaussLegendre<5>;
+extern template struct GaussLegendre<6>;
 extern template struct GaussLegendre<8>;
 
 }  // namespace spring_workbench

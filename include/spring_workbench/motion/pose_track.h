@@ -3,7 +3,7 @@
 #include <deque>
 #include <limits>
 
-#include "spring_workbench/math/rigid_transform.h"
+#include "spring_workbench/math/pack.h"
 
 namespace spring_workbench {
 
@@ -27,6 +27,15 @@ struct OwnAxesMotion {
   Vector3d a_W = Vector3d::Zero();                ///< [m/s²]
   Vector3d w_B = Vector3d::Zero();                ///< [rad/s]
   Vector3d alpha_B = Vector3d::Zero();            ///< [rad/s²]
+};
+
+/// What a moving frame B feels, in its own axes, at one moment or at several.
+template <typename S>
+struct FrameForcing {
+  ThreeByThree<S> R_WB;
+  Three<S> w_B;      ///< [rad/s]
+  Three<S> alpha_B;  ///< [rad/s²]
+  Three<S> a_B;      ///< of the origin, less gravity [m/s²]
 };
 
 /// A sample with its derivatives: the body rates and angular acceleration in the body's own axes.
@@ -55,6 +64,8 @@ class MotionSegment {
   /// State at time `t` [s], begin() ≤ t ≤ end().
   MotionState at(double t) const;
   OwnAxesMotion in_own_axes(double t) const;
+  /// At the times `t` [s], with `gravity` [m/s²] along −z of world.
+  FrameForcing<Pack> forcing(const Pack& t, double gravity) const;
 
  private:
   /// `u (c[0] + u (c[1] + …))` for u = 0 … 1 over the segment: what a vector adds to its value at the start.
@@ -63,14 +74,28 @@ class MotionSegment {
     static Polynomial cubic(const Vector3d& change, const Vector3d& slope_a, const Vector3d& slope_b);
     static Polynomial quintic(const Vector3d& change, const Vector3d& slope_a, const Vector3d& slope_b,
                               const Vector3d& curve_a, const Vector3d& curve_b);
-    Vector3d value(double u) const { return u * (c[0] + u * (c[1] + u * (c[2] + u * (c[3] + u * c[4])))); }
-    Vector3d first(double u) const {
-      return c[0] + u * (2.0 * c[1] + u * (3.0 * c[2] + u * (4.0 * c[3] + u * 5.0 * c[4])));
+    template <typename S>
+    SPRING_WORKBENCH_INLINE Three<S> value(const S& u) const {
+      return u * (three(c[0]) + u * (three(c[1]) + u * (three(c[2]) + u * (three(c[3]) + u * three(c[4])))));
     }
-    Vector3d second(double u) const {
-      return 2.0 * c[1] + u * (6.0 * c[2] + u * (12.0 * c[3] + u * 20.0 * c[4]));
+    template <typename S>
+    SPRING_WORKBENCH_INLINE Three<S> first(const S& u) const {
+      return three(c[0]) + u * (2.0 * three(c[1]) + u * (3.0 * three(c[2]) + u * (4.0 * three(c[3]) + u * (5.0 * three(c[4])))));
+    }
+    template <typename S>
+    SPRING_WORKBENCH_INLINE Three<S> second(const S& u) const {
+      return 2.0 * three(c[1]) + u * (6.0 * three(c[2]) + u * (12.0 * three(c[3]) + u * (20.0 * three(c[4]))));
     }
   };
+
+  /// Rotation from the start, body rates and angular acceleration.
+  template <typename S>
+  struct Turn {
+    ThreeByThree<S> R;
+    Three<S> w_B, alpha_B;
+  };
+  template <typename S>
+  Turn<S> turn(const S& u, double per_second) const;
 
   RigidTransform X_a_;
   double begin_;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "spring_workbench/math/rigid_transform.h"
+#include "spring_workbench/math/pack.h"
 #include "spring_workbench/rod/settings.h"
 
 namespace spring_workbench {
@@ -25,12 +25,24 @@ struct TipKinematics {
   StrainJacobian linear;                            ///< tip's velocity = linear · q̇
   Vector3d angular_bias = Vector3d::Zero();         ///< angular acceleration = angular · q̈ + angular_bias [rad/s²]
   Vector3d linear_bias = Vector3d::Zero();          ///< acceleration = linear · q̈ + linear_bias [m/s²]
+  StrainVector condensed_force;                     ///< ∂U/∂q beyond K q, from coordinates that are condensed
+};
+
+/// The same for one strain (`S` double) or several.
+template <typename S>
+struct TipOf {
+  ThreeByThree<S> R_HE;
+  Three<S> p_HE;
+  Three<S> angular[max_strain_coordinates];
+  Three<S> linear[max_strain_coordinates];
+  Three<S> angular_bias, linear_bias;
   /// Whether, of six coordinates, 0, 1 and 5 shift the tip along x, y and z of H and 2, 3 and 4 only turn it. Then
   /// (q̇₂, q̇₃, q̇₄) = inverse_angular · angular velocity.
   bool separate = false;
-  Matrix3d inverse_angular = Matrix3d::Identity();
-  /// ∂U/∂q beyond K q, from coordinates that are condensed; empty where there are none.
-  StrainVector condensed_force = StrainVector();
+  ThreeByThree<S> inverse_angular;
+  /// ∂U/∂q beyond K q, from coordinates that are condensed, where there are some.
+  bool condensed = false;
+  S condensed_force[max_strain_coordinates];
 };
 
 /// Which of the strain coordinates belong to which family: [begin, begin + count).
@@ -62,7 +74,10 @@ class ShapeModel {
   virtual double condensed_energy(const StrainVector& q) const;
 
   /// The tip for strain `q` and strain rate `q_dot`; both of length size().
-  virtual void tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const = 0;
+  void tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const;
+  /// For size() coordinates each.
+  virtual void tip(const double* q, const double* q_dot, TipOf<double>& out) const = 0;
+  virtual void tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const = 0;
 
   /// Extension of the rod [m] and twist angle [rad].
   virtual double extension(const StrainVector& q) const = 0;

@@ -29,7 +29,7 @@ Elastica solve(const std::string& name, double alpha) {
     const auto residual = [&](const StrainVector& at) {
       shape.tip(at, none, tip);
       StrainVector force = K.cwiseProduct(at) - tip.linear.transpose() * P;
-      if (tip.condensed_force.size() > 0) force += tip.condensed_force;
+      force += tip.condensed_force;
       return force;
     };
     for (int newton = 0; newton < 30; ++newton) {

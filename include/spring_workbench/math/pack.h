@@ -1,0 +1,130 @@
+#pragma once
+
+#include "spring_workbench/math/rigid_transform.h"
+
+// Arithmetic on several numbers side by side: what is written once for a scalar `S` runs for `double` and for `Pack`.
+
+#define SPRING_WORKBENCH_INLINE inline __attribute__((always_inline))
+
+namespace spring_workbench {
+
+/// Four numbers in one register, or in two.
+using Pack = double __attribute__((vector_size(32)));
+constexpr int pack_size = 4;
+
+/// Lane `i` of a pack, or the number itself.
+SPRING_WORKBENCH_INLINE double lane(const Pack& p, int i) { return p[i]; }
+SPRING_WORKBENCH_INLINE double lane(double x, int) { return x; }
+template <typename S>
+constexpr int lanes = sizeof(S) / sizeof(double);
+
+template <typename S>
+SPRING_WORKBENCH_INLINE void set_lane(S& p, int i, double x) {
+  if constexpr (lanes<S> == 1) {
+    p = x;
+  } else {
+    p[i] = x;
+  }
+}
+template <typename S>
+SPRING_WORKBENCH_INLINE double largest(const S& p) {
+  double most = lane(p, 0);
+  for (int i = 1; i < lanes<S>; ++i) most = lane(p, i) > most ? lane(p, i) : most;
+  return most;
+}
+
+/// Three coordinates.
+template <typename S>
+struct Three {
+  S x, y, z;
+};
+template <typename S>
+SPRING_WORKBENCH_INLINE Three<S> none() {
+  return {S{}, S{}, S{}};
+}
+SPRING_WORKBENCH_INLINE Three<double> three(const Vector3d& v) { return {v[0], v[1], v[2]}; }
+SPRING_WORKBENCH_INLINE Vector3d vector(const Three<double>& v) { return {v.x, v.y, v.z}; }
+template <typename S>
+SPRING_WORKBENCH_INLINE Vector3d vector(const Three<S>& v, int i) {
+  return {lane(v.x, i), lane(v.y, i), lane(v.z, i)};
+}
+
+template <typename S>
+SPRING_WORKBENCH_INLINE void set_lane(Three<S>& p, int i, const Three<double>& v) {
+  set_lane(p.x, i, v.x);
+  set_lane(p.y, i, v.y);
+  set_lane(p.z, i, v.z);
+}
+
+template <typename S, typename T>
+SPRING_WORKBENCH_INLINE auto operator+(const Three<S>& a, const Three<T>& b) -> Three<decltype(a.x + b.x)> {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <typename S, typename T>
+SPRING_WORKBENCH_INLINE auto operator-(const Three<S>& a, const Three<T>& b) -> Three<decltype(a.x - b.x)> {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <typename S, typename T>
+SPRING_WORKBENCH_INLINE Three<S>& operator+=(Three<S>& a, const Three<T>& b) {
+  a.x += b.x;
+  a.y += b.y;
+  a.z += b.z;
+  return a;
+}
+template <typename T, typename S>
+SPRING_WORKBENCH_INLINE auto operator*(const T& f, const Three<S>& a) -> Three<decltype(f * a.x)> {
+  return {f * a.x, f * a.y, f * a.z};
+}
+template <typename S, typename T>
+SPRING_WORKBENCH_INLINE auto dot(const Three<S>& a, const Three<T>& b) -> decltype(a.x * b.x) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <typename S, typename T>
+SPRING_WORKBENCH_INLINE auto cross(const Three<S>& a, const Three<T>& b) -> Three<decltype(a.x * b.x)> {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+/// A 3 × 3 matrix by its columns.
+template <typename S>
+struct ThreeByThree {
+  Three<S> x, y, z;
+};
+SPRING_WORKBENCH_INLINE ThreeByThree<double> three_by_three(const Matrix3d& m) {
+  return {three(m.col(0)), three(m.col(1)), three(m.col(2))};
+}
+template <typename S>
+SPRING_WORKBENCH_INLINE Matrix3d matrix(const ThreeByThree<S>& m, int i) {
+  Matrix3d r;
+  r << vector(m.x, i), vector(m.y, i), vector(m.z, i);
+  return r;
+}
+template <typename S>
+SPRING_WORKBENCH_INLINE void set_lane(ThreeByThree<S>& p, int i, const ThreeByThree<double>& m) {
+  set_lane(p.x, i, m.x);
+  set_lane(p.y, i, m.y);
+  set_lane(p.z, i, m.z);
+}
+
+template <typename S, typename T>
+SPRING_WORKBENCH_INLINE auto operator*(const ThreeByThree<S>& m, const Three<T>& v) -> Three<decltype(m.x.x * v.x)> {
+  return v.x * m.x + v.y * m.y + v.z * m.z;
+}
+/// `mᵀ v`.
+template <typename S, typename T>
+SPRING_WORKBENCH_INLINE auto transposed(const ThreeByThree<S>& m, const Three<T>& v) -> Three<decltype(m.x.x * v.x)> {
+  return {dot(m.x, v), dot(m.y, v), dot(m.z, v)};
+}
+template <typename S, typename T>
+SPRING_WORKBENCH_INLINE auto operator*(const ThreeByThree<S>& a, const ThreeByThree<T>& b)
+    -> ThreeByThree<decltype(a.x.x * b.x.x)> {
+  return {a * b.x, a * b.y, a * b.z};
+}
+/// `p v vᵀ + q I + r [v]×`.
+template <typename S>
+SPRING_WORKBENCH_INLINE ThreeByThree<S> symmetric_and_skew(const S& p, const S& q, const S& r, const Three<S>& v) {
+  const Three<S> pv = p * v, rv = r * v;
+  const S xy = pv.x * v.y, xz = pv.x * v.z, yz = pv.y * v.z;
+  return {{pv.x * v.x + q, xy + rv.z, xz - rv.y}, {xy - rv.z, pv.y * v.y + q, yz + rv.x}, {xz + rv.y, yz - rv.x, pv.z * v.z + q}};
+}
+
+}  // namespace spring_workbench

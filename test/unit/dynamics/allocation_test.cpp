@@ -1,0 +1,81 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <random>
+#include <vector>
+
+#include "spring_workbench/dynamics/step_control.h"
+#include "support/held_cases.h"
+
+namespace {
+
+long allocations = 0;
+
+}  // namespace
+
+// Everything on the heap comes through one of these, Eigen's and operator new's too. Sanitizers bring their own.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define COUNTS_ALLOCATIONS 1
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+}
+#else
+#define COUNTS_ALLOCATIONS 0
+#endif
+
+namespace spring_workbench {
+namespace {
+
+class Stepping : public testing::TestWithParam<std::string> {};
+
+TEST(Allocations, AreCounted) {
+  if (!COUNTS_ALLOCATIONS) GTEST_SKIP() << "a sanitizer has its own heap";
+  const long before = allocations;
+  const std::vector<double> some(1000, 1.0);
+  EXPECT_GT(allocations, before) << some[0];
+}
+
+TEST_P(Stepping, AllocatesNothing) {
+  // Whole steps and steps to a tolerance, loads that come and go, a stiffness that changes, motions that need new linear
+  // parts.
+  for (const std::string& shape : shape_model_names()) {
+    for (const bool all : {true, false}) {
+      for (const double tolerance : {0.0, 1e-3}) {
+        std::mt19937 random(3);
+        Case c = random_case(shape, 0.3, 0.5, random);
+        const StrainVector zero = StrainVector::Zero(c.held.shape().size());
+        if (!all) c.held.set_dofs({true, false, false}, 0.0, 0.05, {zero, zero});
+        const double m = c.held.body().mass;
+        const bool explicit_method = GetParam() == "rk4" || GetParam() == "semi_implicit_euler";
+        const double h = std::min(0.02, explicit_method ? 0.2 / c.omega : 1.0);
+        const StepControl control(make_integrator(GetParam()), tolerance);
+        StepControl::Memory memory;
+        StrainState state = c.held.zero_state();
+        long counted = 0;
+        for (int i = 0; i < 12; ++i) {
+          if (i == 4) c.held.set_external_wrench({m * Vector3d(0.1, 0.2, 0.3), Vector3d::Zero()});
+          if (i == 8) c.held.set_springs({2e3 * m, 7e2 * m, 5.0 * m}, {1.0, 1.0, 0.1});
+          const long before = allocations;
+          control.advance(c.held, c.hand, i * h, h, state, memory);  // a refused step is none the less one
+          if (i > 0) counted += allocations - before;
+        }
+        EXPECT_EQ(counted, 0) << shape << (all ? "" : ", stretch alone") << ", tolerance " << tolerance;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Integrators, Stepping, testing::ValuesIn(integrator_names()),
+                         [](const auto& instance) { return instance.param; });
+
+}  // namespace
+}  // namespace spring_workbench
