@@ -302,7 +302,6 @@ class Exponential::CoreOf final : public Core {
                        same(end_acceleration_, vector(forcing.of_H.a_B, 0)) &&
                        same(end_angular_acceleration_, vector(forcing.of_H.alpha_B, 0));
     start_remainder_ = known ? at_node(last, remainder_) : remainder(body, forcing.at(0), state);
-    if (!known) contraction_ = 1.0;  // what the sweeps have to mend is of another kind than in the last step
     if (follows && h < farthest_continued * last_h_) {
       continue_cubic(h);
     } else {
