@@ -11,7 +11,7 @@ namespace {
 
 constexpr double longest_piece = 2e-3;     ///< [s] where something is touched
 constexpr double shortest_step = 1e-9;     ///< [s]; of a step shorter than this contact takes no notice
-constexpr double least_travel = 1.5e-4;    ///< [m] towards something that is touched, in a piece
+constexpr double least_travel = 2e-4;      ///< [m] towards something that is touched, in a piece
 constexpr double as_free = 0.9;            ///< of a piece, for which it is taken
 constexpr double as_possible = 0.8;        ///< of a piece gone, for which it is taken
 constexpr double growth = 2.0;             ///< from one piece to the next, at most
@@ -131,15 +131,11 @@ bool DynamicStepper::go_in_contact(const std::vector<SteppedBody*>& held, const 
     const RigidWorld::Freedom freely = freedom(*held[i], c.begin, held[i]->object(), h);
     possible = std::min({possible, freely.until_near, freely.towards_near});
   }
-  if (possible < as_possible * h) {
+  if (possible < as_possible * h && h > shortest_piece_) {
+    world_->go_back();
     for (SteppedBody* body : held) body->go_back();
-    if (h > shortest_piece_) {
-      world_->go_back();
-      h = std::max(possible, shortest_piece_);
-      return false;
-    }
-    for (SteppedBody* body : held) body->stay(h);
-    outcome.held_back = true;
+    h = std::max(possible, shortest_piece_);
+    return false;
   }
   for (std::size_t i = 0; i < held.size(); ++i) {
     load_W_[held[i]->index()] = driven[i].contact_W;

@@ -5,7 +5,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/scene/geometry.h"
@@ -19,7 +18,6 @@ constexpr double asleep_speed = 2e-3;     ///< [m/s] of every point of a body �
 constexpr double asleep_after = 0.5;      ///< [s] … for so long: it goes to sleep
 constexpr double rest_speed = 0.02;       ///< [m/s]; a slower approach does not bounce
 constexpr double penetration_share = 0.2; ///< of a penetration that is undone in a step, where it pushes free bodies
-constexpr double least_into = 4e-5;       ///< [m] that a body may go on into another before its contact is looked for anew
 constexpr double closed_gap = 1e-5;       ///< [m]; a contact without impulse is told while its gap is smaller
 
 using Extent = Eigen::AlignedBox3d;
@@ -32,23 +30,6 @@ Extent placed(const Extent& box_O, const RigidTransform& X_WO) {
 }
 
 btDbvtVolume volume(const Extent& box) { return btDbvtVolume::FromMM(to_bullet(box.min()), to_bullet(box.max())); }
-
-/// For how long [s] no corner of a box goes deeper under the plane of `gap` than `into` [m], or by a quarter of that, with a body
-/// of this radius about `p_WO` that moves with V. What turning adds to a corner's speed grows by r ω² t at most.
-double time_to_plane(const OutlineBox& box, const BoxGap& gap, double into, const Vector3d& p_WO, double radius,
-                     const Twist& V) {
-  double time = std::numeric_limits<double>::infinity();
-  const double bending = radius * gap.n_W.cross(V.angular).norm() * V.angular.norm();
-  for (int i = 0; i < 8; ++i) {
-    const Vector3d sign((i & 1) ? 1.0 : -1.0, (i & 2) ? 1.0 : -1.0, (i & 4) ? 1.0 : -1.0);
-    const Vector3d corner = box.X * box.half.cwiseProduct(sign);
-    const double way = std::max(gap.n_W.dot(corner) - gap.level + into, std::max(0.0, 0.25 * into));
-    const double speed = std::max(0.0, -gap.n_W.dot(V.linear + V.angular.cross(corner - p_WO)));
-    const double divisor = speed + std::sqrt(speed * speed + 2.0 * bending * way);
-    if (divisor > 0.0) time = std::min(time, 2.0 * way / divisor);
-  }
-  return time;
-}
 
 }  // namespace
 
@@ -326,30 +307,27 @@ RigidWorld::Freedom BulletWorld::freedom(std::size_t body, const RigidTransform&
   Freedom freedom{longest, longest, false};
   double fastest = 0.0;
   for (const Twist& V : twists_W) fastest = std::max(fastest, V.linear.norm() + item.radius * V.angular.norm());
-  const auto limit = [&](const OutlineBox& own, const BoxGap& gap, bool exact) {
+  const auto limit = [&](const BoxGap& gap, bool exact) {
     const bool near = gap.gap < 2.0 * contact_skin + least;
     freedom.near = freedom.near || near;
-    double& time = near ? freedom.towards_near : freedom.until_near;
-    if (near && !exact) {
-      if (least < fastest * time) time = least / fastest;
-      return;
-    }
-    const double into = near ? least_into : -2.0 * contact_skin;
+    double speed = near && !exact ? fastest : 0.0;
     for (const Twist& V : twists_W) {
-      time = std::min(time, time_to_plane(own, gap, into, X_WO.translation(), item.radius, V));
+      speed = std::max(speed, -gap.n_W.dot(V.linear) + item.radius * gap.n_W.cross(V.angular).norm());
     }
+    const double way = near ? least : gap.gap - 2.0 * contact_skin;
+    double& time = near ? freedom.towards_near : freedom.until_near;
+    if (way < speed * time) time = way / speed;
   };
-  const Vector3d reach = Vector3d::Constant(fastest * longest + 2.0 * contact_skin + least);
+  const Vector3d reach = Vector3d::Constant(fastest * longest + 2.0 * contact_skin);
   const Extent box = placed(item.box_O, X_WO);
   const std::vector<std::size_t> near = inside(Extent(box.min() - reach, box.max() + reach));
   for (const OutlineBox& own : item.outline_O) {
     const OutlineBox here{X_WO * own.X, own.half, own.exact};
-    limit(here, gap_above(here, scene_.bench_height), own.exact);
+    limit(gap_above(here, scene_.bench_height), own.exact);
     for (const std::size_t i : near) {
       if (i == body) continue;
       for (const OutlineBox& other : items_[i].outline_O) {
-        const OutlineBox there{items_[i].X_WO * other.X, other.half, other.exact};
-        limit(here, gap_between(here, there), own.exact && other.exact);
+        limit(gap_between(here, {items_[i].X_WO * other.X, other.half, other.exact}), own.exact && other.exact);
       }
     }
   }
