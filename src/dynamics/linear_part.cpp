@@ -8,8 +8,7 @@
 namespace spring_workbench {
 namespace {
 
-/// Eigenvectors are worse conditioned than this only where the damping is critical to the last bit, or nothing holds the
-/// body; then the linear part
+/// Eigenvectors may be worse conditioned than this only where the damping is critical to the last bit; then the linear part
 /// is taken with slightly other damping, and the difference goes to the remainder.
 constexpr double worst_condition = 1e5;
 constexpr int most_attempts = 6;
@@ -70,9 +69,11 @@ LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const 
   const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> undamped(StrainMatrix(body.stiffness().asDiagonal()), M);
   const StrainMatrix shapes = undamped.eigenvectors();
   const StrainMatrix to_shapes = shapes.transpose() * M;
-  const StrainVector scale = undamped.eigenvalues().cwiseMax(1.0).cwiseSqrt();
-  // A free mode has no two eigenvectors: the frozen part gets the stiffness of 1 rad/s, and the rest takes it back.
-  const StrainVector missing = (1.0 - undamped.eigenvalues().array()).cwiseMax(0.0);
+  // A free mode has no two eigenvectors, and free modes none of their own: the frozen part gets the stiffness of 1, 2, …
+  // rad/s, and the rest takes it back.
+  const StrainVector least = StrainVector::LinSpaced(n, 1.0, n).cwiseAbs2();
+  const StrainVector scale = undamped.eigenvalues().cwiseMax(least).cwiseSqrt();
+  const StrainVector missing = (least - undamped.eigenvalues()).cwiseMax(0.0);
   part.stiffness += shapes * missing.asDiagonal() * to_shapes;
   const StrainMatrix modal_stiffness = to_shapes * part.stiffness * shapes;
 
@@ -82,7 +83,6 @@ LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const 
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     part.damping = part.inverse_mass * StrainMatrix(body.damping().asDiagonal());
     for (int i = 0; i < n; ++i) part.damping.col(i) *= 1.0 + off_critical * (i + 1);
-    part.damping += shapes * (off_critical * scale).asDiagonal() * to_shapes;  // also where neither spring nor damper is
     ModeMatrix A = ModeMatrix::Zero(2 * n, 2 * n);
     A.topRightCorner(n, n).diagonal() = scale;
     A.bottomLeftCorner(n, n) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());
