@@ -20,17 +20,14 @@ BoxGap gap_between(const OutlineBox& a, const OutlineBox& b) {
   const Matrix3d& A = a.X.linear();
   const Matrix3d& B = b.X.linear();
   const Vector3d between = a.X.translation() - b.X.translation();
-  BoxGap best{-std::numeric_limits<double>::infinity(), Vector3d::UnitZ(), 0.0};
+  BoxGap best{-std::numeric_limits<double>::infinity(), Vector3d::UnitZ()};
   const auto look = [&](const Vector3d& axis) {
     const double size = axis.norm();
     if (size < 1e-6) return;  // parallel edges: the faces' axes cover it
-    const double reach_b = (B.transpose() * axis).cwiseAbs().dot(b.half);
-    const double reach = (A.transpose() * axis).cwiseAbs().dot(a.half) + reach_b;
+    const double reach = (A.transpose() * axis).cwiseAbs().dot(a.half) + (B.transpose() * axis).cwiseAbs().dot(b.half);
     const double apart = between.dot(axis);
     const double gap = (std::abs(apart) - reach) / size;
-    if (gap <= best.gap) return;
-    const Vector3d n = axis / (apart < 0.0 ? -size : size);
-    best = {gap, n, n.dot(b.X.translation()) + reach_b / size};
+    if (gap > best.gap) best = {gap, axis / (apart < 0.0 ? -size : size)};
   };
   for (int i = 0; i < 3; ++i) {
     look(A.col(i));
@@ -42,7 +39,7 @@ BoxGap gap_between(const OutlineBox& a, const OutlineBox& b) {
 
 BoxGap gap_above(const OutlineBox& box, double height) {
   const double reach = box.X.linear().row(2).cwiseAbs().dot(box.half);
-  return {box.X.translation().z() - reach - height, Vector3d::UnitZ(), height};
+  return {box.X.translation().z() - reach - height, Vector3d::UnitZ()};
 }
 
 }  // namespace spring_workbench

@@ -21,7 +21,6 @@ std::vector<OutlineBox> outline(const Body& body);
 struct BoxGap {
   double gap = 0.0;                 ///< [m]
   Vector3d n_W = Vector3d::UnitZ(); ///< unit, from `b` towards `a`
-  double level = 0.0;               ///< n·p of the points of `b` that are furthest along it [m]
 };
 BoxGap gap_between(const OutlineBox& a, const OutlineBox& b);
 
