@@ -91,16 +91,23 @@ std::string families_name(const ForkDofs& dofs) {
 /// Cells of one integrator, shape and stiffness: families and hands innermost.
 std::vector<StabilityCell> cells_of(const StabilityPlan& plan, double stiffness_factor) {
   std::vector<StabilityCell> cells;
+  const std::size_t hands = plan.hands.size(), pairs = plan.families.size() * hands;
+  std::vector<std::size_t> next(plan.steps.size(), 0);
   for (const double mass : plan.masses) {
-    for (const double step : plan.steps) {
+    for (std::size_t s = 0; s < plan.steps.size(); ++s) {
       for (const double zeta : plan.damping_ratios) {
-        for (const ForkDofs& families : plan.families) {
-          for (const MapHand hand : plan.hands) cells.push_back({stiffness_factor, mass, step, zeta, families, hand});
+        for (std::size_t i = 0; i < std::min(plan.in_turn[s], pairs); ++i) {
+          const std::size_t pair = next[s]++ % pairs;
+          cells.push_back({stiffness_factor, mass, plan.steps[s], zeta, plan.families[pair / hands], plan.hands[pair % hands]});
         }
       }
     }
   }
   return cells;
+}
+
+bool is_of(const StabilityCell& cell, const StabilityRow& row) {
+  return cell.mass == row.mass && cell.step == row.step && cell.damping_ratio == row.damping_ratio;
 }
 
 std::vector<double> decades(double low, double high, double factor) {
@@ -128,6 +135,7 @@ StabilityPlan stability_plan(bool quick) {
   plan.masses = quick ? std::vector<double>{0.0, 1e-6, 1.0, 1e6}
                       : std::vector<double>{0.0, 1e-6, 1e-3, 1.0, 1e3, 1e6};
   plan.steps = quick ? std::vector<double>{0.05} : std::vector<double>{0.05, 0.02, 0.005, 0.001};
+  plan.in_turn = {40, 24, 8, 4};
   plan.damping_ratios = quick ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.0, 0.1, 1.0, 10.0};
   for (int i = 0; i < 8; ++i) plan.families.push_back({(i & 1) != 0, (i & 2) != 0, (i & 4) != 0});
   plan.hands = {MapHand::lissajous, MapHand::jump, MapHand::flip, MapHand::dropout, MapHand::noise};
@@ -162,7 +170,6 @@ std::size_t unit_count(const StabilityPlan& plan) {
 
 StabilityMap stability_map(const StabilityPlan& plan, Progress& progress) {
   StabilityMap map;
-  const std::size_t per_row = plan.families.size() * plan.hands.size();
   for (const std::string& integrator : plan.integrators) {
     for (const std::string& shape : plan.shapes) {
       std::size_t failures = 0;
@@ -171,9 +178,10 @@ StabilityMap stability_map(const StabilityPlan& plan, Progress& progress) {
         const std::vector<StabilityCell> cells = cells_of(plan, factor);
         std::vector<StabilityOutcome> outcomes(cells.size());
         parallel_for(cells.size(), [&](std::size_t i) { outcomes[i] = run_cell(integrator, shape, cells[i]); });
+        const std::size_t rows_before = map.rows.size();
         for (std::size_t i = 0; i < cells.size(); ++i) {
           const StabilityCell& cell = cells[i];
-          if (i % per_row == 0) {
+          if (map.rows.size() == rows_before || !is_of(cell, map.rows.back())) {
             map.rows.push_back({integrator, shape, factor, cell.mass, cell.step, cell.damping_ratio});
           }
           add(outcomes[i], map.rows.back());

@@ -10,13 +10,14 @@
 
 namespace spring_workbench::benchmark {
 
-/// What is varied. Every combination is a cell.
+/// What is varied. Every combination is a cell; of short steps, which cost most, some in turn are run.
 struct StabilityPlan {
   std::vector<std::string> integrators;
   std::vector<std::string> shapes;
   std::vector<double> stiffness_factors;  ///< over 2000 N/m, 500 N/m, 5 N·m/rad on 0.2 m
   std::vector<double> masses;             ///< [kg]; 0: massless
   std::vector<double> steps;              ///< [s]
+  std::vector<std::size_t> in_turn;       ///< by step: how many of families × hands are run with each of the rest
   std::vector<double> damping_ratios;
   std::vector<ForkDofs> families;
   std::vector<MapHand> hands;
