@@ -49,7 +49,7 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
     for (RodCase& one : recorded_cases(recorded_folder)) plan.cases.push_back(one);
   }
   for (int n = 1; n <= (quick ? 16 : 1024); n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
-  if (has_tolerance_setting()) plan.tolerances = quick ? std::vector<double>{1e-5} : std::vector<double>{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
+  plan.tolerances = quick ? std::vector<double>{1e-5} : std::vector<double>{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
   plan.longest_run = quick ? 0.005 : 0.025;
   plan.tolerance_time_limit = quick ? 0.1 : 1.0;
   plan.repetition = quick ? Repetition{1, 0.005} : Repetition{3, 0.05};
@@ -103,11 +103,6 @@ RodRun run_rod_to_tolerance(const RodCase& one, const std::string& shape, const 
   run.wall_seconds = seconds_since(start);
   run.finite = true;
   return run;
-}
-
-bool has_tolerance_setting() {
-  const std::vector<SettingDescription> all = setting_descriptions();
-  return std::any_of(all.begin(), all.end(), [](const SettingDescription& one) { return one.key == "tolerance"; });
 }
 
 double error_as_length(const RodCase& one, double position, double angle) {

@@ -35,9 +35,6 @@ RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& 
 RodRun run_rod_to_tolerance(const RodCase& one, const std::string& shape, const std::string& integrator,
                             double tolerance);
 
-/// Whether this build's Simulation has the setting `tolerance`.
-bool has_tolerance_setting();
-
 /// Number of lines, and the rows of all: every integrator × shape × step of every case, with hand() "samples".
 std::size_t line_count(const RodTablePlan& plan);
 std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Progress& progress);
