@@ -143,6 +143,26 @@ void check_keys(const YAML::Node& map, const std::string& where, const std::stri
   }
 }
 
+namespace {
+
+/// Refuses what an alias makes endless or immense: `&a [*a]`, and lists of lists of aliases.
+void check_extent(const YAML::Node& node, const std::string& path, int depth, long& values) {
+  constexpr int most_deep = 100;
+  constexpr long most_values = 1000000;
+  if (depth > most_deep) throw InputError(path + ": nesting: must be at most " + std::to_string(most_deep) + " deep");
+  if (++values > most_values) throw InputError(path + ": size: must be at most " + std::to_string(most_values) + " values");
+  if (node.IsSequence()) {
+    for (const YAML::Node& entry : node) check_extent(entry, path, depth + 1, values);
+  } else if (node.IsMap()) {
+    for (const auto& entry : node) {
+      check_extent(entry.first, path, depth + 1, values);
+      check_extent(entry.second, path, depth + 1, values);
+    }
+  }
+}
+
+}  // namespace
+
 YAML::Node load_yaml_file(const std::string& path) {
   std::ifstream file(path);
   std::ostringstream text;
@@ -152,6 +172,8 @@ YAML::Node load_yaml_file(const std::string& path) {
   }
   try {
     const YAML::Node node = YAML::Load(text.str());
+    long values = 0;
+    check_extent(node, path, 0, values);
     return node.IsNull() ? YAML::Node(YAML::NodeType::Map) : node;
   } catch (const YAML::Exception& e) {
     throw InputError(path + ":" + std::to_string(e.mark.line + 1) + ": not YAML: " + e.msg);

@@ -1,16 +1,40 @@
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <ros/xmlrpc_manager.h>
 
+#include <atomic>
+#include <csignal>
 #include <iostream>
 
 #include "spring_workbench/config/input_error.h"
 #include "spring_workbench/ros_interface/manipulation_node.h"
 
+namespace {
+
+std::atomic<bool> end_asked{false};
+
+void ask_for_end(int) { end_asked = true; }
+
+/// ROS' own ways to end a node close the line to the master first, and what the node still has to tell it is lost.
+void end_in_order() {
+  std::signal(SIGINT, ask_for_end);
+  std::signal(SIGTERM, ask_for_end);
+  ros::XMLRPCManager::instance()->unbind("shutdown");
+  ros::XMLRPCManager::instance()->bind("shutdown", [](XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& result) {
+    end_asked = true;
+    result = ros::xmlrpc::responseInt(1, "", 0);
+  });
+}
+
+}  // namespace
+
 /// Tools, spring-fork dynamics and collision behind ROS topics and services. Exit status 2: bad parameters or scene.
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "manipulation");
+  ros::init(argc, argv, "manipulation", ros::init_options::NoSigintHandler);
+  end_in_order();
   try {
     const spring_workbench::ManipulationNode node(ros::NodeHandle(), ros::NodeHandle("~"));
-    ros::spin();
+    while (ros::ok() && !end_asked) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
   } catch (const spring_workbench::InputError& error) {
     std::cerr << error.what() << std::endl;
     return 2;

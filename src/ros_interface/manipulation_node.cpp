@@ -44,10 +44,12 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
       publisher_(private_node, parameters_),
       services_(private_node, runner_, scene_roots(parameters_, runner_)),
       live_tuning_(make_live_tuning(private_node, runner_)),
+      checkpoint_(private_node, runner_),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
       every_second_(node.createWallTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
       physics_([this] { run_physics(); }) {
+  resume(private_parameters(private_node), scene_roots(parameters_, runner_), runner_);
   runner_.locked([](const Simulation& simulation) {
     for (const std::string& warning : simulation.scene().warnings) ROS_WARN_STREAM(warning);
     ROS_INFO("scene %s: %zu bodies", simulation.scene().name.c_str(), simulation.scene().bodies.size());
@@ -101,6 +103,7 @@ void ManipulationNode::count(const CycleReport& report, bool deadline_missed) {
 
 void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
   place_workbench();
+  end_with_its_master();
   LoopStatistics loop;
   {
     const std::lock_guard<std::mutex> lock(loop_mutex_);
@@ -115,6 +118,16 @@ void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
   if (!hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(patience, "no sample of the stylus yet: " << hint);
   message.status = diagnostics_.report(input, runner_.hand_counts(), loop, hint, loop_time());
   diagnostics_publisher_.publish(message);
+}
+
+/// A master that was started anew knows nothing of this node, and nothing brings it back but a new start.
+void ManipulationNode::end_with_its_master() {
+  XmlRpc::XmlRpcValue request, response, payload;
+  request[0] = request[1] = ros::this_node::getName();
+  if (!ros::master::check() || ros::master::execute("lookupNode", request, response, payload, false)) return;
+  ROS_FATAL("the ROS master was started anew and does not know this node: it ends; with respawn it comes back as it was");
+  checkpoint_.hand_over();
+  ros::shutdown();
 }
 
 void ManipulationNode::place_workbench() {

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace spring_workbench {
 namespace {
@@ -106,6 +107,7 @@ bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) cons
 void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
   if (!joins(input, epoch)) {
     start_anew();
+    simulation_->place(std::exchange(places_, {}));
     zero_ = epoch.zero;
     for (HandInput& other : inputs_) other.in_epoch = false;
   }
@@ -153,13 +155,21 @@ void SimulationRunner::forget_hands() {
 
 void SimulationRunner::restart() {
   const std::lock_guard<std::mutex> lock(mutex_);
+  places_.clear();
   start_anew();
+}
+
+void SimulationRunner::place(const std::map<std::string, RigidTransform>& X_WO) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  simulation_->place(X_WO);
+  places_ = X_WO;
 }
 
 void SimulationRunner::load(const Scene& scene) {
   const std::lock_guard<std::mutex> lock(mutex_);
   simulation_ = std::make_unique<Simulation>(scene, simulation_->settings());
   task_ = TaskMonitor(scene);
+  places_.clear();
   forget_hands();
 }
 

@@ -225,6 +225,16 @@ void Simulation::reset() {
   impl_->started = false;
 }
 
+void Simulation::place(const std::map<std::string, RigidTransform>& X_WO) {
+  for (const auto& [name, X] : X_WO) {
+    if (!X.matrix().allFinite()) refuse("place", name, "a pose that is not finite", "finite");
+  }
+  release();
+  for (const auto& [name, X] : X_WO) {
+    if (const auto object = impl_->workbench.find(name)) impl_->workbench.place(*object, X, impl_->now);
+  }
+}
+
 bool Simulation::release() {
   bool released = false;
   for (std::size_t hand = 0; hand < most_hands; ++hand) released = release(hand) || released;

@@ -93,6 +93,18 @@ void Workbench::let_go(std::size_t object, Grip grip, bool thrown, double now) {
   o.held = tools.grasping > 0;
   if (tools.grasping + tools.pushing > 0) return;
   if (!thrown || massless(object)) o.V_WO_W = Twist();
+  let_fly(object, now);
+}
+
+void Workbench::place(std::size_t object, const RigidTransform& X_WO, double now) {
+  MotionState at_rest;
+  at_rest.X = X_WO;
+  take_state(object, at_rest);
+  let_fly(object, now);
+}
+
+void Workbench::let_fly(std::size_t object, double now) {
+  BodyState& o = states_[object];
   if (massless(object)) {
     o.asleep = true;
     if (dynamic_stepper_) dynamic_stepper_->world().place(movable_[object], o.X_WO, Twist(), false);

@@ -49,6 +49,8 @@ class Workbench {
   /// massless one stays where it is.
   void let_go(std::size_t object, Grip grip, bool thrown, double now);
   void take_state(std::size_t object, const MotionState& s);
+  /// Puts an object that no tool has somewhere, at rest; it falls from there.
+  void place(std::size_t object, const RigidTransform& X_WO, double now);
 
   /// Wakes the sleepers that rest on `object`, and on one another.
   void wake_what_lies_on(std::size_t object, double now);
@@ -63,6 +65,8 @@ class Workbench {
   void step_together(const std::vector<Carried>& held, double h, AdvanceReport& report);
   void note_world_contacts(double h);
   void carry(SteppedBody& stepped, std::size_t object, double h, AdvanceReport& report);
+  /// On its way from its state, without a tool; a massless one stays.
+  void let_fly(std::size_t object, double now);
   void set_free(std::size_t object, const Twist& V_WO_W, double now);
   void put_to_sleep_if_slow(std::size_t object, double now);
 

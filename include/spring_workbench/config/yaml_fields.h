@@ -51,7 +51,8 @@ RigidTransform read_pose(const YAML::Node& node, const std::string& where, const
 void check_keys(const YAML::Node& map, const std::string& where, const std::string& prefix,
                 const std::vector<std::string>& allowed);
 
-/// Parses a YAML file. An empty file is an empty map. Throws InputError with file:line for what cannot be read or parsed.
+/// Parses a YAML file. An empty file is an empty map. Throws InputError with file:line for what cannot be read or parsed, and
+/// for what aliases make endless or immense.
 YAML::Node load_yaml_file(const std::string& path);
 
 /// "a, b, c"

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "spring_workbench/ros_interface/checkpoint.h"
 #include "spring_workbench/ros_interface/diagnostics.h"
 #include "spring_workbench/ros_interface/live_tuning.h"
 #include "spring_workbench/ros_interface/parameters.h"
@@ -18,7 +19,8 @@
 namespace spring_workbench {
 
 /// The node `manipulation`: tf and buttons in; physics in its own thread, on the steady clock or, under `use_sim_time`,
-/// on ROS time; states, markers and reports out. Call `ros::spin()` beside it.
+/// on ROS time; states, markers and reports out. Call the callbacks of the global queue beside it. It ends in order when it is
+/// destroyed before ros::shutdown().
 class ManipulationNode {
  public:
   /// Reads parameters and scene. Throws InputError when one cannot be used.
@@ -34,6 +36,7 @@ class ManipulationNode {
   void count(const CycleReport& report, bool deadline_missed);
   void on_every_second(const ros::WallTimerEvent&);
   void place_workbench();
+  void end_with_its_master();
 
   const ManipulationParameters parameters_;
   SimulationRunner runner_;
@@ -41,6 +44,7 @@ class ManipulationNode {
   StatePublisher publisher_;
   Services services_;
   std::unique_ptr<LiveTuning> live_tuning_;
+  Checkpoint checkpoint_;
   ManipulationDiagnostics diagnostics_;
   std::mutex loop_mutex_;
   LoopStatistics loop_;

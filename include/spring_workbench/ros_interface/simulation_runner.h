@@ -2,6 +2,7 @@
 
 #include <array>
 #include <deque>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -40,6 +41,8 @@ class SimulationRunner {
 
   /// Objects back to their start, nothing held; goes on with the next sample.
   void restart();
+  /// These objects to where they are said to be, and there when the first hand comes: see Simulation::place.
+  void place(const std::map<std::string, RigidTransform>& X_WO);
   /// Another scene, with the settings as they are now. Throws InputError, and keeps the old one, when it does not fit.
   void load(const Scene& scene);
 
@@ -97,6 +100,7 @@ class SimulationRunner {
   double grid_;              ///< [s]; 0: none
   ros::Time zero_;           ///< of the simulation's times
   bool has_sample_ = false;  ///< of any hand since the last start
+  std::map<std::string, RigidTransform> places_;  ///< of objects, for the first epoch
 };
 
 }  // namespace spring_workbench

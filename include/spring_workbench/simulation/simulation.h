@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -126,6 +127,9 @@ class Simulation {
 
   /// Objects back to their start, nothing held, no sample known: for a jump of time, or on request.
   void reset();
+  /// These objects to where they are said to be, from rest, in all hands' stead: nothing is held. Names that the scene does not
+  /// have are left out. Throws InputError when a pose is not finite.
+  void place(const std::map<std::string, RigidTransform>& X_WO);
   /// Every hand lets go of what it holds. False when nothing was held.
   bool release();
   /// The same of one hand.

@@ -160,6 +160,21 @@ TEST(LoadYamlFile, GivesFileAndLineOfWhatIsNotYaml) {
   EXPECT_NE(message_of([&] { load_yaml_file(folder.path("")); }), "") << "a folder";
 }
 
+TEST(LoadYamlFile, RefusesWhatAliasesMakeEndlessOrImmense) {
+  const test_support::TemporaryFolder folder;
+  folder.write("endless.yaml", "a: &a {b: *a}\n");
+  std::string immense = "a: &a0 [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (int i = 1; i < 9; ++i) {
+    const std::string last = "*a" + std::to_string(i - 1);
+    immense += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + last;
+    for (int k = 1; k < 10; ++k) immense += ", " + last;
+    immense += "]\n";
+  }
+  folder.write("immense.yaml", immense);
+  EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("endless.yaml")); }), {"endless.yaml", "nesting"}));
+  EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("immense.yaml")); }), {"immense.yaml", "size"}));
+}
+
 TEST(Join, PutsSeparatorsBetween) {
   EXPECT_EQ(join({}), "");
   EXPECT_EQ(join({"a"}), "a");

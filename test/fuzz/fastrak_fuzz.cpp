@@ -1,24 +1,13 @@
-#include "fuzz/fastrak_decoder_fuzz.h"
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <map>
-#include <string_view>
 #include <vector>
 
+#include "fuzz/targets.h"
 #include "spring_workbench/tracker/fastrak_decoder.h"
 
+namespace spring_workbench::fuzz {
 namespace {
-
-using namespace spring_workbench;
-
-void require(bool law, const char* text) {
-  if (law) return;
-  std::fprintf(stderr, "broken: %s\n", text);
-  std::abort();
-}
 
 std::map<int, FastrakLayout> layouts_of(unsigned mode) {
   const auto format = (mode & 1U) != 0 ? FastrakFormat::binary : FastrakFormat::ascii;
@@ -55,16 +44,16 @@ void check(const FastrakMessage& message, const std::map<int, FastrakLayout>& la
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  if (size < 2) return 0;
+void fastrak(std::string_view input) {
+  if (input.size() < 2) return;
   static const auto all_layouts = [] {
     std::vector<std::map<int, FastrakLayout>> all;
     for (unsigned mode = 0; mode < 256; ++mode) all.push_back(layouts_of(mode));
     return all;
   }();
-  const auto& layouts = all_layouts[data[0]];
-  const std::size_t step = 1U + data[1];
-  const std::string_view bytes(reinterpret_cast<const char*>(data) + 2, size - 2);
+  const auto& layouts = all_layouts[static_cast<unsigned char>(input[0])];
+  const std::size_t step = 1U + static_cast<unsigned char>(input[1]);
+  const std::string_view bytes = input.substr(2);
   FastrakDecoder whole(layouts), pieces(layouts);
   const auto messages = whole.decode(bytes);
   require(whole.bytes_left_out() <= bytes.size(), "no more bytes are left out than came");
@@ -75,5 +64,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(messages.size() == again.size() && std::equal(messages.begin(), messages.end(), again.begin(), same),
           "how the bytes are split makes no difference");
   for (const FastrakMessage& message : messages) check(message, layouts);
-  return 0;
 }
+
+}  // namespace spring_workbench::fuzz

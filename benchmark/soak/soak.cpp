@@ -1,0 +1,150 @@
+#include "benchmark/soak/soak.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "spring_workbench/operator/simulated_operator.h"
+#include "spring_workbench/task/task_monitor.h"
+#include "spring_workbench/tools/tool.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr double kRest = 10.0, kSettle = 2.0, kRestInterval = 0.1;  // s
+constexpr double kTimeLimit = 300.0;                                // s, of an assembly
+constexpr int kLines = 20;
+
+double resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  double total = 0.0, resident = 0.0;
+  file >> total >> resident;
+  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
+}
+
+/// FNV-1a over the bits of numbers.
+class Hash {
+ public:
+  template <typename Derived>
+  void add(const Eigen::DenseBase<Derived>& numbers) {
+    for (Eigen::Index j = 0; j < numbers.cols(); ++j) {
+      for (Eigen::Index i = 0; i < numbers.rows(); ++i) add(numbers.derived().coeff(i, j));
+    }
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  void add(double number) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &number, sizeof bits);
+    for (int i = 0; i < 8; ++i) value_ = (value_ ^ ((bits >> (8 * i)) & 0xffU)) * 0x100000001b3U;
+  }
+  std::uint64_t value_ = 0xcbf29ce484222325U;
+};
+
+class Soak {
+ public:
+  Soak(const SoakOptions& options, std::ostream& out)
+      : options_(options), out_(out), simulation_(load_scene(options.scene), options.settings) {}
+
+  SoakResult run() {
+    out_ << "steps,assemblies,simulated_s,resident_MB,largest_energy_J,drift_m\n";
+    for (unsigned seed = options_.seed; result_.steps < options_.steps; ++seed) {
+      assemble(seed);
+      rest();
+      for (const BodyState& object : simulation_.objects()) {
+        hash_.add(object.X_WO.matrix());
+        hash_.add(object.V_WO_W.linear);
+        hash_.add(object.V_WO_W.angular);
+      }
+      simulation_.reset();
+    }
+    result_.hash = hash_.value();
+    return result_;
+  }
+
+ private:
+  bool over() const { return result_.steps >= options_.steps; }
+
+  OperatorView view() const {
+    const ToolState tool = simulation_.fork();
+    OperatorView view;
+    view.objects = simulation_.objects();
+    view.X_HE.translation().z() = tool.length;
+    view.turns = turns(tool_called(tool.tool, "soak"));
+    return view;
+  }
+
+  void assemble(unsigned seed) {
+    TaskMonitor monitor(simulation_.scene());
+    OperatorSettings hand;
+    hand.seed = seed;
+    SimulatedOperator person(simulation_.scene(), hand, [this] { return view(); });
+    bool pressed = false;
+    double before = 0.0;
+    for (std::optional<StylusSample> sample; !over() && (sample = person.next()) && sample->t < kTimeLimit;) {
+      simulation_.push_stylus(*sample);
+      if (sample->button != pressed) simulation_.push_button(sample->t, sample->button);
+      pressed = sample->button;
+      advance(before);
+      monitor.observe(simulation_);
+      before = sample->t;
+    }
+    const TaskScore score = monitor.score();
+    ++result_.assemblies;
+    result_.placed += score.placed;
+    result_.targets += score.targets;
+  }
+
+  void rest() {
+    simulation_.release();
+    const double begin = simulation_.newest_sample();
+    advance(begin + kSettle);
+    const std::vector<BodyState> at_first = simulation_.objects();
+    for (double t = begin + kSettle; t < begin + kSettle + kRest; t += kRestInterval) advance(t);
+    for (std::size_t i = 0; i < at_first.size(); ++i) {
+      const Vector3d moved = simulation_.objects()[i].X_WO.translation() - at_first[i].X_WO.translation();
+      result_.drift = std::max(result_.drift, moved.norm());
+    }
+  }
+
+  void advance(double t) {
+    const AdvanceReport report = simulation_.advance(t);
+    result_.steps += report.steps;
+    result_.simulated_time += report.simulated_time;
+    result_.refused += report.guards_tripped;
+    const ToolState tool = simulation_.fork();
+    for (const BodyState& object : simulation_.objects()) {
+      result_.finite = result_.finite && object.X_WO.matrix().allFinite() && object.V_WO_W.linear.allFinite() &&
+                       object.V_WO_W.angular.allFinite();
+    }
+    result_.finite = result_.finite && tool.X_WE.matrix().allFinite() && std::isfinite(tool.elastic_energy);
+    result_.largest_energy = std::max(result_.largest_energy, tool.elastic_energy + tool.kinetic_energy);
+    if (result_.steps < next_line_) return;
+    const double memory = resident_bytes();
+    if (10 * result_.steps <= options_.steps) result_.memory_early = std::max(result_.memory_early, memory);
+    result_.memory_late = memory;
+    next_line_ += std::max(1L, options_.steps / kLines / 5);
+    if (++looks_ % 5 == 0) {
+      out_ << result_.steps << ',' << result_.assemblies << ',' << result_.simulated_time << ',' << memory / 1e6 << ','
+           << result_.largest_energy << ',' << result_.drift << std::endl;
+    }
+  }
+
+  const SoakOptions& options_;
+  std::ostream& out_;
+  Simulation simulation_;
+  SoakResult result_;
+  Hash hash_;
+  long next_line_ = 0;
+  int looks_ = 0;
+};
+
+}  // namespace
+
+SoakResult run_soak(const SoakOptions& options, std::ostream& out) { return Soak(options, out).run(); }
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,120 @@
+#include "spring_workbench/ros_interface/checkpoint.h"
+
+#include <map>
+
+#include "spring_workbench/config/yaml_fields.h"
+
+namespace spring_workbench {
+namespace {
+
+const std::string kKey = "resume";
+constexpr double kPeriod = 0.5;  // s
+
+XmlRpc::XmlRpcValue list(std::initializer_list<double> numbers) {
+  XmlRpc::XmlRpcValue value;
+  int i = 0;
+  for (const double number : numbers) value[i++] = number;
+  return value;
+}
+
+XmlRpc::XmlRpcValue list(const PerFamily& f) { return list({f.stretch, f.bend, f.torsion}); }
+
+XmlRpc::XmlRpcValue state_of(const Simulation& simulation) {
+  const SimulationSettings& settings = simulation.settings();
+  XmlRpc::XmlRpcValue state;
+  state["scene"] = simulation.scene().path;
+  for (std::size_t hand = 0; hand < Simulation::most_hands; ++hand) {
+    state["tools"][static_cast<int>(hand)] = simulation.fork(hand).tool;
+  }
+  const ForkDofs& dofs = settings.fork.dofs;
+  state["dofs"] = list({dofs.stretch ? 1.0 : 0.0, dofs.bend ? 1.0 : 0.0, dofs.torsion ? 1.0 : 0.0});
+  state["stiffness"] = list(settings.fork.stiffness);
+  state["damping"] = list(settings.fork.damping_ratio);
+  state["integrator"] = settings.dynamics.integrator;
+  state["step"] = settings.dynamics.step;
+  state["tolerance"] = settings.dynamics.tolerance;
+  XmlRpc::XmlRpcValue objects;
+  objects.setSize(0);
+  for (const BodyState& object : simulation.objects()) {
+    const Vector3d& p = object.X_WO.translation();
+    const Quaterniond q(object.X_WO.linear());
+    XmlRpc::XmlRpcValue entry;
+    entry["name"] = object.name;
+    entry["pose"] = list({p.x(), p.y(), p.z(), q.x(), q.y(), q.z(), q.w()});
+    objects[objects.size()] = entry;
+  }
+  state["objects"] = objects;
+  return state;
+}
+
+PerFamily read_per_family(const YAML::Node& state, const std::string& key) {
+  const std::vector<double> numbers = read_numbers(state[key], kKey, key, 3);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+void set(Simulation& simulation, const YAML::Node& state) {
+  const PerFamily dofs = read_per_family(state, "dofs");
+  simulation.set_dofs({dofs.stretch != 0.0, dofs.bend != 0.0, dofs.torsion != 0.0});
+  simulation.set_stiffness(read_per_family(state, "stiffness"));
+  simulation.set_damping_ratio(read_per_family(state, "damping"));
+  simulation.set_integrator(read_string(state["integrator"], kKey, "integrator"),
+                            read_number(state["step"], kKey, "step", positive()),
+                            read_number(state["tolerance"], kKey, "tolerance", not_negative()));
+  for (std::size_t hand = 0; hand < Simulation::most_hands; ++hand) {
+    simulation.select_tool(read_string(state["tools"][hand], kKey, "tools"), hand);
+  }
+}
+
+}  // namespace
+
+Checkpoint::Checkpoint(const ros::NodeHandle& private_node, SimulationRunner& runner)
+    : private_node_(private_node), runner_(runner) {
+  private_node_.getParam(private_node_.getNamespace(), parameters_);
+  timer_ = private_node_.createWallTimer(ros::WallDuration(kPeriod), [this](const ros::WallTimerEvent&) { keep(); });
+}
+
+Checkpoint::~Checkpoint() {
+  timer_.stop();
+  if (!handed_over_) private_node_.deleteParam(kKey);
+}
+
+void Checkpoint::keep() {
+  XmlRpc::XmlRpcValue now = runner_.locked([](const Simulation& simulation) { return state_of(simulation); });
+  now["given_scene"] = parameters_["scene"];
+  if (now == kept_) return;
+  kept_ = now;
+  private_node_.setParam(kKey, kept_);
+}
+
+void Checkpoint::hand_over() {
+  handed_over_ = true;
+  timer_.stop();
+  private_node_.setParam(private_node_.getNamespace(), parameters_);
+  kept_ = XmlRpc::XmlRpcValue();
+  keep();
+}
+
+void resume(const YAML::Node& private_parameters, const std::vector<std::string>& scene_roots, SimulationRunner& runner) {
+  const YAML::Node state = private_parameters[kKey];
+  if (!state) return;
+  try {
+    if (!state.IsMap() || !state["objects"].IsSequence() || !state["tools"].IsSequence()) {
+      refuse("parameter", kKey, "what is given", "as this node left it");
+    }
+    if (read_string(state["given_scene"], kKey, "given_scene") != private_parameters["scene"].as<std::string>()) return;
+    const std::string scene = read_string(state["scene"], kKey, "scene");
+    std::map<std::string, RigidTransform> places;
+    for (const YAML::Node& object : state["objects"]) {
+      places[read_string(object["name"], kKey, "name")] = read_pose(object["pose"], kKey, "pose");
+    }
+    const bool other_scene = runner.locked([&](const Simulation& s) { return s.scene().path != scene; });
+    if (other_scene) runner.load(load_scene(scene, scene_roots));
+    runner.locked([&](Simulation& simulation) { set(simulation, state); });
+    runner.place(places);
+    ROS_WARN("going on where the node of this name was when it ended without warning; nothing is held");
+  } catch (const std::exception& error) {  // a broken one must not keep the node from starting
+    ROS_WARN_STREAM("starting anew: " << error.what());
+  }
+}
+
+}  // namespace spring_workbench

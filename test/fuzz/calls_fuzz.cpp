@@ -1,0 +1,111 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+
+#include "fuzz/running.h"
+#include "fuzz/targets.h"
+#include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/tools/tool.h"
+
+namespace spring_workbench::fuzz {
+namespace {
+
+/// Bytes as choices and numbers; zeros when they are used up.
+class Choices {
+ public:
+  explicit Choices(std::string_view bytes) : bytes_(bytes) {}
+
+  bool over() const { return at_ >= bytes_.size(); }
+  unsigned byte() { return over() ? 0U : static_cast<unsigned char>(bytes_[at_++]); }
+  bool flag() { return (byte() & 1U) != 0; }
+  /// Any number: those at the rims of what is allowed more often than the others.
+  double number() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr std::array<double, 16> rims{0.0,  -0.0, -1.0, 1e-300, 1e-6, 1e-3, 0.02, 0.5,
+                                          1.0,  10.0, 1e3,  1e6,    1e12, 1e300, infinity, std::numeric_limits<double>::quiet_NaN()};
+    const unsigned choice = byte();
+    if (choice < rims.size()) return rims[choice];
+    if (choice >= 0xf0) {
+      std::array<char, 8> raw{};
+      for (char& c : raw) c = static_cast<char>(byte());
+      double value;
+      std::memcpy(&value, raw.data(), sizeof value);
+      return value;
+    }
+    return (choice - 128.0) / 128.0;
+  }
+  /// A number of which no more is asked than a hand can do that the truth layer lets through; what is not finite stays so.
+  double hand_number() {
+    const double value = number();
+    return std::isfinite(value) ? std::clamp(value, -2.0, 2.0) : value;
+  }
+  std::string name(const std::vector<std::string>& known) {
+    const unsigned choice = byte();
+    return choice < 0xf0 ? known[choice % known.size()] : std::string(choice - 0xef, static_cast<char>(byte()));
+  }
+  PerFamily per_family() {
+    const double stretch = number(), bend = number();
+    return {stretch, bend, number()};
+  }
+
+ private:
+  std::string_view bytes_;
+  std::size_t at_ = 0;
+};
+
+/// One call, as the services make it, with numbers as they come.
+void call(Choices& next, Simulation& simulation, PoseSample& hand) {
+  switch (next.byte() % 11) {
+    case 0: simulation.set_dofs({next.flag(), next.flag(), next.flag()}); break;
+    case 1: simulation.set_stiffness(next.per_family()); break;
+    case 2: simulation.set_damping_ratio(next.per_family()); break;
+    case 3: {
+      const std::string name = next.name(integrator_names());
+      const double step = next.number();
+      // Not to wait for hours: a step that is allowed is no shorter than 2 ms, a tolerance no smaller than a micrometre.
+      simulation.set_integrator(name, step > 0.0 ? std::max(step, 0.002) : step, next.flag() ? 1e-6 : 0.0);
+      break;
+    }
+    case 4: simulation.select_tool(next.name(tool_names()), next.byte() % 2); break;
+    case 5: simulation.calibrate(); break;
+    case 6: simulation.reset(); break;
+    case 7: simulation.release(); break;
+    case 8: simulation.push_button(hand.t, next.flag(), next.byte() % 2); break;
+    case 9: simulation.push_next_tool(hand.t, next.byte() % 2); break;
+    default: {
+      PoseSample sample = hand;
+      sample.t += 0.02 * next.byte() / 64.0;
+      for (int i = 0; i < 3; ++i) sample.X.translation()[i] += 0.2 * next.hand_number();
+      sample.X.rotate(Eigen::AngleAxisd(next.hand_number(), Vector3d::UnitX()));
+      if (simulation.push_stylus(sample, next.byte() % 2)) hand = sample;
+    }
+  }
+}
+
+}  // namespace
+
+void calls(std::string_view bytes) {
+  static const Scene scene = load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf");
+  constexpr int most_calls = 60;
+  Choices next(bytes);
+  SimulationSettings settings;
+  settings.contact = std::array{"none", "stop", "dynamic"}[next.byte() % 3];
+  Simulation simulation(scene, settings);
+  run_a_hand(simulation);
+  PoseSample hand{simulation.newest_sample(), simulation.fork().X_WH};
+  for (int i = 0; i < most_calls && !next.over(); ++i) {
+    const RigidTransform before = simulation.objects()[0].X_WO;
+    const double energy = simulation.fork().elastic_energy;
+    if (!accepted([&] { call(next, simulation, hand); })) {
+      require(simulation.objects()[0].X_WO.matrix() == before.matrix() && simulation.fork().elastic_energy == energy,
+              "what is refused changes nothing");
+    }
+    simulation.advance(std::min(simulation.newest_sample(), simulation.time() + 0.1));
+    check_finite(simulation);
+  }
+}
+
+}  // namespace spring_workbench::fuzz

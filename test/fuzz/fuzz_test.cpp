@@ -1,0 +1,77 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <ostream>
+#include <random>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "fuzz/targets.h"
+
+namespace spring_workbench::fuzz {
+namespace {
+
+struct Target {
+  const char* name;  // of the corpus, too
+  void (*run)(std::string_view);
+  int mutations;  // as many as take a few seconds
+};
+std::ostream& operator<<(std::ostream& out, const Target& target) { return out << target.name; }
+
+std::vector<std::string> corpus(const std::string& name) {
+  std::set<std::filesystem::path> paths;  // in order
+  for (const auto& entry : std::filesystem::directory_iterator(SPRING_WORKBENCH_SOURCE_DIR "/test/fuzz/corpus/" + name)) {
+    paths.insert(entry.path());
+  }
+  std::vector<std::string> inputs;
+  for (const auto& path : paths) {
+    std::ifstream file(path, std::ios::binary);
+    inputs.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+  }
+  return inputs;
+}
+
+/// A target aborts where a law is broken. Here it gets its corpus, and a random walk from it.
+class Fuzz : public testing::TestWithParam<Target> {};
+
+TEST_P(Fuzz, CorpusAndItsMutationsKeepTheLaws) {
+  const std::vector<std::string> inputs = corpus(GetParam().name);
+  ASSERT_GE(inputs.size(), 4u);
+  for (const std::string& input : inputs) GetParam().run(input);
+  std::mt19937 random(1);
+  const auto below = [&](std::size_t end) { return std::uniform_int_distribution<std::size_t>(0, end - 1)(random); };
+  for (int round = 0; round < GetParam().mutations; ++round) {
+    std::string input = inputs[below(inputs.size())];
+    for (std::size_t hits = 1 + below(6); hits > 0 && !input.empty(); --hits) {
+      const std::size_t at = below(input.size());
+      switch (below(4)) {
+        case 0:
+          input[at] = static_cast<char>(below(256));
+          break;
+        case 1:
+          input.erase(at, 1 + below(40));
+          break;
+        case 2:
+          input.insert(at, 1, static_cast<char>(below(256)));
+          break;
+        default: {
+          const std::string& other = inputs[below(inputs.size())];
+          input.insert(at, other.substr(below(other.size()), 1 + below(80)));
+        }
+      }
+    }
+    GetParam().run(input);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, Fuzz,
+                         testing::Values(Target{"fastrak", fastrak, 20000}, Target{"motion", motion, 4000},
+                                         Target{"settings", settings, 1000}, Target{"scene", scene, 1000},
+                                         Target{"calls", calls, 300}),
+                         [](const auto& target) { return std::string(target.param.name); });
+
+}  // namespace
+}  // namespace spring_workbench::fuzz

@@ -1,0 +1,52 @@
+#include "fuzz/running.h"
+
+#include <cmath>
+
+#include "spring_workbench/config/input_error.h"
+
+namespace spring_workbench::fuzz {
+
+bool accepted(const std::function<void()>& work) {
+  try {
+    work();
+    return true;
+  } catch (const InputError& error) {
+    const std::string message = error.what();
+    require(!message.empty() && message.find('\n') == std::string::npos, "one line says what is wrong: " + message);
+    return false;
+  }
+}
+
+void check_finite(const Simulation& simulation) {
+  for (const BodyState& object : simulation.objects()) {
+    require(object.X_WO.matrix().allFinite() && object.V_WO_W.linear.allFinite() && object.V_WO_W.angular.allFinite(),
+            "an object's pose and twist are finite");
+  }
+  for (std::size_t hand = 0; hand < Simulation::most_hands; ++hand) {
+    const ToolState fork = simulation.fork(hand);
+    require(fork.X_WE.matrix().allFinite() && fork.strain.allFinite() && fork.tip_wrench_W.force.allFinite() &&
+                fork.tip_wrench_W.moment.allFinite() && std::isfinite(fork.elastic_energy),
+            "a tool's state is finite");
+  }
+}
+
+void run_a_hand(Simulation& simulation) {
+  PoseSample sample{0.0, RigidTransform::Identity()};
+  sample.X.linear() = Eigen::AngleAxisd(std::acos(-1.0), Vector3d::UnitX()).toRotationMatrix();
+  for (const Body& body : simulation.scene().bodies) {
+    if (!body.movable) continue;
+    sample.X.translation() = body.X_WO.translation() + Vector3d(0.0, 0.0, simulation.fork().length);
+    break;
+  }
+  simulation.push_stylus(sample);
+  simulation.push_button(0.05, true);
+  for (int i = 1; i <= 5; ++i) {
+    sample.t = 0.05 * i;
+    sample.X.translation().z() += 0.01 * i;
+    simulation.push_stylus(sample);
+    simulation.advance(sample.t);
+    check_finite(simulation);
+  }
+}
+
+}  // namespace spring_workbench::fuzz

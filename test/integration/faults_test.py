@@ -1,0 +1,281 @@
+#!/usr/bin/python3
+"""The stack while things go wrong: nodes killed and started again, a master started anew, a subscriber that does not read, a full
+disk, a stopped processor, a flood of service calls. The hand owns the ROS clock (stack.Hand)."""
+import os
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+from xmlrpc.client import ServerProxy
+
+import rosgraph
+import rospy
+import rostest
+from rosgraph.names import ns_join
+from spring_workbench.msg import ForkState, ObjectStates, StepReport
+from spring_workbench.srv import (SelectTool, SetForkDamping, SetForkDofs, SetForkStiffness, SetIntegrator)
+from std_srvs.srv import Trigger
+
+from stack import DEADLINE, DOWN, Hand, Launched, Listener, wait_for
+
+SCENE = "scene:=package://spring_workbench/scenes/single_box.urdf"
+STACK = ["workbench.launch", SCENE, "tracker:=false", "rviz:=false", "respawn:=true"]
+SERVICES = {"set_dofs": SetForkDofs, "set_stiffness": SetForkStiffness, "set_damping": SetForkDamping, "reset": Trigger,
+            "set_integrator": SetIntegrator, "select_tool": SelectTool, "calibrate": Trigger, "release": Trigger}
+
+
+def slave_api(node):
+    return ServerProxy(rosgraph.Master("/faults").lookupNode(node))
+
+
+def pid_of(node):
+    return slave_api(node).getPid("/faults")[2]
+
+
+def memory_of(pid):
+    """Resident memory [MB]."""
+    with open("/proc/%d/statm" % pid) as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE") / 1e6
+
+
+class Faults(unittest.TestCase):
+    def setUp(self):
+        self.objects = Listener("manipulation/objects", ObjectStates)
+        self.fork = Listener("manipulation/fork", ForkState)
+        self.steps = Listener("manipulation/steps", StepReport)
+        self.stack = Launched(*STACK)
+        self.stack.__enter__()
+        self.addCleanup(self.stack.__exit__)
+        self.hand = Hand()
+        self.hand.wait_for_node()
+        self.keep_going()
+
+    def tearDown(self):
+        for listener in [self.objects, self.fork, self.steps]:
+            listener.subscriber.unregister()
+
+    def call(self, service, *arguments):
+        rospy.wait_for_service("manipulation/" + service, DEADLINE)
+        return rospy.ServiceProxy("manipulation/" + service, SERVICES[service])(*arguments)
+
+    def keep_going(self, seconds=0.3):
+        """The hand rests while simulated time goes on, until the node has said something new."""
+        seen = len(self.objects.messages), len(self.fork.messages)
+        end = time.monotonic() + DEADLINE
+        while not (len(self.objects.messages) > seen[0] and len(self.fork.messages) > seen[1]):
+            assert time.monotonic() < end, "the node says nothing"
+            self.hand.run(seconds)
+
+    def box(self):
+        return self.objects.last.objects[0]
+
+    def carry_off(self):
+        """Grasps the box, lifts it, and brings it 0.1 m along x."""
+        self.hand.move((0.03, 0.0, 0.22), DOWN, 0.8)
+        self.hand.pressed = True
+        self.hand.run(0.3)
+        self.hand.move((0.03, 0.0, 0.4), DOWN, 0.8)
+        self.hand.move((0.13, 0.0, 0.4), DOWN, 0.8)
+        self.hand.run(1.0)
+        self.assertTrue(self.box().held)
+
+    def set_down(self):
+        self.hand.move((0.13, 0.0, 0.215), DOWN, 0.8)
+        self.hand.pressed = False
+        self.hand.run(0.3)
+        self.hand.move((0.13, 0.0, 0.4), DOWN, 0.5)
+        self.hand.run(2.0)
+        self.keep_going()
+        self.assertFalse(self.box().held)
+
+    def kill_and_wait(self):
+        """Kills the node; a new one takes its place."""
+        old = pid_of("/manipulation")
+        os.kill(old, signal.SIGKILL)
+        wait_for(lambda: not os.path.exists("/proc/%d" % old), "the node to be gone")
+
+        def new():
+            try:
+                return pid_of("/manipulation") not in (None, old)
+            except Exception:  # nobody is there yet
+                return False
+
+        wait_for(new, "a new node")
+        self.hand.wait_for_node()
+        self.hand.pressed = False
+        self.keep_going()
+
+    def test_a_killed_node_comes_back_as_it_was(self):
+        self.assertTrue(self.call("set_stiffness", 1500.0, 700.0, 3.0).success)
+        self.assertTrue(self.call("set_damping", 0.5, 0.6, 0.7).success)
+        self.assertTrue(self.call("set_dofs", True, True, False).success)
+        self.assertTrue(self.call("set_integrator", "rosenbrock", 0.01, 0.0).success)
+        self.carry_off()
+        self.set_down()
+        before = self.box().pose.position
+        self.assertGreater(before.x, 0.08)
+        self.assertTrue(self.call("select_tool", "direct", 0).success)
+        self.keep_going()
+        time.sleep(1.0)  # the checkpoint is written twice a second of the wall's time
+        self.kill_and_wait()
+        self.hand.run(1.0)
+        self.keep_going()
+        after = self.box()
+        for axis in "xyz":
+            self.assertAlmostEqual(getattr(after.pose.position, axis), getattr(before, axis), delta=1e-4)
+        self.assertFalse(after.held)
+        self.assertEqual(self.fork.last.tool, "direct")
+        self.assertTrue(self.call("select_tool", "spring_fork", 0).success)
+        self.keep_going()
+        fork = self.fork.last
+        self.assertEqual((fork.stretch_on, fork.bend_on, fork.torsion_on), (True, True, False))
+        self.assertEqual((fork.stretch_stiffness, fork.bend_stiffness, fork.torsion_stiffness), (1500.0, 700.0, 3.0))
+        self.assertEqual((fork.stretch_damping_ratio, fork.bend_damping_ratio, fork.torsion_damping_ratio), (0.5, 0.6, 0.7))
+        self.assertEqual(fork.integrator, "rosenbrock")
+
+    def test_what_was_held_when_the_node_was_killed_falls_from_there(self):
+        self.carry_off()
+        time.sleep(1.0)
+        x = self.box().pose.position.x
+        self.kill_and_wait()
+        self.hand.run(3.0)
+        self.keep_going()
+        box = self.box()
+        self.assertFalse(box.held)
+        self.assertAlmostEqual(box.pose.position.x, x, delta=0.02)
+        self.assertAlmostEqual(box.pose.position.z, 0.02, delta=1e-3)
+
+    def test_a_node_that_ends_in_order_leaves_nothing_behind(self):
+        time.sleep(1.0)
+        wait_for(lambda: rospy.has_param("/manipulation/resume"), "the checkpoint")
+        os.kill(pid_of("/manipulation"), signal.SIGINT)
+        wait_for(lambda: not rospy.has_param("/manipulation/resume"), "the checkpoint to be deleted")
+
+    def test_a_subscriber_that_does_not_read_holds_nobody_up(self):
+        """It asks for the widest topics, and never reads: the node goes on for the others, in bounded memory."""
+        deaf = []
+        for topic, kind, md5 in [("objects", "spring_workbench/ObjectStates", ObjectStates._md5sum),
+                                 ("fork", "spring_workbench/ForkState", ForkState._md5sum)]:
+            name = ns_join("/manipulation", topic)
+            protocol = slave_api("/manipulation").requestTopic("/deaf", name, [["TCPROS"]])[2]
+            connection = socket.create_connection((protocol[1], protocol[2]))
+            connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
+            fields = [b"callerid=/deaf", ("topic=" + name).encode(), ("type=" + kind).encode(), ("md5sum=" + md5).encode()]
+            header = b"".join(len(f).to_bytes(4, "little") + f for f in fields)
+            connection.sendall(len(header).to_bytes(4, "little") + header)
+            deaf.append(connection)
+        self.hand.run(3.0)
+        pid = pid_of("/manipulation")
+        early, seen = memory_of(pid), len(self.objects.messages)
+        self.hand.run(20.0)
+        self.keep_going()
+        self.assertGreater(len(self.objects.messages) - seen, 500)
+        self.assertLess(memory_of(pid), early + 30.0)
+        for connection in deaf:
+            connection.close()
+
+    def test_a_stopped_processor_is_told_and_time_stays_honest(self):
+        pid = pid_of("/manipulation")
+        self.hand.run(1.0)
+        os.kill(pid, signal.SIGSTOP)
+        seen = len(self.steps.messages)
+        self.hand.run(2.0)
+        os.kill(pid, signal.SIGCONT)
+        self.keep_going()
+        wait_for(lambda: self.steps.messages[seen:] and self.objects.last.header.stamp.to_sec() >
+                 self.hand.now().to_sec() - 0.5, "simulated time to come up with the hand's")
+        self.assertTrue(any(m.deadline_missed for m in self.steps.messages[seen:]))
+        calm = len(self.steps.messages)
+        self.hand.run(2.0)  # no spiral: it is not behind any more
+        self.keep_going()
+        late = [m.deadline_missed for m in self.steps.messages[calm + 50:]]
+        self.assertLess(sum(late), 0.5 * len(late))
+
+    def test_a_full_disk_under_a_recording(self):
+        with tempfile.TemporaryDirectory() as folder:
+            recording = subprocess.Popen(["bash", "-c", "ulimit -f 16; exec rosbag record -a -O %s/r.bag" % folder],
+                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            end = time.monotonic() + DEADLINE
+            while recording.poll() is None:
+                self.assertLess(time.monotonic(), end, "16 KiB are not full yet")
+                self.hand.run(0.5)
+            self.keep_going()
+
+    def test_a_flood_of_calls_while_holding(self):
+        """All services that leave the object in the hand, from four clients at once."""
+        self.carry_off()
+        calls = [("set_stiffness", (2000.0, 500.0, 5.0)), ("set_damping", (1.0, 0.9, 0.8)), ("set_dofs", (True, True, True)),
+                 ("set_integrator", ("exponential", 0.02, 0.0)), ("calibrate", ()), ("set_stiffness", (-1.0, 0.0, 0.0))]
+        answered, broken = [0] * 4, []
+
+        def flood(client):
+            try:
+                proxies = {name: rospy.ServiceProxy("manipulation/" + name, SERVICES[name], persistent=True)
+                           for name, _ in calls}
+                for i in range(300):
+                    name, arguments = calls[(i + client) % len(calls)]
+                    if proxies[name](*arguments).success == (arguments[:1] != (-1.0,)):
+                        answered[client] += 1
+            except Exception as error:  # pylint: disable=broad-except
+                broken.append(error)
+
+        clients = [threading.Thread(target=flood, args=(client,)) for client in range(4)]
+        seen = len(self.objects.messages)
+        begin = time.monotonic()
+        for client in clients:
+            client.start()
+        while any(client.is_alive() for client in clients):
+            self.hand.run(0.2)
+        print("%.0f calls a second" % (1200.0 / (time.monotonic() - begin)))
+        self.keep_going()
+        self.assertEqual(broken, [])
+        self.assertEqual(answered, [300] * 4)
+        self.assertTrue(self.box().held)
+        heights = [m.objects[0].pose.position.z for m in self.objects.messages[seen:]]
+        self.assertLess(max(heights) - min(heights), 0.15)  # it sags with each calibration, and jumps nowhere
+        steps = [abs(b - a) for a, b in zip(heights, heights[1:])]
+        self.assertLess(max(steps), 0.02)
+
+
+class NewMaster(unittest.TestCase):
+    def test_the_stack_comes_back_under_a_new_master(self):
+        with socket.socket() as s:
+            s.bind(("", 0))
+            port = s.getsockname()[1]
+        with tempfile.TemporaryDirectory() as home:
+            environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port, ROS_HOME=home)
+            quiet = {"env": environment, "stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
+
+            def answers(*command):
+                return subprocess.run(command, timeout=DEADLINE, **quiet).returncode == 0
+
+            def start_master():
+                master = subprocess.Popen(["roscore", "-p", str(port)], start_new_session=True, **quiet)
+                wait_for(lambda: answers("rosparam", "list"), "the master")
+                return master
+
+            master = start_master()
+            stack = subprocess.Popen(["roslaunch", "spring_workbench", *STACK], **quiet)
+            try:
+                works = lambda: answers("rosservice", "call", "/manipulation/set_stiffness", "{bend: 321.0}")
+                wait_for(works, "the stack")
+                time.sleep(1.0)
+                os.killpg(master.pid, signal.SIGKILL)
+                master.wait()
+                master = start_master()
+                wait_for(works, "the stack under the new master")
+            finally:
+                stack.terminate()
+                stack.wait(DEADLINE)
+                os.killpg(master.pid, signal.SIGKILL)
+                master.wait()
+
+
+if __name__ == "__main__":
+    rospy.init_node("faults_test", disable_rostime=True)
+    suite = NewMaster if "new_master" in sys.argv else Faults
+    rostest.rosrun("spring_workbench", "faults_test", suite, sys.argv)
