@@ -77,7 +77,7 @@ void call(Choices& next, Simulation& simulation, PoseSample& hand) {
     case 9: simulation.push_next_tool(hand.t, next.byte() % 2); break;
     default: {
       PoseSample sample = hand;
-      sample.t += 0.02 * next.byte() / 64.0;
+      sample.t += 0.02 * (1.0 + next.byte() / 64.0);
       for (int i = 0; i < 3; ++i) sample.X.translation()[i] += 0.2 * next.hand_number();
       sample.X.rotate(Eigen::AngleAxisd(next.hand_number(), Vector3d::UnitX()));
       if (simulation.push_stylus(sample, next.byte() % 2)) hand = sample;

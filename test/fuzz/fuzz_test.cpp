@@ -70,7 +70,7 @@ TEST_P(Fuzz, CorpusAndItsMutationsKeepTheLaws) {
 INSTANTIATE_TEST_SUITE_P(Targets, Fuzz,
                          testing::Values(Target{"fastrak", fastrak, 20000}, Target{"motion", motion, 4000},
                                          Target{"settings", settings, 1000}, Target{"scene", scene, 1000},
-                                         Target{"calls", calls, 300}),
+                                         Target{"calls", calls, 60}),
                          [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace

@@ -276,6 +276,6 @@ class NewMaster(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    rospy.init_node("faults_test", disable_rostime=True)
+    rospy.init_node("faults_test")
     suite = NewMaster if "new_master" in sys.argv else Faults
     rostest.rosrun("spring_workbench", "faults_test", suite, sys.argv)
