@@ -376,7 +376,7 @@ Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleForcing& h, const
 }
 
 template <int n>
-void HeldBody::acceleration(const HandleForcings& h, const Pack* q, const Pack* q_dot, Pack* q_ddot) const {
+SPRING_WORKBENCH_WIDE void HeldBody::acceleration(const HandleForcings& h, const Pack* q, const Pack* q_dot, Pack* q_ddot) const {
   accelerate<n>(h.t, h.of_H, q, q_dot, q_ddot);
 }
 
