@@ -16,6 +16,7 @@ ErrorTablePlan error_table_plan(bool quick) {
   for (const double k : springs) plan.scenes.push_back(stretch_scene(k));
   for (const double k : twists) plan.scenes.push_back(torsion_scene(k));
   for (const double factor : factors) plan.scenes.push_back(six_dof_scene(factor));
+  plan.outputs_per_step = quick ? std::vector<int>{4, 2} : std::vector<int>{5, 4, 3, 2};
   for (int n = 1; n <= 8192; n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
   for (double tolerance = 1e-3; tolerance > 5e-12; tolerance *= quick ? 1e-2 : 1e-1) {
     plan.tolerances.push_back(tolerance);
@@ -73,7 +74,8 @@ ErrorRow error_row(const Method& method, const Scenario& scene, const ReferenceS
   row.hand = method.hand();
   if (method.knob() == Method::Knob::step) {
     row.step = setting;
-    row.steps_per_second = steps_per_output(scene, setting) / scene.output_interval;
+    row.steps_per_second =
+        setting > scene.output_interval ? 1.0 / setting : steps_per_output(scene, setting) / scene.output_interval;
   } else {
     row.tolerance = setting;
   }
@@ -110,6 +112,9 @@ std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, co
   std::vector<double> settings = plan.tolerances;
   if (method.knob() == Method::Knob::step) {
     settings.clear();
+    for (const int n : plan.outputs_per_step) {
+      if (method.dense()) settings.push_back(scene.output_interval * n);
+    }
     for (const int n : plan.steps_per_output) settings.push_back(scene.output_interval / n);
   }
   const bool own = !method.has_scene_law(scene);

@@ -30,14 +30,17 @@ class Method {
   virtual Knob knob() const { return Knob::step; }
 
   /// How it knows the hand between the 50 Hz samples: "function" (asked for pose and velocity whenever it likes) or
-  /// "samples" (poses alone, as from a tracker).
+  /// "samples" (poses alone, as from a tracker). Ours ask for the acceleration as well.
   virtual std::string hand() const { return "function"; }
 
   /// Whether its own law is that of `Scenario` in this scene. Where it is not (its rotation is parametrised in another
   /// way), its error is taken against its own solution at a tiny step.
   virtual bool has_scene_law(const Scenario&) const { return true; }
 
-  /// One run over the scene. A step divides the output interval.
+  /// Whether it gives outputs between the ends of its steps, so that a step may be longer than the output interval.
+  virtual bool dense() const { return false; }
+
+  /// One run over the scene. A step divides the output interval, or is longer where dense().
   virtual RunResult run(const Scenario& scene, double setting) const = 0;
 };
 

@@ -1,5 +1,6 @@
 #include "benchmark/our_methods.h"
 
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -44,39 +45,43 @@ PoseSample handle_sample(const Scenario& scene, double t) {
   return sample;
 }
 
-/// The handle as a function of time, asked for its pose and velocity at times `interval` apart as time goes on.
+/// Steps longer than the output interval begin after this time [s], when what the start sets off has died away.
+constexpr double kStart = 0.3;
+
+/// The handle as a function of time, asked for its pose, velocity and acceleration at times `interval` apart as time goes
+/// on.
 class FunctionHand {
  public:
-  FunctionHand(const Scenario& scene, double interval) : scene_(scene), interval_(interval), newest_(node(0.0)) {}
+  FunctionHand(const Scenario& scene, double interval) : scene_(scene), interval_(interval), newest_(sample(0.0)) {}
 
   /// The segment of the step that starts at `t`; steps come in order.
   const MotionSegment& at(double t) {
     if (t > newest_.pose.t - 1e-9) {
-      const Node older = newest_;
-      newest_ = node(interval_ * static_cast<double>(++count_));
-      segment_ = MotionSegment(older.pose, older.v_W, older.w_H, newest_.pose, newest_.v_W, newest_.w_H);
+      const MotionSample older = newest_;
+      newest_ = sample(older.pose.t + interval_);
+      segment_ = MotionSegment(older, newest_);
     }
     return segment_;
   }
+  void set_interval(double interval) { interval_ = interval; }
 
  private:
-  struct Node {
-    PoseSample pose;
-    Vector3d v_W, w_H;
-  };
-
-  Node node(double t) const {
-    const HandState handle = handle_state(scene_, t);
-    Node n{{t, RigidTransform::Identity()}, handle.v_WT_W, handle.w_WT_T};
-    n.pose.X.linear() = handle.R_WT;
-    n.pose.X.translation() = handle.p_WT;
-    return n;
+  MotionSample sample(double t) const {
+    const auto [state, acceleration] = handle_motion(scene_, t);
+    MotionSample s;
+    s.pose.t = t;
+    s.pose.X.linear() = state.R_WT;
+    s.pose.X.translation() = state.p_WT;
+    s.v_W = state.v_WT_W;
+    s.a_W = acceleration.a_WT_W;
+    s.w_B = state.w_WT_T;
+    s.alpha_B = acceleration.alpha_WT_T;
+    return s;
   }
 
   const Scenario& scene_;
   double interval_;
-  long count_ = 0;
-  Node newest_;
+  MotionSample newest_;
   MotionSegment segment_{RigidTransform::Identity()};
 };
 
@@ -102,10 +107,17 @@ class SampledHand {
   int newest_ = -1;  ///< number of the next sample
 };
 
+/// One step that is thrown away: what an integrator derives from stiffness and mass is set up, as the peers' models are.
+void set_up(const Scenario& scene, const HeldBody& body, double step, Integrator& integrator) {
+  StrainState state = body.zero_state();
+  integrator.step(body, FunctionHand(scene, step).at(0.0), 0.0, step, state);
+}
+
 template <typename Hand>
 RunResult run_on(const Scenario& scene, const std::string& name, double step, Hand hand) {
   const HeldBody body = held_body(scene);
   const std::unique_ptr<Integrator> integrator = make_integrator(name);
+  set_up(scene, body, scene.output_interval / steps_per_output(scene, step), *integrator);
   StrainState state = body.zero_state();
   const MotionSegment* segment = &hand.at(0.0);
   return stepping_loop(
@@ -121,15 +133,75 @@ RunResult run_on(const Scenario& scene, const std::string& name, double step, Ha
       });
 }
 
+/// What a run gives at one moment, with two derivatives.
+struct Output {
+  double t = 0.0;
+  Vector3d value, rate, acceleration;
+};
+
+/// The quintic through two of them.
+Vector3d between(const Output& a, const Output& b, double t) {
+  const double h = b.t - a.t, u = (t - a.t) / h;
+  const Vector3d rise = b.value - a.value - h * a.rate - 0.5 * h * h * a.acceleration;
+  const Vector3d slope = h * (b.rate - a.rate) - h * h * a.acceleration;
+  const Vector3d bend = h * h * (b.acceleration - a.acceleration);
+  return a.value + u * (h * a.rate + u * (0.5 * h * h * a.acceleration +
+                                          u * (10.0 * rise - 4.0 * slope + 0.5 * bend +
+                                               u * (7.0 * slope - 15.0 * rise - bend +
+                                                    u * (6.0 * rise - 3.0 * slope + 0.5 * bend)))));
+}
+
+Output output(const Scenario& scene, const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
+  const StrainVector q_ddot = body.acceleration(handle, state.q, state.q_dot);
+  if (scene.kind == SceneKind::torsion) {
+    return {handle.t, Vector3d(0.0, 0.0, log_so3(handle.X_WH.linear()).z() + state.q[0]),
+            Vector3d(0.0, 0.0, handle.angular_velocity.z() + state.q_dot[0]),
+            Vector3d(0.0, 0.0, handle.angular_acceleration.z() + q_ddot[0])};
+  }
+  const MotionState o = body.object(handle, state, &q_ddot);
+  return {handle.t, o.X.translation(), o.velocity.linear, o.acceleration.linear};
+}
+
+/// In steps longer than the output interval; outputs within a step by the quintic through its ends.
+RunResult run_in_long_steps(const Scenario& scene, const std::string& name, double step) {
+  const HeldBody body = held_body(scene);
+  const std::unique_ptr<Integrator> integrator = make_integrator(name);
+  const std::vector<double> times = output_times(scene);
+  FunctionHand hand(scene, scene.output_interval);
+  set_up(scene, body, scene.output_interval, *integrator);
+  StrainState state = body.zero_state();
+  RunResult result;
+  result.outputs.reserve(times.size());
+  const auto start = std::chrono::steady_clock::now();
+  Output end = output(scene, body, body.forcing(hand.at(0.0), 0.0), state);
+  while (result.outputs.size() < times.size()) {
+    const Output begin = end;
+    const double h = begin.t < kStart - 1e-9 ? scene.output_interval : step;
+    hand.set_interval(h);
+    const MotionSegment& segment = hand.at(begin.t);
+    integrator->step(body, segment, begin.t, h, state);
+    end = output(scene, body, body.forcing(segment, begin.t + h), state);
+    if (!is_bounded(end.value)) return result;
+    while (result.outputs.size() < times.size() && times[result.outputs.size()] < end.t + 1e-9) {
+      result.outputs.push_back(between(begin, end, times[result.outputs.size()]));
+    }
+  }
+  result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.finite = true;
+  return result;
+}
+
 class OurMethod : public Method {
  public:
   OurMethod(std::string integrator, bool samples) : integrator_(std::move(integrator)), samples_(samples) {}
 
   std::string name() const override { return integrator_; }
   std::string hand() const override { return samples_ ? "samples" : "function"; }
+  bool dense() const override { return !samples_; }
 
   RunResult run(const Scenario& given, double step) const override {
     const Scenario scene = with_length_of_its_slopes(given);
+    if (dense() && step > 1.5 * scene.output_interval) return run_in_long_steps(scene, integrator_, step);
     if (samples_) return run_on(scene, integrator_, step, SampledHand(scene));
     const double interval = scene.output_interval / asked_per_output(steps_per_output(scene, step));
     return run_on(scene, integrator_, step, FunctionHand(scene, interval));

@@ -97,22 +97,37 @@ ScalarMotion scalar_hand(const Scenario& scene, double t) {
                                           : sine(kTorsionAmplitude, kTorsionFrequency, 0.0, t);
 }
 
-HandState hand_state(const Scenario& scene, double t) {
-  HandState hand;
-  if (scene.kind == SceneKind::six_dof) {
-    for (int i = 0; i < 3; ++i) {
-      const ScalarMotion x = lissajous(i, t);
-      hand.p_WT[i] = x.value;
-      hand.v_WT_W[i] = x.rate;
-    }
-    const ScalarMotion a = turn(0, t);
-    const ScalarMotion b = turn(1, t);
-    const double sa = std::sin(a.value), ca = std::cos(a.value), sb = std::sin(b.value), cb = std::cos(b.value);
-    hand.R_WT << cb, 0.0, sb, sa * sb, ca, -sa * cb, -ca * sb, sa, ca * cb;
-    hand.w_WT_T = Vector3d(a.rate * cb, b.rate, a.rate * sb);
-    return hand;
+namespace {
+
+/// What the hand of scene C does, by its sines.
+struct Sines {
+  explicit Sines(double t) : x{lissajous(0, t), lissajous(1, t), lissajous(2, t)}, a(turn(0, t)), b(turn(1, t)) {
+    sa = std::sin(a.value), ca = std::cos(a.value), sb = std::sin(b.value), cb = std::cos(b.value);
   }
-  const ScalarMotion x = scalar_hand(scene, t);
+  ScalarMotion x[3], a, b;
+  double sa, ca, sb, cb;
+};
+
+HandState state_of(const Sines& s) {
+  HandState hand;
+  hand.p_WT = Vector3d(s.x[0].value, s.x[1].value, s.x[2].value);
+  hand.v_WT_W = Vector3d(s.x[0].rate, s.x[1].rate, s.x[2].rate);
+  hand.R_WT << s.cb, 0.0, s.sb, s.sa * s.sb, s.ca, -s.sa * s.cb, -s.ca * s.sb, s.sa, s.ca * s.cb;
+  hand.w_WT_T = Vector3d(s.a.rate * s.cb, s.b.rate, s.a.rate * s.sb);
+  return hand;
+}
+
+HandAcceleration acceleration_of(const Sines& s) {
+  HandAcceleration hand;
+  hand.a_WT_W = Vector3d(s.x[0].acceleration, s.x[1].acceleration, s.x[2].acceleration);
+  hand.alpha_WT_T = Vector3d(s.a.acceleration * s.cb - s.a.rate * s.b.rate * s.sb, s.b.acceleration,
+                             s.a.acceleration * s.sb + s.a.rate * s.b.rate * s.cb);
+  return hand;
+}
+
+/// The same of scenes A and B.
+HandState state_of(const Scenario& scene, const ScalarMotion& x) {
+  HandState hand;
   if (scene.kind == SceneKind::stretch) {
     hand.p_WT.z() = x.value;
     hand.v_WT_W.z() = x.rate;
@@ -123,37 +138,45 @@ HandState hand_state(const Scenario& scene, double t) {
   return hand;
 }
 
-HandAcceleration hand_acceleration(const Scenario& scene, double t) {
+HandAcceleration acceleration_of(const Scenario& scene, const ScalarMotion& x) {
   HandAcceleration hand;
+  (scene.kind == SceneKind::stretch ? hand.a_WT_W : hand.alpha_WT_T).z() = x.acceleration;
+  return hand;
+}
+
+/// From T to H, `length` behind it along the fork's axis.
+HandMotion moved_to_handle(double length, const HandMotion& of_T) {
+  const Vector3d p_TH(0.0, 0.0, -length);
+  const Vector3d& w = of_T.state.w_WT_T;
+  const Matrix3d& R = of_T.state.R_WT;
+  HandMotion of_H = of_T;
+  of_H.state.p_WT += R * p_TH;
+  of_H.state.v_WT_W += R * w.cross(p_TH);
+  of_H.acceleration.a_WT_W += R * (of_T.acceleration.alpha_WT_T.cross(p_TH) + w.cross(w.cross(p_TH)));
+  return of_H;
+}
+
+}  // namespace
+
+HandState hand_state(const Scenario& scene, double t) {
+  return scene.kind == SceneKind::six_dof ? state_of(Sines(t)) : state_of(scene, scalar_hand(scene, t));
+}
+
+HandAcceleration hand_acceleration(const Scenario& scene, double t) {
+  return scene.kind == SceneKind::six_dof ? acceleration_of(Sines(t)) : acceleration_of(scene, scalar_hand(scene, t));
+}
+
+HandMotion handle_motion(const Scenario& scene, double t) {
   if (scene.kind == SceneKind::six_dof) {
-    for (int i = 0; i < 3; ++i) hand.a_WT_W[i] = lissajous(i, t).acceleration;
-    const ScalarMotion a = turn(0, t);
-    const ScalarMotion b = turn(1, t);
-    const double sb = std::sin(b.value), cb = std::cos(b.value);
-    hand.alpha_WT_T = Vector3d(a.acceleration * cb - a.rate * b.rate * sb, b.acceleration,
-                               a.acceleration * sb + a.rate * b.rate * cb);
-    return hand;
+    const Sines s(t);
+    return moved_to_handle(scene.length, {state_of(s), acceleration_of(s)});
   }
-  const double acceleration = scalar_hand(scene, t).acceleration;
-  (scene.kind == SceneKind::stretch ? hand.a_WT_W : hand.alpha_WT_T).z() = acceleration;
-  return hand;
+  const ScalarMotion x = scalar_hand(scene, t);
+  return moved_to_handle(scene.length, {state_of(scene, x), acceleration_of(scene, x)});
 }
 
-HandState handle_state(const Scenario& scene, double t) {
-  HandState hand = hand_state(scene, t);
-  const Vector3d p_TH(0.0, 0.0, -scene.length);
-  hand.p_WT += hand.R_WT * p_TH;
-  hand.v_WT_W += hand.R_WT * hand.w_WT_T.cross(p_TH);
-  return hand;
-}
-
-HandAcceleration handle_acceleration(const Scenario& scene, double t) {
-  const HandState hand = hand_state(scene, t);
-  HandAcceleration acceleration = hand_acceleration(scene, t);
-  const Vector3d p_TH(0.0, 0.0, -scene.length);
-  acceleration.a_WT_W += hand.R_WT * (acceleration.alpha_WT_T.cross(p_TH) + hand.w_WT_T.cross(hand.w_WT_T.cross(p_TH)));
-  return acceleration;
-}
+HandState handle_state(const Scenario& scene, double t) { return handle_motion(scene, t).state; }
+HandAcceleration handle_acceleration(const Scenario& scene, double t) { return handle_motion(scene, t).acceleration; }
 
 std::vector<double> output_times(const Scenario& scene) {
   const auto count = static_cast<std::size_t>(std::lround(scene.duration / scene.output_interval)) + 1;

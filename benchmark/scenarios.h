@@ -82,6 +82,13 @@ HandAcceleration hand_acceleration(const Scenario& scene, double t);
 HandState handle_state(const Scenario& scene, double t);
 HandAcceleration handle_acceleration(const Scenario& scene, double t);
 
+/// Both at once, which costs little more than one.
+struct HandMotion {
+  HandState state;
+  HandAcceleration acceleration;
+};
+HandMotion handle_motion(const Scenario& scene, double t);
+
 /// The one moving coordinate of the hand in scenes A and B: height [m] or twist [rad], with two derivatives.
 struct ScalarMotion {
   double value = 0.0;

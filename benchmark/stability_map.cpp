@@ -88,24 +88,6 @@ std::string families_name(const ForkDofs& dofs) {
   return name.empty() ? "none" : name;
 }
 
-/// Cells of one integrator, shape and stiffness: families and hands innermost.
-std::vector<StabilityCell> cells_of(const StabilityPlan& plan, double stiffness_factor) {
-  std::vector<StabilityCell> cells;
-  const std::size_t hands = plan.hands.size(), pairs = plan.families.size() * hands;
-  std::vector<std::size_t> next(plan.steps.size(), 0);
-  for (const double mass : plan.masses) {
-    for (std::size_t s = 0; s < plan.steps.size(); ++s) {
-      for (const double zeta : plan.damping_ratios) {
-        for (std::size_t i = 0; i < std::min(plan.in_turn[s], pairs); ++i) {
-          const std::size_t pair = next[s]++ % pairs;
-          cells.push_back({stiffness_factor, mass, plan.steps[s], zeta, plan.families[pair / hands], plan.hands[pair % hands]});
-        }
-      }
-    }
-  }
-  return cells;
-}
-
 bool is_of(const StabilityCell& cell, const StabilityRow& row) {
   return cell.mass == row.mass && cell.step == row.step && cell.damping_ratio == row.damping_ratio;
 }
@@ -140,6 +122,23 @@ StabilityPlan stability_plan(bool quick) {
   for (int i = 0; i < 8; ++i) plan.families.push_back({(i & 1) != 0, (i & 2) != 0, (i & 4) != 0});
   plan.hands = {MapHand::lissajous, MapHand::jump, MapHand::flip, MapHand::dropout, MapHand::noise};
   return plan;
+}
+
+std::vector<StabilityCell> cells_of(const StabilityPlan& plan, double stiffness_factor) {
+  std::vector<StabilityCell> cells;
+  const std::size_t hands = plan.hands.size(), pairs = plan.families.size() * hands;
+  std::vector<std::size_t> next(plan.steps.size(), 0);
+  for (const double mass : plan.masses) {
+    for (std::size_t s = 0; s < plan.steps.size(); ++s) {
+      for (const double zeta : plan.damping_ratios) {
+        for (std::size_t i = 0; i < std::min(plan.in_turn[s], pairs); ++i) {
+          const std::size_t pair = next[s]++ % pairs;
+          cells.push_back({stiffness_factor, mass, plan.steps[s], zeta, plan.families[pair / hands], plan.hands[pair % hands]});
+        }
+      }
+    }
+  }
+  return cells;
 }
 
 StabilityOutcome run_cell(const std::string& integrator, const std::string& shape, const StabilityCell& cell) {

@@ -67,6 +67,10 @@ struct StabilityMap {
   std::vector<StabilityFailure> failures;  ///< the first few of each integrator and shape
 };
 
+/// The cells of one stiffness. Of a step with fewer in turn than there are pairs of families and hands, each pair has its
+/// turn with some of the masses and damping ratios.
+std::vector<StabilityCell> cells_of(const StabilityPlan& plan, double stiffness_factor);
+
 /// Number of units of progress, and the map; runs cells on all processors at once.
 std::size_t unit_count(const StabilityPlan& plan);
 StabilityMap stability_map(const StabilityPlan& plan, Progress& progress);

@@ -91,7 +91,7 @@ void one_step_per_sample(const Measurements& m, const std::string& scene, std::v
     const std::string unit = scene == "A" ? " m" : " rad";
     const bool given = std::string(hand) == "function";
     const std::string claim = "Scene " + scene + ", " + kOurs + ", one step per 50 Hz sample, every stiffness; the hand's " +
-                              (given ? "pose and velocity known at the samples" : "poses alone known at the samples");
+                              (given ? "pose, velocity and acceleration known at the samples" : "poses alone known at the samples");
     if (given) {
       out.push_back(judged(claim, "error ≤ 1e-6" + unit, text(largest) + unit, finite && largest <= 1e-6));
     } else {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 
@@ -175,6 +177,37 @@ TEST(StabilityMap, ExplicitMethodsHoldBelowTheirLimitOnOneSpringAndFailAboveIt) 
   }
   for (const double omega_step : {0.5, 5.0, 500.0}) {
     EXPECT_TRUE(run_cell("closed_form", "linear", cell_with(omega_step, MapHand::lissajous)).held()) << omega_step;
+  }
+}
+
+TEST(StabilityMap, EveryPairOfFamiliesAndHandHasItsTurnAtEachStiffnessAndStep) {
+  for (const bool quick : {true, false}) {
+    const StabilityPlan plan = stability_plan(quick);
+    ASSERT_GE(plan.in_turn.size(), plan.steps.size());
+    const std::size_t pairs = plan.families.size() * plan.hands.size();
+    EXPECT_EQ(pairs, 40U);
+    for (const double factor : plan.stiffness_factors) {
+      const std::vector<StabilityCell> cells = cells_of(plan, factor);
+      for (const double step : plan.steps) {
+        std::map<std::pair<int, MapHand>, int> turns;
+        std::set<std::pair<double, double>> rest;
+        for (const StabilityCell& cell : cells) {
+          EXPECT_EQ(cell.stiffness_factor, factor);
+          if (cell.step != step) continue;
+          const ForkDofs& on = cell.families;
+          ++turns[{(on.stretch ? 1 : 0) + (on.bend ? 2 : 0) + (on.torsion ? 4 : 0), cell.hand}];
+          rest.insert({cell.mass, cell.damping_ratio});
+        }
+        EXPECT_EQ(turns.size(), pairs) << step;
+        EXPECT_EQ(rest.size(), plan.masses.size() * plan.damping_ratios.size()) << step;
+        int least = turns.begin()->second, most = least;
+        for (const auto& [pair, count] : turns) {
+          least = std::min(least, count);
+          most = std::max(most, count);
+        }
+        EXPECT_LE(most - least, 1) << step;
+      }
+    }
   }
 }
 

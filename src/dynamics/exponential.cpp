@@ -46,7 +46,7 @@ bool same(const Vector3d& a, const Vector3d& b) {
 
 /// `A x` for sizes that the compiler knows: all of it in registers.
 template <int rows, int columns>
-Eigen::Matrix<double, rows, 1> times(const Eigen::Matrix<double, rows, columns>& A,
+SPRING_WORKBENCH_INLINE Eigen::Matrix<double, rows, 1> times(const Eigen::Matrix<double, rows, columns>& A,
                                      const Eigen::Matrix<double, columns, 1>& x) {
   Eigen::Matrix<double, rows, 1> y = A.col(0) * x[0];
   for (int j = 1; j < columns; ++j) y += A.col(j) * x[j];
@@ -130,7 +130,7 @@ class Exponential::CoreOf final : public Core {
     set_lane(o.other[at(mode + 1)], k, -value.imag());
   }
   static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
-  static Modes at_node(std::size_t i, const NodeModes& x) {
+  SPRING_WORKBENCH_INLINE static Modes at_node(std::size_t i, const NodeModes& x) {
     Modes r;
     for (int m = 0; m < 2 * n; ++m) r[m] = x[at(m)][i];
     return r;
@@ -174,12 +174,12 @@ class Exponential::CoreOf final : public Core {
     for (int m = 2 * linear_.pairs; m < 2 * n; ++m) take(m, Collocation::weights(h * linear_.rates[at(m)].real()));
   }
 
-  Modes modes_of(const State& s) const {
+  SPRING_WORKBENCH_INLINE Modes modes_of(const State& s) const {
     Modes y;
     y << s.q - q_reference_, s.q_dot;
     return times(to_modes_, y);
   }
-  State state_of(const Modes& x) const {
+  SPRING_WORKBENCH_INLINE State state_of(const Modes& x) const {
     const Modes y = times(from_modes_, x);
     return {y.template head<n>() + q_reference_, y.template tail<n>()};
   }
@@ -190,7 +190,8 @@ class Exponential::CoreOf final : public Core {
     return times(force_to_modes_, r);
   }
   /// The same at the nodes.
-  void remainder(const HeldBody& body, const HandleForcings& handle, const NodeModes& x, NodeModes& result) const {
+  SPRING_WORKBENCH_INLINE void remainder(const HeldBody& body, const HandleForcings& handle, const NodeModes& x,
+                                         NodeModes& result) const {
     NodeStrains moved, rate, q, r;
     for (int i = 0; i < n; ++i) {
       moved[at(i)] = from_modes_(i, 0) * x[0];
@@ -211,7 +212,7 @@ class Exponential::CoreOf final : public Core {
     }
   }
   /// Modes `x` at the nodes under the cubic through these remainders; `start`: what they are without.
-  void drive(const NodeModes& start, const NodeModes& remainders, NodeModes& x) const {
+  SPRING_WORKBENCH_INLINE void drive(const NodeModes& start, const NodeModes& remainders, NodeModes& x) const {
     for (int m = 0; m < 2 * n; ++m) {
       const Pack own = remainders[at(m)], other = remainders[at(m ^ 1)];
       Pack sum = start[at(m)];
@@ -222,8 +223,8 @@ class Exponential::CoreOf final : public Core {
     }
   }
   /// Squared size of what is in modes [m² kg]: displacements as they are, velocities times what is left of them over a step.
-  double squared_size(const Modes& x) const { return squared_weight_.dot(x.cwiseAbs2()); }
-  Pack squared_size(const NodeModes& x, const NodeModes& y) const {
+  SPRING_WORKBENCH_INLINE double squared_size(const Modes& x) const { return squared_weight_.dot(x.cwiseAbs2()); }
+  SPRING_WORKBENCH_INLINE Pack squared_size(const NodeModes& x, const NodeModes& y) const {
     Pack sum{};
     for (int m = 0; m < 2 * n; ++m) sum += squared_weight_[m] * x[at(m)] * y[at(m)];
     return sum;
@@ -235,7 +236,7 @@ class Exponential::CoreOf final : public Core {
   }
 
   /// Remainders at the nodes from the cubic of the last step, moved to fit at the start.
-  void continue_cubic(double h) {
+  SPRING_WORKBENCH_INLINE void continue_cubic(double h) {
     const double ratio = last_h_ / h;
     if (ratio != continued_ratio_) {
       continued_ratio_ = ratio;
@@ -253,7 +254,7 @@ class Exponential::CoreOf final : public Core {
   }
 
   /// Error of the cubic: its fourth difference, taken to follow on the second and third in a geometric series.
-  Modes cubic_error() const {
+  SPRING_WORKBENCH_INLINE Modes cubic_error() const {
     const auto difference = [this](const Collocation::Row& row) {
       Modes d;
       for (int m = 0; m < 2 * n; ++m) {
@@ -296,7 +297,7 @@ class Exponential::CoreOf final : public Core {
   }
 
   /// The remainders at the nodes, as far as they are known before the first sweep.
-  void predict(const HeldBody& body, const HandleForcings& forcing, double h, const State& state) {
+  SPRING_WORKBENCH_INLINE void predict(const HeldBody& body, const HandleForcings& forcing, double h, const State& state) {
     const bool follows = goes_on(forcing.t[0], state);
     const bool known = follows && load_version_ == body.load_version() &&
                        same(end_acceleration_, vector(forcing.of_H.a_B, 0)) &&
@@ -310,7 +311,7 @@ class Exponential::CoreOf final : public Core {
   }
 
   /// Sweeps, from the second on continued along the way that they take (Anderson's acceleration of depth one).
-  Estimate sweep(const HeldBody& body, const HandleForcings& forcing, double h, State& state) {
+  SPRING_WORKBENCH_WIDE Estimate sweep(const HeldBody& body, const HandleForcings& forcing, double h, State& state) {
     prepare(h);
     const Modes x0 = modes_of(state);
     predict(body, forcing, h, state);
@@ -340,6 +341,8 @@ class Exponential::CoreOf final : public Core {
         contraction = std::sqrt(all / all_before);
         if (sweeps == 2) contraction_ = contraction;
         if (sweeps > sweeps_to_judge && contraction > slow_contraction) break;
+      } else if (sweeps == 2) {
+        contraction_ = std::sqrt(std::max(all, squared_rounding) / all_before);  // no more than this
       }
       const double left = contraction < 1.0 ? contraction / (1.0 - contraction) : 1e3;  // of the change
       const double squared_left = left * left * squared_change;
@@ -358,6 +361,7 @@ class Exponential::CoreOf final : public Core {
       }
       all_before = all;
     }
+    if (sweeps == 1) contraction_ = std::min(1.0, contraction_ * forget_contraction);
     slow_sweeps_ += std::max(0, sweeps - few_sweeps);
     e.error = times(from_modes_, e.error);
     state = state_of(at_node(last, x));
@@ -375,7 +379,7 @@ class Exponential::CoreOf final : public Core {
     NodeModes x, moved;
   };
   /// From two sweeps, where the next one is to start.
-  void continue_sweeps(const Swept& now, const Swept& before, NodeModes& x) const {
+  SPRING_WORKBENCH_INLINE void continue_sweeps(const Swept& now, const Swept& before, NodeModes& x) const {
     Pack along{}, all{};
     for (int m = 0; m < 2 * n; ++m) {
       const Pack less = before.moved[at(m)] - now.moved[at(m)];

@@ -96,7 +96,7 @@ OwnAxesMotion MotionSegment::in_own_axes(double t) const {
   return m;
 }
 
-FrameForcing<Pack> MotionSegment::forcing(const Pack& t, double gravity) const {
+SPRING_WORKBENCH_WIDE FrameForcing<Pack> MotionSegment::forcing(const Pack& t, double gravity) const {
   const ThreeByThree<double> R_a = three_by_three(X_a_.linear());
   const Three<double> up = gravity * Three<double>{R_a.x.z, R_a.y.z, R_a.z.z};
   const Three<Pack> zero = none<Pack>();

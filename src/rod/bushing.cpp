@@ -40,7 +40,10 @@ SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S
 }
 
 void Bushing::tip(const double* q, const double* q_dot, TipOf<double>& out) const { tip_of(q, q_dot, out); }
-void Bushing::tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const { tip_of(q, q_dot, out); }
+SPRING_WORKBENCH_WIDE void Bushing::tips(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const {
+  tip_of(q, q_dot, out);
+}
+void Bushing::tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const { tips(q, q_dot, out); }
 
 RigidTransform Bushing::section(const StrainVector& q, double s) const {
   // No curve of its own: drawn as the cubic with the end positions and slopes, rotation spread evenly.

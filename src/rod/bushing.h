@@ -26,6 +26,7 @@ class Bushing final : public ShapeModel {
  private:
   template <typename S>
   void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
+  void tips(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const;
 };
 
 }  // namespace spring_workbench

@@ -169,7 +169,10 @@ SPRING_WORKBENCH_INLINE void StrainRod::tip_of(const S* q, const S* q_dot, TipOf
 }
 
 void StrainRod::tip(const double* q, const double* q_dot, TipOf<double>& out) const { tip_of(q, q_dot, out); }
-void StrainRod::tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const { tip_of(q, q_dot, out); }
+SPRING_WORKBENCH_WIDE void StrainRod::tips(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const {
+  tip_of(q, q_dot, out);
+}
+void StrainRod::tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const { tips(q, q_dot, out); }
 
 double StrainRod::extension(const StrainVector& q) const { return q[stretch().begin] * length(); }
 

@@ -40,6 +40,7 @@ class StrainRod final : public ShapeModel {
   double wave(const LinearStrain<S>& k, double angle) const;
   template <typename S>
   void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
+  void tips(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const;
   /// The tip by `count` pieces of the rod with so many nodes each; `angle`: as turned_angle().
   template <int nodes, typename S>
   void integrate(const S* q, const S* q_dot, int count, double angle, TipOf<S>& out) const;

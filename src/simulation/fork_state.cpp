@@ -4,14 +4,18 @@
 
 namespace spring_workbench {
 
-void ForkBody::set_springs(const ForkSettings& fork) { held_.set_springs(fork.stiffness, fork.damping_ratio); }
+void ForkBody::set_springs(const ForkSettings& fork) { held_.set_springs(fork); }
 
 PerFamily ForkBody::calibrate(const ForkSettings& fork, double gravity) {
   const ForkCalibration found = calibrated_fork(fork.shape, length(), held_.body(), gravity);
   const PerFamily& ratio = fork.damping_ratio;
   const PerFamily& c = found.damping;
-  held_.set_springs_and_dampers(found.stiffness,
-                                {ratio.stretch * c.stretch, ratio.bend * c.bend, ratio.torsion * c.torsion});
+  if (fork.damping_law == "modal") {
+    held_.set_springs_with_modal_damping(found.stiffness, ratio.stretch);
+  } else {
+    held_.set_springs_and_dampers(found.stiffness,
+                                  {ratio.stretch * c.stretch, ratio.bend * c.bend, ratio.torsion * c.torsion});
+  }
   return found.stiffness;
 }
 

@@ -111,7 +111,7 @@ std::unique_ptr<ToolHold> Hand::make_fork(std::size_t object, const RigidTransfo
     inertia.inertia_O.setIdentity();
   }
   HeldBody held_body(make_shape_model(settings_.fork.shape, length), inertia, scene_.gravity);
-  held_body.set_springs(settings_.fork.stiffness, settings_.fork.damping_ratio);
+  held_body.set_springs(settings_.fork);
   const StrainState zero{StrainVector::Zero(held_body.shape().size()), StrainVector::Zero(held_body.shape().size())};
   X_OE_ = X_OE;
   held_body.set_dofs(possible_dofs(object, X_OE), now, settings_.fork.switch_off_time, zero);

@@ -6,6 +6,15 @@
 
 #define SPRING_WORKBENCH_INLINE inline __attribute__((always_inline))
 
+/// Compiles a function twice: for every processor, and for those that hold a pack in one register and multiply and add at
+/// once. Which one runs is found when the program starts. For free and non-virtual functions that get packs by reference.
+#if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 11 && !defined(__clang__) && !defined(__AVX2__) && \
+    !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define SPRING_WORKBENCH_WIDE __attribute__((target_clones("default", "fma")))
+#else
+#define SPRING_WORKBENCH_WIDE
+#endif
+
 namespace spring_workbench {
 
 /// Four numbers in one register, or in two.
