@@ -29,6 +29,11 @@ class ToolHold : public SteppedBody, public CoupledTool {
   /// object has come to rest on it. `may_fall_asleep`: false where something else may move it.
   virtual bool sleeps(double h, bool may_fall_asleep) = 0;
   virtual void let_pass(double h) = 0;
+  /// What the springs do to the object at its centre, world axes; its dampers left out.
+  virtual Wrench spring_pull() const = 0;
+  /// The tool is gripped anew, with the object at `X_WO`: what there was of strain is gone, and the springs do `pull_W` to
+  /// the object, at its centre, as far as the tool has springs for it (doc/model.md, "Gripped anew").
+  virtual void grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) = 0;
   /// The object's twist comes as near as it can to this one.
   virtual void take_twist(const Twist& V_WO_W) = 0;
   /// New stiffness and damping ratios; the strain stays.

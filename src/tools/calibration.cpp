@@ -1,9 +1,9 @@
 #include "spring_workbench/tools/calibration.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "spring_workbench/dynamics/find_strain.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench {
@@ -12,38 +12,13 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double earth = 9.81;  // [m/s²]
 
-/// Generalised force on the strain coordinates of a body at rest.
-StrainVector force(const HeldBody& held, const HandleForcing& handle, const StrainVector& q) {
-  return held.mass_matrix(0.0, q) * held.acceleration(handle, q, StrainVector::Zero(q.size()));
-}
-
-/// Newton's method from `q`, each step halved until the force becomes smaller.
-StrainVector equilibrium(const HeldBody& held, const RigidTransform& X_WH, StrainVector q) {
-  constexpr double step = 1e-6;
+/// The strain at rest on a handle at `X_WH`, looked for from `q` on.
+StrainVector equilibrium(const HeldBody& held, const RigidTransform& X_WH, const StrainVector& q) {
   const HandleForcing handle = held.forcing(MotionSegment(X_WH), 0.0);
-  StrainVector f = force(held, handle, q);
-  for (int iteration = 0; iteration < 30 && f.norm() > 1e-10 * held.gravity(); ++iteration) {
-    StrainMatrix slope(q.size(), q.size());
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      StrainVector ahead = q, behind = q;
-      ahead[i] += step;
-      behind[i] -= step;
-      slope.col(i) = (force(held, handle, ahead) - force(held, handle, behind)) / (2.0 * step);
-    }
-    StrainVector change = -slope.partialPivLu().solve(f);
-    if (!change.allFinite()) break;
-    for (int halving = 0; halving < 20; ++halving, change *= 0.5) {
-      const StrainVector tried = q + change;
-      if (!held.shape().admissible(tried)) continue;
-      const StrainVector f_tried = force(held, handle, tried);
-      if (f_tried.allFinite() && f_tried.norm() < f.norm()) {
-        q = tried;
-        f = f_tried;
-        break;
-      }
-    }
-  }
-  return q;
+  const auto force = [&](const StrainVector& at) -> StrainVector {
+    return held.mass_matrix(0.0, at) * held.acceleration(handle, at, StrainVector::Zero(at.size()));
+  };
+  return find_strain(held, 0.0, force, q, 1e-10 * held.gravity());
 }
 
 }  // namespace
