@@ -160,7 +160,7 @@ HeldBody held_body(const RodCase& one, const std::string& shape) {
   inertia.inertia_O = one.inertia.asDiagonal();
   inertia.X_OE.translation() = one.p_OE;
   HeldBody body(make_shape_model(shape, one.fork.length), inertia, 9.81);
-  body.set_springs(one.fork.stiffness, one.fork.damping_ratio);
+  body.set_springs(one.fork);
   body.set_dofs(one.fork.dofs, 0.0, 1.0, body.zero_state());
   return body;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -13,6 +14,23 @@ namespace {
 
 /// After this many time constants a critically damped return is over: exp(−45) is below the rounding of its start.
 constexpr double return_is_over = 45.0;
+
+/// `2 ζ M^½ (M^-½ K M^-½)^½ M^½` for a diagonal `K`: of the stiff coordinates 2 ζ K^½ (K^½ M⁻¹ K^½)^-½ K^½, from the singular
+/// values of L⁻¹ K^½ with M = L Lᵀ. So soft coordinates keep their digits beside stiff ones; without stiffness no damping.
+StrainMatrix modal_damping(const StrainMatrix& M, const StrainVector& K, double ratio) {
+  const Eigen::Index n = K.size();
+  StrainMatrix root = StrainMatrix::Zero(n, n);  // its first `stiff` columns
+  Eigen::Index stiff = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (K[i] > 0.0) root(i, stiff++) = std::sqrt(K[i]);
+  }
+  if (stiff == 0) return root;
+  root.conservativeResize(n, stiff);
+  const StrainMatrix of_modes = M.llt().matrixL().solve(root);
+  const Eigen::JacobiSVD<StrainMatrix> modes(of_modes, Eigen::ComputeFullV);
+  return 2.0 * ratio * root * modes.matrixV() * modes.singularValues().cwiseInverse().asDiagonal() *
+         modes.matrixV().transpose() * root.transpose();
+}
 
 }  // namespace
 
@@ -37,6 +55,12 @@ void HeldBody::changed() {
     if (mode_[c] == Mode::active) active_[static_cast<std::size_t>(active_count_++)] = i;
     if (mode_[c] == Mode::returning) ++returning_;
   }
+  if (!modal_) return;
+  Kinematics unstrained;
+  unstrained.q = unstrained.q_dot = StrainVector::Zero(shape_size_);
+  kinematics(unstrained);
+  Matrix3d I_H;
+  D_modal_ = modal_damping(mass_matrix(unstrained, I_H), stiffness(), modal_ratio_);
 }
 
 double HeldBody::axial_inertia() const {
@@ -56,7 +80,23 @@ void HeldBody::set_springs_and_dampers(const PerFamily& stiffness, const PerFami
   if (auto shape = shape_->for_stiffness(stiffness)) shape_ = std::move(shape);
   K_ = shape_->stiffness(stiffness);
   D_ = shape_->stiffness(damping);  // (c_f / k_f) K_f, without dividing by k_f
+  modal_ = false;
   changed();
+}
+
+void HeldBody::set_springs_with_modal_damping(const PerFamily& stiffness, double damping_ratio) {
+  set_springs_and_dampers(stiffness, PerFamily());
+  modal_ = true;
+  modal_ratio_ = damping_ratio;
+  changed();
+}
+
+void HeldBody::set_springs(const ForkSettings& fork) {
+  if (fork.damping_law == "modal") {
+    set_springs_with_modal_damping(fork.stiffness, fork.damping_ratio.stretch);
+  } else {
+    set_springs(fork.stiffness, fork.damping_ratio);
+  }
 }
 
 StrainState HeldBody::zero_state() const { return {StrainVector::Zero(size()), StrainVector::Zero(size())}; }
@@ -67,9 +107,10 @@ StrainVector HeldBody::stiffness() const {
   return K;
 }
 
-StrainVector HeldBody::damping() const {
-  StrainVector D(size());
-  for (int i = 0; i < size(); ++i) D[i] = D_[active_[static_cast<std::size_t>(i)]];
+StrainMatrix HeldBody::damping() const {
+  if (modal_) return D_modal_;
+  StrainMatrix D = StrainMatrix::Zero(size(), size());
+  for (int i = 0; i < size(); ++i) D(i, i) = D_[active_[static_cast<std::size_t>(i)]];
   return D;
 }
 
@@ -178,6 +219,14 @@ HandleForcing HandleForcings::at(int i) const {
 void HeldBody::kinematics(double t, const StrainVector& q, const StrainVector& q_dot, Kinematics& k) const {
   StrainVector q_ddot;
   expand(t, q, q_dot, k.q, k.q_dot, q_ddot);
+  kinematics(k);
+  if (returning_ > 0) {
+    k.angular_bias += k.tip.angular * q_ddot;
+    k.linear_bias += k.linear * q_ddot;
+  }
+}
+
+void HeldBody::kinematics(Kinematics& k) const {
   shape_->tip(k.q, k.q_dot, k.tip);
   k.r_EO = k.tip.R_HE * p_EO_;
   k.p_HO = k.tip.p_HE + k.r_EO;
@@ -187,10 +236,6 @@ void HeldBody::kinematics(double t, const StrainVector& q, const StrainVector& q
   const Vector3d w = k.tip.angular * k.q_dot;
   k.angular_bias = k.tip.angular_bias;
   k.linear_bias = k.tip.linear_bias + k.tip.angular_bias.cross(k.r_EO) + w.cross(w.cross(k.r_EO));
-  if (returning_ > 0) {
-    k.angular_bias += k.tip.angular * q_ddot;
-    k.linear_bias += k.linear * q_ddot;
-  }
 }
 
 StrainMatrix HeldBody::mass_matrix(const Kinematics& k, Matrix3d& I_H) const {
@@ -268,6 +313,11 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const FrameForcing
     q_all[c] = q[i];
     q_dot_all[c] = q_dot[i];
     springs[i] = -K_[c] * q[i] - D_[c] * q_dot[i];
+  }
+  if (modal_) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) springs[i] -= D_modal_(i, j) * q_dot[j];
+    }
   }
   if (returning_ > 0) {
     for (S& x : q_ddot_all) x = S{};

@@ -15,12 +15,13 @@ constexpr double newton_done = 1e-13;       ///< change of the strain against th
 }  // namespace
 
 LinearisedMotion::LinearisedMotion(const HeldBody& body, double t, const StrainVector& q)
-    : M(body.mass_matrix(t, q)), K(body.stiffness().asDiagonal()), D(body.damping().asDiagonal()) {}
+    : M(body.mass_matrix(t, q)), K(body.stiffness().asDiagonal()), D(body.damping()) {}
 
 LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
                                    const StrainVector& q_ddot)
     : LinearisedMotion(body, handle.t, state.q) {
-  const StrainVector stiffness = body.stiffness(), damping = body.damping();
+  const StrainVector stiffness = body.stiffness();
+  const StrainMatrix damping = body.damping();
   const double dq = strain_difference / body.shape().length(), dv = rate_difference / body.shape().length();
   StrainState moved = state;
   for (int j = 0; j < body.size(); ++j) {
@@ -34,7 +35,7 @@ LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& ha
     moved.q_dot[j] += dv;
     const double step_v = moved.q_dot[j] - state.q_dot[j];
     force = M * (body.acceleration(handle, state.q, moved.q_dot) - q_ddot);
-    force[j] += damping[j] * step_v;
+    force += damping.col(j) * step_v;
     D.col(j) -= force / step_v;
     moved.q_dot[j] = state.q_dot[j];
   }

@@ -30,7 +30,8 @@ std::unique_ptr<Integrator> make_integrator(const std::string& name) {
 
 Integrator::Response Integrator::response(const HeldBody& body, double t, double h, const StrainState& state) {
   StrainMatrix A = body.mass_matrix(t, state.q);
-  A.diagonal() += h * body.damping() + h * h * body.stiffness();
+  A += h * body.damping();
+  A.diagonal() += h * h * body.stiffness();
   Response r;
   r.q_dot = h * A.llt().solve(StrainMatrix::Identity(body.size(), body.size()));
   r.q = h * r.q_dot;
@@ -113,7 +114,7 @@ StepEstimate ClosedForm::step(const HeldBody& body, const MotionSegment& handle,
                               StrainState& state) {
   const StrainVector a = last_.get(body, body.forcing(handle, t), state);
   const StrainMatrix M = body.mass_matrix(t, state.q);
-  const StrainVector K = body.stiffness(), D = body.damping();
+  const StrainVector K = body.stiffness(), D = body.damping().diagonal();
   StrainVector held(body.size());  // what is left of the acceleration beside the coordinate's own spring and damper
   StrainVector per_force(body.size()), per_rate(body.size());
   for (int i = 0; i < body.size(); ++i) {

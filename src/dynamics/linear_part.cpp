@@ -81,7 +81,7 @@ LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const 
   ModeMatrix V(2 * n, 2 * n), V_inverse;
   double off_critical = 0.0;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    part.damping = part.inverse_mass * StrainMatrix(body.damping().asDiagonal());
+    part.damping = part.inverse_mass * body.damping();
     for (int i = 0; i < n; ++i) part.damping.col(i) *= 1.0 + off_critical * (i + 1);
     ModeMatrix A = ModeMatrix::Zero(2 * n, 2 * n);
     A.topRightCorner(n, n).diagonal() = scale;

@@ -79,8 +79,9 @@ bool Services::set_stiffness(SetForkStiffness::Request& request, SetForkStiffnes
 
 bool Services::set_damping(SetForkDamping::Request& request, SetForkDamping::Response& response) {
   const PerFamily ratio{request.stretch, request.bend, request.torsion};
-  return answer(response,
-                [&] { fill(runner_.locked([&](Simulation& s) { return s.set_damping_ratio(ratio); }), response); });
+  return answer(response, [&] {
+    fill(runner_.locked([&](Simulation& s) { return s.set_damping_ratio(ratio, request.law); }), response);
+  });
 }
 
 bool Services::set_integrator(SetIntegrator::Request& request, SetIntegrator::Response& response) {

@@ -130,7 +130,7 @@ double ForkBody::added_energy(const MotionSegment& motion, double h, const Strai
                               const StrainState& end) const {
   const double t = state_.t;
   const double m = held_.body().mass;
-  const StrainVector D = held_.damping();
+  const StrainMatrix D = held_.damping();
   double energy = 0.0, power = 0.0;
   const auto look = [&](double at, const StrainState& s, const StrainVector& q_ddot) {
     const HandleForcing handle = held_.forcing(motion, at);
@@ -144,7 +144,7 @@ double ForkBody::added_energy(const MotionSegment& motion, double h, const Strai
     const Vector3d arm = o.X.translation() - handle.X_WH.translation();
     energy = held_.elastic_energy(at, s) + held_.kinetic_energy(o.velocity, o.X.linear()) + m * up.dot(o.X.translation());
     power = force.dot(handle.v_WH_W) + (moment + arm.cross(force)).dot(handle.X_WH.linear() * handle.angular_velocity) +
-            contact.force.dot(o.velocity.linear) + contact.moment.dot(w) - s.q_dot.dot(D.cwiseProduct(s.q_dot));
+            contact.force.dot(o.velocity.linear) + contact.moment.dot(w) - s.q_dot.dot(D * s.q_dot);
   };
   const StrainVector a0 = held_.acceleration(held_.forcing(motion, t), begin.q, begin.q_dot);
   const StrainVector a1 = held_.acceleration(held_.forcing(motion, t + h), end.q, end.q_dot);

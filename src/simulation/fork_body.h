@@ -37,7 +37,7 @@ class ForkBody final : public ToolHold {
   /// Sets strain rates so that the object's twist comes as near as it can to this one.
   void take_twist(const Twist& V_WO_W) override;
   void set_springs(const ForkSettings& fork) override;
-  PerFamily calibrate(const ForkSettings& fork, double gravity) override;
+  PerFamily fitting_stiffness(const ForkSettings& fork, double gravity) const override;
   bool set_dofs(const ForkDofs& dofs, double switch_off_time) override;
   void set_step_control(const DynamicsSettings& settings) override { control_ = make_step_control(settings); }
   static StepControl make_step_control(const DynamicsSettings& settings);

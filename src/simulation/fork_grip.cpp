@@ -23,7 +23,7 @@ Wrench ForkBody::spring_pull() const {
   Wrench springs = pull();
   if (held_.size() == 0) return springs;
   // Of all wrenches that the dampers' generalised force may be the smallest: with six coordinates there is but one.
-  const StrainVector dampers = held_.damping().cwiseProduct(state_.strain.q_dot);
+  const StrainVector dampers = held_.damping() * state_.strain.q_dot;
   const Eigen::MatrixXd onto_coordinates = jacobian_W().transpose();
   const Vector6d damping = onto_coordinates.completeOrthogonalDecomposition().solve(-dampers);
   springs.force -= damping.head<3>();

@@ -35,11 +35,12 @@ Coupling ForkBody::coupling(double h, const RigidTransform& X_WO, const Matrix6d
   if (held_.size() == 0) return c;
   // Kelvin and Voigt over the step: (K + D / h) δq = −∂U/∂q − Jᵀ (wrench on the object).
   const Jacobian J = jacobian_W(handle.X_WH.linear(), t);
-  StrainVector stiffness = held_.stiffness() + held_.damping() / h;
-  stiffness += least_stiffness / (h * h) * held_.mass_matrix(t, state_.strain.q).diagonal();
-  const StrainVector give = stiffness.cwiseInverse();
-  c.relaxed -= J * give.cwiseProduct(held_.elastic_force(t, state_.strain.q));
-  c.compliance += J * give.asDiagonal() * J.transpose();
+  StrainMatrix stiffness = held_.damping() / h;
+  stiffness.diagonal() += held_.stiffness();
+  stiffness.diagonal() += least_stiffness / (h * h) * held_.mass_matrix(t, state_.strain.q).diagonal();
+  const Eigen::LLT<StrainMatrix> give(stiffness);
+  c.relaxed -= J * give.solve(held_.elastic_force(t, state_.strain.q));
+  c.compliance += J * give.solve(J.transpose());
   return c;
 }
 

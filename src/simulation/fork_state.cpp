@@ -4,15 +4,10 @@
 
 namespace spring_workbench {
 
-void ForkBody::set_springs(const ForkSettings& fork) { held_.set_springs(fork.stiffness, fork.damping_ratio); }
+void ForkBody::set_springs(const ForkSettings& fork) { held_.set_springs(fork); }
 
-PerFamily ForkBody::calibrate(const ForkSettings& fork, double gravity) {
-  const ForkCalibration found = calibrated_fork(fork.shape, length(), held_.body(), gravity);
-  const PerFamily& ratio = fork.damping_ratio;
-  const PerFamily& c = found.damping;
-  held_.set_springs_and_dampers(found.stiffness,
-                                {ratio.stretch * c.stretch, ratio.bend * c.bend, ratio.torsion * c.torsion});
-  return found.stiffness;
+PerFamily ForkBody::fitting_stiffness(const ForkSettings& fork, double gravity) const {
+  return calibrated_stiffness(fork.shape, length(), held_.body(), gravity);
 }
 
 bool ForkBody::set_dofs(const ForkDofs& dofs, double switch_off_time) {

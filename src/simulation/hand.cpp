@@ -78,7 +78,12 @@ void Hand::make_hold(double now) {
 
 bool Hand::calibrate_hold() {
   if (!hold_ || tool_ == Tool::direct || tool_ == Tool::ray) return false;
-  if (!workbench_.massless(grasp_.object)) settings_.fork.stiffness = hold_->calibrate(settings_.fork, scene_.gravity);
+  if (workbench_.massless(grasp_.object)) return true;
+  ForkSettings& fork = settings_.fork;
+  fork.stiffness = hold_->fitting_stiffness(fork, scene_.gravity);
+  const double ratio = fork.damping_ratio.stretch;
+  if (fork.damping_ratio == PerFamily{ratio, ratio, ratio}) fork.damping_law = "modal";
+  hold_->set_springs(fork);
   return true;
 }
 

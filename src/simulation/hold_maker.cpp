@@ -41,7 +41,7 @@ BodyInertia HoldMaker::inertia(const Grasp& grasp) const {
 
 std::unique_ptr<ToolHold> HoldMaker::make_fork(const Grasp& grasp, double now) const {
   HeldBody held(make_shape_model(settings_.fork.shape, grasp.length), inertia(grasp), scene_.gravity);
-  held.set_springs(settings_.fork.stiffness, settings_.fork.damping_ratio);
+  held.set_springs(settings_.fork);
   const StrainState zero{StrainVector::Zero(held.shape().size()), StrainVector::Zero(held.shape().size())};
   held.set_dofs(possible_dofs(grasp), now, settings_.fork.switch_off_time, zero);
   RigidTransform X_SH = RigidTransform::Identity();

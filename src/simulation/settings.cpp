@@ -15,6 +15,7 @@ namespace {
 
 using Choices = std::vector<std::string>;
 using S = SimulationSettings;
+const Choices damping_laws = {"per_family", "modal"};
 /// Where a setting's value is kept. A captureless lambda, so that the table below stays a table.
 template <typename T>
 using Member = T& (*)(S&);
@@ -133,6 +134,10 @@ std::vector<Field> fork_fields() {
              [](S& s) -> double& { return s.fork.damping_ratio.bend; }),
       number("fork.damping.torsion", "–", ratio, "damping ratio of twisting; 1 is critical",
              [](S& s) -> double& { return s.fork.damping_ratio.torsion; }),
+      choice("fork.damping_law", damping_laws,
+             "per_family: Kelvin–Voigt, the ratio that of each family alone; modal: every mode of the held object has the "
+             "ratio, which must be the same for all families",
+             [](S& s) -> std::string& { return s.fork.damping_law; }),
       flag("fork.dofs.stretch", "the fork stretches; false: rigid", [](S& s) -> bool& { return s.fork.dofs.stretch; }),
       flag("fork.dofs.bend", "the fork bends; false: rigid", [](S& s) -> bool& { return s.fork.dofs.bend; }),
       flag("fork.dofs.torsion", "the fork twists; false: rigid", [](S& s) -> bool& { return s.fork.dofs.torsion; }),
@@ -209,6 +214,16 @@ const Field& find_field(const std::string& key, const std::string& where) {
 }
 
 }  // namespace
+
+void check_damping(const std::string& where, const ForkSettings& fork) {
+  const PerFamily& ratio = fork.damping_ratio;
+  if (std::find(damping_laws.begin(), damping_laws.end(), fork.damping_law) == damping_laws.end()) {
+    refuse(where, "damping law", fork.damping_law, "one of " + join(damping_laws));
+  }
+  if (fork.damping_law != "modal" || ratio == PerFamily{ratio.stretch, ratio.stretch, ratio.stretch}) return;
+  refuse(where, "damping ratios", text_of(ratio.stretch) + ", " + text_of(ratio.bend) + ", " + text_of(ratio.torsion),
+         "the same for stretch, bend and torsion where the damping law is modal");
+}
 
 NumberRule allowed_tolerance() { return between(0.0, StepControl::largest_tolerance); }
 

@@ -38,6 +38,7 @@ Scene set_up(Scene scene, const SimulationSettings& settings) {
   if (settings.grasp.X_OE && !settings.grasp.start_follow) {
     refuse(scene.path, "grasp.tip_in_object", "(a pose)", "used with start.follow: true, so that the object can move to it");
   }
+  check_damping(scene.path, settings.fork);
   make_integrator(settings.dynamics.integrator);
   make_shape_model(settings.fork.shape, settings.fork.length);
   return scene;
@@ -314,12 +315,16 @@ ChangeReport Simulation::set_stiffness(const PerFamily& stiffness) {
   return change;
 }
 
-ChangeReport Simulation::set_damping_ratio(const PerFamily& ratio) {
+ChangeReport Simulation::set_damping_ratio(const PerFamily& ratio, const std::string& law) {
   const NumberRule rule = between(0.0, 10.0);
   check_number("set_damping", "stretch", ratio.stretch, rule);
   check_number("set_damping", "bend", ratio.bend, rule);
   check_number("set_damping", "torsion", ratio.torsion, rule);
-  impl_->settings.fork.damping_ratio = ratio;
+  ForkSettings changed = impl_->settings.fork;
+  changed.damping_ratio = ratio;
+  if (!law.empty()) changed.damping_law = law;
+  check_damping("set_damping", changed);
+  impl_->settings.fork = changed;
   for (Hand& hand : impl_->hands) hand.change_springs();
   const double energy = impl_->elastic_energy();
   return {energy, energy, "damping ratios set"};

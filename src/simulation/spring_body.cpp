@@ -39,11 +39,8 @@ void SpringBody::set_springs(const ForkSettings& fork) {
   c_ = 2.0 * fork.damping_ratio.stretch * std::sqrt(mass_ * k_);
 }
 
-PerFamily SpringBody::calibrate(const ForkSettings& fork, double gravity) {
-  ForkSettings found = fork;
-  found.stiffness.stretch = calibrated_spring(mass_, fork.length, gravity);
-  set_springs(found);
-  return found.stiffness;
+PerFamily SpringBody::fitting_stiffness(const ForkSettings& fork, double gravity) const {
+  return {calibrated_spring(mass_, fork.length, gravity), fork.stiffness.bend, fork.stiffness.torsion};
 }
 
 Wrench SpringBody::spring_pull() const {

@@ -38,9 +38,8 @@ class ToolHold : public SteppedBody, public CoupledTool {
   virtual void take_twist(const Twist& V_WO_W) = 0;
   /// New stiffness and damping ratios; the strain stays.
   virtual void set_springs(const ForkSettings& fork) = 0;
-  /// Springs and dampers from the object as it is held (doc/model.md, "Calibration"); the damping ratios are `fork`'s. The
-  /// object's mass must be > 0. Returns the stiffness.
-  virtual PerFamily calibrate(const ForkSettings& fork, double gravity) = 0;
+  /// The stiffness that fits the object as it is held (doc/model.md, "Calibration"). The object's mass must be > 0.
+  virtual PerFamily fitting_stiffness(const ForkSettings& fork, double gravity) const = 0;
   /// Switches families; true when one is on its way to zero strain. For the fork alone.
   virtual bool set_dofs(const ForkDofs& dofs, double switch_off_time) = 0;
   virtual void set_step_control(const DynamicsSettings& settings) = 0;

@@ -25,8 +25,8 @@ StrainVector equilibrium(const HeldBody& held, const RigidTransform& X_WH, const
 
 double weighing_gravity(double gravity) { return gravity > 0.0 ? gravity : earth; }
 
-ForkCalibration calibrated_fork(const std::string& shape, double length, const BodyInertia& body, double gravity,
-                                const CalibrationGoal& goal) {
+PerFamily calibrated_stiffness(const std::string& shape, double length, const BodyInertia& body, double gravity,
+                               const CalibrationGoal& goal) {
   const double g = weighing_gravity(gravity);
   const double sag = goal.sag * length;
   const double omega = std::sqrt(g / sag);
@@ -51,9 +51,7 @@ ForkCalibration calibrated_fork(const std::string& shape, double length, const B
     k.stretch *= std::clamp(extension, 0.2, 5.0);
     k.bend *= std::clamp(deflection, 0.2, 5.0);
   }
-  const double m = body.mass, c = 2.0 * goal.damping_ratio / omega;
-  const PerFamily stiffness{m * k.stretch, m * k.bend, m * k.torsion};
-  return {stiffness, {c * stiffness.stretch, c * stiffness.bend, c * stiffness.torsion}};
+  return {body.mass * k.stretch, body.mass * k.bend, body.mass * k.torsion};
 }
 
 double calibrated_spring(double mass, double length, double gravity, const CalibrationGoal& goal) {

@@ -32,7 +32,8 @@ struct Case {
   double omega;  ///< of the stiffest mode without damping [rad/s]
 };
 
-inline Case random_case(const std::string& shape, double damping_ratio, double duration, std::mt19937& random) {
+inline Case random_case(const std::string& shape, double damping_ratio, double duration, std::mt19937& random,
+                        const std::string& damping_law = "per_family") {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   BodyInertia body;
   body.mass = std::pow(10.0, 3.0 * uniform(random));
@@ -42,8 +43,11 @@ inline Case random_case(const std::string& shape, double damping_ratio, double d
   body.X_OE = make_transform(Quaterniond(exp_so3(turn)), grasp);
   HeldBody held(make_shape_model(shape, 0.2), body, 9.81);
   const auto factor = [&] { return std::pow(10.0, 0.5 * uniform(random)); };
-  const PerFamily k{1500.0 * body.mass * factor(), 500.0 * body.mass * factor(), 5.0 * body.mass * factor()};
-  held.set_springs(k, {damping_ratio, damping_ratio, damping_ratio});
+  ForkSettings fork;
+  fork.stiffness = {1500.0 * body.mass * factor(), 500.0 * body.mass * factor(), 5.0 * body.mass * factor()};
+  fork.damping_ratio = {damping_ratio, damping_ratio, damping_ratio};
+  fork.damping_law = damping_law;
+  held.set_springs(fork);
   const StrainVector rest = StrainVector::Zero(held.size());
   const StrainMatrix M = held.mass_matrix(0.0, rest);
   const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> modes(StrainMatrix(held.stiffness().asDiagonal()), M);

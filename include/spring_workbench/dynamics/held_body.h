@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "spring_workbench/motion/pose_track.h"
+#include "spring_workbench/rod/settings.h"
 #include "spring_workbench/rod/shape_model.h"
 
 namespace spring_workbench {
@@ -58,6 +59,11 @@ class HeldBody {
   void set_springs(const PerFamily& stiffness, const PerFamily& damping_ratio);
   /// Damping coefficients outright, per family, the unit of its stiffness times s: `D = (c / k) K`.
   void set_springs_and_dampers(const PerFamily& stiffness, const PerFamily& damping);
+  /// The same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, M that of the
+  /// unstrained fork. Goes with set_dofs().
+  void set_springs_with_modal_damping(const PerFamily& stiffness, double damping_ratio);
+  /// Stiffness, damping ratios and damping law of `fork`.
+  void set_springs(const ForkSettings& fork);
   /// Moment of inertia about the fork's axis through the grasp [kg·m²].
   double axial_inertia() const;
 
@@ -77,7 +83,7 @@ class HeldBody {
   int size() const { return active_count_; }  ///< number of active coordinates
   StrainState zero_state() const;
   StrainVector stiffness() const;  ///< diagonal of K, active coordinates
-  StrainVector damping() const;    ///< diagonal of D, active coordinates
+  StrainMatrix damping() const;    ///< D, active coordinates
 
   HandleForcing forcing(const MotionSegment& handle, double t) const;
   HandleForcings forcing(const MotionSegment& handle, const Pack& t) const;
@@ -136,6 +142,7 @@ class HeldBody {
   Rigid<S> without_strain_acceleration(const FrameForcing<S>& handle, const TipOf<S>& tip, const S* q_dot,
                                        const S* q_ddot) const;
   void kinematics(double t, const StrainVector& q, const StrainVector& q_dot, Kinematics& k) const;
+  void kinematics(Kinematics& k) const;  ///< from strain and rate of all coordinates, without what is prescribed
   /// Sets lane `k` of the coordinates that follow a prescribed motion.
   template <typename S>
   void prescribe(double t, int k, S* q, S* q_dot, S* q_ddot) const;
@@ -150,7 +157,10 @@ class HeldBody {
   double gravity_;
   long version_ = 0;
   long load_version_ = 0;
-  StrainVector K_, D_;  ///< all coordinates
+  StrainVector K_, D_;  ///< all coordinates; with modal damping D_ is zero
+  bool modal_ = false;
+  double modal_ratio_ = 0.0;
+  StrainMatrix D_modal_;  ///< active coordinates; where modal_
   std::array<Mode, max_strain_coordinates> mode_;
   std::array<Return, max_strain_coordinates> return_;
   std::array<int, max_strain_coordinates> active_;  ///< indices of the active coordinates

@@ -11,6 +11,10 @@ struct PerFamily {
   double torsion = 0.0;
 };
 
+inline bool operator==(const PerFamily& a, const PerFamily& b) {
+  return a.stretch == b.stretch && a.bend == b.bend && a.torsion == b.torsion;
+}
+
 /// The deformation families that are switched on (the paper's deformation DOFs, section 4). Off means rigid.
 struct ForkDofs {
   bool stretch = true;
@@ -25,6 +29,8 @@ struct ForkSettings {
   double length = 0.2;                        ///< key `fork.length` [m], > 0: rest length L
   PerFamily stiffness{2000.0, 500.0, 5.0};    ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
   PerFamily damping_ratio{1.0, 1.0, 1.0};     ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
+  std::string damping_law = "per_family";     ///< key `fork.damping_law`: per_family, or modal: the same ζ in every mode of
+                                              ///< the held body, for one ζ of all families
   ForkDofs dofs;                              ///< keys `fork.dofs.*`
   double switch_off_time = 0.05;              ///< key `fork.switch_off_time` [s], > 0: time constant on which a family that
                                               ///< is switched off while strained goes back to zero strain

@@ -29,6 +29,9 @@ struct SimulationSettings {
   int bisection_levels = 8;            ///< key `bisection_levels`; 1 … 30 (paper, section 5)
 };
 
+/// Throws InputError for an unknown damping law, or one that the damping ratios do not go with (doc/model.md, "Damping").
+void check_damping(const std::string& where, const ForkSettings& fork);
+
 /// Which tolerances `integrator` may be given [m]; 0: fixed steps.
 NumberRule allowed_tolerance();
 

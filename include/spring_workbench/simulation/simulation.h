@@ -141,7 +141,8 @@ class Simulation {
   ChangeReport set_dofs(const ForkDofs& dofs);
   /// A family with 0 keeps its stiffness.
   ChangeReport set_stiffness(const PerFamily& stiffness);
-  ChangeReport set_damping_ratio(const PerFamily& ratio);
+  /// `law`: one of damping_laws(); empty keeps the present one. `modal` takes one ratio for all families.
+  ChangeReport set_damping_ratio(const PerFamily& ratio, const std::string& law = "");
   /// Stiffness from the mass and size of the held object, the first hand's where both hold one; the damping ratios stay.
   /// Throws InputError when nothing is held.
   ChangeReport calibrate();

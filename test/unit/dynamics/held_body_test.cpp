@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
 
@@ -153,6 +154,101 @@ TEST(HeldBody, ObjectObeysNewtonAndEulerUnderTheRodsWrench) {
     const auto integrator = make_integrator("exponential");
     for (int i = 0; i < 2000; ++i) integrator->step(held, hand, 0.001 * i, 0.001, s);
     EXPECT_NEAR(energy(2.0), before, 1e-7);
+  }
+}
+
+/// Grasps of a long box at its centre, off its centre, at an edge and at a corner, turned, of `mass` [kg].
+std::vector<BodyInertia> grasps_of_long_box(double mass) {
+  std::vector<BodyInertia> grasps;
+  const Vector3d half(0.02, 0.03, 0.15);
+  for (const Vector3d& at : {Vector3d(0, 0, 0), Vector3d(0, 0, 0.6), Vector3d(0, 1, 0.9), Vector3d(1, -1, 1)}) {
+    for (const Vector3d& turn : {Vector3d(0, 0, 0), Vector3d(1.2, 0.3, -0.5), Vector3d(0.0, 3.1, 0.0)}) {
+      const Vector3d squares = half.cwiseAbs2();
+      const Vector3d moments = mass / 3.0 * (squares.sum() - squares.array());
+      grasps.push_back({mass, moments.asDiagonal(), make_transform(Quaterniond(exp_so3(turn)), at.cwiseProduct(half))});
+    }
+  }
+  return grasps;
+}
+
+const std::vector<ForkDofs> families{{true, true, true},  {true, true, false}, {true, false, true}, {false, true, true},
+                                     {true, false, false}, {false, true, false}, {false, false, true}};
+
+TEST(HeldBody, WithModalDampingEveryModeHasTheRatio) {
+  for (const char* shape : {"linear", "constant", "bushing"}) {
+    for (double mass = 1e-6; mass < 2e6; mass *= 1e2) {
+      for (const BodyInertia& body : grasps_of_long_box(mass)) {
+        for (const ForkDofs& dofs : families) {
+          HeldBody held(make_shape_model(shape, 0.2), body, 9.81);
+          held.set_springs_with_modal_damping({2000.0, 500.0, 5.0}, 0.6);
+          only(held, dofs);
+          const int n = held.size();
+          const StrainMatrix inverse_mass =
+              held.mass_matrix(0.0, held.zero_state().q).llt().solve(StrainMatrix::Identity(n, n));
+          const double scale = std::sqrt(500.0 / mass);  // of the frequencies: velocities are taken over it
+          Eigen::MatrixXd A = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+          A.topRightCorner(n, n).diagonal().setConstant(scale);
+          A.bottomLeftCorner(n, n) = -(inverse_mass * held.stiffness().asDiagonal()) / scale;
+          A.bottomRightCorner(n, n) = -(inverse_mass * held.damping());
+          const Eigen::VectorXcd modes = A.eigenvalues();
+          for (Eigen::Index m = 0; m < modes.size(); ++m) {
+            EXPECT_NEAR(-modes[m].real() / std::abs(modes[m]), 0.6, 1e-8) << shape << " " << mass << " kg";
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(HeldBody, ModalDampingIsExactOverDecadesOfStiffness) {
+  // D M⁻¹ D = 4 ζ² K, each entry by the size of its own row and column; a coordinate without stiffness has no damping.
+  std::mt19937 random(4);
+  std::uniform_real_distribution<double> exponent(-6.0, 12.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    PerFamily k{std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random)), std::pow(10.0, exponent(random))};
+    if (trial % 4 == 1) k.stretch = 0.0;
+    if (trial % 4 == 2) k.bend = 0.0;
+    if (trial % 4 == 3) k.torsion = 0.0;
+    for (const BodyInertia& body : grasps_of_long_box(std::pow(10.0, -6.0 + trial % 13))) {
+      HeldBody held(make_shape_model("linear", 0.2), body, 9.81);
+      held.set_springs_with_modal_damping(k, 3.0);
+      const StrainMatrix D = held.damping();
+      const StrainVector K = held.stiffness();
+      const StrainMatrix square = D * held.mass_matrix(0.0, held.zero_state().q).llt().solve(D);
+      // To rounding times the spread of the frequencies.
+      const double softest = (K.array() > 0.0).select(K, K.maxCoeff()).minCoeff();
+      const double rounding = 1e-12 + 1e-13 * std::sqrt(K.maxCoeff() / softest);
+      for (int i = 0; i < held.size(); ++i) {
+        for (int j = 0; j < held.size(); ++j) {
+          const double expected = i == j ? 36.0 * K[i] : 0.0;
+          EXPECT_NEAR(square(i, j), expected, rounding * 36.0 * std::sqrt(K[i] * K[j])) << i << " " << j;
+          if (K[i] == 0.0) {
+            EXPECT_EQ(D(i, j), 0.0);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST(HeldBody, DampingIsWhatTheAccelerationTakesFromTheRates) {
+  const MotionSegment rest{RigidTransform::Identity()};
+  for (const bool modal : {false, true}) {
+    for (const std::string& shape : shape_model_names()) {
+      for (const ForkDofs& dofs : families) {
+        HeldBody held = held_by(shape, {2000.0, 500.0, 5.0}, {0.3, 1.0, 2.0}, box_off_centre());
+        if (modal) held.set_springs_with_modal_damping({2000.0, 500.0, 5.0}, 0.7);
+        only(held, dofs);
+        const HandleForcing hand = held.forcing(rest, 0.0);
+        const StrainVector q = held.zero_state().q;
+        const StrainMatrix M = held.mass_matrix(0.0, q), D = held.damping();
+        for (int i = 0; i < held.size(); ++i) {
+          const StrainVector v = StrainVector::Unit(held.size(), i);  // what is quadratic in it is the same for −v
+          const StrainVector force = 0.5 * M * (held.acceleration(hand, q, v) - held.acceleration(hand, q, -v));
+          EXPECT_LT((force + D.col(i)).norm(), 1e-11 * D.norm()) << shape << " " << modal;
+        }
+      }
+    }
   }
 }
 

@@ -265,6 +265,23 @@ TEST_F(Switching, EveryIntegratorTakesOver) {
   expect_no_jump();
 }
 
+TEST_F(Switching, DampingLaws) {
+  simulation.set_damping_ratio({0.5, 0.5, 0.5}, "modal");
+  EXPECT_EQ(simulation.settings().fork.damping_law, "modal");
+  expect_no_jump();
+  simulation.set_damping_ratio({0.7, 0.7, 0.7});
+  EXPECT_EQ(simulation.settings().fork.damping_law, "modal");
+  EXPECT_THROW(simulation.set_damping_ratio({0.7, 0.5, 0.7}), InputError);
+  EXPECT_EQ(simulation.settings().fork.damping_ratio.bend, 0.7);
+  simulation.set_damping_ratio({0.7, 0.5, 0.7}, "per_family");
+  EXPECT_EQ(simulation.settings().fork.damping_ratio.bend, 0.5);
+  EXPECT_THROW(simulation.set_damping_ratio({0.5, 0.5, 0.5}, "rayleigh"), InputError);
+  EXPECT_EQ(simulation.settings().fork.damping_law, "per_family");
+  SimulationSettings settings = simulation.settings();
+  settings.fork.damping_law = "modal";
+  EXPECT_THROW(Simulation(simulation.scene(), settings), InputError);
+}
+
 TEST_F(Switching, BadValuesChangeNothing) {
   EXPECT_THROW(simulation.set_stiffness({std::nan(""), 0.0, 0.0}), InputError);
   EXPECT_THROW(simulation.set_stiffness({-1.0, 0.0, 0.0}), InputError);
