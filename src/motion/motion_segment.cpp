@@ -78,7 +78,41 @@ SPRING_WORKBENCH_INLINE MotionSegment::Turn<S> MotionSegment::turn(const S& u, d
   return turn;
 }
 
+MotionSegment MotionSegment::of_frame(const RigidTransform& X_BC) const {
+  MotionSegment moved = *this;
+  moved.X_BC_ = X_BC_ * X_BC;
+  moved.elsewhere_ = true;
+  return moved;
+}
+
+FrameForcing<Pack> MotionSegment::at_frame(const FrameForcing<Pack>& f) const {
+  const ThreeByThree<double> R = three_by_three(X_BC_.linear());
+  const Three<double> p = three(X_BC_.translation());
+  const Three<Pack> a = f.a_B + cross(f.alpha_B, p) + cross(f.w_B, cross(f.w_B, p));
+  return {f.R_WB * R, transposed(R, f.w_B), transposed(R, f.alpha_B), transposed(R, a)};
+}
+
 OwnAxesMotion MotionSegment::in_own_axes(double t) const {
+  const OwnAxesMotion of_B = of_samples(t);
+  if (!elsewhere_) return of_B;
+  const Matrix3d& R_WB = of_B.X.linear();
+  const Vector3d& p = X_BC_.translation();
+  const Vector3d& w = of_B.w_B;
+  OwnAxesMotion m;
+  m.X = of_B.X * X_BC_;
+  m.v_W = of_B.v_W + R_WB * w.cross(p);
+  m.a_W = of_B.a_W + R_WB * (of_B.alpha_B.cross(p) + w.cross(w.cross(p)));
+  m.w_B = X_BC_.linear().transpose() * w;
+  m.alpha_B = X_BC_.linear().transpose() * of_B.alpha_B;
+  return m;
+}
+
+FrameForcing<Pack> MotionSegment::forcing(const Pack& t, double gravity) const {
+  const FrameForcing<Pack> of_B = of_samples(t, gravity);
+  return elsewhere_ ? at_frame(of_B) : of_B;
+}
+
+OwnAxesMotion MotionSegment::of_samples(double t) const {
   OwnAxesMotion m;
   m.X = X_a_;
   if (!moving_) return m;
@@ -96,7 +130,7 @@ OwnAxesMotion MotionSegment::in_own_axes(double t) const {
   return m;
 }
 
-SPRING_WORKBENCH_WIDE FrameForcing<Pack> MotionSegment::forcing(const Pack& t, double gravity) const {
+SPRING_WORKBENCH_WIDE FrameForcing<Pack> MotionSegment::of_samples(const Pack& t, double gravity) const {
   const ThreeByThree<double> R_a = three_by_three(X_a_.linear());
   const Three<double> up = gravity * Three<double>{R_a.x.z, R_a.y.z, R_a.z.z};
   const Three<Pack> zero = none<Pack>();

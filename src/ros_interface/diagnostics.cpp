@@ -79,40 +79,41 @@ std::string hint_for_silence(const InputStatistics& input, const std::vector<std
   return "all samples are left out, most for this: " + most->first;
 }
 
-std::vector<DiagnosticStatus> ManipulationDiagnostics::report(const InputStatistics& input,
-                                                              const ReengagementCounts& hand,
-                                                              const LoopStatistics& loop, const std::string& hint,
-                                                              double now) {
-  std::vector<DiagnosticStatus> result{report_input(input, hand, hint, now), report_loop(loop)};
-  last_input_ = input;
-  last_hand_ = hand;
+std::vector<DiagnosticStatus> ManipulationDiagnostics::report(const TrackerInput& first, const TrackerInput& second,
+                                                              const LoopStatistics& loop, double now) {
+  std::vector<DiagnosticStatus> result{report_input("tracker input", first, last_first_, now), report_loop(loop)};
+  const bool is_second = second.input.stream.samples > 0 || !second.input.left_out.empty();
+  if (is_second) result.push_back(report_input("second stylus", second, last_second_, now));
+  last_first_ = first;
+  last_second_ = second;
   last_loop_ = loop;
   return result;
 }
 
-DiagnosticStatus ManipulationDiagnostics::report_input(const InputStatistics& input, const ReengagementCounts& hand,
-                                                       const std::string& hint, double now) const {
-  DiagnosticStatusBuilder status(name_ + ": tracker input", "tracker");
+DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, const TrackerInput& tracker,
+                                                       const TrackerInput& last, double now) const {
+  const InputStatistics& input = tracker.input;
+  DiagnosticStatusBuilder status(name_ + ": " + what, "tracker");
   add_stream(input.stream, input.gate, status);
-  status.add("came after their time was simulated", hand.late)
-      .add("times the hand was found again", hand.reengagements)
-      .add("times the hand was lost", hand.losses)
+  status.add("came after their time was simulated", tracker.hand.late)
+      .add("times the hand was found again", tracker.hand.reengagements)
+      .add("times the hand was lost", tracker.hand.losses)
       .add("jumps back in time", input.restarts);
   bool more_left_out = false;
   for (const auto& [reason, count] : input.left_out) {
     status.add("left out: " + reason, count);
-    const auto before = last_input_.left_out.find(reason);
-    more_left_out |= before == last_input_.left_out.end() || before->second < count;
+    const auto before = last.input.left_out.find(reason);
+    more_left_out |= before == last.input.left_out.end() || before->second < count;
   }
-  if (!hint.empty()) status.add("hint", hint);
+  if (!tracker.hint.empty()) status.add("hint", tracker.hint);
   if (input.stream.samples == 0) {
-    return status.raise(DiagnosticStatus::STALE, hint.empty() ? "no sample yet" : hint).status();
+    return status.raise(DiagnosticStatus::STALE, tracker.hint.empty() ? "no sample yet" : tracker.hint).status();
   }
   const double silence = now - input.newest_arrival;
   status.add("time since newest sample [s]", silence);
   if (silence > dropout_after_) status.raise(DiagnosticStatus::WARN, "no samples: the hand is held at rest");
-  if (hand.losses > last_hand_.losses) status.raise(DiagnosticStatus::WARN, "the hand was lost");
-  if (input.gate.dropouts > last_input_.gate.dropouts) status.raise(DiagnosticStatus::WARN, "dropouts");
+  if (tracker.hand.losses > last.hand.losses) status.raise(DiagnosticStatus::WARN, "the hand was lost");
+  if (input.gate.dropouts > last.input.gate.dropouts) status.raise(DiagnosticStatus::WARN, "dropouts");
   if (more_left_out) status.raise(DiagnosticStatus::WARN, "samples left out");
   return status.status();
 }

@@ -116,7 +116,9 @@ void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
       input, input.messages == 0 ? senders_of_tf() : std::vector<std::string>(), parameters_.stylus_frame);
   constexpr double patience = 10.0;  // [s]
   if (!hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(patience, "no sample of the stylus yet: " << hint);
-  message.status = diagnostics_.report(input, runner_.hand_counts(), loop, hint, loop_time());
+  const TrackerInput first{input, runner_.hand_counts(0), hint};
+  const TrackerInput second{second_input_.statistics(), runner_.hand_counts(1), ""};
+  message.status = diagnostics_.report(first, second, loop, loop_time());
   diagnostics_publisher_.publish(message);
 }
 

@@ -49,97 +49,19 @@ ros::Time ros_time(double t) {
   return now - ros::Duration(before - t);
 }
 
-/// The parameters that go with a source.
-std::vector<std::string> keys_of(const std::string& source) {
-  std::vector<std::string> keys{"source", "rate", "workbench_frame", "stylus_frame", "head_frame", "head",
-                                "interpupillary_distance", "dropout_after"};
-  const auto add = [&](const std::vector<std::string>& more) { keys.insert(keys.end(), more.begin(), more.end()); };
-  if (source == "fastrak") {
-    add({"offset", "tip", "even_stamps", "head_station"});
-    add(fastrak_keys());
-  } else if (source == "interactive_marker" || source == "joy") {
-    add({"start"});
-    if (source == "joy") add(joy_keys());
-  } else if (source == "operator") {
-    add({"offset", "tip", "scene", "seed", "speed", "loop", "pause"});
-  } else {
-    add({"offset", "tip", "file", "speed", "loop", "pause", "start", "grasp_from", "grasp_until"});
-  }
-  return keys;
-}
-
-int read_head_station(const YAML::Node& value, const std::string& where, const std::vector<int>& stations) {
-  const int station = read_integer(value, where, "head_station", 0, kFastrakStations);
-  if (station == 1 || (station > 0 && std::count(stations.begin(), stations.end(), station) == 0)) {
-    refuse(where, "head_station", std::to_string(station), "0, or one of stations but 1, which is the stylus");
-  }
-  return station;
-}
-
 }  // namespace
-
-TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::string& where) {
-  YAML::Node parameters = YAML::Clone(given);
-  TrackerParameters result;
-  take_truth_settings(parameters, where, result.truth);
-  if (parameters["source"]) {
-    result.source = read_choice(parameters["source"], where, "source", 
-                                {"motion_file", "scripted", "operator", "fastrak", "interactive_marker", "joy"});
-  }
-  check_keys(parameters, where, "", keys_of(result.source));
-  const bool is_motion = result.source == "motion_file" || result.source == "scripted";
-  result.even_stamps = result.source == "fastrak";
-  if (result.source == "fastrak") result.fastrak = read_fastrak_settings(parameters, where);
-  if (parameters["head_station"]) {
-    result.head_station = read_head_station(parameters["head_station"], where, result.fastrak.stations);
-    if (result.head_station > 0) result.X_BHead = RigidTransform::Identity();
-  }
-  if (result.source == "joy") result.joy = read_joy_settings(parameters, where);
-  constexpr double unbounded = std::numeric_limits<double>::max();
-  const auto number = [&](const char* key, const NumberRule& rule, double& value) {
-    if (parameters[key]) value = read_number(parameters[key], where, key, rule);
-  };
-  const auto text = [&](const char* key, std::string& value) {
-    if (parameters[key]) value = read_string(parameters[key], where, key);
-    if (value.empty()) refuse(where, key, "(nothing)", "a string that is not empty");
-  };
-  if (is_motion) text("file", result.file);
-  if (result.source == "operator") {
-    text("scene", result.scene);
-    if (parameters["seed"]) result.seed = read_integer(parameters["seed"], where, "seed", 0, 1000000000);
-  }
-  text("workbench_frame", result.workbench_frame);
-  text("stylus_frame", result.stylus_frame);
-  text("head_frame", result.head_frame);
-  number("rate", not_negative(), result.rate);
-  number("speed", between(0.01, 100.0), result.speed);
-  number("pause", not_negative(), result.pause);
-  number("grasp_from", not_negative(), result.grasp_from);
-  number("grasp_until", {result.grasp_from, unbounded, false, true}, result.grasp_until);
-  if (parameters["loop"]) result.loop = read_bool(parameters["loop"], where, "loop");
-  if (parameters["head"]) result.X_BHead = read_pose(parameters["head"], where, "head");
-  if (parameters["tip"]) {
-    const std::vector<double> tip = read_numbers(parameters["tip"], where, "tip", 3);
-    result.p_ST = Vector3d(tip[0], tip[1], tip[2]);
-  }
-  number("interpupillary_distance", between(0.0, 0.2), result.interpupillary_distance);
-  number("dropout_after", positive(), result.dropout_after);
-  if (parameters["even_stamps"]) result.even_stamps = read_bool(parameters["even_stamps"], where, "even_stamps");
-  if (parameters["offset"]) result.X_BT = read_pose(parameters["offset"], where, "offset");
-  if (parameters["start"]) {
-    if (parameters["offset"]) throw InputError(where + ": start: is not allowed beside offset: must be one of the two");
-    result.X_BS_first = read_pose(parameters["start"], where, "start");
-  }
-  return result;
-}
 
 TrackerDriver::TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
     : parameters_(read_tracker_parameters(private_parameters(private_node), private_node.getNamespace())),
       name_(private_node.getNamespace()),
       X_BT_(parameters_.X_BT),
       played_(parameters_.truth, parameters_.dropout_after),
-      joy_publisher_(node.advertise<sensor_msgs::Joy>("stylus/joy", 100)),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
+  joy_publishers_[1] = node.advertise<sensor_msgs::Joy>("stylus/joy", 100);
+  for (const int station : parameters_.fastrak.styluses) {
+    if (station == 1) continue;
+    joy_publishers_[station] = node.advertise<sensor_msgs::Joy>("stylus_" + std::to_string(station) + "/joy", 100);
+  }
   if (parameters_.source == "operator") {
     eyes_ = std::make_unique<OperatorEyes>(node);
     return;
@@ -228,17 +150,17 @@ void TrackerDriver::send(const StylusSample& sample, const ros::Time& stamp) {
   transforms_.sendTransform(
       {to_transform(X_BT_ * sample.X * Eigen::Translation3d(parameters_.p_ST), parameters_.workbench_frame, parameters_.stylus_frame, stamp),
        to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp)});
-  send_buttons(sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), false,
+  send_buttons(1, sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), false,
                stamp);
   ++sent_;
 }
 
-void TrackerDriver::send_buttons(bool grasp, bool next_tool, const ros::Time& stamp) {
+void TrackerDriver::send_buttons(int station, bool grasp, bool next_tool, const ros::Time& stamp) {
   sensor_msgs::Joy joy;
   joy.header.stamp = stamp;
-  joy.header.frame_id = parameters_.stylus_frame;
+  joy.header.frame_id = frame_of(station);
   joy.buttons = {grasp ? 1 : 0, next_tool ? 1 : 0};
-  joy_publisher_.publish(joy);
+  joy_publishers_.at(station).publish(joy);
 }
 
 void TrackerDriver::stream() {
@@ -263,8 +185,8 @@ StationStream& TrackerDriver::stream_of(int station) {
 
 void TrackerDriver::send(const StationSample& sample) {
   const TrueSample taken = stream_of(sample.station).take(sample);
-  if (sample.station == 1) {
-    send_buttons(sample.button, sample.next_tool, ros_time(sample.received));
+  if (joy_publishers_.count(sample.station) > 0) {
+    send_buttons(sample.station, sample.button, sample.next_tool, ros_time(sample.received));
   }
   if (!usable(taken.verdict)) {
     ++left_out_;
@@ -289,18 +211,21 @@ void TrackerDriver::send(const StationSample& sample) {
   ++sent_;
 }
 
+std::string TrackerDriver::frame_of(int station) const {
+  if (station == 1) return parameters_.stylus_frame;
+  if (station == parameters_.head_station) return parameters_.head_frame;
+  return parameters_.stylus_frame + "_" + std::to_string(station);
+}
+
 geometry_msgs::TransformStamped TrackerDriver::transform_of(int station, const RigidTransform& X_TS,
                                                             const ros::Time& stamp) const {
   RigidTransform X_BF = X_BT_ * X_TS;
-  std::string frame = parameters_.stylus_frame + "_" + std::to_string(station);
   if (station == 1) {
     X_BF = X_BF * Eigen::Translation3d(parameters_.p_ST);
-    frame = parameters_.stylus_frame;
   } else if (station == parameters_.head_station) {
     X_BF = X_BF * parameters_.X_BHead;
-    frame = parameters_.head_frame;
   }
-  return to_transform(X_BF, parameters_.workbench_frame, frame, stamp);
+  return to_transform(X_BF, parameters_.workbench_frame, frame_of(station), stamp);
 }
 
 void TrackerDriver::wait_until(double t) {

@@ -263,6 +263,8 @@ void WorkbenchPanel::set_damping() {
   request.stretch = families_[0].damping->value();
   request.bend = families_[1].damping->value();
   request.torsion = families_[2].damping->value();
+  const bool one_ratio = request.stretch == request.bend && request.bend == request.torsion;
+  request.law = one_ratio ? "" : "per_family";  // the modal law knows one ratio alone
   services_.call<SetForkDamping>("damping", node + "set_damping", request);
 }
 

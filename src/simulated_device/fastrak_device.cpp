@@ -57,7 +57,8 @@ StylusSample PlayedMotion::at(double t) const {
   return sample;
 }
 
-FastrakDevice::FastrakDevice(std::vector<PlayedMotion> motions) : motions_(std::move(motions)) {
+FastrakDevice::FastrakDevice(std::vector<PlayedMotion> motions, std::vector<int> switches)
+    : motions_(std::move(motions)), switches_(std::move(switches)) {
   if (motions_.empty() || motions_.size() > stations_.size()) {
     refuse("device", "motions", std::to_string(motions_.size()), "1, 2, 3 or 4: one for each station");
   }
@@ -146,8 +147,8 @@ std::string FastrakDevice::with_arguments(const std::string& command) {
     case 'l':
       return set_active(number, numbers);
     case 'e':
-      if (numbers.empty() || number != 1) return error(command, kFieldMissing);
-      switch_acts_ = numbers[0] != 0.0;
+      if (numbers.empty() || !has_switch(number)) return error(command, kFieldMissing);
+      if (number == 1) switch_acts_ = numbers[0] != 0.0;
       return "";
     case 'H':
       for (std::size_t i = 0; i < std::min<std::size_t>(3, numbers.size()); ++i) {
@@ -198,6 +199,10 @@ int FastrakDevice::next_active(int after) const {
   return after;
 }
 
+bool FastrakDevice::has_switch(int station) const {
+  return std::count(switches_.begin(), switches_.end(), station) > 0;
+}
+
 std::string FastrakDevice::record(int number) const {
   const Station& station = stations_[static_cast<std::size_t>(number - 1)];
   const StylusSample sample = motions_[static_cast<std::size_t>(number - 1)].at(t_);
@@ -206,7 +211,7 @@ std::string FastrakDevice::record(int number) const {
   record.p_TS = sample.X.translation();
   if (record.p_TS.dot(station.hemisphere) < 0.0) record.p_TS = -record.p_TS;  // cannot tell a point from its mirror
   record.q_TS = Quaterniond(sample.X.linear());
-  record.button = number == 1 && sample.button;
+  record.button = has_switch(number) && sample.button;
   return FastrakLayout(station.items, format_, units_).encode(record);
 }
 

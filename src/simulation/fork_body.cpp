@@ -28,17 +28,19 @@ RigidTransform shrunk(const RigidTransform& offset, double factor) {
 
 }  // namespace
 
-ForkBody::ForkBody(std::size_t index, HeldBody held, StepControl control, double t)
+ForkBody::ForkBody(std::size_t index, HeldBody held, StepControl control, double t, const RigidTransform& X_SH)
     : index_(index),
       held_(std::move(held)),
       control_(std::move(control)),
+      X_SH_(X_SH),
       hand_(RigidTransform::Identity()) {
   state_.t = t;
   state_.strain = held_.zero_state();
 }
 
 void ForkBody::set_hand(const MotionSegment& hand, double t) {
-  hand_ = hand;
+  const bool as_stylus = X_SH_.matrix() == RigidTransform::Identity().matrix();
+  hand_ = as_stylus ? hand : hand.of_frame(X_SH_);
   state_.t = t;
 }
 

@@ -12,7 +12,8 @@ namespace spring_workbench {
 /// asks, a handle that stays behind the hand as its proxy (doc/model.md, "When the coordinates cannot follow").
 class ForkBody final : public ToolHold {
  public:
-  ForkBody(std::size_t index, HeldBody held, StepControl control, double t);
+  /// `X_SH`: the fork's fixed end in the hand's stylus.
+  ForkBody(std::size_t index, HeldBody held, StepControl control, double t, const RigidTransform& X_SH);
 
   std::size_t index() const override { return index_; }
   MotionState object() const override;
@@ -27,15 +28,16 @@ class ForkBody final : public ToolHold {
   Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const override;
   void follow(double h, const MotionState& object, const Wrench& pull_W) override;
 
-  /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
   void set_hand(const MotionSegment& hand, double t) override;
   bool sleeps(double h, bool may_fall_asleep) override;
   void let_pass(double h) override { state_.t += h; }
 
+  Wrench spring_pull() const override;
+  void grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) override;
   /// Sets strain rates so that the object's twist comes as near as it can to this one.
   void take_twist(const Twist& V_WO_W) override;
   void set_springs(const ForkSettings& fork) override;
-  PerFamily calibrate(const ForkSettings& fork, double gravity) override;
+  PerFamily fitting_stiffness(const ForkSettings& fork, double gravity) const override;
   bool set_dofs(const ForkDofs& dofs, double switch_off_time) override;
   void set_step_control(const DynamicsSettings& settings) override { control_ = make_step_control(settings); }
   static StepControl make_step_control(const DynamicsSettings& settings);
@@ -53,7 +55,7 @@ class ForkBody final : public ToolHold {
 
   double time() const { return state_.t; }
   HandleForcing handle() const;        ///< the handle that the object sees, at present
-  RigidTransform hand_pose() const;    ///< the hand itself
+  RigidTransform hand_pose() const;    ///< the handle as the hand has it
   /// Acceleration of the object at present.
   MotionState object_with_acceleration() const;
 
@@ -87,6 +89,10 @@ class ForkBody final : public ToolHold {
   /// The seen handle's motion over a step that ends with this offset.
   MotionSegment seen_motion(double h, const RigidTransform& offset_end) const;
   StrainMatrix inverse_mass() const;
+  /// What the rod does to the object at its centre, world axes: its change of momentum less gravity and contact.
+  Wrench pull() const;
+  /// The strain with which the springs do `pull_W` to the object, turned as `R_WO`; the present one where none is found.
+  StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const;
   /// The strain with the object at `X_WO`, `h` [s] after the last; `handle` the hand itself.
   void fit(const HandleForcing& handle, const RigidTransform& X_WO, double h);
   /// Energy added (see energy_added()) by a step of `h` from `begin` to `end` along the handle's `motion`.
@@ -98,7 +104,8 @@ class ForkBody final : public ToolHold {
   std::size_t index_;
   HeldBody held_;
   StepControl control_;
-  MotionSegment hand_;
+  RigidTransform X_SH_;  ///< from one grip to the next
+  MotionSegment hand_;   ///< of the handle as the hand has it
   State state_, remembered_;
   StepEstimates estimates_;
   /// What a sleeper's rest rests on.

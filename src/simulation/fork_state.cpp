@@ -6,17 +6,8 @@ namespace spring_workbench {
 
 void ForkBody::set_springs(const ForkSettings& fork) { held_.set_springs(fork); }
 
-PerFamily ForkBody::calibrate(const ForkSettings& fork, double gravity) {
-  const ForkCalibration found = calibrated_fork(fork.shape, length(), held_.body(), gravity);
-  const PerFamily& ratio = fork.damping_ratio;
-  const PerFamily& c = found.damping;
-  if (fork.damping_law == "modal") {
-    held_.set_springs_with_modal_damping(found.stiffness, ratio.stretch);
-  } else {
-    held_.set_springs_and_dampers(found.stiffness,
-                                  {ratio.stretch * c.stretch, ratio.bend * c.bend, ratio.torsion * c.torsion});
-  }
-  return found.stiffness;
+PerFamily ForkBody::fitting_stiffness(const ForkSettings& fork, double gravity) const {
+  return calibrated_stiffness(fork.shape, length(), held_.body(), gravity);
 }
 
 bool ForkBody::set_dofs(const ForkDofs& dofs, double switch_off_time) {
@@ -31,29 +22,32 @@ StepControl ForkBody::make_step_control(const DynamicsSettings& settings) {
 
 double ForkBody::elastic_energy() const { return held_.elastic_energy(state_.t, state_.strain); }
 
+Wrench ForkBody::pull() const {
+  if (state_.pull_W) return *state_.pull_W;
+  const MotionState o = object_with_acceleration();
+  const Matrix3d I_W = o.X.linear() * held_.body().inertia_O * o.X.linear().transpose();
+  const Vector3d& w = o.velocity.angular;
+  const Wrench& contact = held_.external_wrench();
+  return {held_.body().mass * (o.acceleration.linear + held_.gravity() * Vector3d::UnitZ()) - contact.force,
+          I_W * o.acceleration.angular + w.cross(I_W * w) - contact.moment};
+}
+
 void ForkBody::describe(bool massless, ToolState& f) const {
   const StrainState full = held_.full_state(state_.t, state_.strain);
   const ShapeModel& shape = held_.shape();
   f.strain = full.q;
+  f.X_WH = hand_pose();
   f.X_WH_seen = handle().X_WH;
   f.stretch = shape.extension(full.q);
   f.torsion = shape.twist(full.q);
   const RigidTransform X_HE_bent = shape.section(full.q, shape.length());
   f.bend = X_HE_bent.translation().head<2>();
   f.X_WE = f.X_WH_seen * X_HE_bent;
-  const MotionState o = object_with_acceleration();
+  const MotionState o = object();
   f.elastic_energy = elastic_energy();
   if (massless) return;
   f.kinetic_energy = held_.kinetic_energy(o.velocity, o.X.linear());
-  // What the rod does to the object: its change of momentum less gravity and contact.
-  const Matrix3d I_W = o.X.linear() * held_.body().inertia_O * o.X.linear().transpose();
-  const Wrench& contact = held_.external_wrench();
-  Vector3d force = held_.body().mass * (o.acceleration.linear + held_.gravity() * Vector3d::UnitZ()) - contact.force;
-  Vector3d moment = I_W * o.acceleration.angular + o.velocity.angular.cross(I_W * o.velocity.angular) - contact.moment;
-  if (state_.pull_W) {
-    force = state_.pull_W->force;
-    moment = state_.pull_W->moment;
-  }
+  const auto [force, moment] = pull();
   f.tip_wrench_W.force = force;
   f.tip_wrench_W.moment = moment + (o.X.translation() - f.X_WE.translation()).cross(force);
   const Vector3d at_handle = moment + (o.X.translation() - f.X_WH_seen.translation()).cross(force);

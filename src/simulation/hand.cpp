@@ -1,21 +1,14 @@
 #include "hand.h"
 
 #include <algorithm>
-#include <limits>
-#include <utility>
 
-#include "fork_body.h"
-#include "spring_body.h"
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench {
 namespace {
 
-constexpr double never = std::numeric_limits<double>::infinity();
 constexpr double least_length = 1e-4;  ///< [m] of a rigid tool
-constexpr double point_mass_radius = 1e-2;  ///< of the fork's length: radius of gyration of a point mass
-constexpr double on_the_axis = 1e-3;        ///< of the fork's length; a point mass so near to the fork's axis cannot twist it
 
 }  // namespace
 
@@ -23,37 +16,18 @@ Hand::Hand(const Scene& scene, SimulationSettings& settings, Workbench& workbenc
     : scene_(scene),
       settings_(settings),
       workbench_(workbench),
+      maker_(scene, settings, workbench),
       tool_(tool),
-      track_(settings.dropout_after),
-      X_WH_(scene.X_WH_start),
+      stylus_(settings.dropout_after, scene.X_WH_start),
       ray_length_(longest_ray) {}
 
 void Hand::reset() {
-  track_.clear();
-  buttons_.clear();
-  X_WH_ = scene_.X_WH_start;
+  stylus_.reset();
   selection_ = GraspSelection();
   grasped_by_name_ = false;
   hold_.reset();
   probe_.reset();
   pushes_ = false;
-}
-
-double Hand::next_sample(double now) {
-  if (track_.empty()) return never;
-  return known(now) ? track_.segment(now).end() : track_.begin();
-}
-
-double Hand::next_button(double now) const {
-  return !buttons_.empty() && buttons_.front().t > now + same_time ? buttons_.front().t : never;
-}
-
-void Hand::follow(double now) {
-  if (known(now)) X_WH_ = track_.segment(now).at(now).X;
-}
-
-void Hand::forget_before(double now) {
-  if (!track_.empty() && track_.begin() < now) track_.forget_before(now);
 }
 
 double Hand::reach() const {
@@ -62,20 +36,18 @@ double Hand::reach() const {
 }
 
 void Hand::apply_buttons(double now) {
-  if (!settings_.grasp.object.empty() && !grasped_by_name_ && known(now)) {
+  if (!settings_.grasp.object.empty() && !grasped_by_name_ && stylus_.known(now)) {
     const std::optional<std::size_t> object = workbench_.find(settings_.grasp.object);
     if (object && !workbench_.states()[*object].held && can_hold(tool_)) {
       grasp(*object, settings_.grasp.X_OE, settings_.grasp.start_follow, now);
     }
     grasped_by_name_ = true;
   }
-  while (!buttons_.empty() && buttons_.front().t <= now + same_time) {
-    const Press press = buttons_.front().press;
-    buttons_.pop_front();
-    if (press == Press::next_tool) {
+  while (const auto press = stylus_.take_press(now)) {
+    if (*press == Stylus::Press::next_tool) {
       select_tool(next_tool(tool_, hold_ != nullptr), now);
     } else if (settings_.grasp.object.empty()) {
-      apply_grasp_button(press == Press::grasp, now);
+      apply_grasp_button(*press == Stylus::Press::grasp, now);
     }
   }
 }
@@ -88,73 +60,51 @@ void Hand::apply_grasp_button(bool pressed, double now) {
   }
 }
 
-ForkDofs Hand::possible_dofs(std::size_t object, const RigidTransform& X_OE) const {
-  if (workbench_.massless(object) || tool_ != Tool::spring_fork) return {false, false, false};
-  ForkDofs dofs = settings_.fork.dofs;
-  const Vector3d lever = X_OE.linear().col(2).cross(X_OE.translation());
-  const bool point_mass = settings_.dynamics.inertia == "point_mass";
-  if (point_mass && lever.norm() < on_the_axis * settings_.fork.length) dofs.torsion = false;
-  return dofs;
+Grasp Hand::grasp_of(std::size_t object) const {
+  const RigidTransform X_WE = stylus_.X_WS() * Eigen::Translation3d(0.0, 0.0, reach());
+  return {tool_, object, stylus_.X_WS(), workbench_.states()[object].X_WO.inverse() * X_WE, reach(), reach()};
 }
 
-std::unique_ptr<ToolHold> Hand::make_fork(std::size_t object, const RigidTransform& X_OE, double length, double now) {
-  const Body& b = workbench_.body(object);
-  BodyInertia inertia{b.mass_properties.mass, b.mass_properties.inertia_O, X_OE};
-  if (settings_.dynamics.inertia == "point_mass") {
-    // The paper's I = r² m: all of the mass at its centre. A small radius keeps the rotation about that point defined.
-    const double radius = point_mass_radius * settings_.fork.length;
-    inertia.inertia_O = inertia.mass * radius * radius * Matrix3d::Identity();
-  }
-  const bool massless = workbench_.massless(object);
-  if (massless) {
-    inertia.mass = 1.0;  // of no effect: nothing bends a fork that carries nothing
-    inertia.inertia_O.setIdentity();
-  }
-  HeldBody held_body(make_shape_model(settings_.fork.shape, length), inertia, scene_.gravity);
-  held_body.set_springs(settings_.fork);
-  const StrainState zero{StrainVector::Zero(held_body.shape().size()), StrainVector::Zero(held_body.shape().size())};
-  X_OE_ = X_OE;
-  held_body.set_dofs(possible_dofs(object, X_OE), now, settings_.fork.switch_off_time, zero);
-  return std::make_unique<ForkBody>(workbench_.scene_index(object), std::move(held_body),
-                                    ForkBody::make_step_control(settings_.dynamics), now);
+void Hand::fit_size(Grasp& grasp) const {
+  if (tool_ != Tool::spring_fork || workbench_.massless(grasp.object)) return;
+  const MassProperties& mass = workbench_.body(grasp.object).mass_properties;
+  grasp.length = calibrated_length({mass.mass, mass.inertia_O, RigidTransform::Identity()});
 }
 
-std::unique_ptr<ToolHold> Hand::make_hold(std::size_t object, const RigidTransform& X_OE, double length, double now) {
-  const RigidTransform& X_WO = workbench_.states()[object].X_WO;
-  std::unique_ptr<ToolHold> hold;
-  if (tool_ == Tool::spring && !workbench_.massless(object)) {
-    const double rest_length = std::max((X_WO.translation() - X_WH_.translation()).norm(), least_length);
-    hold = std::make_unique<SpringBody>(workbench_.scene_index(object), workbench_.body(object), scene_.gravity, X_WO,
-                                        rest_length, settings_.fork);
-  } else {
-    hold = make_fork(object, X_OE, length, now);
-  }
-  hold->set_hand(track_.segment(now), now);
-  return hold;
-}
-
-RigidTransform Hand::tip_in_object(std::size_t object, double length) const {
-  return workbench_.states()[object].X_WO.inverse() * (X_WH_ * Eigen::Translation3d(0.0, 0.0, length));
+void Hand::make_hold(double now) {
+  hold_ = maker_.make(grasp_, now);
+  hold_->set_hand(stylus_.motion(now), now);
 }
 
 bool Hand::calibrate_hold() {
   if (!hold_ || tool_ == Tool::direct || tool_ == Tool::ray) return false;
-  if (!workbench_.massless(held_)) settings_.fork.stiffness = hold_->calibrate(settings_.fork, scene_.gravity);
+  if (workbench_.massless(grasp_.object)) return true;
+  ForkSettings& fork = settings_.fork;
+  fork.stiffness = hold_->fitting_stiffness(fork, scene_.gravity);
+  const double ratio = fork.damping_ratio.stretch;
+  if (fork.damping_ratio == PerFamily{ratio, ratio, ratio}) fork.damping_law = "modal";
+  hold_->set_springs(fork);
   return true;
 }
 
 void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now) {
-  const MassProperties& mass = workbench_.body(object).mass_properties;
-  if (settings_.grasp.calibrate && follow_hand && mass.mass > 0.0) {  // the object comes to the tip, wherever that is
-    settings_.fork.length = calibrated_length({mass.mass, mass.inertia_O, RigidTransform::Identity()});
-  }
-  held_ = object;
-  hold_ = make_hold(object, X_OE ? *X_OE : tip_in_object(object, reach()), reach(), now);
+  grasp_ = grasp_of(object);
+  if (X_OE) grasp_.X_OE = *X_OE;
+  if (settings_.grasp.calibrate) fit_size(grasp_);
+  make_hold(now);
   if (settings_.grasp.calibrate) calibrate_hold();
   // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the hand's.
   if (!follow_hand && dynamic()) hold_->take_twist(workbench_.states()[object].V_WO_W);
   workbench_.hold(object, Workbench::Grip::grasp, now);
   workbench_.take_state(object, hold_->object());
+}
+
+void Hand::keep_twist(const Twist& V_WO_W) {
+  if (workbench_.massless(grasp_.object)) return;
+  // With every family on, a fork can take any twist; what is off then comes to rest without a jump.
+  hold_->set_dofs({true, true, true}, settings_.fork.switch_off_time);
+  hold_->take_twist(V_WO_W);
+  hold_->set_dofs(maker_.possible_dofs(grasp_), settings_.fork.switch_off_time);
 }
 
 void Hand::select_tool(Tool tool, double now) {
@@ -163,53 +113,56 @@ void Hand::select_tool(Tool tool, double now) {
   leave_with_probe(now);
   if (!can_hold(tool)) let_go(true, now);
   if (!hold_) return;
-  const Vector3d centre_H = X_WH_.inverse() * workbench_.states()[held_].X_WO.translation();
-  ray_length_ = std::max(centre_H.z(), least_length);
-  const Twist before = workbench_.states()[held_].V_WO_W;
-  hold_ = make_hold(held_, tip_in_object(held_, reach()), reach(), now);
+  const Twist before = object().V_WO_W;
+  ray_length_ = std::max((stylus_.X_WS().inverse() * object().X_WO.translation()).z(), least_length);
+  grasp_ = grasp_of(grasp_.object);
+  if (settings_.grasp.calibrate) fit_size(grasp_);
+  make_hold(now);
   if (settings_.grasp.calibrate) calibrate_hold();
-  if (!workbench_.massless(held_)) {
-    // With every family on, a fork can take any twist; what is off then comes to rest without a jump.
-    hold_->set_dofs({true, true, true}, settings_.fork.switch_off_time);
-    hold_->take_twist(before);
-    hold_->set_dofs(possible_dofs(held_, X_OE_), settings_.fork.switch_off_time);
-  }
-  workbench_.take_state(held_, hold_->object());
+  keep_twist(before);
+  workbench_.take_state(grasp_.object, hold_->object());
+}
+
+void Hand::take_over(const Wrench& pull_W, double now) {
+  hold_->set_hand(stylus_.motion(now), now);
+  hold_->grip_anew(object().X_WO, pull_W);
+  hold_->take_twist(object().V_WO_W);
 }
 
 void Hand::let_go(bool thrown, double now) {
   if (!hold_) return;
-  workbench_.let_go(held_, Workbench::Grip::grasp, thrown, now);
+  workbench_.let_go(grasp_.object, Workbench::Grip::grasp, thrown, now);
   hold_.reset();
 }
 
 std::optional<std::size_t> Hand::carried() const {
-  return hold_ || pushes_ ? std::optional<std::size_t>(held_) : std::nullopt;
+  return hold_ || pushes_ ? std::optional<std::size_t>(grasp_.object) : std::nullopt;
 }
 
 CoupledTool* Hand::begin_shared_step(double now) {
   moved_ = true;
-  workbench_.state(held_).asleep = false;
+  if (hold_) energy_added_before_ = hold_->energy_added();
+  workbench_.state(grasp_.object).asleep = false;
   if (probe_) {
-    probe_->set_hand(track_.segment(now), now);
+    probe_->set_hand(stylus_.motion(now), now);
     return probe_.get();
   }
-  hold_->set_hand(track_.segment(now), now);
+  hold_->set_hand(stylus_.motion(now), now);
   return hold_.get();
 }
 
 SteppedBody* Hand::begin_step(double now, double h) {
-  hold_->set_hand(track_.segment(now), now);
+  hold_->set_hand(stylus_.motion(now), now);
   energy_added_before_ = hold_->energy_added();
-  BodyState& o = workbench_.state(held_);
+  BodyState& o = workbench_.state(grasp_.object);
   const bool was_asleep = o.asleep;
-  o.asleep = hold_->sleeps(h, workbench_.rests(held_));
+  o.asleep = hold_->sleeps(h, workbench_.rests(grasp_.object));
   if (o.asleep) {
     hold_->let_pass(h);
     o.V_WO_W = Twist();
     return nullptr;
   }
-  if (was_asleep) workbench_.wake_what_lies_on(held_, now);
+  if (was_asleep) workbench_.wake_what_lies_on(grasp_.object, now);
   moved_ = true;
   return hold_.get();
 }
@@ -227,12 +180,12 @@ void Hand::end_step(AdvanceReport& report) {
 }
 
 ForkDofs Hand::families_run() const {
-  return hold_ && moved_ ? possible_dofs(held_, X_OE_) : ForkDofs{false, false, false};
+  return hold_ && moved_ ? maker_.possible_dofs(grasp_) : ForkDofs{false, false, false};
 }
 
 void Hand::change_dofs(ChangeReport& change) {
-  if (!hold_ || workbench_.massless(held_) || tool_ != Tool::spring_fork) return;
-  if (hold_->set_dofs(possible_dofs(held_, X_OE_), settings_.fork.switch_off_time)) {
+  if (!hold_ || workbench_.massless(grasp_.object) || tool_ != Tool::spring_fork) return;
+  if (hold_->set_dofs(maker_.possible_dofs(grasp_), settings_.fork.switch_off_time)) {
     change.message += "; the strain of what went off returns to zero with a time constant of " +
                       std::to_string(settings_.fork.switch_off_time) + " s and gives back its energy";
   }
@@ -247,9 +200,18 @@ void Hand::change_integrator() {
   if (hold_) hold_->set_step_control(settings_.dynamics);
 }
 
-bool Hand::calibrate(ChangeReport& change) {
+bool Hand::calibrate(ChangeReport& change, double now) {
+  if (!hold_) return false;
+  const BodyState before = object();
+  const Wrench pull = hold_->spring_pull();
+  if (tool_ == Tool::spring_fork) {
+    fit_size(grasp_);
+    make_hold(now);
+  }
   if (!calibrate_hold()) return false;
-  change.message = "calibrated for " + workbench_.states()[held_].name;
+  hold_->grip_anew(before.X_WO, pull);
+  keep_twist(before.V_WO_W);
+  change.message = "calibrated for " + before.name;
   return true;
 }
 
@@ -260,7 +222,7 @@ double Hand::elastic_energy() const {
 
 ToolState Hand::state() const {
   ToolState f;
-  f.present = !track_.empty();
+  f.present = !stylus_.track().empty();
   f.tool = name_of(tool_);
   f.shape = settings_.fork.shape;
   f.integrator = settings_.dynamics.integrator;
@@ -269,15 +231,13 @@ ToolState Hand::state() const {
   f.strain = StrainVector::Zero(make_shape_model(f.shape, f.length)->size());
   f.stiffness = settings_.fork.stiffness;
   f.damping_ratio = settings_.fork.damping_ratio;
-  f.X_WH = f.X_WH_seen = X_WH_;
-  RigidTransform X_HE = RigidTransform::Identity();
-  X_HE.translation().z() = f.length;
-  f.X_WE = X_WH_ * X_HE;
+  f.X_WS = f.X_WH = f.X_WH_seen = stylus_.X_WS();
+  f.X_WE = stylus_.X_WS() * Eigen::Translation3d(0.0, 0.0, f.length);
   if (hold_) {
-    f.held_object = workbench_.states()[held_].name;
-    hold_->describe(workbench_.massless(held_), f);
+    f.held_object = object().name;
+    hold_->describe(workbench_.massless(grasp_.object), f);
   }
-  if (probe_) probe_->describe(X_WH_, f);
+  if (probe_) probe_->describe(stylus_.X_WS(), f);
   f.force_scale = scene_.force_scale;
   f.weight = f.tip_wrench_W.force.z() / weighing_gravity(scene_.gravity);
   f.torque = f.tip_wrench_W.moment.dot(f.X_WE.linear().col(2));

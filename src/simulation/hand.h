@@ -1,44 +1,30 @@
 #pragma once
 
-#include <deque>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "hold_maker.h"
 #include "probe.h"
 #include "spring_workbench/tools/grasp_selection.h"
-#include "spring_workbench/tools/tool.h"
-#include "tool_hold.h"
+#include "stylus.h"
 #include "workbench.h"
 
 namespace spring_workbench {
 
-constexpr double same_time = 1e-9;   ///< [s]; stamps nearer to each other are one
 constexpr double longest_ray = 2.0;  ///< [m]
 
-/// One stylus: its motion and button, the tool in it, and what that holds.
+/// One hand: a stylus, the tool in it, and what that holds.
 class Hand {
  public:
   /// Keeps references to scene, settings (changed by calibration) and workbench.
   Hand(const Scene& scene, SimulationSettings& settings, Workbench& workbench, Tool tool);
 
-  /// Forgets samples and buttons, holds nothing. The workbench is reset beside it.
+  /// Forgets what the stylus told, holds nothing. The workbench is reset beside it.
   void reset();
 
-  bool push(const PoseSample& sample) { return track_.push(sample); }
-  void push_button(double t, bool pressed) { buttons_.push_back({t, pressed ? Press::grasp : Press::release}); }
-  void push_next_tool(double t) { buttons_.push_back({t, Press::next_tool}); }
-  const PoseTrack& track() const { return track_; }
-  /// Whether a sample says where the hand is at time `now` [s].
-  bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
-  /// The time after `now` at which the next piece of the motion begins; infinity where there is none.
-  double next_sample(double now);
-  /// The time after `now` of the next button edge; infinity where there is none.
-  double next_button(double now) const;
-
-  /// The pose at `now`, where it is known.
-  void follow(double now);
-  void forget_before(double now);
+  Stylus& stylus() { return stylus_; }
+  const Stylus& stylus() const { return stylus_; }
 
   /// What is the tip in (highlight), or the probe on?
   void select(double now);
@@ -58,13 +44,17 @@ class Hand {
 
   /// Another tool, also while holding: the object goes on from its pose and twist, the new tool's strain is zero.
   void select_tool(Tool tool, double now);
+  /// What the springs do to what is held, at its centre, world axes.
+  Wrench spring_pull() const { return hold_->spring_pull(); }
+  /// The only tool left on what is held does from now on what `pull_W` says; the object does not move.
+  void take_over(const Wrench& pull_W, double now);
 
   // Changes of the settings reach what is held. The settings are changed before.
   void change_dofs(ChangeReport& change);
   void change_springs();
   void change_integrator();
-  /// Springs and dampers from the held object and its grasp. False when nothing is held on a tool with springs.
-  bool calibrate(ChangeReport& change);
+  /// Size, springs and dampers from the held object and its grasp. False when nothing is held on a tool with springs.
+  bool calibrate(ChangeReport& change, double now);
 
   double elastic_energy() const;
   /// The families that ran since the last call of begin_call().
@@ -73,11 +63,6 @@ class Hand {
   ToolState state() const;
 
  private:
-  enum class Press { grasp, release, next_tool };
-  struct ButtonEvent {
-    double t;
-    Press press;
-  };
   void apply_grasp_button(bool pressed, double now);
   /// The nearest thing within `reach` [m] in front of the hand. `passes(body)`: not in the way.
   template <typename Passes>
@@ -87,34 +72,34 @@ class Hand {
   void leave_with_probe(double now);
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now);
   bool dynamic() const { return hold_ && hold_->coordinates() > 0; }  ///< there is something for an integrator to do
-  /// The families that the object can move: of those switched on, the ones in which it has an inertia.
-  ForkDofs possible_dofs(std::size_t object, const RigidTransform& X_OE) const;
-  /// A hold on the object at its pose, free of strain; `X_OE`: the tip in the object.
-  std::unique_ptr<ToolHold> make_hold(std::size_t object, const RigidTransform& X_OE, double length, double now);
-  std::unique_ptr<ToolHold> make_fork(std::size_t object, const RigidTransform& X_OE, double length, double now);
+  const BodyState& object() const { return workbench_.states()[grasp_.object]; }  ///< that is held, or pushed
   /// How far the tip is in front of the hand, along z [m].
   double reach() const;
-  RigidTransform tip_in_object(std::size_t object, double length) const;
+  /// The grip on the object where it is, for a tool that has its usual size.
+  Grasp grasp_of(std::size_t object) const;
+  /// The length of the fork's spring part from the object's size, where it has mass.
+  void fit_size(Grasp& grasp) const;
+  void make_hold(double now);
   /// Springs and dampers for what is held; the settings tell the stiffness. False where the tool has no springs.
   bool calibrate_hold();
+  /// The held object goes on with this twist, whatever families are off.
+  void keep_twist(const Twist& V_WO_W);
 
   const Scene& scene_;
   SimulationSettings& settings_;
   Workbench& workbench_;
+  HoldMaker maker_;
   Tool tool_;
-  PoseTrack track_;
-  std::deque<ButtonEvent> buttons_;
-  RigidTransform X_WH_;
+  Stylus stylus_;
   double ray_length_;  ///< to what the ray hits [m]
   GraspSelection selection_;
   bool grasped_by_name_ = false;
-  std::unique_ptr<ToolHold> hold_;       ///< while something is held
-  std::unique_ptr<Probe> probe_;         ///< while the probe touches something
-  bool pushes_ = false;                  ///< what the probe touches can move, and is held_
-  RigidTransform X_OE_;                  ///< its grasp
-  bool moved_ = false;                   ///< what is held, in this call of advance
+  std::unique_ptr<ToolHold> hold_;  ///< while something is held
+  std::unique_ptr<Probe> probe_;    ///< while the probe touches something
+  bool pushes_ = false;             ///< what the probe touches can move, and is the grip's object
+  Grasp grasp_{};                     ///< of what is held
+  bool moved_ = false;              ///< what is held, in this call of advance
   double energy_added_before_ = 0.0;
-  std::size_t held_ = 0;            ///< in the workbench
 };
 
 }  // namespace spring_workbench

@@ -12,7 +12,7 @@ template <typename Passes>
 InFront Hand::look_ahead(double reach, Passes&& passes) const {
   InFront found{reach, nullptr, nullptr};
   const auto look = [&](const Body& body, const RigidTransform& X_WO) {
-    const RigidTransform X_OH = X_WO.inverse() * X_WH_;
+    const RigidTransform X_OH = X_WO.inverse() * stylus_.X_WS();
     const auto at = distance_along_ray(body, X_OH.translation(), X_OH.linear().col(2), found.distance);
     if (at && !passes(body, X_OH)) found = {*at, &body, &body.material};
   };
@@ -29,7 +29,7 @@ void Hand::select(double now) {
     selection_.set_inserted(std::nullopt);
     return touch_with_probe(now);
   }
-  if (hold_ || !known(now)) return selection_.set_inserted(std::nullopt);
+  if (hold_ || !stylus_.known(now)) return selection_.set_inserted(std::nullopt);
   select_pierced();
 }
 
@@ -43,7 +43,7 @@ void Hand::select_pierced() {
     return !picks && contains(body, X_OH * Vector3d(0.0, 0.0, reach()));
   });
   ray_length_ = front.distance;
-  const Vector3d tip = X_WH_ * Vector3d(0.0, 0.0, reach());
+  const Vector3d tip = stylus_.X_WS() * Vector3d(0.0, 0.0, reach());
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < workbench_.states().size(); ++i) {
     const RigidTransform& X_WO = workbench_.states()[i].X_WO;
@@ -60,10 +60,10 @@ void Hand::select_pierced() {
 }
 
 void Hand::touch_with_probe(double now) {
-  if (!known(now)) return leave_with_probe(now);
+  if (!stylus_.known(now)) return leave_with_probe(now);
   const double length = settings_.fork.length;
   InFront front = look_ahead(length, [](const Body&, const RigidTransform&) { return false; });
-  const double down = -X_WH_.linear()(2, 2), height = X_WH_.translation().z() - scene_.bench_height;
+  const double down = -stylus_.X_WS().linear()(2, 2), height = stylus_.X_WS().translation().z() - scene_.bench_height;
   if (height > 0.0 && down * front.distance > height) front = {height / down, nullptr, &scene_.bench_material};
   const bool touches = front.material != nullptr && front.distance > 0.0;  // at 0 the hand itself is inside
   if (probe_ && (!touches || front.body != probe_->body())) leave_with_probe(now);
@@ -74,13 +74,13 @@ void Hand::touch_with_probe(double now) {
     probe_ = std::make_unique<Probe>(length, settings_.fork, front);
     const std::optional<std::size_t> object = front.body != nullptr ? workbench_.find(front.body->name) : std::nullopt;
     pushes_ = object && !workbench_.massless(*object);
-    if (pushes_) workbench_.hold(held_ = *object, Workbench::Grip::push, now);
+    if (pushes_) workbench_.hold(grasp_.object = *object, Workbench::Grip::push, now);
   }
   if (!pushes_) probe_->press();
 }
 
 void Hand::leave_with_probe(double now) {
-  if (pushes_) workbench_.let_go(held_, Workbench::Grip::push, true, now);
+  if (pushes_) workbench_.let_go(grasp_.object, Workbench::Grip::push, true, now);
   pushes_ = false;
   probe_.reset();
 }

@@ -149,7 +149,7 @@ std::vector<Field> fork_fields() {
 
 std::vector<Field> grasp_fields() {
   return {
-      flag("calibrate", "springs and dampers from the object and its grasp, on every grasp; with start.follow the length too",
+      flag("calibrate", "size, springs and dampers of the tool from the object and its grasp, on every grasp",
            [](S& s) -> bool& { return s.grasp.calibrate; }),
       by_default("none: grasped by button", name("grasp.object", "the name of a movable object of the scene",
                                                  "this object is held from the first sample to the last",

@@ -72,6 +72,10 @@ struct Simulation::Impl {
   void start(double t_end);
   void advance(double t_end, AdvanceReport& report);
   void act();
+  /// Does `change`, by which a hand may let go. Where it leaves another one alone with what both held, that takes over.
+  template <typename Change>
+  void with_handover(Change&& change);
+  std::map<std::size_t, std::vector<Hand*>> holders();
   double end_of_step(double t_end);
   void step(double end, AdvanceReport& report);
   double elastic_energy() const;
@@ -81,7 +85,7 @@ struct Simulation::Impl {
 double Simulation::Impl::first_sample() const {
   double first = std::numeric_limits<double>::infinity();
   for (const Hand& hand : hands) {
-    if (!hand.track().empty()) first = std::min(first, hand.track().begin());
+    if (!hand.stylus().track().empty()) first = std::min(first, hand.stylus().track().begin());
   }
   return first;
 }
@@ -90,24 +94,54 @@ void Simulation::Impl::start(double t_end) {
   if (started) return;
   now = std::min(first_sample(), t_end);
   started = true;
-  for (Hand& hand : hands) hand.follow(now);
+  for (Hand& hand : hands) hand.stylus().follow(now);
+}
+
+/// Who holds what, by object.
+std::map<std::size_t, std::vector<Hand*>> Simulation::Impl::holders() {
+  std::map<std::size_t, std::vector<Hand*>> holders;
+  for (Hand& hand : hands) {
+    if (hand.holds()) holders[*hand.carried()].push_back(&hand);
+  }
+  return holders;
+}
+
+template <typename Change>
+void Simulation::Impl::with_handover(Change&& change) {
+  if (std::count_if(hands.begin(), hands.end(), [](const Hand& hand) { return hand.holds(); }) < 2) return change();
+  std::map<std::size_t, Wrench> shared;  // what all springs together do to what several hands hold
+  for (const auto& [object, of_object] : holders()) {
+    if (of_object.size() < 2) continue;
+    for (const Hand* hand : of_object) {
+      const Wrench pull = hand->spring_pull();
+      shared[object].force += pull.force;
+      shared[object].moment += pull.moment;
+    }
+  }
+  change();
+  for (const auto& [object, of_object] : holders()) {
+    const auto both = shared.find(object);
+    if (both != shared.end() && of_object.size() == 1) of_object.front()->take_over(both->second, now);
+  }
 }
 
 /// Highlights, grasps and releases.
 void Simulation::Impl::act() {
   workbench.clear_highlights();
-  for (Hand& hand : hands) {
-    hand.select(now);
-    hand.apply_buttons(now);
-  }
+  with_handover([&] {
+    for (Hand& hand : hands) {
+      hand.select(now);
+      hand.apply_buttons(now);
+    }
+  });
 }
 
 /// Where a step from now ends: at the next sample or button edge, or sooner.
 double Simulation::Impl::end_of_step(double t_end) {
   double next_sample = std::numeric_limits<double>::infinity(), next_button = next_sample;
   for (Hand& hand : hands) {
-    next_sample = std::min(next_sample, hand.next_sample(now));
-    next_button = std::min(next_button, hand.next_button(now));
+    next_sample = std::min(next_sample, hand.stylus().next_sample(now));
+    next_button = std::min(next_button, hand.stylus().next_button(now));
   }
   // Equal steps up to the sample or the end rather than a last small one.
   const double stretch_end = std::min(t_end, next_sample);
@@ -142,8 +176,8 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
   for (Hand& hand : hands) hand.end_step(report);
   now = end;
   for (Hand& hand : hands) {
-    hand.follow(now);
-    hand.forget_before(now);
+    hand.stylus().follow(now);
+    hand.stylus().forget_before(now);
   }
 }
 
@@ -200,16 +234,20 @@ double Simulation::time() const {
   return impl_->started || !std::isfinite(first) ? impl_->now : first;
 }
 
-bool Simulation::push_stylus(const PoseSample& sample, std::size_t hand) { return impl_->hand(hand).push(sample); }
+bool Simulation::push_stylus(const PoseSample& sample, std::size_t hand) { return impl_->hand(hand).stylus().push(sample); }
 
-void Simulation::push_button(double t, bool pressed, std::size_t hand) { impl_->hand(hand).push_button(t, pressed); }
+void Simulation::push_button(double t, bool pressed, std::size_t hand) {
+  impl_->hand(hand).stylus().push(t, pressed ? Stylus::Press::grasp : Stylus::Press::release);
+}
 
-void Simulation::push_next_tool(double t, std::size_t hand) { impl_->hand(hand).push_next_tool(t); }
+void Simulation::push_next_tool(double t, std::size_t hand) {
+  impl_->hand(hand).stylus().push(t, Stylus::Press::next_tool);
+}
 
 double Simulation::newest_sample() const {
   double newest = -std::numeric_limits<double>::infinity();
   for (const Hand& hand : impl_->hands) {
-    if (!hand.track().empty()) newest = std::max(newest, hand.track().end());
+    if (!hand.stylus().track().empty()) newest = std::max(newest, hand.stylus().track().end());
   }
   return std::isfinite(newest) ? newest : time();
 }
@@ -245,7 +283,7 @@ bool Simulation::release() {
 bool Simulation::release(std::size_t hand) {
   Hand& of = impl_->hand(hand);
   const bool released = of.holds();
-  of.let_go(impl_->settings.grasp.release == "thrown", impl_->now);
+  impl_->with_handover([&] { of.let_go(impl_->settings.grasp.release == "thrown", impl_->now); });
   return released;
 }
 
@@ -254,7 +292,7 @@ ChangeReport Simulation::select_tool(const std::string& name, std::size_t hand) 
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
   const bool held = impl_->hand(hand).holds();
-  impl_->hand(hand).select_tool(tool, impl_->now);
+  impl_->with_handover([&] { impl_->hand(hand).select_tool(tool, impl_->now); });
   change.elastic_energy_after = impl_->elastic_energy();
   change.message = "tool: " + name + (held && !impl_->hand(hand).holds() ? "; it cannot hold, the object is let go" : "");
   return change;
@@ -306,7 +344,7 @@ ChangeReport Simulation::calibrate() {
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
   bool done = false;
-  for (Hand& hand : impl_->hands) done = hand.calibrate(change) || done;
+  for (Hand& hand : impl_->hands) done = hand.calibrate(change, impl_->now) || done;
   if (!done) throw InputError("calibrate: held object: none is not allowed: must be an object on a fork or a spring");
   change.elastic_energy_after = impl_->elastic_energy();
   return change;

@@ -10,6 +10,7 @@ namespace spring_workbench {
 namespace {
 
 constexpr double least_stiffness = 1e-9;  ///< of what would hold the mass within a step, so that no direction is without any
+constexpr double least_length = 1e-4;  ///< [m] at rest
 constexpr double no_length = 1e-12;  ///< [m]; a shorter span has no direction
 
 Vector3d direction(const Vector3d& d) { return d.norm() > no_length ? Vector3d(d.normalized()) : Vector3d(0, 0, -1); }
@@ -38,11 +39,19 @@ void SpringBody::set_springs(const ForkSettings& fork) {
   c_ = 2.0 * fork.damping_ratio.stretch * std::sqrt(mass_ * k_);
 }
 
-PerFamily SpringBody::calibrate(const ForkSettings& fork, double gravity) {
-  ForkSettings found = fork;
-  found.stiffness.stretch = calibrated_spring(mass_, fork.length, gravity);
-  set_springs(found);
-  return found.stiffness;
+PerFamily SpringBody::fitting_stiffness(const ForkSettings& fork, double gravity) const {
+  return {calibrated_spring(mass_, fork.length, gravity), fork.stiffness.bend, fork.stiffness.torsion};
+}
+
+Wrench SpringBody::spring_pull() const {
+  const Span s = span();
+  return {-k_ * (s.d.norm() - rest_length_) * direction(s.d), Vector3d::Zero()};
+}
+
+/// It can do no more than pull along its line, by another rest length.
+void SpringBody::grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) {
+  const Vector3d d = X_WO.translation() - hand_.at(state_.t).X.translation();
+  if (k_ > 0.0) rest_length_ = std::max(d.norm() + pull_W.force.dot(direction(d)) / k_, least_length);
 }
 
 SpringBody::Span SpringBody::span() const {

@@ -28,9 +28,11 @@ class SpringBody final : public ToolHold {
   void follow(double h, const MotionState& object, const Wrench& pull_W) override;
 
   void set_hand(const MotionSegment& hand, double t) override;
+  Wrench spring_pull() const override;
+  void grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) override;
   void take_twist(const Twist& V_WO_W) override { state_.free.set_twist(V_WO_W); }
   void set_springs(const ForkSettings& fork) override;
-  PerFamily calibrate(const ForkSettings& fork, double gravity) override;
+  PerFamily fitting_stiffness(const ForkSettings& fork, double gravity) const override;
   bool set_dofs(const ForkDofs&, double) override { return false; }
   void set_step_control(const DynamicsSettings&) override {}  // it has a rule of its own
   bool sleeps(double, bool) override { return false; }

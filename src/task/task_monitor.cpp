@@ -38,7 +38,7 @@ void TaskMonitor::observe(const Simulation& simulation) {
   const BodyState* held = found == objects.end() ? nullptr : &*found;
   if (!started_) {
     begin_ = t;
-    last_ = {t, tool.X_WH.translation(), "", Vector3d::Zero()};
+    last_ = {t, tool.X_WS.translation(), "", Vector3d::Zero()};
     started_ = true;
   }
   note_hold(t, held);
@@ -50,7 +50,7 @@ void TaskMonitor::observe(const Simulation& simulation) {
   }
   judge(objects);
   last_.t = t;
-  last_.hand = tool.X_WH.translation();
+  last_.hand = tool.X_WS.translation();
   if (held) last_.p_held = held->X_WO.translation();
 }
 
@@ -99,7 +99,7 @@ void TaskMonitor::note_drops(const std::vector<BodyState>& objects) {
 }
 
 void TaskMonitor::add_ways(const ToolState& tool, const BodyState* held) {
-  score_.hand_path += (tool.X_WH.translation() - last_.hand).norm();
+  score_.hand_path += (tool.X_WS.translation() - last_.hand).norm();
   if (held) score_.object_path += (held->X_WO.translation() - last_.p_held).norm();
 }
 

@@ -1,9 +1,9 @@
 #include "spring_workbench/tools/calibration.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
+#include "spring_workbench/dynamics/find_strain.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench {
@@ -12,46 +12,21 @@ namespace {
 constexpr double pi = 3.14159265358979323846;
 constexpr double earth = 9.81;  // [m/s²]
 
-/// Generalised force on the strain coordinates of a body at rest.
-StrainVector force(const HeldBody& held, const HandleForcing& handle, const StrainVector& q) {
-  return held.mass_matrix(0.0, q) * held.acceleration(handle, q, StrainVector::Zero(q.size()));
-}
-
-/// Newton's method from `q`, each step halved until the force becomes smaller.
-StrainVector equilibrium(const HeldBody& held, const RigidTransform& X_WH, StrainVector q) {
-  constexpr double step = 1e-6;
+/// The strain at rest on a handle at `X_WH`, looked for from `q` on.
+StrainVector equilibrium(const HeldBody& held, const RigidTransform& X_WH, const StrainVector& q) {
   const HandleForcing handle = held.forcing(MotionSegment(X_WH), 0.0);
-  StrainVector f = force(held, handle, q);
-  for (int iteration = 0; iteration < 30 && f.norm() > 1e-10 * held.gravity(); ++iteration) {
-    StrainMatrix slope(q.size(), q.size());
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      StrainVector ahead = q, behind = q;
-      ahead[i] += step;
-      behind[i] -= step;
-      slope.col(i) = (force(held, handle, ahead) - force(held, handle, behind)) / (2.0 * step);
-    }
-    StrainVector change = -slope.partialPivLu().solve(f);
-    if (!change.allFinite()) break;
-    for (int halving = 0; halving < 20; ++halving, change *= 0.5) {
-      const StrainVector tried = q + change;
-      if (!held.shape().admissible(tried)) continue;
-      const StrainVector f_tried = force(held, handle, tried);
-      if (f_tried.allFinite() && f_tried.norm() < f.norm()) {
-        q = tried;
-        f = f_tried;
-        break;
-      }
-    }
-  }
-  return q;
+  const auto force = [&](const StrainVector& at) -> StrainVector {
+    return held.mass_matrix(0.0, at) * held.acceleration(handle, at, StrainVector::Zero(at.size()));
+  };
+  return find_strain(held, 0.0, force, q, 1e-10 * held.gravity());
 }
 
 }  // namespace
 
 double weighing_gravity(double gravity) { return gravity > 0.0 ? gravity : earth; }
 
-ForkCalibration calibrated_fork(const std::string& shape, double length, const BodyInertia& body, double gravity,
-                                const CalibrationGoal& goal) {
+PerFamily calibrated_stiffness(const std::string& shape, double length, const BodyInertia& body, double gravity,
+                               const CalibrationGoal& goal) {
   const double g = weighing_gravity(gravity);
   const double sag = goal.sag * length;
   const double omega = std::sqrt(g / sag);
@@ -76,9 +51,7 @@ ForkCalibration calibrated_fork(const std::string& shape, double length, const B
     k.stretch *= std::clamp(extension, 0.2, 5.0);
     k.bend *= std::clamp(deflection, 0.2, 5.0);
   }
-  const double m = body.mass, c = 2.0 * goal.damping_ratio / omega;
-  const PerFamily stiffness{m * k.stretch, m * k.bend, m * k.torsion};
-  return {stiffness, {c * stiffness.stretch, c * stiffness.bend, c * stiffness.torsion}};
+  return {body.mass * k.stretch, body.mass * k.bend, body.mass * k.torsion};
 }
 
 double calibrated_spring(double mass, double length, double gravity, const CalibrationGoal& goal) {

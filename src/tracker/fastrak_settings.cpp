@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <set>
 
 #include "spring_workbench/config/yaml_fields.h"
@@ -34,6 +35,21 @@ std::vector<int> read_stations(const YAML::Node& node, const std::string& where)
   return stations;
 }
 
+/// true: station 1, where it is in use; false: none; or a list of some of `stations`.
+std::vector<int> read_styluses(const YAML::Node& node, const std::string& where, const std::vector<int>& stations) {
+  if (node.IsScalar()) return read_bool(node, where, "stylus") ? std::vector<int>{1} : std::vector<int>();
+  std::vector<int> styluses;
+  for (const YAML::Node& entry : node) {
+    const int station = read_integer(entry, where, "stylus", 1, kFastrakStations);
+    const bool used = std::count(stations.begin(), stations.end(), station) > 0;
+    if (!used || std::count(styluses.begin(), styluses.end(), station) > 0) {
+      refuse(where, "stylus", std::to_string(station), "one of stations, none twice");
+    }
+    styluses.push_back(station);
+  }
+  return styluses;
+}
+
 int read_baud(const YAML::Node& node, const std::string& where) {
   std::vector<std::string> names;
   for (const int rate : fastrak_baud_rates()) names.push_back(std::to_string(rate));
@@ -56,7 +72,7 @@ FastrakSettings read_fastrak_settings(const YAML::Node& map, const std::string& 
     settings.euler = read_choice(map["orientation"], where, "orientation", {"quaternion", "euler"}) == "euler";
   }
   if (map["redundant"]) settings.redundant = read_bool(map["redundant"], where, "redundant");
-  if (map["stylus"]) settings.stylus = read_bool(map["stylus"], where, "stylus");
+  if (map["stylus"]) settings.styluses = read_styluses(map["stylus"], where, settings.stations);
   if (map["hemisphere"]) {
     const auto direction = read_numbers(map["hemisphere"], where, "hemisphere", 3);
     for (std::size_t i = 0; i < 3; ++i) {

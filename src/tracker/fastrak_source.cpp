@@ -28,13 +28,13 @@ std::string hemisphere_text(const Vector3d& direction) {
   return text.str();
 }
 
-bool has_station(const FastrakSettings& settings, int station) {
-  return std::count(settings.stations.begin(), settings.stations.end(), station) > 0;
+bool has(const std::vector<int>& stations, int station) {
+  return std::count(stations.begin(), stations.end(), station) > 0;
 }
 
 std::vector<int> list_of(const FastrakSettings& settings, int station) {
   return fastrak_output_list(station, settings.format, settings.euler, settings.redundant,
-                             settings.stylus && station == 1);
+                             has(settings.styluses, station));
 }
 
 }  // namespace
@@ -44,7 +44,7 @@ std::vector<std::string> fastrak_set_up(const FastrakSettings& settings) {
   std::vector<std::string> portions{"\x11\rc"};
   std::string on, off;  // the last active station cannot be switched off: first on, then off
   for (int station = 1; station <= kFastrakStations; ++station) {
-    const bool wanted = has_station(settings, station);
+    const bool wanted = has(settings.stations, station);
     (wanted ? on : off) += "l" + std::to_string(station) + (wanted ? ",1\r" : ",0\r");
   }
   portions.push_back("u" + on + off);
@@ -54,9 +54,9 @@ std::vector<std::string> fastrak_set_up(const FastrakSettings& settings) {
                        hemisphere_text(settings.hemisphere) + "\rI" + s + ",0\r");
     portions.push_back("R" + s + "\rr" + s + ",0,0,0\r");  // the transmitter's own frame
   }
-  // Mode 0: else the switch turns the stream off.
-  portions.push_back(std::string(settings.stylus ? "e1,0\r" : "") +
-                     (settings.format == FastrakFormat::binary ? "f" : "F"));
+  std::string modes;  // 0: else the switch turns the stream off
+  for (const int station : settings.styluses) modes += "e" + std::to_string(station) + ",0\r";
+  portions.push_back(modes + (settings.format == FastrakFormat::binary ? "f" : "F"));
   return portions;
 }
 

@@ -17,6 +17,7 @@ COUNT = 150
 class Fastrak(unittest.TestCase):
     def test_passes_the_device_on_and_survives_a_pulled_plug(self):
         tf, joy, diagnostics = Listener("/tf", TFMessage), Listener("stylus/joy", Joy), diagnostics_listener()
+        second_joy = Listener("stylus_2/joy", Joy)
 
         def of(frame):
             return [t for m in tf.messages for t in m.transforms if t.child_frame_id == frame]
@@ -36,6 +37,9 @@ class Fastrak(unittest.TestCase):
                 self.assertAlmostEqual(p.z, 3.5, delta=1e-6)
                 self.assertTrue(0.999 < p.y < 1.491, p.y)
         self.assertGreater(len(joy.messages), COUNT / 2)
+        self.assertEqual({m.buttons[0] for m in joy.messages}, {0})
+        wait_for(lambda: {m.buttons[0] for m in second_joy.messages} == {0, 1}, "the second stylus' switch, up and down")
+        self.assertEqual({m.header.frame_id for m in second_joy.messages}, {"stylus_2"})
 
         def values():
             return diagnostic_values(diagnostics.messages, "source")

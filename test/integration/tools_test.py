@@ -13,7 +13,7 @@ from spring_workbench.srv import SelectTool, SetForkStiffness
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
-from stack import DEADLINE, DOWN, Hand, Listener, stylus_transform, wait_for
+from stack import DEADLINE, DOWN, Hand, Listener, diagnostic_values, diagnostics_listener, stylus_transform, wait_for
 
 LENGTH, WEIGHT, FORCE_SCALE = 0.2, 9.81, 4.0
 IN_BOX, LIFTED, AWAY = (0.02, 0.0, 0.02 + LENGTH), (0.02, 0.0, 0.30 + LENGTH), (0.02, 0.3, 0.30 + LENGTH)
@@ -57,6 +57,7 @@ class Tools(unittest.TestCase):
         cls.fork_2 = Listener("manipulation/fork_2", ForkState)
         cls.wrench = Listener("manipulation/wrench", WrenchStamped)
         cls.tf = Listener("/tf", TFMessage)
+        cls.diagnostics = diagnostics_listener()
         cls.hand = Hands()
         cls.hand.wait_for_node()
         wait_for(lambda: cls.hand.second_joy.get_num_connections() > 0, "the node to listen to stylus_2/joy")
@@ -126,9 +127,13 @@ class Tools(unittest.TestCase):
         self.assertAlmostEqual(fork.tip_wrench.force.z, WEIGHT, delta=0.01)
         self.assertAlmostEqual(wrench.wrench.force.z, WEIGHT / FORCE_SCALE, delta=0.05 * WEIGHT / FORCE_SCALE)
         self.assertLess(abs(fork.torque), 1e-3)  # held upright, the box does not twist it
+        before = self.box().pose.position.z
         self.call("calibrate")
         self.hand.run(2.0)
-        self.assertAlmostEqual(self.fork.next().stretch, 0.1 * LENGTH, delta=1e-3 * LENGTH)
+        fork = self.fork.next()
+        self.assertNotAlmostEqual(fork.length, LENGTH, delta=1e-2)  # as its size asks
+        self.assertAlmostEqual(fork.stretch, 0.1 * fork.length, delta=1e-3 * fork.length)
+        self.assertAlmostEqual(self.box().pose.position.z, before, delta=1e-5)
 
     def test_probe_presses_the_box_on_the_bench(self):
         self.call("select_tool", "spring_probe", 1)
@@ -151,6 +156,8 @@ class Tools(unittest.TestCase):
         first, second = self.fork.next(), self.fork_2.next()
         self.assertEqual((first.held_object, second.held_object), ("box", "box"))
         self.assertAlmostEqual(first.tip_wrench.force.z + second.tip_wrench.force.z, WEIGHT, delta=0.01)
+        rate = lambda: float(diagnostic_values(self.diagnostics.messages, "second stylus").get("rate [Hz]", 0.0))
+        wait_for(lambda: self.hand.run(0.1) or abs(rate() - 50.0) < 1.0, "the second stylus in /diagnostics")
         frames = {t.child_frame_id for m in self.tf.messages for t in m.transforms}
         self.assertLessEqual({"fork_handle", "fork_tip", "fork_handle_2", "fork_tip_2"}, frames)
         self.hand.pressed = False

@@ -59,6 +59,9 @@ class MotionSegment {
   /// The quintic from `a` to `b` (`a.pose.t < b.pose.t`) with velocities and accelerations at both.
   MotionSegment(const MotionSample& a, const MotionSample& b);
 
+  /// The motion of a frame C that stands at `X_BC` in this one, B, fixed to it.
+  MotionSegment of_frame(const RigidTransform& X_BC) const;
+
   double begin() const;  ///< [s]
   double end() const;    ///< [s]; infinity for a frame at rest
   /// State at time `t` [s], begin() ≤ t ≤ end().
@@ -96,6 +99,10 @@ class MotionSegment {
   };
   template <typename S>
   Turn<S> turn(const S& u, double per_second) const;
+  /// What C feels where B feels `f`.
+  FrameForcing<Pack> at_frame(const FrameForcing<Pack>& f) const;
+  OwnAxesMotion of_samples(double t) const;
+  FrameForcing<Pack> of_samples(const Pack& t, double gravity) const;
 
   RigidTransform X_a_;
   double begin_;
@@ -104,6 +111,8 @@ class MotionSegment {
   bool turning_ = false;
   Polynomial position_;  ///< world axes [m]
   Polynomial rotation_;  ///< rotation vector from the pose at the start, in its axes [rad]; where turning
+  bool elsewhere_ = false;                              ///< the frame is not that of the samples, B, but C
+  RigidTransform X_BC_ = RigidTransform::Identity();
 };
 
 /// The samples of one tracked frame, interpolated so that the motion passes through each of them and is C¹.

@@ -42,27 +42,32 @@ void add_stream(const StreamFigures& stream, const GateCounts& gate, DiagnosticS
 std::string hint_for_silence(const InputStatistics& input, const std::vector<std::string>& senders,
                              const std::string& stylus_frame);
 
+/// What came of one stylus, and what became of the hand.
+struct TrackerInput {
+  InputStatistics input;
+  ReengagementCounts hand;
+  std::string hint;  ///< of `hint_for_silence`
+};
+
 /// Watches the counters and says once a second how tracker input and physics loop are doing: WARN when something went
-/// wrong since the last time, STALE when no sample came at all.
+/// wrong since the last time, STALE when no sample came at all. A second stylus is told of once something came of it.
 class ManipulationDiagnostics {
  public:
   /// `name`: of the node. `dropout_after` [s]: silence of the tracker longer than this is told.
   ManipulationDiagnostics(const std::string& name, double dropout_after) : name_(name), dropout_after_(dropout_after) {}
 
-  /// `hint`: of `hint_for_silence`; `now` [s]: local time.
-  std::vector<diagnostic_msgs::DiagnosticStatus> report(const InputStatistics& input, const ReengagementCounts& hand,
-                                                        const LoopStatistics& loop, const std::string& hint,
-                                                        double now);
+  /// `now` [s]: local time.
+  std::vector<diagnostic_msgs::DiagnosticStatus> report(const TrackerInput& first, const TrackerInput& second,
+                                                        const LoopStatistics& loop, double now);
 
  private:
-  diagnostic_msgs::DiagnosticStatus report_input(const InputStatistics& input, const ReengagementCounts& hand,
-                                                 const std::string& hint, double now) const;
+  diagnostic_msgs::DiagnosticStatus report_input(const std::string& what, const TrackerInput& tracker,
+                                                 const TrackerInput& last, double now) const;
   diagnostic_msgs::DiagnosticStatus report_loop(const LoopStatistics& loop) const;
 
   std::string name_;
   double dropout_after_;
-  InputStatistics last_input_;
-  ReengagementCounts last_hand_;
+  TrackerInput last_first_, last_second_;
   LoopStatistics last_loop_;
 };
 

@@ -59,7 +59,7 @@ class SimulationRunner {
   }
   /// Stamp of the simulated time; `now` before the first sample.
   ros::Time stamp(const ros::Time& now) const;
-  ReengagementCounts hand_counts(std::size_t hand = 0) const;
+  ReengagementCounts hand_counts(std::size_t hand) const;
 
  private:
   struct HandInput {

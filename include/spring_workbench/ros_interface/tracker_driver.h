@@ -3,67 +3,23 @@
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
-#include <yaml-cpp/yaml.h>
 
-#include <limits>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "spring_workbench/ros_interface/diagnostics.h"
 #include "spring_workbench/ros_interface/operator_eyes.h"
-#include "spring_workbench/tracker/fastrak_source.h"
-#include "spring_workbench/tracker/joy_motion.h"
+#include "spring_workbench/ros_interface/tracker_parameters.h"
+#include "spring_workbench/tracker/live_source.h"
 #include "spring_workbench/tracker/station_stream.h"
 #include "spring_workbench/tracker/stylus_source.h"
 
 namespace spring_workbench {
 
-/// Before the bench and above it, the x axis towards 0.1 m above its middle, y to the left.
-inline RigidTransform head_before_the_bench() {
-  const Vector3d p(0.0, -0.85, 0.7), x = (Vector3d(0.0, 0.0, 0.1) - p).normalized(), y(-1.0, 0.0, 0.0);
-  Matrix3d R;
-  R << x, y, x.cross(y);
-  return make_transform(Quaterniond(R), p);
-}
-
-/// Private parameters of the node `tracker_driver`.
-struct TrackerParameters {
-  std::string source = "motion_file";  ///< `source`: motion_file, scripted, fastrak, operator, interactive_marker or joy
-  std::string file;    ///< `file`, of motion_file and scripted, required: path or package:// URI of the motion or script
-  std::string scene;   ///< `scene`, required by operator: URDF of the scene to assemble
-  int seed = 1;        ///< `seed` of the operator, 0 … 1e9
-  double rate = 0.0;   ///< `rate` [Hz], >= 0: the most that is sent; 0: every sample
-  double speed = 1.0;  ///< `speed`, 0.01 … 100: 2 plays twice as fast
-  bool loop = false;   ///< `loop`: from the start again after the last sample
-  double pause = 1.0;  ///< `pause` [s], >= 0: before each pass
-  std::string workbench_frame = "workbench";  ///< `workbench_frame`: parent of the frames
-  std::string stylus_frame = "stylus";        ///< `stylus_frame`
-  std::string head_frame = "head";            ///< `head_frame`
-  RigidTransform X_BT =
-      RigidTransform::Identity();  ///< `offset` (x y z qx qy qz qw): the recording's base frame in the workbench
-  std::optional<RigidTransform>
-      X_BS_first;  ///< `start` (x y z qx qy qz qw): where the first sample lies; of a motion, instead of `offset`
-  int head_station = 0;  ///< `head_station` of a FASTRAK: the one on the head, 2 … 4; 0: none
-  RigidTransform X_BHead = head_before_the_bench();  ///< `head` (pose); with head_station in the frame of its receiver
-  double grasp_from = std::numeric_limits<double>::infinity();  ///< `grasp_from` [s]: the button goes down …
-  double grasp_until = std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up, beside the file's own
-  Vector3d p_ST = Vector3d::Zero();      ///< `tip` (x y z) [m]: the handle's origin in the tracked frame of the stylus
-  double interpupillary_distance = 0.063;  ///< `interpupillary_distance` [m], 0 … 0.2: between eye_left and eye_right
-  double dropout_after = 0.5;              ///< `dropout_after` [s], > 0: a longer gap is a dropout
-  bool even_stamps = true;                 ///< `even_stamps`: stamp a device's samples by its cadence, not by receipt
-  TruthSettings truth;                     ///< `truth`: which samples are let through, and how they are filtered
-  FastrakSettings fastrak;  ///< read_fastrak_settings; in place of file, speed, loop, pause, start and grasp_*
-  JoySettings joy;          ///< read_joy_settings
-};
-
-/// Reads the map of private parameters. Throws InputError with `where`, key, value and rule.
-TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const std::string& where);
-
 /// The node `tracker_driver`: plays a motion in its own time, or passes a device's samples on, or those of
 /// a stylus that is moved by messages (a marker in rviz, a game pad), as tf frames (stylus,
-/// head) and buttons (`stylus/joy`, 0: grasp, 1: next tool), stamped with the moment at which each sample is due (a
+/// head) and buttons (`stylus/joy`, of station k `stylus_k/joy`; 0: grasp, 1: next tool), stamped with the moment at which each sample is due (a
 /// device's: at which it came). A device's station 1 is the stylus, head_station the head, station k else the frame stylus_k.
 class TrackerDriver {
  public:
@@ -77,7 +33,9 @@ class TrackerDriver {
   void play();
   void stream();
   void send(const StationSample& sample);
-  void send_buttons(bool grasp, bool next_tool, const ros::Time& stamp);
+  /// Of the stylus that is this station.
+  void send_buttons(int station, bool grasp, bool next_tool, const ros::Time& stamp);
+  std::string frame_of(int station) const;
   geometry_msgs::TransformStamped transform_of(int station, const RigidTransform& X_TS, const ros::Time& stamp) const;
   void add_health(DiagnosticStatusBuilder& status) const;
   void send(const StylusSample& sample, const ros::Time& stamp);
@@ -102,7 +60,8 @@ class TrackerDriver {
   bool over_ = false;
   double next_diagnostics_ = 0.0;
   tf2_ros::TransformBroadcaster transforms_;
-  ros::Publisher joy_publisher_, diagnostics_publisher_;
+  std::map<int, ros::Publisher> joy_publishers_;  ///< by station
+  ros::Publisher diagnostics_publisher_;
 };
 
 }  // namespace spring_workbench

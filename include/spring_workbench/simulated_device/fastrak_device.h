@@ -29,8 +29,9 @@ class PlayedMotion {
 /// without effect: `A`, `I`, `N`, `R`, `r`, `o`. Ctrl-Y and `W` give the state at power-on, at once.
 class FastrakDevice {
  public:
-  /// 1 … 4 motions; throws InputError for another number.
-  explicit FastrakDevice(std::vector<PlayedMotion> motions);
+  /// 1 … 4 motions; throws InputError for another number. `switches`: the stations whose stylus' switch works; 1 alone with
+  /// the maker's device, while one that emulates it may know more.
+  explicit FastrakDevice(std::vector<PlayedMotion> motions, std::vector<int> switches = {1});
 
   /// What the device answers to these bytes of the host.
   std::string receive(std::string_view bytes);
@@ -57,9 +58,11 @@ class FastrakDevice {
   std::string record(int station) const;
   std::string records() const;
   int next_active(int after) const;
+  bool has_switch(int station) const;
   static std::string error(const std::string& command, int code);
 
   std::vector<PlayedMotion> motions_;
+  std::vector<int> switches_;
   std::array<Station, kFastrakStations> stations_;
   FastrakFormat format_ = FastrakFormat::ascii;
   FastrakUnits units_ = FastrakUnits::inches;

@@ -39,7 +39,9 @@ struct ToolState {
   double stretch = 0.0;                                          ///< extension along the rod [m]
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();                ///< tip deflection along x and y of the handle [m]
   double torsion = 0.0;                                          ///< twist angle [rad]
-  RigidTransform X_WH = RigidTransform::Identity();              ///< the hand
+  RigidTransform X_WS = RigidTransform::Identity();              ///< the stylus
+  RigidTransform X_WH = RigidTransform::Identity();              ///< the handle, as the hand has it: the stylus itself unless
+                                                                 ///< the fork was given another size, or gripped anew
   RigidTransform X_WH_seen = RigidTransform::Identity();         ///< the handle that the object sees (proxy of the hand)
   RigidTransform X_WE = RigidTransform::Identity();              ///< the tip
   Wrench tip_wrench_W;                                           ///< on the object at the tip, world axes [N, N·m]

@@ -10,25 +10,17 @@ namespace spring_workbench {
 struct CalibrationGoal {
   double sag = 0.1;            ///< static extension, hanging, and static deflection of the tip, held level: part of the length
   double twist = 0.35;         ///< static twist under the weight at a lever of the object's radius of gyration [rad]
-  double damping_ratio = 1.0;  ///< of every direction
-};
-
-/// Spring and damping constants of a fork.
-struct ForkCalibration {
-  PerFamily stiffness;  ///< [N/m, N/m, N·m/rad]
-  PerFamily damping;    ///< coefficients, the unit of the stiffness times s
 };
 
 /// The acceleration [m/s²] that tells a weight from a mass: the scene's gravity, and without any the Earth's.
 double weighing_gravity(double gravity);
 
-/// Constants of a fork of shape model `shape` and `length` [m] for the body as it is grasped (`body.X_OE`). Hanging from
+/// Stiffness [N/m, N/m, N·m/rad] of a fork of shape model `shape` and `length` [m] for the body as it is grasped (`body.X_OE`). Hanging from
 /// the upright fork it extends the fork by `goal.sag` of its length; held level, gravity along −x of the handle, it
-/// deflects the tip by as much: both in the full nonlinear equilibrium. Then every direction, twisting too, has the
-/// natural frequency `ω = sqrt(g / (sag · length))`, whatever the mass, and the same damping `c = 2 ζ k / ω`.
-/// Without gravity as on Earth.
-ForkCalibration calibrated_fork(const std::string& shape, double length, const BodyInertia& body, double gravity,
-                                const CalibrationGoal& goal = {});
+/// deflects the tip by as much: both in the full nonlinear equilibrium. Then every direction, twisting too, has near to
+/// the natural frequency `ω = sqrt(g / (sag · length))`, whatever the mass. Without gravity as on Earth.
+PerFamily calibrated_stiffness(const std::string& shape, double length, const BodyInertia& body, double gravity,
+                               const CalibrationGoal& goal = {});
 
 /// Stiffness [N/m] of the tool `spring` that the weight of `mass` [kg] extends by `goal.sag` of `length` [m]. Without
 /// gravity as on Earth.

@@ -22,7 +22,7 @@ struct FastrakSettings {
   int baud = 115200;  ///< as the switches on the device's back say; one of fastrak_baud_rates()
   FastrakFormat format = FastrakFormat::binary;
   std::vector<int> stations = {1};          ///< each 1 … 4, none twice; with n of them, each reports at 120 Hz / n
-  bool stylus = true;                       ///< station 1 is a stylus: its switch is read
+  std::vector<int> styluses = {1};          ///< stations whose switch is read
   bool euler = false;                       ///< angles instead of quaternions
   bool redundant = true;                    ///< every pose twice, so that no line fault can pass (fastrak_output_list)
   Vector3d hemisphere = Vector3d::UnitX();  ///< towards the half-space the stations are in, in T; zero: as tracked
@@ -35,7 +35,7 @@ const std::vector<int>& fastrak_baud_rates();
 const std::vector<std::string>& fastrak_keys();
 
 /// From a map: `port`, `baud`, `format` (binary, ascii), `stations` (list), `orientation` (quaternion, euler),
-/// `redundant`, `hemisphere` (x y z), `stylus`; other keys are not looked at. Throws InputError with `where`, key,
+/// `redundant`, `hemisphere` (x y z), `stylus` (true: station 1; false: none; or a list); other keys are not looked at. Throws InputError with `where`, key,
 /// value and rule.
 FastrakSettings read_fastrak_settings(const YAML::Node& map, const std::string& where);
 

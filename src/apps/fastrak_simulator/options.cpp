@@ -27,13 +27,14 @@ double number(const std::string& option, const NumberRule& rule) {
 }  // namespace
 
 Options parse_options(int argc, char** argv) {
-  enum Code { help = 1, motion, link, rate, speed, duration, fault, seed };
+  enum Code { help = 1, motion, link, rate, speed, duration, with_switch, fault, seed };
   const option known[] = {{"help", no_argument, nullptr, help},
                           {"motion", required_argument, nullptr, motion},
                           {"link", required_argument, nullptr, link},
                           {"rate", required_argument, nullptr, rate},
                           {"speed", required_argument, nullptr, speed},
                           {"duration", required_argument, nullptr, duration},
+                          {"switch", required_argument, nullptr, with_switch},
                           {"fault", required_argument, nullptr, fault},
                           {"seed", required_argument, nullptr, seed},
                           {nullptr, 0, nullptr, 0}};
@@ -62,6 +63,9 @@ Options parse_options(int argc, char** argv) {
       case duration:
         options.duration = number("--duration", not_negative());
         break;
+      case with_switch:
+        options.switches.push_back(read_integer(YAML::Node(std::string(optarg)), kWhere, "--switch", 2, kFastrakStations));
+        break;
       case fault:
         options.faults.push_back(parse_fault(optarg));
         break;
@@ -85,7 +89,7 @@ std::string help_text() {
   return R"(A FASTRAK on a pseudo-terminal: understands its commands, plays motions, and fails on demand.
 
 fastrak_simulator --motion FILE [--motion FILE ...] [--link PATH] [--rate HZ] [--speed X] [--duration S]
-                  [--fault KIND[,rate=R][,from=S][,until=S] ...] [--seed N]
+                  [--switch K ...] [--fault KIND[,rate=R][,from=S][,until=S] ...] [--seed N]
 
   --motion    what a station does: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of
               waypoints; the receiver in the transmitter's frame, round and round. The first is that of station 1, whose
@@ -94,6 +98,8 @@ fastrak_simulator --motion FILE [--motion FILE ...] [--link PATH] [--rate HZ] [-
   --rate      records per second of all stations together, 0.1 ... 10000; 120, as the device
   --speed     of the device's clock, 0.01 ... 1000; 1
   --duration  of the device's clock [s]; 0: until it is interrupted
+  --switch    station K, 2 ... 4, has a stylus whose switch works, too: its motion's button. Of the maker's device that of
+              station 1 alone does, of devices that emulate it others may
   --fault     what goes wrong from `from` to `until` [s; 0, for ever], with the part `rate` (0 ... 1; 1) of the records:
               garbage     random bytes before, in or after a record, or a bit that is wrong
               cut         a stretch of a record is missing

@@ -15,6 +15,7 @@ struct Options {
   double rate = 120.0;               ///< records per second, of all stations together [Hz]
   double speed = 1.0;                ///< of the device's clock against the wall's
   double duration = 0.0;             ///< of the device's clock [s]; 0: until it is interrupted
+  std::vector<int> switches{1};      ///< stations whose switch works
   std::vector<Fault> faults;
   unsigned seed = 1;
 };

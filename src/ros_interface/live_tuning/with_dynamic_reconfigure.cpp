@@ -36,7 +36,10 @@ void give_to(Simulation& simulation, const ManipulationConfig& config) {
   const DynamicsSettings dynamics = simulation.settings().dynamics;
   if (!(dofs == fork.dofs)) simulation.set_dofs(dofs);
   if (!same(stiffness, fork.stiffness)) simulation.set_stiffness(stiffness);
-  if (!same(damping, fork.damping_ratio)) simulation.set_damping_ratio(damping);
+  if (!same(damping, fork.damping_ratio)) {
+    const bool one_ratio = same(damping, {damping.stretch, damping.stretch, damping.stretch});
+    simulation.set_damping_ratio(damping, one_ratio ? "" : "per_family");  // the modal law knows one ratio alone
+  }
   if (config.integrator != dynamics.integrator || config.step != dynamics.step) {
     simulation.set_integrator(config.integrator, config.step);
   }

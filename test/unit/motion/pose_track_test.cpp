@@ -144,6 +144,42 @@ TEST(MotionSegment, VelocityAndAccelerationAreDerivativesToSecondOrder) {
   }
 }
 
+/// Against differences of the fixed frame's own poses, and for packs against single moments.
+TEST(MotionSegment, OfAnotherFrameIsTheMotionOfThatFrame) {
+  Random random(8);
+  for (int trial = 0; trial < 20; ++trial) {
+    const PoseSample a{0.0, random.pose()};
+    const PoseSample b{0.02, a.X * make_transform(Quaterniond(exp_so3(random.vector(0.3))), random.vector(0.02))};
+    const MotionSegment of_B(a, random.vector(1.0), random.vector(5.0), b, random.vector(1.0), random.vector(5.0));
+    const RigidTransform X_BC = random.pose(), X_CD = random.pose();
+    const MotionSegment of_C = of_B.of_frame(X_BC);
+    constexpr double t = 0.009, h = 2e-5;
+    const RigidTransform X = of_B.at(t).X * X_BC;
+    const RigidTransform before = of_B.at(t - h).X * X_BC, after = of_B.at(t + h).X * X_BC;
+    const MotionState m = of_C.at(t);
+    EXPECT_LT(distance(m.X, X), 1e-14);
+    const Vector3d p = X.translation(), w = m.velocity.angular;
+    EXPECT_LT(((after.translation() - before.translation()) / (2.0 * h) - m.velocity.linear).norm(), 1e-3);
+    EXPECT_LT(((after.translation() - 2.0 * p + before.translation()) / (h * h) - m.acceleration.linear).norm(),
+              1e-4 * (1.0 + m.acceleration.linear.norm()));
+    EXPECT_LT((log_so3(after.linear() * before.linear().transpose()) / (2.0 * h) - w).norm(), 1e-3);
+    const Vector3d change = of_C.at(t + h).velocity.angular - of_C.at(t - h).velocity.angular;
+    EXPECT_LT((change / (2.0 * h) - m.acceleration.angular).norm(), 1e-4 * (1.0 + m.acceleration.angular.norm()));
+    EXPECT_LT(distance(of_C.of_frame(X_CD).at(t).X, of_B.of_frame(X_BC * X_CD).at(t).X), 1e-14);
+
+    const Pack times = {0.0, 0.004, t, 0.02};
+    const FrameForcing<Pack> f = of_C.forcing(times, 9.81);
+    for (int i = 0; i < pack_size; ++i) {
+      const OwnAxesMotion own = of_C.in_own_axes(times[i]);
+      const Vector3d a_C = own.X.linear().transpose() * (own.a_W + 9.81 * Vector3d::UnitZ());
+      EXPECT_LT((matrix(f.R_WB, i) - own.X.linear()).norm(), 1e-13);
+      EXPECT_LT((vector(f.w_B, i) - own.w_B).norm(), 1e-12 * (1.0 + own.w_B.norm()));
+      EXPECT_LT((vector(f.alpha_B, i) - own.alpha_B).norm(), 1e-12 * (1.0 + own.alpha_B.norm()));
+      EXPECT_LT((vector(f.a_B, i) - a_C).norm(), 1e-12 * (1.0 + a_C.norm()));
+    }
+  }
+}
+
 TEST(MotionSegment, CubicMotionIsExact) {
   Random random(6);
   const Vector3d c0 = random.vector(1.0), c1 = random.vector(1.0), c2 = random.vector(1.0), c3 = random.vector(1.0);

@@ -54,6 +54,28 @@ TEST(FastrakDevice, StreamsItsStationsInTurn) {
   }
 }
 
+/// The maker's device serves the switch of station 1 alone; one that emulates it may serve others.
+TEST(FastrakDevice, TellsTheSwitchesThatItServes) {
+  for (const std::vector<int>& switches : {std::vector<int>{1}, std::vector<int>{1, 2}}) {
+    FastrakDevice device(std::vector<PlayedMotion>(2, circling_hand()), switches);
+    const bool second = switches.size() > 1;
+    EXPECT_EQ(device.receive("e2,0\r").empty(), second);
+    device.receive("e1,0\rfuO1,2,11,16,0\rO2,2,11,16,0\rC");
+    const std::vector<int> list{2, 11, 16, 0};
+    const FastrakLayout layout(list, FastrakFormat::binary, FastrakUnits::centimetres);
+    int pressed = 0;
+    for (int i = 0; i < 1200; ++i) {
+      const double t = i / 120.0;
+      const auto record = layout.decode(device.measure(t));
+      ASSERT_TRUE(record);
+      const bool down = circling_hand().at(t).button;
+      pressed += down ? 1 : 0;
+      EXPECT_EQ(record->button, down && (record->station == 1 || second)) << t;
+    }
+    EXPECT_GT(pressed, 100);
+  }
+}
+
 TEST(FastrakDevice, TakesListsAndStationsAndReadsThemBack) {
   FastrakDevice device = device_with(3);
   EXPECT_EQ(device.receive("O1\r"), "21O 2 4 1\r\n");

@@ -20,9 +20,13 @@ TEST(FastrakSettings, AreReadFromAMap) {
   EXPECT_EQ(settings.format, FastrakFormat::ascii);
   EXPECT_EQ(settings.stations, (std::vector<int>{3, 1}));
   EXPECT_TRUE(settings.euler);
-  EXPECT_FALSE(settings.redundant || settings.stylus);
+  EXPECT_FALSE(settings.redundant);
+  EXPECT_TRUE(settings.styluses.empty());
   EXPECT_EQ(settings.hemisphere, Vector3d(0, 0, -1));
   EXPECT_EQ(read_fastrak_settings(YAML::Load("{stations: 2}"), "x").stations, std::vector<int>{2});
+  EXPECT_EQ(read_fastrak_settings(YAML::Load("{stylus: true}"), "x").styluses, std::vector<int>{1});
+  EXPECT_EQ(read_fastrak_settings(YAML::Load("{stations: [1, 2, 3], stylus: [3, 1]}"), "x").styluses,
+            (std::vector<int>{3, 1}));
 }
 
 TEST(FastrakSettings, RefuseWithTheKeyInTheMessage) {
@@ -35,6 +39,9 @@ TEST(FastrakSettings, RefuseWithTheKeyInTheMessage) {
                                                                {"{stations: [2, 2]}", "stations"},
                                                                {"{orientation: up}", "orientation"},
                                                                {"{redundant: 7}", "redundant"},
+                                                               {"{stylus: 7}", "stylus"},
+                                                               {"{stylus: [2]}", "stylus"},
+                                                               {"{stations: [1, 2], stylus: [2, 2]}", "stylus"},
                                                                {"{hemisphere: [1, 0]}", "hemisphere"},
                                                                {"{hemisphere: [.nan, 0, 0]}", "hemisphere"}};
   for (const auto& [yaml, key] : cases) {

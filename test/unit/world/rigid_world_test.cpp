@@ -5,26 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "support/bodies.h"
+
 namespace spring_workbench {
 namespace {
 
 constexpr double g = 9.81;
-
-Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO, double friction = 0.5) {
-  Body b;
-  b.name = name;
-  b.movable = mass > 0.0;
-  b.X_WO.translation() = p_WO;
-  b.mass_properties.mass = mass;
-  const Vector3d s = size.cwiseAbs2();
-  b.mass_properties.inertia_O =
-      (mass / 12.0 * Vector3d(s.y() + s.z(), s.x() + s.z(), s.x() + s.y())).asDiagonal();
-  b.material.friction = friction;
-  Shape shape;
-  shape.geometry = Box{size};
-  b.collision = b.visual = {shape};
-  return b;
-}
 
 Body sphere(const std::string& name, double radius, double mass, const Vector3d& p_WO, double friction,
             double restitution) {
@@ -32,15 +18,7 @@ Body sphere(const std::string& name, double radius, double mass, const Vector3d&
   b.material.restitution = restitution;
   b.mass_properties.inertia_O = 0.4 * mass * radius * radius * Matrix3d::Identity();
   b.collision[0].geometry = Sphere{radius};
-  b.visual = b.collision;
   return b;
-}
-
-Scene scene_of(std::vector<Body> bodies, double friction = 0.5) {
-  Scene s;
-  s.bodies = std::move(bodies);
-  s.bench_material.friction = friction;
-  return s;
 }
 
 Twist moving(const Vector3d& v) {
@@ -86,7 +64,7 @@ TEST(RigidWorld, SleepersCostNothingAndStay) {
   for (int i = 0; i < 1000; ++i) {
     bodies.push_back(box("b" + std::to_string(i), Vector3d(0.04, 0.04, 0.04), 0.1, Vector3d(0.1 * i, 0.0, 0.02)));
   }
-  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(bodies));
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(bodies, ContactMode::dynamic));
     RigidWorld& world = *owner;
   run(world, 0.1);
   EXPECT_EQ(world.bodies_near().size(), 0u);
@@ -102,7 +80,7 @@ TEST(RigidWorld, SleepersCostNothingAndStay) {
 
 TEST(RigidWorld, SlidingBoxStopsWhereItMust) {
   for (const double mu : {0.2, 0.5, 1.0}) {
-    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({box("b", Vector3d(0.1, 0.1, 0.02), 2.0, Vector3d(0, 0, 0.01), mu)}, mu));
+    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({box("b", Vector3d(0.1, 0.1, 0.02), 2.0, Vector3d(0, 0, 0.01), mu)}, ContactMode::dynamic, mu));
     RigidWorld& world = *owner;
     const double v = 1.0;
     world.place(0, world.pose(0), moving({v, 0.0, 0.0}), true);
@@ -124,7 +102,7 @@ TEST(RigidWorld, InclineHoldsBelowTheAngleOfFriction) {
     Body b = box("b", Vector3d(0.1, 0.1, 0.05), 1.0, Vector3d::Zero(), mu);
     b.X_WO.linear() = tilt.toRotationMatrix();
     b.X_WO.translation() = ramp.X_WO * Vector3d(0, 0, 0.1 + 0.025);
-    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({ramp, b}, mu));
+    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({ramp, b}, ContactMode::dynamic, mu));
     RigidWorld& world = *owner;
     world.place(1, b.X_WO, Twist(), true);
     run(world, 10.0, 2e-3);
@@ -140,7 +118,7 @@ TEST(RigidWorld, InclineHoldsBelowTheAngleOfFriction) {
 }
 
 TEST(RigidWorld, SphereRollsAtFiveSeventhsOfItsSpeed) {
-  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 0.05), 0.4, 0.0)}, 0.4));
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 0.05), 0.4, 0.0)}, ContactMode::dynamic, 0.4));
     RigidWorld& world = *owner;
   world.place(0, world.pose(0), moving({2.0, 0.0, 0.0}), true);
   run(world, 1.0);
@@ -149,7 +127,7 @@ TEST(RigidWorld, SphereRollsAtFiveSeventhsOfItsSpeed) {
 }
 
 TEST(RigidWorld, BallBouncesToTheSquareOfItsRestitution) {
-  Scene s = scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 1.05), 0.0, 0.8)}, 0.0);
+  Scene s = scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 1.05), 0.0, 0.8)}, ContactMode::dynamic, 0.0);
   s.bench_material.restitution = 0.8;
   const std::unique_ptr<RigidWorld> owner = make_rigid_world(s);
     RigidWorld& world = *owner;
@@ -166,7 +144,7 @@ TEST(RigidWorld, StackOfTenStandsAndSleeps) {
       const double mass = i == 9 ? ratio : 1.0;
       bodies.push_back(box("b" + std::to_string(i), Vector3d(0.1, 0.1, 0.05), mass, Vector3d(0, 0, 0.025 + 0.05 * i)));
     }
-    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(bodies));
+    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(bodies, ContactMode::dynamic));
     RigidWorld& world = *owner;
     world.place(0, world.pose(0), Twist(), true);
     run(world, 3.0, 2e-3);
@@ -181,7 +159,7 @@ TEST(RigidWorld, PressedAndDraggedLagsByFrictionOverStiffness) {
   for (const double k : {2e1, 2e3, 2e9}) {
     for (const double mu : {0.0, 0.5, 1.0}) {
       const double h = 2e-3;
-      const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({box("b", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, 0.025), mu)}, mu));
+      const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({box("b", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, 0.025), mu)}, ContactMode::dynamic, mu));
     RigidWorld& world = *owner;
       OnSpring spring{k, Vector3d(0, 0, 0.025), {}};
       spring.driven.X_WO.translation() = spring.hand;
@@ -199,7 +177,7 @@ TEST(RigidWorld, DrivenBodyPushesANeighbourAndCarriesAnother) {
   Body tray = box("tray", Vector3d(0.2, 0.2, 0.02), 1.0, Vector3d(0, 0, 0.01));
   Body cup = box("cup", Vector3d(0.05, 0.05, 0.05), 0.2, Vector3d(0, 0, 0.045));
   Body block = box("block", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(0.3, 0, 0.05));
-  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({tray, cup, block}));
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({tray, cup, block}, ContactMode::dynamic));
     RigidWorld& world = *owner;
   OnSpring spring{1e5, Vector3d(0, 0, 0.01), {}};
   spring.driven.X_WO.translation() = spring.hand;
