@@ -30,6 +30,7 @@ XmlRpc::XmlRpcValue state_of(const Simulation& simulation) {
   state["dofs"] = list({dofs.stretch ? 1.0 : 0.0, dofs.bend ? 1.0 : 0.0, dofs.torsion ? 1.0 : 0.0});
   state["stiffness"] = list(settings.fork.stiffness);
   state["damping"] = list(settings.fork.damping_ratio);
+  state["damping_law"] = settings.fork.damping_law;
   state["integrator"] = settings.dynamics.integrator;
   state["step"] = settings.dynamics.step;
   state["tolerance"] = settings.dynamics.tolerance;
@@ -56,7 +57,7 @@ void set(Simulation& simulation, const YAML::Node& state) {
   const PerFamily dofs = read_per_family(state, "dofs");
   simulation.set_dofs({dofs.stretch != 0.0, dofs.bend != 0.0, dofs.torsion != 0.0});
   simulation.set_stiffness(read_per_family(state, "stiffness"));
-  simulation.set_damping_ratio(read_per_family(state, "damping"));
+  simulation.set_damping_ratio(read_per_family(state, "damping"), read_string(state["damping_law"], kKey, "damping_law"));
   simulation.set_integrator(read_string(state["integrator"], kKey, "integrator"),
                             read_number(state["step"], kKey, "step", positive()),
                             read_number(state["tolerance"], kKey, "tolerance", not_negative()));

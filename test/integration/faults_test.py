@@ -111,7 +111,7 @@ class Faults(unittest.TestCase):
 
     def test_a_killed_node_comes_back_as_it_was(self):
         self.assertTrue(self.call("set_stiffness", 1500.0, 700.0, 3.0).success)
-        self.assertTrue(self.call("set_damping", 0.5, 0.6, 0.7).success)
+        self.assertTrue(self.call("set_damping", 0.5, 0.6, 0.7, "").success)
         self.assertTrue(self.call("set_dofs", True, True, False).success)
         self.assertTrue(self.call("set_integrator", "rosenbrock", 0.01, 0.0).success)
         self.carry_off()
@@ -208,7 +208,7 @@ class Faults(unittest.TestCase):
     def test_a_flood_of_calls_while_holding(self):
         """All services that leave the object in the hand, from four clients at once."""
         self.carry_off()
-        calls = [("set_stiffness", (2000.0, 500.0, 5.0)), ("set_damping", (1.0, 0.9, 0.8)), ("set_dofs", (True, True, True)),
+        calls = [("set_stiffness", (2000.0, 500.0, 5.0)), ("set_damping", (1.0, 0.9, 0.8, "per_family")), ("set_dofs", (True, True, True)),
                  ("set_integrator", ("exponential", 0.02, 0.0)), ("calibrate", ()), ("set_stiffness", (-1.0, 0.0, 0.0))]
         answered, broken = [0] * 4, []
 
