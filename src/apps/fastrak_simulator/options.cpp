@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/tracker/fastrak_protocol.h"
 
 namespace spring_workbench::fastrak_simulator {
 namespace {
@@ -64,7 +65,8 @@ Options parse_options(int argc, char** argv) {
         options.duration = number("--duration", not_negative());
         break;
       case with_switch:
-        options.switches.push_back(read_integer(YAML::Node(std::string(optarg)), kWhere, "--switch", 2, kFastrakStations));
+        options.switches.push_back(
+            read_integer(YAML::Node(std::string(optarg)), kWhere, "--switch", 2, kFastrakStations));
         break;
       case fault:
         options.faults.push_back(parse_fault(optarg));

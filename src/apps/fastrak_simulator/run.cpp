@@ -43,7 +43,8 @@ void serve_until(FastrakSimulator& simulator, steady_clock::time_point moment, c
 void run(const Options& options, const std::function<bool()>& stop) {
   std::vector<PlayedMotion> motions;
   for (const std::string& path : options.motions) motions.push_back(read_motion(path));
-  FastrakSimulator simulator(FastrakDevice(std::move(motions), options.switches), LineFaults(options.faults, options.seed), options.link);
+  FastrakSimulator simulator(FastrakDevice(std::move(motions), options.switches),
+                             LineFaults(options.faults, options.seed), options.link);
   std::string path;
   const auto start = steady_clock::now();
   for (long cycle = 0; !stop(); ++cycle) {
