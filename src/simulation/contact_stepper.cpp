@@ -15,7 +15,10 @@ constexpr double probe_depth = 1e-4;       ///< [m] by which the body is pushed 
 constexpr double same_point = 2e-3;        ///< [m]; contacts nearer to each other are one
 constexpr double sweep_resolution = 2e-4;  ///< [m] between the poses that a sweep looks at, where boxes overlap
 constexpr double closed = 2e-5;            ///< [m]; on its way a body in contact may be so deep
+constexpr double same_face = 0.9998;       ///< cos 1°; normals nearer to each other are of one face
+constexpr double recovery_time = 5e-3;     ///< [s] on which a body that is in another comes out
 constexpr double most_bow = 5e-5;          ///< [m] between the way and the straight one that is swept
+constexpr double slow_approach = 1e-6;     ///< [m/s]; a slower one is none
 constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
 constexpr double shortest_share = 1e-3;    ///< of a step: a shorter piece is not tried
 constexpr double stay_share = 0.1;         ///< of a step, for which a body stays where nothing fits
@@ -137,49 +140,28 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
     row.lever_W = row.point.p_W - X0.translation();
     gap_at_start.push_back(row.gap);
   }
-  for (int solution = 0; solution < most_solutions; ++solution) {
+  for (int solution = 1; solution <= most_solutions; ++solution) {
     body.go_back();
     if (!body.advance(h, total_load(work))) break;
-    const RigidTransform X1 = body.object().X;
-    // Gap and slip at the end under the loads assumed.
-    double worst = 0.0;
-    for (std::size_t i = 0; i < work.size(); ++i) {
-      ContactRow& row = work[i];
-      const Vector3d start = X0.translation() + row.lever_W;
-      const Vector3d way = moved(X0, X1, start) - start;
-      row.gap = gap_at_start[i] + way.dot(row.point.n_W);
-      row.slip_W = way - row.point.n_W * way.dot(row.point.n_W);
-      row.point.p_W = start + way;
-      worst = std::min(worst, row.gap);
-    }
-    // Contacts that come into being on the way.
-    std::vector<ContactRow> seen;
-    add_contacts(body.index(), X1, touching, seen, outcome);
-    for (ContactRow& row : seen) {
-      const bool known = std::any_of(work.begin(), work.end(), [&](const ContactRow& w) {
-        return w.point.other == row.point.other && w.point.n_W.dot(row.point.n_W) > 0.99 && w.gap < 10.0 * touching &&
-               (w.point.p_W - row.point.p_W).norm() < 5.0 * same_point;
-      });
-      if (known) continue;
-      const Vector3d start = moved(X1, X0, row.point.p_W);
-      const Vector3d way = row.point.p_W - start;
-      row.lever_W = start - X0.translation();
-      row.slip_W = way - row.point.n_W * way.dot(row.point.n_W);
-      gap_at_start.push_back(row.gap - way.dot(row.point.n_W));
-      worst = std::min(worst, row.gap);
-      work.push_back(row);
-    }
+    look_at_end(body, X0, work, gap_at_start, outcome);
     std::vector<ContactRow> assumed = work;
     body.go_back();
     const Matrix6d C = body.answer(h).displacement;
-    for (ContactRow& row : work) row.gap += slack;
+    double worst = 0.0;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      // What is deeper than the slack at the start comes out of it slowly: at once it would be thrown out.
+      const double left = std::max(slack, -gap_at_start[i] * std::exp(-h / recovery_time));
+      work[i].gap += left;
+      worst = std::max(worst, -work[i].gap);
+    }
     solve_contacts(C, work);
     // Done when solving again would not move the body.
     double change = 0.0;
     for (std::size_t i = 0; i < work.size(); ++i) {
       change = std::max(change, (C.topLeftCorner<3, 3>() * (work[i].load_W - assumed[i].load_W)).norm());
     }
-    if (worst > -touching && change < 0.1 * touching) {
+    const bool solved = worst < slack && change < 0.1 * touching;
+    if (solved || (solution == most_solutions && worst < 0.5 * closed)) {
       if (!body.advance(h, total_load(assumed))) break;
       rows = std::move(assumed);
       return true;
@@ -187,6 +169,46 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
   }
   body.go_back();
   return false;
+}
+
+void ContactStepper::look_at_end(const SteppedBody& body, const RigidTransform& X0, std::vector<ContactRow>& work,
+                                 std::vector<double>& gap_at_start, ContactOutcome& outcome) const {
+  const RigidTransform X1 = body.object().X;
+  const auto set_slip = [](ContactRow& row, const Vector3d& way) {
+    row.slip_W = way - row.point.n_W * way.dot(row.point.n_W);
+  };
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    ContactRow& row = work[i];
+    const Vector3d start = X0.translation() + row.lever_W;
+    const Vector3d way = moved(X0, X1, start) - start;
+    row.gap = gap_at_start[i] + way.dot(row.point.n_W);
+    row.point.p_W = start + way;
+    set_slip(row, way);
+  }
+  std::vector<ContactRow> seen;
+  add_contacts(body.index(), X1, touching, seen, outcome);
+  for (const ContactRow& row : seen) {
+    std::size_t at = 0;
+    while (at < work.size() && !(work[at].point.other == row.point.other &&
+                                 work[at].point.n_W.dot(row.point.n_W) > same_face &&
+                                 (work[at].point.p_W - row.point.p_W).norm() < 5.0 * same_point)) {
+      ++at;
+    }
+    const bool known = at < work.size();
+    if (known && work[at].gap <= row.gap + 0.1 * touching) continue;
+    const Vector3d load = known ? work[at].load_W : Vector3d(Vector3d::Zero());
+    if (!known) {
+      work.emplace_back();
+      gap_at_start.push_back(0.0);
+    }
+    const Vector3d start = moved(X1, X0, row.point.p_W);
+    const Vector3d way = row.point.p_W - start;
+    work[at] = row;
+    work[at].load_W = load;
+    work[at].lever_W = start - X0.translation();
+    set_slip(work[at], way);
+    gap_at_start[at] = row.gap - way.dot(row.point.n_W);
+  }
 }
 
 bool ContactStepper::is_straight(std::size_t body, const MotionState& begin, const MotionState& end, double h) const {
@@ -267,12 +289,20 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
 }
 
 bool ContactStepper::meet(SteppedBody& body, const std::vector<ContactRow>& touched, std::vector<ContactRow>& rows) const {
+  const MotionState s = body.object();
   bool met = false;
   for (const ContactRow& row : touched) {
-    const bool known = std::any_of(rows.begin(), rows.end(), [&](const ContactRow& r) { return is_same(r.point, row.point); });
-    if (known) continue;
-    rows.push_back(row);
-    met = true;
+    const auto known = std::find_if(rows.begin(), rows.end(), [&](const ContactRow& r) { return is_same(r.point, row.point); });
+    if (known == rows.end()) {
+      rows.push_back(row);
+      met = true;
+      continue;
+    }
+    // One that the last solution has not kept open is taken as it is.
+    const Vector3d v = s.velocity.linear + s.velocity.angular.cross(row.point.p_W - s.X.translation());
+    met = met || v.dot(row.point.n_W) < -slow_approach;
+    known->point = row.point;
+    known->gap = std::min(known->gap, row.gap);
   }
   if (met) collide(body, rows);
   return met;
