@@ -17,11 +17,14 @@ constexpr double sweep_resolution = 2e-4;  ///< [m] between the poses that a swe
 constexpr double closed = 2e-5;            ///< [m]; on its way a body in contact may be so deep
 constexpr double same_face = 0.9998;       ///< cos 1°; normals nearer to each other are of one face
 constexpr double recovery_time = 5e-3;     ///< [s] on which a body that is in another comes out
-constexpr double most_bow = 5e-5;          ///< [m] between the way and the straight one that is swept
+constexpr double most_bow = 5e-5;          ///< [m] between the way and each of the straight ones that are swept
 constexpr double slow_approach = 1e-6;     ///< [m/s]; a slower one is none
 constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
 constexpr double shortest_share = 1e-3;    ///< of a step: a shorter piece is not tried
 constexpr double stay_share = 0.1;         ///< of a step, for which a body stays where nothing fits
+constexpr double most_segments = 4.0;      ///< straight ones for which the way over a piece is swept
+constexpr double safety = 0.9;             ///< of the longest piece that is straight enough
+constexpr double longer = 2.0;             ///< than the last, at most, is a piece
 constexpr int most_tries = 100;            ///< pieces tried in a step
 constexpr int most_solutions = 8;          ///< solutions of one piece of a step, each about the last
 
@@ -109,7 +112,7 @@ void ContactStepper::refresh(const SteppedBody& body, std::vector<ContactRow>& r
   }
 }
 
-void ContactStepper::collide(SteppedBody& body, const std::vector<ContactRow>& rows) const {
+void ContactStepper::collide(SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce) const {
   const MotionState s = body.object();
   std::vector<ContactRow> impulses;
   for (const ContactRow& row : rows) {
@@ -121,7 +124,8 @@ void ContactStepper::collide(SteppedBody& body, const std::vector<ContactRow>& r
     const Material& a = scene_.bodies[body.index()].material;
     const Material& b =
         row.point.other == CollisionWorld::bench ? scene_.bench_material : scene_.bodies[row.point.other].material;
-    const double restitution = approach < -rest_speed ? std::sqrt(a.restitution * b.restitution) : 0.0;
+    const bool bounces = bounce == Bounce::of_materials && approach < -rest_speed;
+    const double restitution = bounces ? std::sqrt(a.restitution * b.restitution) : 0.0;
     impulse.gap = (1.0 + restitution) * approach;
     impulse.slip_W = v - approach * row.point.n_W;
     impulses.push_back(impulse);
@@ -140,13 +144,11 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
     row.lever_W = row.point.p_W - X0.translation();
     gap_at_start.push_back(row.gap);
   }
+  const Matrix6d C = body.answer(h).displacement;
   for (int solution = 1; solution <= most_solutions; ++solution) {
-    body.go_back();
     if (!body.advance(h, total_load(work))) break;
     look_at_end(body, X0, work, gap_at_start, outcome);
     std::vector<ContactRow> assumed = work;
-    body.go_back();
-    const Matrix6d C = body.answer(h).displacement;
     double worst = 0.0;
     for (std::size_t i = 0; i < work.size(); ++i) {
       // What is deeper than the slack at the start comes out of it slowly: at once it would be thrown out.
@@ -160,14 +162,13 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
     for (std::size_t i = 0; i < work.size(); ++i) {
       change = std::max(change, (C.topLeftCorner<3, 3>() * (work[i].load_W - assumed[i].load_W)).norm());
     }
-    const bool solved = worst < slack && change < 0.1 * touching;
+    const bool solved = worst < touching && change < touching;
     if (solved || (solution == most_solutions && worst < 0.5 * closed)) {
-      if (!body.advance(h, total_load(assumed))) break;
       rows = std::move(assumed);
       return true;
     }
+    body.go_back();
   }
-  body.go_back();
   return false;
 }
 
@@ -211,10 +212,26 @@ void ContactStepper::look_at_end(const SteppedBody& body, const RigidTransform& 
   }
 }
 
-bool ContactStepper::is_straight(std::size_t body, const MotionState& begin, const MotionState& end, double h) const {
-  const double bow = (end.velocity.linear - begin.velocity.linear).norm() +
-                     radius_[body] * (end.velocity.angular - begin.velocity.angular).norm();
-  return h / 8.0 * bow <= most_bow;
+double ContactStepper::bow(std::size_t body, const MotionState& begin, const MotionState& end, double h) const {
+  return h / 8.0 * ((end.velocity.linear - begin.velocity.linear).norm() +
+                    radius_[body] * (end.velocity.angular - begin.velocity.angular).norm());
+}
+
+ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const MotionState& begin, const MotionState& end,
+                                                  double h, double tolerance) const {
+  const auto rates = [](const MotionState& s) { return Vector3d(s.X.linear().transpose() * s.velocity.angular); };
+  const MotionSegment way({0.0, begin.X}, begin.velocity.linear, rates(begin), {h, end.X}, end.velocity.linear, rates(end));
+  const int count = static_cast<int>(std::ceil(std::sqrt(bow(body, begin, end, h) / most_bow)));
+  RigidTransform from = begin.X;
+  for (int i = 0; i < std::max(count, 1); ++i) {
+    const RigidTransform to = i + 1 < count ? way.at(h * (i + 1) / count).X : end.X;
+    const SweepResult result = collision_.sweep(body, from, to, tolerance, sweep_resolution, levels_);
+    if (result.hit) {
+      return {true, (i + result.free_fraction) / std::max(count, 1), between(from, to, result.touching_fraction)};
+    }
+    from = to;
+  }
+  return {};
 }
 
 ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std::vector<ContactRow>& rows,
@@ -232,22 +249,23 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
     return {false, in_contact ? smaller : 0.0, {}};
   }
   const MotionState end = body.object();
-  if (in_contact || collision_.may_touch(index, begin.X, end.X, most_bow)) {
-    if (!is_straight(index, begin, end, h)) {
+  const double bowed = bow(index, begin, end, h);
+  const double straight = safety * std::sqrt(most_segments * most_segments * most_bow / std::max(bowed, 1e-3 * most_bow));
+  if (in_contact || collision_.may_touch(index, begin.X, end.X, std::max(bowed, most_bow))) {
+    if (straight < safety) {
       body.go_back();
-      return {false, 0.5, {}};
+      return {false, straight, {}};
     }
     // A start that is in something already may not go deeper.
     const double tolerance = in_contact ? std::max(closed, deepest(rows) + touching) : touching;
-    const SweepResult sweep = collision_.sweep(index, begin.X, end.X, tolerance, sweep_resolution, levels_);
+    const Obstruction found = sweep(index, begin, end, h, tolerance);
     ++outcome.queries;
-    if (sweep.hit) {
-      Piece piece{false, sweep.free_fraction, {}};
+    if (found.hit) {
+      Piece piece{false, found.free, {}};
       body.go_back();
-      const RigidTransform touch = between(begin.X, end.X, sweep.touching_fraction);
-      add_contacts(index, touch, touching, piece.touched, outcome);
+      add_contacts(index, found.X_WO, touching, piece.touched, outcome);
       for (ContactRow& row : piece.touched) {
-        const Vector3d here = moved(touch, begin.X, row.point.p_W);
+        const Vector3d here = moved(found.X_WO, begin.X, row.point.p_W);
         row.gap = std::max(0.0, row.gap + (here - row.point.p_W).dot(row.point.n_W));
         row.point.p_W = here;
       }
@@ -255,7 +273,8 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
     }
   }
   rows = std::move(solved);
-  return {true, 1.0, {}};
+  body.accept();
+  return {true, in_contact ? std::clamp(straight, 0.5, longer) : longer, {}};
 }
 
 void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) {
@@ -267,18 +286,21 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
     piece = left;
   };
   refresh(body, rows, outcome);
-  collide(body, rows);
+  collide(body, rows, Bounce::of_materials);
   for (int i = 0; i < most_tries && left > 1e-9 * h; ++i) {
     piece = std::min(piece, left);
     Piece tried = try_piece(body, piece, rows, outcome);
     if (tried.done) {
       left -= piece;
-      piece *= 2.0;
-      if (left > 1e-9 * h) refresh(body, rows, outcome);
+      piece *= tried.next;
+      if (left > 1e-9 * h) {
+        refresh(body, rows, outcome);
+        collide(body, rows, Bounce::none);
+      }
       continue;
     }
-    if (tried.free * piece > shortest_share * h) {
-      piece *= tried.free;
+    if (tried.next * piece > shortest_share * h) {
+      piece *= tried.next;
     } else if (tried.touched.empty() || !meet(body, tried.touched, rows)) {
       stay(std::min(left, std::max(piece, stay_share * h)));
     }
@@ -304,7 +326,7 @@ bool ContactStepper::meet(SteppedBody& body, const std::vector<ContactRow>& touc
     known->point = row.point;
     known->gap = std::min(known->gap, row.gap);
   }
-  if (met) collide(body, rows);
+  if (met) collide(body, rows, Bounce::of_materials);
   return met;
 }
 

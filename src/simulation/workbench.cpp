@@ -136,7 +136,9 @@ void Workbench::carry(SteppedBody& stepped, std::size_t object, double h, Advanc
     contact_stepper_->step(stepped, h, rows_[object], outcome);
   } else {
     stepped.remember();
-    if (!stepped.advance(h, Wrench())) {
+    if (stepped.advance(h, Wrench())) {
+      stepped.accept();
+    } else {
       stepped.go_back();
       stepped.go_along(h);
       outcome.refused = true;
