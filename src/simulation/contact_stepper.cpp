@@ -157,11 +157,12 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
       worst = std::max(worst, -work[i].gap);
     }
     solve_contacts(C, work);
-    // Done when solving again would not move the body.
-    double change = 0.0;
-    for (std::size_t i = 0; i < work.size(); ++i) {
-      change = std::max(change, (C.topLeftCorner<3, 3>() * (work[i].load_W - assumed[i].load_W)).norm());
-    }
+    // Done when solving again would not move the body, however the contacts share what they carry.
+    const Wrench before = total_load(assumed), after = total_load(work);
+    Vector6d more;
+    more << after.force - before.force, after.moment - before.moment;
+    const Vector6d moves = C * more;
+    const double change = moves.head<3>().norm() + radius_[body.index()] * moves.tail<3>().norm();
     const bool solved = worst < touching && change < touching;
     if (solved || (solution == most_solutions && worst < 0.5 * closed)) {
       rows = std::move(assumed);
@@ -189,11 +190,14 @@ void ContactStepper::look_at_end(const SteppedBody& body, const RigidTransform& 
   std::vector<ContactRow> seen;
   add_contacts(body.index(), X1, touching, seen, outcome);
   for (const ContactRow& row : seen) {
-    std::size_t at = 0;
-    while (at < work.size() && !(work[at].point.other == row.point.other &&
-                                 work[at].point.n_W.dot(row.point.n_W) > same_face &&
-                                 (work[at].point.p_W - row.point.p_W).norm() < 5.0 * same_point)) {
-      ++at;
+    std::size_t at = work.size();
+    double nearest = same_point;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      const ContactPoint& w = work[i].point;
+      const double distance = (w.p_W - row.point.p_W).norm();
+      if (w.other != row.point.other || w.n_W.dot(row.point.n_W) < same_face || distance >= nearest) continue;
+      nearest = distance;
+      at = i;
     }
     const bool known = at < work.size();
     if (known && work[at].gap <= row.gap + 0.1 * touching) continue;
