@@ -17,6 +17,8 @@ constexpr double sweep_resolution = 2e-4;  ///< [m] between the poses that a swe
 constexpr double closed = 2e-5;            ///< [m]; on its way a body in contact may be so deep
 constexpr double same_face = 0.9998;       ///< cos 1°; normals nearer to each other are of one face
 constexpr double recovery_time = 5e-3;     ///< [s] on which a body that is in another comes out
+constexpr double solved_gap = 3e-6;        ///< [m] that the solution of a piece may leave to go into another …
+constexpr double solved_way = 1e-5;        ///< [m] … or that it would still move the body
 constexpr double most_bow = 5e-5;          ///< [m] between the way and each of the straight ones that are swept
 constexpr double slow_approach = 1e-6;     ///< [m/s]; a slower one is none
 constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
@@ -163,7 +165,7 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
     more << after.force - before.force, after.moment - before.moment;
     const Vector6d moves = C * more;
     const double change = moves.head<3>().norm() + radius_[body.index()] * moves.tail<3>().norm();
-    const bool solved = worst < touching && change < touching;
+    const bool solved = worst < solved_gap && change < solved_way;
     if (solved || (solution == most_solutions && worst < 0.5 * closed)) {
       rows = std::move(assumed);
       return true;
