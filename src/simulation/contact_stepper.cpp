@@ -17,8 +17,7 @@ constexpr double sweep_resolution = 2e-4;  ///< [m] between the poses that a swe
 constexpr double closed = 2e-5;            ///< [m]; on its way a body in contact may be so deep
 constexpr double same_face = 0.9998;       ///< cos 1°; normals nearer to each other are of one face
 constexpr double recovery_time = 5e-3;     ///< [s] on which a body that is in another comes out
-constexpr double solved_gap = 3e-6;        ///< [m] that the solution of a piece may leave to go into another …
-constexpr double solved_way = 1e-5;        ///< [m] … or that it would still move the body
+constexpr double solved_share = 0.01;      ///< of the way over a piece: a smaller change is none
 constexpr double most_bow = 5e-5;          ///< [m] between the way and each of the straight ones that are swept
 constexpr double slow_approach = 1e-6;     ///< [m/s]; a slower one is none
 constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
@@ -42,6 +41,11 @@ RigidTransform between(const RigidTransform& X0, const RigidTransform& X1, doubl
   X.translation() = X0.translation() + fraction * (X1.translation() - X0.translation());
   X.makeAffine();
   return X;
+}
+
+/// How far a point of a body goes between two poses, at most [m].
+double extent(const RigidTransform& X0, const RigidTransform& X1, double radius) {
+  return (X1.translation() - X0.translation()).norm() + radius * log_so3(X0.linear().transpose() * X1.linear()).norm();
 }
 
 bool is_same(const ContactPoint& a, const ContactPoint& b) {
@@ -165,7 +169,9 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
     more << after.force - before.force, after.moment - before.moment;
     const Vector6d moves = C * more;
     const double change = moves.head<3>().norm() + radius_[body.index()] * moves.tail<3>().norm();
-    const bool solved = worst < solved_gap && change < solved_way;
+    const double way = extent(X0, body.object().X, radius_[body.index()]);
+    const bool solved = worst < std::clamp(solved_share * way, slack, 3.0 * touching) &&
+                        change < std::clamp(solved_share * way, 0.1 * touching, 10.0 * touching);
     if (solved || (solution == most_solutions && worst < 0.5 * closed)) {
       rows = std::move(assumed);
       return true;
