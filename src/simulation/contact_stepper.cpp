@@ -27,6 +27,7 @@ constexpr double most_segments = 4.0;      ///< straight ones for which the way 
 constexpr double safety = 0.9;             ///< of the longest piece that is straight enough
 constexpr double longer = 2.0;             ///< than the last, at most, is a piece
 constexpr int most_tries = 100;            ///< pieces tried in a step
+constexpr int most_unsolved = 6;           ///< pieces of a step without a solution, before the body stays
 constexpr int most_solutions = 8;          ///< solutions of one piece of a step, each about the last
 
 /// Where a row's point of the body, fixed in the object frame at `X0`, is when the body is at `X1`.
@@ -258,7 +259,7 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
   if (!possible) {
     body.go_back();
     outcome.refused = outcome.refused || !in_contact;
-    return {false, in_contact ? smaller : 0.0, {}};
+    return {false, in_contact ? smaller : 0.0, {}, false};
   }
   const MotionState end = body.object();
   const double bowed = bow(index, begin, end, h);
@@ -291,6 +292,7 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
 
 void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) {
   double left = h, piece = h;
+  int unsolved = 0;
   const auto stay = [&](double duration) {
     body.stay(duration);
     outcome.held_back = true;
@@ -311,7 +313,8 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
       }
       continue;
     }
-    if (tried.next * piece > shortest_share * h) {
+    if (!tried.solved) ++unsolved;
+    if (unsolved <= most_unsolved && tried.next * piece > shortest_share * h) {
       piece *= tried.next;
     } else if (tried.touched.empty() || !meet(body, tried.touched, rows)) {
       stay(std::min(left, std::max(piece, stay_share * h)));

@@ -45,6 +45,7 @@ class ContactStepper {
     bool done = false;                  ///< the body has gone it
     double next = 0.0;                  ///< how long the next piece to try is, over this one
     std::vector<ContactRow> touched;    ///< not done: what was in the way
+    bool solved = true;                 ///< loads were found, with which the body can be carried
   };
   /// Tries to go `h` on, under the rows' loads where there are rows. Not done, the body is where it was.
   Piece try_piece(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
