@@ -26,9 +26,10 @@ int count_at(const std::vector<std::string>& arguments, std::size_t index, int o
   return std::stoi(text);
 }
 
-void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes, std::ostream& out) {
+void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes, const std::vector<ContactMode>& modes,
+              std::ostream& out) {
   out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,held_back,refused,cpu_s_per_motion\n";
-  for (const ContactMode mode : {ContactMode::stop, ContactMode::dynamic}) {
+  for (const ContactMode mode : modes) {
     for (const WildScene scene : scenes) {
       WildResult sum;
       int passed = 0, over = 0, worst_seed = first_seed;
@@ -57,6 +58,15 @@ std::vector<WildScene> scenes_at(const std::vector<std::string>& arguments, std:
   refuse(where, "scene", arguments[index], "rod_in_room or ring_on_rod");
 }
 
+std::vector<ContactMode> modes_at(const std::vector<std::string>& arguments, std::size_t index) {
+  const std::vector<ContactMode> both{ContactMode::stop, ContactMode::dynamic};
+  if (index >= arguments.size()) return both;
+  for (const ContactMode mode : both) {
+    if (name_of(mode) == arguments[index]) return {mode};
+  }
+  refuse(where, "contact", arguments[index], "stop or dynamic");
+}
+
 void run_scale(int most, std::ostream& out) {
   out << "contact,objects,start_ms,memory_MB,step_us\n";
   for (const ContactMode mode : {ContactMode::none, ContactMode::stop, ContactMode::dynamic}) {
@@ -72,12 +82,12 @@ void run_scale(int most, std::ostream& out) {
 
 void run_contact_trials(const std::vector<std::string>& arguments, std::ostream& out) {
   const std::string what = arguments.empty() ? "" : arguments[0];
-  if (what == "wild" && arguments.size() <= 4) {
-    run_wild(count_at(arguments, 1, 100), count_at(arguments, 2, 0), scenes_at(arguments, 3), out);
+  if (what == "wild" && arguments.size() <= 5) {
+    run_wild(count_at(arguments, 1, 100), count_at(arguments, 2, 0), scenes_at(arguments, 3), modes_at(arguments, 4), out);
   } else if (what == "scale" && arguments.size() <= 2) {
     run_scale(count_at(arguments, 1, 10000), out);
   } else {
-    refuse(where, "arguments", what, "wild [N [FIRST_SEED [SCENE]]] or scale [MOST]");
+    refuse(where, "arguments", what, "wild [N [FIRST_SEED [SCENE [CONTACT]]]] or scale [MOST]");
   }
 }
 

@@ -11,12 +11,15 @@
 #include "bench_contacts.h"
 #include "narrow_phase.h"
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/scene/clear_way.h"
 #include "spring_workbench/scene/geometry.h"
 #include "spring_workbench/scene/outline.h"
 #include "thin_out.h"
 
 namespace spring_workbench {
 namespace {
+
+constexpr double impact_precision = 1e-8;  ///< [m] of the way, between the free and the touching end of a time of impact
 
 /// An axis-aligned box as an object of FCL's broadphase.
 class BoxObject {
@@ -87,6 +90,20 @@ Eigen::AlignedBox3d grown(Eigen::AlignedBox3d box, double by) {
   return box;
 }
 
+/// Goes on from `free` towards `touching` by what is surely clear, and then by ever longer steps from `least` on.
+template <typename ClearFrom, typename TouchingAt>
+void approach(const ClearFrom& clear_from, const TouchingAt& touching_at, double least, double& free, double& touching) {
+  constexpr int most_advances = 50;
+  for (int i = 0; i < most_advances; ++i) {
+    const double clear = clear_from(free, touching);
+    free += clear;
+    if (clear < least) break;
+  }
+  for (double step = least; free + step < touching; step *= 2.0) {
+    (touching_at(free + step) ? touching : free) = free + step;
+  }
+}
+
 /// Memory of the broadphase's callback.
 struct Neighbours {
   std::size_t body;  // whose own pieces do not count
@@ -138,8 +155,10 @@ struct CollisionWorld::Impl {
   void place(std::size_t body, const RigidTransform& X_WO) {
     for (std::size_t i = bodies[body].begin; i < bodies[body].end; ++i) {
       pieces[i].X_WS = X_WO * pieces[i].X_OS;
+      // Out and in again: update() would look at the whole tree.
+      broadphase.unregisterObject(pieces[i].in_broadphase.get());
       pieces[i].in_broadphase.place(pieces[i].box_at(pieces[i].X_WS));
-      broadphase.update(pieces[i].in_broadphase.get());
+      broadphase.registerObject(pieces[i].in_broadphase.get());
     }
   }
 
@@ -180,37 +199,39 @@ struct CollisionWorld::Impl {
     }
   }
 
-  /// Which part of the way `move`, `turn` (in the body's axes) the body can surely go from `X_WO` on, at most `longest`:
-  /// conservative advancement along the axis of the widest gap between boxes around the pieces, or where the boxes overlap
-  /// by the gap between the surfaces.
+  /// Which part of the way `move`, `turn` (in the body's axes) the body can surely go from `X_WO` on without being deeper
+  /// in anything than `tolerance`, at most `longest`: conservative advancement, piece by piece. Boxes around the pieces
+  /// stay clear of each other as their corners do of a plane between them; where boxes around other shapes overlap, it is
+  /// the gap between the surfaces that is left.
   double clear_way(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
-                   double longest) {
-    const double radius = bodies[body].radius;
-    const Vector3d turn_W = X_WO.linear() * turn_O;
-    const double fastest = move_W.norm() + radius * turn_W.norm();
+                   double tolerance, double longest) {
+    const Way way{X_WO.translation(), move_W, X_WO.linear() * turn_O};
+    const double fastest = move_W.norm() + bodies[body].radius * turn_O.norm();
     double clear = longest;
-    const auto limit = [&](const BoxGap& gap) {
-      // The axis of turning is the same on the whole way.
-      const double speed = std::max(0.0, -gap.n_W.dot(move_W)) + radius * gap.n_W.cross(turn_W).norm();
-      if (std::max(0.0, gap.gap) < speed * clear) clear = std::max(0.0, gap.gap) / speed;
-    };
     for (std::size_t i = bodies[body].begin; i < bodies[body].end && clear > 0.0; ++i) {
-      const Eigen::AlignedBox3d box = pieces[i].box_at(X_WO * pieces[i].X_OS);
-      const OutlineBox own = pieces[i].outline(X_WO * pieces[i].X_OS);
-      limit(gap_above(own, bench_height));
+      const RigidTransform X_WS = X_WO * pieces[i].X_OS;
+      const OutlineBox own = pieces[i].outline(X_WS);
+      const Eigen::AlignedBox3d box = pieces[i].box_at(X_WS);
+      const double by_corners = clear_above(own, way, {Vector3d::UnitZ(), bench_height}, own.exact ? tolerance : 0.0, clear);
+      clear = std::max(by_corners, std::min(clear, (box.min().z() - bench_height) / fastest));
       find_near(body, grown(box, fastest * clear));
       for (const std::size_t other : near) {
         const OutlineBox others = pieces[other].outline(pieces[other].X_WS);
-        const BoxGap boxes = gap_between(own, others);
-        if (boxes.gap > 0.0 || (own.exact && others.exact)) {
-          limit(boxes);
+        const bool exact = own.exact && others.exact;
+        const double boxes = clear_of(own, way, others, exact ? tolerance : 0.0, clear);
+        if (exact || boxes >= clear) {
+          clear = boxes;
         } else {
-          clear = std::min(clear, narrow.gap(pieces[i].solid, X_WO * pieces[i].X_OS, pieces[other].solid,
-                                             pieces[other].X_WS) / fastest);
+          clear = std::max(boxes, std::min(clear, gap(i, X_WS, other) / fastest));
         }
       }
     }
     return clear;
+  }
+
+  /// Between the surfaces of a piece at `X_WS` and another where it is.
+  double gap(std::size_t piece, const RigidTransform& X_WS, std::size_t other) {
+    return narrow.gap(pieces[piece].solid, X_WS, pieces[other].solid, pieces[other].X_WS);
   }
 
   /// Around a piece on the whole way: the boxes at both ends, and what the arc between adds to them, which is at most
@@ -258,29 +279,32 @@ void CollisionWorld::find_contacts(std::size_t body, const RigidTransform& X_WO,
 SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                                   double tolerance, double resolution, int levels) const {
   const Vector3d turn = turn_between(X0_WO, X1_WO);
-  const double way = (X1_WO.translation() - X0_WO.translation()).norm() + impl_->bodies[body].radius * turn.norm();
+  const Vector3d move = X1_WO.translation() - X0_WO.translation();
+  const double way = move.norm() + impl_->bodies[body].radius * turn.norm();
   if (!(resolution > 0.0) || !std::isfinite(way)) throw std::invalid_argument("sweep: resolution or poses");
   if (!may_touch(body, X0_WO, X1_WO, std::max(0.0, -tolerance))) return {};
   const auto at = [&](double fraction) { return between(X0_WO, X1_WO, turn, fraction); };
-  if (touches(body, X0_WO, tolerance)) return {true, 0.0, 0.0};
+  const auto touching_at = [&](double fraction) { return touches(body, at(fraction), tolerance); };
+  const auto clear_from = [&](double fraction, double until) {
+    return tolerance < 0.0 ? 0.0 : impl_->clear_way(body, at(fraction), move, turn, tolerance, until - fraction);
+  };
+  if (touching_at(0.0)) return {true, 0.0, 0.0};
   const double least = std::min(1.0, resolution / std::max(way, resolution));
-  double free = 0.0;
-  while (free < 1.0) {
-    const double clear =
-        tolerance < 0.0 ? 0.0 : impl_->clear_way(body, at(free), X1_WO.translation() - X0_WO.translation(), turn, 1.0 - free);
+  double free = 0.0, touching = 2.0;
+  while (free < 1.0 && touching > 1.0) {
+    const double clear = clear_from(free, 1.0);
     const double looked_at = std::min(1.0, free + std::max(least, clear));
-    if (looked_at - free <= clear || !touches(body, at(looked_at), tolerance)) {
-      free = looked_at;
-      continue;
-    }
-    double touching = looked_at;
-    for (int level = 0; level < levels; ++level) {
-      const double middle = 0.5 * (free + touching);
-      (touches(body, at(middle), tolerance) ? touching : free) = middle;
-    }
-    return {true, free, touching};
+    (looked_at - free <= clear || !touching_at(looked_at) ? free : touching) = looked_at;
   }
-  return {};
+  if (touching > 1.0) return {};
+  if (levels == 0) {
+    approach(clear_from, touching_at, impact_precision / std::max(way, impact_precision), free, touching);
+  }
+  for (int level = 0; level < levels; ++level) {
+    const double middle = 0.5 * (free + touching);
+    (touching_at(middle) ? touching : free) = middle;
+  }
+  return {true, free, touching};
 }
 
 }  // namespace spring_workbench

@@ -55,6 +55,11 @@ struct NarrowPhase::Solid {
   Geometry geometry;
   std::shared_ptr<const Surface> surface;  // none for a sphere
   std::unique_ptr<Triangles> triangles;
+
+  void make_surface_and_triangles() {
+    surface = make_surface(geometry);
+    if (surface) triangles = make_triangles(*surface->mesh);
+  }
 };
 
 /// FCL's answer, kept between queries for its memory.
@@ -68,9 +73,8 @@ NarrowPhase::NarrowPhase() : fcl_(std::make_unique<Fcl>()) {}
 NarrowPhase::~NarrowPhase() = default;
 
 std::size_t NarrowPhase::add(const Geometry& geometry) {
-  Solid solid{geometry, make_surface(geometry), nullptr};
-  if (solid.surface) solid.triangles = make_triangles(*solid.surface->mesh);
-  solids_.push_back(std::move(solid));
+  solids_.push_back({geometry, nullptr, nullptr});
+  if (std::holds_alternative<MeshPtr>(geometry)) solids_.back().make_surface_and_triangles();
   return solids_.size() - 1;
 }
 
@@ -87,15 +91,29 @@ void NarrowPhase::append_contacts(std::size_t own_index, const RigidTransform& X
   } else if (std::holds_alternative<Box>(own.geometry) && std::holds_alternative<Box>(other.geometry)) {
     boxes(own, X_WA, other, X_WB, tolerance, contacts);
   } else {
-    surfaces(own, X_WA, other, X_WB, tolerance, contacts);
+    surfaces(with_triangles(own_index), X_WA, with_triangles(other_index), X_WB, tolerance, contacts);
   }
 }
 
-double NarrowPhase::gap(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB) const {
-  const Triangles* a = solids_[own].triangles.get();
-  const Triangles* b = solids_[other].triangles.get();
-  if (a == nullptr || b == nullptr) return 0.0;
+const NarrowPhase::Solid& NarrowPhase::with_triangles(std::size_t index) {
+  Solid& solid = solids_[index];
+  if (!solid.triangles) solid.make_surface_and_triangles();
+  return solid;
+}
+
+double NarrowPhase::gap(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB) {
+  const auto is_a = [&](auto kind, std::size_t solid) {
+    return std::holds_alternative<decltype(kind)>(solids_[solid].geometry);
+  };
+  if (is_a(Sphere(), own) || is_a(Sphere(), other)) {
+    if (is_a(MeshPtr(), own) || is_a(MeshPtr(), other)) return 0.0;
+    std::vector<ContactPoint> nearest;
+    append_contacts(own, X_WA, other, X_WB, -std::numeric_limits<double>::max(), nearest);
+    return std::max(0.0, -nearest.front().depth);
+  }
   fcl::DistanceResultd result;
+  const Triangles* a = with_triangles(own).triangles.get();
+  const Triangles* b = with_triangles(other).triangles.get();
   return std::max(0.0, fcl::distance(a, X_WA, b, X_WB, fcl::DistanceRequestd(), result));
 }
 

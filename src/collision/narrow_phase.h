@@ -26,13 +26,15 @@ class NarrowPhase {
   void append_contacts(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
                        double tolerance, std::vector<ContactPoint>& contacts);
 
-  /// The gap between the surfaces of two shapes [m]; 0 where they touch or one of them has no triangles.
-  double gap(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB) const;
+  /// The gap between the surfaces of two shapes [m]; 0 where they touch, and for a sphere and a mesh.
+  double gap(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB);
 
  private:
   struct Solid;
   struct Fcl;
 
+  /// Those of boxes and cylinders are made when they are first needed: most resting objects never do.
+  const Solid& with_triangles(std::size_t index);
   void sphere_and(const Solid& sphere, const RigidTransform& X_WS, const Solid& other, const RigidTransform& X_WB,
                   double tolerance, std::vector<ContactPoint>& contacts);
   void boxes(const Solid& own, const RigidTransform& X_WA, const Solid& other, const RigidTransform& X_WB,

@@ -161,6 +161,7 @@ StepReport to_message(const AdvanceReport& report) {
   message.collision_queries = static_cast<uint32_t>(report.collision_queries);
   message.steps_rejected = static_cast<uint32_t>(report.steps_rejected);
   message.energy_held = static_cast<uint32_t>(report.energy_held);
+  message.held_back = static_cast<uint32_t>(report.held_back);
   message.guards_tripped = static_cast<uint32_t>(report.guards_tripped);
   message.parts_run = report.parts_run;
   message.parts_left_out = report.parts_left_out;

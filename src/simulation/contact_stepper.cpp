@@ -15,11 +15,19 @@ constexpr double probe_depth = 1e-4;       ///< [m] by which the body is pushed 
 constexpr double same_point = 2e-3;        ///< [m]; contacts nearer to each other are one
 constexpr double sweep_resolution = 2e-4;  ///< [m] between the poses that a sweep looks at, where boxes overlap
 constexpr double closed = 2e-5;            ///< [m]; on its way a body in contact may be so deep
-constexpr double most_bow = 5e-5;          ///< [m] between the way and the straight one that is swept
+constexpr double same_face = 0.9998;       ///< cos 1°; normals nearer to each other are of one face
+constexpr double recovery_time = 5e-3;     ///< [s] on which a body that is in another comes out
+constexpr double solved_share = 0.01;      ///< of the way over a piece: a smaller change is none
+constexpr double most_bow = 5e-5;          ///< [m] between the way and each of the straight ones that are swept
+constexpr double slow_approach = 1e-6;     ///< [m/s]; a slower one is none
 constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
 constexpr double shortest_share = 1e-3;    ///< of a step: a shorter piece is not tried
 constexpr double stay_share = 0.1;         ///< of a step, for which a body stays where nothing fits
+constexpr double most_segments = 4.0;      ///< straight ones for which the way over a piece is swept
+constexpr double safety = 0.9;             ///< of the longest piece that is straight enough
+constexpr double longer = 2.0;             ///< than the last, at most, is a piece
 constexpr int most_tries = 100;            ///< pieces tried in a step
+constexpr int most_unsolved = 6;           ///< pieces of a step without a solution, before the body stays
 constexpr int most_solutions = 8;          ///< solutions of one piece of a step, each about the last
 
 /// Where a row's point of the body, fixed in the object frame at `X0`, is when the body is at `X1`.
@@ -34,6 +42,11 @@ RigidTransform between(const RigidTransform& X0, const RigidTransform& X1, doubl
   X.translation() = X0.translation() + fraction * (X1.translation() - X0.translation());
   X.makeAffine();
   return X;
+}
+
+/// How far a point of a body goes between two poses, at most [m].
+double extent(const RigidTransform& X0, const RigidTransform& X1, double radius) {
+  return (X1.translation() - X0.translation()).norm() + radius * log_so3(X0.linear().transpose() * X1.linear()).norm();
 }
 
 bool is_same(const ContactPoint& a, const ContactPoint& b) {
@@ -106,7 +119,7 @@ void ContactStepper::refresh(const SteppedBody& body, std::vector<ContactRow>& r
   }
 }
 
-void ContactStepper::collide(SteppedBody& body, const std::vector<ContactRow>& rows) const {
+void ContactStepper::collide(SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce) const {
   const MotionState s = body.object();
   std::vector<ContactRow> impulses;
   for (const ContactRow& row : rows) {
@@ -118,7 +131,8 @@ void ContactStepper::collide(SteppedBody& body, const std::vector<ContactRow>& r
     const Material& a = scene_.bodies[body.index()].material;
     const Material& b =
         row.point.other == CollisionWorld::bench ? scene_.bench_material : scene_.bodies[row.point.other].material;
-    const double restitution = approach < -rest_speed ? std::sqrt(a.restitution * b.restitution) : 0.0;
+    const bool bounces = bounce == Bounce::of_materials && approach < -rest_speed;
+    const double restitution = bounces ? std::sqrt(a.restitution * b.restitution) : 0.0;
     impulse.gap = (1.0 + restitution) * approach;
     impulse.slip_W = v - approach * row.point.n_W;
     impulses.push_back(impulse);
@@ -137,62 +151,100 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
     row.lever_W = row.point.p_W - X0.translation();
     gap_at_start.push_back(row.gap);
   }
-  for (int solution = 0; solution < most_solutions; ++solution) {
-    body.go_back();
+  const Matrix6d C = body.answer(h).displacement;
+  for (int solution = 1; solution <= most_solutions; ++solution) {
     if (!body.advance(h, total_load(work))) break;
-    const RigidTransform X1 = body.object().X;
-    // Gap and slip at the end under the loads assumed.
+    look_at_end(body, X0, work, gap_at_start, outcome);
+    std::vector<ContactRow> assumed = work;
     double worst = 0.0;
     for (std::size_t i = 0; i < work.size(); ++i) {
-      ContactRow& row = work[i];
-      const Vector3d start = X0.translation() + row.lever_W;
-      const Vector3d way = moved(X0, X1, start) - start;
-      row.gap = gap_at_start[i] + way.dot(row.point.n_W);
-      row.slip_W = way - row.point.n_W * way.dot(row.point.n_W);
-      row.point.p_W = start + way;
-      worst = std::min(worst, row.gap);
+      // What is deeper than the slack at the start comes out of it slowly: at once it would be thrown out.
+      const double left = std::max(slack, -gap_at_start[i] * std::exp(-h / recovery_time));
+      work[i].gap += left;
+      worst = std::max(worst, -work[i].gap);
     }
-    // Contacts that come into being on the way.
-    std::vector<ContactRow> seen;
-    add_contacts(body.index(), X1, touching, seen, outcome);
-    for (ContactRow& row : seen) {
-      const bool known = std::any_of(work.begin(), work.end(), [&](const ContactRow& w) {
-        return w.point.other == row.point.other && w.point.n_W.dot(row.point.n_W) > 0.99 && w.gap < 10.0 * touching &&
-               (w.point.p_W - row.point.p_W).norm() < 5.0 * same_point;
-      });
-      if (known) continue;
-      const Vector3d start = moved(X1, X0, row.point.p_W);
-      const Vector3d way = row.point.p_W - start;
-      row.lever_W = start - X0.translation();
-      row.slip_W = way - row.point.n_W * way.dot(row.point.n_W);
-      gap_at_start.push_back(row.gap - way.dot(row.point.n_W));
-      worst = std::min(worst, row.gap);
-      work.push_back(row);
-    }
-    std::vector<ContactRow> assumed = work;
-    body.go_back();
-    const Matrix6d C = body.answer(h).displacement;
-    for (ContactRow& row : work) row.gap += slack;
     solve_contacts(C, work);
-    // Done when solving again would not move the body.
-    double change = 0.0;
-    for (std::size_t i = 0; i < work.size(); ++i) {
-      change = std::max(change, (C.topLeftCorner<3, 3>() * (work[i].load_W - assumed[i].load_W)).norm());
-    }
-    if (worst > -touching && change < 0.1 * touching) {
-      if (!body.advance(h, total_load(assumed))) break;
+    // Done when solving again would not move the body, however the contacts share what they carry.
+    const Wrench before = total_load(assumed), after = total_load(work);
+    Vector6d more;
+    more << after.force - before.force, after.moment - before.moment;
+    const Vector6d moves = C * more;
+    const double change = moves.head<3>().norm() + radius_[body.index()] * moves.tail<3>().norm();
+    const double way = extent(X0, body.object().X, radius_[body.index()]);
+    const bool solved = worst < std::clamp(solved_share * way, slack, 3.0 * touching) &&
+                        change < std::clamp(solved_share * way, 0.1 * touching, 10.0 * touching);
+    if (solved || (solution == most_solutions && worst < 0.5 * closed)) {
       rows = std::move(assumed);
       return true;
     }
+    body.go_back();
   }
-  body.go_back();
   return false;
 }
 
-bool ContactStepper::is_straight(std::size_t body, const MotionState& begin, const MotionState& end, double h) const {
-  const double bow = (end.velocity.linear - begin.velocity.linear).norm() +
-                     radius_[body] * (end.velocity.angular - begin.velocity.angular).norm();
-  return h / 8.0 * bow <= most_bow;
+void ContactStepper::look_at_end(const SteppedBody& body, const RigidTransform& X0, std::vector<ContactRow>& work,
+                                 std::vector<double>& gap_at_start, ContactOutcome& outcome) const {
+  const RigidTransform X1 = body.object().X;
+  const auto set_slip = [](ContactRow& row, const Vector3d& way) {
+    row.slip_W = way - row.point.n_W * way.dot(row.point.n_W);
+  };
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    ContactRow& row = work[i];
+    const Vector3d start = X0.translation() + row.lever_W;
+    const Vector3d way = moved(X0, X1, start) - start;
+    row.gap = gap_at_start[i] + way.dot(row.point.n_W);
+    row.point.p_W = start + way;
+    set_slip(row, way);
+  }
+  std::vector<ContactRow> seen;
+  add_contacts(body.index(), X1, touching, seen, outcome);
+  for (const ContactRow& row : seen) {
+    std::size_t at = work.size();
+    double nearest = same_point;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      const ContactPoint& w = work[i].point;
+      const double distance = (w.p_W - row.point.p_W).norm();
+      if (w.other != row.point.other || w.n_W.dot(row.point.n_W) < same_face || distance >= nearest) continue;
+      nearest = distance;
+      at = i;
+    }
+    const bool known = at < work.size();
+    if (known && work[at].gap <= row.gap + 0.1 * touching) continue;
+    const Vector3d load = known ? work[at].load_W : Vector3d(Vector3d::Zero());
+    if (!known) {
+      work.emplace_back();
+      gap_at_start.push_back(0.0);
+    }
+    const Vector3d start = moved(X1, X0, row.point.p_W);
+    const Vector3d way = row.point.p_W - start;
+    work[at] = row;
+    work[at].load_W = load;
+    work[at].lever_W = start - X0.translation();
+    set_slip(work[at], way);
+    gap_at_start[at] = row.gap - way.dot(row.point.n_W);
+  }
+}
+
+double ContactStepper::bow(std::size_t body, const MotionState& begin, const MotionState& end, double h) const {
+  return h / 8.0 * ((end.velocity.linear - begin.velocity.linear).norm() +
+                    radius_[body] * (end.velocity.angular - begin.velocity.angular).norm());
+}
+
+ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const MotionState& begin, const MotionState& end,
+                                                  double h, double tolerance) const {
+  const auto rates = [](const MotionState& s) { return Vector3d(s.X.linear().transpose() * s.velocity.angular); };
+  const MotionSegment way({0.0, begin.X}, begin.velocity.linear, rates(begin), {h, end.X}, end.velocity.linear, rates(end));
+  const int count = static_cast<int>(std::ceil(std::sqrt(bow(body, begin, end, h) / most_bow)));
+  RigidTransform from = begin.X;
+  for (int i = 0; i < std::max(count, 1); ++i) {
+    const RigidTransform to = i + 1 < count ? way.at(h * (i + 1) / count).X : end.X;
+    const SweepResult result = collision_.sweep(body, from, to, tolerance, sweep_resolution, levels_);
+    if (result.hit) {
+      return {true, (i + result.free_fraction) / std::max(count, 1), between(from, to, result.touching_fraction)};
+    }
+    from = to;
+  }
+  return {};
 }
 
 ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std::vector<ContactRow>& rows,
@@ -207,25 +259,26 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
   if (!possible) {
     body.go_back();
     outcome.refused = outcome.refused || !in_contact;
-    return {false, in_contact ? smaller : 0.0, {}};
+    return {false, in_contact ? smaller : 0.0, {}, false};
   }
   const MotionState end = body.object();
-  if (in_contact || collision_.may_touch(index, begin.X, end.X, most_bow)) {
-    if (!is_straight(index, begin, end, h)) {
+  const double bowed = bow(index, begin, end, h);
+  const double straight = safety * std::sqrt(most_segments * most_segments * most_bow / std::max(bowed, 1e-3 * most_bow));
+  if (in_contact || collision_.may_touch(index, begin.X, end.X, std::max(bowed, most_bow))) {
+    if (straight < safety) {
       body.go_back();
-      return {false, 0.5, {}};
+      return {false, straight, {}};
     }
     // A start that is in something already may not go deeper.
     const double tolerance = in_contact ? std::max(closed, deepest(rows) + touching) : touching;
-    const SweepResult sweep = collision_.sweep(index, begin.X, end.X, tolerance, sweep_resolution, levels_);
+    const Obstruction found = sweep(index, begin, end, h, tolerance);
     ++outcome.queries;
-    if (sweep.hit) {
-      Piece piece{false, sweep.free_fraction, {}};
+    if (found.hit) {
+      Piece piece{false, found.free, {}};
       body.go_back();
-      const RigidTransform touch = between(begin.X, end.X, sweep.touching_fraction);
-      add_contacts(index, touch, touching, piece.touched, outcome);
+      add_contacts(index, found.X_WO, touching, piece.touched, outcome);
       for (ContactRow& row : piece.touched) {
-        const Vector3d here = moved(touch, begin.X, row.point.p_W);
+        const Vector3d here = moved(found.X_WO, begin.X, row.point.p_W);
         row.gap = std::max(0.0, row.gap + (here - row.point.p_W).dot(row.point.n_W));
         row.point.p_W = here;
       }
@@ -233,11 +286,13 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
     }
   }
   rows = std::move(solved);
-  return {true, 1.0, {}};
+  body.accept();
+  return {true, in_contact ? std::clamp(straight, 0.5, longer) : longer, {}};
 }
 
 void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) {
   double left = h, piece = h;
+  int unsolved = 0;
   const auto stay = [&](double duration) {
     body.stay(duration);
     outcome.held_back = true;
@@ -245,18 +300,22 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
     piece = left;
   };
   refresh(body, rows, outcome);
-  collide(body, rows);
+  collide(body, rows, Bounce::of_materials);
   for (int i = 0; i < most_tries && left > 1e-9 * h; ++i) {
     piece = std::min(piece, left);
     Piece tried = try_piece(body, piece, rows, outcome);
     if (tried.done) {
       left -= piece;
-      piece *= 2.0;
-      if (left > 1e-9 * h) refresh(body, rows, outcome);
+      piece *= tried.next;
+      if (left > 1e-9 * h) {
+        refresh(body, rows, outcome);
+        collide(body, rows, Bounce::none);
+      }
       continue;
     }
-    if (tried.free * piece > shortest_share * h) {
-      piece *= tried.free;
+    if (!tried.solved) ++unsolved;
+    if (unsolved <= most_unsolved && tried.next * piece > shortest_share * h) {
+      piece *= tried.next;
     } else if (tried.touched.empty() || !meet(body, tried.touched, rows)) {
       stay(std::min(left, std::max(piece, stay_share * h)));
     }
@@ -267,14 +326,22 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
 }
 
 bool ContactStepper::meet(SteppedBody& body, const std::vector<ContactRow>& touched, std::vector<ContactRow>& rows) const {
+  const MotionState s = body.object();
   bool met = false;
   for (const ContactRow& row : touched) {
-    const bool known = std::any_of(rows.begin(), rows.end(), [&](const ContactRow& r) { return is_same(r.point, row.point); });
-    if (known) continue;
-    rows.push_back(row);
-    met = true;
+    const auto known = std::find_if(rows.begin(), rows.end(), [&](const ContactRow& r) { return is_same(r.point, row.point); });
+    if (known == rows.end()) {
+      rows.push_back(row);
+      met = true;
+      continue;
+    }
+    // One that the last solution has not kept open is taken as it is.
+    const Vector3d v = s.velocity.linear + s.velocity.angular.cross(row.point.p_W - s.X.translation());
+    met = met || v.dot(row.point.n_W) < -slow_approach;
+    known->point = row.point;
+    known->gap = std::min(known->gap, row.gap);
   }
-  if (met) collide(body, rows);
+  if (met) collide(body, rows, Bounce::of_materials);
   return met;
 }
 

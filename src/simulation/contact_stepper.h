@@ -31,22 +31,36 @@ class ContactStepper {
   /// Adds contacts found with the body at `X_WO`; gaps as they are there.
   void add_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance, std::vector<ContactRow>& rows,
                     ContactOutcome& outcome) const;
-  /// Takes away the speed with which the contacts approach (perfectly inelastic but for the restitution).
-  void collide(SteppedBody& body, const std::vector<ContactRow>& rows) const;
+  /// Takes away the speed with which the contacts approach, perfectly inelastic or with the materials' restitution.
+  enum class Bounce { none, of_materials };
+  void collide(SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce) const;
   /// Goes `h` on under loads that leave the rows' gaps closed or open. False when it did not come out free.
   bool advance_in_contact(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
+  /// Gaps and slips of the contacts `work` with the body at the end of a piece from `X0` on; contacts that have come into
+  /// being on the way join, and those that lie deeper than their points' motion says are taken as they are found.
+  void look_at_end(const SteppedBody& body, const RigidTransform& X0, std::vector<ContactRow>& work,
+                   std::vector<double>& gap_at_start, ContactOutcome& outcome) const;
   /// What a piece of a step has come to.
   struct Piece {
     bool done = false;                  ///< the body has gone it
-    double free = 0.0;                  ///< else: the part of it that is worth trying, 0 … 1
-    std::vector<ContactRow> touched;    ///< else: what was in the way
+    double next = 0.0;                  ///< how long the next piece to try is, over this one
+    std::vector<ContactRow> touched;    ///< not done: what was in the way
+    bool solved = true;                 ///< loads were found, with which the body can be carried
   };
   /// Tries to go `h` on, under the rows' loads where there are rows. Not done, the body is where it was.
   Piece try_piece(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
   /// Adds those contacts that are new and takes away the speed with which they approach. False when none was.
   bool meet(SteppedBody& body, const std::vector<ContactRow>& touched, std::vector<ContactRow>& rows) const;
-  /// Whether the way between two states is as good as straight.
-  bool is_straight(std::size_t body, const MotionState& begin, const MotionState& end, double h) const;
+  /// How far the way between two states, `h` apart, is from the straight one [m].
+  double bow(std::size_t body, const MotionState& begin, const MotionState& end, double h) const;
+  /// What is in the way between two states.
+  struct Obstruction {
+    bool hit = false;
+    double free = 1.0;                                    ///< the free part of the way, 0 … 1
+    RigidTransform X_WO = RigidTransform::Identity();     ///< where the body touches
+  };
+  /// Sweeps the Hermite interpolant between two states, as so many straight ones as its bow asks for.
+  Obstruction sweep(std::size_t body, const MotionState& begin, const MotionState& end, double h, double tolerance) const;
 
   const Scene& scene_;
   CollisionWorld& collision_;

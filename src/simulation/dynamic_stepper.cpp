@@ -76,6 +76,7 @@ void DynamicStepper::go_freely(const std::vector<SteppedBody*>& held, const std:
       held[i]->stay(h);
       outcome.refused = true;
     }
+    held[i]->accept();
     load_W_.erase(held[i]->index());
     const MotionState s = held[i]->object();
     world_->place(held[i]->index(), s.X, s.velocity, false);
@@ -138,6 +139,7 @@ bool DynamicStepper::go_in_contact(const std::vector<SteppedBody*>& held, const 
     return false;
   }
   for (std::size_t i = 0; i < held.size(); ++i) {
+    held[i]->accept();
     load_W_[held[i]->index()] = driven[i].contact_W;
     const MotionState s = held[i]->object();
     world_->place(held[i]->index(), s.X, s.velocity, true);

@@ -115,8 +115,9 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
     estimates_.extra_steps += step.steps - 1;
     estimates_.rejected += step.rejected;
     estimates_.energy_held += step.energy_held;
-    if (!held_.returning()) state_.energy_added += added_energy(motion, h, state_.strain, next);
   }
+  last_.reset();
+  if (held_.size() > 0 && !held_.returning()) last_ = Advance{motion, state_.t, h, state_.strain};
   state_.t += h;
   state_.strain = next;
   state_.pull_W.reset();
@@ -126,9 +127,16 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   return hand_pose().translation().norm() < largest_distance;
 }
 
-double ForkBody::added_energy(const MotionSegment& motion, double h, const StrainState& begin,
-                              const StrainState& end) const {
-  const double t = state_.t;
+void ForkBody::accept() {
+  if (last_) state_.energy_added += added_energy(*last_);
+  last_.reset();
+}
+
+double ForkBody::added_energy(const Advance& advance) const {
+  const MotionSegment& motion = advance.motion;
+  const StrainState& begin = advance.begin;
+  const double t = advance.t, h = advance.h;
+  const StrainState& end = state_.strain;
   const double m = held_.body().mass;
   const StrainMatrix D = held_.damping();
   double energy = 0.0, power = 0.0;
@@ -166,7 +174,10 @@ double ForkBody::added_energy(const MotionSegment& motion, double h, const Strai
 
 void ForkBody::remember() { remembered_ = state_; }
 
-void ForkBody::go_back() { state_ = remembered_; }
+void ForkBody::go_back() {
+  state_ = remembered_;
+  last_.reset();
+}
 
 ForkBody::Jacobian ForkBody::jacobian_W(const Matrix3d& R_WH, double t) const {
   Jacobian J = held_.object_jacobian(t, state_.strain.q);
@@ -235,6 +246,7 @@ void ForkBody::take_twist(const Twist& V_WO_W) {
 }
 
 void ForkBody::stay(double h) {
+  last_.reset();
   // The seen handle stays where it is, whatever the hand does next, and the strain with it.
   state_.strain.q_dot.setZero();
   const RigidTransform seen = state_.offset * hand_pose();
@@ -244,6 +256,7 @@ void ForkBody::stay(double h) {
 }
 
 void ForkBody::go_along(double h) {
+  last_.reset();
   state_.strain.q_dot.setZero();
   state_.t += h;
 }

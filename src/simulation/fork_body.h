@@ -20,6 +20,7 @@ class ForkBody final : public ToolHold {
   bool advance(double h, const Wrench& contact_W) override;
   void remember() override;
   void go_back() override;
+  void accept() override;
   Answer answer(double h) const override;
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
@@ -95,8 +96,14 @@ class ForkBody final : public ToolHold {
   StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const;
   /// The strain with the object at `X_WO`, `h` [s] after the last; `handle` the hand itself.
   void fit(const HandleForcing& handle, const RigidTransform& X_WO, double h);
-  /// Energy added (see energy_added()) by a step of `h` from `begin` to `end` along the handle's `motion`.
-  double added_energy(const MotionSegment& motion, double h, const StrainState& begin, const StrainState& end) const;
+  /// What the last advance() went from, along the handle's `motion`.
+  struct Advance {
+    MotionSegment motion;
+    double t, h;
+    StrainState begin;
+  };
+  /// Energy added (see energy_added()) by an advance to the present state.
+  double added_energy(const Advance& advance) const;
   using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates>;
   Jacobian jacobian_W() const { return jacobian_W(handle().X_WH.linear(), state_.t); }
   Jacobian jacobian_W(const Matrix3d& R_WH, double t) const;
@@ -107,6 +114,7 @@ class ForkBody final : public ToolHold {
   RigidTransform X_SH_;  ///< from one grip to the next
   MotionSegment hand_;   ///< of the handle as the hand has it
   State state_, remembered_;
+  std::optional<Advance> last_;  ///< while it may turn out to have been a trial
   StepEstimates estimates_;
   /// What a sleeper's rest rests on.
   struct Sleep {

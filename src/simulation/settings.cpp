@@ -170,7 +170,8 @@ std::vector<Field> other_fields() {
       number("dropout_after", "s", positive_or_infinite(),
              "a longer gap between samples holds the handle still until the next one",
              [](S& s) -> double& { return s.dropout_after; }),
-      integer("bisection_levels", 1, 30, "how often a step that ends in contact is halved (the paper, section 5)",
+      integer("bisection_levels", 0, 30,
+              "how often the end of a step that touches is halved (the paper, section 5); 0: time of impact instead",
               [](S& s) -> int& { return s.bisection_levels; }),
   };
 }

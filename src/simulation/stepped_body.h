@@ -17,6 +17,8 @@ class SteppedBody {
   /// Goes `h` [s] on under a constant wrench at the centre of mass, world axes; false where the result is not one to go on
   /// from (not finite, or out of bounds), and then nothing has changed.
   virtual bool advance(double h, const Wrench& contact_W) = 0;
+  /// The last advance() was not a trial: the body stays there.
+  virtual void accept() {}
   /// The state to come back to, and coming back to it.
   virtual void remember() = 0;
   virtual void go_back() = 0;

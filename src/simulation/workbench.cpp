@@ -128,19 +128,16 @@ void Workbench::set_free(std::size_t object, const Twist& V_WO_W, double now) {
 void Workbench::wake_what_lies_on(std::size_t object, double now) {
   if (!collision_) return;
   std::vector<ContactPoint> found;
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    if (i == object || !states_[i].asleep || states_[i].held || massless(i)) continue;
-    RigidTransform lowered = states_[i].X_WO;
-    lowered.translation().z() -= support_gap;
-    found.clear();
-    collision_->find_contacts(movable_[i], lowered, 0.0, found);
-    const bool rests_on_it = std::any_of(found.begin(), found.end(), [&](const ContactPoint& c) {
-      return c.other == movable_[object] && c.n_W.z() > 0.1;
-    });
-    if (!rests_on_it) continue;
-    set_free(i, Twist(), now);
-    states_[i].asleep = false;
-    wake_what_lies_on(i, now);
+  RigidTransform lifted = states_[object].X_WO;
+  lifted.translation().z() += support_gap;
+  collision_->find_contacts(movable_[object], lifted, 0.0, found);
+  for (const ContactPoint& c : found) {
+    const bool carries_it = c.other != CollisionWorld::bench && scene_.bodies[c.other].movable && c.n_W.z() < -0.1;
+    if (!carries_it) continue;
+    const std::size_t other = object_of_[c.other];
+    if (!states_[other].asleep || states_[other].held || massless(other)) continue;
+    set_free(other, Twist(), now);
+    wake_what_lies_on(other, now);
   }
 }
 
@@ -151,7 +148,9 @@ void Workbench::carry(SteppedBody& stepped, std::size_t object, double h, Advanc
     contact_stepper_->step(stepped, h, rows_[object], outcome);
   } else {
     stepped.remember();
-    if (!stepped.advance(h, Wrench())) {
+    if (stepped.advance(h, Wrench())) {
+      stepped.accept();
+    } else {
       stepped.go_back();
       stepped.go_along(h);
       outcome.refused = true;

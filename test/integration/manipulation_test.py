@@ -113,19 +113,31 @@ class Manipulation(unittest.TestCase):
         self.assertAlmostEqual(float(diagnostic_values(self.diagnostics.messages, "tracker input")["rate [Hz]"]), 50.0,
                                delta=1.0)
 
-    def test_contacts_start_and_end(self):
+    def test_contacts_start_persist_slip_and_end(self):
         seen = len(self.contacts.messages)
         self.grasp()
         self.hand.move((0.03, 0.0, 0.01 + LENGTH), DOWN, 0.5)  # presses the box on the bench
-        self.hand.move(LIFTED, DOWN, 1.0)
+        self.hand.run(0.5)
+        pressed = self.contacts.next(lambda m: m.contacts and m.contacts[0].phase == Contact.PERSISTING)
+        step = wait_for(lambda: next((m for m in self.steps.messages if m.header.stamp == pressed.header.stamp and m.steps),
+                                     None), "the step of these contacts")
+        force = sum(c.impulse for c in pressed.contacts) * step.steps / step.simulated_time
+        self.assertAlmostEqual(force, MASS * GRAVITY - self.fork.next().tip_wrench.force.z, delta=0.02 * force)
+        self.assertEqual(step.held_back, 0)
+        dragged = len(self.contacts.messages)
+        self.hand.move((0.23, 0.0, 0.01 + LENGTH), DOWN, 1.0)  # at 0.3 m/s where it is fastest
+        slipping = max(c.slip_speed for m in self.contacts.messages[dragged:] for c in m.contacts)
+        self.assertTrue(0.1 < slipping < 0.6, slipping)
+        self.hand.move((0.23, 0.0, 0.30 + LENGTH), DOWN, 1.0)
         self.hand.run(0.5)
         messages = self.contacts.messages[seen:]
         phases = [c.phase for m in messages for c in m.contacts if c.object == "box" and c.other == "workbench"]
-        self.assertIn(Contact.STARTED, phases)
-        self.assertIn(Contact.ENDED, phases)
+        for phase in (Contact.STARTED, Contact.PERSISTING, Contact.ENDED):
+            self.assertIn(phase, phases)
         self.assertFalse(messages[-1].contacts)
         for contact in (c for m in messages for c in m.contacts):
             self.assertAlmostEqual(contact.normal.z, 1.0, delta=1e-6)
+            self.assertGreaterEqual(contact.impulse, 0.0)
 
     def test_markers_are_sent_while_somebody_listens(self):
         self.hand.run(0.2)

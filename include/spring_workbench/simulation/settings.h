@@ -26,7 +26,7 @@ struct SimulationSettings {
   ForkSettings fork;                   ///< keys `shape`, `fork.*`
   GraspSettings grasp;                 ///< keys `calibrate`, `grasp.*`, `start.follow`, `release`
   double dropout_after = 0.5;          ///< key `dropout_after` [s]
-  int bisection_levels = 8;            ///< key `bisection_levels`; 1 … 30 (paper, section 5)
+  int bisection_levels = 8;            ///< key `bisection_levels`; 0 … 30 (paper, section 5); 0: time of impact
 };
 
 /// Throws InputError for an unknown damping law, or one that the damping ratios do not go with (doc/model.md, "Damping").

@@ -605,7 +605,7 @@ TEST(Sweep, TheFreeEndIsFreeAndTheTouchingEndTouches) {
     const CollisionWorld world(scene_of(
         {body_of(shapes[static_cast<std::size_t>(i) % 5]), body_of(shapes[static_cast<std::size_t>(i / 5) % 5])}));
     const RigidTransform X0 = random.pose(0.2), X1 = random.pose(0.2);
-    const SweepResult result = world.sweep(0, X0, X1, 1e-6, 0.01, 12);
+    const SweepResult result = world.sweep(0, X0, X1, 1e-6, 0.01, i % 2 ? 12 : 0);
     if (!result.hit || result.touching_fraction == 0.0) continue;
     ++hits;
     const Vector3d turn = log_so3(X0.linear().transpose() * X1.linear());
@@ -625,6 +625,36 @@ TEST(Sweep, TheFreeEndIsFreeAndTheTouchingEndTouches) {
     for (const ContactPoint& c : found) EXPECT_LT(c.depth, 3.0 * way + 2e-6) << "deep where it only just touches";
   }
   EXPECT_GT(hits, 50);
+}
+
+TEST(Sweep, TheTimeOfImpactIsExact) {
+  // A box that flies and turns against the bench: its lowest corner is there where a bisection of the closed form says.
+  Random random(31);
+  for (int i = 0; i < 100; ++i) {
+    const Box shape{Vector3d(random.vector(0.1).cwiseAbs() + Vector3d::Constant(0.01))};
+    const CollisionWorld world(scene_of({body_of(shape)}, 0.0));
+    RigidTransform X0 = random.pose(0.1), X1 = random.pose(0.1);
+    X0.translation().z() = 0.3;
+    X1.translation().z() = -0.3;
+    const Vector3d turn = log_so3(X0.linear().transpose() * X1.linear());
+    const auto lowest = [&](double f) {
+      const Matrix3d R = X0.linear() * exp_so3(f * turn);
+      return 0.3 - 0.6 * f - 0.5 * R.row(2).cwiseAbs().dot(shape.size);
+    };
+    double above = 0.0, below = 1.0;
+    for (int k = 1; k < 1000; ++k) {
+      if (lowest(k / 1000.0) < 0.0) {
+        above = (k - 1) / 1000.0;
+        below = k / 1000.0;
+        break;
+      }
+    }
+    for (int k = 0; k < 50; ++k) (lowest(0.5 * (above + below)) > 0.0 ? above : below) = 0.5 * (above + below);
+    const SweepResult result = world.sweep(0, X0, X1, 0.0, 0.001, 0);
+    ASSERT_TRUE(result.hit);
+    EXPECT_NEAR(result.free_fraction, above, 2e-7);
+    EXPECT_NEAR(result.touching_fraction, above, 2e-7);
+  }
 }
 
 TEST(Sweep, AStartInContactIsTold) {

@@ -23,10 +23,13 @@ void push_line(Simulation& simulation, double t0, double t1, const Vector3d& a, 
 
 // The drag scene: 5 kg pressed 0.1 m below the plane by the hand, dragged 0.5 m; with springs that do not bend into each
 // other the lag is μ k_stretch 0.1 m / k_bend, and the weight presses beside.
-TEST(DynamicContact, DraggedBoxLagsByCoulombsLaw) {
+class Drag : public ::testing::TestWithParam<ContactMode> {};
+
+TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
   for (const double factor : {0.1, 1.0, 1e6}) {
     for (const double mu : {0.0, 0.5, 1.0}) {
       Scene scene = scene_of({box("box", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, 0.025), mu)}, mu);
+      scene.contact = GetParam();
       SimulationSettings set;
       set.fork.shape = "bushing";
       set.fork.length = 0.2;
@@ -46,6 +49,9 @@ TEST(DynamicContact, DraggedBoxLagsByCoulombsLaw) {
     }
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Modes, Drag, ::testing::Values(ContactMode::stop, ContactMode::dynamic),
+                         [](const auto& tested) { return tested.param == ContactMode::stop ? "stop" : "dynamic"; });
 
 TEST(DynamicContact, LiftsAStackAndPutsItDown) {
   Scene scene = scene_of({box("lower", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02)),

@@ -126,7 +126,7 @@ TEST(Settings, BadInputNamesPlaceKeyValueAndRuleAndChangesNothing) {
       {"\ngravity: -9.81", "gravity", "-9.81"},
       {"\nforce_scale: 0", "force_scale", "0"},
       {"\ndropout_after: 0", "dropout_after", "0"},
-      {"\nbisection_levels: 0", "bisection_levels", "0"},
+      {"\nbisection_levels: -1", "bisection_levels", "-1"},
       {"\nbisection_levels: 8.5", "bisection_levels", "8.5"},
       {"\ngrasp.object: [a]", "grasp.object", "[a]"},
       {"\ngrasp.tip_in_object: 0 0 0 0 0 0 0", "grasp.tip_in_object", "0 0 0 0 0 0 0"},
