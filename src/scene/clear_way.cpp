@@ -52,7 +52,8 @@ double clear_above(const OutlineBox& own, const Way& way, const HalfSpace& below
   for (const Vector3d& corner : corners(own)) {
     const Vector3d by_turning = way.turn_W.cross(corner - way.p_WO);
     const double height = below.n_W.dot(corner) - below.height;
-    clear = positive_until(height + tolerance, below.n_W.dot(way.move_W + by_turning), across * by_turning.norm(), clear);
+    clear =
+        positive_until(height + tolerance, below.n_W.dot(way.move_W + by_turning), across * by_turning.norm(), clear);
   }
   return clear;
 }

@@ -10,7 +10,7 @@ namespace spring_workbench {
 namespace {
 
 constexpr int most_sweeps = 200;
-constexpr double small_change = 1e-7;  ///< of the largest load: the sweeps end
+constexpr double small_change = 1e-10;  ///< of the largest load: the sweeps end
 
 /// Keeps the load inside its friction cone: presses only, and tangential ≤ μ normal.
 Vector3d into_cone(const Vector3d& load, const Vector3d& n, double friction) {

@@ -172,7 +172,7 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
     const double change = moves.head<3>().norm() + radius_[body.index()] * moves.tail<3>().norm();
     const double way = extent(X0, body.object().X, radius_[body.index()]);
     const bool solved = worst < std::clamp(solved_share * way, slack, 3.0 * touching) &&
-                        change < std::clamp(solved_share * way, 0.1 * touching, 10.0 * touching);
+                        change < std::clamp(solved_share * way, 1e-3 * touching, 10.0 * touching);
     if (solved || (solution == most_solutions && worst < 0.5 * closed)) {
       rows = std::move(assumed);
       return true;

@@ -21,7 +21,8 @@ struct HalfSpace {
 /// `tolerance` [m] in the half-space: a corner's height is its tangent but for ½ f² of its largest second derivative.
 double clear_above(const OutlineBox& own, const Way& way, const HalfSpace& below, double tolerance, double longest);
 
-/// The same for a box that stands still: the plane between the two is held fast to one of them, whichever keeps clear longer.
+/// The same for a box that stands still: the plane between the two is held fast to one of them, whichever keeps clear
+/// longer.
 double clear_of(const OutlineBox& own, const Way& way, const OutlineBox& other, double tolerance, double longest);
 
 }  // namespace spring_workbench

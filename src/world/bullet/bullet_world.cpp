@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "spring_workbench/math/so3.h"
-#include "spring_workbench/scene/clear_way.h"
 #include "spring_workbench/scene/geometry.h"
 
 namespace spring_workbench {
@@ -19,7 +18,6 @@ constexpr double asleep_speed = 2e-3;     ///< [m/s] of every point of a body â€
 constexpr double asleep_after = 0.5;      ///< [s] â€¦ for so long: it goes to sleep
 constexpr double rest_speed = 0.02;       ///< [m/s]; a slower approach does not bounce
 constexpr double penetration_share = 0.2; ///< of a penetration that is undone in a step, where it pushes free bodies
-constexpr double least_into = 4e-5;       ///< [m] that a body may go into another before its contact is looked for anew
 constexpr double closed_gap = 1e-5;       ///< [m]; a contact without impulse is told while its gap is smaller
 
 using Extent = Eigen::AlignedBox3d;
@@ -309,36 +307,27 @@ RigidWorld::Freedom BulletWorld::freedom(std::size_t body, const RigidTransform&
   Freedom freedom{longest, longest, false};
   double fastest = 0.0;
   for (const Twist& V : twists_W) fastest = std::max(fastest, V.linear.norm() + item.radius * V.angular.norm());
-  // `gap` now, and the time until a way from here has gone by a tolerance into the other.
-  const auto limit = [&](double gap, bool exact, const auto& clear) {
-    const bool near = gap < 2.0 * contact_skin + least;
+  const auto limit = [&](const BoxGap& gap, bool exact) {
+    const bool near = gap.gap < 2.0 * contact_skin + least;
     freedom.near = freedom.near || near;
-    double& time = near ? freedom.towards_near : freedom.until_near;
-    if (near && !exact) {
-      if (least < fastest * time) time = least / fastest;
-      return;
-    }
-    // One that is deep already goes on by little, so that it comes out rather than stands still.
-    const double tolerance = near ? std::max(least_into, 0.25 * least_into - gap) : -2.0 * contact_skin;
+    double speed = near && !exact ? fastest : 0.0;
     for (const Twist& V : twists_W) {
-      const Way way{X_WO.translation(), time * V.linear, time * V.angular};
-      time *= clear(way, tolerance);
+      speed = std::max(speed, -gap.n_W.dot(V.linear) + item.radius * gap.n_W.cross(V.angular).norm());
     }
+    const double way = near ? least : gap.gap - 2.0 * contact_skin;
+    double& time = near ? freedom.towards_near : freedom.until_near;
+    if (way < speed * time) time = way / speed;
   };
   const Vector3d reach = Vector3d::Constant(fastest * longest + 2.0 * contact_skin);
   const Extent box = placed(item.box_O, X_WO);
   const std::vector<std::size_t> near = inside(Extent(box.min() - reach, box.max() + reach));
   for (const OutlineBox& own : item.outline_O) {
     const OutlineBox here{X_WO * own.X, own.half, own.exact};
-    limit(gap_above(here, scene_.bench_height).gap, own.exact, [&](const Way& way, double tolerance) {
-      return clear_above(here, way, {Vector3d::UnitZ(), scene_.bench_height}, tolerance, 1.0);
-    });
+    limit(gap_above(here, scene_.bench_height), own.exact);
     for (const std::size_t i : near) {
       if (i == body) continue;
       for (const OutlineBox& other : items_[i].outline_O) {
-        const OutlineBox there{items_[i].X_WO * other.X, other.half, other.exact};
-        limit(gap_between(here, there).gap, own.exact && other.exact,
-              [&](const Way& way, double tolerance) { return clear_of(here, way, there, tolerance, 1.0); });
+        limit(gap_between(here, {items_[i].X_WO * other.X, other.half, other.exact}), own.exact && other.exact);
       }
     }
   }

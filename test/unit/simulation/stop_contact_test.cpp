@@ -24,7 +24,8 @@ struct SShape {
   double force, deflection, shortening;
 };
 
-/// The static answer of a shape model: K q = Jᵀ (P, M), with M such that the tip does not turn, by Newton with differences.
+/// The static answer of a shape model: K q = Jᵀ (P, M), with M such that the tip does not turn, by Newton with
+/// differences.
 SShape own_figure(const std::string& name, double bend, double force) {
   const PerFamily k{1e10, bend, 1e10};  // neither extension nor twist
   auto made = make_shape_model(name, length);
@@ -110,7 +111,8 @@ TEST(StopContact, FlushAndShiftedItBendsTheForkInSShape) {
     EXPECT_LT(std::abs(there.axial), 1e-3 * force) << exact.alpha;
     EXPECT_NEAR(there.sideways, force, 1e-3 * force) << exact.alpha;
     // The rod, which gives way along itself a little, is as near to the exact one as its shape model is.
-    EXPECT_NEAR(z1 / length, exact.shortening, 1e-6 + std::abs(own.shortening / length - exact.shortening)) << exact.alpha;
+    EXPECT_NEAR(z1 / length, exact.shortening, 1e-6 + std::abs(own.shortening / length - exact.shortening))
+        << exact.alpha;
   }
 }
 
@@ -126,7 +128,8 @@ TEST(StopContact, BetweenTwoSurfacesItSlidesAndStaysOutOfBoth) {
     for (const double k : {500.0, 5e4}) {
       const double ceiling = size.z() + room;
       Scene scene = scene_of({box("box", size, 1.0, Vector3d(0, 0, 0.05), 0.2),
-                              box("ceiling", Vector3d(2.0, 2.0, 0.1), 0.0, Vector3d(0, 0, ceiling + 0.05), 0.2)}, 0.2);
+                              box("ceiling", Vector3d(2.0, 2.0, 0.1), 0.0, Vector3d(0, 0, ceiling + 0.05), 0.2)},
+                             0.2);
       SimulationSettings set;
       set.fork.length = length;
       set.fork.stiffness = {k, k, 0.01 * k};
@@ -155,8 +158,10 @@ TEST(StopContact, APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling) {
   const Vector3d peg(0.02, 0.02, 0.06);
   std::vector<Body> bodies{box("peg", peg, 0.1, Vector3d(0.0004, 0, depth + 0.05), 0.2)};
   for (const double side : {-1.0, 1.0}) {
-    bodies.push_back(box("x" + std::to_string(side), Vector3d(wall, 0.2, depth), 0.0, Vector3d(side * 0.5 * (hole + wall), 0, 0.5 * depth), 0.2));
-    bodies.push_back(box("y" + std::to_string(side), Vector3d(hole, wall, depth), 0.0, Vector3d(0, side * 0.5 * (hole + wall), 0.5 * depth), 0.2));
+    bodies.push_back(box("x" + std::to_string(side), Vector3d(wall, 0.2, depth), 0.0,
+                         Vector3d(side * 0.5 * (hole + wall), 0, 0.5 * depth), 0.2));
+    bodies.push_back(box("y" + std::to_string(side), Vector3d(hole, wall, depth), 0.0,
+                         Vector3d(0, side * 0.5 * (hole + wall), 0.5 * depth), 0.2));
   }
   SimulationSettings set;
   set.fork.length = length;
