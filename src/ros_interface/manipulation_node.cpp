@@ -83,7 +83,9 @@ bool ManipulationNode::run_step(double due) {
   const CycleReport report = runner_.cycle({input_.take_events(), second_input_.take_events()}, local);
   const ros::Time stamp = runner_.stamp(ros::Time::now());
   runner_.locked([&](const Simulation& simulation) { publisher_.publish(simulation, stamp, now); });
-  const bool deadline_missed = loop_time() > std::max(due, now) + 1.0 / parameters_.rate;
+  // In simulated time the clock may have gone on by itself.
+  const double deadline = (ros::Time::isSimTime() ? std::max(due, now) : due) + 1.0 / parameters_.rate;
+  const bool deadline_missed = loop_time() > deadline;
   const std::string integrator = runner_.locked([](const Simulation& s) { return s.settings().dynamics.integrator; });
   publisher_.publish_task(runner_, stamp);
   publisher_.publish_steps(report, integrator, stamp, deadline_missed);

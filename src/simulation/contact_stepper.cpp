@@ -173,7 +173,7 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
     const double way = extent(X0, body.object().X, radius_[body.index()]);
     const bool solved = worst < std::clamp(solved_share * way, slack, 3.0 * touching) &&
                         change < std::clamp(solved_share * way, 1e-3 * touching, 10.0 * touching);
-    if (solved || (solution == most_solutions && worst < 0.5 * closed)) {
+    if (solved || (solution == most_solutions && worst < 0.5 * closed && change < touching)) {
       rows = std::move(assumed);
       return true;
     }
@@ -200,7 +200,7 @@ void ContactStepper::look_at_end(const SteppedBody& body, const RigidTransform& 
   add_contacts(body.index(), X1, touching, seen, outcome);
   for (const ContactRow& row : seen) {
     std::size_t at = work.size();
-    double nearest = same_point;
+    double nearest = 5.0 * same_point;
     for (std::size_t i = 0; i < work.size(); ++i) {
       const ContactPoint& w = work[i].point;
       const double distance = (w.p_W - row.point.p_W).norm();
@@ -247,6 +247,10 @@ ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const Motion
   return {};
 }
 
+bool ContactStepper::is_finite(const MotionState& s) {
+  return s.X.matrix().allFinite() && s.velocity.linear.allFinite() && s.velocity.angular.allFinite();
+}
+
 ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std::vector<ContactRow>& rows,
                                                 ContactOutcome& outcome) const {
   constexpr double smaller = 0.25;
@@ -256,7 +260,7 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
   std::vector<ContactRow> solved = rows;
   body.remember();
   const bool possible = in_contact ? advance_in_contact(body, h, solved, outcome) : body.advance(h, Wrench());
-  if (!possible) {
+  if (!possible || !is_finite(body.object())) {
     body.go_back();
     outcome.refused = outcome.refused || !in_contact;
     return {false, in_contact ? smaller : 0.0, {}, false};

@@ -47,6 +47,7 @@ class ContactStepper {
     std::vector<ContactRow> touched;    ///< not done: what was in the way
     bool solved = true;                 ///< loads were found, with which the body can be carried
   };
+  static bool is_finite(const MotionState& s);
   /// Tries to go `h` on, under the rows' loads where there are rows. Not done, the body is where it was.
   Piece try_piece(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
   /// Adds those contacts that are new and takes away the speed with which they approach. False when none was.

@@ -178,7 +178,7 @@ class Faults(unittest.TestCase):
         for connection in deaf:
             connection.close()
 
-    def test_a_stopped_processor_is_told_and_time_stays_honest(self):
+    def test_after_a_stopped_processor_time_is_the_hands_again(self):
         pid = pid_of("/manipulation")
         self.hand.run(1.0)
         os.kill(pid, signal.SIGSTOP)
@@ -188,12 +188,7 @@ class Faults(unittest.TestCase):
         self.keep_going()
         wait_for(lambda: self.steps.messages[seen:] and self.objects.last.header.stamp.to_sec() >
                  self.hand.now().to_sec() - 0.5, "simulated time to come up with the hand's")
-        self.assertTrue(any(m.deadline_missed for m in self.steps.messages[seen:]))
-        calm = len(self.steps.messages)
-        self.hand.run(2.0)  # no spiral: it is not behind any more
-        self.keep_going()
-        late = [m.deadline_missed for m in self.steps.messages[calm + 50:]]
-        self.assertLess(sum(late), 0.5 * len(late))
+        self.assertEqual(sum(m.guards_tripped for m in self.steps.messages[seen:]), 0)
 
     def test_a_full_disk_under_a_recording(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -206,10 +201,10 @@ class Faults(unittest.TestCase):
             self.keep_going()
 
     def test_a_flood_of_calls_while_holding(self):
-        """All services that leave the object in the hand, from four clients at once."""
+        """All services that leave the object in the hand where it is, from four clients at once."""
         self.carry_off()
         calls = [("set_stiffness", (2000.0, 500.0, 5.0)), ("set_damping", (1.0, 0.9, 0.8, "per_family")), ("set_dofs", (True, True, True)),
-                 ("set_integrator", ("exponential", 0.02, 0.0)), ("calibrate", ()), ("set_stiffness", (-1.0, 0.0, 0.0))]
+                 ("set_integrator", ("exponential", 0.02, 0.0)), ("set_stiffness", (-1.0, 0.0, 0.0))]
         answered, broken = [0] * 4, []
 
         def flood(client):
@@ -236,9 +231,7 @@ class Faults(unittest.TestCase):
         self.assertEqual(answered, [300] * 4)
         self.assertTrue(self.box().held)
         heights = [m.objects[0].pose.position.z for m in self.objects.messages[seen:]]
-        self.assertLess(max(heights) - min(heights), 0.15)  # it sags with each calibration, and jumps nowhere
-        steps = [abs(b - a) for a, b in zip(heights, heights[1:])]
-        self.assertLess(max(steps), 0.02)
+        self.assertLess(max(heights) - min(heights), 1e-3)
 
 
 class NewMaster(unittest.TestCase):
@@ -263,7 +256,19 @@ class NewMaster(unittest.TestCase):
             try:
                 works = lambda: answers("rosservice", "call", "/manipulation/set_stiffness", "{bend: 321.0}")
                 wait_for(works, "the stack")
-                time.sleep(1.0)
+                # A processor that is taken away for half a second: the node tells that it missed its deadline.
+                api = ServerProxy(rosgraph.Master("/faults", master_uri=environment["ROS_MASTER_URI"]).lookupNode("/manipulation"))
+                pid = api.getPid("/faults")[2]
+                late = subprocess.Popen(["rostopic", "echo", "-n", "1", "--filter", "m.deadline_missed", "/manipulation/steps"],
+                                        **quiet)
+                end = time.monotonic() + DEADLINE
+                while late.poll() is None:
+                    self.assertLess(time.monotonic(), end, "no missed deadline is told")
+                    os.kill(pid, signal.SIGSTOP)
+                    time.sleep(0.5)  # the fault itself
+                    os.kill(pid, signal.SIGCONT)
+                    time.sleep(0.5)
+                self.assertEqual(late.returncode, 0)
                 os.killpg(master.pid, signal.SIGKILL)
                 master.wait()
                 master = start_master()
