@@ -40,7 +40,9 @@ BodyInertia HoldMaker::inertia(const Grasp& grasp) const {
 }
 
 std::unique_ptr<ToolHold> HoldMaker::make_fork(const Grasp& grasp, double now) const {
-  HeldBody held(make_shape_model(settings_.fork.shape, grasp.length), inertia(grasp), scene_.gravity);
+  // A rigid tool may be as short as can be: what its object still moves must not depend on a length.
+  const std::string shape = grasp.tool == Tool::spring_fork ? settings_.fork.shape : "bushing";
+  HeldBody held(make_shape_model(shape, grasp.length), inertia(grasp), scene_.gravity);
   held.set_springs(settings_.fork);
   const StrainState zero{StrainVector::Zero(held.shape().size()), StrainVector::Zero(held.shape().size())};
   held.set_dofs(possible_dofs(grasp), now, settings_.fork.switch_off_time, zero);
