@@ -3,6 +3,7 @@
 #include <map>
 
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/ros_interface/parameters.h"
 
 namespace spring_workbench {
 namespace {
@@ -68,8 +69,10 @@ void set(Simulation& simulation, const YAML::Node& state) {
 
 }  // namespace
 
-Checkpoint::Checkpoint(const ros::NodeHandle& private_node, SimulationRunner& runner)
+Checkpoint::Checkpoint(const ros::NodeHandle& private_node, SimulationRunner& runner,
+                       const std::vector<std::string>& scene_roots)
     : private_node_(private_node), runner_(runner) {
+  resume(scene_roots);
   private_node_.getParam(private_node_.getNamespace(), parameters_);
   timer_ = private_node_.createWallTimer(ros::WallDuration(kPeriod), [this](const ros::WallTimerEvent&) { keep(); });
 }
@@ -95,23 +98,24 @@ void Checkpoint::hand_over() {
   keep();
 }
 
-void resume(const YAML::Node& private_parameters, const std::vector<std::string>& scene_roots, SimulationRunner& runner) {
-  const YAML::Node state = private_parameters[kKey];
+void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
+  const YAML::Node parameters = private_parameters(private_node_);
+  const YAML::Node state = parameters[kKey];
   if (!state) return;
   try {
     if (!state.IsMap() || !state["objects"].IsSequence() || !state["tools"].IsSequence()) {
       refuse("parameter", kKey, "what is given", "as this node left it");
     }
-    if (read_string(state["given_scene"], kKey, "given_scene") != private_parameters["scene"].as<std::string>()) return;
+    if (read_string(state["given_scene"], kKey, "given_scene") != parameters["scene"].as<std::string>()) return;
     const std::string scene = read_string(state["scene"], kKey, "scene");
     std::map<std::string, RigidTransform> places;
     for (const YAML::Node& object : state["objects"]) {
       places[read_string(object["name"], kKey, "name")] = read_pose(object["pose"], kKey, "pose");
     }
-    const bool other_scene = runner.locked([&](const Simulation& s) { return s.scene().path != scene; });
-    if (other_scene) runner.load(load_scene(scene, scene_roots));
-    runner.locked([&](Simulation& simulation) { set(simulation, state); });
-    runner.place(places);
+    const bool other_scene = runner_.locked([&](const Simulation& s) { return s.scene().path != scene; });
+    if (other_scene) runner_.load(load_scene(scene, scene_roots));
+    runner_.locked([&](Simulation& simulation) { set(simulation, state); });
+    runner_.place(places);
     ROS_WARN("going on where the node of this name was when it ended without warning; nothing is held");
   } catch (const std::exception& error) {  // a broken one must not keep the node from starting
     ROS_WARN_STREAM("starting anew: " << error.what());

@@ -44,12 +44,11 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
       publisher_(private_node, parameters_),
       services_(private_node, runner_, scene_roots(parameters_, runner_)),
       live_tuning_(make_live_tuning(private_node, runner_)),
-      checkpoint_(private_node, runner_),
+      checkpoint_(private_node, runner_, scene_roots(parameters_, runner_)),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
       every_second_(node.createWallTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
       physics_([this] { run_physics(); }) {
-  resume(private_parameters(private_node), scene_roots(parameters_, runner_), runner_);
   runner_.locked([](const Simulation& simulation) {
     for (const std::string& warning : simulation.scene().warnings) ROS_WARN_STREAM(warning);
     ROS_INFO("scene %s: %zu bodies", simulation.scene().name.c_str(), simulation.scene().bodies.size());

@@ -1,7 +1,8 @@
 #pragma once
 
 #include <ros/ros.h>
-#include <yaml-cpp/yaml.h>
+#include <string>
+#include <vector>
 
 #include "spring_workbench/ros_interface/simulation_runner.h"
 
@@ -12,8 +13,9 @@ namespace spring_workbench {
 /// brought up to date twice a second while something changes, and is deleted when the node ends in order.
 class Checkpoint {
  public:
-  /// `runner` must outlive this.
-  Checkpoint(const ros::NodeHandle& private_node, SimulationRunner& runner);
+  /// Brings the runner to the checkpoint, where there is one of a node that was started with the same scene; one that cannot be
+  /// used is told and left. `runner` must outlive this; `scene_roots`: as of load_scene().
+  Checkpoint(const ros::NodeHandle& private_node, SimulationRunner& runner, const std::vector<std::string>& scene_roots);
   ~Checkpoint();
   Checkpoint(const Checkpoint&) = delete;
   Checkpoint& operator=(const Checkpoint&) = delete;
@@ -22,6 +24,7 @@ class Checkpoint {
   void hand_over();
 
  private:
+  void resume(const std::vector<std::string>& scene_roots);
   void keep();
 
   ros::NodeHandle private_node_;
@@ -31,9 +34,5 @@ class Checkpoint {
   bool handed_over_ = false;
   ros::WallTimer timer_;
 };
-
-/// Brings the runner to the checkpoint among a node's private parameters, where there is one of a node that was started
-/// with the same scene. One that cannot be used is told and left. `scene_roots`: as of load_scene().
-void resume(const YAML::Node& private_parameters, const std::vector<std::string>& scene_roots, SimulationRunner& runner);
 
 }  // namespace spring_workbench
