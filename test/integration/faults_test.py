@@ -247,7 +247,7 @@ class NewMaster(unittest.TestCase):
                 return subprocess.run(command, timeout=DEADLINE, **quiet).returncode == 0
 
             def start_master():
-                master = subprocess.Popen(["roscore", "-p", str(port)], start_new_session=True, **quiet)
+                master = subprocess.Popen(["rosmaster", "--core", "-p", str(port)], **quiet)
                 wait_for(lambda: answers("rosparam", "list"), "the master")
                 return master
 
@@ -269,14 +269,14 @@ class NewMaster(unittest.TestCase):
                     os.kill(pid, signal.SIGCONT)
                     time.sleep(0.5)
                 self.assertEqual(late.returncode, 0)
-                os.killpg(master.pid, signal.SIGKILL)
+                master.kill()
                 master.wait()
                 master = start_master()
                 wait_for(works, "the stack under the new master")
             finally:
                 stack.terminate()
                 stack.wait(DEADLINE)
-                os.killpg(master.pid, signal.SIGKILL)
+                master.kill()
                 master.wait()
 
 
