@@ -127,7 +127,10 @@ class Recovery(unittest.TestCase):
             places = [i for i, p in enumerate(self.stack.pixels()) if p == BACKGROUND]
             return places if len(places) > SIZE[0] * SIZE[1] // 4 else None
 
-        self.stack.until(view, "rviz to show its view")
+        self.stack.until(lambda: view() or rviz.poll() is not None, "rviz to show its view")
+        if rviz.poll() is not None:
+            print("rviz ended with %d while it started; started again" % rviz.returncode)
+            return self.open_rviz(kind)
         time.sleep(3.0)  # its docks get their width
         self.view = view()
         self.panel_width = min(i % SIZE[0] for i in self.view) - 5
