@@ -54,6 +54,12 @@ inline Case random_case(const std::string& shape, double damping_ratio, double d
   return {held, random_hand(duration, random), std::sqrt(modes.eigenvalues().maxCoeff())};
 }
 
+/// Whether the stiffest mode limits the steps of an integrator: of all but those that are made for stiff forks.
+inline bool limited_by_stiffness(const std::string& integrator) {
+  return integrator != "exponential" && integrator != "rosenbrock" && integrator != "implicit_euler" &&
+         integrator != "closed_form";
+}
+
 /// Position error of the object [m], and angle times the body's radius of gyration.
 inline double distance(const Case& c, double t, const StrainState& a, const StrainState& b) {
   const HandleForcing f = c.held.forcing(c.hand, t);
