@@ -92,6 +92,7 @@ TEST(FastrakDecoder, SplittingMakesNoDifferenceAtAnyPoint) {
     std::size_t count = 0;
     for (const char c : bytes) count += one_by_one.decode(std::string(1, c)).size();
     EXPECT_EQ(count, whole.size());
+    EXPECT_EQ(one_by_one.bytes_left_out(), noise.size());
   }
 }
 
