@@ -75,7 +75,9 @@ int main(int argc, char** argv) {
   const auto held = [&] { return !ros::ok() || !observer.seen().empty(); };
   try {
     const std::vector<Moment> written = play(simulator, motion, {rate, kSettle, kSettle + length, 2.0 * kSettle + length}, held);
-    const std::vector<double> all = latencies(written, observer.seen(), 0.3 + kSpeed * length);
+    const std::vector<Moment> seen = observer.seen();
+    const double offset = seen.empty() ? 0.0 : seen.back().x - (0.3 + kSpeed * length);  // in the end both are at rest
+    const std::vector<double> all = latencies(written, seen, offset);
     std::ofstream out(parameters.param<std::string>("out", "/dev/stdout"), std::ios::app);
     out << rate << "," << physics_rate << "," << all.size();
     for (const double part : {0.0, 0.5, 0.99, 1.0}) out << "," << 1e3 * quantile(all, part);

@@ -36,16 +36,13 @@ std::vector<Moment> play(FastrakSimulator& simulator, const PlayedMotion& motion
   return written;
 }
 
-std::vector<double> latencies(const std::vector<Moment>& written, std::vector<Moment> seen, double last_x) {
+std::vector<double> latencies(const std::vector<Moment>& written, std::vector<Moment> seen, double offset) {
   std::vector<double> result;
-  if (!seen.empty()) {
-    const double offset = seen.back().x - last_x;  // of what is seen from the hand: both are at rest there
-    for (std::size_t i = seen.size() - 1; i-- > 0;) seen[i].x = std::min(seen[i].x, seen[i + 1].x);
-    std::size_t i = 0;
-    for (const Moment& record : written) {
-      while (i < seen.size() && seen[i].x - offset < record.x - kTolerance) ++i;
-      if (i < seen.size()) result.push_back(seen[i].t - record.t);
-    }
+  for (std::size_t i = seen.size(); i-- > 1;) seen[i - 1].x = std::min(seen[i - 1].x, seen[i].x);
+  std::size_t i = 0;
+  for (const Moment& record : written) {
+    while (i < seen.size() && seen[i].x - offset < record.x - kTolerance) ++i;
+    if (i < seen.size()) result.push_back(seen[i].t - record.t);
   }
   if (result.size() < 10) {
     throw std::runtime_error("only " + std::to_string(result.size()) + " of " + std::to_string(written.size()) +

@@ -26,9 +26,9 @@ struct Playing {
 std::vector<Moment> play(FastrakSimulator& simulator, const PlayedMotion& motion, const Playing& playing,
                          const std::function<bool()>& ready);
 
-/// From each record to the first of those moments seen that have gone as far for good [s], in ascending order. At the end
-/// of `seen` the hand is at rest at `last_x` [m]. Throws std::runtime_error where hardly any record was seen.
-std::vector<double> latencies(const std::vector<Moment>& written, std::vector<Moment> seen, double last_x);
+/// From each record to the first of those moments seen that have gone as far for good [s], in ascending order. `offset`: how
+/// far what is seen is from the hand along x [m]. Throws std::runtime_error where hardly any record was seen.
+std::vector<double> latencies(const std::vector<Moment>& written, std::vector<Moment> seen, double offset);
 
 /// Of values in ascending order, the one that `part` (0 … 1) of them do not exceed.
 double quantile(const std::vector<double>& sorted, double part);

@@ -172,12 +172,11 @@ int main(int argc, char** argv) {
     const Scene scene = load_scene(parameters.param<std::string>("scene", ""));
     std::vector<PlayedMotion> motions;
     for (const Vector3d& place : objects_of(scene, static_cast<std::size_t>(hands))) motions.push_back(work_at(place, length));
-    const double last_x = motions.front().at(kBegin + length).X.translation().x();
     FastrakSimulator simulator(FastrakDevice(motions, {1, 2}), LineFaults(), port);
     const Playing playing{rate, kBegin, kBegin + length, kBegin + length + kEnd};
     const std::vector<Moment> written =
         play(simulator, motions.front(), playing, [&] { return !ros::ok() || observer.sees_hand(); });
-    const std::vector<double> all = latencies(written, observer.locked([&] { return observer.seen; }), last_x);
+    const std::vector<double> all = latencies(written, observer.locked([&] { return observer.seen; }), 0.0);
     std::ofstream out(parameters.param<std::string>("out", "/dev/stdout"));
     tell(observer, process, all, out);
     return 0;
