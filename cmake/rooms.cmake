@@ -3,7 +3,12 @@ set(SPRING_WORKBENCH_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -We
 
 # For rooms that compute: without signals from floating point, errno from <cmath>, or complex products that look for NaN.
 # Results stay those of IEEE arithmetic.
-set(SPRING_WORKBENCH_ARITHMETIC -fno-math-errno -fno-trapping-math -fcx-limited-range)
+set(SPRING_WORKBENCH_ARITHMETIC -fno-math-errno -fno-trapping-math)
+include(CheckCXXCompilerFlag)
+check_cxx_compiler_flag(-fcx-limited-range SPRING_WORKBENCH_LIMITED_RANGE)   # GCC; clang since 18
+if(SPRING_WORKBENCH_LIMITED_RANGE)
+  list(APPEND SPRING_WORKBENCH_ARITHMETIC -fcx-limited-range)
+endif()
 
 # Packs of four numbers are passed by reference only, or inlined: the calling convention for them does not matter.
 add_compile_options(-Wno-psabi)
@@ -15,29 +20,38 @@ if(SPRING_WORKBENCH_NATIVE)
   string(APPEND CMAKE_CXX_FLAGS " -mavx2 -mfma -DEIGEN_MAX_ALIGN_BYTES=16")
 endif()
 
-# add_room(<name> [FOLDER <folder>] [DEPENDS <rooms>...] [LIBRARIES <external libraries>...] [INCLUDES <external folders>...]
-#          [DEFINITIONS <of its own sources>...] [OPTIONS <compile options>...])
+# add_room(<name> [FOLDER <folder>] [OPENED <ON|OFF>] [DEPENDS <rooms>...] [LIBRARIES <external libraries>...]
+#          [INCLUDES <external folders>...] [DEFINITIONS <of its own sources>...] [OPTIONS <compile options>...])
 # Builds src/<name>/*.cpp (with FOLDER: src/<name>/<folder>/*.cpp) into the library spring_workbench_<name>.
+# OPENED: into the shared library spring_workbench_<name>_engine, where ON; it is opened at run time, and who uses the room
+# has its headers alone.
 function(add_room name)
-  cmake_parse_arguments(ROOM "" "FOLDER" "DEPENDS;LIBRARIES;INCLUDES;DEFINITIONS;OPTIONS" ${ARGN})
+  cmake_parse_arguments(ROOM "" "FOLDER;OPENED" "DEPENDS;LIBRARIES;INCLUDES;DEFINITIONS;OPTIONS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/${ROOM_FOLDER}/*.cpp)
+  list(TRANSFORM ROOM_DEPENDS PREPEND spring_workbench_)
   set(target spring_workbench_${name})
-  if(NOT sources)
+  if(DEFINED ROOM_OPENED)
     add_library(${target} INTERFACE)
-    foreach(room ${ROOM_DEPENDS})
-      target_link_libraries(${target} INTERFACE spring_workbench_${room})
-    endforeach()
-    target_link_libraries(${target} INTERFACE ${ROOM_LIBRARIES})
+    target_link_libraries(${target} INTERFACE ${ROOM_DEPENDS})
+    set(target ${target}_engine)
+    if(NOT ROOM_OPENED)
+      file(REMOVE ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_LIB_DESTINATION}/lib${target}.so)   # of a build that had it
+      return()
+    endif()
+    add_library(${target} SHARED ${sources})
+    target_link_options(${target} PRIVATE -Wl,-Bsymbolic)
+    install(TARGETS ${target} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+  elseif(sources)
+    add_library(${target} STATIC ${sources})
+  else()
+    add_library(${target} INTERFACE)
+    target_link_libraries(${target} INTERFACE ${ROOM_DEPENDS} ${ROOM_LIBRARIES})
     return()
   endif()
-  add_library(${target} STATIC ${sources})
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
   target_include_directories(${target} SYSTEM PRIVATE ${ROOM_INCLUDES})
   target_compile_definitions(${target} PRIVATE ${ROOM_DEFINITIONS})
   target_compile_options(${target} PRIVATE ${SPRING_WORKBENCH_WARNINGS} ${ROOM_OPTIONS})
-  foreach(room ${ROOM_DEPENDS})
-    target_link_libraries(${target} PUBLIC spring_workbench_${room})
-  endforeach()
-  target_link_libraries(${target} PUBLIC ${ROOM_LIBRARIES})
+  target_link_libraries(${target} PUBLIC ${ROOM_DEPENDS} ${ROOM_LIBRARIES})
 endfunction()

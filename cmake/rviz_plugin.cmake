@@ -1,4 +1,10 @@
 # Room rviz_plugin: panel, display and view of rviz. Built only where rviz and Qt 5 are found.
+option(SPRING_WORKBENCH_WITH_RVIZ "Plugins for rviz, where it is found" ON)
+if(NOT SPRING_WORKBENCH_WITH_RVIZ)
+  file(REMOVE ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_LIB_DESTINATION}/libspring_workbench_rviz.so)   # of a build that had it
+  message(STATUS "no rviz plugins: rviz shows ~markers")
+  return()
+endif()
 find_package(rviz QUIET)
 find_package(Qt5 QUIET COMPONENTS Widgets)
 if(NOT rviz_FOUND OR NOT Qt5_FOUND)

@@ -1,17 +1,14 @@
 #include <ros/ros.h>
 
-#include <algorithm>
-#include <chrono>
+#include <exception>
 #include <fstream>
 #include <iostream>
 #include <mutex>
 #include <string>
-#include <thread>
-#include <utility>
 #include <vector>
 
+#include "benchmark/latency/played_device.h"
 #include "spring_workbench/ObjectStates.h"
-#include "spring_workbench/simulated_device/fastrak_simulator.h"
 
 // End-to-end latency: from the first byte of a record on the serial line to the arrival of the message of
 // `manipulation/objects` from which on the held object has gone as far as that record says. The device of this program
@@ -21,18 +18,10 @@
 namespace {
 
 using namespace spring_workbench;
-using std::chrono::steady_clock;
+using namespace spring_workbench::benchmark;
 
-constexpr double kSpeed = 0.02;      // [m/s]
-constexpr double kTolerance = 1e-7;  // [m] of the floats on the line; 5 µs at kSpeed
-constexpr double kSettle = 3.0;      // [s] before and after the way
-
-struct Moment {
-  double t = 0.0;  ///< [s]
-  double x = 0.0;  ///< [m]
-};
-
-double now() { return std::chrono::duration<double>(steady_clock::now().time_since_epoch()).count(); }
+constexpr double kSpeed = 0.02;  // [m/s]
+constexpr double kSettle = 3.0;  // [s] before and after the way
 
 /// Rests, goes `length` [s] along x, and rests.
 PlayedMotion way(double length) {
@@ -58,7 +47,7 @@ class Observer {
 
  private:
   void take(const ObjectStates::ConstPtr& message) {
-    const double t = now();
+    const double t = steady_now();
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!message->objects.empty() && message->objects[0].held)
       seen_.push_back({t, message->objects[0].pose.position.x});
@@ -68,42 +57,6 @@ class Observer {
   std::vector<Moment> seen_;
   ros::Subscriber subscriber_;
 };
-
-/// Plays the device in real time; the moments at which records of the moving hand were written.
-std::vector<Moment> play(const std::string& port, double rate, double length, const Observer& observer) {
-  const PlayedMotion motion = way(length);
-  FastrakSimulator simulator(FastrakDevice({motion}), LineFaults(), port);
-  while (ros::ok() && observer.seen().empty()) {  // the nodes start, the device is set up, the object is grasped
-    simulator.measure(0.0);
-    simulator.serve(0.005);
-  }
-  std::vector<Moment> written;
-  const double start = now();
-  for (long cycle = 1; ros::ok(); ++cycle) {
-    const double t = static_cast<double>(cycle) / rate;
-    if (t > 2.0 * kSettle + length) break;
-    simulator.serve(0.0);
-    std::this_thread::sleep_until(steady_clock::time_point(
-        std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(start + t))));
-    if (t > kSettle && t < kSettle + length) written.push_back({now(), motion.at(t).X.translation().x()});
-    simulator.measure(t);
-  }
-  return written;
-}
-
-/// From each record to the first message of those that have gone as far for good [s], in ascending order.
-std::vector<double> latencies(const std::vector<Moment>& written, std::vector<Moment> seen, double last_x) {
-  std::vector<double> result;
-  const double offset = seen.back().x - last_x;  // of the object from the hand: both are at rest there
-  for (std::size_t i = seen.size() - 1; i-- > 0;) seen[i].x = std::min(seen[i].x, seen[i + 1].x);
-  std::size_t i = 0;
-  for (const Moment& record : written) {
-    while (i < seen.size() && seen[i].x - offset < record.x - kTolerance) ++i;
-    if (i < seen.size()) result.push_back(seen[i].t - record.t);
-  }
-  std::sort(result.begin(), result.end());
-  return result;
-}
 
 }  // namespace
 
@@ -117,17 +70,21 @@ int main(int argc, char** argv) {
   ros::AsyncSpinner spinner(1);
   spinner.start();
   const Observer observer(node);
-  const std::vector<Moment> written = play(port, rate, length, observer);
-  const std::vector<double> all = latencies(written, observer.seen(), 0.3 + kSpeed * length);
-  if (all.size() < 10) {
-    std::cerr << "latency: only " << all.size() << " of " << written.size() << " records were seen again" << std::endl;
+  const PlayedMotion motion = way(length);
+  FastrakSimulator simulator(FastrakDevice({motion}), LineFaults(), port);
+  const auto held = [&] { return !ros::ok() || !observer.seen().empty(); };
+  try {
+    const std::vector<Moment> written = play(simulator, motion, {rate, kSettle, kSettle + length, 2.0 * kSettle + length}, held);
+    const std::vector<Moment> seen = observer.seen();
+    const double offset = seen.empty() ? 0.0 : seen.back().x - (0.3 + kSpeed * length);  // in the end both are at rest
+    const std::vector<double> all = latencies(written, seen, offset);
+    std::ofstream out(parameters.param<std::string>("out", "/dev/stdout"), std::ios::app);
+    out << rate << "," << physics_rate << "," << all.size();
+    for (const double part : {0.0, 0.5, 0.99, 1.0}) out << "," << 1e3 * quantile(all, part);
+    out << std::endl;
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "latency: " << error.what() << std::endl;
     return 1;
   }
-  const auto at = [&](double part) {
-    return 1e3 * all[static_cast<std::size_t>(part * static_cast<double>(all.size() - 1))];
-  };
-  std::ofstream out(parameters.param<std::string>("out", "/dev/stdout"), std::ios::app);
-  out << rate << "," << physics_rate << "," << all.size() << "," << at(0.0) << "," << at(0.5) << "," << at(0.99) << ","
-      << at(1.0) << std::endl;
-  return 0;
 }

@@ -7,9 +7,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "spring_workbench/operator/simulated_operator.h"
-#include "spring_workbench/task/task_monitor.h"
-#include "spring_workbench/tools/tool.h"
+#include "spring_workbench/operator/trial.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -69,20 +67,11 @@ class Soak {
  private:
   bool over() const { return result_.steps >= options_.steps; }
 
-  OperatorView view() const {
-    const ToolState tool = simulation_.fork();
-    OperatorView view;
-    view.objects = simulation_.objects();
-    view.X_HE.translation().z() = tool.length;
-    view.turns = turns(tool_called(tool.tool, "soak"));
-    return view;
-  }
-
   void assemble(unsigned seed) {
     TaskMonitor monitor(simulation_.scene());
     OperatorSettings hand;
     hand.seed = seed;
-    SimulatedOperator person(simulation_.scene(), hand, [this] { return view(); });
+    SimulatedOperator person(simulation_.scene(), hand, [this] { return look_at(simulation_); });
     bool pressed = false;
     double before = 0.0;
     for (std::optional<StylusSample> sample; !over() && (sample = person.next()) && sample->t < kTimeLimit;) {

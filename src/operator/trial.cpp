@@ -4,19 +4,20 @@
 
 namespace spring_workbench {
 
+OperatorView look_at(const Simulation& simulation) {
+  const ToolState tool = simulation.fork();
+  OperatorView view;
+  view.objects = simulation.objects();
+  view.X_HE.translation().z() = tool.length;
+  view.turns = turns(tool_called(tool.tool, simulation.scene().path));
+  return view;
+}
+
 Trial run_trial(const Scene& scene, const SimulationSettings& simulation_settings,
                 const OperatorSettings& operator_settings, double time_limit) {
   Simulation simulation(scene, simulation_settings);
   TaskMonitor monitor(simulation.scene());
-  const auto look = [&] {
-    const ToolState tool = simulation.fork();
-    OperatorView view;
-    view.objects = simulation.objects();
-    view.X_HE.translation().z() = tool.length;
-    view.turns = turns(tool_called(tool.tool, "trial"));
-    return view;
-  };
-  SimulatedOperator hand(simulation.scene(), operator_settings, look);
+  SimulatedOperator hand(simulation.scene(), operator_settings, [&] { return look_at(simulation); });
   Trial trial;
   bool pressed = false;
   while (const std::optional<StylusSample> sample = hand.next()) {

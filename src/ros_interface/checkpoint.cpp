@@ -112,10 +112,9 @@ void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
     for (const YAML::Node& object : state["objects"]) {
       places[read_string(object["name"], kKey, "name")] = read_pose(object["pose"], kKey, "pose");
     }
-    const bool other_scene = runner_.locked([&](const Simulation& s) { return s.scene().path != scene; });
-    if (other_scene) runner_.load(load_scene(scene, scene_roots));
-    runner_.locked([&](Simulation& simulation) { set(simulation, state); });
-    runner_.place(places);
+    const Scene present = runner_.locked([](const Simulation& simulation) { return simulation.scene(); });
+    runner_.resume(present.path == scene ? present : load_scene(scene, scene_roots),
+                   [&](Simulation& simulation) { set(simulation, state); }, places);
     ROS_WARN("going on where the node of this name was when it ended without warning; nothing is held");
   } catch (const std::exception& error) {  // a broken one must not keep the node from starting
     ROS_WARN_STREAM("starting anew: " << error.what());

@@ -159,17 +159,19 @@ void SimulationRunner::restart() {
   start_anew();
 }
 
-void SimulationRunner::place(const std::map<std::string, RigidTransform>& X_WO) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  simulation_->place(X_WO);
-  places_ = X_WO;
+void SimulationRunner::load(const Scene& scene) {
+  resume(scene, [](Simulation&) {}, {});
 }
 
-void SimulationRunner::load(const Scene& scene) {
+void SimulationRunner::resume(const Scene& scene, const std::function<void(Simulation&)>& prepare,
+                              const std::map<std::string, RigidTransform>& X_WO) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  simulation_ = std::make_unique<Simulation>(scene, simulation_->settings());
+  auto simulation = std::make_unique<Simulation>(scene, simulation_->settings());
+  prepare(*simulation);
+  simulation->place(X_WO);
   task_ = TaskMonitor(scene);
-  places_.clear();
+  simulation_ = std::move(simulation);
+  places_ = X_WO;
   forget_hands();
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "spring_workbench/engines/contact_engines.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench {
@@ -25,7 +26,7 @@ constexpr double same_point = 2e-3;        ///< [m]
 
 }  // namespace
 
-DynamicStepper::DynamicStepper(const Scene& scene) : scene_(scene), world_(make_rigid_world(scene)) {}
+DynamicStepper::DynamicStepper(const Scene& scene) : scene_(scene), world_(open_rigid_world(scene)) {}
 
 RigidWorld::Freedom DynamicStepper::freedom(const SteppedBody& body, const MotionState& begin, const MotionState& end,
                                             double h) const {

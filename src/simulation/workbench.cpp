@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "spring_workbench/engines/contact_engines.h"
 #include "spring_workbench/scene/geometry.h"
 
 namespace spring_workbench {
@@ -21,7 +22,7 @@ Workbench::Workbench(const Scene& scene, int bisection_levels) : scene_(scene), 
     if (scene.bodies[i].movable) movable_.push_back(i);
   }
   if (scene.contact == ContactMode::stop) {
-    collision_ = std::make_unique<CollisionWorld>(scene);
+    collision_ = open_collision_world(scene);
     contact_stepper_ = std::make_unique<ContactStepper>(scene, *collision_, bisection_levels);
   }
   reset();

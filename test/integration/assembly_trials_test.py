@@ -25,6 +25,8 @@ class AssemblyTrials(unittest.TestCase):
             self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", ""))
             text = pathlib.Path(files["trials.csv"]).read_text()
             self.assertEqual(run(*arguments).stdout, text)  # same seed, same bytes
+            shards = [run(*arguments[:-3], "1", "--seed", seed).stdout for seed in ["3", "4"]]  # doc/hosts.md, sweeps
+            self.assertEqual(shards[0] + shards[1].split("\n", 1)[1], text)
             rows = list(csv.DictReader(text.splitlines()))
             self.assertEqual([(r["tool"], r["seed"]) for r in rows], [("direct", "3"), ("direct", "4")])
             for row in rows:

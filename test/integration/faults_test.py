@@ -17,23 +17,16 @@ import rospy
 import rostest
 from rosgraph.names import ns_join
 from spring_workbench.msg import ForkState, ObjectStates, StepReport
-from spring_workbench.srv import (SelectTool, SetForkDamping, SetForkDofs, SetForkStiffness, SetIntegrator)
+from spring_workbench.srv import (LoadScene, SelectTool, SetForkDamping, SetForkDofs, SetForkStiffness, SetIntegrator)
 from std_srvs.srv import Trigger
 
-from stack import DEADLINE, DOWN, Hand, Launched, Listener, wait_for
+from stack import DEADLINE, DOWN, Hand, Launched, Listener, kill_and_wait, pid_of, slave_api, wait_for
 
 SCENE = "scene:=package://spring_workbench/scenes/single_box.urdf"
 STACK = ["workbench.launch", SCENE, "tracker:=false", "rviz:=false", "respawn:=true"]
 SERVICES = {"set_dofs": SetForkDofs, "set_stiffness": SetForkStiffness, "set_damping": SetForkDamping, "reset": Trigger,
-            "set_integrator": SetIntegrator, "select_tool": SelectTool, "calibrate": Trigger, "release": Trigger}
-
-
-def slave_api(node):
-    return ServerProxy(rosgraph.Master("/faults").lookupNode(node))
-
-
-def pid_of(node):
-    return slave_api(node).getPid("/faults")[2]
+            "set_integrator": SetIntegrator, "select_tool": SelectTool, "calibrate": Trigger, "release": Trigger,
+            "load_scene": LoadScene}
 
 
 def memory_of(pid):
@@ -93,18 +86,7 @@ class Faults(unittest.TestCase):
         self.assertFalse(self.box().held)
 
     def kill_and_wait(self):
-        """Kills the node; a new one takes its place."""
-        old = pid_of("/manipulation")
-        os.kill(old, signal.SIGKILL)
-        wait_for(lambda: not os.path.exists("/proc/%d" % old), "the node to be gone")
-
-        def new():
-            try:
-                return pid_of("/manipulation") not in (None, old)
-            except Exception:  # nobody is there yet
-                return False
-
-        wait_for(new, "a new node")
+        kill_and_wait("/manipulation")
         self.hand.wait_for_node()
         self.hand.pressed = False
         self.keep_going()
@@ -136,6 +118,21 @@ class Faults(unittest.TestCase):
         self.assertEqual((fork.stretch_stiffness, fork.bend_stiffness, fork.torsion_stiffness), (1500.0, 700.0, 3.0))
         self.assertEqual((fork.stretch_damping_ratio, fork.bend_damping_ratio, fork.torsion_damping_ratio), (0.5, 0.6, 0.7))
         self.assertEqual(fork.integrator, "rosenbrock")
+
+    def test_of_a_checkpoint_that_cannot_be_used_nothing_is(self):
+        """Its last entry names a tool that there is none of; all before it could be set."""
+        self.keep_going()
+        before = self.fork.last
+        self.assertTrue(self.call("set_stiffness", 1500.0, 700.0, 3.0).success)
+        self.assertTrue(self.call("set_integrator", "rosenbrock", 0.01, 0.0).success)
+        kept = lambda: rospy.get_param("/manipulation/resume", {}).get("integrator") == "rosenbrock"
+        wait_for(kept, "the checkpoint")
+        time.sleep(1.0)  # nothing changes any more: the checkpoint is written no more
+        rospy.set_param("/manipulation/resume/tools", ["direct", "teapot"])
+        self.kill_and_wait()
+        after = self.fork.last
+        self.assertEqual((after.tool, after.integrator), (before.tool, before.integrator))
+        self.assertEqual(after.stretch_stiffness, before.stretch_stiffness)
 
     def test_what_was_held_when_the_node_was_killed_falls_from_there(self):
         self.carry_off()
@@ -232,6 +229,40 @@ class Faults(unittest.TestCase):
         self.assertTrue(self.box().held)
         heights = [m.objects[0].pose.position.z for m in self.objects.messages[seen:]]
         self.assertLess(max(heights) - min(heights), 1e-3)
+
+
+    def test_all_services_at_once(self):
+        """Four clients call everything there is in an order of their own: each call is answered, and the node is as good as new."""
+        calls = [("select_tool", ("direct", 0)), ("select_tool", ("spring_fork", 2)), ("set_dofs", (True, False, True)),
+                 ("set_stiffness", (900.0, 500.0, 5.0)), ("set_damping", (1.0, 0.9, 0.8, "per_family")), ("calibrate", ()),
+                 ("set_integrator", ("implicit_euler", 0.02, 0.0)), ("reset", ()), ("release", ()),
+                 ("load_scene", ("package://spring_workbench/scenes/single_box.urdf",))]
+        self.carry_off()
+        node, answers, broken = pid_of("/manipulation"), [0] * 4, []
+
+        def flood(client):
+            try:
+                proxies = {name: rospy.ServiceProxy("manipulation/" + name, SERVICES[name]) for name, _ in calls}
+                for i in range(40):
+                    name, arguments = calls[(i * (client + 3) + client) % len(calls)]
+                    answer = proxies[name](*arguments)
+                    answers[client] += answer.success or name in ("calibrate", "release")  # where nothing is held
+            except Exception as error:  # pylint: disable=broad-except
+                broken.append(error)
+
+        clients = [threading.Thread(target=flood, args=(client,)) for client in range(4)]
+        for client in clients:
+            client.start()
+        while any(client.is_alive() for client in clients):
+            self.hand.run(0.2)
+        self.assertEqual(broken, [])
+        self.assertEqual(answers, [40] * 4)
+        self.assertEqual(pid_of("/manipulation"), node)
+        self.hand.pressed = False
+        for service, arguments in [("load_scene", calls[-1][1]), ("select_tool", ("spring_fork", 0)), ("set_dofs", (True, True, True))]:
+            self.assertTrue(self.call(service, *arguments).success)
+        self.hand.run(0.5)
+        self.carry_off()
 
 
 class NewMaster(unittest.TestCase):

@@ -10,6 +10,7 @@ import tempfile
 import unittest
 
 import genpy
+import rosbag
 import rosgraph
 import rosservice
 import rospkg
@@ -17,8 +18,11 @@ import rospy
 import rostest
 import yaml
 
+from geometry_msgs.msg import TransformStamped
+from sensor_msgs.msg import Joy
 from spring_workbench.msg import ForkState, ObjectStates
-from stack import Listener, wait_for
+from stack import Listener, diagnostic_values, diagnostics_listener, wait_for
+from tf2_msgs.msg import TFMessage
 
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
 PROGRAMS = os.environ["CMAKE_PREFIX_PATH"].split(":")[0] + "/lib/spring_workbench/"
@@ -43,6 +47,15 @@ def write(path, text):
     with open(path, "w") as file:
         file.write(text)
     return path
+
+
+def merge(fields, changes):
+    """Puts the changes into nested fields."""
+    for key, value in changes.items():
+        if isinstance(value, dict):
+            merge(fields[key], value)
+        else:
+            fields[key] = value
 
 
 def one_line(done, program):
@@ -127,6 +140,51 @@ class Limits(unittest.TestCase):
             return self.replay(motion=name)
 
         self.walk("Motions", answer)
+
+    def transform(self, text, stamp):
+        """The hand over the bench, with what the text changes."""
+        fields = {"header": {"frame_id": "workbench"}, "child_frame_id": "stylus",
+                  "transform": {"translation": {"x": 0.2, "y": 0.0, "z": 0.4}, "rotation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}}}
+        merge(fields, yaml.safe_load(text))
+        message = TransformStamped()
+        genpy.message.fill_message_args(message, [fields])
+        message.header.stamp = stamp
+        return TFMessage([message])
+
+    def test_bags(self):
+        write(self.folder + "/scene.urdf", self.urdf)
+
+        def answer(text):
+            with rosbag.Bag(self.folder + "/a.bag", "w") as bag:
+                bag.write("/tf", self.transform(text, rospy.Time(1000)), rospy.Time(1000))
+            return self.run_program(["replay", "--scene", "scene.urdf", "--bag", "a.bag", "--out", "run.csv"])
+
+        self.walk("Bags", answer)
+
+    def test_topics(self):
+        publishers = {"/tf": rospy.Publisher("/tf", TFMessage, queue_size=10),
+                      "stylus/joy": rospy.Publisher("stylus/joy", Joy, queue_size=10)}
+        diagnostics = diagnostics_listener()
+        wait_for(lambda: all(p.get_num_connections() > 0 for p in publishers.values()), "the node to listen")
+        publishers["/tf"].publish(self.transform("{}", rospy.Time.now()))
+        values = lambda: diagnostic_values(diagnostics.messages, "tracker input")
+        wait_for(lambda: values().get("samples") == "1", "the good one")
+        place = self.fork.next(lambda m: m.handle.position.x == 0.2, "the hand there").handle
+
+        def answer(topic, text):
+            given = yaml.safe_load(text)
+            age = rospy.Duration(given.pop("age", 0))
+            before = {key: value for key, value in values().items() if key.startswith("left out: ")}
+            if topic == "/tf":
+                publishers[topic].publish(self.transform(yaml.safe_dump(given), rospy.Time.now() - age))
+            else:
+                publishers[topic].publish(Joy(buttons=given["buttons"]))
+            more = lambda: [k for k, v in values().items() if k.startswith("left out: ") and before.get(k) != v]
+            return wait_for(more, text + " to be left out")[0].replace("left out: ", "")
+
+        self.walk("Topics", answer)
+        self.assertEqual(values()["samples"], "1")
+        self.assertEqual(self.fork.next().handle, place)
 
     def test_parameters(self):
         master = rosgraph.Master("/limits_test")

@@ -1,9 +1,13 @@
 """What the integration tests share: a hand on its own clock, and waiting with a deadline."""
 import math
+import os
+import signal
 import subprocess
 import time
+from xmlrpc.client import ServerProxy
 
 import rosbag
+import rosgraph
 import rospy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import TransformStamped
@@ -23,6 +27,29 @@ def wait_for(condition, what, deadline=DEADLINE):
             return value
         time.sleep(0.01)
     raise AssertionError("waited %g s in vain for %s" % (deadline, what))
+
+
+def slave_api(node):
+    return ServerProxy(rosgraph.Master(rospy.get_name()).lookupNode(node))
+
+
+def pid_of(node):
+    return slave_api(node).getPid(rospy.get_name())[2]
+
+
+def kill_and_wait(node):
+    """Kills a node that is started again (`kill -9`); waits until the new one has taken its place."""
+    old = pid_of(node)
+    os.kill(old, signal.SIGKILL)
+    wait_for(lambda: not os.path.exists("/proc/%d" % old), "the node to be gone")
+
+    def new():
+        try:
+            return pid_of(node) not in (None, old)
+        except Exception:  # nobody is there yet
+            return False
+
+    wait_for(new, "a new " + node)
 
 
 class Listener:

@@ -25,38 +25,40 @@ struct SweepResult {
 
 /// What touches what, where and when. Knows shapes and poses; no forces, no time. FCL does the work (in the .cpp alone).
 /// Bodies are those of the scene, by index; the bench is the half-space below `scene.bench_height`.
-/// Not copyable; one thread at a time.
+/// Not copyable; one thread at a time. Virtual, so that who uses one from `open_collision_world` (engines/contact_engines.h)
+/// is not linked with FCL; who makes one by itself is.
 class CollisionWorld {
  public:
   static constexpr std::size_t bench = static_cast<std::size_t>(-1);
 
   explicit CollisionWorld(const Scene& scene);
-  ~CollisionWorld();
+  virtual ~CollisionWorld();
   CollisionWorld(CollisionWorld&&) noexcept;
   CollisionWorld& operator=(CollisionWorld&&) noexcept;
 
   /// Places a body. All bodies start at the scene's poses.
-  void set_pose(std::size_t body, const RigidTransform& X_WO);
+  virtual void set_pose(std::size_t body, const RigidTransform& X_WO);
 
   /// Broadphase: whether anything else (bench included) comes within `margin` [m] of the body's way from `X0` to `X1`.
   /// May say yes too often, never no wrongly: the rotation between is covered.
-  bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double margin) const;
+  virtual bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                         double margin) const;
 
   /// Whether the body, placed at `X_WO`, is in another body or the bench by more than `tolerance` [m].
-  bool touches(std::size_t body, const RigidTransform& X_WO, double tolerance) const;
+  virtual bool touches(std::size_t body, const RigidTransform& X_WO, double tolerance) const;
 
   /// The contact points of the body placed at `X_WO` that are deeper than `tolerance` (which may be negative for flat
   /// neighbours such as the bench, to get points that are about to touch). Appended to `contacts`.
   /// A flush box on a plane or on a box gives points that span the common face.
-  void find_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance,
-                     std::vector<ContactPoint>& contacts) const;
+  virtual void find_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance,
+                             std::vector<ContactPoint>& contacts) const;
 
   /// The paper's search (section 5) on the whole way from `X0` to `X1` (straight in position, constant axis in rotation).
   /// It goes on by what the gaps leave surely clear, and where there are none, by pieces in which no point of the body moves
   /// further than `resolution` [m]. In the first piece that touches, the free and the touching fraction are found by `levels`
   /// halvings, or, with 0, as the time of impact: by what is surely clear again (conservative advancement, Mirtich 1996).
-  SweepResult sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double tolerance,
-                    double resolution, int levels) const;
+  virtual SweepResult sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double tolerance,
+                            double resolution, int levels) const;
 
  private:
   struct Impl;

@@ -14,7 +14,7 @@ namespace spring_workbench {
 class Checkpoint {
  public:
   /// Brings the runner to the checkpoint, where there is one of a node that was started with the same scene; one that cannot be
-  /// used is told and left. `runner` must outlive this; `scene_roots`: as of load_scene().
+  /// used is told, and nothing of it is. `runner` must outlive this; `scene_roots`: as of load_scene().
   Checkpoint(const ros::NodeHandle& private_node, SimulationRunner& runner, const std::vector<std::string>& scene_roots);
   ~Checkpoint();
   Checkpoint(const Checkpoint&) = delete;

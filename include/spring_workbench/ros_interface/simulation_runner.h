@@ -2,6 +2,7 @@
 
 #include <array>
 #include <deque>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -41,10 +42,12 @@ class SimulationRunner {
 
   /// Objects back to their start, nothing held; goes on with the next sample.
   void restart();
-  /// These objects to where they are said to be, and there when the first hand comes: see Simulation::place.
-  void place(const std::map<std::string, RigidTransform>& X_WO);
   /// Another scene, with the settings as they are now. Throws InputError, and keeps the old one, when it does not fit.
   void load(const Scene& scene);
+  /// The same, and `prepare` changes the simulation first; then these objects are where they are said to be, and there when
+  /// the first hand comes: see Simulation::place. Where anything throws, all stays as it was.
+  void resume(const Scene& scene, const std::function<void(Simulation&)>& prepare,
+              const std::map<std::string, RigidTransform>& X_WO);
 
   /// Calls `use(Simulation&)` while nobody else does.
   template <typename Use>

@@ -77,8 +77,8 @@ class RigidWorld {
   virtual const std::vector<std::size_t>& bodies_near() const = 0;
 };
 
-/// All movable bodies begin asleep at the scene's poses. Bullet does the work, in double precision. Throws InputError where
-/// the package was built without it.
+/// All movable bodies begin asleep at the scene's poses. Bullet does the work, in double precision. Who calls this is linked
+/// with it; `open_rigid_world` (engines/contact_engines.h) opens it when it is needed.
 std::unique_ptr<RigidWorld> make_rigid_world(const Scene& scene);
 
 }  // namespace spring_workbench

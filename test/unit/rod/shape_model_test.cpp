@@ -143,6 +143,16 @@ TEST(ShapeModel, UnknownNameIsRefusedWithTheKnownOnes) {
   }
 }
 
+/// A small end moment M turns the bushing's tip by M L / EI, as it does the rod with a linear curvature, which is exact there.
+TEST(Bushing, AnEndMomentTurnsItAsItDoesTheRod) {
+  const PerFamily k{2000.0, 500.0, 5.0};
+  for (const double length : {0.1, 0.2, 0.7}) {
+    const double per_curvature = make_shape_model("linear", length)->stiffness(k)[0];  // ½ K κ², and the angle is κ L
+    const StrainVector bushing = make_shape_model("bushing", length)->stiffness(k);
+    for (const int axis : {2, 3}) EXPECT_NEAR(bushing[axis], per_curvature / (length * length), 1e-12 * bushing[axis]);
+  }
+}
+
 TEST(StrainRod, EndMomentRollsItIntoAFullCircle) {
   for (const char* name : {"constant", "linear", "quadratic"}) {
     const auto shape = stiff_shape(name);

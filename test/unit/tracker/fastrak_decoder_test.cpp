@@ -76,7 +76,9 @@ TEST(FastrakDecoder, SplittingMakesNoDifferenceAtAnyPoint) {
     const std::string noise = "x01 y2", status = write_fastrak_status({});
     const std::string bytes = noise + stream.parts[0] + status + stream.parts[1] + "2 E*ERROR*Q*ERROR* EC-99\r\n" +
                               stream.parts[2] + write_fastrak_status({});
-    const auto whole = FastrakDecoder(mode.layouts()).decode(bytes);
+    FastrakDecoder at_once(mode.layouts());
+    const auto whole = at_once.decode(bytes);
+    EXPECT_EQ(at_once.bytes_left_out(), noise.size());
     ASSERT_EQ(records_of(whole).size(), 3u);
     ASSERT_EQ(whole.size(), 6u);
     EXPECT_EQ(std::get<FastrakReply>(whole[1]).text, status.substr(0, 53));

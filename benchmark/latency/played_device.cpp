@@ -1,0 +1,59 @@
+#include "benchmark/latency/played_device.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+namespace spring_workbench::benchmark {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr double kTolerance = 1e-7;  // [m] of the floats on the line
+
+}  // namespace
+
+double steady_now() { return std::chrono::duration<double>(steady_clock::now().time_since_epoch()).count(); }
+
+std::vector<Moment> play(FastrakSimulator& simulator, const PlayedMotion& motion, const Playing& playing,
+                         const std::function<bool()>& ready) {
+  while (!ready()) {  // the nodes start, the device is set up
+    simulator.measure(0.0);
+    simulator.serve(0.005);
+  }
+  std::vector<Moment> written;
+  const double start = steady_now();
+  for (long cycle = 1; static_cast<double>(cycle) <= playing.until * playing.rate; ++cycle) {
+    const double t = static_cast<double>(cycle) / playing.rate;
+    simulator.serve(0.0);
+    std::this_thread::sleep_until(steady_clock::time_point(
+        std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(start + t))));
+    if (t > playing.begin && t < playing.end) written.push_back({steady_now(), motion.at(t).X.translation().x()});
+    simulator.measure(t);
+  }
+  return written;
+}
+
+std::vector<double> latencies(const std::vector<Moment>& written, std::vector<Moment> seen, double offset) {
+  std::vector<double> result;
+  for (std::size_t i = seen.size(); i-- > 1;) seen[i - 1].x = std::min(seen[i - 1].x, seen[i].x);
+  std::size_t i = 0;
+  for (const Moment& record : written) {
+    while (i < seen.size() && seen[i].x - offset < record.x - kTolerance) ++i;
+    if (i < seen.size()) result.push_back(seen[i].t - record.t);
+  }
+  if (result.size() < 10) {
+    throw std::runtime_error("only " + std::to_string(result.size()) + " of " + std::to_string(written.size()) +
+                             " records were seen again");
+  }
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+double quantile(const std::vector<double>& sorted, double part) {
+  return sorted.empty() ? 0.0 : sorted[static_cast<std::size_t>(part * static_cast<double>(sorted.size() - 1))];
+}
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,187 @@
+#include <ros/ros.h>
+
+#include <algorithm>
+#include <exception>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <mutex>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "benchmark/latency/played_device.h"
+#include "spring_workbench/ForkState.h"
+#include "spring_workbench/StepReport.h"
+#include "spring_workbench/scene/scene.h"
+
+// What the running nodes cost: one or two hands each take an object of the scene, press it on what it stands on and push it
+// along x, behind a simulated device. doc/load.md says what is measured.
+
+namespace {
+
+using namespace spring_workbench;
+using namespace spring_workbench::benchmark;
+
+constexpr double kSpeed = 0.01;                                     // [m/s] along x
+constexpr double kReach = 0.2;                                      // [m] of the fork, from the handle to the tip
+constexpr double kAbove = 0.15, kPressed = 0.005;                   // [m]
+constexpr double kDown = 1.0, kGrasp = 1.5, kBegin = 2.5, kEnd = 2.0;  // [s]
+
+/// Down to an object, in which the tip then is; grasps, presses, goes evenly along x, and rests.
+PlayedMotion work_at(const Vector3d& object, double length) {
+  std::vector<StylusSample> samples;
+  const auto add = [&](double t, double x, double height, bool button) {
+    StylusSample sample;
+    sample.t = t;
+    sample.X = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), object + Vector3d(x, 0.0, kReach + height));
+    sample.button = button;
+    samples.push_back(sample);
+  };
+  add(0.0, 0.0, kAbove, false);
+  add(kDown, 0.0, 0.0, false);
+  add(kGrasp, 0.0, 0.0, true);
+  add(kBegin - 0.2, 0.0, -kPressed, true);
+  add(kBegin, 0.0, -kPressed, true);
+  add(kBegin + length, kSpeed * length, -kPressed, true);
+  add(kBegin + length + 1e5, kSpeed * length, -kPressed, true);
+  return PlayedMotion(samples);
+}
+
+/// Of a process, from /proc.
+struct Process {
+  explicit Process(int pid) : folder("/proc/" + std::to_string(pid) + "/") {}
+  /// Since it was started [s].
+  double age() const {
+    std::ifstream stat(folder + "stat"), up("/proc/uptime");
+    std::string text((std::istreambuf_iterator<char>(stat)), std::istreambuf_iterator<char>());
+    std::istringstream fields(text.substr(text.rfind(')') + 1));
+    constexpr int before_start = 19;
+    std::string skipped;
+    for (int i = 0; i < before_start; ++i) fields >> skipped;
+    double ticks = 0.0, uptime = 0.0;
+    fields >> ticks;
+    up >> uptime;
+    return uptime - ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+  }
+  /// Resident [MB].
+  double memory() const {
+    std::ifstream file(folder + "statm");
+    double total = 0.0, resident = 0.0;
+    file >> total >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
+  }
+  std::string folder;
+};
+
+/// Listens to the node. What it takes from the steps are those in which something was held.
+class Observer {
+ public:
+  Observer(ros::NodeHandle& node, const Process& process) : process_(process) {
+    const ros::TransportHints fast = ros::TransportHints().tcpNoDelay();
+    steps_ = node.subscribe("manipulation/steps", 10000, &Observer::take_steps, this, fast);
+    fork_ = node.subscribe("manipulation/fork", 10000, &Observer::take_fork, this, fast);
+  }
+  template <typename Use>
+  auto locked(Use&& use) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return use();
+  }
+  bool sees_hand() const { return locked([this] { return !seen.empty(); }); }
+
+  // Under the lock.
+  std::vector<Moment> seen;          ///< of the first hand
+  std::vector<double> step_times;    ///< [s] of cycles
+  std::size_t missed = 0;            ///< deadlines
+  double start = 0.0;                ///< of the node, up to its first report [s]
+  std::set<std::string> run, named;  ///< parts
+
+ private:
+  void take_steps(const StepReport::ConstPtr& message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (start == 0.0) start = process_.age();
+    if (!holds_ || message->steps == 0) return;
+    step_times.push_back(message->wall_time);
+    missed += message->deadline_missed;
+    run.insert(message->parts_run.begin(), message->parts_run.end());
+    named.insert(message->parts_left_out.begin(), message->parts_left_out.end());
+  }
+  void take_fork(const ForkState::ConstPtr& message) {
+    const double t = steady_now();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    holds_ = !message->held_object.empty();
+    seen.push_back({t, message->handle.position.x});
+  }
+
+  Process process_;
+  mutable std::mutex mutex_;
+  bool holds_ = false;
+  ros::Subscriber steps_, fork_;
+};
+
+std::string words(const std::set<std::string>& all, const std::set<std::string>& but = {}) {
+  std::string text;
+  for (const std::string& word : all) {
+    if (but.count(word) == 0) text += (text.empty() ? "" : " ") + word;
+  }
+  return text;
+}
+
+/// Where the first `count` movable objects of the scene are.
+std::vector<Vector3d> objects_of(const Scene& scene, std::size_t count) {
+  std::vector<Vector3d> places;
+  for (const Body& body : scene.bodies) {
+    if (body.movable && places.size() < count) places.push_back(body.X_WO.translation());
+  }
+  if (places.size() < count) throw std::runtime_error("the scene has too few objects");
+  return places;
+}
+
+/// Start [ms], memory [MB], cycles, 50, 99 and 99.9 % of their time [µs], deadlines missed, 50 %, 99 % and longest latency [ms],
+/// parts that ran, and parts that never did.
+void tell(Observer& observer, const Process& process, const std::vector<double>& all, std::ostream& out) {
+  observer.locked([&] {
+    std::vector<double>& steps = observer.step_times;
+    if (steps.empty()) throw std::runtime_error("nothing was held");
+    std::sort(steps.begin(), steps.end());
+    out << 1e3 * observer.start << ',' << process.memory() << ',' << steps.size();
+    for (const double part : {0.5, 0.99, 0.999}) out << ',' << 1e6 * quantile(steps, part);
+    out << ',' << observer.missed;
+    for (const double part : {0.5, 0.99, 1.0}) out << ',' << 1e3 * quantile(all, part);
+    out << ',' << words(observer.run) << ',' << words(observer.named, observer.run) << std::endl;
+  });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "load");
+  ros::NodeHandle node, parameters("~");
+  const std::string port = parameters.param<std::string>("port", "/tmp/spring_workbench_load");
+  const int hands = parameters.param("hands", 1);
+  const double rate = parameters.param("rate", 120.0) * hands, length = parameters.param("length", 15.0);
+  const Process process(parameters.param("pid", 0));
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  Observer observer(node, process);
+  try {
+    const Scene scene = load_scene(parameters.param<std::string>("scene", ""));
+    std::vector<PlayedMotion> motions;
+    for (const Vector3d& place : objects_of(scene, static_cast<std::size_t>(hands))) motions.push_back(work_at(place, length));
+    FastrakSimulator simulator(FastrakDevice(motions, {1, 2}), LineFaults(), port);
+    const Playing playing{rate, kBegin, kBegin + length, kBegin + length + kEnd};
+    const std::vector<Moment> written =
+        play(simulator, motions.front(), playing, [&] { return !ros::ok() || observer.sees_hand(); });
+    const std::vector<double> all = latencies(written, observer.locked([&] { return observer.seen; }), 0.0);
+    std::ofstream out(parameters.param<std::string>("out", "/dev/stdout"));
+    tell(observer, process, all, out);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "load: " << error.what() << std::endl;
+    return 1;
+  }
+}

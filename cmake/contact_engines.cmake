@@ -1,0 +1,32 @@
+# What contact is computed with. Each engine is left out where it is not found or not wanted: its contact mode is then refused.
+option(SPRING_WORKBENCH_WITH_FCL "Contact mode stop, where FCL is found" ON)
+option(SPRING_WORKBENCH_WITH_BULLET "Contact mode dynamic, where Bullet is found" ON)
+
+set(SPRING_WORKBENCH_FCL_FOUND OFF)
+if(SPRING_WORKBENCH_WITH_FCL)
+  find_package(fcl QUIET)
+  if(fcl_FOUND)
+    set(SPRING_WORKBENCH_FCL_FOUND ON)
+  endif()
+endif()
+
+# Bullet in double precision. Its other build, in single precision, has the same symbols: nothing that links it may link this.
+set(SPRING_WORKBENCH_BULLET_FOUND OFF)
+set(SPRING_WORKBENCH_BULLET_LIBRARIES)
+if(SPRING_WORKBENCH_WITH_BULLET)
+  find_path(SPRING_WORKBENCH_BULLET_INCLUDE btBulletDynamicsCommon.h PATH_SUFFIXES bullet)
+  foreach(part BulletDynamics BulletCollision LinearMath)
+    find_library(SPRING_WORKBENCH_${part}_LIBRARY ${part}-float64)
+    list(APPEND SPRING_WORKBENCH_BULLET_LIBRARIES ${SPRING_WORKBENCH_${part}_LIBRARY})
+  endforeach()
+  if(SPRING_WORKBENCH_BULLET_INCLUDE AND NOT SPRING_WORKBENCH_BULLET_LIBRARIES MATCHES "NOTFOUND")
+    set(SPRING_WORKBENCH_BULLET_FOUND ON)
+  endif()
+endif()
+
+if(NOT SPRING_WORKBENCH_FCL_FOUND)
+  message(STATUS "FCL (libfcl-dev) left out: no contact mode stop")
+endif()
+if(NOT SPRING_WORKBENCH_BULLET_FOUND)
+  message(STATUS "Bullet (libbullet-dev) left out: no contact mode dynamic")
+endif()

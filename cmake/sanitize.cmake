@@ -1,0 +1,6 @@
+# SPRING_WORKBENCH_SANITIZE: "address,undefined" or "thread" builds everything with these sanitizers; scripts/sanitize runs it.
+set(SPRING_WORKBENCH_SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thread; empty: none")
+if(SPRING_WORKBENCH_SANITIZE)
+  add_compile_options(-fsanitize=${SPRING_WORKBENCH_SANITIZE} -fno-sanitize-recover=undefined -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=${SPRING_WORKBENCH_SANITIZE})
+endif()

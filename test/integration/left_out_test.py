@@ -1,0 +1,60 @@
+#!/usr/bin/python3
+"""What a node has in its memory: the engine of the contact mode that its scene asks for, and no other; what a build has left out
+is refused in one line."""
+import os
+import subprocess
+import sys
+import unittest
+
+import roslib.packages
+import rospkg
+import rospy
+import rostest
+from spring_workbench.msg import ObjectStates
+
+from stack import DEADLINE, Listener
+
+PACKAGE = rospkg.RosPack().get_path("spring_workbench")
+LIBRARIES = os.environ["CMAKE_PREFIX_PATH"].split(":")[0] + "/lib/libspring_workbench_%s_engine.so"
+ENGINES = {"stop": ("collision", "libfcl"), "dynamic": ("world", "libBullet")}  # room, and what does its work
+
+
+class LeftOut(unittest.TestCase):
+    def check(self, contact):
+        """Starts a node with that contact mode, and looks at what it maps, or how it is refused."""
+        name = "looked_at_" + contact
+        rospy.set_param(name, {"scene": PACKAGE + "/scenes/mini_world.urdf", "contact": contact})
+        objects = Listener(name + "/objects", ObjectStates)
+        node = subprocess.Popen(roslib.packages.find_node("spring_workbench", "manipulation") + ["__name:=" + name],
+                                text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        try:
+            if contact in ENGINES and not os.path.exists(LIBRARIES % ENGINES[contact][0]):
+                said = node.communicate(timeout=DEADLINE)[0].splitlines()
+                self.assertEqual((node.returncode, len(said)), (2, 1), said)
+                self.assertIn("contact: %s is not allowed" % contact, said[0])
+                return
+            objects.next()
+            with open("/proc/%d/maps" % node.pid) as file:
+                maps = file.read()
+            self.assertIn("libassimp", maps)  # it is the node that is looked at, and what it is linked with can be seen
+            for mode, (room, library) in ENGINES.items():
+                self.assertEqual(library in maps, mode == contact, library)
+                self.assertEqual(LIBRARIES % room in maps, mode == contact, room)
+        finally:
+            node.terminate()
+            node.communicate(timeout=DEADLINE)
+            rospy.delete_param(name)
+
+    def test_without_contact_neither_engine_is_mapped(self):
+        self.check("none")
+
+    def test_stop_maps_fcl_alone(self):
+        self.check("stop")
+
+    def test_dynamic_maps_bullet_alone(self):
+        self.check("dynamic")
+
+
+if __name__ == "__main__":
+    rospy.init_node("left_out_test")
+    rostest.rosrun("spring_workbench", "left_out_test", LeftOut, sys.argv)
