@@ -318,7 +318,6 @@ class Exponential::CoreOf final : public Core {
     const Modes x0 = modes_of(state);
     predict(body, forcing, h, state);
     NodeModes start, x;
-    Swept swept[3]{};  // this sweep's and the last two's, in turns
     for (int m = 0; m < 2 * n; ++m) start[at(m)] = decay_.of([&](int k) { return x0[k]; }, m);
 
     Estimate e;
@@ -328,8 +327,8 @@ class Exponential::CoreOf final : public Core {
     int sweeps = 0;
     while (sweeps < most_sweeps && !e.converged) {
       ++sweeps;
-      Swept& now = swept[sweeps % 3];
-      const Swept& before = swept[(sweeps + 2) % 3];
+      Swept& now = swept_[sweeps % 3];
+      const Swept& before = swept_[(sweeps + 2) % 3];
       remainder(body, forcing, x, remainder_);
       drive(start, remainder_, now.x);
       for (int m = 0; m < 2 * n; ++m) now.moved[at(m)] = now.x[at(m)] - x[at(m)];
@@ -357,7 +356,7 @@ class Exponential::CoreOf final : public Core {
         e.error = -(cubic + left * at_node(last, now.moved));
       }
       if (sweeps > 1) {
-        continue_sweeps(now, before, sweeps > 2 ? &swept[(sweeps + 1) % 3] : nullptr, x);
+        continue_sweeps(now, before, sweeps > 2 ? &swept_[(sweeps + 1) % 3] : nullptr, x);
       } else {
         x = now.x;
       }
@@ -421,6 +420,7 @@ class Exponential::CoreOf final : public Core {
   std::array<Operator<Pack>, nodes> node_{};  ///< of the remainder at each node
   Operator<double> error_;
 
+  Swept swept_[3];         ///< the last sweeps, in turns
   NodeModes remainder_;    ///< at the nodes of this step, or the last one
   Modes start_remainder_;
   double contraction_ = 1.0;                               ///< of the first sweep's change by the second

@@ -470,8 +470,9 @@ MotionState HeldBody::object(const HandleForcing& h, const StrainState& state, c
   s.velocity.linear = h.v_WH_W + vector(R_WH * (cross(w_H, p_HO) + v_rel));
   s.velocity.angular = vector(R_WH * (w_H + w));
   if (q_ddot != nullptr) {
-    const Three<double> a_H = three(h.acceleration_less_gravity) + a + cross(alpha_H, p_HO) +
-                              cross(w_H, cross(w_H, p_HO) + 2.0 * v_rel) + cross(alpha, r_EO) + cross(w, cross(w, r_EO));
+    const Three<double> of_O = a + cross(alpha, r_EO) + cross(w, cross(w, r_EO));
+    const Three<double> a_H = three(h.acceleration_less_gravity) + of_O + cross(alpha_H, p_HO) +
+                              cross(w_H, cross(w_H, p_HO) + 2.0 * v_rel);
     s.acceleration.linear = vector(R_WH * a_H) - gravity_ * Vector3d::UnitZ();
     s.acceleration.angular = vector(R_WH * (alpha_H + cross(w_H, w) + alpha));
   }
