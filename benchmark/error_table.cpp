@@ -16,7 +16,7 @@ ErrorTablePlan error_table_plan(bool quick) {
   for (const double k : springs) plan.scenes.push_back(stretch_scene(k));
   for (const double k : twists) plan.scenes.push_back(torsion_scene(k));
   for (const double factor : factors) plan.scenes.push_back(six_dof_scene(factor));
-  plan.outputs_per_step = quick ? std::vector<int>{4, 2} : std::vector<int>{5, 4, 3, 2};
+  plan.outputs_per_step = quick ? std::vector<double>{8, 4, 2} : std::vector<double>{15, 12, 10, 8, 6.5, 5, 4, 3, 2, 1.5};
   for (int n = 1; n <= 8192; n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
   for (double tolerance = 1e-3; tolerance > 5e-12; tolerance *= quick ? 1e-2 : 1e-1) {
     plan.tolerances.push_back(tolerance);
@@ -112,7 +112,7 @@ std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, co
   std::vector<double> settings = plan.tolerances;
   if (method.knob() == Method::Knob::step) {
     settings.clear();
-    for (const int n : plan.outputs_per_step) {
+    for (const double n : plan.outputs_per_step) {
       if (method.dense()) settings.push_back(scene.output_interval * n);
     }
     for (const int n : plan.steps_per_output) settings.push_back(scene.output_interval / n);

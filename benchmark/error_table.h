@@ -12,7 +12,7 @@ namespace spring_workbench::benchmark {
 /// What an error table covers.
 struct ErrorTablePlan {
   std::vector<Scenario> scenes;
-  std::vector<int> outputs_per_step;  ///< dense methods with a step take output_interval times these
+  std::vector<double> outputs_per_step;  ///< dense methods with a step take output_interval times these
   std::vector<int> steps_per_output;  ///< methods with a step take output_interval divided by these
   std::vector<double> tolerances;     ///< methods with a tolerance
   int own_solution_steps = 0;         ///< steps per output of the coarsest of the three runs of own_solution()

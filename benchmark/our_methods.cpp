@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "benchmark/dense_output.h"
 #include "benchmark/stepping_loop.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/so3.h"
@@ -45,9 +46,6 @@ PoseSample handle_sample(const Scenario& scene, double t) {
   return sample;
 }
 
-/// Steps longer than the output interval begin after this time [s], when what the start sets off has died away.
-constexpr double kStart = 0.3;
-
 /// The handle as a function of time, asked for its pose, velocity and acceleration at times `interval` apart as time goes
 /// on.
 class FunctionHand {
@@ -64,6 +62,18 @@ class FunctionHand {
     return segment_;
   }
   void set_interval(double interval) { interval_ = interval; }
+  /// At the newest moment that it was asked for: the end of the last segment.
+  HandleForcing forcing() const {
+    HandleForcing f;
+    f.t = newest_.pose.t;
+    f.X_WH = newest_.pose.X;
+    f.v_WH_W = newest_.v_W;
+    f.angular_velocity = newest_.w_B;
+    f.angular_acceleration = newest_.alpha_B;
+    f.acceleration_less_gravity.noalias() =
+        newest_.pose.X.linear().transpose() * (newest_.a_W + scene_.gravity * Vector3d::UnitZ());
+    return f;
+  }
 
  private:
   MotionSample sample(double t) const {
@@ -133,25 +143,7 @@ RunResult run_on(const Scenario& scene, const std::string& name, double step, Ha
       });
 }
 
-/// What a run gives at one moment, with two derivatives.
-struct Output {
-  double t = 0.0;
-  Vector3d value, rate, acceleration;
-};
-
-/// The quintic through two of them.
-Vector3d between(const Output& a, const Output& b, double t) {
-  const double h = b.t - a.t, u = (t - a.t) / h;
-  const Vector3d rise = b.value - a.value - h * a.rate - 0.5 * h * h * a.acceleration;
-  const Vector3d slope = h * (b.rate - a.rate) - h * h * a.acceleration;
-  const Vector3d bend = h * h * (b.acceleration - a.acceleration);
-  return a.value + u * (h * a.rate + u * (0.5 * h * h * a.acceleration +
-                                          u * (10.0 * rise - 4.0 * slope + 0.5 * bend +
-                                               u * (7.0 * slope - 15.0 * rise - bend +
-                                                    u * (6.0 * rise - 3.0 * slope + 0.5 * bend)))));
-}
-
-Output output(const Scenario& scene, const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
+Moment moment(const Scenario& scene, const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
   const StrainVector q_ddot = body.acceleration(handle, state.q, state.q_dot);
   if (scene.kind == SceneKind::torsion) {
     return {handle.t, Vector3d(0.0, 0.0, log_so3(handle.X_WH.linear()).z() + state.q[0]),
@@ -162,28 +154,43 @@ Output output(const Scenario& scene, const HeldBody& body, const HandleForcing& 
   return {handle.t, o.X.translation(), o.velocity.linear, o.acceleration.linear};
 }
 
-/// In steps longer than the output interval; outputs within a step by the quintic through its ends.
+/// The steps with which a run in long steps begins: what the start sets off is followed until it has died away.
+struct Start {
+  double step, duration;  ///< [s]
+
+  Start(const Scenario& scene, double largest_step) {
+    const bool single = scene.kind != SceneKind::six_dof;
+    const double omega = single ? std::sqrt(scene.stiffness[scene.single_coordinate()] / scene.single_inertia())
+                                : std::sqrt(scene.stiffness[0] / scene.mass);
+    step = std::min(largest_step, std::max(1.5 / omega, scene.output_interval));
+    duration = std::max(10.0 / omega, 3.0 * step);
+  }
+};
+
+/// In steps that do not end at the outputs.
 RunResult run_in_long_steps(const Scenario& scene, const std::string& name, double step) {
   const HeldBody body = held_body(scene);
   const std::unique_ptr<Integrator> integrator = make_integrator(name);
   const std::vector<double> times = output_times(scene);
-  FunctionHand hand(scene, scene.output_interval);
-  set_up(scene, body, scene.output_interval, *integrator);
+  const Start begin(scene, step);
+  FunctionHand hand(scene, begin.step);
+  set_up(scene, body, begin.step, *integrator);
   StrainState state = body.zero_state();
+  DenseOutput dense;
   RunResult result;
   result.outputs.reserve(times.size());
   const auto start = std::chrono::steady_clock::now();
-  Output end = output(scene, body, body.forcing(hand.at(0.0), 0.0), state);
-  while (result.outputs.size() < times.size()) {
-    const Output begin = end;
-    const double h = begin.t < kStart - 1e-9 ? scene.output_interval : step;
+  dense.push(moment(scene, body, hand.forcing(), state));
+  for (double t = 0.0; result.outputs.size() < times.size();) {
+    const double h = t < begin.duration - 1e-9 ? begin.step : step;
     hand.set_interval(h);
-    const MotionSegment& segment = hand.at(begin.t);
-    integrator->step(body, segment, begin.t, h, state);
-    end = output(scene, body, body.forcing(segment, begin.t + h), state);
+    integrator->step(body, hand.at(t), t, h, state);
+    t += h;
+    const Moment end = moment(scene, body, hand.forcing(), state);
     if (!is_bounded(end.value)) return result;
-    while (result.outputs.size() < times.size() && times[result.outputs.size()] < end.t + 1e-9) {
-      result.outputs.push_back(between(begin, end, times[result.outputs.size()]));
+    dense.push(end);
+    while (dense.known() && result.outputs.size() < times.size() && times[result.outputs.size()] < dense.end() + 1e-9) {
+      result.outputs.push_back(dense.at(times[result.outputs.size()]));
     }
   }
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -201,7 +208,7 @@ class OurMethod : public Method {
 
   RunResult run(const Scenario& given, double step) const override {
     const Scenario scene = with_length_of_its_slopes(given);
-    if (dense() && step > 1.5 * scene.output_interval) return run_in_long_steps(scene, integrator_, step);
+    if (dense() && step > (1.0 + 1e-9) * scene.output_interval) return run_in_long_steps(scene, integrator_, step);
     if (samples_) return run_on(scene, integrator_, step, SampledHand(scene));
     const double interval = scene.output_interval / asked_per_output(steps_per_output(scene, step));
     return run_on(scene, integrator_, step, FunctionHand(scene, interval));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <sstream>
+#include <tuple>
 
 #include "benchmark/parallel.h"
 #include "benchmark/simulated_rod.h"
@@ -109,6 +110,13 @@ void add(const StabilityOutcome& outcome, StabilityRow& row) {
 
 }  // namespace
 
+bool worse(const StabilityOutcome& a, const StabilityOutcome& b) {
+  const auto badness = [](const StabilityOutcome& o) {
+    return std::tuple(!o.finite, !o.bounded, o.energy_kept() ? 0.0 : o.energy_growth, o.refused);
+  };
+  return badness(a) > badness(b);
+}
+
 StabilityPlan stability_plan(bool quick) {
   StabilityPlan plan;
   plan.integrators = integrator_names();
@@ -171,7 +179,7 @@ StabilityMap stability_map(const StabilityPlan& plan, Progress& progress) {
   StabilityMap map;
   for (const std::string& integrator : plan.integrators) {
     for (const std::string& shape : plan.shapes) {
-      std::size_t failures = 0;
+      std::vector<StabilityFailure> failures;
       for (const double factor : plan.stiffness_factors) {
         progress.next("stability: " + integrator + ' ' + shape);
         const std::vector<StabilityCell> cells = cells_of(plan, factor);
@@ -184,11 +192,14 @@ StabilityMap stability_map(const StabilityPlan& plan, Progress& progress) {
             map.rows.push_back({integrator, shape, factor, cell.mass, cell.step, cell.damping_ratio});
           }
           add(outcomes[i], map.rows.back());
-          if (!outcomes[i].held() && failures++ < kFailuresKept) {
-            map.failures.push_back({integrator, shape, cell, outcomes[i]});
-          }
+          if (!outcomes[i].held()) failures.push_back({integrator, shape, cell, outcomes[i]});
         }
       }
+      std::stable_sort(failures.begin(), failures.end(), [](const StabilityFailure& a, const StabilityFailure& b) {
+        return worse(a.outcome, b.outcome);
+      });
+      if (failures.size() > kFailuresKept) failures.resize(kFailuresKept);
+      map.failures.insert(map.failures.end(), failures.begin(), failures.end());
     }
   }
   return map;

@@ -44,6 +44,9 @@ struct StabilityOutcome {
   bool held() const { return finite && bounded && energy_kept() && refused == 0; }
 };
 
+/// Whether `a` is the worse: first by what is finite, then bounded, then by energy gained, then by steps refused.
+bool worse(const StabilityOutcome& a, const StabilityOutcome& b);
+
 /// Runs a cell through Simulation, as a user would: samples in, poses out; the hand is sampled at 50 Hz, or at the step
 /// where that is longer, since a step ends at every sample.
 StabilityOutcome run_cell(const std::string& integrator, const std::string& shape, const StabilityCell& cell);
@@ -64,7 +67,7 @@ struct StabilityFailure {
 
 struct StabilityMap {
   std::vector<StabilityRow> rows;
-  std::vector<StabilityFailure> failures;  ///< the first few of each integrator and shape
+  std::vector<StabilityFailure> failures;  ///< the worst few of each integrator and shape, worst first
 };
 
 /// The cells of one stiffness. Of a step with fewer in turn than there are pairs of families and hands, each pair has its

@@ -217,18 +217,17 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
       sum.bounded += row.bounded;
       sum.energy_kept += row.energy_kept;
       sum.none_refused += row.none_refused;
-      sum.held += row.held;
     }
     if (sum.cells == 0) continue;
-    const auto of = [&](int count) { return std::to_string(count) + " of " + std::to_string(sum.cells); };
-    const std::string figure = of(sum.held) + " cells hold (finite " + std::to_string(sum.finite) + ", bounded " +
-                               std::to_string(sum.bounded) + ", energy kept " + std::to_string(sum.energy_kept) +
-                               ", no step refused " + std::to_string(sum.none_refused) + ")";
+    const std::string figure = "of " + std::to_string(sum.cells) + " cells finite " + std::to_string(sum.finite) +
+                               ", bounded " + std::to_string(sum.bounded) + ", energy kept " +
+                               std::to_string(sum.energy_kept) + "; a step was refused in " +
+                               std::to_string(sum.cells - sum.none_refused) + " cells";
     const std::string claim = "Stability map, " + name;
     if (kExplicit.count(name) != 0) {
       out.push_back({claim + " (a baseline with a stability limit)", "none", figure, Verdict::Result::not_measured});
     } else {
-      out.push_back(judged(claim, "every cell finite, bounded, energy never growing with the hand at rest", figure,
+      out.push_back(judged(claim, "every cell finite, bounded, energy never growing with the hand at rest; a step may be refused", figure,
                            sum.finite == sum.cells && sum.bounded == sum.cells && sum.energy_kept == sum.cells));
     }
   }

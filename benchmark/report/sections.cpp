@@ -100,11 +100,14 @@ PageSection stability_section(const Measurements& measured, const Tables& tables
       "included. A cell holds where pose and twist stay finite and within 100 m of the hand, the energy does not grow by "
       "more than 1e-9 while the hand rests (of the largest elastic and kinetic energy then and the weight times the "
       "fork's length), and no step was refused. Where an explicit method runs wild, the guard refuses its steps: the "
-      "simulation stays finite, the method has failed.";
+      "simulation stays finite, the method has failed. For the others the guard lets a fork that is compressed to nothing or "
+      "twisted too far stop there. What it still refuses are steps after the hand leaps by 1 m or turns half round "
+      "within a sample under a soft fork that can bend but not give way in length: the rod would be wound up by more "
+      "than ten turns, which no strain describes. The fork is rigid for such a step, keeps its strain, and goes on from there.";
   section.figures.push_back(figure({"stability", tables.map, "stability_map.png", {},
                                     "Share of the cells that hold, by stiffness and mass"}, folder));
   section.tables.push_back({"Cells", map_summary_csv(measured.map), false});
-  section.tables.push_back({"The first cells of each integrator that do not hold", failures_csv(measured.map), true});
+  section.tables.push_back({"The worst cells of each integrator that do not hold", failures_csv(measured.map), true});
   if (!measured.stability_counts.empty()) {
     section.tables.push_back({"Ours and the peers on scenes A and C: cases of 11 stiffnesses × 5 masses × 4 steps that stay "
                               "finite and bounded",

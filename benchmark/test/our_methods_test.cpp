@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "benchmark/dense_output.h"
 #include "benchmark/reference_solution.h"
 #include "spring_workbench/dynamics/integrator.h"
 
@@ -16,6 +17,31 @@ bool knows_function(const Method& method) { return method.hand() == "function"; 
 double error_at(const Method& method, const Scenario& scene, int steps_per_interval) {
   const RunResult run = method.run(scene, scene.output_interval / steps_per_interval);
   return run.finite ? output_error(scene, reference_solution(scene), run.outputs) : 1e300;
+}
+
+TEST(DenseOutput, IsExactForPolynomialsOfDegreeElevenOnUnevenSteps) {
+  // ((1 − i t / 4) / 2)¹¹, i = 1, 2, 3, with its derivatives.
+  const auto moment = [](double t) {
+    Moment m;
+    m.t = t;
+    for (int i = 0; i < 3; ++i) {
+      const double slope = 0.25 * (i + 1), base = 0.5 * (1.0 - slope * t);
+      m.value[i] = std::pow(base, 11);
+      m.rate[i] = -11.0 * 0.5 * slope * std::pow(base, 10);
+      m.acceleration[i] = 110.0 * 0.25 * slope * slope * std::pow(base, 9);
+    }
+    return m;
+  };
+  DenseOutput dense;
+  double reached = 0.0;
+  int looks = 0;
+  for (const double t : {0.0, 0.1, 0.25, 0.3, 0.5, 0.8, 0.95}) {
+    dense.push(moment(t));
+    for (; dense.known() && reached <= dense.end(); reached += 0.01, ++looks) {
+      EXPECT_LT((dense.at(reached) - moment(reached).value).norm(), 1e-13) << reached;
+    }
+  }
+  EXPECT_GT(looks, 75);
 }
 
 TEST(OurMethods, EveryIntegratorIsThereWithBothHands) {

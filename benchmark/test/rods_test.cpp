@@ -193,6 +193,23 @@ TEST(StabilityMap, ManyHalvedStepsInALongFallAddNoEnergy) {
   }
 }
 
+TEST(StabilityMap, OutcomesAreOrderedByWhatIsWorst) {
+  const auto outcome = [](bool finite, bool bounded, double growth, int refused) {
+    StabilityOutcome o;
+    o.finite = finite;
+    o.bounded = bounded;
+    o.energy_growth = growth;
+    o.refused = refused;
+    return o;
+  };
+  const std::vector<StabilityOutcome> worst_first = {outcome(false, false, 0.0, 0), outcome(true, false, 0.0, 9),
+                                                     outcome(true, true, 2.0, 0),   outcome(true, true, 1e-3, 9),
+                                                     outcome(true, true, 1e-10, 9), outcome(true, true, 9e-10, 1)};
+  for (std::size_t i = 0; i < worst_first.size(); ++i) {
+    for (std::size_t j = 0; j < worst_first.size(); ++j) EXPECT_EQ(worse(worst_first[i], worst_first[j]), i < j) << i << " " << j;
+  }
+}
+
 TEST(StabilityMap, EveryPairOfFamiliesAndHandHasItsTurnAtEachStiffnessAndStep) {
   for (const bool quick : {true, false}) {
     const StabilityPlan plan = stability_plan(quick);

@@ -25,11 +25,13 @@ constexpr double share_of_error = 0.5;
 constexpr double share_of_strain = 1e-12;
 /// Squared, of the last step's cubic's error: a sweep that leaves more is not the last one.
 constexpr double far_from_done = 25.0;
-/// From the fourth sweep on, one that leaves more than this of the last one's change will not come to an end soon.
+/// From the sixth sweep on, one that leaves more than this of the last one's change will not come to an end soon.
 constexpr double slow_contraction = 0.7;
-constexpr int sweeps_to_judge = 3;
+constexpr int sweeps_to_judge = 5;
 /// The most that the sweeps' own way is continued by, of a sweep.
 constexpr double most_continued = 3.0;
+/// Of a determinant to what it is at most: below this the ways of two pairs of sweeps are one.
+constexpr double least_independence = 1e-3;
 /// From one step to the next the sweeps' contraction, where it is not measured, is taken to get worse by this factor.
 constexpr double forget_contraction = 1.3;
 /// The last step's cubic is continued to this many times its length, and no further.
@@ -310,13 +312,12 @@ class Exponential::CoreOf final : public Core {
     }
   }
 
-  /// Sweeps, from the second on continued along the way that they take (Anderson's acceleration of depth one).
+  /// Sweeps, from the second on continued along the way that they take (Anderson's acceleration of depth two).
   SPRING_WORKBENCH_WIDE Estimate sweep(const HeldBody& body, const HandleForcings& forcing, double h, State& state) {
     prepare(h);
     const Modes x0 = modes_of(state);
     predict(body, forcing, h, state);
     NodeModes start, x;
-    Swept swept[2]{};  // this sweep's and the last one's, in turns
     for (int m = 0; m < 2 * n; ++m) start[at(m)] = decay_.of([&](int k) { return x0[k]; }, m);
 
     Estimate e;
@@ -326,8 +327,8 @@ class Exponential::CoreOf final : public Core {
     int sweeps = 0;
     while (sweeps < most_sweeps && !e.converged) {
       ++sweeps;
-      Swept& now = swept[sweeps % 2];
-      const Swept& before = swept[1 - sweeps % 2];
+      Swept& now = swept_[sweeps % 3];
+      const Swept& before = swept_[(sweeps + 2) % 3];
       remainder(body, forcing, x, remainder_);
       drive(start, remainder_, now.x);
       for (int m = 0; m < 2 * n; ++m) now.moved[at(m)] = now.x[at(m)] - x[at(m)];
@@ -355,7 +356,7 @@ class Exponential::CoreOf final : public Core {
         e.error = -(cubic + left * at_node(last, now.moved));
       }
       if (sweeps > 1) {
-        continue_sweeps(now, before, x);
+        continue_sweeps(now, before, sweeps > 2 ? &swept_[(sweeps + 1) % 3] : nullptr, x);
       } else {
         x = now.x;
       }
@@ -378,17 +379,32 @@ class Exponential::CoreOf final : public Core {
   struct Swept {
     NodeModes x, moved;
   };
-  /// From two sweeps, where the next one is to start.
-  SPRING_WORKBENCH_INLINE void continue_sweeps(const Swept& now, const Swept& before, NodeModes& x) const {
-    Pack along{}, all{};
+  /// From three sweeps, or two where `first` is null, where the next one is to start.
+  SPRING_WORKBENCH_INLINE void continue_sweeps(const Swept& now, const Swept& before, const Swept* first,
+                                               NodeModes& x) const {
+    Pack dd{}, dn{}, de{}, ee{}, en{};  // of d = moved less the last, e = the last less the one before, n = moved
     for (int m = 0; m < 2 * n; ++m) {
-      const Pack less = before.moved[at(m)] - now.moved[at(m)];
-      along += squared_weight_[m] * less * now.moved[at(m)];
-      all += squared_weight_[m] * less * less;
+      const Pack w = squared_weight_[m] + Pack{}, moved = now.moved[at(m)], d = moved - before.moved[at(m)];
+      dd += w * d * d;
+      dn += w * d * moved;
+      if (first == nullptr) continue;
+      const Pack e = before.moved[at(m)] - first->moved[at(m)];
+      de += w * d * e;
+      ee += w * e * e;
+      en += w * e * moved;
     }
-    const double further = (along[1] + along[2] + along[3]) / (all[1] + all[2] + all[3]);
-    const double f = std::abs(further) < most_continued ? further : 0.0;
-    for (int m = 0; m < 2 * n; ++m) x[at(m)] = now.x[at(m)] + f * (now.x[at(m)] - before.x[at(m)]);
+    const auto sum = [](const Pack& p) { return p[1] + p[2] + p[3]; };
+    const double determinant = sum(dd) * sum(ee) - sum(de) * sum(de);
+    const bool both = determinant > least_independence * sum(dd) * sum(ee);
+    double last_share = sum(dn) / sum(dd), first_share = 0.0;
+    if (both) {
+      last_share = (sum(dn) * sum(ee) - sum(en) * sum(de)) / determinant;
+      first_share = (sum(en) * sum(dd) - sum(dn) * sum(de)) / determinant;
+    }
+    if (!(std::abs(last_share) + std::abs(first_share) < most_continued)) last_share = first_share = 0.0;
+    for (int m = 0; m < 2 * n; ++m) x[at(m)] = now.x[at(m)] - last_share * (now.x[at(m)] - before.x[at(m)]);
+    if (first_share == 0.0) return;
+    for (int m = 0; m < 2 * n; ++m) x[at(m)] -= first_share * (before.x[at(m)] - first->x[at(m)]);
   }
 
   LinearPart linear_;
@@ -404,6 +420,7 @@ class Exponential::CoreOf final : public Core {
   std::array<Operator<Pack>, nodes> node_{};  ///< of the remainder at each node
   Operator<double> error_;
 
+  Swept swept_[3];         ///< the last sweeps, in turns
   NodeModes remainder_;    ///< at the nodes of this step, or the last one
   Modes start_remainder_;
   double contraction_ = 1.0;                               ///< of the first sweep's change by the second

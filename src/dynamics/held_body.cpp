@@ -220,10 +220,6 @@ void HeldBody::kinematics(double t, const StrainVector& q, const StrainVector& q
   StrainVector q_ddot;
   expand(t, q, q_dot, k.q, k.q_dot, q_ddot);
   kinematics(k);
-  if (returning_ > 0) {
-    k.angular_bias += k.tip.angular * q_ddot;
-    k.linear_bias += k.linear * q_ddot;
-  }
 }
 
 void HeldBody::kinematics(Kinematics& k) const {
@@ -233,9 +229,6 @@ void HeldBody::kinematics(Kinematics& k) const {
   k.R_HO = k.tip.R_HE * R_EO_;
   k.linear.resize(3, shape_->size());
   for (int i = 0; i < shape_->size(); ++i) k.linear.col(i) = k.tip.linear.col(i) + k.tip.angular.col(i).cross(k.r_EO);
-  const Vector3d w = k.tip.angular * k.q_dot;
-  k.angular_bias = k.tip.angular_bias;
-  k.linear_bias = k.tip.linear_bias + k.tip.angular_bias.cross(k.r_EO) + w.cross(w.cross(k.r_EO));
 }
 
 StrainMatrix HeldBody::mass_matrix(const Kinematics& k, Matrix3d& I_H) const {
@@ -262,6 +255,25 @@ struct HeldBody::Rigid {
   Three<S> moment_O;  ///< rate of the angular momentum about O, less the contact's moment, axes of O
 };
 
+namespace {
+
+/// What `size` rates (or accelerations) of the strain add to the tip's angular and linear one.
+template <typename S>
+SPRING_WORKBENCH_INLINE void add_tip_motion(const TipOf<S>& tip, int size, const S* rate, Three<S>& angular,
+                                            Three<S>& linear) {
+  if (tip.separate) {
+    angular += rate[2] * tip.angular[2] + rate[3] * tip.angular[3] + rate[4] * tip.angular[4];
+    linear += Three<S>{rate[0], rate[1], rate[5]};
+    return;
+  }
+  for (int i = 0; i < size; ++i) {
+    angular += rate[i] * tip.angular[i];
+    linear += rate[i] * tip.linear[i];
+  }
+}
+
+}  // namespace
+
 template <typename S>
 SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration(const FrameForcing<S>& h,
                                                                                  const TipOf<S>& tip, const S* q_dot,
@@ -272,21 +284,8 @@ SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration
   const Three<S> p_HO = tip.p_HE + r.r_EO;
   Three<S> w_rel = none<S>(), v_E = none<S>();  // of the tip, in the turning frame H
   Three<S> alpha_rel = tip.angular_bias, a_E = tip.linear_bias;
-  if (tip.separate) {
-    w_rel = q_dot[2] * tip.angular[2] + q_dot[3] * tip.angular[3] + q_dot[4] * tip.angular[4];
-    v_E = {q_dot[0], q_dot[1], q_dot[5]};
-  } else {
-    for (int i = 0; i < shape_size_; ++i) {
-      w_rel += q_dot[i] * tip.angular[i];
-      v_E += q_dot[i] * tip.linear[i];
-    }
-  }
-  if (returning_ > 0) {
-    for (int i = 0; i < shape_size_; ++i) {
-      alpha_rel += q_ddot[i] * tip.angular[i];
-      a_E += q_ddot[i] * tip.linear[i];
-    }
-  }
+  add_tip_motion(tip, shape_size_, q_dot, w_rel, v_E);
+  if (returning_ > 0) add_tip_motion(tip, shape_size_, q_ddot, alpha_rel, a_E);
   const Three<S> v_rel = v_E + cross(w_rel, r.r_EO);
   const Three<S>& w_H = h.w_B;
   const Three<S> a = h.a_B + a_E + cross(h.alpha_B, p_HO) + cross(w_H, cross(w_H, p_HO) + 2.0 * v_rel) +
@@ -448,28 +447,34 @@ bool HeldBody::rechart(StrainState& state) const {
 }
 
 MotionState HeldBody::object(const HandleForcing& h, const StrainState& state, const StrainVector* q_ddot) const {
-  Kinematics k;
-  kinematics(h.t, state.q, state.q_dot, k);
-  const Matrix3d& R_WH = h.X_WH.linear();
-  const Vector3d& w_H = h.angular_velocity;
-  const Vector3d w_rel = k.tip.angular * k.q_dot;
-  const Vector3d v_rel = k.linear * k.q_dot;
+  double q[max_strain_coordinates]{}, rate[max_strain_coordinates]{}, acceleration[max_strain_coordinates]{};
+  for (int i = 0; i < size(); ++i) {
+    const int c = active_[static_cast<std::size_t>(i)];
+    q[c] = state.q[i];
+    rate[c] = state.q_dot[i];
+    if (q_ddot != nullptr) acceleration[c] = (*q_ddot)[i];
+  }
+  if (returning_ > 0) prescribe(h.t, 0, q, rate, acceleration);
+  TipOf<double> tip;
+  shape_->tip(q, rate, tip);
+  // Of the tip, in the turning frame H.
+  Three<double> w = none<double>(), v = w, alpha = tip.angular_bias, a = tip.linear_bias;
+  add_tip_motion(tip, shape_size_, rate, w, v);
+  if (q_ddot != nullptr) add_tip_motion(tip, shape_size_, acceleration, alpha, a);
+  const Three<double> r_EO = tip.R_HE * three(p_EO_), p_HO = tip.p_HE + r_EO, v_rel = v + cross(w, r_EO);
+  const Three<double> w_H = three(h.angular_velocity), alpha_H = three(h.angular_acceleration);
+  const ThreeByThree<double> R_WH = three_by_three(h.X_WH.linear());
   MotionState s;
-  s.X.linear() = R_WH * k.R_HO;
-  s.X.translation() = h.X_WH * k.p_HO;
-  s.velocity.linear = h.v_WH_W + R_WH * (w_H.cross(k.p_HO) + v_rel);
-  s.velocity.angular = R_WH * (w_H + w_rel);
+  s.X.linear() = matrix(R_WH * (tip.R_HE * three_by_three(R_EO_)), 0);
+  s.X.translation() = h.X_WH.translation() + vector(R_WH * p_HO);
+  s.velocity.linear = h.v_WH_W + vector(R_WH * (cross(w_H, p_HO) + v_rel));
+  s.velocity.angular = vector(R_WH * (w_H + w));
   if (q_ddot != nullptr) {
-    Vector3d a = h.acceleration_less_gravity + h.angular_acceleration.cross(k.p_HO) + w_H.cross(w_H.cross(k.p_HO)) +
-                 2.0 * w_H.cross(v_rel) + k.linear_bias;
-    Vector3d alpha = h.angular_acceleration + w_H.cross(w_rel) + k.angular_bias;
-    for (int i = 0; i < size(); ++i) {
-      const int c = active_[static_cast<std::size_t>(i)];
-      a += k.linear.col(c) * (*q_ddot)[i];
-      alpha += k.tip.angular.col(c) * (*q_ddot)[i];
-    }
-    s.acceleration.linear = R_WH * a - gravity_ * Vector3d::UnitZ();
-    s.acceleration.angular = R_WH * alpha;
+    const Three<double> of_O = a + cross(alpha, r_EO) + cross(w, cross(w, r_EO));
+    const Three<double> a_H = three(h.acceleration_less_gravity) + of_O + cross(alpha_H, p_HO) +
+                              cross(w_H, cross(w_H, p_HO) + 2.0 * v_rel);
+    s.acceleration.linear = vector(R_WH * a_H) - gravity_ * Vector3d::UnitZ();
+    s.acceleration.angular = vector(R_WH * (alpha_H + cross(w_H, w) + alpha));
   }
   return s;
 }

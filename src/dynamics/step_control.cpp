@@ -7,6 +7,7 @@
 
 #include "energy_limit.h"
 #include "implicit_integrators.h"
+#include "strain_limit.h"
 
 namespace spring_workbench {
 namespace {
@@ -17,6 +18,7 @@ constexpr int most_halvings = 6;
 /// How much closer than a whole step two halves are, where an estimate is made of the two: 32 where the motion is smooth,
 /// 2 to 4 where a jump of the handle's acceleration sets off a fast mode.
 constexpr double halves_are_closer = 4.0;
+constexpr int halvings_to_stop = 2;  ///< a piece of a step that is no longer than this may end at the end of the fork's way
 constexpr double most_strain = 1e12;  ///< in the coordinates' own units; no state to go on from has more
 
 constexpr double safety = 0.9;
@@ -57,6 +59,7 @@ struct StepControl::Span {
   const MotionSegment& handle;
   Memory& memory;
   ControlledStep report;
+  double longest_to_stop;  ///< [s]; a step up to this may end at the end of the fork's way
 
   /// An error of the strain as one length.
   double length(double t, const StrainVector& q, const StrainVector& error) const {
@@ -70,7 +73,7 @@ StepControl::StepControl(std::unique_ptr<Integrator> integrator, double toleranc
 
 ControlledStep StepControl::advance(const HeldBody& body, const MotionSegment& handle, double t, double h,
                                     StrainState& state, Memory& memory) const {
-  Span span{body, handle, memory, {}};
+  Span span{body, handle, memory, {}, (1.0 + 1e-9) * std::ldexp(h, -halvings_to_stop)};
   const Memory before = memory;
   StrainState next = state;
   span.report.fine = tolerance_ > 0.0              ? steps_to_tolerance(span, t, h, next)
@@ -105,9 +108,11 @@ bool StepControl::try_step(Span& span, double t, double h, StrainState& state, S
   const HeldBody& body = span.body;
   const StrainState begin = state;
   estimate = step_with_estimate(span, t, h, state);
-  const bool fine = (state.q.norm() + state.q_dot.norm()) < most_strain &&
-                    body.shape().admissible(body.full_state(t + h, state).q);
-  if (!fine) return false;
+  if (!((state.q.norm() + state.q_dot.norm()) < most_strain)) return false;
+  if (!body.shape().admissible(body.full_state(t + h, state).q)) {
+    const bool stops = integrator_->unlimited() && h <= span.longest_to_stop && stop_at_limit(body, t + h, begin, state);
+    if (!stops) return false;
+  }
   // The estimate is in the coordinates of the step.
   const Sizes s = sizes(body, t + h, state.q, estimate.q_error);
   body.rechart(state);

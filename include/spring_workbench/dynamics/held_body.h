@@ -127,8 +127,6 @@ class HeldBody {
     Vector3d p_HO;           ///< axes of H
     Matrix3d R_HO;
     StrainJacobian linear;   ///< of O
-    Vector3d linear_bias;    ///< of O
-    Vector3d angular_bias;
     StrainVector q, q_dot;   ///< all coordinates
   };
   /// All coordinates' strain and rate at time `t` from the active ones' and what is prescribed.

@@ -24,10 +24,10 @@ struct ControlledStep {
 /// from where it should be [m] and the angle times the object's radius of gyration, as one length. Where nothing damps
 /// an error away, it may grow by the tolerance in each `undamped_horizon`.
 ///
-/// An integrator that no stiffness limits is guarded besides. A step with a large local error is taken again in halves.
-/// While the handle rests and no contact pushes, energy may not grow: what a step gains is taken from its speed, or, where
-/// that is not enough, its way is cut short. The guard costs one more evaluation of the energy a step while the handle
-/// rests, nothing while it moves. Explicit methods are left as they are.
+/// An integrator that no stiffness limits is guarded besides. A step with a large local error is taken again in halves; a
+/// fork at the end of its way stops there. While the handle rests and no contact pushes, energy may not grow: what a step
+/// gains is taken from its speed, or else its way is cut short. The guard costs one more evaluation of the energy a step
+/// while the handle rests, nothing while it moves. Explicit methods are left as they are.
 class StepControl {
  public:
   /// What goes on from one span to the next; belongs to the state.
