@@ -287,8 +287,9 @@ def contact(table, picture, impacts, steps):
         draw_line(panels[2], line, label=scene_name, color=OURS[i], marker="o")
     log_axes(panels[2], title="steps of the dynamic world", xlabel="processor time [µs per simulated second]",
              ylabel="largest error [mm]")
+    figure.set_size_inches(13.0, 5.6)
     for axes in panels:
-        axes.legend(fontsize=7)
+        axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncol=2)
     figure.tight_layout()
     figure.savefig(picture, dpi=110)
 
