@@ -9,6 +9,10 @@ void append(std::vector<MethodPtr> more, std::vector<MethodPtr>& methods) {
   methods.insert(methods.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+[[maybe_unused]] void append(const std::vector<DragMethod>& more, std::vector<DragMethod>& drags) {
+  drags.insert(drags.end(), more.begin(), more.end());
+}
+
 }  // namespace
 
 Peers all_peers() {
@@ -18,24 +22,28 @@ Peers all_peers() {
   peers.found.push_back("CVODE " SPRING_WORKBENCH_CVODE_VERSION);
 #ifdef SPRING_WORKBENCH_BULLET_VERSION
   append(bullet_peers(), peers.methods);
+  append(bullet_drags(), peers.drags);
   peers.found.push_back("Bullet " SPRING_WORKBENCH_BULLET_VERSION);
 #else
   peers.not_found.push_back("Bullet in double precision (libbullet-dev)");
 #endif
 #ifdef SPRING_WORKBENCH_MUJOCO_VERSION
   append(mujoco_peers(), peers.methods);
+  append(mujoco_drags(), peers.drags);
   peers.found.push_back("MuJoCo " SPRING_WORKBENCH_MUJOCO_VERSION);
 #else
   peers.not_found.push_back("MuJoCo (libmujoco-dev)");
 #endif
 #ifdef SPRING_WORKBENCH_ODE_VERSION
   append(ode_peers(), peers.methods);
+  append(ode_drags(), peers.drags);
   peers.found.push_back("ODE " SPRING_WORKBENCH_ODE_VERSION);
 #else
   peers.not_found.push_back("ODE (libode-dev)");
 #endif
 #ifdef SPRING_WORKBENCH_DART_VERSION
   append(dart_peers(), peers.methods);
+  append(dart_drags(), peers.drags);
   peers.found.push_back("DART " SPRING_WORKBENCH_DART_VERSION);
 #else
   peers.not_found.push_back("DART (libdart-dev)");

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/contact/drag.h"
 #include "benchmark/method.h"
 
 namespace spring_workbench::benchmark {
@@ -31,6 +32,7 @@ std::vector<MethodPtr> dart_peers();
 /// The peers that were found when this was configured, and those that were not.
 struct Peers {
   std::vector<MethodPtr> methods;
+  std::vector<DragMethod> drags;       ///< the engines on the drag scene
   std::vector<std::string> found;      ///< engine and version
   std::vector<std::string> not_found;  ///< engine and the Debian package that brings it
 };

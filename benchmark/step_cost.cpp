@@ -1,36 +1,13 @@
 #include "benchmark/step_cost.h"
 
-#include <algorithm>
-#include <ctime>
-#include <limits>
-
+#include "benchmark/least_time.h"
 #include "benchmark/scenarios.h"
 #include "spring_workbench/dynamics/integrator.h"
 
 namespace spring_workbench::benchmark {
 namespace {
 
-double thread_nanoseconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e9 * static_cast<double>(t.tv_sec) + static_cast<double>(t.tv_nsec);
-}
-
-/// Least time of a call over many short runs, fewer of long ones.
-template <typename Call>
-double least(Call&& call) {
-  constexpr int most_runs = 40, least_runs = 3, calls = 200;
-  constexpr double enough = 1e8;  // [ns] in all
-  double best = std::numeric_limits<double>::infinity(), spent = 0.0;
-  for (int run = 0; run < least_runs || (run < most_runs && spent < enough); ++run) {
-    const double begin = thread_nanoseconds();
-    for (int i = 0; i < calls; ++i) call(i);
-    const double time = thread_nanoseconds() - begin;
-    best = std::min(best, time / calls);
-    spent += time;
-  }
-  return best;
-}
+constexpr int calls = 200;
 
 MotionSegment hand_of(const Scenario& scene, double t) {
   const auto sample = [&](double at) {
@@ -63,7 +40,7 @@ void add(const std::string& shape, const ForkDofs& dofs, std::vector<StepCost>& 
   HeldBody body = body_of(scene, shape, dofs);
   const double h = scene.output_interval;
   std::vector<MotionSegment> hand;
-  for (int i = 0; i < 200; ++i) hand.push_back(hand_of(scene, i * h));
+  for (int i = 0; i < calls; ++i) hand.push_back(hand_of(scene, i * h));
   const auto integrator = make_integrator("exponential");
   StrainState state = body.zero_state();
   integrator->step(body, hand[0], 0.0, h, state);
@@ -73,7 +50,7 @@ void add(const std::string& shape, const ForkDofs& dofs, std::vector<StepCost>& 
 
   volatile double sink = 0.0;  // so that nothing is left out
   TipKinematics tip;
-  const auto note = [&](const char* part, auto&& call) { costs.push_back({shape, body.size(), part, least(call)}); };
+  const auto note = [&](const char* part, auto&& call) { costs.push_back({shape, body.size(), part, least_nanoseconds(calls, call)}); };
   note("hand at one moment", [&](int i) { sink = body.forcing(hand[1], h * (1.0 + 0.001 * i)).angular_velocity[0]; });
   note("tip", [&](int) {
     body.shape().tip(full.q, full.q_dot, tip);
@@ -108,7 +85,7 @@ std::vector<StepCost> step_costs() {
   to.X.linear() = b.R_WT;
   to.X.translation() = b.p_WT;
   volatile double sink = 0.0;
-  costs.push_back({"", 0, "hand between two samples", least([&](int) {
+  costs.push_back({"", 0, "hand between two samples", least_nanoseconds(calls, [&](int) {
                      sink = MotionSegment(from, a.v_WT_W, a.w_WT_T, to, b.v_WT_W, b.w_WT_T).end();
                    })});
   for (const std::string& shape : shape_model_names()) {

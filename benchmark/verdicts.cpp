@@ -246,6 +246,49 @@ void shapes(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
+void contact(const Measurements& m, std::vector<Verdict>& out) {
+  for (const char* mode : {"stop", "dynamic"}) {
+    double lag = 0.0, depth = 0.0;
+    bool any = false, finite = true;
+    for (const DragRow& row : m.contact.drags) {
+      if (row.method != mode) continue;
+      any = true;
+      finite = finite && row.finite;
+      lag = std::max(lag, row.lag_error);
+      depth = std::max(depth, row.penetration);
+    }
+    if (!any) continue;
+    out.push_back(judged(std::string("Drag, contact ") + mode + ", steps of 20 to 1 ms, every stiffness",
+                         "lag within 0.1 %, penetration ≤ 0.01 mm",
+                         finite ? text(100.0 * lag) + " %, " + text(1e3 * depth) + " mm" : "not finite",
+                         finite && lag <= 1e-3 && depth <= 1e-5));
+  }
+  for (const int levels : {8, 0}) {
+    double largest = 0.0;
+    int through = 0;
+    for (const ImpactRow& row : m.contact.impacts) {
+      if (row.levels != levels) continue;
+      largest = std::max(largest, row.largest_error);
+      through += row.through;
+    }
+    if (m.contact.impacts.empty()) continue;
+    const std::string name = levels == 0 ? "time of impact" : std::to_string(levels) + " levels of bisection";
+    out.push_back(judged("Pose of first contact, " + name + ", ways of 40 mm", "within 0.01 mm, no way through",
+                         text(1e3 * largest) + " mm, " + std::to_string(through) + " through",
+                         largest <= 1e-5 && through == 0));
+  }
+  std::set<std::string> scenes;
+  for (const WorldStepRow& row : m.contact.world_steps) scenes.insert(row.scene);
+  for (const std::string& scene : scenes) {
+    for (const WorldStepRow& row : m.contact.world_steps) {
+      if (row.scene != scene || std::abs(row.step - 2e-3) > 1e-9) continue;
+      out.push_back(judged("Dynamic world, " + scene + ", step 2 ms (the longest near others)",
+                           "within 1 % of the way of the " + row.against + " run",
+                           text(1e3 * row.error) + " mm = " + text(100.0 * row.error_share) + " %", row.error_share <= 0.01));
+    }
+  }
+}
+
 }  // namespace
 
 std::string name_of(Verdict::Result result) {
@@ -266,6 +309,7 @@ std::vector<Verdict> verdicts(const Measurements& measured) {
   cost_of_a_step(measured, out);
   shapes(measured, out);
   tolerance(measured, out);
+  contact(measured, out);
   stability(measured, out);
   const double limit = measured.quick ? 60.0 : 1200.0;
   out.push_back(judged(measured.quick ? "report --quick" : "report", "under " + text(limit / 60.0) + " min",

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/contact/contact_table.h"
 #include "benchmark/elastica.h"
 #include "benchmark/error_table.h"
 #include "benchmark/fork_curve.h"
@@ -21,6 +22,7 @@ struct Measurements {
   std::vector<StabilityCount> stability_counts;
   std::vector<StepCost> step_costs;
   std::vector<ForkCurveRow> fork_curves;
+  ContactTable contact;
   double seconds = 0.0;  ///< that the report took
   bool quick = false;
 };

@@ -1,6 +1,11 @@
 #include "benchmark/contact/trials.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
 
 #include "benchmark/contact/scale.h"
 #include "benchmark/contact/wild_motions.h"
@@ -50,6 +55,50 @@ void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes,
   }
 }
 
+/// The lines of a file of `record`, by seed; nothing where it is not there. A last line that was cut off is left out.
+std::map<int, std::string> recorded(const std::string& path, const std::string& run) {
+  std::map<int, std::string> lines;
+  std::ifstream file(path);
+  for (std::string line; std::getline(file, line) && !file.eof();) {
+    if (line.compare(0, run.size(), run) == 0) lines[std::stoi(line.substr(run.size()))] = line;
+  }
+  return lines;
+}
+
+/// Runs those of the seeds that are not in the file yet, and adds a line for each as it is done.
+void record(const std::string& path, WildScene scene, ContactMode mode, int first, int last, std::ostream& out) {
+  const std::string run_name = std::string(name_of(mode)) + ',' + name_of(scene) + ',';
+  const std::map<int, std::string> done = recorded(path, run_name);
+  std::ofstream file(path, std::ios::app);
+  if (!file) refuse(where, "file", path, std::string("a file that can be written to (") + std::strerror(errno) + ')');
+  file << '\n';  // after a line that was cut off
+  for (int seed = first; seed <= last; ++seed) {
+    if (done.count(seed) > 0) continue;
+    const WildResult r = run({scene, mode, static_cast<unsigned>(seed)});
+    file << run_name << seed << ',' << 1e3 * r.penetration << ',' << r.passed_through << ',' << r.held_back << ','
+         << r.refused << ',' << r.seconds << std::endl;
+  }
+  int count = 0, passed = 0, over = 0, worst_seed = first;
+  double worst = 0.0, seconds = 0.0;
+  for (const auto& [seed, line] : recorded(path, run_name)) {
+    if (seed < first || seed > last) continue;
+    std::istringstream fields(line.substr(run_name.size()));
+    double values[6] = {};
+    for (double& value : values) {
+      fields >> value;
+      fields.ignore();
+    }
+    ++count;
+    passed += values[2] > 0.0;
+    over += values[1] > 0.1;
+    seconds += values[5];
+    if (values[1] > worst) worst = values[1], worst_seed = seed;
+  }
+  out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,cpu_s_per_motion\n"
+      << run_name << count << ',' << passed << ',' << over << ',' << worst << ',' << worst_seed << ','
+      << seconds / std::max(count, 1) << std::endl;
+}
+
 std::vector<WildScene> scenes_at(const std::vector<std::string>& arguments, std::size_t index) {
   if (index >= arguments.size()) return wild_scenes();
   for (const WildScene scene : wild_scenes()) {
@@ -84,10 +133,13 @@ void run_contact_trials(const std::vector<std::string>& arguments, std::ostream&
   const std::string what = arguments.empty() ? "" : arguments[0];
   if (what == "wild" && arguments.size() <= 5) {
     run_wild(count_at(arguments, 1, 100), count_at(arguments, 2, 0), scenes_at(arguments, 3), modes_at(arguments, 4), out);
+  } else if (what == "record" && arguments.size() == 6) {
+    record(arguments[1], scenes_at(arguments, 2).front(), modes_at(arguments, 3).front(), count_at(arguments, 4, 0),
+           count_at(arguments, 5, 0), out);
   } else if (what == "scale" && arguments.size() <= 2) {
     run_scale(count_at(arguments, 1, 10000), out);
   } else {
-    refuse(where, "arguments", what, "wild [N [FIRST_SEED [SCENE [CONTACT]]]] or scale [MOST]");
+    refuse(where, "arguments", what, "wild [N [FIRST_SEED [SCENE [CONTACT]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED, or scale [MOST]");
   }
 }
 

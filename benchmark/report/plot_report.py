@@ -5,7 +5,8 @@ Usage: plot_report.py scene    error_table.csv PICTURE.png SCENE    a column per
        plot_report.py rods     rod_table.csv PICTURE.png            a panel per case, a line per integrator
        plot_report.py shapes   elastica.csv PICTURE.png rod_table.csv  error of the model beside that of integration
        plot_report.py tolerance rod_table.csv PICTURE.png           error reached against tolerance asked
-       plot_report.py stability stability_map.csv PICTURE.png       a panel per integrator"""
+       plot_report.py stability stability_map.csv PICTURE.png       a panel per integrator
+       plot_report.py contact contact_drag.csv PICTURE.png contact_impact.csv contact_steps.csv"""
 import csv
 import math
 import sys
@@ -256,7 +257,44 @@ def stability(table, picture):
     figure.savefig(picture, dpi=110)
 
 
-KINDS = {"scene": scene, "overview": overview, "rods": rods, "shapes": shapes, "tolerance": tolerance,
+def contact(table, picture, impacts, steps):
+    drags = [row for row in read(table) if row["finite"] == "1" and float(row["stiffness_factor"]) == 1.0]
+    figure, panels = grid(3)
+    names = in_order(row["method"] for row in drags)
+    for i, name in enumerate(names):
+        ours = name in ("stop", "dynamic")
+        for box, dashes in (("turns", "-"), ("cannot turn", ":")):
+            line = [(float(r["cpu_us_per_simulated_second"]), max(float(r["lag_error_percent"]), 1e-7)) for r in drags
+                    if r["method"] == name and r["box"] == box]
+            if line:
+                draw_line(panels[0], line, label=name + ("" if box == "turns" else ", cannot turn"), linestyle=dashes,
+                          color=(OURS if ours else PEERS)[i % 8], marker="o" if ours else MARKERS[i],
+                          linewidth=2.0 if ours else 1.0)
+    log_axes(panels[0], title="drag, 50 to 1000 steps a second", xlabel=TIME_LABEL.replace("run time", "processor time"),
+             ylabel="error of the lag [%]")
+    rows = read(impacts)
+    for i, pair in enumerate(in_order(row["pair"] for row in rows)):
+        here = [r for r in rows if r["pair"] == pair]
+        line = [(float(r["cpu_us"]), max(float(r["largest_error_um"]), 1e-3)) for r in here if r["search"] == "bisection"]
+        draw_line(panels[1], line, label=pair + ", 2 to 16 levels", color=OURS[i], marker="o")
+        toi = [(float(r["cpu_us"]), max(float(r["largest_error_um"]), 1e-3)) for r in here if r["search"] != "bisection"]
+        draw_line(panels[1], toi, label=pair + ", time of impact", color=OURS[i], marker="*", markersize=12, linestyle="none")
+    log_axes(panels[1], title="pose of first contact", xlabel="processor time of a search [µs]", ylabel="largest error [µm]")
+    rows = read(steps)
+    for i, scene_name in enumerate(in_order(row["scene"] for row in rows)):
+        line = [(float(r["cpu_us_per_simulated_second"]), max(float(r["error_mm"]), 1e-7)) for r in rows
+                if r["scene"] == scene_name]
+        draw_line(panels[2], line, label=scene_name, color=OURS[i], marker="o")
+    log_axes(panels[2], title="steps of the dynamic world", xlabel="processor time [µs per simulated second]",
+             ylabel="largest error [mm]")
+    figure.set_size_inches(13.0, 5.6)
+    for axes in panels:
+        axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncol=2)
+    figure.tight_layout()
+    figure.savefig(picture, dpi=110)
+
+
+KINDS = {"contact": contact, "scene": scene, "overview": overview, "rods": rods, "shapes": shapes, "tolerance": tolerance,
          "stability": stability}
 
 

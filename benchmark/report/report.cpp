@@ -53,10 +53,12 @@ struct Plan {
   StabilityPlan map;
 };
 
-std::size_t units(const Plan& plan, const std::vector<const Method*>& methods, bool quick) {
+std::size_t units(const Plan& plan, const std::vector<const Method*>& methods, const std::vector<DragMethod>& drags,
+                  bool quick) {
   std::size_t counts = 0;
   for (const Method* method : methods) counts += has_stability_counts(*method) ? 2 : 0;
-  return line_count(methods, plan.scenes) + line_count(plan.rods) + unit_count(plan.map) + (quick ? 0 : counts);
+  return line_count(methods, plan.scenes) + line_count(plan.rods) + unit_count(plan.map) + (quick ? 0 : counts) +
+         contact_unit_count(drags, quick);
 }
 
 }  // namespace
@@ -76,12 +78,13 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   log << header;
   if (!page.warning.empty()) log << "report: " << page.warning << '\n';
 
-  Progress progress(log, isatty(STDERR_FILENO) != 0, units(plan, methods, options.quick));
+  Progress progress(log, isatty(STDERR_FILENO) != 0, units(plan, methods, peers.drags, options.quick));
   Measurements measured;
   measured.quick = options.quick;
   measured.scenes = error_table(methods, plan.scenes, progress);
   measured.rods = rod_table(plan.rods, progress);
   measured.elastica = elastica_table();
+  measured.contact = measure_contact(peers.drags, options.quick, progress);
   if (!options.quick) measured.stability_counts = stability_table(methods, progress);
   measured.map = stability_map(plan.map, progress);
   measured.step_costs = step_costs();
@@ -103,6 +106,10 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   if (!options.quick) keep("stability_counts.csv", stability_counts_csv(measured.stability_counts));
   keep("step_cost.csv", step_cost_csv(measured.step_costs));
   keep("fork_curve.csv", fork_curves_csv(measured.fork_curves));
+  tables.drags = keep("contact_drag.csv", drags_csv(measured.contact.drags));
+  tables.impacts = keep("contact_impact.csv", impacts_csv(measured.contact.impacts));
+  tables.world_steps = keep("contact_steps.csv", world_steps_csv(measured.contact.world_steps));
+  keep("contact_costs.csv", contact_costs_csv(measured.contact.costs));
   page.sections = page_sections(measured, judged, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), tables, options.out);
   const std::string path = write_file(options.out, "report.html", html_page(page));
   print(judged, out);

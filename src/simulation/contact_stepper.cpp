@@ -146,20 +146,20 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
   const RigidTransform X0 = body.object().X;
   body.remember();
   std::vector<ContactRow> work = rows;
-  std::vector<double> gap_at_start;
+  std::vector<Start> starts;
   for (ContactRow& row : work) {
     row.lever_W = row.point.p_W - X0.translation();
-    gap_at_start.push_back(row.gap);
+    starts.push_back({row.gap, row.lever_W});
   }
   const Matrix6d C = body.answer(h).displacement;
   for (int solution = 1; solution <= most_solutions; ++solution) {
     if (!body.advance(h, total_load(work))) break;
-    look_at_end(body, X0, work, gap_at_start, outcome);
+    look_at_end(body, X0, work, starts, outcome);
     std::vector<ContactRow> assumed = work;
     double worst = 0.0;
     for (std::size_t i = 0; i < work.size(); ++i) {
       // What is deeper than the slack at the start comes out of it slowly: at once it would be thrown out.
-      const double left = std::max(slack, -gap_at_start[i] * std::exp(-h / recovery_time));
+      const double left = std::max(slack, -starts[i].gap * std::exp(-h / recovery_time));
       work[i].gap += left;
       worst = std::max(worst, -work[i].gap);
     }
@@ -183,16 +183,22 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
 }
 
 void ContactStepper::look_at_end(const SteppedBody& body, const RigidTransform& X0, std::vector<ContactRow>& work,
-                                 std::vector<double>& gap_at_start, ContactOutcome& outcome) const {
+                                 std::vector<Start>& starts, ContactOutcome& outcome) const {
   const RigidTransform X1 = body.object().X;
-  const auto set_slip = [](ContactRow& row, const Vector3d& way) {
-    row.slip_W = way - row.point.n_W * way.dot(row.point.n_W);
+  const Vector3d moved_on = X1.translation() - X0.translation();
+  const Vector3d turned = X0.linear() * log_so3(X0.linear().transpose() * X1.linear());
+  // A point that stays on the surface slips by its way; one of a body that rolls comes or goes, and slips by what the contact,
+  // which stays under the body, does.
+  const auto set_slip = [&](ContactRow& row, const Vector3d& way) {
+    const bool rolls = std::abs(way.dot(row.point.n_W)) > touching;
+    const Vector3d slip = rolls ? Vector3d(moved_on + turned.cross(row.lever_W)) : way;
+    row.slip_W = slip - row.point.n_W * slip.dot(row.point.n_W);
   };
   for (std::size_t i = 0; i < work.size(); ++i) {
     ContactRow& row = work[i];
-    const Vector3d start = X0.translation() + row.lever_W;
+    const Vector3d start = X0.translation() + starts[i].lever_W;
     const Vector3d way = moved(X0, X1, start) - start;
-    row.gap = gap_at_start[i] + way.dot(row.point.n_W);
+    row.gap = starts[i].gap + way.dot(row.point.n_W);
     row.point.p_W = start + way;
     set_slip(row, way);
   }
@@ -213,15 +219,15 @@ void ContactStepper::look_at_end(const SteppedBody& body, const RigidTransform& 
     const Vector3d load = known ? work[at].load_W : Vector3d(Vector3d::Zero());
     if (!known) {
       work.emplace_back();
-      gap_at_start.push_back(0.0);
+      starts.emplace_back();
     }
     const Vector3d start = moved(X1, X0, row.point.p_W);
     const Vector3d way = row.point.p_W - start;
     work[at] = row;
     work[at].load_W = load;
-    work[at].lever_W = start - X0.translation();
+    work[at].lever_W = row.point.p_W - X1.translation();  // it presses there when it has come
     set_slip(work[at], way);
-    gap_at_start[at] = row.gap - way.dot(row.point.n_W);
+    starts[at] = {row.gap - way.dot(row.point.n_W), start - X0.translation()};
   }
 }
 

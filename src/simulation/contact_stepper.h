@@ -36,10 +36,15 @@ class ContactStepper {
   void collide(SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce) const;
   /// Goes `h` on under loads that leave the rows' gaps closed or open. False when it did not come out free.
   bool advance_in_contact(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
+  /// Where a contact's point of the body was when a piece began.
+  struct Start {
+    double gap = 0.0;                     ///< [m]
+    Vector3d lever_W = Vector3d::Zero();  ///< from the object's centre [m]
+  };
   /// Gaps and slips of the contacts `work` with the body at the end of a piece from `X0` on; contacts that have come into
   /// being on the way join, and those that lie deeper than their points' motion says are taken as they are found.
   void look_at_end(const SteppedBody& body, const RigidTransform& X0, std::vector<ContactRow>& work,
-                   std::vector<double>& gap_at_start, ContactOutcome& outcome) const;
+                   std::vector<Start>& starts, ContactOutcome& outcome) const;
   /// What a piece of a step has come to.
   struct Piece {
     bool done = false;                  ///< the body has gone it

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "benchmark/contact/contact_costs.h"
+#include "benchmark/contact/drag.h"
+#include "benchmark/contact/impact_search.h"
+#include "benchmark/contact/world_steps.h"
+#include "benchmark/progress.h"
+
+namespace spring_workbench::benchmark {
+
+/// Contact's error against its run time.
+struct ContactTable {
+  std::vector<DragRow> drags;
+  std::vector<ImpactRow> impacts;
+  std::vector<WorldStepRow> world_steps;
+  std::vector<ContactCost> costs;
+};
+
+/// `peers`: engines' drags; each run is made in a child process. The caller must have no other threads.
+ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, Progress& progress);
+/// How often measure_contact() tells its progress.
+std::size_t contact_unit_count(const std::vector<DragMethod>& peers, bool quick);
+
+std::string drags_csv(const std::vector<DragRow>& rows);
+std::string impacts_csv(const std::vector<ImpactRow>& rows);
+std::string world_steps_csv(const std::vector<WorldStepRow>& rows);
+std::string contact_costs_csv(const std::vector<ContactCost>& costs);
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,149 @@
+#include "benchmark/contact/impact_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "benchmark/contact/processor_time.h"
+#include "spring_workbench/collision/collision_world.h"
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr double tolerance = 1e-6, resolution = 2e-4;  // m, as contact mode `stop` asks
+constexpr double way_length = 0.04;                    // m
+const Vector3d size(0.1, 0.06, 0.04);                  // m
+constexpr int rounds = 2;                              // of timing
+
+Vector3d corner(int i) {
+  return 0.5 * size.cwiseProduct(Vector3d((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1));
+}
+
+MeshPtr box_mesh(const Vector3d& box) {
+  auto mesh = std::make_shared<TriangleMesh>();
+  for (int i = 0; i < 8; ++i) {
+    mesh->vertices.push_back(0.5 * box.cwiseProduct(Vector3d((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1)));
+  }
+  for (const Eigen::Vector4i& f : {Eigen::Vector4i(0, 2, 3, 1), Eigen::Vector4i(4, 5, 7, 6), Eigen::Vector4i(0, 1, 5, 4),
+                                   Eigen::Vector4i(2, 6, 7, 3), Eigen::Vector4i(0, 4, 6, 2), Eigen::Vector4i(1, 3, 7, 5)}) {
+    mesh->triangles.emplace_back(f[0], f[1], f[2]);
+    mesh->triangles.emplace_back(f[0], f[2], f[3]);
+  }
+  return mesh;
+}
+
+Body body_of(const std::string& name, const Geometry& geometry, const Vector3d& p_WO, bool movable) {
+  Body body;
+  body.name = name;
+  body.movable = movable;
+  body.X_WO.translation() = p_WO;
+  body.mass_properties.mass = movable ? 1.0 : 0.0;
+  body.collision.push_back({geometry});
+  return body;
+}
+
+struct Pair {
+  std::string name;
+  CollisionWorld world;
+};
+
+/// The same box and the same plane z = 0 as three kinds of shapes.
+std::vector<Pair> pairs() {
+  const Vector3d floor(2.0, 2.0, 0.2), below(0.0, 0.0, -0.1), start(0.0, 0.0, 1.0);
+  const auto world_of = [](std::vector<Body> bodies, double bench) {
+    Scene scene;
+    scene.name = scene.path = "impact";
+    scene.contact = ContactMode::stop;
+    scene.bench_height = bench;
+    scene.bodies = std::move(bodies);
+    return CollisionWorld(scene);
+  };
+  std::vector<Pair> all;
+  all.push_back({"box on bench", world_of({body_of("box", Box{size}, start, true)}, 0.0)});
+  all.push_back({"box on box", world_of({body_of("box", Box{size}, start, true), body_of("floor", Box{floor}, below, false)}, -9.0)});
+  all.push_back({"mesh on mesh", world_of({body_of("box", box_mesh(size), start, true),
+                                           body_of("floor", box_mesh(floor), below, false)}, -9.0)});
+  return all;
+}
+
+struct Way {
+  RigidTransform X0, X1;
+  double exact;  ///< share of it
+};
+
+RigidTransform at(const Way& way, double u) {
+  RigidTransform X = way.X0;
+  X.linear() = way.X0.linear() * exp_so3(u * log_so3(way.X0.linear().transpose() * way.X1.linear()));
+  X.translation() += u * (way.X1.translation() - way.X0.translation());
+  return X;
+}
+
+double depth(const RigidTransform& X) { return 0.5 * X.linear().row(2).cwiseAbs().dot(size) - X.translation().z(); }
+
+std::vector<Way> make_ways(int count) {
+  std::mt19937 random(8);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  const auto any = [&] { return Vector3d(unit(random), unit(random), unit(random)); };
+  std::vector<Way> ways;
+  while (static_cast<int>(ways.size()) < count) {
+    Way way{RigidTransform::Identity(), RigidTransform::Identity(), 0.0};
+    way.X0.linear() = exp_so3(M_PI * any());
+    way.X1.linear() = way.X0.linear() * exp_so3(0.5 * any());
+    way.X0.translation() = Vector3d(0.0, 0.0, 0.5 * size.norm() + 0.01 * unit(random));
+    way.X1.translation() = way.X0.translation() + way_length * (any() - 2.0 * Vector3d::UnitZ()).normalized();
+    // The first moment, by fine steps and halving.
+    constexpr int steps = 4000;
+    int i = 0;
+    while (i <= steps && depth(at(way, static_cast<double>(i) / steps)) <= tolerance) ++i;
+    if (i == 0 || i > steps) continue;
+    double from = static_cast<double>(i - 1) / steps, to = static_cast<double>(i) / steps;
+    for (int k = 0; k < 50; ++k) {
+      const double middle = 0.5 * (from + to);
+      (depth(at(way, middle)) <= tolerance ? from : to) = middle;
+    }
+    way.exact = from;
+    ways.push_back(way);
+  }
+  return ways;
+}
+
+double largest_distance(const RigidTransform& A, const RigidTransform& B) {
+  double largest = 0.0;
+  for (int i = 0; i < 8; ++i) largest = std::max(largest, (A * corner(i) - B * corner(i)).norm());
+  return largest;
+}
+
+ImpactRow measure(const Pair& pair, const std::vector<Way>& ways, int levels) {
+  ImpactRow row{pair.name, levels};
+  for (const Way& way : ways) {
+    const SweepResult found = pair.world.sweep(0, way.X0, way.X1, tolerance, resolution, levels);
+    const RigidTransform X = at(way, found.free_fraction);
+    const double error = largest_distance(X, at(way, way.exact));
+    row.mean_error += error / static_cast<double>(ways.size());
+    row.largest_error = std::max(row.largest_error, error);
+    row.through += depth(X) > tolerance + 1e-9 ? 1 : 0;
+  }
+  double least = std::numeric_limits<double>::infinity();
+  for (int round = 0; round < rounds; ++round) {
+    const double begin = processor_time();
+    for (const Way& way : ways) pair.world.sweep(0, way.X0, way.X1, tolerance, resolution, levels);
+    least = std::min(least, processor_time() - begin);
+  }
+  row.cpu_us = 1e6 * least / static_cast<double>(ways.size());
+  return row;
+}
+
+}  // namespace
+
+std::vector<ImpactRow> measure_impact_search(int ways) {
+  const std::vector<Way> all = make_ways(ways);
+  std::vector<ImpactRow> rows;
+  for (const Pair& pair : pairs()) {
+    for (const int levels : {2, 4, 6, 8, 10, 12, 14, 16, 0}) rows.push_back(measure(pair, all, levels));
+  }
+  return rows;
+}
+
+}  // namespace spring_workbench::benchmark

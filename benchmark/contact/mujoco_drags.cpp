@@ -1,0 +1,112 @@
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <cstring>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+
+#include "benchmark/contact/drag.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr double hand_inertia = 1e10;  // kg: the box does not move the hand
+
+std::string triple(const Vector3d& v) {
+  std::ostringstream out;
+  out << std::setprecision(17) << '"' << v.x() << ' ' << v.y() << ' ' << v.z() << '"';
+  return out.str();
+}
+
+std::string joints(const char* type, double stiffness, double damping, double armature) {
+  std::ostringstream out;
+  out << std::setprecision(17);
+  for (int i = 0; i < 3; ++i) {
+    out << "<joint type=\"" << type << "\" axis=" << triple(Vector3d::Unit(i)) << " stiffness=\"" << stiffness
+        << "\" damping=\"" << damping << "\" armature=\"" << armature << "\"/>";
+  }
+  return out.str();
+}
+
+/// A plane; a hand on three slides; and on it the box by slides and hinges with springs. Contact as MuJoCo has it by
+/// default, but with a round friction cone.
+std::string model_of(const DragScene& s) {
+  std::ostringstream out;
+  out << std::setprecision(17)
+      << "<mujoco><compiler angle=\"radian\"/><option cone=\"elliptic\" gravity=" << triple(Vector3d(0, 0, -s.gravity))
+      << "/><worldbody><geom type=\"plane\" size=\"5 5 1\" friction=\"" << s.friction << "\"/><body>"
+      << joints("slide", 0.0, 0.0, hand_inertia) << "<inertial mass=\"1\" diaginertia=\"1 1 1\" pos=\"0 0 0\"/><body>"
+      << joints("slide", s.stiffness(), s.damping(), 0.0)
+      << (s.turns ? joints("hinge", s.turning_stiffness(), s.turning_damping(), 0.0) : "") << "<inertial mass=\"" << s.mass
+      << "\" diaginertia=" << triple(s.inertia()) << " pos=\"0 0 0\"/><geom type=\"box\" size="
+      << triple(Vector3d(0.5 * s.size)) << " friction=\"" << s.friction
+      << "\"/></body></body></worldbody></mujoco>";
+  return out.str();
+}
+
+class MujocoDrag final : public DragWorld {
+ public:
+  MujocoDrag(const DragScene& scene, double step, mjtIntegrator integrator) : scene_(scene) {
+    mju_user_warning = [](const char*) {};  // else MuJoCo writes a log file into the working directory
+    const std::string xml = model_of(scene);
+    auto files = std::make_unique<mjVFS>();
+    mj_defaultVFS(files.get());
+    mj_makeEmptyFileVFS(files.get(), "drag.xml", static_cast<int>(xml.size()));
+    std::memcpy(files->filedata[0], xml.data(), xml.size());
+    std::array<char, 500> error{};
+    model_ = mj_loadXML("drag.xml", files.get(), error.data(), static_cast<int>(error.size()));
+    mj_deleteVFS(files.get());
+    if (model_ == nullptr) throw std::runtime_error(std::string("MuJoCo: ") + error.data());
+    model_->opt.timestep = step;
+    model_->opt.integrator = integrator;
+    data_ = mj_makeData(model_);
+    place_hand(0.0);
+  }
+  ~MujocoDrag() override {
+    mj_deleteData(data_);
+    mj_deleteModel(model_);
+  }
+  MujocoDrag(const MujocoDrag&) = delete;
+  MujocoDrag& operator=(const MujocoDrag&) = delete;
+
+  void step(double t, double h) override {
+    place_hand(t);
+    mj_step(model_, data_);
+    place_hand(t + h);
+  }
+  RigidTransform box() const override {
+    const mjtNum* q = data_->qpos;
+    const Matrix3d R = !scene_.turns ? Matrix3d::Identity().eval()
+                                     : (Eigen::AngleAxisd(q[6], Vector3d::UnitX()) * Eigen::AngleAxisd(q[7], Vector3d::UnitY()) *
+                                        Eigen::AngleAxisd(q[8], Vector3d::UnitZ()))
+                                           .toRotationMatrix();
+    return make_transform(Quaterniond(R), Vector3d(q[0] + q[3], q[1] + q[4], q[2] + q[5]));
+  }
+
+ private:
+  void place_hand(double t) {
+    const DragHand hand = drag_hand(scene_, t);
+    Eigen::Map<Vector3d>{data_->qpos} = hand.p_W;
+    Eigen::Map<Vector3d>{data_->qvel} = hand.v_W;
+    // Its armature weighs nothing; its mass of 1 kg does.
+    Eigen::Map<Vector3d>{data_->qfrc_applied} = (hand_inertia + 1.0) * hand.a_W + scene_.gravity * Vector3d::UnitZ();
+  }
+
+  DragScene scene_;
+  mjModel* model_ = nullptr;
+  mjData* data_ = nullptr;
+};
+
+}  // namespace
+
+std::vector<DragMethod> mujoco_drags() {
+  const auto make = [](mjtIntegrator integrator) {
+    return [integrator](const DragScene& scene, double step) -> std::unique_ptr<DragWorld> {
+      return std::make_unique<MujocoDrag>(scene, step, integrator);
+    };
+  };
+  return {{"mujoco_joints_euler", true, make(mjINT_EULER)}, {"mujoco_joints_implicit", true, make(mjINT_IMPLICIT)}};
+}
+
+}  // namespace spring_workbench::benchmark

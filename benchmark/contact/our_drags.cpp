@@ -1,0 +1,70 @@
+#include <cmath>
+
+#include "benchmark/contact/drag.h"
+#include "spring_workbench/simulation/simulation.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr double sample_time = 0.02;  // s
+
+Scene scene_of(const DragScene& drag, ContactMode contact) {
+  Scene scene;
+  scene.name = scene.path = "drag";
+  scene.contact = contact;
+  scene.gravity = drag.gravity;
+  scene.bench_material.friction = drag.friction;
+  Body box;
+  box.name = "box";
+  box.movable = true;
+  box.X_WO.translation().z() = 0.5 * drag.size.z();
+  box.mass_properties.mass = drag.mass;
+  box.mass_properties.inertia_O = drag.inertia().asDiagonal();
+  box.material.friction = drag.friction;
+  box.collision.push_back({Box{drag.size}});
+  scene.bodies.push_back(box);
+  return scene;
+}
+
+SimulationSettings settings_of(const DragScene& drag, double step) {
+  SimulationSettings set;
+  const double k = drag.stiffness(), turning = drag.turning_stiffness();
+  set.fork.shape = "bushing";
+  set.fork.length = std::sqrt(3.0 * turning / k);  // so that bending turns by the same stiffness
+  set.fork.stiffness = {k, k, turning};
+  set.grasp.object = "box";
+  set.dynamics.step = step;
+  return set;
+}
+
+class OurDrag final : public DragWorld {
+ public:
+  OurDrag(const DragScene& drag, double step, ContactMode contact)
+      : simulation_(scene_of(drag, contact), settings_of(drag, step)) {
+    const double length = simulation_.settings().fork.length;
+    for (int i = 0; sample_time * i < drag_duration + 0.5 * sample_time; ++i) {
+      const double t = sample_time * i;
+      const Vector3d p = drag_hand(drag, t).p_W + length * Vector3d::UnitZ();
+      simulation_.push_stylus({t, make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), p)});
+    }
+    simulation_.advance(0.0);
+  }
+  void step(double t, double h) override { simulation_.advance(t + h); }
+  RigidTransform box() const override { return simulation_.objects()[0].X_WO; }
+
+ private:
+  Simulation simulation_;
+};
+
+}  // namespace
+
+std::vector<DragMethod> our_drags() {
+  const auto make = [](ContactMode contact) {
+    return [contact](const DragScene& drag, double step) -> std::unique_ptr<DragWorld> {
+      return std::make_unique<OurDrag>(drag, step, contact);
+    };
+  };
+  return {{"stop", false, make(ContactMode::stop)}, {"dynamic", false, make(ContactMode::dynamic)}};
+}
+
+}  // namespace spring_workbench::benchmark

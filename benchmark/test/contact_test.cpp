@@ -1,0 +1,66 @@
+// The contact part of the report: its scenes against what they must give.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+
+#include "benchmark/contact/impact_search.h"
+#include "benchmark/contact/world_steps.h"
+#include "benchmark/peers.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+TEST(Drag, OursLagAsCoulombsLawSaysWithOneStepASample) {
+  for (const DragMethod& method : our_drags()) {
+    for (const double factor : {1.0, 1e4}) {
+      DragScene scene;
+      scene.stiffness_factor = factor;
+      const DragRow row = run_drag(method, scene, 0.02, 1);
+      ASSERT_TRUE(row.finite) << method.name;
+      EXPECT_LT(row.lag_error, 1e-3) << method.name << " " << factor;
+      EXPECT_LT(row.penetration, 1e-5) << method.name << " " << factor;
+    }
+  }
+}
+
+TEST(Drag, EveryEngineIsGivenTheSameScene) {
+  // With small steps, and nothing that rocks, all come to the same lag: they have the scene's springs, weight and friction.
+  const Peers peers = all_peers();
+  for (const DragMethod& method : peers.drags) {
+    DragScene scene;
+    scene.turns = !method.can_lock_turning;
+    const DragRow row = run_drag(method, scene, 5e-4, 1);
+    ASSERT_TRUE(row.finite) << method.name;
+    EXPECT_LT(row.lag_error, 2e-3) << method.name;
+  }
+}
+
+TEST(ImpactSearch, HalvesItsErrorWithEachLevelAndNeverGoesThrough) {
+  std::map<std::pair<std::string, int>, ImpactRow> rows;
+  for (const ImpactRow& row : measure_impact_search(40)) {
+    rows[{row.pair, row.levels}] = row;
+    EXPECT_EQ(row.through, 0) << row.pair << " " << row.levels;
+  }
+  for (const char* pair : {"box on bench", "box on box", "mesh on mesh"}) {
+    for (int levels = 2; levels < 16; levels += 2) {
+      const double ratio = rows.at({pair, levels}).mean_error / rows.at({pair, levels + 2}).mean_error;
+      EXPECT_GT(ratio, 2.0) << pair << " " << levels;
+      EXPECT_LT(ratio, 8.0) << pair << " " << levels;
+    }
+    EXPECT_LT(rows.at({pair, 0}).largest_error, 3e-6) << pair;
+  }
+}
+
+TEST(WorldSteps, ErrorsFallWithTheStep) {
+  const std::vector<WorldStepRow> rows = measure_world_steps(true);
+  if (rows.empty()) GTEST_SKIP() << "built without Bullet";
+  std::map<std::string, std::vector<double>> errors;
+  for (const WorldStepRow& row : rows) errors[row.scene].push_back(row.error);
+  for (const char* scene : {"box slides and stops", "sphere slips, then rolls", "sphere bounces"}) {
+    EXPECT_LT(errors.at(scene).back(), 0.3 * errors.at(scene).front()) << scene;
+  }
+}
+
+}  // namespace
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,125 @@
+// What is let go, on the bench and on an incline, in both contact modes: against the exact solutions.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/bench_scenes.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr double g = 9.81;
+
+std::string mode_name(const testing::TestParamInfo<ContactMode>& tested) {
+  return tested.param == ContactMode::stop ? "stop" : "dynamic";
+}
+
+Body ball(double radius, const Vector3d& p_WO, double friction, double restitution = 0.0) {
+  Body b = box("held", Vector3d::Ones(), 1.0, p_WO, friction);
+  b.mass_properties.inertia_O = 0.4 * radius * radius * Matrix3d::Identity();
+  b.material.restitution = restitution;
+  b.collision[0].geometry = Sphere{radius};
+  return b;
+}
+
+/// Held by a rigid fork by the middle of "held", moved along x at `speed` for 0.2 s, and let go there.
+Simulation let_go(const Scene& scene, double speed, double until) {
+  SimulationSettings set;
+  set.fork.dofs = {false, false, false};
+  Simulation s(scene, set);
+  const RigidTransform& X_WO = s.objects()[s.objects().size() - 1].X_WO;
+  const Vector3d start = X_WO.translation() + set.fork.length * Vector3d::UnitZ();
+  for (double t = 0.0; t < until + 1e-9; t += 0.02) {
+    s.push_stylus({t, pointing_down(start + std::min(t, 0.2) * speed * Vector3d::UnitX())});
+  }
+  s.push_button(0.0, true);
+  s.push_button(0.18, false);
+  s.advance(0.18);
+  return s;
+}
+
+class LetGo : public testing::TestWithParam<ContactMode> {};
+INSTANTIATE_TEST_SUITE_P(Modes, LetGo, testing::Values(ContactMode::stop, ContactMode::dynamic), mode_name);
+
+TEST_P(LetGo, ABoxSlidesAsFarAsFrictionLetsIt) {
+  for (const double mu : {0.2, 0.4}) {
+    Simulation s = let_go(scene_of({box("held", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02 + 1e-6), mu)}, GetParam(), mu), 1.0, 3.0);
+    const BodyState start = s.objects()[0];
+    ASSERT_GT(start.V_WO_W.linear.x(), 0.5);
+    s.advance(3.0);
+    const double way = start.V_WO_W.linear.squaredNorm() / (2.0 * mu * g);
+    EXPECT_NEAR((s.objects()[0].X_WO.translation() - start.X_WO.translation()).x(), way, 0.01 * way) << mu;
+    EXPECT_TRUE(s.objects()[0].asleep) << mu;
+  }
+}
+
+TEST_P(LetGo, ASphereSlipsAndThenRolls) {
+  const double radius = 0.05, mu = 0.3;
+  Simulation s = let_go(scene_of({ball(radius, Vector3d(0, 0, radius + 1e-6), mu)}, GetParam(), mu), 1.5, 1.2);
+  const BodyState start = s.objects()[0];
+  const double v = start.V_WO_W.linear.x(), grip = 2.0 * v / (7.0 * mu * g);
+  ASSERT_NEAR(v, 1.5, 1e-3);
+  s.advance(1.2);
+  const double t = s.time() - 0.18, rolling = 5.0 / 7.0 * v;
+  const BodyState& end = s.objects()[0];
+  const double way = v * grip - 0.5 * mu * g * grip * grip + rolling * (t - grip);
+  EXPECT_NEAR(end.V_WO_W.linear.x(), rolling, 0.01 * rolling);
+  EXPECT_NEAR(end.V_WO_W.angular.y() * radius, end.V_WO_W.linear.x(), 0.005 * rolling);
+  EXPECT_NEAR(end.X_WO.translation().x() - start.X_WO.translation().x(), way, 0.01 * way);
+  EXPECT_NEAR(end.X_WO.translation().z(), radius, 2e-5);
+}
+
+TEST_P(LetGo, ABallBouncesToTheSquareOfItsRestitution) {
+  const double radius = 0.05, drop = 0.5, e = 0.7;
+  Scene scene = scene_of({ball(radius, Vector3d(0, 0, radius + drop), 0.3, e)}, GetParam(), 0.3);
+  scene.bench_material.restitution = e;
+  Simulation s = let_go(scene, 0.0, 3.0);
+  double height = drop, top = 0.0, t = 0.18 + std::sqrt(2.0 * drop / g);
+  for (int bounce = 1; bounce <= 3; ++bounce) {
+    height *= e * e;
+    const double half = std::sqrt(2.0 * height / g);
+    // The top of each leap, when it should be there.
+    s.advance(t + half);
+    top = s.objects()[0].X_WO.translation().z() - radius;
+    EXPECT_NEAR(top, height, 0.02 * height) << bounce;
+    t += 2.0 * half;
+  }
+}
+
+TEST_P(LetGo, OnAnInclineItStaysBelowTheAngleOfFrictionAndSlidesAbove) {
+  const double mu = 0.5;
+  for (const double off : {-0.1, 0.1}) {
+    const double angle = std::atan(mu) + off * M_PI / 180.0;
+    const Matrix3d R = Eigen::AngleAxisd(angle, Vector3d::UnitY()).toRotationMatrix();  // downhill is +x
+    Body ramp = box("ramp", Vector3d(40.0, 1.0, 0.2), 0.0, Vector3d(0, 0, 15.0), mu);
+    ramp.X_WO.linear() = R;
+    Body b = box("held", Vector3d(0.1, 0.1, 0.05), 1.0, Vector3d::Zero(), mu);
+    b.X_WO.linear() = R;
+    b.X_WO.translation() = ramp.X_WO * Vector3d(0, 0, 0.1 + 0.025 + 1e-6);
+    SimulationSettings set;
+    set.fork.dofs = {false, false, false};
+    set.grasp.release = "dropped";
+    Simulation s(scene_of({ramp, b}, GetParam(), mu), set);
+    for (double t = 0.0; t < 0.2; t += 0.02) {
+      s.push_stylus({t, pointing_down(b.X_WO.translation() + set.fork.length * Vector3d::UnitZ())});
+    }
+    s.push_button(0.0, true);
+    s.push_button(0.1, false);
+    s.advance(0.1);
+    const Vector3d start = s.objects()[0].X_WO.translation();
+    const double duration = off < 0.0 ? 60.0 : 5.0;
+    for (double t = 0.1; t < 0.1 + duration; t += 1.0) s.advance(t);
+    s.advance(0.1 + duration);
+    const double slid = (s.objects()[0].X_WO.translation() - start).norm();
+    if (off < 0.0) {
+      EXPECT_LT(slid, 1e-4);
+    } else {
+      const double a = g * (std::sin(angle) - mu * std::cos(angle));
+      EXPECT_NEAR(slid, 0.5 * a * duration * duration, 0.05 * 0.5 * a * duration * duration);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace spring_workbench
