@@ -174,6 +174,19 @@ std::vector<BodyInertia> grasps_of_long_box(double mass) {
 const std::vector<ForkDofs> families{{true, true, true},  {true, true, false}, {true, false, true}, {false, true, true},
                                      {true, false, false}, {false, true, false}, {false, false, true}};
 
+TEST(HeldBody, StretchAloneAndTorsionAloneHaveTheirDampingRatios) {
+  const PerFamily ratio{0.3, 0.5, 0.7};
+  for (const char* shape : {"linear", "constant", "bushing"}) {
+    for (const bool torsion : {false, true}) {
+      HeldBody held = held_by(shape, {2000.0, 500.0, 5.0}, ratio, box_off_centre());
+      only(held, {!torsion, false, torsion});
+      ASSERT_EQ(held.size(), 1);
+      const double M = held.mass_matrix(0.0, held.zero_state().q)(0, 0), K = held.stiffness()[0];
+      EXPECT_NEAR(held.damping()(0, 0) / (2.0 * std::sqrt(K * M)), torsion ? ratio.torsion : ratio.stretch, 1e-12) << shape;
+    }
+  }
+}
+
 TEST(HeldBody, WithModalDampingEveryModeHasTheRatio) {
   for (const char* shape : {"linear", "constant", "bushing"}) {
     for (double mass = 1e-6; mass < 2e6; mass *= 1e2) {

@@ -188,5 +188,28 @@ TEST(StopContact, APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling) {
   EXPECT_NEAR(s.objects()[0].X_WO.translation().z(), 0.035, 1e-3);
 }
 
+/// Dropped flat from a height, it comes back to e² of it, where e is the geometric mean of both materials' restitutions.
+TEST(StopContact, ADroppedBoxBouncesByItsRestitution) {
+  constexpr double edge = 0.1, height = 0.3;
+  for (const double of_box : {0.9, 0.4}) {
+    Body dropped = box("dropped", Vector3d::Constant(edge), 1.0, Vector3d(0.0, 0.0, 0.5 * edge));
+    dropped.material.restitution = of_box;
+    Scene scene = scene_of({dropped}, ContactMode::stop);
+    scene.bench_material.restitution = 0.8;
+    SimulationSettings settings;
+    settings.dynamics.step = 1e-3;
+    Simulation simulation(scene, settings);
+    simulation.advance(0.0);
+    simulation.place({{"dropped", make_transform(Quaterniond::Identity(), Vector3d(0.0, 0.0, 0.5 * edge + height))}});
+    double highest = 0.0;
+    const double down = std::sqrt(2.0 * height / 9.81), e = std::sqrt(of_box * 0.8);
+    for (double t = 0.0; t < down * (1.0 + 1.9 * e); t += 1e-3) {
+      simulation.advance(t);
+      if (t > 1.05 * down) highest = std::max(highest, object(simulation, "dropped").X_WO.translation().z() - 0.5 * edge);
+    }
+    EXPECT_NEAR(highest, e * e * height, 0.03 * height) << of_box;
+  }
+}
+
 }  // namespace
 }  // namespace spring_workbench
