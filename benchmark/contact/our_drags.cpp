@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "benchmark/contact/drag.h"
+#include "benchmark/contact/world_steps.h"
 #include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench::benchmark {
@@ -64,7 +65,9 @@ std::vector<DragMethod> our_drags() {
       return std::make_unique<OurDrag>(drag, step, contact);
     };
   };
-  return {{"stop", false, make(ContactMode::stop)}, {"dynamic", false, make(ContactMode::dynamic)}};
+  std::vector<DragMethod> drags{{"stop", false, make(ContactMode::stop)}};
+  if (has_dynamic_contact()) drags.push_back({"dynamic", false, make(ContactMode::dynamic)});
+  return drags;
 }
 
 }  // namespace spring_workbench::benchmark

@@ -143,7 +143,9 @@ void add_pushes(const std::vector<double>& steps, double converged_step, std::ve
   }
 }
 
-bool there_is_a_world() {
+}  // namespace
+
+bool has_dynamic_contact() {
   try {
     make_rigid_world(scene_of({}));
     return true;
@@ -152,11 +154,9 @@ bool there_is_a_world() {
   }
 }
 
-}  // namespace
-
 std::vector<WorldStepRow> measure_world_steps(bool quick) {
   std::vector<WorldStepRow> rows;
-  if (!there_is_a_world()) return rows;
+  if (!has_dynamic_contact()) return rows;
   const std::vector<double> alone = quick ? std::vector<double>{1e-2, 2e-3, 5e-4} : std::vector<double>{2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4};
   for (const Alone& scene : scenes_alone()) {
     for (const double step : alone) rows.push_back(run_alone(scene, step));

@@ -20,4 +20,7 @@ struct WorldStepRow {
 /// where there is no Bullet. `quick`: fewer steps.
 std::vector<WorldStepRow> measure_world_steps(bool quick);
 
+/// Whether there is contact mode `dynamic` in this build.
+bool has_dynamic_contact();
+
 }  // namespace spring_workbench::benchmark
