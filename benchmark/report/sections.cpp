@@ -101,9 +101,10 @@ PageSection stability_section(const Measurements& measured, const Tables& tables
       "more than 1e-9 while the hand rests (of the largest elastic and kinetic energy then and the weight times the "
       "fork's length), and no step was refused. Where an explicit method runs wild, the guard refuses its steps: the "
       "simulation stays finite, the method has failed. For the others the guard lets a fork that is compressed to nothing or "
-      "twisted too far stop there. What it still refuses are steps after the hand leaps by 1 m or turns half round "
-      "within a sample under a soft fork that can bend but not give way in length: the rod would be wound up by more "
-      "than ten turns, which no strain describes. The fork is rigid for such a step, keeps its strain, and goes on from there.";
+      "twisted too far stop there. What it still refuses are a few steps right after the hand leaps (by 1 m within a "
+      "sample; seldom by a half turn, or where a dropout ends) under a fork that bends, mostly one that cannot give way in "
+      "length: the rod would be wound up by more than ten turns, or nothing that a rod can have comes out. The fork is "
+      "rigid for such a step, keeps its strain, and goes on from there.";
   section.figures.push_back(figure({"stability", tables.map, "stability_map.png", {},
                                     "Share of the cells that hold, by stiffness and mass"}, folder));
   section.tables.push_back({"Cells", map_summary_csv(measured.map), false});
