@@ -5,10 +5,9 @@
 #include <limits>
 
 #include "benchmark/least_time.h"
-#include "spring_workbench/collision/collision_world.h"
 #include "spring_workbench/config/input_error.h"
+#include "spring_workbench/engines/contact_engines.h"
 #include "spring_workbench/simulation/simulation.h"
-#include "spring_workbench/world/rigid_world.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -68,7 +67,7 @@ double step_cost(ContactMode contact, const Carry& carry) {
 }
 
 void add_queries(std::vector<ContactCost>& costs) {
-  const CollisionWorld world(scene_of(ContactMode::stop));
+  const std::unique_ptr<CollisionWorld> world = open_collision_world(scene_of(ContactMode::stop));
   RigidTransform high = RigidTransform::Identity(), low = high, on = high, in = high;
   high.translation().z() = 1.0;
   low.translation() = Vector3d(0.1, 0.0, 0.5 * edge + 5e-3);
@@ -78,25 +77,25 @@ void add_queries(std::vector<ContactCost>& costs) {
   high_on.translation().x() += 0.02;
   volatile double sink = 0.0;
   const auto note = [&](const char* part, auto&& call) { costs.push_back({"stop", part, least_nanoseconds(200, call)}); };
-  note("query: is anything near the way, nothing is", [&](int) { sink = world.may_touch(0, high, high_on, 1e-4); });
-  note("query: is anything near the way, something is", [&](int) { sink = world.may_touch(0, on, low, 1e-4); });
+  note("query: is anything near the way, nothing is", [&](int) { sink = world->may_touch(0, high, high_on, 1e-4); });
+  note("query: is anything near the way, something is", [&](int) { sink = world->may_touch(0, on, low, 1e-4); });
   note("query: contact points of a flush box", [&](int) {
     std::vector<ContactPoint> points;
-    world.find_contacts(0, on, -1e-4, points);
+    world->find_contacts(0, on, -1e-4, points);
     sink = static_cast<double>(points.size());
   });
   note("query: sweep of 20 mm past what is near, free", [&](int) {
     RigidTransform end = low;
     end.translation().x() += 0.02;
-    sink = world.sweep(0, low, end, 1e-6, 2e-4, 8).free_fraction;
+    sink = world->sweep(0, low, end, 1e-6, 2e-4, 8).free_fraction;
   });
-  note("query: sweep of 120 mm into a box", [&](int) { sink = world.sweep(0, low, in, 1e-6, 2e-4, 8).free_fraction; });
+  note("query: sweep of 120 mm into a box", [&](int) { sink = world->sweep(0, low, in, 1e-6, 2e-4, 8).free_fraction; });
 }
 
 void add_world(std::vector<ContactCost>& costs) {
   std::unique_ptr<RigidWorld> world;
   try {
-    world = make_rigid_world(scene_of(ContactMode::dynamic));
+    world = open_rigid_world(scene_of(ContactMode::dynamic));
   } catch (const InputError&) {
     return;  // built without it
   }

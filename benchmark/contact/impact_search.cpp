@@ -6,7 +6,7 @@
 #include <random>
 
 #include "benchmark/contact/processor_time.h"
-#include "spring_workbench/collision/collision_world.h"
+#include "spring_workbench/engines/contact_engines.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::benchmark {
@@ -46,7 +46,7 @@ Body body_of(const std::string& name, const Geometry& geometry, const Vector3d& 
 
 struct Pair {
   std::string name;
-  CollisionWorld world;
+  std::unique_ptr<CollisionWorld> world;
 };
 
 /// The same box and the same plane z = 0 as three kinds of shapes.
@@ -58,7 +58,7 @@ std::vector<Pair> pairs() {
     scene.contact = ContactMode::stop;
     scene.bench_height = bench;
     scene.bodies = std::move(bodies);
-    return CollisionWorld(scene);
+    return open_collision_world(scene);
   };
   std::vector<Pair> all;
   all.push_back({"box on bench", world_of({body_of("box", Box{size}, start, true)}, 0.0)});
@@ -118,7 +118,7 @@ double largest_distance(const RigidTransform& A, const RigidTransform& B) {
 ImpactRow measure(const Pair& pair, const std::vector<Way>& ways, int levels) {
   ImpactRow row{pair.name, levels};
   for (const Way& way : ways) {
-    const SweepResult found = pair.world.sweep(0, way.X0, way.X1, tolerance, resolution, levels);
+    const SweepResult found = pair.world->sweep(0, way.X0, way.X1, tolerance, resolution, levels);
     const RigidTransform X = at(way, found.free_fraction);
     const double error = largest_distance(X, at(way, way.exact));
     row.mean_error += error / static_cast<double>(ways.size());
@@ -128,7 +128,7 @@ ImpactRow measure(const Pair& pair, const std::vector<Way>& ways, int levels) {
   double least = std::numeric_limits<double>::infinity();
   for (int round = 0; round < rounds; ++round) {
     const double begin = processor_time();
-    for (const Way& way : ways) pair.world.sweep(0, way.X0, way.X1, tolerance, resolution, levels);
+    for (const Way& way : ways) pair.world->sweep(0, way.X0, way.X1, tolerance, resolution, levels);
     least = std::min(least, processor_time() - begin);
   }
   row.cpu_us = 1e6 * least / static_cast<double>(ways.size());

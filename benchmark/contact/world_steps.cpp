@@ -6,8 +6,8 @@
 
 #include "benchmark/contact/processor_time.h"
 #include "spring_workbench/config/input_error.h"
+#include "spring_workbench/engines/contact_engines.h"
 #include "spring_workbench/simulation/simulation.h"
-#include "spring_workbench/world/rigid_world.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -79,7 +79,7 @@ std::vector<Alone> scenes_alone() {
 
 WorldStepRow run_alone(const Alone& s, double step) {
   WorldStepRow row{s.name, "exact", step};
-  const std::unique_ptr<RigidWorld> world = make_rigid_world(s.scene);
+  const std::unique_ptr<RigidWorld> world = open_rigid_world(s.scene);
   Twist start;
   start.linear = s.v;
   const RigidTransform X0 = world->pose(0);
@@ -147,7 +147,7 @@ void add_pushes(const std::vector<double>& steps, double converged_step, std::ve
 
 bool has_dynamic_contact() {
   try {
-    make_rigid_world(scene_of({}));
+    open_rigid_world(scene_of({}));
     return true;
   } catch (const InputError&) {
     return false;
