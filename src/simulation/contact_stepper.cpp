@@ -306,6 +306,7 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
   const auto stay = [&](double duration) {
     body.stay(duration);
     outcome.held_back = true;
+    for (ContactRow& row : rows) row.load_W.setZero();  // a search from these loads has failed
     left -= duration;
     piece = left;
   };
