@@ -161,6 +161,28 @@ TEST(Simulation, RigidForkLeavesTheHandleBehindInsteadOfPushingThrough) {
   EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.12, 1e-6);
 }
 
+/// Pressed on the bench by a hand that trembles, through a fork that only bends: what holds it back there holds no longer
+/// than the hand presses.
+TEST(Simulation, ABoxPressedThroughAForkThatOnlyBendsComesAlongWhenItIsLifted) {
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise(0.0, 1e-4);
+    SimulationSettings set = settings();
+    set.fork.dofs = {false, true, false};
+    set.fork.stiffness.bend = 80.0;
+    Simulation simulation(box_scene({0.0, 0.0, 0.02}), set);
+    for (int i = 0; i <= 100; ++i) {
+      const double t = 0.02 * i, lifted = 0.1 * std::clamp((t - 1.0) / 0.6, 0.0, 1.0);
+      const double pressed = t < 1.0 ? 2e-4 : 0.0;
+      const Vector3d tremble(noise(random), noise(random), noise(random));
+      simulation.push_stylus({t, pointing_down(above + tremble + Vector3d(0.0, 0.0, lifted - pressed), 5.0 * noise(random))});
+    }
+    simulation.push_button(0.0, true);
+    for (int i = 1; i <= 100; ++i) simulation.advance(0.02 * i);
+    EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.12, 2e-3) << seed;
+  }
+}
+
 TEST(Simulation, WhatLiesOnAGraspedObjectWakes) {
   Scene scene = box_scene({0.0, 0.0, 0.02});
   Body upper = scene.bodies[0];
