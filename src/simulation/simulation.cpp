@@ -144,10 +144,10 @@ double Simulation::Impl::end_of_step(double t_end) {
     next_button = std::min(next_button, hand.stylus().next_button(now));
   }
   // Equal steps up to the sample or the end rather than a last small one.
-  const double stretch_end = std::min(t_end, next_sample);
+  const double stretch_end = next_sample < t_end + same_time ? next_sample : t_end;
   const double count = std::ceil((stretch_end - now) / settings.dynamics.step - 1e-9);
   const double end = count > 1.0 ? now + (stretch_end - now) / count : stretch_end;
-  return std::min(end, next_button);
+  return next_button > end && next_button < end + same_time ? next_button : std::min(end, next_button);
 }
 
 /// An object that one tool holds is that tool's; one that several hold, or that is pushed, is a body with tools on it.

@@ -367,6 +367,18 @@ TEST(Simulation, SameInputGivesTheSameBits) {
   EXPECT_EQ(std::memcmp(a.data(), b.data(), 16 * sizeof(double)), 0);
 }
 
+TEST(Simulation, ACallThatEndsARoundingErrorBesideASampleMakesNoStepOfItsOwn) {
+  for (const double off : {-1e-15, 0.0, 1e-15}) {
+    Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
+    push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.1, 0.0, 0.1));
+    simulation.push_button(0.0, true);
+    int steps = 0;
+    for (int i = 1; i <= 50; ++i) steps += simulation.advance(0.02 * i + off).steps;
+    EXPECT_EQ(steps, 50) << off;
+    EXPECT_NEAR(simulation.time(), 1.0, 1e-12);
+  }
+}
+
 TEST(Simulation, EnergyAddedIsTheIntegratorsErrorAndFallsWithTheStep) {
   const auto added = [](const char* integrator, double step) {
     SimulationSettings set = settings();
