@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/scene/geometry.h"
@@ -304,17 +303,10 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
 void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) {
   double left = h, piece = h;
   int unsolved = 0;
-  std::vector<ContactRow> warm;  // with the loads that were found last, while the search begins from none
   const auto stay = [&](double duration) {
     body.stay(duration);
     outcome.held_back = true;
-    // A search that began from the last loads has failed: the next one begins from none, and the other way round.
-    if (warm.empty()) {
-      warm = rows;
-      for (ContactRow& row : rows) row.load_W.setZero();
-    } else {
-      rows = std::exchange(warm, {});
-    }
+    for (ContactRow& row : rows) row.load_W.setZero();  // a search from these loads has failed
     left -= duration;
     piece = left;
   };
@@ -325,7 +317,6 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
     Piece tried = try_piece(body, piece, rows, outcome);
     if (tried.done) {
       left -= piece;
-      warm.clear();
       piece *= tried.next;
       if (left > 1e-9 * h) {
         refresh(body, rows, outcome);
@@ -341,7 +332,6 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
     }
   }
   if (left > 1e-9 * h) stay(left);
-  if (!warm.empty()) rows = std::move(warm);
   rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap > probe_depth; }), rows.end());
   outcome.rows = rows;
 }
