@@ -222,16 +222,13 @@ struct CollisionWorld::Impl {
         if (exact || boxes >= clear) {
           clear = boxes;
         } else {
-          clear = std::max(boxes, std::min(clear, gap(i, X_WS, other) / fastest));
+          const double surfaces =
+              narrow.clear_way(pieces[i].solid, X_WS, pieces[other].solid, pieces[other].X_WS, tolerance) / fastest;
+          clear = std::max(boxes, std::min(clear, surfaces));
         }
       }
     }
     return clear;
-  }
-
-  /// Between the surfaces of a piece at `X_WS` and another where it is.
-  double gap(std::size_t piece, const RigidTransform& X_WS, std::size_t other) {
-    return narrow.gap(pieces[piece].solid, X_WS, pieces[other].solid, pieces[other].X_WS);
   }
 
   /// Around a piece on the whole way: the boxes at both ends, and what the arc between adds to them, which is at most

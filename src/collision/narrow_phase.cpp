@@ -8,9 +8,11 @@
 #include <fcl/narrowphase/distance.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "contact_patches.h"
+#include "side_contacts.h"
 #include "sphere_contacts.h"
 #include "surface.h"
 #include "swallowed.h"
@@ -55,10 +57,15 @@ struct NarrowPhase::Solid {
   Geometry geometry;
   std::shared_ptr<const Surface> surface;  // none for a sphere
   std::unique_ptr<Triangles> triangles;
+  std::unique_ptr<TriangleTree> tree;  // of a mesh beside a cylinder
 
   void make_surface_and_triangles() {
     surface = make_surface(geometry);
     if (surface) triangles = make_triangles(*surface->mesh);
+  }
+  BesideCylinder beside(const Cylinder& cylinder, const RigidTransform& X_MC) {
+    if (!tree) tree = make_tree(*surface);
+    return BesideCylinder(*surface, *tree, cylinder, X_MC);
   }
 };
 
@@ -73,7 +80,7 @@ NarrowPhase::NarrowPhase() : fcl_(std::make_unique<Fcl>()) {}
 NarrowPhase::~NarrowPhase() = default;
 
 std::size_t NarrowPhase::add(const Geometry& geometry) {
-  solids_.push_back({geometry, nullptr, nullptr});
+  solids_.push_back({geometry, nullptr, nullptr, nullptr});
   if (std::holds_alternative<MeshPtr>(geometry)) solids_.back().make_surface_and_triangles();
   return solids_.size() - 1;
 }
@@ -90,6 +97,11 @@ void NarrowPhase::append_contacts(std::size_t own_index, const RigidTransform& X
     turn_round(first, contacts);
   } else if (std::holds_alternative<Box>(own.geometry) && std::holds_alternative<Box>(other.geometry)) {
     boxes(own, X_WA, other, X_WB, tolerance, contacts);
+  } else if (std::holds_alternative<MeshPtr>(own.geometry) && std::holds_alternative<Cylinder>(other.geometry)) {
+    mesh_and_cylinder(own_index, X_WA, other_index, X_WB, tolerance, contacts);
+  } else if (std::holds_alternative<Cylinder>(own.geometry) && std::holds_alternative<MeshPtr>(other.geometry)) {
+    mesh_and_cylinder(other_index, X_WB, own_index, X_WA, tolerance, contacts);
+    turn_round(first, contacts);
   } else {
     surfaces(with_triangles(own_index), X_WA, with_triangles(other_index), X_WB, tolerance, contacts);
   }
@@ -101,7 +113,8 @@ const NarrowPhase::Solid& NarrowPhase::with_triangles(std::size_t index) {
   return solid;
 }
 
-double NarrowPhase::gap(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB) {
+double NarrowPhase::clear_way(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
+                              double tolerance) {
   const auto is_a = [&](auto kind, std::size_t solid) {
     return std::holds_alternative<decltype(kind)>(solids_[solid].geometry);
   };
@@ -109,12 +122,40 @@ double NarrowPhase::gap(std::size_t own, const RigidTransform& X_WA, std::size_t
     if (is_a(MeshPtr(), own) || is_a(MeshPtr(), other)) return 0.0;
     std::vector<ContactPoint> nearest;
     append_contacts(own, X_WA, other, X_WB, -std::numeric_limits<double>::max(), nearest);
-    return std::max(0.0, -nearest.front().depth);
+    return std::max(0.0, tolerance - nearest.front().depth);
+  }
+  double rounded_off = 0.0, beside = 0.0;
+  if (is_a(Cylinder(), own) && is_a(MeshPtr(), other)) return clear_way(other, X_WB, own, X_WA, tolerance);
+  if (is_a(MeshPtr(), own) && is_a(Cylinder(), other)) {
+    const Cylinder& cylinder = std::get<Cylinder>(solids_[other].geometry);
+    const BesideCylinder side = solids_[own].beside(cylinder, X_WA.inverse() * X_WB);
+    beside = std::max(0.0, tolerance + side.gap());
+    if (side.is_between_ends()) return beside;
+    rounded_off = cylinder.radius * (1.0 - std::cos(std::acos(-1.0) / cylinder_sides));
   }
   fcl::DistanceResultd result;
   const Triangles* a = with_triangles(own).triangles.get();
   const Triangles* b = with_triangles(other).triangles.get();
-  return std::max(0.0, fcl::distance(a, X_WA, b, X_WB, fcl::DistanceRequestd(), result));
+  return std::max(beside, fcl::distance(a, X_WA, b, X_WB, fcl::DistanceRequestd(), result) - rounded_off);
+}
+
+void NarrowPhase::mesh_and_cylinder(std::size_t mesh, const RigidTransform& X_WM, std::size_t cylinder,
+                                    const RigidTransform& X_WC, double tolerance, std::vector<ContactPoint>& contacts) {
+  const std::size_t first = contacts.size();
+  const Geometry& round = solids_[cylinder].geometry;
+  const BesideCylinder side = solids_[mesh].beside(std::get<Cylinder>(round), X_WM.inverse() * X_WC);
+  if (!side.append_contacts(std::max(0.0, tolerance), contacts)) {
+    surfaces(with_triangles(mesh), X_WM, with_triangles(cylinder), X_WC, tolerance, contacts);
+    return;
+  }
+  for (std::size_t i = first; i < contacts.size(); ++i) {
+    contacts[i].p_W = X_WM * contacts[i].p_W;
+    contacts[i].n_W = X_WM.linear() * contacts[i].n_W;
+  }
+  thin_out(first, contacts);
+  if (contacts.size() > first) return;
+  append_swallowed(round, X_WC, solids_[mesh].geometry, {*solids_[mesh].surface, X_WM}, tolerance, contacts);
+  turn_round(first, contacts);
 }
 
 void NarrowPhase::sphere_and(const Solid& sphere, const RigidTransform& X_WS, const Solid& other,

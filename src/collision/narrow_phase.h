@@ -10,7 +10,8 @@ namespace spring_workbench {
 /// Contact of two shapes. FCL says which shapes and which of their triangles meet. Where, how deep and in which
 /// direction is taken from it for two boxes only (held against the separating axis theorem in the tests); elsewhere its
 /// normals and depths come from GJK/EPA, are one point at most and change sign or face from pose to pose. So spheres
-/// are done by closed formulas, and everything else, cylinders as prisms, by the triangles that meet.
+/// are done by closed formulas, meshes at the side of a cylinder by their edges, and everything else, cylinders as prisms,
+/// by the triangles that meet.
 class NarrowPhase {
  public:
   NarrowPhase();
@@ -26,8 +27,10 @@ class NarrowPhase {
   void append_contacts(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
                        double tolerance, std::vector<ContactPoint>& contacts);
 
-  /// The gap between the surfaces of two shapes [m]; 0 where they touch, and for a sphere and a mesh.
-  double gap(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB);
+  /// How far every point of a shape may surely go before it is deeper in the other than `tolerance` >= 0 [m]; 0 for a sphere
+  /// and a mesh. The whole tolerance is used where depths are exact.
+  double clear_way(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
+                   double tolerance);
 
  private:
   struct Solid;
@@ -39,6 +42,8 @@ class NarrowPhase {
                   double tolerance, std::vector<ContactPoint>& contacts);
   void boxes(const Solid& own, const RigidTransform& X_WA, const Solid& other, const RigidTransform& X_WB,
              double tolerance, std::vector<ContactPoint>& contacts);
+  void mesh_and_cylinder(std::size_t mesh, const RigidTransform& X_WM, std::size_t cylinder, const RigidTransform& X_WC,
+                         double tolerance, std::vector<ContactPoint>& contacts);
   void surfaces(const Solid& own, const RigidTransform& X_WA, const Solid& other, const RigidTransform& X_WB,
                 double tolerance, std::vector<ContactPoint>& contacts);
 
