@@ -225,7 +225,8 @@ void ContactStepper::look_at_end(const SteppedBody& body, const RigidTransform& 
     const Vector3d way = row.point.p_W - start;
     work[at] = row;
     work[at].load_W = load;
-    work[at].lever_W = row.point.p_W - X1.translation();  // it presses there when it has come
+    // It presses there when it has come: at its own point, which an unloaded piece carries deep into the other.
+    work[at].lever_W = row.point.p_W + row.gap * row.point.n_W - X1.translation();
     set_slip(work[at], way);
     starts[at] = {row.gap - way.dot(row.point.n_W), start - X0.translation()};
   }
@@ -297,7 +298,27 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
   }
   rows = std::move(solved);
   body.accept();
+  if (body.turns_round()) settle(body, rows, h);
   return {true, in_contact ? std::clamp(straight, 0.5, longer) : longer, {}};
+}
+
+void ContactStepper::settle(SteppedBody& body, const std::vector<ContactRow>& rows, double h) const {
+  const MotionState s = body.object();
+  std::vector<ContactRow> impulses = rows;
+  for (ContactRow& impulse : impulses) {
+    const Vector3d& n = impulse.point.n_W;
+    const Vector3d of_point = impulse.point.p_W - s.X.translation();
+    const bool rolls = std::abs((of_point - impulse.lever_W).dot(n)) > touching;
+    if (!rolls) impulse.lever_W = of_point;
+    const Vector3d v = s.velocity.linear + s.velocity.angular.cross(impulse.lever_W);
+    impulse.load_W *= h;
+    impulse.gap = std::min(0.0, v.dot(n));
+    impulse.slip_W = v - n * v.dot(n);
+  }
+  const Wrench given = total_load(impulses);
+  solve_contacts(body.mobility(), impulses);
+  const Wrench right = total_load(impulses);
+  body.add_impulse({right.force - given.force, right.moment - given.moment});
 }
 
 void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) {

@@ -55,6 +55,9 @@ class ContactStepper {
   static bool is_finite(const MotionState& s);
   /// Tries to go `h` on, under the rows' loads where there are rows. Not done, the body is where it was.
   Piece try_piece(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
+  /// Corrects the impulses that the rows' loads have given over a piece of `h` [s] so that no contact approaches at its end,
+  /// and none slips where friction, which is constant over the piece, has turned its slip round or could have held it.
+  void settle(SteppedBody& body, const std::vector<ContactRow>& rows, double h) const;
   /// Adds those contacts that are new and takes away the speed with which they approach. False when none was.
   bool meet(SteppedBody& body, const std::vector<ContactRow>& touched, std::vector<ContactRow>& rows) const;
   /// How far the way between two states, `h` apart, is from the straight one [m].

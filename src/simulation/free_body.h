@@ -20,6 +20,7 @@ class FreeBody final : public SteppedBody {
   Answer answer(double h) const override { return {0.5 * h * h * mobility(), h * mobility()}; }
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
+  bool turns_round() const override { return true; }
   void stay(double h) override;
 
   void set_twist(const Twist& V_WO_W);

@@ -31,6 +31,9 @@ class SteppedBody {
   /// How an impulse changes the velocity.
   virtual Matrix6d mobility() const = 0;
   virtual void add_impulse(const Wrench& impulse_W) = 0;
+  /// Whether its way over a step is the mean of the velocities at both ends, times the step: what holds it in its place then
+  /// leaves it with its velocity turned round.
+  virtual bool turns_round() const { return false; }
   /// Lets `h` [s] pass at rest where it is: the way out when nothing else fits.
   virtual void stay(double h) = 0;
   /// Lets `h` [s] pass with its tool rigid, as one that has come to the end of its way: the way out where nothing can be in
