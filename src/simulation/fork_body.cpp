@@ -12,7 +12,7 @@ namespace spring_workbench {
 namespace {
 
 constexpr double return_time = 0.05;          ///< [s] on which the proxy comes back to the hand
-constexpr double proxy_share = 1e-4;          ///< of a free body's compliance, beside coordinates that can follow in part
+constexpr double give_time = 5e-3;            ///< [s]; squared over the object's mass, how the proxy gives way at rest
 // Below these an object on a hand at rest stops (the paper's threshold, section 3.3).
 constexpr double rest_speed = 1e-7;           ///< [m/s], and of a turning times the fork's length
 constexpr double rest_acceleration = 1e-6;    ///< [m/s²], likewise
@@ -67,10 +67,9 @@ Matrix6d ForkBody::proxy_compliance(double h) const {
   Matrix6d P = Matrix6d::Zero();
   if (held_.size() == max_strain_coordinates) return P;
   const Matrix3d R = object().X.linear();
-  const double share = held_.size() == 0 ? 1.0 : proxy_share;
-  P.topLeftCorner<3, 3>().diagonal().setConstant(share * h * h / held_.body().mass);
-  P.bottomRightCorner<3, 3>() = share * h * h * R * held_.body().inertia_O.inverse() * R.transpose();
-  return P;
+  P.topLeftCorner<3, 3>().diagonal().setConstant(1.0 / held_.body().mass);
+  P.bottomRightCorner<3, 3>() = R * held_.body().inertia_O.inverse() * R.transpose();
+  return give_time * give_time * (1.0 - std::exp(-h / return_time)) * (P - mobility());
 }
 
 RigidTransform ForkBody::returned_offset(double h) const {

@@ -81,7 +81,8 @@ class ForkBody final : public ToolHold {
     std::optional<Wrench> pull_W;                          ///< on the object at its centre, where it was shared last
   };
   static constexpr double no_offset = 1e-9;  ///< [m, rad]; the proxy has come back
-  /// How the proxy gives way to a wrench at the centre of mass over a step; zero while the coordinates can follow.
+  /// How the proxy gives way to a wrench at the centre of mass over a step, in what the coordinates cannot follow: as a
+  /// spring and a damper in parallel (doc/model.md, "When the fork cannot follow").
   Matrix6d proxy_compliance(double h) const;
   /// The proxy's offset at the end of a step without a load.
   RigidTransform returned_offset(double h) const;

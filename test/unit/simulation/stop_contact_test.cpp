@@ -152,6 +152,38 @@ TEST(StopContact, BetweenTwoSurfacesItSlidesAndStaysOutOfBoth) {
   }
 }
 
+/// A hand presses a box on the bench along what is rigid, and shifts it sideways by less than friction holds.
+TEST(StopContact, AForkThatCannotFollowPressesAsItsRuleSaysAndHoldsNothingBack) {
+  constexpr double pressed = 2e-3, T = 5e-3;  // m, s: doc/model.md
+  for (const ForkDofs dofs : {ForkDofs{false, false, false}, ForkDofs{false, true, false}, ForkDofs{false, true, true}}) {
+    for (const double mass : {0.1, 5.0}) {
+      for (const double step : {0.02, 0.004}) {
+        SimulationSettings set;
+        set.dynamics.step = step;
+        set.fork.length = length;
+        set.fork.stiffness = {1e5, 50.0 * mass, 10.0};
+        set.fork.dofs = dofs;
+        set.grasp.object = "box";
+        Simulation s(scene_of({box("box", Vector3d(0.2, 0.2, 0.04), mass, Vector3d(0, 0, 0.02), 1.0)}, 1.0), set);
+        const Vector3d start(0, 0, 0.02 + length), low = start - pressed * Vector3d::UnitZ();
+        const Vector3d aside = low + Vector3d(dofs.bend ? 5e-3 : 0.0, 0, 0);
+        push_move(s, 0.0, 0.4, start, low);
+        push_move(s, 0.42, 0.8, low, aside);
+        push_move(s, 0.82, 3.0, aside, aside);
+        EXPECT_EQ(s.advance(0.4).held_back, 0);
+        double force = 0.0;
+        for (const ContactState& c : s.contacts()) force += c.force;
+        EXPECT_NEAR(force, mass * pressed / (T * T), 0.05 * force) << dofs.bend << dofs.torsion << " " << mass << " " << step;
+        EXPECT_EQ(s.advance(1.0).held_back, 0);
+        const Vector3d p = s.objects()[0].X_WO.translation();
+        EXPECT_EQ(s.advance(3.0).held_back, 0);
+        EXPECT_LT((p - Vector3d(0, 0, 0.02)).norm(), 1e-5);
+        EXPECT_LT((s.objects()[0].X_WO.translation() - p).norm(), 1e-6) << "creeps";
+      }
+    }
+  }
+}
+
 TEST(StopContact, APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling) {
   // A peg of 20 mm in a square hole of 21 mm; the hand is off by 0.4 mm at first and by 3 mm when the peg is in.
   constexpr double hole = 0.021, depth = 0.04, wall = 0.05;
