@@ -5,7 +5,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-// Some of the motions that `contact_trials wild 10000 0 rod_in_room` runs.
+// Some of the motions that `contact_trials record` runs.
 class RodInRoom : public ::testing::TestWithParam<ContactMode> {};
 
 TEST_P(RodInRoom, GoesThroughNoWall) {
@@ -15,6 +15,15 @@ TEST_P(RodInRoom, GoesThroughNoWall) {
     EXPECT_FALSE(result.passed_through) << seed;
     EXPECT_LE(result.penetration, 1e-4) << seed;
     EXPECT_GT(result.steps, 0) << seed;
+    EXPECT_EQ(result.refused, 0) << seed;
+  }
+}
+
+TEST(RingOnRod, StaysOnTheRod) {
+  for (const unsigned seed : {0u, 3u, 10u}) {
+    const WildResult result = run({WildScene::ring_on_rod, ContactMode::stop, seed});
+    EXPECT_FALSE(result.passed_through) << seed;
+    EXPECT_LE(result.penetration, 1e-4) << seed;
     EXPECT_EQ(result.refused, 0) << seed;
   }
 }
