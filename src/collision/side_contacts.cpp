@@ -86,6 +86,10 @@ std::unique_ptr<TriangleTree> make_tree(const Surface& surface) {
     for (int k = 0; k < 3; ++k) box.extend(surface.corner(triangles.back(), k));
     boxes.push_back(box);
   }
+  if (triangles.size() == 1) {  // Eigen's tree has no root for one
+    triangles.push_back(triangles[0]);
+    boxes.push_back(boxes[0]);
+  }
   return std::make_unique<TriangleTree>(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
 }
 

@@ -329,6 +329,40 @@ TEST_F(LoadScene, DegenerateMeshesAreRefused) {
       has(part_refusal("<collision><geometry><mesh filename='t.obj' scale='0 1 1'/></geometry></collision>"), "scale"));
 }
 
+/// An STL file of 2 n² triangles; `corner(i, j)` of a sphere's grid.
+void write_fine_sphere(const std::string& path, std::uint32_t n) {
+  std::ofstream stl(path, std::ios::binary);
+  const auto corner = [&](std::uint32_t i, std::uint32_t j) {
+    const double down = M_PI * i / n, around = 2.0 * M_PI * (j % n) / n;
+    const double across = i % n == 0 ? 0.0 : std::sin(down);
+    return Eigen::Vector3f(Vector3d(across * std::cos(around), across * std::sin(around), std::cos(down)).cast<float>());
+  };
+  const auto write = [&](const auto& value) { stl.write(reinterpret_cast<const char*>(&value), sizeof value); };
+  stl << std::string(80, ' ');
+  write(2 * n * n);
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t j = 0; j < n; ++j) {
+      for (const int half : {0, 1}) {
+        write(Eigen::Vector3f(Eigen::Vector3f::Zero()));
+        write(corner(i, j));
+        write(half == 0 ? corner(i + 1, j) : corner(i + 1, j + 1));
+        write(half == 0 ? corner(i + 1, j + 1) : corner(i, j + 1));
+        write(std::uint16_t{0});
+      }
+    }
+  }
+}
+
+TEST_F(LoadScene, AMillionTrianglesLoad) {
+  const std::uint32_t n = 707;
+  write_fine_sphere(folder_.path("fine.stl"), n);
+  const Scene scene = load_part("<collision><geometry><mesh filename='fine.stl'/></geometry></collision>");
+  const MeshPtr mesh = std::get<MeshPtr>(scene.bodies[0].collision[0].geometry);
+  EXPECT_EQ(mesh->triangles.size(), 2 * n * n - 2 * n) << "all but those that are flat at the poles";
+  EXPECT_NEAR(volume_properties(mesh).volume, 4.0 / 3.0 * M_PI, 1e-4);
+  EXPECT_TRUE(scene.warnings.empty());
+}
+
 TEST_F(LoadScene, MoreThanAMillionTrianglesAreRefused) {
   std::ofstream stl(folder_.path("big.stl"), std::ios::binary);
   const std::uint32_t count = 1000001;
