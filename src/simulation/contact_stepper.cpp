@@ -19,6 +19,7 @@ constexpr double same_face = 0.9998;       ///< cos 1°; normals nearer to each 
 constexpr double recovery_time = 5e-3;     ///< [s] on which a body that is in another comes out
 constexpr double solved_share = 0.01;      ///< of the way over a piece: a smaller change is none
 constexpr double most_bow = 5e-5;          ///< [m] between the way and each of the straight ones that are swept
+constexpr double hopeless_bow = 0.1;       ///< [m]; loads under which the body goes such a way will not be mended
 constexpr double slow_approach = 1e-6;     ///< [m/s]; a slower one is none
 constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
 constexpr double shortest_share = 1e-3;    ///< of a step: a shorter piece is not tried
@@ -143,7 +144,8 @@ void ContactStepper::collide(SteppedBody& body, const std::vector<ContactRow>& r
 
 bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector<ContactRow>& rows,
                                         ContactOutcome& outcome) const {
-  const RigidTransform X0 = body.object().X;
+  const MotionState begin = body.object();
+  const RigidTransform& X0 = begin.X;
   body.remember();
   std::vector<ContactRow> work = rows;
   std::vector<Start> starts;
@@ -177,7 +179,9 @@ bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector
       rows = std::move(assumed);
       return true;
     }
+    const bool runs_away = solution > 2 && bow(body.index(), begin, body.object(), h) > hopeless_bow;
     body.go_back();
+    if (runs_away || change == 0.0) break;
   }
   return false;
 }
