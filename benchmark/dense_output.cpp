@@ -42,6 +42,7 @@ SPRING_WORKBENCH_WIDE Three<Pack> DenseOutput::at(const Pack& t) const {
 }
 
 void DenseOutput::append(const std::vector<double>& times, std::vector<Vector3d>& outputs) const {
+  if (count_ < ends) return;
   const double end = t_[3] + 1e-9;
   while (outputs.size() < times.size() && times[outputs.size()] < end) {
     Pack t{};

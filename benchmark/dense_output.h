@@ -22,10 +22,8 @@ class DenseOutput {
 
   /// The next end of a step, later than the last one.
   void push(const Moment& end);
-  /// Whether outputs are known, which takes four ends: up to end() [s], the last end but one.
-  bool known() const { return count_ >= ends; }
-  double end() const { return t_[3]; }
-  /// Appends to `outputs` those at the next of `times` [s, ascending] that are known.
+  /// Appends to `outputs` those at the next of `times` [s, ascending] that are known: from four ends on up to the last one
+  /// but one.
   void append(const std::vector<double>& times, std::vector<Vector3d>& outputs) const;
 
  private:
