@@ -21,7 +21,6 @@ constexpr double solved_share = 0.01;      ///< of the way over a piece: a small
 constexpr double most_bow = 5e-5;          ///< [m] between the way and each of the straight ones that are swept
 constexpr double hopeless_bow = 0.1;       ///< [m]; loads under which the body goes such a way will not be mended
 constexpr double slow_approach = 1e-6;     ///< [m/s]; a slower one is none
-constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
 constexpr double shortest_share = 1e-3;    ///< of a step: a shorter piece is not tried
 constexpr double stay_share = 0.1;         ///< of a step, for which a body stays where nothing fits
 constexpr double most_segments = 4.0;      ///< straight ones for which the way over a piece is swept
@@ -118,28 +117,6 @@ void ContactStepper::refresh(const SteppedBody& body, std::vector<ContactRow>& r
       }
     }
   }
-}
-
-void ContactStepper::collide(SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce) const {
-  const MotionState s = body.object();
-  std::vector<ContactRow> impulses;
-  for (const ContactRow& row : rows) {
-    ContactRow impulse = row;
-    impulse.lever_W = row.point.p_W - s.X.translation();
-    impulse.load_W.setZero();
-    const Vector3d v = s.velocity.linear + s.velocity.angular.cross(impulse.lever_W);
-    const double approach = v.dot(row.point.n_W);
-    const Material& a = scene_.bodies[body.index()].material;
-    const Material& b =
-        row.point.other == CollisionWorld::bench ? scene_.bench_material : scene_.bodies[row.point.other].material;
-    const bool bounces = bounce == Bounce::of_materials && approach < -rest_speed;
-    const double restitution = bounces ? std::sqrt(a.restitution * b.restitution) : 0.0;
-    impulse.gap = (1.0 + restitution) * approach;
-    impulse.slip_W = v - approach * row.point.n_W;
-    impulses.push_back(impulse);
-  }
-  solve_contacts(body.mobility(), impulses);
-  body.add_impulse(total_load(impulses));
 }
 
 bool ContactStepper::advance_in_contact(SteppedBody& body, double h, std::vector<ContactRow>& rows,
@@ -304,25 +281,6 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
   body.accept();
   if (body.turns_round()) settle(body, rows, h);
   return {true, in_contact ? std::clamp(straight, 0.5, longer) : longer, {}};
-}
-
-void ContactStepper::settle(SteppedBody& body, const std::vector<ContactRow>& rows, double h) const {
-  const MotionState s = body.object();
-  std::vector<ContactRow> impulses = rows;
-  for (ContactRow& impulse : impulses) {
-    const Vector3d& n = impulse.point.n_W;
-    const Vector3d of_point = impulse.point.p_W - s.X.translation();
-    const bool rolls = std::abs((of_point - impulse.lever_W).dot(n)) > touching;
-    if (!rolls) impulse.lever_W = of_point;
-    const Vector3d v = s.velocity.linear + s.velocity.angular.cross(impulse.lever_W);
-    impulse.load_W *= h;
-    impulse.gap = std::min(0.0, v.dot(n));
-    impulse.slip_W = v - n * v.dot(n);
-  }
-  const Wrench given = total_load(impulses);
-  solve_contacts(body.mobility(), impulses);
-  const Wrench right = total_load(impulses);
-  body.add_impulse({right.force - given.force, right.moment - given.moment});
 }
 
 void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) {
