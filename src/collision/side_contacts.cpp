@@ -132,7 +132,8 @@ bool BesideCylinder::append_contacts(double tolerance, std::vector<ContactPoint>
       return false;
     }
     for (std::size_t k = 0; k < 3; ++k) {
-      if (surface_.neighbours[static_cast<std::size_t>(t)][k] > t) continue;  // the edge is looked at with the other triangle
+      if (surface_.neighbours[static_cast<std::size_t>(t)][k] > t)
+        continue;  // the edge is looked at with the other triangle
       const Vector3d& a = c[k];
       const Vector3d& b = c[(k + 1) % 3];
       const double s = nearest_on_edge(a, b);

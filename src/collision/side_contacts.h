@@ -20,15 +20,16 @@ std::unique_ptr<TriangleTree> make_tree(const Surface& surface);
 class BesideCylinder {
  public:
   /// `X_MC`: the cylinder in the frame of the surface. All are kept by reference.
-  BesideCylinder(const Surface& surface, const TriangleTree& tree, const Cylinder& cylinder, const RigidTransform& X_MC);
+  BesideCylinder(const Surface& surface, const TriangleTree& tree, const Cylinder& cylinder,
+                 const RigidTransform& X_MC);
 
-  /// The gap to the cylinder if it had no ends [m]; negative where an edge is in it, −radius where its axis goes through a
-  /// triangle.
+  /// The gap to the cylinder if it had no ends [m]; negative where an edge is in it, −radius where its axis goes
+  /// through a triangle.
   double gap() const;
 
-  /// Appends the contacts deeper than `tolerance` [m] of the mesh as the body with the cylinder as the other, in the frame
-  /// of the surface: on each edge the point that is deepest, and corners. False, and then nothing is appended, where an end
-  /// of the cylinder may be touched or its axis goes through a triangle.
+  /// Appends the contacts deeper than `tolerance` [m] of the mesh as the body with the cylinder as the other, in the
+  /// frame of the surface: on each edge the point that is deepest, and corners. False, and then nothing is appended,
+  /// where an end of the cylinder may be touched or its axis goes through a triangle.
   bool append_contacts(double tolerance, std::vector<ContactPoint>& contacts) const;
 
   /// Whether the whole mesh is between the planes of the cylinder's ends.

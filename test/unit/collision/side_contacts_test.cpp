@@ -110,7 +110,9 @@ TEST(BesideCylinder, NothingIsMissedAtItsEndsThroughFacesAndInside) {
   // A box of 40 mm: at the rod's end, pierced by it, around a short rod whole; and clear of it beyond its end.
   const MeshPtr mesh = box_mesh(Vector3d::Constant(0.04));
   const CollisionWorld world(mesh_and_rod(mesh, RigidTransform::Identity()));
-  const auto touches_at = [&](const Vector3d& p) { return world.touches(0, RigidTransform(Eigen::Translation3d(p)), 1e-6); };
+  const auto touches_at = [&](const Vector3d& p) {
+    return world.touches(0, RigidTransform(Eigen::Translation3d(p)), 1e-6);
+  };
   const double end = 0.5 * rod_length;
   EXPECT_TRUE(touches_at(Vector3d(0, 0, end + 0.02 - 1e-5)));
   EXPECT_FALSE(touches_at(Vector3d(0, 0, end + 0.02 + 1e-5)));

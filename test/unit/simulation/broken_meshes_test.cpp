@@ -32,7 +32,8 @@ std::vector<Broken> broken_meshes() {
   TriangleMesh mesh = good;
   mesh.triangles.resize(1);
   add("one triangle", mesh);
-  mesh.triangles = {good.triangles[0], Eigen::Vector3i(good.triangles[0][1], good.triangles[0][0], good.triangles[0][2])};
+  mesh.triangles = {good.triangles[0],
+                    Eigen::Vector3i(good.triangles[0][1], good.triangles[0][0], good.triangles[0][2])};
   add("two triangles back to back", mesh);
   mesh = good;
   mesh.triangles.resize(10);
@@ -67,7 +68,8 @@ std::vector<Broken> broken_meshes() {
   for (int i = 0; i < around; ++i) {
     const double u = 2.0 * M_PI * i / around;
     const Vector3d across(std::cos(u / 2) * std::cos(u), std::cos(u / 2) * std::sin(u), std::sin(u / 2));
-    for (const double side : {-0.3, 0.3}) mesh.vertices.push_back(0.5 * edge * (Vector3d(std::cos(u), std::sin(u), 0) + side * across));
+    for (const double side : {-0.3, 0.3})
+      mesh.vertices.push_back(0.5 * edge * (Vector3d(std::cos(u), std::sin(u), 0) + side * across));
   }
   for (int i = 0; i < around; ++i) {
     const int a = 2 * i, b = 2 * i + 1, c = i + 1 < around ? a + 2 : 1, d = i + 1 < around ? b + 2 : 0;
@@ -78,8 +80,8 @@ std::vector<Broken> broken_meshes() {
 }
 
 std::vector<Geometry> others() {
-  return {Box{Vector3d::Constant(edge)}, Sphere{0.5 * edge}, Cylinder{0.4 * edge, 2.0 * edge}, Cylinder{0.4 * edge, 20.0 * edge},
-          sphere_mesh(0.5 * edge, 6)};
+  return {Box{Vector3d::Constant(edge)}, Sphere{0.5 * edge}, Cylinder{0.4 * edge, 2.0 * edge},
+          Cylinder{0.4 * edge, 20.0 * edge}, sphere_mesh(0.5 * edge, 6)};
 }
 
 TEST(BrokenMeshes, ContactsAreFewAndFinite) {
@@ -104,7 +106,8 @@ TEST(BrokenMeshes, ContactsAreFewAndFinite) {
           EXPECT_LT(c.depth, 25.0 * edge) << broken.what;  // the longest shape has 20
         }
         const SweepResult way = world.sweep(0, X0, X1, 1e-6, 1e-3, i % 9);
-        EXPECT_TRUE(way.free_fraction >= 0.0 && way.free_fraction <= way.touching_fraction && way.touching_fraction <= 1.0);
+        EXPECT_TRUE(way.free_fraction >= 0.0 && way.free_fraction <= way.touching_fraction &&
+                    way.touching_fraction <= 1.0);
       }
     }
   }
@@ -131,7 +134,8 @@ TEST(BrokenMeshes, HeldAndPressedTheyStayBoundedAndComeFree) {
         ASSERT_TRUE(o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite()) << broken.what;
         EXPECT_LT(o.X_WO.translation().norm(), 0.5) << broken.what;
       }
-      EXPECT_LT((s.objects()[0].X_WO.translation() - Vector3d(0, 0, 0.2)).norm(), 0.01) << broken.what << " " << wall.index();
+      EXPECT_LT((s.objects()[0].X_WO.translation() - Vector3d(0, 0, 0.2)).norm(), 0.01)
+          << broken.what << " " << wall.index();
     }
   }
 }

@@ -74,11 +74,13 @@ TEST(StopExtremes, LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded) {
 TEST(StopExtremes, AThousandTimesHeavierOrLighterRestsOnTheOther) {
   for (const double upper_mass : {1e-3, 1.0, 1e3}) {
     const Vector3d size = Vector3d::Constant(edge);
-    Simulation s(scene_of({box("lower", size, 1.0, Vector3d(0, 0, 0.05)), box("upper", size, upper_mass, Vector3d(0.02, 0, 0.15))},
+    Simulation s(scene_of({box("lower", size, 1.0, Vector3d(0, 0, 0.05)),
+                           box("upper", size, upper_mass, Vector3d(0.02, 0, 0.15))},
                           ContactMode::stop),
                  SimulationSettings());
     s.advance(0.0);
-    s.place({{"lower", RigidTransform(Eigen::Translation3d(0, 0, 0.06))}, {"upper", RigidTransform(Eigen::Translation3d(0.02, 0, 0.2))}});
+    s.place({{"lower", RigidTransform(Eigen::Translation3d(0, 0, 0.06))},
+             {"upper", RigidTransform(Eigen::Translation3d(0.02, 0, 0.2))}});
     for (int i = 1; i <= 100; ++i) EXPECT_EQ(s.advance(0.02 * i).guards_tripped, 0);
     for (const BodyState& o : s.objects()) {
       EXPECT_TRUE(o.asleep) << o.name << " " << upper_mass;
@@ -87,7 +89,8 @@ TEST(StopExtremes, AThousandTimesHeavierOrLighterRestsOnTheOther) {
   }
 }
 
-/// Grasped while it touches bench and neighbour, or is in the neighbour by `overlap`: it comes out without being thrown.
+/// Grasped while it touches bench and neighbour, or is in the neighbour by `overlap`: it comes out without being
+/// thrown.
 TEST(StopExtremes, GraspedWhileItTouchesOrOverlapsItComesAlong) {
   for (const double overlap : {0.0, 1e-4, 5e-3}) {
     for (const double k : {100.0, 1e5}) {
