@@ -33,26 +33,22 @@ class DynamicStepper {
   const std::vector<WorldContact>& contacts() const { return contacts_; }
 
  private:
-  /// A held body's way over a piece under the contact load of the last one, at whose end the body then is, and how that
-  /// end would answer to more.
+  /// A held body's way over a piece under the contact load of the last one, at whose end the body then is.
   struct Candidate {
     MotionState begin, end;
     Wrench load_W;
-    SteppedBody::Answer answer;
     bool possible = false;
-    RigidWorld::Freedom freedom;
   };
   Candidate try_piece(SteppedBody& body, double h) const;
-  /// Candidates over a piece of at most `h` [s], which becomes so short that nothing new comes near.
-  std::vector<Candidate> try_pieces(const std::vector<SteppedBody*>& held, double& h) const;
-  /// What goes into the world of a candidate: its way without the load.
-  static DrivenBody driven_body(std::size_t body, const Candidate& candidate, double h);
-  RigidWorld::Freedom freedom(const SteppedBody& body, const MotionState& begin, const MotionState& end, double h) const;
+  /// Whether nothing is in the way of any of them, and nothing that is not held moves.
+  bool all_free(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates) const;
+  /// What goes into the world of a candidate: its way without the load, and how its end answers to one. The body is at its begin.
+  static DrivenBody driven_body(const SteppedBody& body, const Candidate& candidate, double h);
   /// The candidates are where the bodies go.
   void go_freely(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double h,
                  Outcome& outcome);
-  /// Carries all over one piece with contact. False where that has brought a body so far that it may have gone through
-  /// something; then all are where they were, and `h` is how long the piece may be.
+  /// Carries all over one piece with contact. False where that would have brought a body too deep into something or through
+  /// it; then all are where they were, and `h` is a piece to try instead.
   bool go_in_contact(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double& h,
                      Outcome& outcome);
   void add_contacts();
