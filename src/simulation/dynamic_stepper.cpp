@@ -17,7 +17,7 @@ constexpr double shortest_step = 1e-9;     ///< [s]; of a step shorter than this
 constexpr double growth = 2.0;             ///< from one piece to the next, at most
 constexpr double as_sound = 0.9;           ///< of the part of a piece that is sound: the next try
 constexpr double least_try = 0.1, most_try = 0.7;  ///< of a piece: the next try
-constexpr int most_pieces = 5000;          ///< of one step
+constexpr double shortest_piece = 1e-5;    ///< [s], or of a step that is shorter than the longest, as much less
 constexpr double margin_near = 5e-4;       ///< [m]
 constexpr double same_point = 2e-3;        ///< [m]
 
@@ -80,7 +80,7 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<SteppedBody*>& he
     loads[body->index()] = load_W_[body->index()];
   }
   load_W_ = std::move(loads);
-  shortest_piece_ = h / most_pieces;
+  shortest_piece_ = shortest_piece * std::min(1.0, h / longest_piece);
   Outcome outcome;
   double left = h, piece = h;
   while (left > 1e-9 * h) {

@@ -138,4 +138,13 @@ std::vector<BoxContact> box_contacts(const OutlineBox& a, const OutlineBox& b, d
   return of_faces(a, b, faces, seen_from);
 }
 
+std::vector<BoxContact> box_contacts(const OutlineBox& a, const Vector3d& n_W, double height, double seen_from) {
+  std::vector<BoxContact> contacts;
+  for (const Vector3d& p : face_towards(a, -n_W)) {
+    const double gap = n_W.dot(p) - height;
+    if (gap < seen_from) contacts.push_back({p - gap * n_W, n_W, gap});
+  }
+  return contacts;
+}
+
 }  // namespace spring_workbench

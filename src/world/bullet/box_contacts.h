@@ -18,4 +18,7 @@ struct BoxContact {
 /// where the boxes would pass by each other along it.
 std::vector<BoxContact> box_contacts(const OutlineBox& a, const OutlineBox& b, double seen_from);
 
+/// The same of a box above the half-space `n · x < height`: the corners of the face that looks towards it.
+std::vector<BoxContact> box_contacts(const OutlineBox& a, const Vector3d& n_W, double height, double seen_from);
+
 }  // namespace spring_workbench

@@ -20,25 +20,39 @@ OutlineBox outline_of(const btCollisionObjectWrapper& object) {
   return {from_bullet(object.getWorldTransform()), half, true};
 }
 
-/// Contacts of two boxes, found anew in every step; each begins with the impulses of the one before that is nearest to it.
-class BoxBox final : public btActivatingCollisionAlgorithm {
+bool is_plane(const btCollisionObjectWrapper& object) {
+  return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
+}
+
+double least_half(const btCollisionObjectWrapper& object) { return outline_of(object).half.minCoeff(); }
+
+std::vector<BoxContact> contacts_above(const btCollisionObjectWrapper& box, const btCollisionObjectWrapper& plane, double from) {
+  const auto& shape = static_cast<const btStaticPlaneShape&>(*plane.getCollisionShape());
+  const RigidTransform X_WP = from_bullet(plane.getWorldTransform());
+  const Vector3d n_W = X_WP.linear() * from_bullet(shape.getPlaneNormal());
+  return box_contacts(outline_of(box), n_W, n_W.dot(X_WP.translation()) + shape.getPlaneConstant() - contact_skin, from);
+}
+
+/// Contacts of a box with a box or a plane, in either order, found anew in every step; each begins with the impulses of the
+/// one before that is nearest to it.
+class BoxContacts final : public btActivatingCollisionAlgorithm {
  public:
-  BoxBox(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
-         const btCollisionObjectWrapper* b)
+  BoxContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
+              const btCollisionObjectWrapper* b)
       : btActivatingCollisionAlgorithm(info, a, b),
         manifold_(m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject())) {}
-  ~BoxBox() override { m_dispatcher->releaseManifold(manifold_); }
+  ~BoxContacts() override { m_dispatcher->releaseManifold(manifold_); }
 
-  void processCollision(const btCollisionObjectWrapper* object_a, const btCollisionObjectWrapper* object_b,
-                        const btDispatcherInfo&, btManifoldResult* result) override {
-    const OutlineBox a = outline_of(*object_a), b = outline_of(*object_b);
-    const double from = std::min({seen_from, a.half.minCoeff(), b.half.minCoeff()});
+  void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo&,
+                        btManifoldResult* result) override {
+    double from = seen_from;
+    for (const auto* object : {a, b}) from = is_plane(*object) ? from : std::min(from, least_half(*object));
     std::vector<btManifoldPoint> before;
     for (int i = 0; i < manifold_->getNumContacts(); ++i) before.push_back(manifold_->getContactPoint(i));
     manifold_->clearManifold();
     manifold_->setContactBreakingThreshold(from);
     result->setPersistentManifold(manifold_);
-    for (const BoxContact& c : box_contacts(a, b, from)) {
+    for (const BoxContact& c : find(*a, *b, from)) {
       result->addContactPoint(to_bullet(c.n_W), to_bullet(c.p_W), c.gap - 2.0 * contact_skin);
     }
     for (int i = 0; i < manifold_->getNumContacts(); ++i) take_impulses(before, manifold_->getContactPoint(i));
@@ -50,6 +64,16 @@ class BoxBox final : public btActivatingCollisionAlgorithm {
   void getAllContactManifolds(btManifoldArray& all) override { all.push_back(manifold_); }
 
  private:
+  static std::vector<BoxContact> find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double from) {
+    if (is_plane(b)) return contacts_above(a, b, from);
+    if (!is_plane(a)) return box_contacts(outline_of(a), outline_of(b), from);
+    std::vector<BoxContact> contacts = contacts_above(b, a, from);
+    for (BoxContact& c : contacts) {
+      c.p_W += c.gap * c.n_W;
+      c.n_W = -c.n_W;
+    }
+    return contacts;
+  }
   static void take_impulses(std::vector<btManifoldPoint>& before, btManifoldPoint& point) {
     const auto nearest = std::min_element(before.begin(), before.end(), [&](const auto& x, const auto& y) {
       return (x.m_localPointA - point.m_localPointA).length2() < (y.m_localPointA - point.m_localPointA).length2();
@@ -73,14 +97,16 @@ void SeenBox::getAabb(const btTransform& X_WS, btVector3& least, btVector3& most
 }
 
 btCollisionAlgorithmCreateFunc* BoxesSeenEarly::getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) {
-  if (proxy_a == BOX_SHAPE_PROXYTYPE && proxy_b == BOX_SHAPE_PROXYTYPE) return &create_;
+  const bool box_a = proxy_a == BOX_SHAPE_PROXYTYPE, box_b = proxy_b == BOX_SHAPE_PROXYTYPE;
+  const bool plane_a = proxy_a == STATIC_PLANE_PROXYTYPE, plane_b = proxy_b == STATIC_PLANE_PROXYTYPE;
+  if ((box_a || plane_a) && (box_b || plane_b) && !(plane_a && plane_b)) return &create_;
   return btDefaultCollisionConfiguration::getCollisionAlgorithmCreateFunc(proxy_a, proxy_b);
 }
 
 btCollisionAlgorithm* BoxesSeenEarly::Create::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
                                                                        const btCollisionObjectWrapper* a,
                                                                        const btCollisionObjectWrapper* b) {
-  return new (info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(BoxBox))) BoxBox(info, a, b);
+  return new (info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(BoxContacts))) BoxContacts(info, a, b);
 }
 
 }  // namespace spring_workbench

@@ -15,7 +15,7 @@ class SeenBox final : public btBoxShape {
   void getAabb(const btTransform& X_WS, btVector3& least, btVector3& most) const override;
 };
 
-/// Bullet's configuration, but for contacts of two boxes, which are those of `box_contacts`.
+/// Bullet's configuration, but for contacts of boxes with boxes and planes, which are those of `box_contacts`.
 class BoxesSeenEarly final : public btDefaultCollisionConfiguration {
  public:
   btCollisionAlgorithmCreateFunc* getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) override;
