@@ -12,8 +12,10 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double longest_piece = 2e-3;     ///< [s] where something is touched
+constexpr double longest_piece = 2e-3;     ///< [s] where something is touched …
+constexpr double longest_with_free = 1e-3; ///< [s] … and where a body moves that nobody holds: the world's error is of order one
 constexpr double shortest_step = 1e-9;     ///< [s]; of a step shorter than this contact takes no notice
+constexpr double stay_piece = 2e-4;        ///< [s] for which a held body stays where nothing else fits
 constexpr double growth = 2.0;             ///< from one piece to the next, at most
 constexpr double as_sound = 0.9;           ///< of the part of a piece that is sound: the next try
 constexpr double least_try = 0.1, most_try = 0.7;  ///< of a piece: the next try
@@ -91,8 +93,13 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<SteppedBody*>& he
     ++outcome.pieces;
     if (h <= shortest_step || all_free(held, candidates)) {
       go_freely(held, candidates, piece, outcome);
-    } else if (!go_in_contact(held, candidates, piece, outcome)) {
-      continue;
+    } else {
+      const Piece result = go_in_contact(held, candidates, piece);
+      if (result == Piece::too_long) continue;
+      if (result == Piece::stuck) {
+        piece = std::min(stay_piece, left);
+        hold_back(held, piece, outcome);
+      }
     }
     left -= piece;
     piece *= growth;
@@ -100,45 +107,58 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<SteppedBody*>& he
   return outcome;
 }
 
-bool DynamicStepper::go_in_contact(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates,
-                                   double& h, Outcome& outcome) {
+DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<SteppedBody*>& held,
+                                                    const std::vector<Candidate>& candidates, double& h) {
   for (SteppedBody* body : held) body->go_back();
-  if (h > longest_piece) {
-    h = longest_piece;
-    return false;
+  const double longest = others_awake() ? longest_with_free : longest_piece;
+  if (h > longest) {
+    h = longest;
+    return Piece::too_long;
   }
   std::vector<DrivenBody> driven;
   for (std::size_t i = 0; i < held.size(); ++i) driven.push_back(driven_body(*held[i], candidates[i], h));
   world_->remember();
   world_->step(h, driven);
-  std::vector<double> sound;
+  double sound = 1.0;
   for (std::size_t i = 0; i < held.size(); ++i) {
     const Wrench& impact = driven[i].impact_W;
     if (!impact.force.isZero(0.0) || !impact.moment.isZero(0.0)) held[i]->add_impulse(impact);
     const bool possible = held[i]->advance(h, driven[i].contact_W);
-    sound.push_back(possible ? world_->sound_part(held[i]->index(), candidates[i].begin.X, held[i]->object().X) : 0.0);
+    const double part = world_->sound_part(held[i]->index(), candidates[i].begin.X, held[i]->object().X);
+    sound = std::min(sound, possible ? part : 0.0);
   }
-  const double least = *std::min_element(sound.begin(), sound.end());
-  if (least < 1.0 && h > shortest_piece_) {
+  if (sound < 1.0) {
     world_->go_back();
     for (SteppedBody* body : held) body->go_back();
-    h = std::max(std::clamp(as_sound * least, least_try, most_try) * h, shortest_piece_);
-    return false;
+    if (h <= shortest_piece_) return Piece::stuck;
+    h = std::max(std::clamp(as_sound * sound, least_try, most_try) * h, shortest_piece_);
+    return Piece::too_long;
   }
+  for (std::size_t i = 0; i < held.size(); ++i) take(*held[i], driven[i].contact_W);
+  add_contacts();
+  return Piece::gone;
+}
+
+void DynamicStepper::hold_back(const std::vector<SteppedBody*>& held, double h, Outcome& outcome) {
+  std::vector<DrivenBody> driven(held.size());
   for (std::size_t i = 0; i < held.size(); ++i) {
-    if (sound[i] < 1.0) {
-      held[i]->go_back();
-      held[i]->stay(h);
-      driven[i].contact_W = Wrench();
-      outcome.held_back = true;
-    }
-    held[i]->accept();
-    load_W_[held[i]->index()] = driven[i].contact_W;
-    const MotionState s = held[i]->object();
-    world_->place(held[i]->index(), s.X, s.velocity, true);
+    driven[i].body = held[i]->index();
+    driven[i].X_WO = held[i]->object().X;
+  }
+  world_->step(h, driven);
+  for (SteppedBody* body : held) {
+    body->stay(h);
+    take(*body, Wrench());
   }
   add_contacts();
-  return true;
+  outcome.held_back = true;
+}
+
+void DynamicStepper::take(SteppedBody& body, const Wrench& contact_W) {
+  body.accept();
+  load_W_[body.index()] = contact_W;
+  const MotionState s = body.object();
+  world_->place(body.index(), s.X, s.velocity, true);
 }
 
 DrivenBody DynamicStepper::driven_body(const SteppedBody& body, const Candidate& c, double h) {

@@ -47,10 +47,13 @@ class DynamicStepper {
   /// The candidates are where the bodies go.
   void go_freely(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double h,
                  Outcome& outcome);
-  /// Carries all over one piece with contact. False where that would have brought a body too deep into something or through
-  /// it; then all are where they were, and `h` is a piece to try instead.
-  bool go_in_contact(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double& h,
-                     Outcome& outcome);
+  enum class Piece { gone, too_long, stuck };
+  /// Carries all over one piece with contact, unless that would bring a body too deep into something or through it; then all
+  /// are where they were, and `h` is a piece to try instead, or none is short enough.
+  Piece go_in_contact(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double& h);
+  /// The held bodies stay where they are for one piece, while the others go on.
+  void hold_back(const std::vector<SteppedBody*>& held, double h, Outcome& outcome);
+  void take(SteppedBody& body, const Wrench& contact_W);
   void add_contacts();
   bool comes_first(std::size_t body, std::size_t other) const;
 

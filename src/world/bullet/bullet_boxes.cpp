@@ -24,13 +24,11 @@ bool is_plane(const btCollisionObjectWrapper& object) {
   return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
 
-double least_half(const btCollisionObjectWrapper& object) { return outline_of(object).half.minCoeff(); }
-
-std::vector<BoxContact> contacts_above(const btCollisionObjectWrapper& box, const btCollisionObjectWrapper& plane, double from) {
+std::vector<BoxContact> contacts_above(const btCollisionObjectWrapper& box, const btCollisionObjectWrapper& plane) {
   const auto& shape = static_cast<const btStaticPlaneShape&>(*plane.getCollisionShape());
   const RigidTransform X_WP = from_bullet(plane.getWorldTransform());
   const Vector3d n_W = X_WP.linear() * from_bullet(shape.getPlaneNormal());
-  return box_contacts(outline_of(box), n_W, n_W.dot(X_WP.translation()) + shape.getPlaneConstant() - contact_skin, from);
+  return box_contacts(outline_of(box), n_W, n_W.dot(X_WP.translation()) + shape.getPlaneConstant() - contact_skin, seen_from);
 }
 
 /// Contacts of a box with a box or a plane, in either order, found anew in every step; each begins with the impulses of the
@@ -45,17 +43,16 @@ class BoxContacts final : public btActivatingCollisionAlgorithm {
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo&,
                         btManifoldResult* result) override {
-    double from = seen_from;
-    for (const auto* object : {a, b}) from = is_plane(*object) ? from : std::min(from, least_half(*object));
     std::vector<btManifoldPoint> before;
     for (int i = 0; i < manifold_->getNumContacts(); ++i) before.push_back(manifold_->getContactPoint(i));
     manifold_->clearManifold();
-    manifold_->setContactBreakingThreshold(from);
     result->setPersistentManifold(manifold_);
-    for (const BoxContact& c : find(*a, *b, from)) {
-      result->addContactPoint(to_bullet(c.n_W), to_bullet(c.p_W), c.gap - 2.0 * contact_skin);
+    // Not by the result's own addContactPoint(), which takes near ones for one.
+    for (const BoxContact& c : find(*a, *b)) {
+      btManifoldPoint point = made(c, *a->getCollisionObject(), *b->getCollisionObject());
+      take_impulses(before, point);
+      manifold_->addManifoldPoint(point);
     }
-    for (int i = 0; i < manifold_->getNumContacts(); ++i) take_impulses(before, manifold_->getContactPoint(i));
   }
   btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
                                  btManifoldResult*) override {
@@ -64,15 +61,25 @@ class BoxContacts final : public btActivatingCollisionAlgorithm {
   void getAllContactManifolds(btManifoldArray& all) override { all.push_back(manifold_); }
 
  private:
-  static std::vector<BoxContact> find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double from) {
-    if (is_plane(b)) return contacts_above(a, b, from);
-    if (!is_plane(a)) return box_contacts(outline_of(a), outline_of(b), from);
-    std::vector<BoxContact> contacts = contacts_above(b, a, from);
+  static std::vector<BoxContact> find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+    if (is_plane(b)) return contacts_above(a, b);
+    if (!is_plane(a)) return box_contacts(outline_of(a), outline_of(b), seen_from);
+    std::vector<BoxContact> contacts = contacts_above(b, a);
     for (BoxContact& c : contacts) {
       c.p_W += c.gap * c.n_W;
       c.n_W = -c.n_W;
     }
     return contacts;
+  }
+  static btManifoldPoint made(const BoxContact& c, const btCollisionObject& a, const btCollisionObject& b) {
+    const btVector3 on_b = to_bullet(c.p_W), on_a = to_bullet(Vector3d(c.p_W + c.gap * c.n_W));
+    btManifoldPoint point(a.getWorldTransform().invXform(on_a), b.getWorldTransform().invXform(on_b), to_bullet(c.n_W),
+                          c.gap - 2.0 * contact_skin);
+    point.m_positionWorldOnA = on_a;
+    point.m_positionWorldOnB = on_b;
+    point.m_combinedFriction = btManifoldResult::calculateCombinedFriction(&a, &b);
+    point.m_combinedRestitution = btManifoldResult::calculateCombinedRestitution(&a, &b);
+    return point;
   }
   static void take_impulses(std::vector<btManifoldPoint>& before, btManifoldPoint& point) {
     const auto nearest = std::min_element(before.begin(), before.end(), [&](const auto& x, const auto& y) {

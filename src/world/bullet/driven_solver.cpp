@@ -10,6 +10,7 @@ constexpr int most_sweeps = 1000;
 constexpr double small_change = 1e-8;  ///< of the largest impulse: the sweeps end
 constexpr double closed = 5e-5;        ///< [m]; a contact with a smaller gap is stopped by an impulse
 constexpr double rest_speed = 0.02;    ///< [m/s]; a slower approach does not bounce
+constexpr double recovery_time = 2e-3;  ///< [s] in which a penetration is undone
 constexpr double slow = 1e-7;          ///< [m/s]; a slower approach is none
 
 /// [linear; angular].
@@ -150,9 +151,10 @@ DrivenSolver::Rows DrivenSolver::make_rows(const btContactSolverInfo& info) {
     n.gap = point.getDistance() + info.m_linearSlop;
     const double way_left = n.gap / h_, restitution = point.m_combinedRestitution;
     if (drives(n)) {
-      // A driven body's velocity is its way over the step, in which a penetration is undone, unless that pushes a free body.
+      // A driven body's velocity is its way over the step. A penetration is undone slowly, or it would become a speed.
       const bool pushes = !(driven_of(n.a) || n.answer_a.isZero(0.0)) || !(driven_of(n.b) || n.answer_b.isZero(0.0));
-      n.target = -rate(n, false) - (n.gap < 0.0 && pushes ? info.m_erp2 : 1.0) * way_left;
+      const double undone = (pushes ? info.m_erp2 : 1.0) * std::min(1.0, h_ / recovery_time);
+      n.target = -rate(n, false) - (n.gap < 0.0 ? undone : 1.0) * way_left;
     } else if (way_left > 0.0 && restitution > 0.0) {
       // Bullet lets a body bounce before it is there, and then loses the bounce on the rest of the way.
       const double approach = (n.target + way_left) / (1.0 + restitution);
