@@ -114,7 +114,7 @@ TEST_P(Seeded, AMasslessOneStopsAtAWall) {
 }
 
 TEST_P(Seeded, GraspedWhileItTouches) {
-  for (const double stiffness : {100.0, 1e4, 1e7}) {
+  for (const double stiffness : {100.0, 1e7}) {
     Extreme e;
     e.bodies = {cube("held", 0.06, 0.5, {0, 0, 0.03}), cube("neighbour", 0.06, 0.5, {0.06, 0, 0.03}),
                 cube("above", 0.04, 0.2, {0, 0, 0.08}), box("wall", {0.02, 0.4, 0.4}, 0.0, {-0.04, 0, 0.2})};
