@@ -12,18 +12,20 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double longest_piece = 2e-3;     ///< [s] where something is touched …
-constexpr double longest_with_free = 1e-3; ///< [s] … and where a body moves that nobody holds: the world's error is of order one
-constexpr double shortest_step = 1e-9;     ///< [s]; of a step shorter than this contact takes no notice
-constexpr double stay_piece = 2e-4;        ///< [s] for which a held body stays where nothing else fits
-constexpr double growth = 2.0;             ///< from one piece to the next, at most
-constexpr double as_sound = 0.9;           ///< of the part of a piece that is sound: the next try
+constexpr double longest_piece = 2e-3;  ///< [s] where something is touched …
+constexpr double longest_with_free =
+    1e-3;  ///< [s] … and where a body moves that nobody holds: the world's error is of order one
+constexpr double shortest_step = 1e-9;             ///< [s]; of a step shorter than this contact takes no notice
+constexpr double stay_piece = 2e-4;                ///< [s] for which a held body stays where nothing else fits
+constexpr double growth = 2.0;                     ///< from one piece to the next, at most
+constexpr double as_sound = 0.9;                   ///< of the part of a piece that is sound: the next try
 constexpr double least_try = 0.1, most_try = 0.7;  ///< of a piece: the next try
-constexpr double shortest_piece = 1e-5;    ///< [s], or of a step that is shorter than the longest, as much less
-constexpr double margin_near = 5e-4;       ///< [m]
-constexpr double same_point = 2e-3;        ///< [m]
+constexpr double shortest_piece = 1e-5;            ///< [s], or of a step that is shorter than the longest, as much less
+constexpr double margin_near = 5e-4;               ///< [m]
+constexpr double same_point = 2e-3;                ///< [m]
 
-/// A compliance as it has to be: symmetric, and nothing comes towards a load. Of a fork that is far from straight it may not be.
+/// A compliance as it has to be: symmetric, and nothing comes towards a load. Of a fork that is far from straight it
+/// may not be.
 Matrix6d positive(const Matrix6d& compliance) {
   const Matrix6d C = 0.5 * (compliance + compliance.transpose());
   if (C.llt().info() == Eigen::Success) return C;
@@ -58,8 +60,8 @@ bool DynamicStepper::all_free(const std::vector<SteppedBody*>& held, const std::
   return true;
 }
 
-void DynamicStepper::go_freely(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double h,
-                               Outcome& outcome) {
+void DynamicStepper::go_freely(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates,
+                               double h, Outcome& outcome) {
   for (std::size_t i = 0; i < held.size(); ++i) {
     if (!candidates[i].possible) {
       held[i]->go_back();

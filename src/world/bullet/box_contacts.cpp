@@ -18,7 +18,9 @@ struct Axis {
   int of_a = -1, of_b = -1;          ///< the boxes' axes that it is made from
 };
 
-double reach(const OutlineBox& box, const Vector3d& n_W) { return (box.X.linear().transpose() * n_W).cwiseAbs().dot(box.half); }
+double reach(const OutlineBox& box, const Vector3d& n_W) {
+  return (box.X.linear().transpose() * n_W).cwiseAbs().dot(box.half);
+}
 
 void look(const OutlineBox& a, const OutlineBox& b, const Vector3d& axis, int of_a, int of_b, Axis& best) {
   const double size = axis.norm();
@@ -63,7 +65,8 @@ std::vector<Vector3d> face_towards(const OutlineBox& box, const Vector3d& n_W) {
 /// Four of the contacts that span what all of them do, and the deepest where it stands out.
 std::vector<BoxContact> reduced(const std::vector<BoxContact>& all, const Vector3d& u_W, const Vector3d& v_W) {
   std::vector<std::size_t> kept;
-  for (const Vector3d& outwards : {Vector3d(u_W + v_W), Vector3d(v_W - u_W), Vector3d(-u_W - v_W), Vector3d(u_W - v_W)}) {
+  for (const Vector3d& outwards :
+       {Vector3d(u_W + v_W), Vector3d(v_W - u_W), Vector3d(-u_W - v_W), Vector3d(u_W - v_W)}) {
     const auto furthest = std::max_element(all.begin(), all.end(), [&](const BoxContact& x, const BoxContact& y) {
       return outwards.dot(x.p_W) < outwards.dot(y.p_W);
     });
@@ -72,7 +75,8 @@ std::vector<BoxContact> reduced(const std::vector<BoxContact>& all, const Vector
   }
   const auto higher = [&](std::size_t i, std::size_t k) { return all[i].gap > all[k].gap; };
   const auto deepest = static_cast<std::size_t>(
-      std::min_element(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.gap < y.gap; }) - all.begin());
+      std::min_element(all.begin(), all.end(), [](const auto& x, const auto& y) { return x.gap < y.gap; }) -
+      all.begin());
   std::sort(kept.begin(), kept.end(), higher);
   if (all[deepest].gap < all[kept.back()].gap - stands_out) kept.front() = deepest;
   std::vector<BoxContact> four;

@@ -14,8 +14,8 @@ struct BoxContact {
 };
 
 /// The contacts of two boxes that are nearer to each other than `seen_from` [m], along the direction in which they are
-/// furthest apart: up to four corners of one face over the other, clipped to it, or the crossing of two edges. None is there
-/// where the boxes would pass by each other along it.
+/// furthest apart: up to four corners of one face over the other, clipped to it, or the crossing of two edges. None is
+/// there where the boxes would pass by each other along it.
 std::vector<BoxContact> box_contacts(const OutlineBox& a, const OutlineBox& b, double seen_from);
 
 /// The same of a box above the half-space `n · x < height`: the corners of the face that looks towards it.

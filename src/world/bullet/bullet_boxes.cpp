@@ -1,5 +1,7 @@
 // A derived btBoxShape brings its inline getPlane() with it, in which GCC 12 sees a plane without a value.
+#if defined(__GNUC__) && !defined(__clang__)
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
+#endif
 
 #include "bullet_boxes.h"
 
@@ -28,11 +30,12 @@ std::vector<BoxContact> contacts_above(const btCollisionObjectWrapper& box, cons
   const auto& shape = static_cast<const btStaticPlaneShape&>(*plane.getCollisionShape());
   const RigidTransform X_WP = from_bullet(plane.getWorldTransform());
   const Vector3d n_W = X_WP.linear() * from_bullet(shape.getPlaneNormal());
-  return box_contacts(outline_of(box), n_W, n_W.dot(X_WP.translation()) + shape.getPlaneConstant() - contact_skin, seen_from);
+  return box_contacts(outline_of(box), n_W, n_W.dot(X_WP.translation()) + shape.getPlaneConstant() - contact_skin,
+                      seen_from);
 }
 
-/// Contacts of a box with a box or a plane, in either order, found anew in every step; each begins with the impulses of the
-/// one before that is nearest to it.
+/// Contacts of a box with a box or a plane, in either order, found anew in every step; each begins with the impulses of
+/// the one before that is nearest to it.
 class BoxContacts final : public btActivatingCollisionAlgorithm {
  public:
   BoxContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,

@@ -13,15 +13,15 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double margin_near = 2e-3;      ///< [m]; what comes nearer than this to an awake body enters Bullet's world
-constexpr int steps_until_left = 50;      ///< a sleeper leaves Bullet's world when nothing awake was near for so many steps
-constexpr double asleep_speed = 2e-3;     ///< [m/s] of every point of a body …
-constexpr double asleep_after = 0.5;      ///< [s] … for so long: it goes to sleep
-constexpr double rest_speed = 0.02;       ///< [m/s]; a slower approach does not bounce
-constexpr double penetration_share = 0.2; ///< of a penetration that is undone in a step, where it pushes free bodies
-constexpr double blind_way = 2e-4;        ///< [m] towards what is near, where the shapes are not boxes
-constexpr double deepest_way = 5e-5;      ///< [m]; no deeper goes a box into another
-constexpr double closed_gap = 1e-5;       ///< [m]; a contact without impulse is told while its gap is smaller
+constexpr double margin_near = 2e-3;  ///< [m]; what comes nearer than this to an awake body enters Bullet's world
+constexpr int steps_until_left = 50;  ///< a sleeper leaves Bullet's world when nothing awake was near for so many steps
+constexpr double asleep_speed = 2e-3;      ///< [m/s] of every point of a body …
+constexpr double asleep_after = 0.5;       ///< [s] … for so long: it goes to sleep
+constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
+constexpr double penetration_share = 0.2;  ///< of a penetration that is undone in a step, where it pushes free bodies
+constexpr double blind_way = 2e-4;         ///< [m] towards what is near, where the shapes are not boxes
+constexpr double deepest_way = 5e-5;       ///< [m]; no deeper goes a box into another
+constexpr double closed_gap = 1e-5;        ///< [m]; a contact without impulse is told while its gap is smaller
 
 using Extent = Eigen::AlignedBox3d;
 
@@ -40,7 +40,8 @@ BulletWorld::BulletWorld(const Scene& scene)
     : scene_(scene), bench_shape_(btVector3(0, 0, 1), scene.bench_height + contact_skin) {
   gDeactivationTime = asleep_after;
   btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
-  configuration_.setPlaneConvexMultipointIterations(4, 4);  // a flush face touches with its corners from the first step on
+  configuration_.setPlaneConvexMultipointIterations(4,
+                                                    4);  // a flush face touches with its corners from the first step on
   configuration_.setConvexConvexMultipointIterations(4, 4);
   world_.setGravity(btVector3(0.0, 0.0, -scene_.gravity));
   btContactSolverInfo& info = world_.getSolverInfo();
@@ -270,7 +271,8 @@ void BulletWorld::remember() {
   for (const std::size_t i : in_world_) {
     const Item& item = items_[i];
     if (!item.movable) continue;
-    remembered_.push_back({i, item.X_WO, item.V_WO_W, item.bullet->getActivationState(), item.bullet->getDeactivationTime()});
+    remembered_.push_back(
+        {i, item.X_WO, item.V_WO_W, item.bullet->getActivationState(), item.bullet->getDeactivationTime()});
   }
 }
 
@@ -313,7 +315,8 @@ bool BulletWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const
 }
 
 RigidTransform BulletWorld::remembered_pose(std::size_t body) const {
-  const auto found = std::find_if(remembered_.begin(), remembered_.end(), [&](const auto& r) { return r.body == body; });
+  const auto found =
+      std::find_if(remembered_.begin(), remembered_.end(), [&](const auto& r) { return r.body == body; });
   return found == remembered_.end() ? items_[body].X_WO : found->X_WO;
 }
 

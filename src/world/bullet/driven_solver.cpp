@@ -7,11 +7,11 @@ namespace spring_workbench {
 namespace {
 
 constexpr int most_sweeps = 1000;
-constexpr double small_change = 1e-8;  ///< of the largest impulse: the sweeps end
-constexpr double closed = 5e-5;        ///< [m]; a contact with a smaller gap is stopped by an impulse
-constexpr double rest_speed = 0.02;    ///< [m/s]; a slower approach does not bounce
+constexpr double small_change = 1e-8;   ///< of the largest impulse: the sweeps end
+constexpr double closed = 5e-5;         ///< [m]; a contact with a smaller gap is stopped by an impulse
+constexpr double rest_speed = 0.02;     ///< [m/s]; a slower approach does not bounce
 constexpr double recovery_time = 2e-3;  ///< [s] in which a penetration is undone
-constexpr double slow = 1e-7;          ///< [m/s]; a slower approach is none
+constexpr double slow = 1e-7;           ///< [m/s]; a slower approach is none
 
 /// [linear; angular].
 Eigen::Matrix<double, 6, 1> both(const btVector3& linear, const btVector3& angular) {
@@ -110,14 +110,16 @@ void DrivenSolver::solve(Rows& rows) const {
     const double square = change.squaredNorm();
     if (last_square > 0.0 && square <= last_square && i + 1 < most_sweeps) {
       const double share = square / last_square;
-      for (std::size_t k = 0; k < 3 * contacts; ++k) row(k).apply(share * direction[static_cast<Eigen::Index>(k)], rows.change);
+      for (std::size_t k = 0; k < 3 * contacts; ++k)
+        row(k).apply(share * direction[static_cast<Eigen::Index>(k)], rows.change);
       direction = change + share * direction;
     } else {
       direction = change;
     }
     last_square = square;
   }
-  const bool finite = std::all_of(rows.change.begin(), rows.change.end(), [](const Vector6d& v) { return v.allFinite(); });
+  const bool finite =
+      std::all_of(rows.change.begin(), rows.change.end(), [](const Vector6d& v) { return v.allFinite(); });
   if (finite) return;
   for (std::size_t k = 0; k < 3 * contacts; ++k) row(k).impulse = 0.0;
   std::fill(rows.change.begin(), rows.change.end(), Vector6d::Zero());
@@ -133,7 +135,8 @@ DrivenSolver::Vector6d DrivenSolver::velocity(int solver_body, bool at_start) co
     }
     return both(body.m_linearVelocity, body.m_angularVelocity);
   }
-  return both(body.m_linearVelocity + body.m_externalForceImpulse, body.m_angularVelocity + body.m_externalTorqueImpulse);
+  return both(body.m_linearVelocity + body.m_externalForceImpulse,
+              body.m_angularVelocity + body.m_externalTorqueImpulse);
 }
 
 double DrivenSolver::rate(const Row& row, bool at_start) const {
@@ -245,7 +248,8 @@ void DrivenSolver::hand_back(const Rows& rows) {
     }
   };
   for (std::size_t i = 0; i < rows.normal.size(); ++i) {
-    auto& point = *static_cast<btManifoldPoint*>(m_tmpSolverContactConstraintPool[static_cast<int>(i)].m_originalContactPoint);
+    auto& point =
+        *static_cast<btManifoldPoint*>(m_tmpSolverContactConstraintPool[static_cast<int>(i)].m_originalContactPoint);
     point.m_appliedImpulse = rows.normal[i].impulse;
     point.m_appliedImpulseLateral1 = rows.across[2 * i].impulse;
     point.m_appliedImpulseLateral2 = rows.across[2 * i + 1].impulse;

@@ -74,13 +74,15 @@ class Seeded : public ::testing::TestWithParam<unsigned> {};
 
 TEST(Extremes, AHeldObjectPutOnAStackOfNineLetsItStand) {
   Extreme e;
-  for (int i = 0; i < 9; ++i) e.bodies.push_back(box("b" + std::to_string(i), {0.1, 0.1, 0.05}, 1.0, {0, 0, 0.025 + 0.05 * i}));
+  for (int i = 0; i < 9; ++i)
+    e.bodies.push_back(box("b" + std::to_string(i), {0.1, 0.1, 0.05}, 1.0, {0, 0, 0.025 + 0.05 * i}));
   e.bodies.push_back(box("held", {0.1, 0.1, 0.05}, 1.0, {0, 0, 0.52}));
   e.held = "held";
   e.way = {0, 0, -0.05};
   const Simulation s = run(e, 0);
   for (int i = 0; i < 9; ++i) {
-    const Vector3d moved = object(s, "b" + std::to_string(i)).X_WO.translation() - e.bodies[static_cast<std::size_t>(i)].X_WO.translation();
+    const Vector3d moved = object(s, "b" + std::to_string(i)).X_WO.translation() -
+                           e.bodies[static_cast<std::size_t>(i)].X_WO.translation();
     EXPECT_LT(std::abs(moved.z()), 2e-4) << i;
     EXPECT_LT(moved.norm(), 6e-3) << i;  // as far as the hand goes sideways
   }
