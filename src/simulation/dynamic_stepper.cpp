@@ -1,5 +1,7 @@
 #include "dynamic_stepper.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,67 +12,56 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double longest_piece = 2e-3;     ///< [s] where something is touched
-constexpr double shortest_step = 1e-9;     ///< [s]; of a step shorter than this contact takes no notice
-constexpr double least_travel = 2e-4;      ///< [m] towards something that is touched, in a piece
-constexpr double as_free = 0.9;            ///< of a piece, for which it is taken
-constexpr double as_possible = 0.8;        ///< of a piece gone, for which it is taken
-constexpr double growth = 2.0;             ///< from one piece to the next, at most
-constexpr int most_pieces = 5000;          ///< of one step
-/// Contact keeps clear the way over a piece for the most part, and for this part the way that the velocity at its end would
-/// make. Of the way alone, the velocity of a soft fork would change its sign with every piece, for ever; of the velocity
-/// alone, a stiff fork would not answer. Both errors shrink by a half in a piece with this share.
-constexpr double velocity_share = 0.1;
-constexpr double margin_near = 2e-3;       ///< [m]
-constexpr double same_point = 2e-3;        ///< [m]
+constexpr double longest_piece = 2e-3;  ///< [s] where something is touched …
+constexpr double longest_with_free =
+    1e-3;  ///< [s] … and where a body moves that nobody holds: the world's error is of order one
+constexpr double shortest_step = 1e-9;             ///< [s]; of a step shorter than this contact takes no notice
+constexpr double stay_piece = 2e-4;                ///< [s] for which a held body stays where nothing else fits
+constexpr double growth = 2.0;                     ///< from one piece to the next, at most
+constexpr double as_sound = 0.9;                   ///< of the part of a piece that is sound: the next try
+constexpr double least_try = 0.1, most_try = 0.7;  ///< of a piece: the next try
+constexpr double shortest_piece = 1e-5;            ///< [s], or of a step that is shorter than the longest, as much less
+constexpr double margin_near = 5e-4;               ///< [m]
+constexpr double same_point = 2e-3;                ///< [m]
+
+/// A compliance as it has to be: symmetric, and nothing comes towards a load. Of a fork that is far from straight it
+/// may not be.
+Matrix6d positive(const Matrix6d& compliance) {
+  const Matrix6d C = 0.5 * (compliance + compliance.transpose());
+  if (C.llt().info() == Eigen::Success) return C;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> modes(C);
+  return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).asDiagonal() * modes.eigenvectors().transpose();
+}
 
 }  // namespace
 
 DynamicStepper::DynamicStepper(const Scene& scene) : scene_(scene), world_(open_rigid_world(scene)) {}
 
-RigidWorld::Freedom DynamicStepper::freedom(const SteppedBody& body, const MotionState& begin, const MotionState& end,
-                                            double h) const {
-  if (!others_awake() && !world_->may_touch(body.index(), begin.X, end.X, margin_near)) return {h, h, false};
-  Twist mean;
-  mean.linear = (end.X.translation() - begin.X.translation()) / h;
-  mean.angular = begin.X.linear() * log_so3(begin.X.linear().transpose() * end.X.linear()) / h;
-  return world_->freedom(body.index(), begin.X, {mean, end.velocity}, least_travel, h);
-}
-
 DynamicStepper::Candidate DynamicStepper::try_piece(SteppedBody& body, double h) const {
   Candidate c;
   c.begin = body.object();
-  c.answer = body.answer(h);
   const auto load = load_W_.find(body.index());
   if (load != load_W_.end()) c.load_W = load->second;
   body.remember();
   c.possible = body.advance(h, c.load_W);
   c.end = c.possible ? body.object() : c.begin;
   if (!c.possible) c.end.velocity = Twist();
-  c.freedom = freedom(body, c.begin, c.end, h);
   return c;
 }
 
-std::vector<DynamicStepper::Candidate> DynamicStepper::try_pieces(const std::vector<SteppedBody*>& held,
-                                                                  double& h) const {
-  const double shortest = std::min(h, shortest_piece_);
-  for (;;) {
-    std::vector<Candidate> candidates;
-    double wanted = others_awake() ? std::min(h, longest_piece) : h;
-    for (SteppedBody* body : held) {
-      candidates.push_back(try_piece(*body, h));
-      const RigidWorld::Freedom& freedom = candidates.back().freedom;
-      wanted = std::min({wanted, freedom.until_near, freedom.near ? longest_piece : wanted});
-    }
-    wanted = std::max(wanted, shortest);
-    if (wanted >= as_free * h) return candidates;
-    for (SteppedBody* body : held) body->go_back();
-    h = wanted;
+bool DynamicStepper::all_free(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates) const {
+  if (others_awake()) return false;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const Candidate& c = candidates[i];
+    if (!c.load_W.force.isZero(0.0) || !c.load_W.moment.isZero(0.0)) return false;
+    if (!world_->may_touch(held[i]->index(), c.begin.X, c.end.X, margin_near)) continue;
+    if (world_->free_part(held[i]->index(), c.begin.X, c.end.X) < 1.0) return false;
   }
+  return true;
 }
 
-void DynamicStepper::go_freely(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double h,
-                               Outcome& outcome) {
+void DynamicStepper::go_freely(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates,
+                               double h, Outcome& outcome) {
   for (std::size_t i = 0; i < held.size(); ++i) {
     if (!candidates[i].possible) {
       held[i]->go_back();
@@ -93,19 +84,24 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<SteppedBody*>& he
     loads[body->index()] = load_W_[body->index()];
   }
   load_W_ = std::move(loads);
-  shortest_piece_ = h / most_pieces;
+  shortest_piece_ = shortest_piece * std::min(1.0, h / longest_piece);
   Outcome outcome;
   double left = h, piece = h;
   while (left > 1e-9 * h) {
     piece = std::min(piece, left);
     if (left < growth * piece && left > piece) piece = 0.5 * left;  // no small last one
-    const std::vector<Candidate> candidates = try_pieces(held, piece);
-    const bool near = std::any_of(candidates.begin(), candidates.end(), [](const auto& c) { return c.freedom.near; });
+    std::vector<Candidate> candidates;
+    for (SteppedBody* body : held) candidates.push_back(try_piece(*body, piece));
     ++outcome.pieces;
-    if (h <= shortest_step || !(near || others_awake())) {
+    if (h <= shortest_step || all_free(held, candidates)) {
       go_freely(held, candidates, piece, outcome);
-    } else if (!go_in_contact(held, candidates, piece, outcome)) {
-      continue;
+    } else {
+      const Piece result = go_in_contact(held, candidates, piece);
+      if (result == Piece::too_long) continue;
+      if (result == Piece::stuck) {
+        piece = std::min(stay_piece, left);
+        hold_back(held, piece, outcome);
+      }
     }
     left -= piece;
     piece *= growth;
@@ -113,56 +109,75 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<SteppedBody*>& he
   return outcome;
 }
 
-bool DynamicStepper::go_in_contact(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates,
-                                   double& h, Outcome& outcome) {
+DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<SteppedBody*>& held,
+                                                    const std::vector<Candidate>& candidates, double& h) {
+  for (SteppedBody* body : held) body->go_back();
+  const double longest = others_awake() ? longest_with_free : longest_piece;
+  if (h > longest) {
+    h = longest;
+    return Piece::too_long;
+  }
   std::vector<DrivenBody> driven;
-  for (std::size_t i = 0; i < held.size(); ++i) driven.push_back(driven_body(held[i]->index(), candidates[i], h));
+  for (std::size_t i = 0; i < held.size(); ++i) driven.push_back(driven_body(*held[i], candidates[i], h));
   world_->remember();
   world_->step(h, driven);
-  double possible = h;
+  double sound = 1.0;
   for (std::size_t i = 0; i < held.size(); ++i) {
-    const Wrench& contact = driven[i].contact_W;
-    const Candidate& c = candidates[i];
-    if (contact.force != c.load_W.force || contact.moment != c.load_W.moment || !c.possible) {
-      held[i]->go_back();
-      if (!held[i]->advance(h, contact)) {
-        held[i]->stay(h);
-        outcome.held_back = true;
-      }
-    }
-    const RigidWorld::Freedom freely = freedom(*held[i], c.begin, held[i]->object(), h);
-    possible = std::min({possible, freely.until_near, freely.towards_near});
+    const Wrench& impact = driven[i].impact_W;
+    if (!impact.force.isZero(0.0) || !impact.moment.isZero(0.0)) held[i]->add_impulse(impact);
+    const bool possible = held[i]->advance(h, driven[i].contact_W);
+    const double part = world_->sound_part(held[i]->index(), candidates[i].begin.X, held[i]->object().X);
+    sound = std::min(sound, possible ? part : 0.0);
   }
-  if (possible < as_possible * h && h > shortest_piece_) {
+  if (sound < 1.0) {
     world_->go_back();
     for (SteppedBody* body : held) body->go_back();
-    h = std::max(possible, shortest_piece_);
-    return false;
+    if (h <= shortest_piece_) return Piece::stuck;
+    h = std::max(std::clamp(as_sound * sound, least_try, most_try) * h, shortest_piece_);
+    return Piece::too_long;
   }
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    held[i]->accept();
-    load_W_[held[i]->index()] = driven[i].contact_W;
-    const MotionState s = held[i]->object();
-    world_->place(held[i]->index(), s.X, s.velocity, true);
-  }
+  for (std::size_t i = 0; i < held.size(); ++i) take(*held[i], driven[i].contact_W);
   add_contacts();
-  return true;
+  return Piece::gone;
 }
 
-DrivenBody DynamicStepper::driven_body(std::size_t body, const Candidate& c, double h) {
+void DynamicStepper::hold_back(const std::vector<SteppedBody*>& held, double h, Outcome& outcome) {
+  std::vector<DrivenBody> driven(held.size());
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    driven[i].body = held[i]->index();
+    driven[i].X_WO = held[i]->object().X;
+  }
+  world_->step(h, driven);
+  for (SteppedBody* body : held) {
+    body->stay(h);
+    take(*body, Wrench());
+  }
+  add_contacts();
+  outcome.held_back = true;
+}
+
+void DynamicStepper::take(SteppedBody& body, const Wrench& contact_W) {
+  body.accept();
+  load_W_[body.index()] = contact_W;
+  const MotionState s = body.object();
+  world_->place(body.index(), s.X, s.velocity, true);
+}
+
+DrivenBody DynamicStepper::driven_body(const SteppedBody& body, const Candidate& c, double h) {
+  const SteppedBody::Answer answer = body.answer(h);
   DrivenBody d;
-  d.body = body;
-  d.compliance = (1.0 - velocity_share) * c.answer.displacement + velocity_share * h * c.answer.velocity;
+  d.body = body.index();
   d.X_WO = c.begin.X;
-  const Vector3d moved = c.end.X.translation() - c.begin.X.translation();
-  const Vector3d turned = c.begin.X.linear() * log_so3(c.begin.X.linear().transpose() * c.end.X.linear());
-  d.displacement_W.linear = (1.0 - velocity_share) * moved + velocity_share * h * c.end.velocity.linear;
-  d.displacement_W.angular = (1.0 - velocity_share) * turned + velocity_share * h * c.end.velocity.angular;
+  d.V_WO_W = c.begin.velocity;
+  d.compliance = positive(answer.displacement);
+  d.mobility = body.mobility();
+  d.coasting = answer.velocity;  // an impulse does at once what a constant load does in the course of the step
   Vector6d load;
   load << c.load_W.force, c.load_W.moment;
   const Vector6d by_load = d.compliance * load;
-  d.displacement_W.linear -= by_load.head<3>();
-  d.displacement_W.angular -= by_load.tail<3>();
+  d.displacement_W.linear = c.end.X.translation() - c.begin.X.translation() - by_load.head<3>();
+  d.displacement_W.angular =
+      c.begin.X.linear() * log_so3(c.begin.X.linear().transpose() * c.end.X.linear()) - by_load.tail<3>();
   return d;
 }
 

@@ -9,8 +9,8 @@
 namespace spring_workbench {
 
 /// Contact mode `dynamic` (doc/model.md): held bodies and all movable ones in one rigid-body world. A held body that
-/// nothing can touch is carried by its own integrator alone; near others, all go on together in short pieces, in which the
-/// held body answers to contact with the compliance of its fork.
+/// nothing can touch is carried by its own integrator alone; near others, all go on together in short pieces, in which
+/// the held body answers to contact with the compliance of its fork.
 class DynamicStepper {
  public:
   explicit DynamicStepper(const Scene& scene);
@@ -29,41 +29,42 @@ class DynamicStepper {
   void set_free(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W);
   /// Whether a body that is not held moves.
   bool others_awake() const;
-  /// The bodies of a contact are a movable one and another; a held one comes first. Contacts since the last call of step began; impulses are sums over its pieces, places those of the last.
+  /// The bodies of a contact are a movable one and another; a held one comes first. Contacts since the last call of
+  /// step began; impulses are sums over its pieces, places those of the last.
   const std::vector<WorldContact>& contacts() const { return contacts_; }
 
  private:
-  /// A held body's way over a piece under the contact load of the last one, at whose end the body then is, and how that
-  /// end would answer to more.
+  /// A held body's way over a piece under the contact load of the last one, at whose end the body then is.
   struct Candidate {
     MotionState begin, end;
     Wrench load_W;
-    SteppedBody::Answer answer;
     bool possible = false;
-    RigidWorld::Freedom freedom;
   };
   Candidate try_piece(SteppedBody& body, double h) const;
-  /// Candidates over a piece of at most `h` [s], which becomes so short that nothing new comes near.
-  std::vector<Candidate> try_pieces(const std::vector<SteppedBody*>& held, double& h) const;
-  /// What goes into the world of a candidate: its way without the load.
-  static DrivenBody driven_body(std::size_t body, const Candidate& candidate, double h);
-  RigidWorld::Freedom freedom(const SteppedBody& body, const MotionState& begin, const MotionState& end, double h) const;
+  /// Whether nothing is in the way of any of them, and nothing that is not held moves.
+  bool all_free(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates) const;
+  /// What goes into the world of a candidate: its way without the load, and how its end answers to one. The body is at
+  /// its begin.
+  static DrivenBody driven_body(const SteppedBody& body, const Candidate& candidate, double h);
   /// The candidates are where the bodies go.
   void go_freely(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double h,
                  Outcome& outcome);
-  /// Carries all over one piece with contact. False where that has brought a body so far that it may have gone through
-  /// something; then all are where they were, and `h` is how long the piece may be.
-  bool go_in_contact(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double& h,
-                     Outcome& outcome);
+  enum class Piece { gone, too_long, stuck };
+  /// Carries all over one piece with contact, unless that would bring a body too deep into something or through it;
+  /// then all are where they were, and `h` is a piece to try instead, or none is short enough.
+  Piece go_in_contact(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double& h);
+  /// The held bodies stay where they are for one piece, while the others go on.
+  void hold_back(const std::vector<SteppedBody*>& held, double h, Outcome& outcome);
+  void take(SteppedBody& body, const Wrench& contact_W);
   void add_contacts();
   bool comes_first(std::size_t body, std::size_t other) const;
 
   const Scene& scene_;
   std::unique_ptr<RigidWorld> world_;
   std::vector<WorldContact> contacts_;
-  std::vector<std::size_t> held_;  ///< in the last step
+  std::vector<std::size_t> held_;         ///< in the last step
   std::map<std::size_t, Wrench> load_W_;  ///< of contact on held bodies in the last piece
-  double shortest_piece_ = 0.0;    ///< [s] of the present step
+  double shortest_piece_ = 0.0;           ///< [s] of the present step
 };
 
 }  // namespace spring_workbench

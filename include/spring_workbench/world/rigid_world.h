@@ -9,18 +9,23 @@
 
 namespace spring_workbench {
 
-/// A body whose motion over the step is known but for what contact does to it: the held body on its fork. The world takes
-/// its contacts into account as exactly as those of its own bodies, with the answer that the fork's stiffness and damping
-/// give, so that no stiffness and no mass makes the pair blow up.
+/// A body whose motion over the step is known but for what contact does to it: the held body on its fork. The world
+/// takes its contacts into account as exactly as those of its own bodies, with the answer that the fork's stiffness and
+/// damping give, so that no stiffness and no mass makes the pair blow up. Where it is closed at the start of the step,
+/// its approach is taken away by an impulse; then it moves under a constant load.
 struct DrivenBody {
   using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-  std::size_t body = 0;                               ///< index in the scene
-  RigidTransform X_WO = RigidTransform::Identity();   ///< pose at the start of the step
-  Twist displacement_W;                               ///< over the step without contact, at O, world axes [m, rad]
+  std::size_t body = 0;                              ///< index in the scene
+  RigidTransform X_WO = RigidTransform::Identity();  ///< pose at the start of the step
+  Twist displacement_W;                              ///< over the step without contact, at O, world axes [m, rad]
   /// How the displacement [m, rad] answers to a constant wrench at O over the step, world axes; symmetric, ≥ 0.
   Matrix6d compliance = Matrix6d::Zero();
-  Wrench contact_W;                                   ///< out: what contact does, constant over the step, at O [N, N·m]
+  Twist V_WO_W;                          ///< at the start of the step
+  Matrix6d mobility = Matrix6d::Zero();  ///< how the velocity answers to an impulse; symmetric, ≥ 0
+  Matrix6d coasting = Matrix6d::Zero();  ///< how the displacement over the step answers to an impulse at its start
+  Wrench impact_W;                       ///< out: the impulse of contact at the start, at O [N·s, N·m·s]
+  Wrench contact_W;                      ///< out: what contact does besides, constant over the step, at O [N, N·m]
 };
 
 /// A place where two bodies press on each other.
@@ -33,9 +38,9 @@ struct WorldContact {
   Vector3d impulse_W = Vector3d::Zero();  ///< on `body`, in the last step [N·s]
 };
 
-/// Contact mode `dynamic` (doc/model.md): all bodies of the scene in one rigid-body world. Friction is Coulomb's with a round
-/// cone, the pair's coefficients are geometric means. Bodies at rest are put to sleep and leave the world until something
-/// comes near: they cost nothing. Deterministic. One thread at a time.
+/// Contact mode `dynamic` (doc/model.md): all bodies of the scene in one rigid-body world. Friction is Coulomb's with a
+/// round cone, the pair's coefficients are geometric means. Bodies at rest are put to sleep and leave the world until
+/// something comes near: they cost nothing. Deterministic. One thread at a time.
 class RigidWorld {
  public:
   static constexpr std::size_t bench = static_cast<std::size_t>(-1);
@@ -60,16 +65,12 @@ class RigidWorld {
   virtual bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                          double margin) const = 0;
 
-  /// How long the body, from `X_WO` on with twists no larger than these, is sure not to go through anything: until something
-  /// new comes near, or until it has gone on by `least` [m] towards something near. At most `longest` [s]; others are taken
-  /// to stand still.
-  struct Freedom {
-    double until_near = 0.0;      ///< [s]
-    double towards_near = 0.0;    ///< [s]
-    bool near = false;            ///< something is so near that contact has to be looked for
-  };
-  virtual Freedom freedom(std::size_t body, const RigidTransform& X_WO, const std::vector<Twist>& twists_W, double least,
-                          double longest) const = 0;
+  /// Which part of the body's way from `X0_WO` to `X1_WO`, straight and evenly turning, it surely goes without touching
+  /// anything; 0 … 1. Others are taken to stand still.
+  virtual double free_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const = 0;
+  /// Which part it surely goes without having gone through anything or, among boxes, without being deeper than 0.05 mm,
+  /// or than at the start. Others have gone straight from where they were at remember() to where they are.
+  virtual double sound_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const = 0;
 
   /// Contacts of the last step that pressed or were closed.
   virtual const std::vector<WorldContact>& contacts() const = 0;
@@ -77,8 +78,8 @@ class RigidWorld {
   virtual const std::vector<std::size_t>& bodies_near() const = 0;
 };
 
-/// All movable bodies begin asleep at the scene's poses. Bullet does the work, in double precision. Who calls this is linked
-/// with it; `open_rigid_world` (engines/contact_engines.h) opens it when it is needed.
+/// All movable bodies begin asleep at the scene's poses. Bullet does the work, in double precision. Who calls this is
+/// linked with it; `open_rigid_world` (engines/contact_engines.h) opens it when it is needed.
 std::unique_ptr<RigidWorld> make_rigid_world(const Scene& scene);
 
 }  // namespace spring_workbench

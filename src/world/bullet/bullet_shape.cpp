@@ -6,6 +6,8 @@
 #include <type_traits>
 #include <variant>
 
+#include "bullet_boxes.h"
+
 namespace spring_workbench {
 namespace {
 
@@ -43,7 +45,7 @@ void BulletShape::add(const Shape& shape, bool movable, const btTransform& X_BS)
       [&](const auto& g) {
         using G = std::decay_t<decltype(g)>;
         if constexpr (std::is_same_v<G, Box>) {
-          keep(std::make_unique<btBoxShape>(to_bullet(Vector3d(0.5 * g.size + Vector3d::Constant(contact_skin)))));
+          keep(std::make_unique<SeenBox>(to_bullet(Vector3d(0.5 * g.size + Vector3d::Constant(contact_skin)))));
         } else if constexpr (std::is_same_v<G, Sphere>) {
           keep(std::make_unique<btSphereShape>(g.radius + contact_skin));
         } else if constexpr (std::is_same_v<G, Cylinder>) {

@@ -7,18 +7,21 @@
 #include <cmath>
 
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/scene/clear_way.h"
 #include "spring_workbench/scene/geometry.h"
 
 namespace spring_workbench {
 namespace {
 
-constexpr double margin_near = 2e-3;      ///< [m]; what comes nearer than this to an awake body enters Bullet's world
-constexpr int steps_until_left = 50;      ///< a sleeper leaves Bullet's world when nothing awake was near for so many steps
-constexpr double asleep_speed = 2e-3;     ///< [m/s] of every point of a body …
-constexpr double asleep_after = 0.5;      ///< [s] … for so long: it goes to sleep
-constexpr double rest_speed = 0.02;       ///< [m/s]; a slower approach does not bounce
-constexpr double penetration_share = 0.2; ///< of a penetration that is undone in a step, where it pushes free bodies
-constexpr double closed_gap = 1e-5;       ///< [m]; a contact without impulse is told while its gap is smaller
+constexpr double margin_near = 2e-3;  ///< [m]; what comes nearer than this to an awake body enters Bullet's world
+constexpr int steps_until_left = 50;  ///< a sleeper leaves Bullet's world when nothing awake was near for so many steps
+constexpr double asleep_speed = 2e-3;      ///< [m/s] of every point of a body …
+constexpr double asleep_after = 0.5;       ///< [s] … for so long: it goes to sleep
+constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
+constexpr double penetration_share = 0.2;  ///< of a penetration that is undone in a step, where it pushes free bodies
+constexpr double blind_way = 2e-4;         ///< [m] towards what is near, where the shapes are not boxes
+constexpr double deepest_way = 5e-5;       ///< [m]; no deeper goes a box into another
+constexpr double closed_gap = 1e-5;        ///< [m]; a contact without impulse is told while its gap is smaller
 
 using Extent = Eigen::AlignedBox3d;
 
@@ -37,7 +40,8 @@ BulletWorld::BulletWorld(const Scene& scene)
     : scene_(scene), bench_shape_(btVector3(0, 0, 1), scene.bench_height + contact_skin) {
   gDeactivationTime = asleep_after;
   btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
-  configuration_.setPlaneConvexMultipointIterations(4, 4);  // a flush face touches with its corners from the first step on
+  configuration_.setPlaneConvexMultipointIterations(4,
+                                                    4);  // a flush face touches with its corners from the first step on
   configuration_.setConvexConvexMultipointIterations(4, 4);
   world_.setGravity(btVector3(0.0, 0.0, -scene_.gravity));
   btContactSolverInfo& info = world_.getSolverInfo();
@@ -202,9 +206,12 @@ void BulletWorld::take_contacts() {
       const int other = first_is_body ? b : a;
       c.other = other >= 0 ? static_cast<std::size_t>(other) : bench;
       const Vector3d n = from_bullet(point.m_normalWorldOnB);
-      const Vector3d impulse = point.m_appliedImpulse * n +
-                               point.m_appliedImpulseLateral1 * from_bullet(point.m_lateralFrictionDir1) +
-                               point.m_appliedImpulseLateral2 * from_bullet(point.m_lateralFrictionDir2);
+      Vector3d impulse = point.m_appliedImpulse * n +
+                         point.m_appliedImpulseLateral1 * from_bullet(point.m_lateralFrictionDir1) +
+                         point.m_appliedImpulseLateral2 * from_bullet(point.m_lateralFrictionDir2);
+      for (const DrivenSolver::Impact& impact : solver_.impacts()) {
+        if (impact.point == &point) impulse += impact.impulse_W;
+      }
       c.n_W = first_is_body ? n : Vector3d(-n);
       c.impulse_W = first_is_body ? impulse : Vector3d(-impulse);
       c.p_W = 0.5 * from_bullet(point.getPositionWorldOnA() + point.getPositionWorldOnB());
@@ -217,7 +224,7 @@ void BulletWorld::take_contacts() {
 void BulletWorld::begin_driving(std::vector<DrivenBody>& driven, double h) {
   std::vector<DrivenSolver::Driven> for_solver;
   for (DrivenBody& d : driven) {
-    d.contact_W = Wrench();
+    d.contact_W = d.impact_W = Wrench();
     Item& item = items_[d.body];
     if (item.leaf == nullptr) continue;
     enter(d.body);
@@ -264,7 +271,8 @@ void BulletWorld::remember() {
   for (const std::size_t i : in_world_) {
     const Item& item = items_[i];
     if (!item.movable) continue;
-    remembered_.push_back({i, item.X_WO, item.V_WO_W, item.bullet->getActivationState(), item.bullet->getDeactivationTime()});
+    remembered_.push_back(
+        {i, item.X_WO, item.V_WO_W, item.bullet->getActivationState(), item.bullet->getDeactivationTime()});
   }
 }
 
@@ -287,51 +295,83 @@ void BulletWorld::place(std::size_t body, const RigidTransform& X_WO, const Twis
   item.bullet->setDeactivationTime(0.0);
 }
 
-bool BulletWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
-                            double margin) const {
-  const Item& item = items_[body];
-  if (item.leaf == nullptr) return false;
+Extent BulletWorld::swept(const Item& item, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                          double margin) const {
   Extent way = placed(item.box_O, X0_WO);
   way.extend(placed(item.box_O, X1_WO));
   const double turned = log_so3(X0_WO.linear().transpose() * X1_WO.linear()).norm();
   const Vector3d grown = Vector3d::Constant(margin + item.radius * std::min(turned, 2.0));
-  way = Extent(way.min() - grown, way.max() + grown);
+  return Extent(way.min() - grown, way.max() + grown);
+}
+
+bool BulletWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                            double margin) const {
+  const Item& item = items_[body];
+  if (item.leaf == nullptr) return false;
+  const Extent way = swept(item, X0_WO, X1_WO, margin);
   if (way.min().z() < scene_.bench_height) return true;
   const std::vector<std::size_t> found = inside(way);
   return std::any_of(found.begin(), found.end(), [&](std::size_t i) { return i != body; });
 }
 
-RigidWorld::Freedom BulletWorld::freedom(std::size_t body, const RigidTransform& X_WO, const std::vector<Twist>& twists_W,
-                                         double least, double longest) const {
+RigidTransform BulletWorld::remembered_pose(std::size_t body) const {
+  const auto found =
+      std::find_if(remembered_.begin(), remembered_.end(), [&](const auto& r) { return r.body == body; });
+  return found == remembered_.end() ? items_[body].X_WO : found->X_WO;
+}
+
+double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                                bool untouched) const {
   const Item& item = items_[body];
-  Freedom freedom{longest, longest, false};
-  double fastest = 0.0;
-  for (const Twist& V : twists_W) fastest = std::max(fastest, V.linear.norm() + item.radius * V.angular.norm());
-  const auto limit = [&](const BoxGap& gap, bool exact) {
-    const bool near = gap.gap < 2.0 * contact_skin + least;
-    freedom.near = freedom.near || near;
-    double speed = near && !exact ? fastest : 0.0;
-    for (const Twist& V : twists_W) {
-      speed = std::max(speed, -gap.n_W.dot(V.linear) + item.radius * gap.n_W.cross(V.angular).norm());
-    }
-    const double way = near ? least : gap.gap - 2.0 * contact_skin;
-    double& time = near ? freedom.towards_near : freedom.until_near;
-    if (way < speed * time) time = way / speed;
+  double part = 1.0;
+  if (item.leaf == nullptr) return part;
+  // Of a pair whose shapes are not both boxes, only what the boxes around them say is known.
+  const auto by_extent = [&](const BoxGap& gap, const Way& way) {
+    const double left = gap.gap - 2.0 * contact_skin;
+    const bool near = left < blind_way;
+    const double turned = item.radius * (near ? way.turn_W : gap.n_W.cross(way.turn_W)).norm();
+    const double approach = (near ? way.move_W.norm() : -gap.n_W.dot(way.move_W)) + turned;
+    const double allowed = std::max(left, untouched ? 0.0 : blind_way);
+    if (allowed < part * approach) part = allowed / approach;
   };
-  const Vector3d reach = Vector3d::Constant(fastest * longest + 2.0 * contact_skin);
-  const Extent box = placed(item.box_O, X_WO);
-  const std::vector<std::size_t> near = inside(Extent(box.min() - reach, box.max() + reach));
+  const auto tolerance = [&](const BoxGap& gap) {
+    return untouched ? 0.0 : std::max(deepest_way, -gap.gap * (1.0 + 1e-9) + 1e-12);
+  };
+  const auto way_between = [](const RigidTransform& X0, const RigidTransform& X1) {
+    return Way{X0.translation(), X1.translation() - X0.translation(),
+               X0.linear() * log_so3(X0.linear().transpose() * X1.linear())};
+  };
+  const Way way = way_between(X0_WO, X1_WO);
+  const std::vector<std::size_t> near = inside(swept(item, X0_WO, X1_WO, 2.0 * contact_skin));
   for (const OutlineBox& own : item.outline_O) {
-    const OutlineBox here{X_WO * own.X, own.half, own.exact};
-    limit(gap_above(here, scene_.bench_height), own.exact);
-    for (const std::size_t i : near) {
-      if (i == body) continue;
-      for (const OutlineBox& other : items_[i].outline_O) {
-        limit(gap_between(here, {items_[i].X_WO * other.X, other.half, other.exact}), own.exact && other.exact);
+    const OutlineBox here{X0_WO * own.X, own.half, own.exact};
+    const BoxGap above = gap_above(here, scene_.bench_height);
+    if (own.exact) {
+      part = clear_above(here, way, {Vector3d::UnitZ(), scene_.bench_height}, tolerance(above), part);
+    } else {
+      by_extent(above, way);
+    }
+  }
+  for (const std::size_t i : near) {
+    if (i == body) continue;
+    const Item& other = items_[i];
+    const RigidTransform X_before = untouched ? other.X_WO : remembered_pose(i);
+    // As seen from the other, which stays where it was before.
+    const Way relative = untouched ? way : way_between(X0_WO, X_before * other.X_WO.inverse() * X1_WO);
+    for (const OutlineBox& own : item.outline_O) {
+      const OutlineBox here{X0_WO * own.X, own.half, own.exact};
+      for (const OutlineBox& box : other.outline_O) {
+        const OutlineBox there{X_before * box.X, box.half, box.exact};
+        const BoxGap gap = gap_between(here, there);
+        if (own.exact && box.exact) {
+          part = clear_of(here, relative, there, tolerance(gap), part);
+        } else {
+          by_extent(gap, relative);
+        }
       }
     }
   }
-  return freedom;
+  return part;
 }
 
 std::unique_ptr<RigidWorld> make_rigid_world(const Scene& scene) { return std::make_unique<BulletWorld>(scene); }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "bullet_boxes.h"
 #include "bullet_shape.h"
 #include "driven_solver.h"
 #include "spring_workbench/scene/outline.h"
@@ -30,8 +31,12 @@ class BulletWorld final : public RigidWorld {
   bool awake(std::size_t body) const override { return awake(items_[body]); }
   bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                  double margin) const override;
-  Freedom freedom(std::size_t body, const RigidTransform& X_WO, const std::vector<Twist>& twists_W, double least,
-                  double longest) const override;
+  double free_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const override {
+    return part_of_way(body, X0_WO, X1_WO, true);
+  }
+  double sound_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const override {
+    return part_of_way(body, X0_WO, X1_WO, false);
+  }
   const std::vector<WorldContact>& contacts() const override { return contacts_; }
   const std::vector<std::size_t>& bodies_near() const override { return in_world_; }
 
@@ -68,6 +73,10 @@ class BulletWorld final : public RigidWorld {
   void update_box(Item& item);
   std::vector<std::size_t> inside(const Eigen::AlignedBox3d& box_W) const;
   Eigen::AlignedBox3d way_of(std::size_t index, double h) const;
+  Eigen::AlignedBox3d swept(const Item& item, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                            double margin) const;
+  double part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, bool untouched) const;
+  RigidTransform remembered_pose(std::size_t body) const;
   void begin_driving(std::vector<DrivenBody>& driven, double h);
   void end_driving(const std::vector<DrivenBody>& driven);
   void take_states();
@@ -80,7 +89,7 @@ class BulletWorld final : public RigidWorld {
   std::vector<Item> items_;            ///< parallel to the scene's bodies
   btDbvt tree_;                        ///< of all of them
   std::vector<std::size_t> in_world_;  ///< those that Bullet has to look at
-  btDefaultCollisionConfiguration configuration_;
+  BoxesSeenEarly configuration_;
   btCollisionDispatcher dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
   DrivenSolver solver_;

@@ -7,7 +7,11 @@ namespace spring_workbench {
 namespace {
 
 constexpr int most_sweeps = 1000;
-constexpr double small_change = 1e-8;  ///< of the largest impulse: the sweeps end
+constexpr double small_change = 1e-8;   ///< of the largest impulse: the sweeps end
+constexpr double closed = 5e-5;         ///< [m]; a contact with a smaller gap is stopped by an impulse
+constexpr double rest_speed = 0.02;     ///< [m/s]; a slower approach does not bounce
+constexpr double recovery_time = 2e-3;  ///< [s] in which a penetration is undone
+constexpr double slow = 1e-7;           ///< [m/s]; a slower approach is none
 
 /// [linear; angular].
 Eigen::Matrix<double, 6, 1> both(const btVector3& linear, const btVector3& angular) {
@@ -20,6 +24,7 @@ Eigen::Matrix<double, 6, 1> both(const btVector3& linear, const btVector3& angul
 
 void DrivenSolver::set_driven(std::vector<Driven> driven, double h) {
   driven_ = std::move(driven);
+  impacts_.clear();
   h_ = h;
 }
 
@@ -75,7 +80,7 @@ double DrivenSolver::sweep(Rows& rows) const {
     Row& u = rows.across[2 * i];
     Row& v = rows.across[2 * i + 1];
     Eigen::Vector2d wanted(u.impulse + step_of(u), v.impulse + step_of(v));
-    const double most = m_tmpSolverContactConstraintPool[static_cast<int>(i)].m_friction * n.impulse;
+    const double most = n.friction * n.impulse;
     const double size = wanted.norm();
     if (size > most) wanted *= most / size;
     const Eigen::Vector2d slid(wanted[0] - u.impulse, wanted[1] - v.impulse);
@@ -105,13 +110,37 @@ void DrivenSolver::solve(Rows& rows) const {
     const double square = change.squaredNorm();
     if (last_square > 0.0 && square <= last_square && i + 1 < most_sweeps) {
       const double share = square / last_square;
-      for (std::size_t k = 0; k < 3 * contacts; ++k) row(k).apply(share * direction[static_cast<Eigen::Index>(k)], rows.change);
+      for (std::size_t k = 0; k < 3 * contacts; ++k)
+        row(k).apply(share * direction[static_cast<Eigen::Index>(k)], rows.change);
       direction = change + share * direction;
     } else {
       direction = change;
     }
     last_square = square;
   }
+  const bool finite =
+      std::all_of(rows.change.begin(), rows.change.end(), [](const Vector6d& v) { return v.allFinite(); });
+  if (finite) return;
+  for (std::size_t k = 0; k < 3 * contacts; ++k) row(k).impulse = 0.0;
+  std::fill(rows.change.begin(), rows.change.end(), Vector6d::Zero());
+}
+
+DrivenSolver::Vector6d DrivenSolver::velocity(int solver_body, bool at_start) const {
+  const btSolverBody& body = m_tmpSolverBodyPool[solver_body];
+  if (at_start) {
+    if (const Driven* driven = driven_of(solver_body)) {
+      Vector6d v;
+      v << driven->body->V_WO_W.linear, driven->body->V_WO_W.angular;
+      return v;
+    }
+    return both(body.m_linearVelocity, body.m_angularVelocity);
+  }
+  return both(body.m_linearVelocity + body.m_externalForceImpulse,
+              body.m_angularVelocity + body.m_externalTorqueImpulse);
+}
+
+double DrivenSolver::rate(const Row& row, bool at_start) const {
+  return row.J_a.dot(velocity(row.a, at_start)) + row.J_b.dot(velocity(row.b, at_start));
 }
 
 DrivenSolver::Rows DrivenSolver::make_rows(const btContactSolverInfo& info) {
@@ -121,16 +150,16 @@ DrivenSolver::Rows DrivenSolver::make_rows(const btContactSolverInfo& info) {
     btSolverConstraint& contact = m_tmpSolverContactConstraintPool[i];
     const auto& point = *static_cast<const btManifoldPoint*>(contact.m_originalContactPoint);
     Row n = make_row(contact);
-    // A driven body's velocity is its way over the step: its penetration is undone within it, unless that pushes a free one.
-    const double penetration = -(point.getDistance() + info.m_linearSlop);
-    const bool a_driven = driven_of(n.a) != nullptr, b_driven = driven_of(n.b) != nullptr;
-    if (penetration > 0.0 && (a_driven || b_driven)) {
-      const bool pushes = !(a_driven || n.answer_a.isZero(0.0)) || !(b_driven || n.answer_b.isZero(0.0));
-      n.target += (pushes ? info.m_erp2 : 1.0) * penetration / h_;
-    }
-    // Bullet lets a body bounce before it is there, and then loses the bounce on the rest of the way.
-    const double way_left = -penetration / h_, restitution = point.m_combinedRestitution;
-    if (way_left > 0.0 && restitution > 0.0) {
+    n.friction = contact.m_friction;
+    n.gap = point.getDistance() + info.m_linearSlop;
+    const double way_left = n.gap / h_, restitution = point.m_combinedRestitution;
+    if (drives(n)) {
+      // A driven body's velocity is its way over the step. A penetration is undone slowly, or it would become a speed.
+      const bool pushes = !(driven_of(n.a) || n.answer_a.isZero(0.0)) || !(driven_of(n.b) || n.answer_b.isZero(0.0));
+      const double undone = (pushes ? info.m_erp2 : 1.0) * std::min(1.0, h_ / recovery_time);
+      n.target = -rate(n, false) - (n.gap < 0.0 ? undone : 1.0) * way_left;
+    } else if (way_left > 0.0 && restitution > 0.0) {
+      // Bullet lets a body bounce before it is there, and then loses the bounce on the rest of the way.
       const double approach = (n.target + way_left) / (1.0 + restitution);
       n.target = approach > way_left ? n.target + way_left : approach - way_left;
     }
@@ -143,6 +172,64 @@ DrivenSolver::Rows DrivenSolver::make_rows(const btContactSolverInfo& info) {
     }
   }
   return rows;
+}
+
+DrivenSolver::Row DrivenSolver::impact_row(const Row& row) const {
+  Row impact = row;
+  if (const Driven* driven = driven_of(row.a)) impact.answer_a = driven->body->mobility * row.J_a;
+  if (const Driven* driven = driven_of(row.b)) impact.answer_b = driven->body->mobility * row.J_b;
+  impact.inverse_effective_mass = std::max(0.0, row.J_a.dot(impact.answer_a) + row.J_b.dot(impact.answer_b));
+  impact.target = -rate(row, true);
+  impact.impulse = 0.0;
+  return impact;
+}
+
+void DrivenSolver::stop_approaches(Rows& rows) {
+  Rows closing;
+  closing.change.assign(rows.change.size(), Vector6d::Zero());
+  std::vector<std::size_t> contacts;  // of those in `rows`
+  bool approach = false;
+  for (std::size_t i = 0; i < rows.normal.size(); ++i) {
+    if (rows.normal[i].gap > closed) continue;
+    Row n = impact_row(rows.normal[i]);
+    approach = approach || (drives(n) && n.target > slow);
+    const auto& contact = m_tmpSolverContactConstraintPool[static_cast<int>(i)];
+    const auto& point = *static_cast<const btManifoldPoint*>(contact.m_originalContactPoint);
+    if (n.target > rest_speed) n.target *= 1.0 + point.m_combinedRestitution;
+    closing.normal.push_back(n);
+    for (std::size_t k = 0; k < 2; ++k) closing.across.push_back(impact_row(rows.across[2 * i + k]));
+    contacts.push_back(i);
+  }
+  if (!approach) return;
+  solve(closing);
+  for (std::size_t i = 0; i < rows.change.size(); ++i) {
+    if (driven_of(static_cast<int>(i)) == nullptr) rows.change[i] += closing.change[i];
+  }
+  hand_back_impacts(closing, contacts);
+  for (std::size_t i = 0; i < rows.change.size(); ++i) {
+    const Driven* driven = driven_of(static_cast<int>(i));
+    if (driven == nullptr) continue;
+    Vector6d impact;
+    impact << driven->body->impact_W.force, driven->body->impact_W.moment;
+    rows.change[i] += driven->body->coasting * impact / h_;
+  }
+}
+
+void DrivenSolver::hand_back_impacts(const Rows& rows, const std::vector<std::size_t>& contacts) {
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const auto& contact = m_tmpSolverContactConstraintPool[static_cast<int>(contacts[i])];
+    Impact impact{static_cast<const btManifoldPoint*>(contact.m_originalContactPoint), Vector3d::Zero()};
+    for (const Row* row : {&rows.normal[i], &rows.across[2 * i], &rows.across[2 * i + 1]}) {
+      impact.impulse_W += row->impulse * row->J_a.head<3>();
+      for (const auto& [body, J] : {std::pair(row->a, &row->J_a), std::pair(row->b, &row->J_b)}) {
+        if (const Driven* driven = driven_of(body)) {
+          driven->body->impact_W.force += row->impulse * J->head<3>();
+          driven->body->impact_W.moment += row->impulse * J->tail<3>();
+        }
+      }
+    }
+    impacts_.push_back(impact);
+  }
 }
 
 void DrivenSolver::hand_back(const Rows& rows) {
@@ -161,7 +248,8 @@ void DrivenSolver::hand_back(const Rows& rows) {
     }
   };
   for (std::size_t i = 0; i < rows.normal.size(); ++i) {
-    auto& point = *static_cast<btManifoldPoint*>(m_tmpSolverContactConstraintPool[static_cast<int>(i)].m_originalContactPoint);
+    auto& point =
+        *static_cast<btManifoldPoint*>(m_tmpSolverContactConstraintPool[static_cast<int>(i)].m_originalContactPoint);
     point.m_appliedImpulse = rows.normal[i].impulse;
     point.m_appliedImpulseLateral1 = rows.across[2 * i].impulse;
     point.m_appliedImpulseLateral2 = rows.across[2 * i + 1].impulse;
@@ -178,6 +266,7 @@ btScalar DrivenSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bod
   solveGroupCacheFriendlySplitImpulseIterations(bodies, body_count, manifolds, manifold_count, constraints,
                                                 constraint_count, info, debug);
   Rows rows = make_rows(info);
+  if (!driven_.empty()) stop_approaches(rows);
   solve(rows);
   hand_back(rows);
   return 0.0;

@@ -7,8 +7,9 @@
 
 namespace spring_workbench {
 
-/// Bullet's contact solver with three changes: driven bodies answer to a load by their full 6 × 6 compliance instead of a
-/// mass; friction lies in a round cone; and the sweeps go on until they change nothing.
+/// Bullet's contact solver with four changes: driven bodies answer to a load by their full 6 × 6 compliance instead of
+/// a mass; before it, contacts of theirs that are closed and approach are stopped by impulses; friction lies in a round
+/// cone; and the sweeps go on until they change nothing.
 class DrivenSolver final : public btSequentialImpulseConstraintSolver {
  public:
   struct Driven {
@@ -18,37 +19,55 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   /// The driven bodies of the next step, which lasts `h` [s].
   void set_driven(std::vector<Driven> driven, double h);
 
+  /// What stopped a contact at the start of the last step.
+  struct Impact {
+    const btManifoldPoint* point;
+    Vector3d impulse_W;  ///< on the manifold's first body [N·s]
+  };
+  const std::vector<Impact>& impacts() const { return impacts_; }
+
  private:
-  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count, btPersistentManifold** manifolds,
-                                             int manifold_count, btTypedConstraint** constraints, int constraint_count,
+  btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
+                                             btPersistentManifold** manifolds, int manifold_count,
+                                             btTypedConstraint** constraints, int constraint_count,
                                              const btContactSolverInfo& info, btIDebugDraw* debug) override;
 
   using Vector6d = Eigen::Matrix<double, 6, 1>;
   struct Row {
-    int a, b;                  ///< solver bodies
-    Vector6d J_a, J_b;         ///< rate along the row = J_a · V_a + J_b · V_b
+    int a, b;                     ///< solver bodies
+    Vector6d J_a, J_b;            ///< rate along the row = J_a · V_a + J_b · V_b
     Vector6d answer_a, answer_b;  ///< what a unit impulse does to the bodies' velocities
     double inverse_effective_mass;
-    double target;             ///< rate that is still missing before any impulse of this solve
+    double target;  ///< rate that is still missing before any impulse of this solve
     double impulse = 0.0;
+    double friction = 0.0;  ///< of a normal row
+    double gap = 0.0;       ///< of a normal row [m]
     double rate(const std::vector<Vector6d>& change) const;
     void apply(double more, std::vector<Vector6d>& change);
   };
   Row make_row(btSolverConstraint& constraint) const;
+  Vector6d velocity(int solver_body, bool at_start) const;
+  double rate(const Row& row, bool at_start) const;
+  bool drives(const Row& row) const { return driven_of(row.a) != nullptr || driven_of(row.b) != nullptr; }
   Vector6d answer(int solver_body, const Vector6d& J, const Vector6d& as_free) const;
   const Driven* driven_of(int solver_body) const;
   struct Rows {
-    std::vector<Row> normal;          ///< one per contact
-    std::vector<Row> across;          ///< two per contact
-    std::vector<Vector6d> change;     ///< of the bodies' velocities, by the impulses so far
+    std::vector<Row> normal;       ///< one per contact
+    std::vector<Row> across;       ///< two per contact
+    std::vector<Vector6d> change;  ///< of the bodies' velocities, by the impulses so far
   };
   Rows make_rows(const btContactSolverInfo& info);
+  Row impact_row(const Row& row) const;
+  /// Stops what approaches, and takes what that does to the rest of the step into `rows`.
+  void stop_approaches(Rows& rows);
+  void hand_back_impacts(const Rows& rows, const std::vector<std::size_t>& contacts);
   /// One projected Gauss–Seidel sweep; returns the largest change of an impulse.
   double sweep(Rows& rows) const;
   void solve(Rows& rows) const;
   void hand_back(const Rows& rows);
 
   std::vector<Driven> driven_;
+  std::vector<Impact> impacts_;
   double h_ = 1.0;
 };
 

@@ -137,6 +137,23 @@ TEST(RigidWorld, BallBouncesToTheSquareOfItsRestitution) {
   EXPECT_NEAR(world.pose(0).translation().z() - 0.05, 0.64, 0.01);
 }
 
+TEST(RigidWorld, AWayEndsWhereItTouches) {
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(
+      scene_of({box("b", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(0, 0, 0.15)), box("wall", {0.001, 1, 1}, 0.0, {0.2505, 0, 0.5})},
+               ContactMode::dynamic));
+  const RigidWorld& world = *owner;
+  const auto to = [&](double x, double z) {
+    RigidTransform X = world.pose(0);
+    X.translation() += Vector3d(x, 0, z);
+    return X;
+  };
+  EXPECT_NEAR(world.free_part(0, world.pose(0), to(0, -0.2)), 0.5, 1e-9);
+  EXPECT_NEAR(world.sound_part(0, world.pose(0), to(0, -0.2)), (0.1 + 5e-5) / 0.2, 1e-9);
+  EXPECT_NEAR(world.free_part(0, world.pose(0), to(0.8, 0)), 0.25, 1e-9);  // through a wall of 1 mm
+  EXPECT_EQ(world.free_part(0, world.pose(0), to(0.2, 0)), 1.0);
+  EXPECT_EQ(world.free_part(0, world.pose(0), to(-0.8, 0.5)), 1.0);
+}
+
 TEST(RigidWorld, StackOfTenStandsAndSleeps) {
   for (const double ratio : {1.0, 1000.0}) {  // the heaviest on top
     std::vector<Body> bodies;
