@@ -44,7 +44,7 @@ class Units {
     } else if (measured_here(number)) {
       progress_.next(name);
       rows = measure();
-      if (shard_.count > 1) keep(name, rows);
+      keep(name, rows);
     } else {
       progress_.next("another shard's: " + name);
     }
@@ -53,7 +53,7 @@ class Units {
 
   Progress& progress() { return progress_; }
 
-  /// Of a shard: what has been measured. When merging: what nobody has asked for.
+  /// What has been measured here; when merging what nobody has asked for.
   const RowsByUnit& kept() const { return rows_; }
 
  private:

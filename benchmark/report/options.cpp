@@ -12,14 +12,6 @@ namespace {
 
 constexpr const char* kWhere = "command line";
 
-void make_folder(const std::string& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (!std::filesystem::is_directory(folder, error) || access(folder.c_str(), W_OK | X_OK) != 0) {
-    refuse(kWhere, "--out", folder, "a folder that can be made and written to");
-  }
-}
-
 Shard shard_of(const std::string& text) {
   constexpr std::size_t kMost = 10000;
   Shard shard;
@@ -36,7 +28,7 @@ Shard shard_of(const std::string& text) {
 
 ReportOptions parse_report_options(int argc, char** argv) {
   ReportOptions options;
-  bool has_out = false, has_shard = false;
+  bool has_out = false;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     const bool has_value = i + 1 < argc && *argv[i + 1] != '\0';
@@ -48,7 +40,6 @@ ReportOptions parse_report_options(int argc, char** argv) {
       has_out = true;
     } else if (argument == "--shard") {
       options.shard = shard_of(has_value ? argv[++i] : "(nothing)");
-      has_shard = true;
     } else if (argument == "--merge") {
       if (!has_value) refuse(kWhere, "--merge", "(nothing)", "the files of all shards");
       while (i + 1 < argc && std::string(argv[i + 1]).rfind("--", 0) != 0) options.parts.emplace_back(argv[++i]);
@@ -56,12 +47,19 @@ ReportOptions parse_report_options(int argc, char** argv) {
       refuse(kWhere, "argument", argument, "one of --quick, --out DIR, --shard I/N, --merge PART...");
     }
   }
-  if (has_shard && has_out) refuse(kWhere, "--shard, --out", "both", "one of both: a shard goes to the standard output");
-  if (!options.parts.empty() && (has_shard || options.quick)) {
+  if (options.shard && has_out) refuse(kWhere, "--shard, --out", "both", "one of both: a shard goes to the standard output");
+  if (!options.parts.empty() && (options.shard || options.quick)) {
     refuse(kWhere, "--merge", "together with --shard or --quick", "without: the files say what they are");
   }
-  if (!has_shard) make_folder(options.out);
   return options;
+}
+
+void make_folder(const std::string& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (!std::filesystem::is_directory(folder, error) || access(folder.c_str(), W_OK | X_OK) != 0) {
+    refuse(kWhere, "--out", folder, "a folder that can be made and written to");
+  }
 }
 
 }  // namespace spring_workbench::benchmark

@@ -111,7 +111,9 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   const bool merging = !options.parts.empty();
   ReportPart part;
   if (merging) part = read_parts(options.parts);
+  if (!options.shard) make_folder(options.out);
   const bool quick = merging ? part.quick : options.quick;
+  const Shard shard = options.shard.value_or(Shard{});
   const std::vector<MethodPtr> ours = our_methods();
   const Peers peers = all_peers();
   std::vector<const Method*> methods;
@@ -119,7 +121,7 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   for (const MethodPtr& method : peers.methods) methods.push_back(method.get());
   const Plan plan(quick);
   if (!merging) {
-    part.shard = options.shard;
+    part.shard = shard;
     part.quick = quick;
     part.facts = run_facts(command, peers);
     part.warning = load_warning();
@@ -128,14 +130,14 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   if (!part.warning.empty()) log << "report: " << part.warning << '\n';
 
   Progress progress(log, isatty(STDERR_FILENO) != 0, units_of(plan, methods, peers.drags, quick));
-  Units units = merging ? Units(progress, std::move(part.rows)) : Units(progress, options.shard);
+  Units units = merging ? Units(progress, std::move(part.rows)) : Units(progress, shard);
   Measurements measured = measure(plan, methods, peers.drags, quick, units);
   progress.finish();
   if (merging && !units.kept().empty()) {
     refuse("shards", "unit", units.kept().begin()->first, "one that this report has: same build, same peers, same recordings");
   }
   if (!merging) part.seconds = progress.elapsed();
-  if (options.shard.count > 1) {
+  if (options.shard) {
     part.rows = units.kept();
     write_part(part, out);
     return;

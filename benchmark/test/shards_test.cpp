@@ -92,7 +92,7 @@ TEST(Shards, MergedTheyAreTheWholeHoweverManyThereAre) {
   Units all(progress, Shard{});
   const std::string whole = work.tables(all);
   EXPECT_GT(std::count(whole.begin(), whole.end(), '\n'), 40);
-  for (const std::size_t count : {3U, 50U}) {
+  for (const std::size_t count : {1U, 3U, 50U}) {
     const Folder folder;
     std::vector<std::string> paths;
     std::size_t idle = 0;
