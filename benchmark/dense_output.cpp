@@ -31,10 +31,28 @@ void DenseOutput::push(const Moment& end) {
   ++count_;
 }
 
-Vector3d DenseOutput::at(double t) const {
-  Pack sum = divided_differences_[terms - 1];
-  for (std::size_t i = terms - 1; i-- > 0;) sum = sum * (t - t_[i]) + divided_differences_[i];
-  return {sum[0], sum[1], sum[2]};
+SPRING_WORKBENCH_WIDE Three<Pack> DenseOutput::at(const Pack& t) const {
+  const auto coefficients = [this](std::size_t i) {
+    const Pack& d = divided_differences_[i];
+    return Three<double>{d[0], d[1], d[2]};
+  };
+  Three<Pack> sum = none<Pack>() + coefficients(terms - 1);
+  for (std::size_t i = terms - 1; i-- > 0;) sum = (t - t_[i]) * sum + coefficients(i);
+  return sum;
+}
+
+void DenseOutput::append(const std::vector<double>& times, std::vector<Vector3d>& outputs) const {
+  if (count_ < ends) return;
+  const double end = t_[3] + 1e-9;
+  while (outputs.size() < times.size() && times[outputs.size()] < end) {
+    Pack t{};
+    int count = 0;
+    for (; count < pack_size && outputs.size() + count < times.size() && times[outputs.size() + count] < end; ++count) {
+      t[count] = times[outputs.size() + count];
+    }
+    const Three<Pack> values = at(t);
+    for (int i = 0; i < count; ++i) outputs.push_back(vector(values, i));
+  }
 }
 
 }  // namespace spring_workbench::benchmark

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <vector>
 
 #include "spring_workbench/math/pack.h"
 
@@ -21,13 +22,14 @@ class DenseOutput {
 
   /// The next end of a step, later than the last one.
   void push(const Moment& end);
-  /// Whether outputs are known, which takes four ends: up to end() [s], the last end but one.
-  bool known() const { return count_ >= ends; }
-  double end() const { return t_[3]; }
-  Vector3d at(double t) const;
+  /// Appends to `outputs` those at the next of `times` [s, ascending] that are known: from four ends on up to the last one
+  /// but one.
+  void append(const std::vector<double>& times, std::vector<Vector3d>& outputs) const;
 
  private:
   static constexpr std::size_t ends = 4, terms = 3 * ends;
+
+  Three<Pack> at(const Pack& t) const;
 
   std::size_t count_ = 0;        ///< ends that were pushed
   std::array<double, terms> t_;  ///< the ends, each three times, the last one first

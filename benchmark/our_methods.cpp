@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "benchmark/dense_output.h"
@@ -46,53 +47,47 @@ PoseSample handle_sample(const Scenario& scene, double t) {
   return sample;
 }
 
-/// The handle as a function of time, asked for its pose, velocity and acceleration at times `interval` apart as time goes
-/// on.
-class FunctionHand {
+/// The handle as a function of time.
+class FunctionHand final : public FrameMotion {
  public:
-  FunctionHand(const Scenario& scene, double interval) : scene_(scene), interval_(interval), newest_(sample(0.0)) {}
+  explicit FunctionHand(const Scenario& scene) : scene_(scene) {}
 
-  /// The segment of the step that starts at `t`; steps come in order.
-  const MotionSegment& at(double t) {
-    if (t > newest_.pose.t - 1e-9) {
-      const MotionSample older = newest_;
-      newest_ = sample(older.pose.t + interval_);
-      segment_ = MotionSegment(older, newest_);
-    }
-    return segment_;
+  const FrameMotion& at(double) const { return *this; }
+
+  OwnAxesMotion in_own_axes(double t) const override {
+    const HandMotion& hand = motion(t);
+    OwnAxesMotion m;
+    m.X.linear() = hand.state.R_WT;
+    m.X.translation() = hand.state.p_WT;
+    m.v_W = hand.state.v_WT_W;
+    m.a_W = hand.acceleration.a_WT_W;
+    m.w_B = hand.state.w_WT_T;
+    m.alpha_B = hand.acceleration.alpha_WT_T;
+    return m;
   }
-  void set_interval(double interval) { interval_ = interval; }
-  /// At the newest moment that it was asked for: the end of the last segment.
-  HandleForcing forcing() const {
-    HandleForcing f;
-    f.t = newest_.pose.t;
-    f.X_WH = newest_.pose.X;
-    f.v_WH_W = newest_.v_W;
-    f.angular_velocity = newest_.w_B;
-    f.angular_acceleration = newest_.alpha_B;
-    f.acceleration_less_gravity.noalias() =
-        newest_.pose.X.linear().transpose() * (newest_.a_W + scene_.gravity * Vector3d::UnitZ());
+  FrameForcing<Pack> forcing(const Pack& t, double gravity) const override {
+    FrameForcing<Pack> f;
+    for (int i = 0; i < pack_size; ++i) {
+      const HandMotion& hand = motion(t[i]);
+      const ThreeByThree<double> R = three_by_three(hand.state.R_WT);
+      set_lane(f.R_WB, i, R);
+      set_lane(f.w_B, i, three(hand.state.w_WT_T));
+      set_lane(f.alpha_B, i, three(hand.acceleration.alpha_WT_T));
+      set_lane(f.a_B, i, transposed(R, three(hand.acceleration.a_WT_W) + Three<double>{0.0, 0.0, gravity}));
+    }
     return f;
   }
 
  private:
-  MotionSample sample(double t) const {
-    const auto [state, acceleration] = handle_motion(scene_, t);
-    MotionSample s;
-    s.pose.t = t;
-    s.pose.X.linear() = state.R_WT;
-    s.pose.X.translation() = state.p_WT;
-    s.v_W = state.v_WT_W;
-    s.a_W = acceleration.a_WT_W;
-    s.w_B = state.w_WT_T;
-    s.alpha_B = acceleration.alpha_WT_T;
-    return s;
+  /// Asked once where a step begins at the end of the last one.
+  const HandMotion& motion(double t) const {
+    if (t != t_) newest_ = handle_motion(scene_, t_ = t);
+    return newest_;
   }
 
   const Scenario& scene_;
-  double interval_;
-  MotionSample newest_;
-  MotionSegment segment_{RigidTransform::Identity()};
+  mutable double t_ = std::numeric_limits<double>::quiet_NaN();
+  mutable HandMotion newest_;
 };
 
 /// The handle by the poses of a tracker that samples once an output interval.
@@ -103,7 +98,7 @@ class SampledHand {
   }
 
   /// The segment of the step that starts at `t`; steps come in order. The tracker is a sample ahead of its end.
-  const MotionSegment& at(double t) {
+  const FrameMotion& at(double t) {
     for (; (newest_ - 2) * scene_.output_interval < t + 1e-9; ++newest_) {
       track_.push(handle_sample(scene_, newest_ * scene_.output_interval));
       track_.forget_before(t);
@@ -120,7 +115,7 @@ class SampledHand {
 /// One step that is thrown away: what an integrator derives from stiffness and mass is set up, as the peers' models are.
 void set_up(const Scenario& scene, const HeldBody& body, double step, Integrator& integrator) {
   StrainState state = body.zero_state();
-  integrator.step(body, FunctionHand(scene, step).at(0.0), 0.0, step, state);
+  integrator.step(body, FunctionHand(scene), 0.0, step, state);
 }
 
 template <typename Hand>
@@ -129,15 +124,15 @@ RunResult run_on(const Scenario& scene, const std::string& name, double step, Ha
   const std::unique_ptr<Integrator> integrator = make_integrator(name);
   set_up(scene, body, scene.output_interval / steps_per_output(scene, step), *integrator);
   StrainState state = body.zero_state();
-  const MotionSegment* segment = &hand.at(0.0);
+  const FrameMotion* motion = &hand.at(0.0);
   return stepping_loop(
       scene, step,
       [&](double t, double h) {
-        segment = &hand.at(t);
-        integrator->step(body, *segment, t, h, state);
+        motion = &hand.at(t);
+        integrator->step(body, *motion, t, h, state);
       },
       [&](double t) -> Vector3d {
-        const HandleForcing handle = body.forcing(*segment, t);
+        const HandleForcing handle = body.forcing(*motion, t);
         if (scene.kind != SceneKind::torsion) return body.object(handle, state).X.translation();
         return {0.0, 0.0, log_so3(handle.X_WH.linear()).z() + state.q[0]};
       });
@@ -173,25 +168,22 @@ RunResult run_in_long_steps(const Scenario& scene, const std::string& name, doub
   const std::unique_ptr<Integrator> integrator = make_integrator(name);
   const std::vector<double> times = output_times(scene);
   const Start begin(scene, step);
-  FunctionHand hand(scene, begin.step);
+  const FunctionHand hand(scene);
   set_up(scene, body, begin.step, *integrator);
   StrainState state = body.zero_state();
   DenseOutput dense;
   RunResult result;
   result.outputs.reserve(times.size());
   const auto start = std::chrono::steady_clock::now();
-  dense.push(moment(scene, body, hand.forcing(), state));
+  dense.push(moment(scene, body, body.forcing(hand, 0.0), state));
   for (double t = 0.0; result.outputs.size() < times.size();) {
     const double h = t < begin.duration - 1e-9 ? begin.step : step;
-    hand.set_interval(h);
-    integrator->step(body, hand.at(t), t, h, state);
+    integrator->step(body, hand, t, h, state);
     t += h;
-    const Moment end = moment(scene, body, hand.forcing(), state);
+    const Moment end = moment(scene, body, body.forcing(hand, t), state);
     if (!is_bounded(end.value)) return result;
     dense.push(end);
-    while (dense.known() && result.outputs.size() < times.size() && times[result.outputs.size()] < dense.end() + 1e-9) {
-      result.outputs.push_back(dense.at(times[result.outputs.size()]));
-    }
+    dense.append(times, result.outputs);
   }
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.finite = true;
@@ -210,19 +202,10 @@ class OurMethod : public Method {
     const Scenario scene = with_length_of_its_slopes(given);
     if (dense() && step > (1.0 + 1e-9) * scene.output_interval) return run_in_long_steps(scene, integrator_, step);
     if (samples_) return run_on(scene, integrator_, step, SampledHand(scene));
-    const double interval = scene.output_interval / asked_per_output(steps_per_output(scene, step));
-    return run_on(scene, integrator_, step, FunctionHand(scene, interval));
+    return run_on(scene, integrator_, step, FunctionHand(scene));
   }
 
  private:
-  /// How often the function is asked in an output interval: a divisor of the number of steps.
-  static int asked_per_output(int steps) {
-    constexpr int most = 64;
-    int stride = (steps + most - 1) / most;
-    while (steps % stride != 0) ++stride;
-    return steps / stride;
-  }
-
   std::string integrator_;
   bool samples_;
 };

@@ -32,16 +32,18 @@ TEST(DenseOutput, IsExactForPolynomialsOfDegreeElevenOnUnevenSteps) {
     }
     return m;
   };
+  std::vector<double> times;
+  for (int i = 0; i < 100; ++i) times.push_back(0.01 * i);
   DenseOutput dense;
-  double reached = 0.0;
-  int looks = 0;
+  std::vector<Vector3d> outputs;
   for (const double t : {0.0, 0.1, 0.25, 0.3, 0.5, 0.8, 0.95}) {
     dense.push(moment(t));
-    for (; dense.known() && reached <= dense.end(); reached += 0.01, ++looks) {
-      EXPECT_LT((dense.at(reached) - moment(reached).value).norm(), 1e-13) << reached;
-    }
+    dense.append(times, outputs);
   }
-  EXPECT_GT(looks, 75);
+  ASSERT_EQ(outputs.size(), 81);  // up to the last end but one
+  for (std::size_t i = 0; i < outputs.size(); ++i) {
+    EXPECT_LT((outputs[i] - moment(times[i]).value).norm(), 1e-13) << times[i];
+  }
 }
 
 TEST(OurMethods, EveryIntegratorIsThereWithBothHands) {
@@ -71,7 +73,7 @@ TEST(OurMethods, EachConvergesToTheReferencesWithItsOrder) {
   }
 }
 
-TEST(OurMethods, ExponentialHasNoErrorBesideTheHandsInOneCoordinateWhateverStiffnessStepAndDamping) {
+TEST(OurMethods, ExponentialIsAccurateInOneCoordinateWhateverStiffnessStepAndDamping) {
   std::vector<Scenario> scenes;
   for (const double zeta : {0.1, 1.0, 3.0}) {
     for (int decade = 0; decade <= 8; ++decade) {
@@ -83,7 +85,7 @@ TEST(OurMethods, ExponentialHasNoErrorBesideTheHandsInOneCoordinateWhateverStiff
     if (method->name() != "exponential" || !knows_function(*method)) continue;
     for (const Scenario& scene : scenes) {
       for (const int steps : {1, 3, 16}) {
-        EXPECT_LT(error_at(*method, scene, steps), 1e-5 * hand_amplitude(scene))
+        EXPECT_LT(error_at(*method, scene, steps), 1e-7 * hand_amplitude(scene))
             << scene.name << " × " << scene.stiffness_factor << ", zeta " << scene.damping_ratio << ", " << steps;
       }
     }

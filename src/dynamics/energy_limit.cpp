@@ -35,7 +35,7 @@ bool applies(const HeldBody& body, const HandleForcing& begin, const HandleForci
 
 }  // namespace
 
-bool hold_energy(const HeldBody& body, const MotionSegment& handle, double t, double h, const StrainState& begin,
+bool hold_energy(const HeldBody& body, const FrameMotion& handle, double t, double h, const StrainState& begin,
                  StrainState& end, StepControl::Memory& memory) {
   const HandleForcing from = body.forcing(handle, t), to = body.forcing(handle, t + h);
   if (!applies(body, from, to)) {

@@ -60,7 +60,7 @@ SPRING_WORKBENCH_INLINE Eigen::Matrix<double, rows, 1> times(const Eigen::Matrix
 class Exponential::Core {
  public:
   virtual ~Core() = default;
-  virtual StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+  virtual StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h,
                             StrainState& state) = 0;
   virtual bool response(const HeldBody& body, double h, Response& r) = 0;
 };
@@ -68,7 +68,7 @@ class Exponential::Core {
 template <int n>
 class Exponential::CoreOf final : public Core {
  public:
-  StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h,
                     StrainState& state) override {
     State s{state.q, state.q_dot};
     const Estimate e = step(body, handle, t, h, s, 0);
@@ -274,7 +274,7 @@ class Exponential::CoreOf final : public Core {
     return e;
   }
 
-  Estimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, State& state, int halvings) {
+  Estimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, State& state, int halvings) {
     constexpr auto& c = Collocation::nodes;
     const HandleForcings forcing = body.forcing(handle, t + Pack{c[0], c[1], c[2], c[3]} * h);
     const State begin = state;
@@ -452,7 +452,7 @@ Exponential::Core& Exponential::core(int n) {
   return *core_;
 }
 
-StepEstimate Exponential::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+StepEstimate Exponential::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
                                StrainState& state) {
   if (body.size() == 0) return {StrainVector::Zero(0), 0.0};
   return core(body.size()).step(body, handle, t, h, state);

@@ -21,7 +21,7 @@ class Exponential final : public Integrator {
   int order() const override { return 5; }
   bool unlimited() const override { return true; }
   bool estimates_after_jumps() const override { return false; }  // the cubic's differences do not see what it misses
-  StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
   Response response(const HeldBody& body, double t, double h, const StrainState& state) override;
 
  private:

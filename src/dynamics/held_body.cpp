@@ -176,7 +176,7 @@ void HeldBody::set_external_wrench(const Wrench& wrench_W) {
   ++load_version_;
 }
 
-HandleForcing HeldBody::forcing(const MotionSegment& handle, double t) const {
+HandleForcing HeldBody::forcing(const FrameMotion& handle, double t) const {
   const OwnAxesMotion m = handle.in_own_axes(t);
   HandleForcing f;
   f.t = t;
@@ -202,7 +202,7 @@ void HeldBody::expand(double t, const StrainVector& q, const StrainVector& q_dot
   }
 }
 
-HandleForcings HeldBody::forcing(const MotionSegment& handle, const Pack& t) const {
+HandleForcings HeldBody::forcing(const FrameMotion& handle, const Pack& t) const {
   return {t, handle.forcing(t, gravity_)};
 }
 

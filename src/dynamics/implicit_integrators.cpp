@@ -51,7 +51,7 @@ StrainMatrix ImplicitMatrix::solve(const StrainMatrix& b) const {
   return scale_.asDiagonal() * lu_.solve(StrainMatrix(scale_.asDiagonal() * b));
 }
 
-StepEstimate ImplicitEuler::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+StepEstimate ImplicitEuler::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
                                  StrainState& state) {
   const HandleForcing end = body.forcing(handle, t + h);
   const StrainVector a_begin = body.acceleration(body.forcing(handle, t), state.q, state.q_dot);
@@ -146,13 +146,13 @@ struct StepStart {
   StrainVector q_ddot;
   LinearisedMotion motion;
 
-  StepStart(const HeldBody& body, const MotionSegment& handle, double t, const StrainState& state)
+  StepStart(const HeldBody& body, const FrameMotion& handle, double t, const StrainState& state)
       : forcing(body.forcing(handle, t)),
         q_ddot(body.acceleration(forcing, state.q, state.q_dot)),
         motion(body, forcing, state, q_ddot) {}
 };
 
-StrainState rodas_step(const HeldBody& body, const MotionSegment& handle, double t, double h, const StrainState& from,
+StrainState rodas_step(const HeldBody& body, const FrameMotion& handle, double t, double h, const StrainState& from,
                        const StepStart& start) {
   const auto acceleration = [&](double c, const StrainVector& q, const StrainVector& v) {
     return c == 0.0 ? start.q_ddot : body.acceleration(body.forcing(handle, t + c * h), q, v);
@@ -168,7 +168,7 @@ StrainState rodas_step(const HeldBody& body, const MotionSegment& handle, double
 
 }  // namespace
 
-StepEstimate Rosenbrock::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+StepEstimate Rosenbrock::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
                               StrainState& state) {
   // Between 2⁴ − 1 of smooth motions and the 2 − 1 of the stiffest.
   constexpr double finer_by = 10.0;

@@ -34,7 +34,7 @@ class ImplicitEuler final : public Integrator {
   std::string name() const override { return "implicit_euler"; }
   int order() const override { return 1; }
   bool unlimited() const override { return true; }
-  StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
 };
 
 /// Rosenbrock method of order four, stiffly accurate and L-stable, without loss of order in stiff forced systems: RODASP
@@ -45,7 +45,7 @@ class Rosenbrock final : public Integrator {
   std::string name() const override { return "rosenbrock"; }
   int order() const override { return 4; }
   bool unlimited() const override { return true; }
-  StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
   Response response(const HeldBody& body, double t, double h, const StrainState& state) override;
 };
 

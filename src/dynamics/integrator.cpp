@@ -56,7 +56,7 @@ void LastAcceleration::keep(const HeldBody& body, const HandleForcing& handle, c
   q_ddot_ = q_ddot;
 }
 
-StepEstimate SemiImplicitEuler::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+StepEstimate SemiImplicitEuler::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
                                      StrainState& state) {
   const StrainVector a = last_.get(body, body.forcing(handle, t), state);
   state.q_dot += h * a;
@@ -77,7 +77,7 @@ struct StepEnd {
 
 /// The error at the end of a step of a method of order up to four, from how far the quintic through both ends is from
 /// obeying the equation of motion at a quarter and at three quarters of the step.
-StepEstimate end_error(const HeldBody& body, const MotionSegment& handle, double t, double h, const StepEnd& begin,
+StepEstimate end_error(const HeldBody& body, const FrameMotion& handle, double t, double h, const StepEnd& begin,
                        const StepEnd& end) {
   // The quintic's second derivative by an end that is off by (e, h ė = g): (H'' e + G'' g) / h², H and G its shapes.
   const auto defect = [&](double u) {
@@ -91,7 +91,7 @@ StepEstimate end_error(const HeldBody& body, const MotionSegment& handle, double
 
 }  // namespace
 
-StepEstimate RungeKutta4::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+StepEstimate RungeKutta4::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
                                StrainState& state) {
   const StrainState s0 = state;
   const StrainVector a1 = last_.get(body, body.forcing(handle, t), s0);
@@ -110,7 +110,7 @@ StepEstimate RungeKutta4::step(const HeldBody& body, const MotionSegment& handle
   return end_error(body, handle, t, h, {s0, a1}, {state, a_end});
 }
 
-StepEstimate ClosedForm::step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+StepEstimate ClosedForm::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
                               StrainState& state) {
   const StrainVector a = last_.get(body, body.forcing(handle, t), state);
   const StrainMatrix M = body.mass_matrix(t, state.q);

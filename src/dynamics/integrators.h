@@ -23,7 +23,7 @@ class SemiImplicitEuler final : public Integrator {
  public:
   std::string name() const override { return "semi_implicit_euler"; }
   int order() const override { return 1; }
-  StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
 
  private:
   LastAcceleration last_;
@@ -34,7 +34,7 @@ class RungeKutta4 final : public Integrator {
  public:
   std::string name() const override { return "rk4"; }
   int order() const override { return 4; }
-  StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
 
  private:
   LastAcceleration last_;
@@ -47,7 +47,7 @@ class ClosedForm final : public Integrator {
  public:
   std::string name() const override { return "closed_form"; }
   int order() const override { return 1; }
-  StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
 
  private:
   LastAcceleration last_;

@@ -56,7 +56,7 @@ double radius_of_gyration(const BodyInertia& body) { return std::sqrt(0.5 * body
 
 struct StepControl::Span {
   const HeldBody& body;
-  const MotionSegment& handle;
+  const FrameMotion& handle;
   Memory& memory;
   ControlledStep report;
   double longest_to_stop;  ///< [s]; a step up to this may end at the end of the fork's way
@@ -71,7 +71,7 @@ struct StepControl::Span {
 StepControl::StepControl(std::unique_ptr<Integrator> integrator, double tolerance)
     : integrator_(std::move(integrator)), tolerance_(tolerance) {}
 
-ControlledStep StepControl::advance(const HeldBody& body, const MotionSegment& handle, double t, double h,
+ControlledStep StepControl::advance(const HeldBody& body, const FrameMotion& handle, double t, double h,
                                     StrainState& state, Memory& memory) const {
   Span span{body, handle, memory, {}, (1.0 + 1e-9) * std::ldexp(h, -halvings_to_stop)};
   const Memory before = memory;

@@ -13,18 +13,7 @@ bool no_turn(const PoseSample& a, const Vector3d& w_a, const PoseSample& b, cons
 
 MotionSegment::Polynomial MotionSegment::Polynomial::cubic(const Vector3d& change, const Vector3d& slope_a,
                                                            const Vector3d& slope_b) {
-  return {{slope_a, 3.0 * change - 2.0 * slope_a - slope_b, slope_a + slope_b - 2.0 * change, Vector3d::Zero(),
-           Vector3d::Zero()}};
-}
-
-MotionSegment::Polynomial MotionSegment::Polynomial::quintic(const Vector3d& change, const Vector3d& slope_a,
-                                                             const Vector3d& slope_b, const Vector3d& curve_a,
-                                                             const Vector3d& curve_b) {
-  // What is left of change, slope and second derivative at the end after the terms of the start.
-  const Vector3d x = change - slope_a - 0.5 * curve_a;
-  const Vector3d v = slope_b - slope_a - curve_a;
-  const Vector3d a = curve_b - curve_a;
-  return {{slope_a, 0.5 * curve_a, 10.0 * x - 4.0 * v + 0.5 * a, 7.0 * v - 15.0 * x - a, 6.0 * x - 3.0 * v + 0.5 * a}};
+  return {{slope_a, 3.0 * change - 2.0 * slope_a - slope_b, slope_a + slope_b - 2.0 * change}};
 }
 
 MotionSegment::MotionSegment(const RigidTransform& X, double begin, double end)
@@ -38,24 +27,6 @@ MotionSegment::MotionSegment(const PoseSample& a, const Vector3d& v_a, const Vec
   if (!turning_) return;
   const Vector3d theta_b = log_so3(a.X.linear().transpose() * b.X.linear());
   rotation_ = Polynomial::cubic(theta_b, h * w_a_B, h * (right_jacobian_inverse_so3(theta_b) * w_b_B));
-}
-
-MotionSegment::MotionSegment(const MotionSample& a, const MotionSample& b)
-    : X_a_(a.pose.X),
-      begin_(a.pose.t),
-      end_(b.pose.t),
-      moving_(true),
-      turning_(!(no_turn(a.pose, a.w_B, b.pose, b.w_B) && a.alpha_B.isZero(0.0) && b.alpha_B.isZero(0.0))) {
-  const double h = b.pose.t - a.pose.t;
-  position_ = Polynomial::quintic(b.pose.X.translation() - a.pose.X.translation(), h * a.v_W, h * b.v_W,
-                                  h * h * a.a_W, h * h * b.a_W);
-  if (!turning_) return;
-  const Vector3d theta_b = log_so3(a.pose.X.linear().transpose() * b.pose.X.linear());
-  const Matrix3d inverse = right_jacobian_inverse_so3(theta_b);
-  const Vector3d slope_b = h * (inverse * b.w_B);
-  // alpha = J_r θ̈ + J̇_r θ̇; at θ = 0 the second term is −½ θ̇ × θ̇ = 0.
-  const Vector3d curve_b = inverse * (h * h * b.alpha_B - right_jacobian_rate_so3(theta_b, slope_b, slope_b));
-  rotation_ = Polynomial::quintic(theta_b, h * a.w_B, slope_b, h * h * a.alpha_B, curve_b);
 }
 
 double MotionSegment::begin() const { return begin_; }

@@ -85,8 +85,8 @@ class HeldBody {
   StrainVector stiffness() const;  ///< diagonal of K, active coordinates
   StrainMatrix damping() const;    ///< D, active coordinates
 
-  HandleForcing forcing(const MotionSegment& handle, double t) const;
-  HandleForcings forcing(const MotionSegment& handle, const Pack& t) const;
+  HandleForcing forcing(const FrameMotion& handle, double t) const;
+  HandleForcings forcing(const FrameMotion& handle, const Pack& t) const;
   /// q̈ of the active coordinates.
   StrainVector acceleration(const HandleForcing& handle, const StrainVector& q, const StrainVector& q_dot) const;
   /// The same for `n` = size(), 1 … 6, known to the compiler: for integrators.

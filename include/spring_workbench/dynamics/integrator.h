@@ -31,7 +31,7 @@ class Integrator {
   virtual bool estimates_after_jumps() const { return true; }
 
   /// Carries `state` from `t` to `t + h` [s], h > 0; `handle` must cover that time.
-  virtual StepEstimate step(const HeldBody& body, const MotionSegment& handle, double t, double h,
+  virtual StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h,
                             StrainState& state) = 0;
 
   /// How the state at the end of the step depends on a constant generalised force Q over the step, to first order:

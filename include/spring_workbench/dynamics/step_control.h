@@ -51,7 +51,7 @@ class StepControl {
   double tolerance() const { return tolerance_; }  ///< [m]
 
   /// From `t` to `t + h` [s], h > 0; `handle` must cover that time.
-  ControlledStep advance(const HeldBody& body, const MotionSegment& handle, double t, double h, StrainState& state,
+  ControlledStep advance(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state,
                          Memory& memory) const;
 
   static constexpr double undamped_horizon = 1.0;  ///< [s]

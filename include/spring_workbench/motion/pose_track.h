@@ -3,7 +3,7 @@
 #include <deque>
 #include <limits>
 
-#include "spring_workbench/math/pack.h"
+#include "spring_workbench/motion/frame_motion.h"
 
 namespace spring_workbench {
 
@@ -13,41 +13,9 @@ struct PoseSample {
   RigidTransform X = RigidTransform::Identity();
 };
 
-/// A frame's motion at one moment, in world axes: pose, velocity [m/s, rad/s] and acceleration [m/s², rad/s²].
-struct MotionState {
-  RigidTransform X = RigidTransform::Identity();
-  Twist velocity;
-  Twist acceleration;
-};
-
-/// The same with the angular parts as body rates, in the frame's own axes.
-struct OwnAxesMotion {
-  RigidTransform X = RigidTransform::Identity();  ///< X_WB
-  Vector3d v_W = Vector3d::Zero();                ///< [m/s]
-  Vector3d a_W = Vector3d::Zero();                ///< [m/s²]
-  Vector3d w_B = Vector3d::Zero();                ///< [rad/s]
-  Vector3d alpha_B = Vector3d::Zero();            ///< [rad/s²]
-};
-
-/// What a moving frame B feels, in its own axes, at one moment or at several.
-template <typename S>
-struct FrameForcing {
-  ThreeByThree<S> R_WB;
-  Three<S> w_B;      ///< [rad/s]
-  Three<S> alpha_B;  ///< [rad/s²]
-  Three<S> a_B;      ///< of the origin, less gravity [m/s²]
-};
-
-/// A sample with its derivatives: the body rates and angular acceleration in the body's own axes.
-struct MotionSample {
-  PoseSample pose;
-  Vector3d v_W = Vector3d::Zero(), a_W = Vector3d::Zero();      ///< [m/s, m/s²]
-  Vector3d w_B = Vector3d::Zero(), alpha_B = Vector3d::Zero();  ///< [rad/s, rad/s²]
-};
-
-/// The motion between two neighbouring samples: a Hermite polynomial in position and in rotation vector, cubic from
-/// samples with velocities (see doc/model.md), quintic where accelerations are known as well.
-class MotionSegment {
+/// The motion between two neighbouring samples: a cubic Hermite polynomial in position and in rotation vector from the
+/// velocities at both (see doc/model.md).
+class MotionSegment final : public FrameMotion {
  public:
   /// Rests at `X` from `begin` to `end` [s]; for ever where they are not given.
   explicit MotionSegment(const RigidTransform& X, double begin = -std::numeric_limits<double>::infinity(),
@@ -56,8 +24,6 @@ class MotionSegment {
   /// `w_*_B` the body rates in the body's own axes.
   MotionSegment(const PoseSample& a, const Vector3d& v_a, const Vector3d& w_a_B, const PoseSample& b,
                 const Vector3d& v_b, const Vector3d& w_b_B);
-  /// The quintic from `a` to `b` (`a.pose.t < b.pose.t`) with velocities and accelerations at both.
-  MotionSegment(const MotionSample& a, const MotionSample& b);
 
   /// The motion of a frame C that stands at `X_BC` in this one, B, fixed to it.
   MotionSegment of_frame(const RigidTransform& X_BC) const;
@@ -66,28 +32,25 @@ class MotionSegment {
   double end() const;    ///< [s]; infinity for a frame at rest
   /// State at time `t` [s], begin() ≤ t ≤ end().
   MotionState at(double t) const;
-  OwnAxesMotion in_own_axes(double t) const;
-  /// At the times `t` [s], with `gravity` [m/s²] along −z of world.
-  FrameForcing<Pack> forcing(const Pack& t, double gravity) const;
+  OwnAxesMotion in_own_axes(double t) const override;
+  FrameForcing<Pack> forcing(const Pack& t, double gravity) const override;
 
  private:
   /// `u (c[0] + u (c[1] + …))` for u = 0 … 1 over the segment: what a vector adds to its value at the start.
   struct Polynomial {
-    Vector3d c[5];
+    Vector3d c[3];
     static Polynomial cubic(const Vector3d& change, const Vector3d& slope_a, const Vector3d& slope_b);
-    static Polynomial quintic(const Vector3d& change, const Vector3d& slope_a, const Vector3d& slope_b,
-                              const Vector3d& curve_a, const Vector3d& curve_b);
     template <typename S>
     SPRING_WORKBENCH_INLINE Three<S> value(const S& u) const {
-      return u * (three(c[0]) + u * (three(c[1]) + u * (three(c[2]) + u * (three(c[3]) + u * three(c[4])))));
+      return u * (three(c[0]) + u * (three(c[1]) + u * three(c[2])));
     }
     template <typename S>
     SPRING_WORKBENCH_INLINE Three<S> first(const S& u) const {
-      return three(c[0]) + u * (2.0 * three(c[1]) + u * (3.0 * three(c[2]) + u * (4.0 * three(c[3]) + u * (5.0 * three(c[4])))));
+      return three(c[0]) + u * (2.0 * three(c[1]) + u * (3.0 * three(c[2])));
     }
     template <typename S>
     SPRING_WORKBENCH_INLINE Three<S> second(const S& u) const {
-      return 2.0 * three(c[1]) + u * (6.0 * three(c[2]) + u * (12.0 * three(c[3]) + u * (20.0 * three(c[4]))));
+      return 2.0 * three(c[1]) + u * (6.0 * three(c[2]));
     }
   };
 

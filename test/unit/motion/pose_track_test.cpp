@@ -201,32 +201,6 @@ TEST(MotionSegment, CubicMotionIsExact) {
 
 /// The three-point rule is exact for parabolas and for a constant rate at uneven stamps; at the ends, the chord for the
 /// latter.
-TEST(MotionSegment, QuinticHasTheAccelerationsOfItsSamples) {
-  Random random(21);
-  for (int trial = 0; trial < 20; ++trial) {
-    MotionSample a, b;
-    a.pose.t = random.number(-1.0, 1.0);
-    a.pose.X = random.pose();
-    b.pose.t = a.pose.t + random.number(0.01, 0.5);
-    b.pose.X = a.pose.X;
-    b.pose.X.linear() = a.pose.X.linear() * exp_so3(random.vector(1.0));
-    b.pose.X.translation() += random.vector(0.5);
-    for (MotionSample* s : {&a, &b}) {
-      s->v_W = random.vector(2.0);
-      s->a_W = random.vector(9.0);
-      s->w_B = random.vector(2.0);
-      s->alpha_B = random.vector(9.0);
-    }
-    const MotionSegment segment(a, b);
-    for (const MotionSample* s : {&a, &b}) {
-      const OwnAxesMotion m = segment.in_own_axes(s->pose.t);
-      EXPECT_LT(distance(m.X, s->pose.X), 1e-13);
-      EXPECT_LT((m.v_W - s->v_W).norm() + (m.w_B - s->w_B).norm(), 1e-11);
-      EXPECT_LT((m.a_W - s->a_W).norm() + (m.alpha_B - s->alpha_B).norm(), 1e-8);
-    }
-  }
-}
-
 TEST(PoseTrack, ParabolaAndConstantRateAreExact) {
   Random random(7);
   const Vector3d c0 = random.vector(1.0), c1 = random.vector(1.0), c2 = random.vector(3.0), w_B = random.vector(3.0);
