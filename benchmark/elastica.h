@@ -28,6 +28,11 @@ struct ElasticaRow {
   double tip_error = 0.0;  ///< distance of the tips over the length
   double slope_error = 0.0;  ///< [rad]
 };
+template <typename Fields>
+void each_field(ElasticaRow& r, Fields& fields) {
+  fields(r.shape, r.alpha, r.exact.slope, r.exact.deflection, r.exact.shortening, r.model.slope, r.model.deflection,
+         r.model.shortening, r.tip_error, r.slope_error);
+}
 std::vector<ElasticaRow> elastica_table();
 
 /// What one evaluation of the equation of motion costs with a shape model, all families on [ns].

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
 #include <sstream>
 
 namespace spring_workbench::benchmark {
@@ -133,16 +134,18 @@ std::size_t line_count(const std::vector<const Method*>& methods, const ErrorTab
   return methods.size() * plan.scenes.size();
 }
 
-std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan,
-                                  Progress& progress) {
+std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan, Units& units) {
   std::vector<ErrorRow> all;
+  std::size_t number = 0;
   for (const Scenario& scene : plan.scenes) {
-    const ReferenceSolution reference = reference_solution(scene);
+    std::optional<ReferenceSolution> reference;
     for (const Method* method : methods) {
-      std::ostringstream what;
-      what << scene.name << " × " << scene.stiffness_factor << ' ' << method->name();
-      progress.next(what.str());
-      const std::vector<ErrorRow> rows = error_rows(*method, scene, reference, plan);
+      std::ostringstream name;
+      name << scene.name << " × " << scene.stiffness_factor << ' ' << method->name() << ", hand by " << method->hand();
+      const std::vector<ErrorRow> rows = units.rows<ErrorRow>(number++, name.str(), [&] {
+        if (!reference) reference = reference_solution(scene);
+        return error_rows(*method, scene, *reference, plan);
+      });
       all.insert(all.end(), rows.begin(), rows.end());
     }
   }

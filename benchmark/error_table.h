@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "benchmark/method.h"
-#include "benchmark/progress.h"
 #include "benchmark/reference_solution.h"
+#include "benchmark/units.h"
 
 namespace spring_workbench::benchmark {
 
@@ -46,6 +46,13 @@ struct ErrorRow {
   bool given_up = false;               ///< of rods run to a tolerance: not finished in the time that was left for it
 };
 
+template <typename Fields>
+void each_field(ErrorRow& r, Fields& fields) {
+  fields(r.scene, r.stiffness_factor, r.shape, r.method, r.hand, r.step, r.tolerance, r.own_reference, r.reference_uncertainty,
+         r.error, r.angle_error, r.error_over_hand_amplitude, r.error_over_largest_deflection,
+         r.wall_us_per_simulated_second, r.steps_per_second, r.error_over_tolerance, r.finite, r.given_up);
+}
+
 /// The limit to which a method converges: three runs with steps halved twice from `output_interval / steps`, by
 /// Richardson's extrapolation of the terms in h and h². Its uncertainty is the last correction of that. Where a run is
 /// not finite, all three are made with smaller steps, down to an eighth; empty outputs when that is not enough.
@@ -63,9 +70,8 @@ std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, co
 /// The rows with a header line, as CSV.
 void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out);
 
-/// Number of lines, and the rows of all of them.
+/// Number of lines, each a unit of work, and the rows of all of them.
 std::size_t line_count(const std::vector<const Method*>& methods, const ErrorTablePlan& plan);
-std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan,
-                                  Progress& progress);
+std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan, Units& units);
 
 }  // namespace spring_workbench::benchmark

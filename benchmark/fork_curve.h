@@ -18,6 +18,11 @@ struct ForkCurveRow {
   std::size_t vertices = 0;
 };
 
+template <typename Fields>
+void each_field(ForkCurveRow& r, Fields& fields) {
+  fields(r.curve, r.load, r.alpha, r.shape_error, r.length_error, r.curve_us, r.deform_us, r.vertices);
+}
+
 std::vector<ForkCurveRow> measure_fork_curves();
 /// As CSV, with a header line.
 std::string fork_curves_csv(const std::vector<ForkCurveRow>& rows);

@@ -170,13 +170,12 @@ std::vector<std::pair<const RodCase*, std::string>> pairs_of(const std::vector<R
   return pairs;
 }
 
-/// Of every case and shape, in their order; on all processors, since nothing is timed.
-std::vector<RodReference> rod_references(const std::vector<RodCase>& cases, Progress& progress) {
-  const auto pairs = pairs_of(cases);
+/// Of every case and shape that is measured here, in their order; on all processors, since nothing is timed.
+std::vector<RodReference> rod_references(const std::vector<std::pair<const RodCase*, std::string>>& pairs, Units& units) {
   std::vector<RodReference> references(pairs.size());
   parallel_for(pairs.size(), [&](std::size_t i) {
-    progress.next("reference: " + pairs[i].first->name + ' ' + pairs[i].second);
-    references[i] = rod_reference(*pairs[i].first, pairs[i].second);
+    units.progress().next("reference: " + pairs[i].first->name + ' ' + pairs[i].second);
+    if (units.measured_here(i)) references[i] = rod_reference(*pairs[i].first, pairs[i].second);
   });
   return references;
 }
@@ -187,8 +186,8 @@ class Line {
        const std::string& integrator)
       : plan_(plan), case_(one), shape_(shape), reference_(reference), integrator_(integrator) {}
 
-  void add_to(std::vector<ErrorRow>& all) const {
-    std::vector<ErrorRow> rows;
+  std::vector<ErrorRow> rows() const {
+    std::vector<ErrorRow> all, rows;
     for (const int n : plan_.steps_per_output) {
       const double step = kOutputInterval / n;
       rows.push_back(row(fastest(plan_.repetition, [&] { return run_rod(case_, shape_, integrator_, step); })));
@@ -206,6 +205,7 @@ class Line {
       if (1e-6 * rows.back().wall_us_per_simulated_second > plan_.longest_run) break;
     }
     all.insert(all.end(), rows.begin(), rows.end());
+    return all;
   }
 
  private:
@@ -238,17 +238,17 @@ class Line {
 
 }  // namespace
 
-std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Progress& progress) {
-  const std::vector<RodReference> references = rod_references(plan.cases, progress);
+std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units) {
+  const auto pairs = pairs_of(plan.cases);
+  const std::vector<RodReference> references = rod_references(pairs, units);
   std::vector<ErrorRow> all;
-  auto next = references.begin();
-  for (const RodCase& one : plan.cases) {
-    for (const std::string& shape : one.shapes) {
-      const RodReference& reference = *next++;
-      for (const std::string& integrator : integrator_names()) {
-        progress.next(one.name + ' ' + shape + ' ' + integrator);
-        Line(plan, one, shape, reference, integrator).add_to(all);
-      }
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto& [one, shape] = pairs[i];
+    for (const std::string& integrator : integrator_names()) {
+      const Line line(plan, *one, shape, references[i], integrator);
+      const std::vector<ErrorRow> rows =
+          units.rows<ErrorRow>(i, one->name + ' ' + shape + ' ' + integrator, [&] { return line.rows(); });
+      all.insert(all.end(), rows.begin(), rows.end());
     }
   }
   return all;

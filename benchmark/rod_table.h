@@ -35,9 +35,10 @@ RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& 
 RodRun run_rod_to_tolerance(const RodCase& one, const std::string& shape, const std::string& integrator,
                             double tolerance);
 
-/// Number of lines, and the rows of all: every integrator × shape × step of every case, with hand() "samples".
+/// Number of units of progress, and the rows of all: every integrator × shape × step of every case, with hand() "samples". A
+/// unit of work is an integrator's line; the lines of a case and shape, which share a reference, are one shard's.
 std::size_t line_count(const RodTablePlan& plan);
-std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Progress& progress);
+std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units);
 
 /// Size of a tolerance's error: the position's, and the angle times the body's radius of gyration [m].
 double error_as_length(const RodCase& one, double position, double angle);

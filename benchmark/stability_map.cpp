@@ -108,6 +108,32 @@ void add(const StabilityOutcome& outcome, StabilityRow& row) {
   row.held += outcome.held();
 }
 
+void keep_the_worst(std::vector<StabilityFailure>& failures) {
+  std::stable_sort(failures.begin(), failures.end(), [](const StabilityFailure& a, const StabilityFailure& b) {
+    return worse(a.outcome, b.outcome);
+  });
+  if (failures.size() > kFailuresKept) failures.resize(kFailuresKept);
+}
+
+/// Runs the cells of a stiffness; `failures` becomes the worst of them.
+std::vector<StabilityRow> rows_of_cells(const StabilityPlan& plan, const std::string& integrator, const std::string& shape,
+                                        double factor, std::vector<StabilityFailure>& failures) {
+  const std::vector<StabilityCell> cells = cells_of(plan, factor);
+  std::vector<StabilityOutcome> outcomes(cells.size());
+  parallel_for(cells.size(), [&](std::size_t i) { outcomes[i] = run_cell(integrator, shape, cells[i]); });
+  std::vector<StabilityRow> rows;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const StabilityCell& cell = cells[i];
+    if (rows.empty() || !is_of(cell, rows.back())) {
+      rows.push_back({integrator, shape, factor, cell.mass, cell.step, cell.damping_ratio});
+    }
+    add(outcomes[i], rows.back());
+    if (!outcomes[i].held()) failures.push_back({integrator, shape, cell, outcomes[i]});
+  }
+  keep_the_worst(failures);
+  return rows;
+}
+
 }  // namespace
 
 bool worse(const StabilityOutcome& a, const StabilityOutcome& b) {
@@ -172,34 +198,27 @@ StabilityOutcome run_cell(const std::string& integrator, const std::string& shap
 }
 
 std::size_t unit_count(const StabilityPlan& plan) {
-  return plan.integrators.size() * plan.shapes.size() * plan.stiffness_factors.size();
+  return 2 * plan.integrators.size() * plan.shapes.size() * plan.stiffness_factors.size();  // rows and failures
 }
 
-StabilityMap stability_map(const StabilityPlan& plan, Progress& progress) {
+StabilityMap stability_map(const StabilityPlan& plan, Units& units) {
   StabilityMap map;
+  std::size_t number = 0;
   for (const std::string& integrator : plan.integrators) {
     for (const std::string& shape : plan.shapes) {
-      std::vector<StabilityFailure> failures;
+      std::vector<StabilityFailure> worst;
       for (const double factor : plan.stiffness_factors) {
-        progress.next("stability: " + integrator + ' ' + shape);
-        const std::vector<StabilityCell> cells = cells_of(plan, factor);
-        std::vector<StabilityOutcome> outcomes(cells.size());
-        parallel_for(cells.size(), [&](std::size_t i) { outcomes[i] = run_cell(integrator, shape, cells[i]); });
-        const std::size_t rows_before = map.rows.size();
-        for (std::size_t i = 0; i < cells.size(); ++i) {
-          const StabilityCell& cell = cells[i];
-          if (map.rows.size() == rows_before || !is_of(cell, map.rows.back())) {
-            map.rows.push_back({integrator, shape, factor, cell.mass, cell.step, cell.damping_ratio});
-          }
-          add(outcomes[i], map.rows.back());
-          if (!outcomes[i].held()) failures.push_back({integrator, shape, cell, outcomes[i]});
-        }
+        std::ostringstream name;
+        name << integrator << ' ' << shape << " × " << factor;
+        std::vector<StabilityFailure> failures;
+        const auto rows = units.rows<StabilityRow>(number, "stability: " + name.str(),
+                                                   [&] { return rows_of_cells(plan, integrator, shape, factor, failures); });
+        failures = units.rows<StabilityFailure>(number++, "failures: " + name.str(), [&] { return failures; });
+        map.rows.insert(map.rows.end(), rows.begin(), rows.end());
+        worst.insert(worst.end(), failures.begin(), failures.end());
       }
-      std::stable_sort(failures.begin(), failures.end(), [](const StabilityFailure& a, const StabilityFailure& b) {
-        return worse(a.outcome, b.outcome);
-      });
-      if (failures.size() > kFailuresKept) failures.resize(kFailuresKept);
-      map.failures.insert(map.failures.end(), failures.begin(), failures.end());
+      keep_the_worst(worst);
+      map.failures.insert(map.failures.end(), worst.begin(), worst.end());
     }
   }
   return map;

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "benchmark/map_hand.h"
-#include "benchmark/progress.h"
 #include "benchmark/rod_case.h"
+#include "benchmark/units.h"
 
 namespace spring_workbench::benchmark {
 
@@ -58,12 +58,25 @@ struct StabilityRow {
   int cells = 0, finite = 0, bounded = 0, energy_kept = 0, none_refused = 0, held = 0;
 };
 
+template <typename Fields>
+void each_field(StabilityRow& r, Fields& fields) {
+  fields(r.integrator, r.shape, r.stiffness_factor, r.mass, r.step, r.damping_ratio, r.cells, r.finite, r.bounded, r.energy_kept,
+         r.none_refused, r.held);
+}
+
 /// A cell that did not hold.
 struct StabilityFailure {
   std::string integrator, shape;
   StabilityCell cell;
   StabilityOutcome outcome;
 };
+template <typename Fields>
+void each_field(StabilityFailure& f, Fields& fields) {
+  StabilityCell& c = f.cell;
+  StabilityOutcome& o = f.outcome;
+  fields(f.integrator, f.shape, c.stiffness_factor, c.mass, c.step, c.damping_ratio, c.families.stretch, c.families.bend,
+         c.families.torsion, c.hand, o.finite, o.bounded, o.energy_growth, o.refused);
+}
 
 struct StabilityMap {
   std::vector<StabilityRow> rows;
@@ -76,7 +89,7 @@ std::vector<StabilityCell> cells_of(const StabilityPlan& plan, double stiffness_
 
 /// Number of units of progress, and the map; runs cells on all processors at once.
 std::size_t unit_count(const StabilityPlan& plan);
-StabilityMap stability_map(const StabilityPlan& plan, Progress& progress);
+StabilityMap stability_map(const StabilityPlan& plan, Units& units);
 
 std::string stability_csv(const StabilityMap& map);
 std::string failures_csv(const StabilityMap& map);

@@ -30,13 +30,15 @@ bool has_stability_counts(const Method& method) {
   return method.knob() == Method::Knob::step && method.hand() == "function";
 }
 
-std::vector<StabilityCount> stability_table(const std::vector<const Method*>& methods, Progress& progress) {
+std::vector<StabilityCount> stability_table(const std::vector<const Method*>& methods, Units& units) {
   std::vector<StabilityCount> counts;
+  std::size_t number = 0;
   for (const Method* method : methods) {
     if (!has_stability_counts(*method)) continue;
     for (const SceneKind kind : {SceneKind::stretch, SceneKind::six_dof}) {
-      progress.next("stability counts: " + method->name());
-      counts.push_back(count_stable(*method, kind));
+      const std::string name = std::string("stability counts: ") + (kind == SceneKind::stretch ? "A " : "C ") + method->name();
+      const auto rows = units.rows<StabilityCount>(number++, name, [&] { return std::vector{count_stable(*method, kind)}; });
+      counts.insert(counts.end(), rows.begin(), rows.end());
     }
   }
   return counts;

@@ -4,5 +4,8 @@ if(SPRING_WORKBENCH_SANITIZE)
   # Not vptr: it wants to be linked with the classes of the contact engines, which are opened.
   add_compile_options(-fsanitize=${SPRING_WORKBENCH_SANITIZE} -fno-sanitize=vptr -fno-sanitize-recover=undefined
     -fno-omit-frame-pointer -g1)
+  if(SPRING_WORKBENCH_SANITIZE STREQUAL thread AND CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    add_compile_options(-Wno-tsan)   # Boost.Asio's fences, which the thread sanitizer does not see
+  endif()
   add_link_options(-fsanitize=${SPRING_WORKBENCH_SANITIZE})
 endif()

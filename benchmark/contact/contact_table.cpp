@@ -66,26 +66,28 @@ std::size_t contact_unit_count(const std::vector<DragMethod>& peers, bool quick)
   return lines_of(all_drags(peers)).size() * factors(quick).size() * steps().size() + 3;
 }
 
-ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, Progress& progress) {
+ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, Units& units) {
   ContactTable table;
   const std::vector<DragMethod> methods = all_drags(peers);
+  std::size_t number = 0;
   for (const double factor : factors(quick)) {
     for (const Line& line : lines_of(methods)) {
       for (const double step : steps()) {
-        progress.next("drag, " + line.method->name);
         DragScene scene;
         scene.stiffness_factor = factor;
         scene.turns = line.turns;
-        table.drags.push_back(isolated_drag(*line.method, scene, step, quick ? 1 : 3));
+        std::ostringstream name;
+        name << "drag × " << factor << (line.turns ? ", " : ", cannot turn, ") << step << " s, " << line.method->name;
+        const auto rows = units.rows<DragRow>(
+            number++, name.str(), [&] { return std::vector{isolated_drag(*line.method, scene, step, quick ? 1 : 3)}; });
+        table.drags.insert(table.drags.end(), rows.begin(), rows.end());
       }
     }
   }
-  progress.next("search for the pose of contact");
-  table.impacts = measure_impact_search(quick ? 60 : 500);
-  progress.next("steps of the dynamic world");
-  table.world_steps = measure_world_steps(quick);
-  progress.next("cost of the parts of contact");
-  table.costs = measure_contact_costs();
+  table.impacts =
+      units.rows<ImpactRow>(number++, "search for the pose of contact", [&] { return measure_impact_search(quick ? 60 : 500); });
+  table.world_steps = units.rows<WorldStepRow>(number++, "steps of the dynamic world", [&] { return measure_world_steps(quick); });
+  table.costs = units.rows<ContactCost>(number++, "cost of the parts of contact", [] { return measure_contact_costs(); });
   return table;
 }
 

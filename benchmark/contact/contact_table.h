@@ -7,7 +7,7 @@
 #include "benchmark/contact/drag.h"
 #include "benchmark/contact/impact_search.h"
 #include "benchmark/contact/world_steps.h"
-#include "benchmark/progress.h"
+#include "benchmark/units.h"
 
 namespace spring_workbench::benchmark {
 
@@ -20,8 +20,8 @@ struct ContactTable {
 };
 
 /// `peers`: engines' drags; each run is made in a child process. The caller must have no other threads.
-ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, Progress& progress);
-/// How often measure_contact() tells its progress.
+ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, Units& units);
+/// Number of units of work.
 std::size_t contact_unit_count(const std::vector<DragMethod>& peers, bool quick);
 
 std::string drags_csv(const std::vector<DragRow>& rows);

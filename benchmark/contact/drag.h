@@ -61,6 +61,11 @@ struct DragRow {
   double cpu_us_per_simulated_second = 0.0;
   double cpu_us_per_step = 0.0;
 };
+template <typename Fields>
+void each_field(DragRow& r, Fields& fields) {
+  fields(r.method, r.stiffness_factor, r.turns, r.step, r.finite, r.lag, r.lag_error, r.penetration, r.cpu_us_per_simulated_second,
+         r.cpu_us_per_step);
+}
 /// The run of a method: processor time is the least of `runs`, of the steps alone.
 DragRow run_drag(const DragMethod& method, const DragScene& scene, double step, int runs);
 

@@ -1,4 +1,7 @@
-// report [--quick] [--out DIR]: error against run time of our integrators, shape models and the peers that were found,
+// report [--quick] [--out DIR]
+// report [--quick] --shard I/N > PART
+// report [--out DIR] --merge PART...
+// Error against run time of our integrators, shape models and the peers that were found,
 // and the stability map, as CSV, pictures, one page and a table of verdicts.
 #include <iostream>
 

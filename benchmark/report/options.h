@@ -1,16 +1,25 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "benchmark/units.h"
 
 namespace spring_workbench::benchmark {
 
 /// What `report` was asked for.
 struct ReportOptions {
-  bool quick = false;          ///< few scenes and settings, no stability counts
-  std::string out = "report";  ///< folder to write to; made where it is not there
+  bool quick = false;              ///< few scenes and settings, no stability counts; when merging as the parts say
+  std::string out = "report";      ///< folder to write to; made where it is not there
+  std::optional<Shard> shard;      ///< it alone is measured, and what comes out goes to the standard output
+  std::vector<std::string> parts;  ///< files of all shards, to be merged; empty: none
 };
 
-/// Throws InputError for anything but `[--quick] [--out DIR]`, and where DIR cannot be made or written.
+/// Throws InputError for anything but `[--quick] [--out DIR]`, `[--quick] --shard I/N` or `[--out DIR] --merge PART...`.
 ReportOptions parse_report_options(int argc, char** argv);
+
+/// Makes the folder where it is not there. Throws InputError where it cannot be made or written.
+void make_folder(const std::string& folder);
 
 }  // namespace spring_workbench::benchmark

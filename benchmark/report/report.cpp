@@ -11,10 +11,11 @@
 #include "benchmark/our_methods.h"
 #include "benchmark/peers.h"
 #include "benchmark/report/page.h"
-#include "benchmark/report/pictures.h"
+#include "benchmark/report/parts.h"
 #include "benchmark/report/sections.h"
 #include "benchmark/report/tables.h"
 #include "benchmark/rod_table.h"
+#include "benchmark/units.h"
 #include "benchmark/verdicts.h"
 
 namespace spring_workbench::benchmark {
@@ -53,49 +54,37 @@ struct Plan {
   StabilityPlan map;
 };
 
-std::size_t units(const Plan& plan, const std::vector<const Method*>& methods, const std::vector<DragMethod>& drags,
+std::size_t units_of(const Plan& plan, const std::vector<const Method*>& methods, const std::vector<DragMethod>& drags,
                   bool quick) {
   std::size_t counts = 0;
   for (const Method* method : methods) counts += has_stability_counts(*method) ? 2 : 0;
   return line_count(methods, plan.scenes) + line_count(plan.rods) + unit_count(plan.map) + (quick ? 0 : counts) +
-         contact_unit_count(drags, quick);
+         contact_unit_count(drags, quick) + 3;
 }
 
-}  // namespace
-
-void make_report(const ReportOptions& options, const std::string& command, std::ostream& out, std::ostream& log) {
-  const std::vector<MethodPtr> ours = our_methods();
-  const Peers peers = all_peers();
-  std::vector<const Method*> methods;
-  for (const MethodPtr& method : ours) methods.push_back(method.get());
-  for (const MethodPtr& method : peers.methods) methods.push_back(method.get());
-  const Plan plan(options.quick);
-
-  PageContents page;
-  page.facts = run_facts(command, peers);
-  page.warning = load_warning();
-  const std::string header = as_csv_header(page.facts);
-  log << header;
-  if (!page.warning.empty()) log << "report: " << page.warning << '\n';
-
-  Progress progress(log, isatty(STDERR_FILENO) != 0, units(plan, methods, peers.drags, options.quick));
+Measurements measure(const Plan& plan, const std::vector<const Method*>& methods, const std::vector<DragMethod>& drags,
+                     bool quick, Units& units) {
   Measurements measured;
-  measured.quick = options.quick;
-  measured.scenes = error_table(methods, plan.scenes, progress);
-  measured.rods = rod_table(plan.rods, progress);
-  measured.elastica = elastica_table();
-  measured.contact = measure_contact(peers.drags, options.quick, progress);
-  if (!options.quick) measured.stability_counts = stability_table(methods, progress);
-  measured.map = stability_map(plan.map, progress);
-  measured.step_costs = step_costs();
-  measured.fork_curves = measure_fork_curves();
-  progress.finish();
-  measured.seconds = progress.elapsed();
-  const std::vector<Verdict> judged = verdicts(measured);
+  measured.quick = quick;
+  measured.scenes = error_table(methods, plan.scenes, units);
+  measured.rods = rod_table(plan.rods, units);
+  measured.contact = measure_contact(drags, quick, units);
+  if (!quick) measured.stability_counts = stability_table(methods, units);
+  measured.map = stability_map(plan.map, units);
+  measured.elastica = units.rows<ElasticaRow>(0, "elastica", [] { return elastica_table(); });
+  measured.step_costs = units.rows<StepCost>(1, "parts of a step", [] { return step_costs(); });
+  measured.fork_curves = units.rows<ForkCurveRow>(2, "curves of the fork", [] { return measure_fork_curves(); });
+  return measured;
+}
 
+/// Tables, pictures and the page.
+void write_report(const Measurements& measured, PageContents page, const std::string& folder, std::ostream& out,
+                  std::ostream& log) {
+  const std::vector<Verdict> judged = verdicts(measured);
+  const std::string header = as_csv_header(page.facts);
   Tables tables;
   const auto keep = [&](const std::string& name, const std::string& csv) {
-    return write_file(options.out, name, header + csv);
+    return write_file(folder, name, header + csv);
   };
   tables.scenes = keep("error_table.csv", as_csv(measured.scenes));
   tables.rods = keep("rod_table.csv", as_csv(measured.rods));
@@ -103,17 +92,58 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   tables.map = keep("stability_map.csv", stability_csv(measured.map));
   keep("stability_failures.csv", failures_csv(measured.map));
   keep("verdicts.csv", verdicts_csv(judged));
-  if (!options.quick) keep("stability_counts.csv", stability_counts_csv(measured.stability_counts));
+  if (!measured.quick) keep("stability_counts.csv", stability_counts_csv(measured.stability_counts));
   keep("step_cost.csv", step_cost_csv(measured.step_costs));
   keep("fork_curve.csv", fork_curves_csv(measured.fork_curves));
   tables.drags = keep("contact_drag.csv", drags_csv(measured.contact.drags));
   tables.impacts = keep("contact_impact.csv", impacts_csv(measured.contact.impacts));
   tables.world_steps = keep("contact_steps.csv", world_steps_csv(measured.contact.world_steps));
   keep("contact_costs.csv", contact_costs_csv(measured.contact.costs));
-  page.sections = page_sections(measured, judged, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), tables, options.out);
-  const std::string path = write_file(options.out, "report.html", html_page(page));
+  page.sections = page_sections(measured, judged, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), tables, folder);
+  const std::string path = write_file(folder, "report.html", html_page(page));
   print(judged, out);
   log << "wrote " << path << '\n';
+}
+
+}  // namespace
+
+void make_report(const ReportOptions& options, const std::string& command, std::ostream& out, std::ostream& log) {
+  const bool merging = !options.parts.empty();
+  ReportPart part;
+  if (merging) part = read_parts(options.parts);
+  if (!options.shard) make_folder(options.out);
+  const bool quick = merging ? part.quick : options.quick;
+  const Shard shard = options.shard.value_or(Shard{});
+  const std::vector<MethodPtr> ours = our_methods();
+  const Peers peers = all_peers();
+  std::vector<const Method*> methods;
+  for (const MethodPtr& method : ours) methods.push_back(method.get());
+  for (const MethodPtr& method : peers.methods) methods.push_back(method.get());
+  const Plan plan(quick);
+  if (!merging) {
+    part.shard = shard;
+    part.quick = quick;
+    part.facts = run_facts(command, peers);
+    part.warning = load_warning();
+  }
+  log << as_csv_header(part.facts);
+  if (!part.warning.empty()) log << "report: " << part.warning << '\n';
+
+  Progress progress(log, isatty(STDERR_FILENO) != 0, units_of(plan, methods, peers.drags, quick));
+  Units units = merging ? Units(progress, std::move(part.rows)) : Units(progress, shard);
+  Measurements measured = measure(plan, methods, peers.drags, quick, units);
+  progress.finish();
+  if (merging && !units.kept().empty()) {
+    refuse("shards", "unit", units.kept().begin()->first, "one that this report has: same build, same peers, same recordings");
+  }
+  if (!merging) part.seconds = progress.elapsed();
+  if (options.shard) {
+    part.rows = units.kept();
+    write_part(part, out);
+    return;
+  }
+  measured.seconds = part.seconds;
+  write_report(measured, {part.facts, part.warning, {}}, options.out, out, log);
 }
 
 }  // namespace spring_workbench::benchmark

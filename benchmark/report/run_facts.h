@@ -12,6 +12,10 @@ struct RunFact {
   std::string name;
   std::string value;
 };
+template <typename Fields>
+void each_field(RunFact& f, Fields& fields) {
+  fields(f.name, f.value);
+}
 
 /// Machine, its load now, compiler, flags, date, command, peers found and not found: what a figure must come with.
 std::vector<RunFact> run_facts(const std::string& command, const Peers& peers);

@@ -72,6 +72,13 @@ TEST(Report, RefusesBadArgumentsInOneLineThatNamesArgumentValueAndRule) {
       {"--fast", {"--fast", "--quick"}},
       {"--quick now", {"now", "--quick"}},
       {"--out", {"--out", "(nothing)", "folder"}},
+      {"--shard", {"--shard", "(nothing)", "I/N"}},
+      {"--shard 0/3", {"--shard", "0/3", "I/N"}},
+      {"--shard 4/3", {"--shard", "4/3", "I/N"}},
+      {"--shard 1/2/3", {"--shard", "1/2/3", "I/N"}},
+      {"--shard 1/2 --out /tmp", {"--shard, --out", "both", "one of both"}},
+      {"--merge", {"--merge", "(nothing)", "files"}},
+      {"--quick --merge /dev/null", {"--merge", "--quick", "the files say"}},
       {"--out ''", {"--out", "(nothing)", "folder"}},
       {"--out /dev/null/x", {"--out", "/dev/null/x", "folder"}},
   };

@@ -248,10 +248,11 @@ TEST(StabilityMap, NothingCanFailWhereNothingIsIntegrated) {
   plan.stiffness_factors = {1e12};
   std::ostringstream log;
   Progress progress(log, false, unit_count(plan));
-  const StabilityMap massless = stability_map(plan, progress);
+  Units units(progress, Shard{});
+  const StabilityMap massless = stability_map(plan, units);
   plan.masses = {1.0};
   plan.families = {{false, false, false}};
-  const StabilityMap rigid = stability_map(plan, progress);
+  const StabilityMap rigid = stability_map(plan, units);
   for (const StabilityMap& map : {massless, rigid}) {
     EXPECT_TRUE(map.failures.empty());
     for (const StabilityRow& row : map.rows) EXPECT_EQ(row.held, row.cells);

@@ -6,6 +6,8 @@
 #include <set>
 #include <sstream>
 
+#include "spring_workbench/config/one_line.h"
+
 namespace spring_workbench {
 namespace {
 
@@ -21,7 +23,6 @@ std::string number_text(double value) {
 std::string node_text(const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) return "(nothing)";
   std::string text = node.IsScalar() ? node.Scalar() : YAML::Dump(node);
-  std::replace(text.begin(), text.end(), '\n', ' ');
   constexpr std::size_t longest = 80;
   return text.size() <= longest ? text : text.substr(0, longest) + "…";
 }
@@ -61,7 +62,8 @@ std::string NumberRule::text() const {
 }
 
 void refuse(const std::string& where, const std::string& key, const std::string& value, const std::string& rule) {
-  throw InputError(where + ": " + key + ": " + (value.empty() ? "(nothing)" : value) + " is not allowed: must be " + rule);
+  const std::string given = value.empty() ? "(nothing)" : value;
+  throw InputError(one_line(where + ": " + key + ": " + given + " is not allowed: must be " + rule));
 }
 
 void check_number(const std::string& where, const std::string& key, double value, const NumberRule& rule) {
@@ -137,9 +139,9 @@ void check_keys(const YAML::Node& map, const std::string& where, const std::stri
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : YAML::Dump(entry.first);
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
-      throw InputError(place(entry.first, where) + ": " + prefix + key + ": unknown key; known are " + join(allowed));
+      throw InputError(one_line(place(entry.first, where) + ": " + prefix + key + ": unknown key; known are " + join(allowed)));
     }
-    if (!seen.insert(key).second) throw InputError(place(entry.first, where) + ": " + prefix + key + ": given twice");
+    if (!seen.insert(key).second) throw InputError(one_line(place(entry.first, where) + ": " + prefix + key + ": given twice"));
   }
 }
 
@@ -176,7 +178,7 @@ YAML::Node load_yaml_file(const std::string& path) {
     check_extent(node, path, 0, values);
     return node.IsNull() ? YAML::Node(YAML::NodeType::Map) : node;
   } catch (const YAML::Exception& e) {
-    throw InputError(path + ":" + std::to_string(e.mark.line + 1) + ": not YAML: " + e.msg);
+    throw InputError(path + ":" + std::to_string(e.mark.line + 1) + ": not YAML: " + one_line(e.msg));
   }
 }
 

@@ -59,8 +59,8 @@ SPRING_WORKBENCH_INLINE double StrainRod::wave(const LinearStrain<S>& k, double 
   return std::sqrt(angle * angle + 4.0 * length() * length() * std::sqrt(largest(dot(k.slope, k.slope))));
 }
 
-int StrainRod::pieces(double angle) const {
-  return 1 + static_cast<int>(std::min(angle, most_turned) / angle_per_piece);
+int StrainRod::pieces(double angle) const {  // of NaN the most, as of what is too large
+  return 1 + static_cast<int>(std::min(most_turned, angle) / angle_per_piece);
 }
 
 template <int nodes, typename S>

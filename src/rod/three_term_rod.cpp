@@ -27,7 +27,8 @@ double turned_angle(const Strain& x) {
   return Vector3d(x[0], x[2], x[4]).norm() + Vector3d(x[1], x[3], 0.0).norm() + Vector3d(x[6], x[7], 0.0).norm();
 }
 
-int pieces(double angle) { return 1 + static_cast<int>(std::min(angle, most_turned) / angle_per_piece); }
+/// Of NaN the most, as of what is too large.
+int pieces(double angle) { return 1 + static_cast<int>(std::min(most_turned, angle) / angle_per_piece); }
 
 /// Second shifted Legendre polynomial over σ = 2 s − 1.
 double legendre2(double sigma) { return 1.5 * sigma * sigma - 0.5; }

@@ -11,17 +11,13 @@
 #include <sstream>
 
 #include "spring_workbench/config/input_error.h"
+#include "spring_workbench/config/one_line.h"
 
 namespace spring_workbench {
 namespace {
 
 constexpr int most_nesting = 64;           ///< elements in each other; a URDF has six
 constexpr std::size_t most_links = 10000;  ///< a chain of them is walked by recursion
-
-std::string one_line(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  return text;
-}
 
 /// Keeps what urdfdom says on the console while it lives. The console's handler is global: one reader at a time.
 class ConsoleCapture : private console_bridge::OutputHandler {
@@ -111,7 +107,7 @@ std::optional<double> mass_of(const TiXmlElement& inertial) {
 /// Takes an element that urdfdom cannot read out of its link, with a warning; refuses a known shape with bad values.
 void take_out(TiXmlElement& link, TiXmlElement& element, const std::string& complaint, UrdfFile& file) {
   const std::string name = link.Attribute("name");
-  const std::string where = place(file.path, element.Row()) + ": link '" + name + "': ";
+  const std::string where = one_line(place(file.path, element.Row()) + ": link '" + name + "': ");
   const std::string kind = element.ValueStr();
   if (kind == "inertial") {
     file.unreadable_inertials[name] = mass_of(element);
@@ -201,7 +197,8 @@ UrdfFile read_urdf_file(const std::string& path) {
   }
   file.model = result.model;
   if (count_links(*file.model->getRoot()) < file.model->links_.size()) {
-    throw InputError(path + ": not a URDF: there are links that hang in a loop, not on " + file.model->getRoot()->name);
+    throw InputError(path + ": not a URDF: there are links that hang in a loop, not on " +
+                     one_line(file.model->getRoot()->name));
   }
   for (const std::string& complaint : result.complaints) file.warnings.push_back(path + ": " + complaint);
   return file;

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "spring_workbench/config/one_line.h"
 #include "spring_workbench/dynamics/step_control.h"
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/tools/tool.h"
@@ -211,7 +212,7 @@ const Field& find_field(const std::string& key, const std::string& where) {
   if (found != fields().end()) return *found;
   Choices known;
   for (const Field& field : fields()) known.push_back(field.description.key);
-  throw InputError(where + ": " + key + ": unknown key; known are " + join(known));
+  throw InputError(one_line(where + ": " + key + ": unknown key; known are " + join(known)));
 }
 
 }  // namespace

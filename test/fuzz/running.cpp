@@ -1,5 +1,7 @@
 #include "fuzz/running.h"
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "spring_workbench/config/input_error.h"
@@ -12,7 +14,8 @@ bool accepted(const std::function<void()>& work) {
     return true;
   } catch (const InputError& error) {
     const std::string message = error.what();
-    require(!message.empty() && message.find('\n') == std::string::npos, "one line says what is wrong: " + message);
+    const auto controls = [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; };
+    require(!message.empty() && std::none_of(message.begin(), message.end(), controls), "one line says what is wrong: " + message);
     return false;
   }
 }

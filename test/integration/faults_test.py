@@ -216,7 +216,7 @@ class Faults(unittest.TestCase):
                 broken.append(error)
 
         clients = [threading.Thread(target=flood, args=(client,)) for client in range(4)]
-        seen = len(self.objects.messages)
+        seen, told = len(self.objects.messages), len(self.steps.messages)
         begin = time.monotonic()
         for client in clients:
             client.start()
@@ -229,7 +229,9 @@ class Faults(unittest.TestCase):
         self.assertTrue(self.box().held)
         heights = [m.objects[0].pose.position.z for m in self.objects.messages[seen:]]
         self.assertLess(max(heights) - min(heights), 1e-3)
-
+        wait_for(lambda: self.objects.last.header.stamp.to_sec() > self.hand.now().to_sec() - 0.5,
+                 "simulated time to come up with the hand's")
+        self.assertEqual(sum(m.guards_tripped for m in self.steps.messages[told:]), 0)
 
     def test_all_services_at_once(self):
         """Four clients call everything there is in an order of their own: each call is answered, and the node is as good as new."""

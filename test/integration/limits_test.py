@@ -111,6 +111,8 @@ class Limits(unittest.TestCase):
 
     def test_programs(self):
         write(self.folder + "/scene.urdf", self.urdf)
+        if not os.path.exists(PROGRAMS + "report"):  # without SUNDIALS it is not built
+            self.tables["Programs"] = [row for row in self.tables["Programs"] if not row[0].startswith("report")]
         self.walk("Programs", lambda command: self.run_program(shlex.split(command)))
 
     def test_settings(self):

@@ -165,11 +165,12 @@ class Hand:
 class Launched:
     """roslaunch as a user runs it; ended, with all its nodes, at the end of the block."""
 
-    def __init__(self, *arguments):
+    def __init__(self, *arguments, environment=None):
         self.arguments = ["roslaunch", "spring_workbench", *arguments]
+        self.environment = dict(os.environ, **(environment or {}))
 
     def __enter__(self):
-        self.process = subprocess.Popen(self.arguments)
+        self.process = subprocess.Popen(self.arguments, env=self.environment)
         return self
 
     def __exit__(self, *_):

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <cmath>
 #include <functional>
 
@@ -16,8 +17,9 @@ std::string message_of(const std::function<void()>& call) {
   try {
     call();
   } catch (const InputError& e) {
-    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << "one line";
-    return e.what();
+    const std::string message = e.what();
+    for (const char c : message) EXPECT_FALSE(std::iscntrl(static_cast<unsigned char>(c))) << "one line: " << message;
+    return message;
   }
   return "";
 }
@@ -145,6 +147,21 @@ TEST(YamlFields, UnknownKeysAreRefusedWithTheKnownOnes) {
 TEST(YamlFields, LongValuesAreCutInMessages) {
   const std::string message = message_of([] { read_bool(node(std::string(10000, 'x')), "f", "k"); });
   EXPECT_LT(message.size(), 200u);
+}
+
+TEST(YamlFields, NoByteOfTheInputControlsATerminalOrEndsTheLine) {
+  const test_support::TemporaryFolder folder;
+  for (int c = 0; c < 128; ++c) {
+    const std::string byte(1, static_cast<char>(c));
+    EXPECT_NE(message_of([&] { read_bool(YAML::Node("a" + byte + "b"), "f", "k"); }), "") << c;
+    YAML::Node map;
+    map["a" + byte + "b"] = 1;
+    EXPECT_NE(message_of([&] { check_keys(map, "f", byte, {"a"}); }), "") << c;
+    folder.write("bad.yaml", "a: \"\\" + byte + "\nb: '" + byte);
+    message_of([&] { load_yaml_file(folder.path("bad.yaml")); });
+  }
+  folder.write("bad.yaml", "a: \"\\\x1b\"");
+  EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("bad.yaml")); }), {"bad.yaml:1", "not YAML"}));
 }
 
 TEST(LoadYamlFile, GivesFileAndLineOfWhatIsNotYaml) {

@@ -125,6 +125,19 @@ TEST_P(EveryShape, SmallDeflectionFollowsTheStiffness) {
   EXPECT_NEAR((tip.angular * S * tip.angular.transpose())(2, 2), 1.0 / k.torsion, 1e-12 / k.torsion);
 }
 
+TEST_P(EveryShape, WhatIsNotFiniteIsRefusedAndDoesNotComeOutFinite) {
+  for (int i = 0; i < shape->size(); ++i) {
+    for (const double bad : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+      StrainVector q = random_strain(*shape, random, 0.5);
+      q[i] = bad;
+      TipKinematics tip;
+      shape->tip(q, zero(*shape), tip);
+      EXPECT_FALSE(tip.p_HE.allFinite() && tip.R_HE.allFinite()) << i << " " << bad;
+      EXPECT_FALSE(shape->admissible(q)) << i << " " << bad;
+    }
+  }
+}
+
 TEST_P(EveryShape, BadLengthIsRefused) {
   EXPECT_THROW(make_shape_model(GetParam(), 0.0), InputError);
   EXPECT_THROW(make_shape_model(GetParam(), std::nan("")), InputError);

@@ -1,0 +1,125 @@
+#include "benchmark/report/parts.h"
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr const char* kFirst = "report part";
+
+struct Head {
+  std::string first = kFirst;
+  Shard shard;
+  bool quick = false;
+  double seconds = 0.0;
+  std::string warning;
+  std::size_t facts = 0, units = 0;
+};
+template <typename Fields>
+void each_field(Head& h, Fields& fields) {
+  fields(h.first, h.shard.index, h.shard.count, h.quick, h.seconds, h.warning, h.facts, h.units);
+}
+
+/// What stands before the rows of a unit.
+struct UnitHead {
+  std::string name;
+  std::size_t rows = 0;
+};
+template <typename Fields>
+void each_field(UnitHead& h, Fields& fields) {
+  fields(h.name, h.rows);
+}
+
+class PartFile {
+ public:
+  explicit PartFile(const std::string& path) : path_(path), file_(path) {
+    if (!file_) throw InputError(path + ": cannot be read: must be what report --shard has written");
+  }
+
+  std::string line() {
+    std::string text;
+    if (!std::getline(file_, text) || file_.eof()) refuse(where(), "end of the file", "here", "after all rows: the shard was not done");
+    ++line_;
+    return text;
+  }
+  template <typename Row>
+  Row row() {
+    const std::string text = line();
+    return row_from_text<Row>(text, where());
+  }
+  std::string where() const { return path_ + ':' + std::to_string(line_); }
+
+ private:
+  std::string path_;
+  std::ifstream file_;
+  int line_ = 0;
+};
+
+ReportPart read_part(const std::string& path) {
+  PartFile file(path);
+  const Head head = file.row<Head>();
+  if (head.first != kFirst || head.shard.count == 0 || head.shard.index - 1 >= head.shard.count) {
+    refuse(file.where(), "first line", head.first, "that of a part as report --shard writes it");
+  }
+  ReportPart part{head.shard, head.quick, head.seconds, head.warning, {}, {}};
+  for (std::size_t i = 0; i < head.facts; ++i) part.facts.push_back(file.row<RunFact>());
+  for (std::size_t i = 0; i < head.units; ++i) {
+    const UnitHead unit = file.row<UnitHead>();
+    UnitRows& rows = part.rows[unit.name];
+    rows.where = file.where();
+    for (std::size_t k = 0; k < unit.rows; ++k) rows.lines.push_back(file.line());
+  }
+  return part;
+}
+
+/// Adds `text` where it does not stand in `all` yet.
+void join(const std::string& text, std::string& all) {
+  if (all.find(text) != std::string::npos) return;
+  all += all.empty() ? text : " | " + text;
+}
+
+}  // namespace
+
+void write_part(const ReportPart& part, std::ostream& out) {
+  const Head head{kFirst, part.shard, part.quick, part.seconds, part.warning, part.facts.size(), part.rows.size()};
+  out << row_text(head) << '\n';
+  for (const RunFact& fact : part.facts) out << row_text(fact) << '\n';
+  for (const auto& [name, rows] : part.rows) {
+    out << row_text(UnitHead{name, rows.lines.size()}) << '\n';
+    for (const std::string& line : rows.lines) out << line << '\n';
+  }
+  out << std::flush;
+}
+
+ReportPart read_parts(const std::vector<std::string>& paths) {
+  ReportPart all;
+  std::set<std::size_t> seen;
+  for (const std::string& path : paths) {
+    const ReportPart part = read_part(path);
+    const std::string name = std::to_string(part.shard.index) + '/' + std::to_string(part.shard.count);
+    if (seen.empty()) {
+      all.shard = part.shard;
+      all.quick = part.quick;
+      all.facts = part.facts;
+    }
+    if (part.shard.count != all.shard.count || part.quick != all.quick || part.facts.size() != all.facts.size()) {
+      refuse(path, "shard", name, "of the same report as the others");
+    }
+    if (!seen.insert(part.shard.index).second) refuse(path, "shard", name, "given once");
+    all.seconds = std::max(all.seconds, part.seconds);
+    join(part.warning, all.warning);
+    for (std::size_t i = 0; i < part.facts.size(); ++i) join(part.facts[i].value, all.facts[i].value);
+    all.rows.insert(part.rows.begin(), part.rows.end());
+  }
+  for (std::size_t i = 1; i <= all.shard.count; ++i) {
+    if (seen.count(i) == 0) {
+      refuse("command line", "--merge", std::to_string(seen.size()) + " shards",
+             "all " + std::to_string(all.shard.count) + " of them; shard " + std::to_string(i) + " is missing");
+    }
+  }
+  return all;
+}
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "benchmark/report/run_facts.h"
+#include "benchmark/units.h"
+
+namespace spring_workbench::benchmark {
+
+/// What one shard of a report has measured, or all of them have.
+struct ReportPart {
+  Shard shard;
+  bool quick = false;
+  double seconds = 0.0;  ///< that it took
+  std::string warning;   ///< empty: none
+  std::vector<RunFact> facts;
+  RowsByUnit rows;
+};
+
+/// As text that read_parts() reads: lines, with tabs between what stands in them; its last line says that it is all.
+void write_part(const ReportPart& part, std::ostream& out);
+
+/// The parts in these files together: facts and warnings that differ stand beside each other, the seconds are the longest.
+/// Throws InputError for a file that is not a part or not a whole one, parts of different reports, and where a shard is missing
+/// or there twice.
+ReportPart read_parts(const std::vector<std::string>& paths);
+
+}  // namespace spring_workbench::benchmark

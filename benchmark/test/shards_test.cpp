@@ -1,0 +1,161 @@
+// A report's work dealt to shards and merged is the whole report, but for run times.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <sstream>
+
+#include "benchmark/error_table.h"
+#include "benchmark/our_methods.h"
+#include "benchmark/peers.h"
+#include "benchmark/report/parts.h"
+#include "benchmark/rod_table.h"
+#include "benchmark/stability_map.h"
+#include "benchmark/stability_table.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+class Folder {
+ public:
+  Folder() {
+    std::string name = (std::filesystem::temp_directory_path() / "shards_XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~Folder() { std::filesystem::remove_all(path_); }
+  std::string write(const std::string& name, const std::string& text) const {
+    std::ofstream(path_ / name) << text;
+    return path_ / name;
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string text_of(const ReportPart& part) {
+  std::ostringstream text;
+  write_part(part, text);
+  return text.str();
+}
+
+struct Work {
+  ErrorTablePlan scenes = error_table_plan(true);
+  RodTablePlan rods = rod_table_plan(true, "");
+  StabilityPlan map = stability_plan(true);
+  std::vector<MethodPtr> ours = our_methods();
+  std::vector<const Method*> methods;
+
+  /// Little of each; no line ends by its run time.
+  Work() {
+    scenes.scenes.resize(2);
+    scenes.outputs_per_step = {4};
+    scenes.steps_per_output = {1, 4};
+    scenes.longest_run = rods.longest_run = std::numeric_limits<double>::infinity();
+    scenes.repetition = rods.repetition = {};
+    for (std::size_t i = 0; i < 3; ++i) methods.push_back(ours[i].get());
+    rods.cases.resize(1);
+    rods.cases[0].shapes.resize(2);
+    rods.steps_per_output = {1, 2};
+    rods.tolerances.clear();
+    map.integrators = {"rk4", "closed_form"};
+    map.stiffness_factors = {1.0, 1e6, 1e12};
+    map.masses = {1.0};
+    map.hands = {MapHand::jump};
+  }
+
+  /// All tables as text, run times left out.
+  std::string tables(Units& units) const {
+    std::vector<ErrorRow> rows = error_table(methods, scenes, units);
+    const std::vector<ErrorRow> more = rod_table(rods, units);
+    rows.insert(rows.end(), more.begin(), more.end());
+    for (ErrorRow& row : rows) row.wall_us_per_simulated_second = 0.0;
+    const StabilityMap stability = stability_map(map, units);
+    std::string text;
+    for (const ErrorRow& row : rows) text += row_text(row) + '\n';
+    for (const StabilityRow& row : stability.rows) text += row_text(row) + '\n';
+    for (const StabilityFailure& failure : stability.failures) text += row_text(failure) + '\n';
+    return text;
+  }
+};
+
+TEST(Shards, MergedTheyAreTheWholeHoweverManyThereAre) {
+  const Work work;
+  std::ostringstream log;
+  Progress progress(log, false, 1000);
+  Units all(progress, Shard{});
+  const std::string whole = work.tables(all);
+  EXPECT_GT(std::count(whole.begin(), whole.end(), '\n'), 40);
+  for (const std::size_t count : {1U, 3U, 50U}) {
+    const Folder folder;
+    std::vector<std::string> paths;
+    std::size_t idle = 0;
+    for (std::size_t i = count; i >= 1; --i) {
+      Units units(progress, Shard{i, count});
+      work.tables(units);
+      idle += units.kept().empty();
+      paths.push_back(folder.write(std::to_string(i), text_of({{i, count}, true, 1.0 * static_cast<double>(i), "", {}, units.kept()})));
+    }
+    EXPECT_EQ(idle > 0, count == 50);  // more shards than work: some have none, and are merged as all others
+    ReportPart parts = read_parts(paths);
+    EXPECT_EQ(parts.seconds, static_cast<double>(count));
+    Units merging(progress, std::move(parts.rows));
+    EXPECT_EQ(work.tables(merging), whole);
+    EXPECT_TRUE(merging.kept().empty());
+  }
+}
+
+TEST(Shards, EveryBitOfARowComesBack) {
+  std::mt19937_64 random(8);
+  for (int i = 0; i < 1000; ++i) {
+    ErrorRow row;
+    const std::uint64_t bits = random();
+    std::memcpy(&row.error, &bits, sizeof bits);
+    row.step = std::vector<double>{-0.0, std::numeric_limits<double>::infinity(), 5e-324}[static_cast<std::size_t>(i % 3)];
+    row.scene = i % 2 == 0 ? "" : "C, two";
+    row.finite = i % 5 == 0;
+    const ErrorRow back = row_from_text<ErrorRow>(row_text(row), "here");
+    if (std::isnan(row.error)) {
+      EXPECT_TRUE(std::isnan(back.error));
+    } else {
+      EXPECT_EQ(std::memcmp(&back.error, &bits, sizeof bits), 0);
+    }
+    EXPECT_EQ(std::memcmp(&back.step, &row.step, sizeof row.step), 0);
+    EXPECT_EQ(back.scene, row.scene);
+    EXPECT_EQ(back.finite, row.finite);
+  }
+}
+
+TEST(Shards, WhatIsNotAllShardsOfOneReportIsRefused) {
+  const RowsByUnit rows = {{"a unit", UnitRows{{row_text(StabilityCount{"rk4", "A", 1, 2, 3, 4})}, ""}}};
+  const auto part = [&](std::size_t i, std::size_t count, bool quick) {
+    return text_of({{i, count}, quick, 1.0, "", {{"machine", "this"}}, rows});
+  };
+  const Folder folder;
+  const std::string one = folder.write("one", part(1, 2, true)), two = folder.write("two", part(2, 2, true));
+  EXPECT_EQ(read_parts({two, one}).rows.size(), 1U);
+  const std::string text = part(2, 2, true);
+  const std::vector<std::vector<std::string>> bad = {
+      {one}, {one, one}, {one, two, two}, {one, "/nowhere/at/all"}, {one, "/"}, {one, "/dev/null"},
+      {one, folder.write("other count", part(2, 3, true))}, {one, folder.write("not quick", part(2, 2, false))},
+      {one, folder.write("something else", "scene,stiffness_factor\nA,1\n")}};
+  for (const auto& paths : bad) EXPECT_THROW(read_parts(paths), InputError) << paths.back();
+  for (std::size_t length = 0; length < text.size(); ++length) {
+    EXPECT_THROW(read_parts({one, folder.write("cut", text.substr(0, length))}), InputError) << length;
+  }
+  std::ostringstream log;
+  Progress progress(log, false, 1);
+  Units units(progress, read_parts({one, two}).rows);
+  const auto none = [] { return std::vector<StabilityCount>{}; };
+  EXPECT_THROW(units.rows<StabilityCount>(0, "another unit", none), InputError);
+  EXPECT_THROW(units.rows<ErrorRow>(0, "a unit", [] { return std::vector<ErrorRow>{}; }), InputError);
+}
+
+}  // namespace
+}  // namespace spring_workbench::benchmark
