@@ -183,6 +183,22 @@ ForkDofs Hand::families_run() const {
   return hold_ && moved_ ? maker_.possible_dofs(grasp_) : ForkDofs{false, false, false};
 }
 
+bool Hand::overloaded(double now, double h) {
+  const ForkSettings& fork = settings_.fork;
+  if (std::isinf(fork.breakaway_force) && std::isinf(fork.breakaway_moment)) return false;
+  if (!dynamic() || workbench_.massless(grasp_.object)) return false;
+  const auto too_much = [&] {
+    const Wrench at_tip = state().tip_wrench_W;
+    return at_tip.force.norm() > fork.breakaway_force || at_tip.moment.norm() > fork.breakaway_moment;
+  };
+  if (h == 0.0) return too_much();
+  hold_->set_hand(stylus_.motion(now), now);
+  hold_->remember();
+  const bool over = hold_->advance(h, Wrench()) && too_much();
+  hold_->go_back();
+  return over;
+}
+
 void Hand::change_dofs(ChangeReport& change) {
   if (!hold_ || workbench_.massless(grasp_.object) || tool_ != Tool::spring_fork) return;
   if (hold_->set_dofs(maker_.possible_dofs(grasp_), settings_.fork.switch_off_time)) {

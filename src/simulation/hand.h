@@ -59,6 +59,9 @@ class Hand {
   double elastic_energy() const;
   /// The families that ran since the last call of begin_call().
   ForkDofs families_run() const;
+  /// Whether what is held takes more of the tool's springs than their breakaway force or moment: now, or, where `h` > 0 [s],
+  /// at the end of that time if it touches nothing then.
+  bool overloaded(double now, double h);
   void begin_call() { moved_ = false; }
   ToolState state() const;
 

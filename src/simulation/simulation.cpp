@@ -76,6 +76,8 @@ struct Simulation::Impl {
   template <typename Change>
   void with_handover(Change&& change);
   std::map<std::size_t, std::vector<Hand*>> holders();
+  /// Lets go what a tool cannot hold, now or over the next `h` [s] (doc/model.md, "Breaking away").
+  void break_away(double h);
   double end_of_step(double t_end);
   void step(double end, AdvanceReport& report);
   double elastic_energy() const;
@@ -125,9 +127,21 @@ void Simulation::Impl::with_handover(Change&& change) {
   }
 }
 
+void Simulation::Impl::break_away(double h) {
+  with_handover([&] {
+    for (const auto& [object, of_object] : holders()) {
+      if (h > 0.0 && of_object.size() > 1) continue;  // what one of them does depends on the others
+      for (Hand* hand : of_object) {
+        if (hand->overloaded(now, h)) hand->let_go(settings.grasp.release == "thrown", now);
+      }
+    }
+  });
+}
+
 /// Highlights, grasps and releases.
 void Simulation::Impl::act() {
   workbench.clear_highlights();
+  break_away(0.0);
   with_handover([&] {
     for (Hand& hand : hands) {
       hand.select(now);
@@ -153,6 +167,7 @@ double Simulation::Impl::end_of_step(double t_end) {
 /// An object that one tool holds is that tool's; one that several hold, or that is pushed, is a body with tools on it.
 void Simulation::Impl::step(double end, AdvanceReport& report) {
   const double h = end - now;
+  break_away(h);
   std::map<std::size_t, std::vector<Hand*>> tools_on;
   for (Hand& hand : hands) {
     if (const auto object = hand.carried()) tools_on[*object].push_back(&hand);

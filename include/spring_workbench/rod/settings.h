@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 namespace spring_workbench {
@@ -32,6 +33,9 @@ struct ForkSettings {
   std::string damping_law = "per_family";     ///< key `fork.damping_law`: per_family, or modal: the same ζ in every mode of
                                               ///< the held body, for one ζ of all families
   ForkDofs dofs;                              ///< keys `fork.dofs.*`
+  double breakaway_force = std::numeric_limits<double>::infinity();   ///< key `fork.breakaway_force` [N], > 0: at the tip;
+  double breakaway_moment = std::numeric_limits<double>::infinity();  ///< key `fork.breakaway_moment` [N·m], > 0: likewise;
+                                                                      ///< what would take more is let go
   double switch_off_time = 0.05;              ///< key `fork.switch_off_time` [s], > 0: time constant on which a family that
                                               ///< is switched off while strained goes back to zero strain
 };
