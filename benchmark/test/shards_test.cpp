@@ -4,10 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <limits>
 #include <random>
 #include <sstream>
@@ -19,25 +16,18 @@
 #include "benchmark/rod_table.h"
 #include "benchmark/stability_map.h"
 #include "benchmark/stability_table.h"
+#include "test/support/temporary_folder.h"
 
 namespace spring_workbench::benchmark {
 namespace {
 
-class Folder {
- public:
-  Folder() {
-    std::string name = (std::filesystem::temp_directory_path() / "shards_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~Folder() { std::filesystem::remove_all(path_); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name) << text;
-    return path_ / name;
-  }
+using test_support::TemporaryFolder;
 
- private:
-  std::filesystem::path path_;
-};
+/// Writes a file, and tells its path.
+std::string written(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
+  folder.write(name, text);
+  return folder.path(name);
+}
 
 std::string text_of(const ReportPart& part) {
   std::ostringstream text;
@@ -93,14 +83,14 @@ TEST(Shards, MergedTheyAreTheWholeHoweverManyThereAre) {
   const std::string whole = work.tables(all);
   EXPECT_GT(std::count(whole.begin(), whole.end(), '\n'), 40);
   for (const std::size_t count : {1U, 3U, 50U}) {
-    const Folder folder;
+    const TemporaryFolder folder;
     std::vector<std::string> paths;
     std::size_t idle = 0;
     for (std::size_t i = count; i >= 1; --i) {
       Units units(progress, Shard{i, count});
       work.tables(units);
       idle += units.kept().empty();
-      paths.push_back(folder.write(std::to_string(i), text_of({{i, count}, true, 1.0 * static_cast<double>(i), "", {}, units.kept()})));
+      paths.push_back(written(folder, std::to_string(i), text_of({{i, count}, true, 1.0 * static_cast<double>(i), "", {}, units.kept()})));
     }
     EXPECT_EQ(idle > 0, count == 50);  // more shards than work: some have none, and are merged as all others
     ReportPart parts = read_parts(paths);
@@ -137,17 +127,17 @@ TEST(Shards, WhatIsNotAllShardsOfOneReportIsRefused) {
   const auto part = [&](std::size_t i, std::size_t count, bool quick) {
     return text_of({{i, count}, quick, 1.0, "", {{"machine", "this"}}, rows});
   };
-  const Folder folder;
-  const std::string one = folder.write("one", part(1, 2, true)), two = folder.write("two", part(2, 2, true));
+  const TemporaryFolder folder;
+  const std::string one = written(folder, "one", part(1, 2, true)), two = written(folder, "two", part(2, 2, true));
   EXPECT_EQ(read_parts({two, one}).rows.size(), 1U);
   const std::string text = part(2, 2, true);
   const std::vector<std::vector<std::string>> bad = {
       {one}, {one, one}, {one, two, two}, {one, "/nowhere/at/all"}, {one, "/"}, {one, "/dev/null"},
-      {one, folder.write("other count", part(2, 3, true))}, {one, folder.write("not quick", part(2, 2, false))},
-      {one, folder.write("something else", "scene,stiffness_factor\nA,1\n")}};
+      {one, written(folder, "other count", part(2, 3, true))}, {one, written(folder, "not quick", part(2, 2, false))},
+      {one, written(folder, "something else", "scene,stiffness_factor\nA,1\n")}};
   for (const auto& paths : bad) EXPECT_THROW(read_parts(paths), InputError) << paths.back();
   for (std::size_t length = 0; length < text.size(); ++length) {
-    EXPECT_THROW(read_parts({one, folder.write("cut", text.substr(0, length))}), InputError) << length;
+    EXPECT_THROW(read_parts({one, written(folder, "cut", text.substr(0, length))}), InputError) << length;
   }
   std::ostringstream log;
   Progress progress(log, false, 1);

@@ -185,7 +185,6 @@ ForkDofs Hand::families_run() const {
 
 bool Hand::overloaded(double now, double h) {
   const ForkSettings& fork = settings_.fork;
-  if (std::isinf(fork.breakaway_force) && std::isinf(fork.breakaway_moment)) return false;
   if (!dynamic() || workbench_.massless(grasp_.object)) return false;
   const auto too_much = [&] {
     const Wrench at_tip = state().tip_wrench_W;

@@ -128,6 +128,7 @@ void Simulation::Impl::with_handover(Change&& change) {
 }
 
 void Simulation::Impl::break_away(double h) {
+  if (std::isinf(settings.fork.breakaway_force) && std::isinf(settings.fork.breakaway_moment)) return;
   with_handover([&] {
     for (const auto& [object, of_object] : holders()) {
       if (h > 0.0 && of_object.size() > 1) continue;  // what one of them does depends on the others
