@@ -1,5 +1,6 @@
 #include "benchmark/our_methods.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <limits>
@@ -134,17 +135,16 @@ class DenseOutputs {
   /// Appends those at the next of `times` [s, ascending] that are known; false where one is not bounded.
   bool append(const std::vector<double>& times, std::vector<Vector3d>& outputs) const {
     const double until = strain_.known_until() + 1e-9;
-    while (outputs.size() < times.size() && times[outputs.size()] < until) {
-      Pack t = Pack{} + times[outputs.size()];
-      int count = 1;
-      for (; count < pack_size && outputs.size() + at(count) < times.size() && times[outputs.size() + at(count)] < until;) {
-        t[count] = times[outputs.size() + at(count)];
-        ++count;
-      }
+    std::size_t known = outputs.size();
+    while (known < times.size() && times[known] < until) ++known;
+    while (outputs.size() < known) {
+      const std::size_t begin = outputs.size(), count = std::min<std::size_t>(pack_size, known - begin);
+      Pack t;
+      for (std::size_t i = 0; i < pack_size; ++i) t[i] = times[begin + std::min(i, count - 1)];
       Three<Pack> values;
       at(t, values);
-      for (int i = 0; i < count; ++i) {
-        outputs.push_back(vector(values, i));
+      for (std::size_t i = 0; i < count; ++i) {
+        outputs.push_back(vector(values, static_cast<int>(i)));
         if (!is_bounded(outputs.back())) return false;
       }
     }
@@ -152,8 +152,6 @@ class DenseOutputs {
   }
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
   void at(const Pack& t, Three<Pack>& values) const {
     Pack q[max_strain_coordinates]{};
     strain_.at(t, q);
