@@ -10,7 +10,7 @@ namespace spring_workbench {
 
 /// What a child process may use.
 struct ChildLimits {
-  double time = 0.0;                                                 ///< of the wall [s]
+  double time = 0.0;                                                 ///< of the processor; ten times as much of the wall [s]
   std::uint64_t memory = std::numeric_limits<std::uint64_t>::max();  ///< beyond what the caller has [bytes]
 };
 
