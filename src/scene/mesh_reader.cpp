@@ -78,7 +78,8 @@ const char* unpack(const char* data, std::vector<T>& rows) {
   std::size_t count = 0;
   std::memcpy(&count, data, sizeof count);
   rows.resize(count);
-  for (T& row : rows) std::memcpy(row.data(), data + sizeof count + static_cast<std::size_t>(&row - rows.data()) * sizeof(T), sizeof(T));
+  for (T& row : rows)
+    std::memcpy(row.data(), data + sizeof count + static_cast<std::size_t>(&row - rows.data()) * sizeof(T), sizeof(T));
   return data + sizeof count + count * sizeof(T);
 }
 
