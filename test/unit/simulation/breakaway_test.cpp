@@ -59,7 +59,7 @@ TEST_P(Breakaway, PressingHarderThanItLetsGo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Contacts, Breakaway, testing::Values(ContactMode::stop, ContactMode::dynamic),
-                         [](const auto& info) { return info.param == ContactMode::stop ? "stop" : "dynamic"; });
+                         [](const auto& tested) { return tested.param == ContactMode::stop ? "stop" : "dynamic"; });
 
 TEST(BreakawayForce, AStiffForkDoesNotCarryAlongWhatIsTooHeavyForIt) {
   constexpr double mass = 1000.0, force = 100.0, time = 0.5;
