@@ -8,10 +8,10 @@
 #include <cstring>
 #include <utility>
 
-#include "benchmark/isolated.h"
 #include "benchmark/parallel.h"
 #include "benchmark/rod_reference.h"
 #include "benchmark/simulated_rod.h"
+#include "spring_workbench/config/run_in_child.h"
 #include "spring_workbench/dynamics/integrator.h"
 
 namespace spring_workbench::benchmark {
@@ -155,7 +155,7 @@ RodRun unpacked(const std::string& data) {
 /// In a child process, given up after `time_limit` [s].
 RodRun run_rod_to_tolerance_isolated(const RodCase& one, const std::string& shape, const std::string& integrator,
                                      double tolerance, double time_limit) {
-  const auto data = run_in_child([&] { return packed(run_rod_to_tolerance(one, shape, integrator, tolerance)); }, time_limit);
+  const auto data = run_in_child([&] { return packed(run_rod_to_tolerance(one, shape, integrator, tolerance)); }, {time_limit});
   if (data) return unpacked(*data);
   RodRun run;
   run.given_up = true;

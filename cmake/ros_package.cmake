@@ -3,6 +3,15 @@ set(SPRING_WORKBENCH_MESSAGE_PACKAGES diagnostic_msgs geometry_msgs sensor_msgs 
   visualization_msgs)
 # catkin writes the tests' environment while it is found, and leaves out of it the folders that are not there yet.
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages ${CMAKE_BINARY_DIR}/devel/lib/pkgconfig)
+# catkin installs its setup files into the prefix of the configuration. Here they go where all else goes, also with
+# `cmake --install build --prefix DIR`.
+if(CMAKE_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR AND NOT CATKIN_BUILD_BINARY_PACKAGE AND NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+  set(CATKIN_INSTALL_INTO_PREFIX_ROOT FALSE)
+  set(setup ${CMAKE_BINARY_DIR}/catkin_generated/installspace)
+  file(WRITE ${setup}/.catkin "")   # marks what is installed
+  install(PROGRAMS ${CMAKE_BINARY_DIR}/devel/_setup_util.py ${setup}/env.sh DESTINATION .)
+  install(FILES ${setup}/.catkin ${setup}/setup.sh ${setup}/setup.bash ${setup}/setup.zsh DESTINATION .)
+endif()
 find_package(catkin REQUIRED COMPONENTS
   interactive_markers message_generation rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
 

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "benchmark/isolated.h"
+#include "spring_workbench/config/run_in_child.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -46,7 +46,7 @@ DragRow isolated_drag(const DragMethod& method, const DragScene& scene, double s
     const double values[numbers] = {row.finite ? 1.0 : 0.0, row.lag, row.lag_error, row.penetration,
                                     row.cpu_us_per_simulated_second, row.cpu_us_per_step};
     return std::string(reinterpret_cast<const char*>(values), sizeof values);
-  }, time_limit);
+  }, {time_limit});
   double values[numbers] = {};
   if (!data || data->size() != sizeof values) return failed;
   std::memcpy(values, data->data(), sizeof values);

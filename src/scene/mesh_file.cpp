@@ -1,15 +1,11 @@
 #include "mesh_file.h"
 
-#include <assimp/config.h>
-#include <assimp/postprocess.h>
-#include <assimp/scene.h>
-
 #include <algorithm>
 #include <array>
-#include <assimp/Importer.hpp>
 #include <filesystem>
 #include <set>
 
+#include "mesh_reader.h"
 #include "package_path.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/scene/geometry.h"
@@ -46,42 +42,6 @@ std::string lower_extension(const std::string& path) {
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return extension;
-}
-
-void append(const aiMesh& part, const std::string& where, TriangleMesh& mesh) {
-  const std::size_t first = mesh.vertices.size();
-  for (unsigned i = 0; i < part.mNumVertices; ++i) {
-    const aiVector3D& v = part.mVertices[i];
-    mesh.vertices.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
-  }
-  for (unsigned i = 0; i < part.mNumFaces; ++i) {
-    const aiFace& face = part.mFaces[i];
-    if (face.mNumIndices != 3) continue;  // points and lines
-    Eigen::Vector3i triangle;
-    for (unsigned k = 0; k < 3; ++k) {
-      if (face.mIndices[k] >= part.mNumVertices) {
-        refuse(where, "vertex index", std::to_string(face.mIndices[k]), "below the number of vertices");
-      }
-      triangle[k] = static_cast<int>(first + face.mIndices[k]);
-    }
-    mesh.triangles.push_back(triangle);
-  }
-}
-
-/// Axes as in the file: ROS ignores Collada's up axis; its unit counts.
-TriangleMesh read_triangles(const std::string& path, const std::string& where) {
-  Assimp::Importer importer;
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
-  if (scene == nullptr) refuse(where, "mesh", path, std::string("readable: ") + importer.GetErrorString());
-  std::size_t triangles = 0;
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) triangles += scene->mMeshes[i]->mNumFaces;
-  if (triangles > most_triangles) {
-    refuse(where, "triangles", std::to_string(triangles), "at most " + std::to_string(most_triangles));
-  }
-  TriangleMesh mesh;
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], where, mesh);
-  return mesh;
 }
 
 struct LessByCoordinates {

@@ -20,9 +20,6 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
 /// Largest file that a scene may name [bytes].
 constexpr std::uintmax_t most_bytes = 256u << 20;
 
-/// Largest number of triangles of a mesh.
-constexpr std::size_t most_triangles = 1000000;
-
 /// Makes a mesh fit for use: equal vertices become one, flat triangles go, a mesh that is inside out is turned.
 /// Throws InputError naming `where` for bad indices, values that are not finite, or no triangle left.
 TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& where);

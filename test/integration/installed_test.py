@@ -24,9 +24,19 @@ class Installed(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.prefix, self.port = folder.name + "/prefix", free_port()
         subprocess.run([CMAKE, "--install", BUILD, "--prefix", self.prefix], check=True, stdout=subprocess.DEVNULL, timeout=DEADLINE)
-        self.environment = dict(os.environ, CMAKE_PREFIX_PATH=self.prefix, ROS_PACKAGE_PATH=self.prefix + "/share",
-                                PYTHONPATH=self.prefix + "/lib/python3/dist-packages", ROS_HOME=folder.name,
-                                ROS_MASTER_URI="http://localhost:" + self.port)
+        sourced = subprocess.run([self.prefix + "/env.sh", "env", "-0"], capture_output=True, text=True, check=True, timeout=DEADLINE)
+        self.environment = dict(line.split("=", 1) for line in sourced.stdout.split("\0") if line)
+        self.environment.update(ROS_HOME=folder.name, ROS_MASTER_URI="http://localhost:" + self.port)
+
+    def test_its_setup_files_name_nothing_of_the_build(self):
+        for name in ["CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "LD_LIBRARY_PATH", "PYTHONPATH"]:
+            self.assertIn(self.prefix, self.environment[name])
+            self.assertNotIn(os.path.realpath(BUILD), self.environment[name])
+
+    def test_it_goes_nowhere_else(self):
+        with open(BUILD + "/install_manifest.txt") as manifest:
+            for file in manifest.read().split():
+                self.assertEqual(os.path.commonpath([self.prefix, file]), self.prefix)
 
     def test_replay_reads_from_the_installed_package(self):
         subprocess.run([self.prefix + "/lib/spring_workbench/replay", "--scene", "package://spring_workbench/scenes/mini_world.urdf",

@@ -43,6 +43,15 @@ def tables():
     return {name: rows[1:] for name, rows in found.items()}
 
 
+def documented(section, pattern):
+    """What stands in a section of doc/reference.md."""
+    with open(PACKAGE + "/doc/reference.md") as file:
+        text = re.search(r"(?ms)^## %s\n(.*?)(?=^## |\Z)" % re.escape(section), file.read()).group(1)
+    found = re.findall(pattern, text, re.MULTILINE)
+    assert found, section
+    return found
+
+
 def write(path, text):
     with open(path, "w") as file:
         file.write(text)
@@ -108,6 +117,19 @@ class Limits(unittest.TestCase):
             with self.subTest(section=section, given=row[:-1]):
                 answer = answer_of(*row[:-1])
                 self.assertIn(row[-1], answer.replace(self.folder + "/", ""))
+
+    def test_each_setting_parameter_and_option_has_a_row(self):
+        given = {name: [row[0] for row in rows] for name, rows in self.tables.items()}
+        for key in documented("Settings", r"^\| `([\w.]+)`") + documented("Truth settings", r"^\| `([\w.]+)`"):
+            self.assertTrue(any(setting.startswith(key + "=") for setting in given["Settings"]), key)
+        for node in ["manipulation", "tracker_driver", "contact_sound"]:
+            rows = [row[1] for row in self.tables["Parameters"] if row[0] == node]
+            for name in documented("`%s`" % node, r"^\| `~(\w+)` \|[^|]*\|[^|]*\|[^|]*\|[^|]*\|$"):
+                self.assertTrue(any(re.search(r"\b%s:" % name, row) for row in rows), "%s: %s" % (node, name))
+        for program in ["fastrak_simulator", "register_tracker", "assembly_trials"]:
+            rows = [row for row in given["Programs"] if row.startswith(program)]
+            for option in documented("`%s`" % program, r"(--(?!help)[a-z][a-z-]*) "):
+                self.assertTrue(any(option in row for row in rows), "%s: %s" % (program, option))
 
     def test_programs(self):
         write(self.folder + "/scene.urdf", self.urdf)

@@ -304,6 +304,21 @@ class Manipulation(unittest.TestCase):
         self.lift()
         self.assertGreater(self.box().pose.position.z, 0.2)
 
+    def test_starts_anew_when_time_jumps_ahead(self):
+        """By an hour, which nobody simulates."""
+        self.lift()
+        told = len(self.steps.messages)
+        self.hand.tick += round(3600.0 / Hand.STEP)
+        self.hand.pressed = False
+        self.hand.run(1.0)
+        now = self.hand.now()
+        wait_for(lambda: abs((self.objects.last.header.stamp - now).to_sec()) < 0.5, "the simulation to be there, too")
+        self.assertFalse(self.box().held)
+        self.assertAlmostEqual(self.box().pose.position.z, 0.02, delta=1e-9)
+        self.assertLess(max(m.simulated_time for m in self.steps.messages[told:]), 60.0)
+        self.lift()
+        self.assertGreater(self.box().pose.position.z, 0.2)
+
     def test_every_scene_loads(self):
         for scene, bodies in [("single_box", 1), ("mini_world", 7)]:
             self.call("load_scene", "package://spring_workbench/scenes/%s.urdf" % scene)

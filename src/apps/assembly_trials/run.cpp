@@ -13,11 +13,15 @@
 namespace spring_workbench::assembly_trials {
 namespace {
 
+void expect_written(bool written, const std::string& path) {
+  if (!written) throw InputError(path + ": cannot be written: must be a file that can");
+}
+
 void write_file(const std::string& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary | std::ios::trunc);
   file << text;
   file.close();
-  if (!file) throw InputError(path + ": cannot be written: must be a file that can");
+  expect_written(file.good(), path);
 }
 
 /// The hand as a motion file (doc/reference.md): to 10 µm and 10 µrad, less than the tracker's noise.
@@ -39,6 +43,9 @@ std::string motion_text(const std::vector<StylusSample>& motion) {
 void run(const Options& options) {
   const Scene scene = load_scene(options.scene);
   if (scene.targets.empty()) throw InputError(scene.path + ": targets: none is not allowed: must be at least one");
+  for (const std::string& path : {options.out, options.table, options.record}) {  // before hours of trials
+    if (!path.empty()) expect_written(std::ofstream(path, std::ios::app).good(), path);
+  }
   for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
   std::string csv = "tool,seed," + score_csv_header() + "\n";
   std::vector<ToolTrials> all;

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <cmath>
@@ -533,6 +534,17 @@ TEST_F(LoadScene, RefusesHostileFiles) {
   folder_.write("deep.urdf", deep);
   EXPECT_TRUE(has(refusal_from(folder_.path("deep.urdf"), {}), "nesting"));
 
+  // What a scanner that is not TinyXML's own takes for closed: ends in a comment, and in an attribute.
+  std::string ends, hidden;
+  for (int i = 0; i < 3000; ++i) {
+    ends += "</a>";
+    hidden += "<a b='/>'>";
+  }
+  folder_.write("comment.urdf", "<robot name='r'><!-- " + ends + " -->" + deep.substr(16, 9000));
+  EXPECT_TRUE(has(refusal_from(folder_.path("comment.urdf"), {}), "nesting"));
+  folder_.write("attribute.urdf", "<robot name='r'>" + hidden);
+  EXPECT_TRUE(has(refusal_from(folder_.path("attribute.urdf"), {}), "nesting"));
+
   std::string chain = "<robot name='r'><link name='l0'/>";
   for (int i = 1; i < 10001; ++i) {
     const std::string a = std::to_string(i - 1), b = std::to_string(i);
@@ -561,6 +573,54 @@ TEST_F(LoadScene, RefusesHostileFiles) {
   }
   EXPECT_TRUE(has(refusal("<link name='a'/>", aliases), "size"));
   EXPECT_TRUE(has(refusal("<link name='a'/>", "objects:\n  b:\n    " + std::string("pose: &a [&b [1, 1], *b]\n")), "pose"));
+}
+
+std::string collada(const std::string& nodes, const std::string& library = "", const std::string& count = "12") {
+  return "<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><library_geometries><geometry id='g'><mesh>"
+         "<source id='p'><float_array id='pa' count='" + count + "'>0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common>"
+         "<accessor source='#pa' count='4' stride='3'><param name='X' type='float'/><param name='Y' type='float'/>"
+         "<param name='Z' type='float'/></accessor></technique_common></source><vertices id='v'>"
+         "<input semantic='POSITION' source='#p'/></vertices><triangles count='4'><input semantic='VERTEX' source='#v' offset='0'/>"
+         "<p>0 2 1 0 1 3 1 2 3 0 3 2</p></triangles></mesh></geometry></library_geometries><library_nodes>" + library +
+         "</library_nodes><library_visual_scenes><visual_scene id='s'>" + nodes +
+         "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
+}
+
+// Each takes its reader along, or never ends, where it is read like any other.
+TEST_F(LoadScene, RefusesHostileMeshes) {
+  const auto answer = [&](const std::string& name) {
+    folder_.write("scene.urdf", "<robot name='r'><link name='a'><collision><geometry><mesh filename='" + name + "'/></geometry>"
+                                "</collision></link></robot>");
+    return refusal_from(folder_.path("scene.urdf"), {});
+  };
+  const std::string part = "<instance_geometry url='#g'/>";
+  folder_.write("good.dae", collada("<node id='n'>" + part + "</node>"));
+  EXPECT_EQ(answer("good.dae"), "(loaded)");
+  folder_.write("count.dae", collada("<node id='n'>" + part + "</node>", "", "4000000000"));
+  EXPECT_TRUE(has(answer("count.dae"), "must be readable"));
+
+  std::string deep, end;
+  for (int i = 0; i < 300000; ++i) {
+    deep += "<node id='n" + std::to_string(i) + "'>";
+    end += "</node>";
+  }
+  folder_.write("deep.dae", collada(deep + part + end));
+  EXPECT_TRUE(has(answer("deep.dae"), "must be readable"));
+  folder_.write("loop.dae", collada("<node id='n'><instance_node url='#a'/></node>",
+                                    "<node id='a'><instance_node url='#b'/></node><node id='b'><instance_node url='#a'/></node>"));
+  EXPECT_TRUE(has(answer("loop.dae"), "must be readable"));
+  std::string doubled = "<node id='m0'>" + part + "</node>";
+  for (int i = 1; i < 40; ++i) {
+    const std::string of = "<instance_node url='#m" + std::to_string(i - 1) + "'/>";
+    doubled += "<node id='m" + std::to_string(i) + "'>" + of + of + "</node>";
+  }
+  folder_.write("doubled.dae", collada("<node id='n'><instance_node url='#m39'/></node>", doubled));
+  EXPECT_TRUE(has(answer("doubled.dae"), "must be readable"));
+
+  // A file of materials that never ends: it is not opened.
+  ASSERT_EQ(mkfifo(folder_.path("pipe").c_str(), 0600), 0);
+  folder_.write("materials.obj", "mtllib pipe\nmtllib " + folder_.path("pipe") + "\n" + std::string(tetrahedron_obj));
+  EXPECT_EQ(answer("materials.obj"), "(loaded)");
 }
 
 }  // namespace

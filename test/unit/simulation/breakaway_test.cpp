@@ -58,7 +58,8 @@ TEST_P(Breakaway, PressingHarderThanItLetsGo) {
   EXPECT_FALSE(simulation.objects()[0].held);
 }
 
-INSTANTIATE_TEST_SUITE_P(Contacts, Breakaway, testing::Values(ContactMode::stop, ContactMode::dynamic));
+INSTANTIATE_TEST_SUITE_P(Contacts, Breakaway, testing::Values(ContactMode::stop, ContactMode::dynamic),
+                         [](const auto& tested) { return tested.param == ContactMode::stop ? "stop" : "dynamic"; });
 
 TEST(BreakawayForce, AStiffForkDoesNotCarryAlongWhatIsTooHeavyForIt) {
   constexpr double mass = 1000.0, force = 100.0, time = 0.5;

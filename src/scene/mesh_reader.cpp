@@ -1,0 +1,110 @@
+#include "mesh_reader.h"
+
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/config.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <cstring>
+
+#include "spring_workbench/config/run_in_child.h"
+#include "spring_workbench/config/yaml_fields.h"
+
+namespace spring_workbench {
+namespace {
+
+constexpr ChildLimits limits{30.0, std::uint64_t{2} << 30};
+constexpr char good = '+', bad = '-';
+
+/// Opens one file and nothing that it refers to, such as the materials of an OBJ file.
+class OneFile : public Assimp::DefaultIOSystem {
+ public:
+  explicit OneFile(std::string path) : path_(std::move(path)) {}
+  bool Exists(const char* file) const override { return path_ == file; }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+  }
+
+ private:
+  std::string path_;
+};
+
+void append(const aiMesh& part, const std::string& where, TriangleMesh& mesh) {
+  const std::size_t first = mesh.vertices.size();
+  for (unsigned i = 0; i < part.mNumVertices; ++i) {
+    const aiVector3D& v = part.mVertices[i];
+    mesh.vertices.emplace_back(static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z));
+  }
+  for (unsigned i = 0; i < part.mNumFaces; ++i) {
+    const aiFace& face = part.mFaces[i];
+    if (face.mNumIndices != 3) continue;  // points and lines
+    Eigen::Vector3i triangle;
+    for (unsigned k = 0; k < 3; ++k) {
+      if (face.mIndices[k] >= part.mNumVertices) {
+        refuse(where, "vertex index", std::to_string(face.mIndices[k]), "below the number of vertices");
+      }
+      triangle[k] = static_cast<int>(first + face.mIndices[k]);
+    }
+    mesh.triangles.push_back(triangle);
+  }
+}
+
+TriangleMesh read(const std::string& path, const std::string& where) {
+  Assimp::Importer importer;
+  importer.SetIOHandler(new OneFile(path));  // which the importer then owns
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
+  if (scene == nullptr) refuse(where, "mesh", path, std::string("readable: ") + importer.GetErrorString());
+  std::size_t triangles = 0;
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) triangles += scene->mMeshes[i]->mNumFaces;
+  if (triangles > most_triangles) {
+    refuse(where, "triangles", std::to_string(triangles), "at most " + std::to_string(most_triangles));
+  }
+  TriangleMesh mesh;
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], where, mesh);
+  return mesh;
+}
+
+template <typename T>
+void pack(const std::vector<T>& rows, std::string& data) {
+  const std::size_t count = rows.size();
+  data.append(reinterpret_cast<const char*>(&count), sizeof count);
+  data.append(reinterpret_cast<const char*>(rows.data()), count * sizeof(T));
+}
+
+template <typename T>
+const char* unpack(const char* data, std::vector<T>& rows) {
+  std::size_t count = 0;
+  std::memcpy(&count, data, sizeof count);
+  rows.resize(count);
+  for (T& row : rows)
+    std::memcpy(row.data(), data + sizeof count + static_cast<std::size_t>(&row - rows.data()) * sizeof(T), sizeof(T));
+  return data + sizeof count + count * sizeof(T);
+}
+
+/// What goes through the pipe: a mesh, or why there is none.
+std::string read_in_child(const std::string& path, const std::string& where) {
+  try {
+    const TriangleMesh mesh = read(path, where);
+    std::string data(1, good);
+    pack(mesh.vertices, data);
+    pack(mesh.triangles, data);
+    return data;
+  } catch (const InputError& refusal) {
+    return bad + std::string(refusal.what());
+  }
+}
+
+}  // namespace
+
+TriangleMesh read_triangles(const std::string& path, const std::string& where) {
+  const std::optional<std::string> data = run_in_child([&] { return read_in_child(path, where); }, limits);
+  if (!data) refuse(where, "mesh", path, "readable within 30 s and 2 GiB");
+  if (data->front() == bad) throw InputError(data->substr(1));
+  TriangleMesh mesh;
+  unpack(unpack(data->data() + 1, mesh.vertices), mesh.triangles);
+  return mesh;
+}
+
+}  // namespace spring_workbench

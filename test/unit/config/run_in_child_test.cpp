@@ -1,0 +1,73 @@
+#include "spring_workbench/config/run_in_child.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace spring_workbench {
+namespace {
+
+constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20;
+constexpr ChildLimits ample{60.0};
+
+TEST(RunInChild, BringsBackEveryByte) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{65536}, std::size_t{10000001}}) {
+    std::string sent(size, '\0');
+    for (std::size_t i = 0; i < size; ++i) sent[i] = static_cast<char>(i * i % 251);
+    EXPECT_TRUE(run_in_child([&] { return sent; }, ample) == sent) << size;
+  }
+}
+
+TEST(RunInChild, LeavesTheCallerAsItWas) {
+  int touched = 0;
+  EXPECT_EQ(run_in_child([&] { return std::to_string(++touched); }, ample), "1");
+  EXPECT_EQ(touched, 0);
+}
+
+TEST(RunInChild, ComesBackWithNothingFromWhatDies) {
+  EXPECT_FALSE(run_in_child([]() -> std::string { std::abort(); }, ample));
+  EXPECT_FALSE(run_in_child([]() -> std::string { throw std::runtime_error("no"); }, ample));
+  EXPECT_FALSE(run_in_child([]() -> std::string { throw 1; }, ample));
+}
+
+TEST(RunInChild, ComesBackWithNothingFromWhatHangs) {
+  EXPECT_FALSE(run_in_child(
+      [] {
+        for (volatile bool always = true; always;) {
+        }
+        return std::string();
+      },
+      {0.2}));
+}
+
+TEST(RunInChild, ComesBackWithNothingFromWhatEatsMemory) {
+  const auto eat = [](std::size_t megabytes) {
+    return [megabytes] {
+      std::vector<std::unique_ptr<std::string>> eaten;
+      for (std::size_t i = 0; i < megabytes; ++i) eaten.push_back(std::make_unique<std::string>(mebibyte, 'x'));
+      return std::to_string(eaten.size());
+    };
+  };
+  EXPECT_EQ(run_in_child(eat(20), {60.0, 200 * mebibyte}), "20");
+  EXPECT_FALSE(run_in_child(eat(400), {60.0, 200 * mebibyte}));
+}
+
+TEST(RunInChild, FromManyThreadsAtOnce) {
+  std::vector<std::thread> threads;
+  std::vector<int> right(8, 0);
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    threads.emplace_back([&right, i] {
+      for (int k = 0; k < 10; ++k) right[i] += run_in_child([i] { return std::string(100000, static_cast<char>(i)); }, ample) ==
+                                               std::string(100000, static_cast<char>(i));
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(right, std::vector<int>(8, 10));
+}
+
+}  // namespace
+}  // namespace spring_workbench
