@@ -7,6 +7,11 @@
 
 namespace spring_workbench::benchmark {
 
+inline std::string name_of(ContactMode mode) {
+  if (mode == ContactMode::none) return "none";
+  return mode == ContactMode::stop ? "stop" : "dynamic";
+}
+
 inline Body standing(const std::string& name, Geometry geometry, const RigidTransform& X_WO, double friction) {
   Body body;
   body.name = name;

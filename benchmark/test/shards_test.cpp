@@ -9,6 +9,7 @@
 #include <random>
 #include <sstream>
 
+#include "benchmark/contact/extremes_table.h"
 #include "benchmark/error_table.h"
 #include "benchmark/our_methods.h"
 #include "benchmark/peers.h"

@@ -120,7 +120,9 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<SteppedBod
   }
   std::vector<DrivenBody> driven = solve(held, candidates, h);
   double sound = sound_part(held, candidates, driven, h);
-  for (int solution = 1; sound < 1.0 && solution < most_solutions; ++solution) {
+  double before = 0.0;
+  for (int solution = 1; sound < 1.0 && sound > before && solution < most_solutions; ++solution) {
+    before = sound;
     // The fork gives way otherwise than to the load that was assumed: once more, about this one.
     for (std::size_t i = 0; i < held.size(); ++i) {
       candidates[i].end = held[i]->object();

@@ -38,7 +38,8 @@ btDbvtVolume volume(const Extent& box) { return btDbvtVolume::FromMM(to_bullet(b
 
 BulletWorld::BulletWorld(const Scene& scene)
     : scene_(scene), bench_shape_(btVector3(0, 0, 1), scene.bench_height + contact_skin) {
-  gDeactivationTime = asleep_after;
+  static const double set_once = gDeactivationTime = asleep_after;  // worlds may be made in several threads
+  static_cast<void>(set_once);
   btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
   configuration_.setPlaneConvexMultipointIterations(4,
                                                     4);  // a flush face touches with its corners from the first step on
