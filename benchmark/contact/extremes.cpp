@@ -131,7 +131,9 @@ class Watch {
     for (std::size_t i = 0; i < start_.size(); ++i) {
       const BodyState& o = simulation_.objects()[i];
       outcome.finite = outcome.finite && o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite() && o.V_WO_W.angular.allFinite();
-      outcome.bounded = outcome.bounded && outcome.finite && (o.X_WO.translation() - start_[i].X_WO.translation()).norm() < farthest;
+      const double way = (o.X_WO.translation() - start_[i].X_WO.translation()).norm();
+      outcome.bounded = outcome.bounded && outcome.finite && way < farthest;
+      if (!o.held) outcome.pushed = std::max(outcome.pushed, way);
     }
     if (!outcome.bounded) return false;
     outcome.penetration = std::max(outcome.penetration, depth());
@@ -140,7 +142,11 @@ class Watch {
     hardest_ = std::max(hardest_, weight_ + force);
     if (!at_rest) return true;
     const double now = energy();
-    lowest_ = std::min(lowest_, now);
+    const Vector3d handle = simulation_.fork().X_WH_seen.translation();
+    // One that was held back is drawn to the hand again: work of the hand.
+    const double work = std::isfinite(lowest_) ? hardest_ * (handle - handle_).norm() : 0.0;
+    lowest_ = std::min(lowest_ + work, now);
+    handle_ = handle;
     growth_ = std::max(growth_, now - lowest_);
     outcome.energy_gained = growth_ > 0.0 ? growth_ / std::max(hardest_, 1e-9) : 0.0;
     return true;
@@ -181,6 +187,7 @@ class Watch {
   const Simulation& simulation_;
   std::vector<BodyState> start_;
   double weight_ = 0.0, hardest_ = 0.0;
+  Vector3d handle_ = Vector3d::Zero();  ///< that the held one saw at the last look
   double lowest_ = std::numeric_limits<double>::infinity(), growth_ = 0.0;
 };
 
