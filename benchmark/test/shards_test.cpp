@@ -9,7 +9,6 @@
 #include <random>
 #include <sstream>
 
-#include "benchmark/contact/extremes_table.h"
 #include "benchmark/error_table.h"
 #include "benchmark/our_methods.h"
 #include "benchmark/peers.h"
