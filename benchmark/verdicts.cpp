@@ -303,6 +303,26 @@ void contact(const Measurements& m, std::vector<Verdict>& out) {
   }
 }
 
+void contact_extremes(const Measurements& m, std::vector<Verdict>& out) {
+  for (const char* mode : {"stop", "dynamic"}) {
+    ExtremeOutcome worst;
+    int cells = 0, held = 0;
+    for (const ExtremeRow& row : m.extremes) {
+      if (row.contact != mode) continue;
+      ++cells;
+      held += row.outcome.held();
+      worst.penetration = std::max(worst.penetration, row.outcome.penetration);
+      worst.energy_gained = std::max(worst.energy_gained, row.outcome.energy_gained);
+    }
+    if (cells == 0) continue;
+    out.push_back(judged(std::string("Contact at its extremes, ") + mode,
+                         "every cell finite, bounded, ≤ 0.1 mm deep, gains no more energy than 3 µm of depth are worth, none refused",
+                         std::to_string(held) + " of " + std::to_string(cells) + " cells; deepest " +
+                             text(1e3 * worst.penetration) + " mm, most gained " + text(1e6 * worst.energy_gained) + " µm",
+                         held == cells));
+  }
+}
+
 }  // namespace
 
 std::string name_of(Verdict::Result result) {
@@ -325,6 +345,7 @@ std::vector<Verdict> verdicts(const Measurements& measured) {
   shapes(measured, out);
   tolerance(measured, out);
   contact(measured, out);
+  contact_extremes(measured, out);
   stability(measured, out);
   const double limit = measured.quick ? 60.0 : 1200.0;
   out.push_back(judged(measured.quick ? "report --quick" : "report", "under " + text(limit / 60.0) + " min",

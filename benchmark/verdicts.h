@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "benchmark/contact/contact_table.h"
+#include "benchmark/contact/extremes_table.h"
 #include "benchmark/elastica.h"
 #include "benchmark/error_table.h"
 #include "benchmark/fork_curve.h"
@@ -23,6 +24,7 @@ struct Measurements {
   std::vector<StepCost> step_costs;
   std::vector<ForkCurveRow> fork_curves;
   ContactTable contact;
+  std::vector<ExtremeRow> extremes;  ///< of contact
   double seconds = 0.0;  ///< that the report took
   bool quick = false;
 };

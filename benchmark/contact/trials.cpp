@@ -7,6 +7,7 @@
 #include <map>
 #include <sstream>
 
+#include "benchmark/contact/bodies.h"
 #include "benchmark/contact/scale.h"
 #include "benchmark/contact/wild_motions.h"
 #include "spring_workbench/config/yaml_fields.h"
@@ -15,11 +16,6 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr const char* where = "command line";
-
-const char* name_of(ContactMode mode) {
-  if (mode == ContactMode::none) return "none";
-  return mode == ContactMode::stop ? "stop" : "dynamic";
-}
 
 int count_at(const std::vector<std::string>& arguments, std::size_t index, int otherwise) {
   if (index >= arguments.size()) return otherwise;

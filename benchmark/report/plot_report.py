@@ -5,7 +5,8 @@ Usage: plot_report.py scene    error_table.csv PICTURE.png SCENE    a column per
        plot_report.py rods     rod_table.csv PICTURE.png            a panel per case, a line per integrator
        plot_report.py shapes   elastica.csv PICTURE.png rod_table.csv  error of the model beside that of integration
        plot_report.py tolerance rod_table.csv PICTURE.png           error reached against tolerance asked
-       plot_report.py stability stability_map.csv PICTURE.png       a panel per integrator
+       plot_report.py stability stability_map.csv PICTURE.png contact_extremes.csv
+                                                                    a panel per integrator and contact mode
        plot_report.py contact contact_drag.csv PICTURE.png contact_impact.csv contact_steps.csv"""
 import csv
 import math
@@ -231,31 +232,50 @@ def tolerance(table, picture):
     save(figure, picture, panels[:1])
 
 
-def stability(table, picture):
+def share_panel(axes, share, columns, lines):
+    image = axes.imshow(share, origin="lower", aspect="auto", cmap="RdYlGn", vmin=0.0, vmax=1.0)
+    for y, line in enumerate(share):
+        for x, value in enumerate(line):
+            if value < 1.0:
+                axes.text(x, y, f"{math.floor(100.0 * value)}", ha="center", va="center", fontsize=6.5)
+    axes.set_xticks(range(len(columns)), [f"{math.log10(k):.0f}" for k in columns])
+    axes.set_yticks(range(len(lines)), lines)
+    return image
+
+
+def shares(rows, line_of, column_of):
+    """Of the cells that hold, by line and column, and how many hold of how many."""
+    held, cells = defaultdict(int), defaultdict(int)
+    for row in rows:
+        place = line_of(row), column_of(row)
+        held[place] += int(row["held"])
+        cells[place] += int(row.get("cells", 1))
+    return {place: held[place] / cells[place] for place in cells}, f"{sum(held.values())} of {sum(cells.values())} cells hold"
+
+
+def stability(table, picture, extremes):
     rows = read(table)
     shape = rows[0]["shape"]
     rows = [row for row in rows if row["shape"] == shape]
     names = in_order(row["integrator"] for row in rows)
     stiffnesses = sorted({float(row["stiffness_factor"]) for row in rows})
     masses = sorted({float(row["mass"]) for row in rows})
-    figure, panels = grid(len(names))
+    contact_rows = read(extremes)
+    modes = in_order(row["contact"] for row in contact_rows)
+    figure, panels = grid(len(names) + len(modes))
+    mass_names = ["0" if m == 0.0 else f"1e{math.log10(m):.0f}" for m in masses]
     for axes, name in zip(panels, names):
-        held, cells = defaultdict(int), defaultdict(int)
-        for row in rows:
-            if row["integrator"] == name:
-                place = float(row["mass"]), float(row["stiffness_factor"])
-                held[place] += int(row["held"])
-                cells[place] += int(row["cells"])
-        share = [[held[m, k] / max(1, cells[m, k]) for k in stiffnesses] for m in masses]
-        image = axes.imshow(share, origin="lower", aspect="auto", cmap="RdYlGn", vmin=0.0, vmax=1.0)
-        for y, line in enumerate(share):
-            for x, value in enumerate(line):
-                if value < 1.0:
-                    axes.text(x, y, f"{math.floor(100.0 * value)}", ha="center", va="center", fontsize=6.5)
-        axes.set_xticks(range(len(stiffnesses)), [f"{math.log10(k):.0f}" for k in stiffnesses])
-        axes.set_yticks(range(len(masses)), ["0" if m == 0.0 else f"1e{math.log10(m):.0f}" for m in masses])
-        total = sum(held.values()), sum(cells.values())
-        axes.set(title=f"{name}\n{total[0]} of {total[1]} cells hold", xlabel="stiffness factor, power of ten", ylabel="mass [kg]")
+        share, total = shares([row for row in rows if row["integrator"] == name], lambda row: float(row["mass"]),
+                              lambda row: float(row["stiffness_factor"]))
+        image = share_panel(axes, [[share.get((m, k), 0.0) for k in stiffnesses] for m in masses], stiffnesses, mass_names)
+        axes.set(title=f"{name}\n{total}", xlabel="stiffness factor, power of ten", ylabel="mass [kg]")
+    for axes, mode in zip(panels[len(names):], modes):
+        here = [row for row in contact_rows if row["contact"] == mode]
+        forks, lines = sorted({float(row["stiffness"]) for row in here}), in_order(row["extreme"] for row in here)
+        share, total = shares(here, lambda row: row["extreme"], lambda row: float(row["stiffness"]))
+        share_panel(axes, [[share.get((line, k), math.nan) for k in forks] for line in lines], forks, lines)
+        axes.tick_params(axis="y", labelsize=7)
+        axes.set(title=f"contact: {mode}\n{total}", xlabel="stiffness [N/m], power of ten")
     share = 1.0 - 1.3 / figure.get_figwidth()
     figure.tight_layout(rect=(0, 0, share, 1))
     bar = figure.colorbar(image, cax=figure.add_axes((share, 0.12, 0.2 / figure.get_figwidth(), 0.72)))

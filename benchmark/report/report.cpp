@@ -59,7 +59,7 @@ std::size_t units_of(const Plan& plan, const std::vector<const Method*>& methods
   std::size_t counts = 0;
   for (const Method* method : methods) counts += has_stability_counts(*method) ? 2 : 0;
   return unit_count(methods, plan.scenes) + line_count(plan.rods) + unit_count(plan.map) + (quick ? 0 : counts) +
-         contact_unit_count(drags, quick) + 3;
+         contact_unit_count(drags, quick) + extreme_unit_count() + 3;
 }
 
 Measurements measure(const Plan& plan, const std::vector<const Method*>& methods, const std::vector<DragMethod>& drags,
@@ -71,6 +71,7 @@ Measurements measure(const Plan& plan, const std::vector<const Method*>& methods
   measured.contact = measure_contact(drags, quick, units);
   if (!quick) measured.stability_counts = stability_table(methods, units);
   measured.map = stability_map(plan.map, units);
+  measured.extremes = extremes_table(quick, units);
   measured.elastica = units.rows<ElasticaRow>(0, "elastica", [] { return elastica_table(); });
   measured.step_costs = units.rows<StepCost>(1, "parts of a step", [] { return step_costs(); });
   measured.fork_curves = units.rows<ForkCurveRow>(2, "curves of the fork", [] { return measure_fork_curves(); });
@@ -90,6 +91,7 @@ void write_report(const Measurements& measured, PageContents page, const std::st
   tables.rods = keep("rod_table.csv", as_csv(measured.rods));
   tables.elastica = keep("elastica.csv", elastica_csv(measured.elastica));
   tables.map = keep("stability_map.csv", stability_csv(measured.map));
+  tables.extremes = keep("contact_extremes.csv", extremes_csv(measured.extremes));
   keep("stability_failures.csv", failures_csv(measured.map));
   keep("verdicts.csv", verdicts_csv(judged));
   if (!measured.quick) keep("stability_counts.csv", stability_counts_csv(measured.stability_counts));

@@ -10,7 +10,7 @@ namespace spring_workbench::benchmark {
 
 /// Paths of the CSV files that pictures are drawn from.
 struct Tables {
-  std::string scenes, rods, elastica, map, drags, impacts, world_steps;
+  std::string scenes, rods, elastica, map, extremes, drags, impacts, world_steps;
 };
 
 /// The page's sections, with pictures drawn into `folder`. `elastica_difference`: as elastica_check().

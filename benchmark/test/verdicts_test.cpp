@@ -66,6 +66,14 @@ TEST(Verdicts, OneCellThatFailsIsEnoughForTheMapNotToHold) {
   }
 }
 
+TEST(Verdicts, OneCellThatFailsIsEnoughForContactsExtremesNotToHold) {
+  Measurements measured;
+  measured.extremes.assign(2, {"stack", "stop", 1e3, 0.02, 0, {}});
+  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::held);
+  measured.extremes[1].outcome.penetration = 1.01e-4;
+  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::not_held);
+}
+
 TEST(Verdicts, ErrorsOfTheRodAreJudgedInPositionAndAngle) {
   for (const auto& [error, angle, held] :
        {std::tuple{0.9e-5, 0.9e-4, true}, std::tuple{1.1e-5, 0.0, false}, std::tuple{0.0, 1.1e-4, false}}) {

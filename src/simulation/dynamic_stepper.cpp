@@ -22,6 +22,7 @@ constexpr double as_sound = 0.9;                   ///< of the part of a piece t
 constexpr double least_try = 0.1, most_try = 0.7;  ///< of a piece: the next try
 constexpr double shortest_piece = 1e-5;            ///< [s], or of a step that is shorter than the longest, as much less
 constexpr double margin_near = 5e-4;               ///< [m]
+constexpr int most_solutions = 4;                  ///< of one piece, each about the loads of the last
 constexpr double same_point = 2e-3;                ///< [m]
 
 /// A compliance as it has to be: symmetric, and nothing comes towards a load. Of a fork that is far from straight it
@@ -110,24 +111,28 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<SteppedBody*>& he
 }
 
 DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<SteppedBody*>& held,
-                                                    const std::vector<Candidate>& candidates, double& h) {
+                                                    std::vector<Candidate> candidates, double& h) {
   for (SteppedBody* body : held) body->go_back();
   const double longest = others_awake() ? longest_with_free : longest_piece;
   if (h > longest) {
     h = longest;
     return Piece::too_long;
   }
-  std::vector<DrivenBody> driven;
-  for (std::size_t i = 0; i < held.size(); ++i) driven.push_back(driven_body(*held[i], candidates[i], h));
-  world_->remember();
-  world_->step(h, driven);
-  double sound = 1.0;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    const Wrench& impact = driven[i].impact_W;
-    if (!impact.force.isZero(0.0) || !impact.moment.isZero(0.0)) held[i]->add_impulse(impact);
-    const bool possible = held[i]->advance(h, driven[i].contact_W);
-    const double part = world_->sound_part(held[i]->index(), candidates[i].begin.X, held[i]->object().X);
-    sound = std::min(sound, possible ? part : 0.0);
+  std::vector<DrivenBody> driven = solve(held, candidates, h);
+  double sound = sound_part(held, candidates, driven, h);
+  double before = 0.0;
+  for (int solution = 1; sound < 1.0 && sound > before && solution < most_solutions; ++solution) {
+    before = sound;
+    // The fork gives way otherwise than to the load that was assumed: once more, about this one.
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      candidates[i].end = held[i]->object();
+      candidates[i].load_W = driven[i].contact_W;
+      candidates[i].impact_W = driven[i].impact_W;
+      held[i]->go_back();
+    }
+    world_->go_back();
+    driven = solve(held, candidates, h);
+    sound = sound_part(held, candidates, driven, h);
   }
   if (sound < 1.0) {
     world_->go_back();
@@ -139,6 +144,28 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<SteppedBod
   for (std::size_t i = 0; i < held.size(); ++i) take(*held[i], driven[i].contact_W);
   add_contacts();
   return Piece::gone;
+}
+
+std::vector<DrivenBody> DynamicStepper::solve(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates,
+                                              double h) {
+  std::vector<DrivenBody> driven;
+  for (std::size_t i = 0; i < held.size(); ++i) driven.push_back(driven_body(*held[i], candidates[i], h));
+  world_->remember();
+  world_->step(h, driven);
+  return driven;
+}
+
+double DynamicStepper::sound_part(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates,
+                                  const std::vector<DrivenBody>& driven, double h) const {
+  double sound = 1.0;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const Wrench& impact = driven[i].impact_W;
+    if (!impact.force.isZero(0.0) || !impact.moment.isZero(0.0)) held[i]->add_impulse(impact);
+    const bool possible = held[i]->advance(h, driven[i].contact_W);
+    const double part = world_->sound_part(held[i]->index(), candidates[i].begin.X, held[i]->object().X);
+    sound = std::min(sound, possible ? part : 0.0);
+  }
+  return sound;
 }
 
 void DynamicStepper::hold_back(const std::vector<SteppedBody*>& held, double h, Outcome& outcome) {
@@ -174,7 +201,9 @@ DrivenBody DynamicStepper::driven_body(const SteppedBody& body, const Candidate&
   d.coasting = answer.velocity;  // an impulse does at once what a constant load does in the course of the step
   Vector6d load;
   load << c.load_W.force, c.load_W.moment;
-  const Vector6d by_load = d.compliance * load;
+  Vector6d impact;
+  impact << c.impact_W.force, c.impact_W.moment;
+  const Vector6d by_load = d.compliance * load + d.coasting * impact;
   d.displacement_W.linear = c.end.X.translation() - c.begin.X.translation() - by_load.head<3>();
   d.displacement_W.angular =
       c.begin.X.linear() * log_so3(c.begin.X.linear().transpose() * c.end.X.linear()) - by_load.tail<3>();

@@ -38,6 +38,7 @@ class DynamicStepper {
   struct Candidate {
     MotionState begin, end;
     Wrench load_W;
+    Wrench impact_W;  ///< the impulse at its begin
     bool possible = false;
   };
   Candidate try_piece(SteppedBody& body, double h) const;
@@ -52,7 +53,12 @@ class DynamicStepper {
   enum class Piece { gone, too_long, stuck };
   /// Carries all over one piece with contact, unless that would bring a body too deep into something or through it;
   /// then all are where they were, and `h` is a piece to try instead, or none is short enough.
-  Piece go_in_contact(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double& h);
+  Piece go_in_contact(const std::vector<SteppedBody*>& held, std::vector<Candidate> candidates, double& h);
+  /// The world goes on over a piece, and says what contact does to the held bodies, which are at their begin.
+  std::vector<DrivenBody> solve(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double h);
+  /// The held bodies go over a piece under these loads; which part of their ways is sound.
+  double sound_part(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates,
+                    const std::vector<DrivenBody>& driven, double h) const;
   /// The held bodies stay where they are for one piece, while the others go on.
   void hold_back(const std::vector<SteppedBody*>& held, double h, Outcome& outcome);
   void take(SteppedBody& body, const Wrench& contact_W);

@@ -38,7 +38,8 @@ btDbvtVolume volume(const Extent& box) { return btDbvtVolume::FromMM(to_bullet(b
 
 BulletWorld::BulletWorld(const Scene& scene)
     : scene_(scene), bench_shape_(btVector3(0, 0, 1), scene.bench_height + contact_skin) {
-  gDeactivationTime = asleep_after;
+  static const double set_once = gDeactivationTime = asleep_after;  // worlds may be made in several threads
+  static_cast<void>(set_once);
   btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
   configuration_.setPlaneConvexMultipointIterations(4,
                                                     4);  // a flush face touches with its corners from the first step on
@@ -104,10 +105,15 @@ void BulletWorld::make_bullet(std::size_t index) {
   item.bullet->setRestitution(std::sqrt(body.material.restitution));
   item.bullet->setUserIndex(static_cast<int>(index));
   if (item.massless) {
-    item.bullet->setLinearFactor(btVector3(0, 0, 0));
-    item.bullet->setAngularFactor(btVector3(0, 0, 0));
+    let_move(item, false);
     item.bullet->setFlags(item.bullet->getFlags() | BT_DISABLE_WORLD_GRAVITY);
   }
+}
+
+void BulletWorld::let_move(Item& item, bool may_move) {
+  const double factor = may_move ? 1.0 : 0.0;
+  item.bullet->setLinearFactor(btVector3(factor, factor, factor));
+  item.bullet->setAngularFactor(factor);
 }
 
 void BulletWorld::update_box(Item& item) {
@@ -232,6 +238,7 @@ void BulletWorld::begin_driving(std::vector<DrivenBody>& driven, double h) {
     put(d.body, d.X_WO, {d.displacement_W.linear / h, d.displacement_W.angular / h});
     item.bullet->setGravity(btVector3(0, 0, 0));
     item.bullet->forceActivationState(DISABLE_DEACTIVATION);
+    if (item.massless) let_move(item, true);
     for_solver.push_back({item.bullet.get(), &d});
   }
   solver_.set_driven(std::move(for_solver), h);
@@ -242,7 +249,11 @@ void BulletWorld::end_driving(const std::vector<DrivenBody>& driven) {
     Item& item = items_[d.body];
     if (!item.driven) continue;
     item.driven = false;
-    if (!item.massless) item.bullet->setGravity(world_.getGravity());
+    if (item.massless) {
+      let_move(item, false);
+    } else {
+      item.bullet->setGravity(world_.getGravity());
+    }
     item.bullet->forceActivationState(ACTIVE_TAG);
     put(d.body, d.X_WO, Twist());
   }

@@ -14,6 +14,15 @@
 
 namespace spring_workbench {
 
+/// Finds the contacts of sleeping bodies, too: or what is hit would be pushed into what it lies on before that is seen.
+class DispatcherForSleepers final : public btCollisionDispatcher {
+ public:
+  using btCollisionDispatcher::btCollisionDispatcher;
+  bool needsCollision(const btCollisionObject* a, const btCollisionObject* b) override {
+    return a->checkCollideWith(b) && b->checkCollideWith(a);
+  }
+};
+
 /// Bullet's world, with what rests taken out of it and driven bodies in its solver.
 class BulletWorld final : public RigidWorld {
  public:
@@ -67,6 +76,7 @@ class BulletWorld final : public RigidWorld {
   };
 
   void make_bullet(std::size_t index);
+  static void let_move(Item& item, bool may_move);  ///< one without mass: Bullet takes contacts of what cannot for none
   void enter(std::size_t index);
   void leave(std::size_t index);
   void put(std::size_t index, const RigidTransform& X_WO, const Twist& V_WO_W);
@@ -90,7 +100,7 @@ class BulletWorld final : public RigidWorld {
   btDbvt tree_;                        ///< of all of them
   std::vector<std::size_t> in_world_;  ///< those that Bullet has to look at
   BoxesSeenEarly configuration_;
-  btCollisionDispatcher dispatcher_{&configuration_};
+  DispatcherForSleepers dispatcher_{&configuration_};
   btDbvtBroadphase broadphase_;
   DrivenSolver solver_;
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};

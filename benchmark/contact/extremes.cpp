@@ -1,0 +1,237 @@
+#include "benchmark/contact/extremes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "benchmark/contact/bodies.h"
+#include "spring_workbench/scene/outline.h"
+#include "spring_workbench/simulation/simulation.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr double g = 9.81, edge = 0.1, thin = 0.05;          // m/s², m, m
+constexpr double pressing = 0.1, shifting = 0.1, rest = 0.2;  // s, of the hand
+constexpr double farthest = 0.5;                              // m
+constexpr double sample_time = 0.02;                          // s
+
+/// The first body is the held one.
+struct Setting {
+  std::vector<Body> bodies;
+  Vector3d pressed, shifted;  // the hand's two ways
+};
+
+Body cube(const std::string& name, double mass, const Vector3d& p_WO) { return box(name, Vector3d::Constant(edge), mass, p_WO); }
+
+/// Its face towards −x is at `x`.
+Body wall(double x) {
+  const Vector3d size(0.02, 1.0, 1.0);
+  return standing("wall", Box{size}, at(Vector3d(x + 0.5 * size.x(), 0.0, 0.5)), 0.5);
+}
+
+Setting one_on_other(double upper, double lower) {
+  return {{cube("held", upper, {0.02, 0, 1.5 * edge + 0.01}), cube("lower", lower, {0, 0, 0.5 * edge})}, {0, 0, -0.03}, {0.02, 0, 0}};
+}
+
+Setting at_wall(double mass) {
+  return {{cube("held", mass, {0, 0, 0.5 * edge}), wall(0.5 * edge + 0.01)}, {0.03, 0, 0}, {0, 0.05, 0}};
+}
+
+Setting stack() {
+  Setting s{{}, {0, 0, -0.02}, {0.01, 0, 0}};
+  const auto on = [](int below) { return Vector3d(0, 0, (below + 0.5) * thin); };
+  s.bodies.push_back(box("held", {edge, edge, thin}, 1.0, on(9) + Vector3d(0, 0, 0.01)));
+  for (int i = 0; i < 9; ++i) s.bodies.push_back(box("box" + std::to_string(i), {edge, edge, thin}, 1.0, on(i)));
+  return s;
+}
+
+Setting among_others() {
+  return {{cube("held", 0.5, {0, 0, 0.5 * edge}), wall(0.5 * edge), cube("neighbour", 0.5, {-edge, 0, 0.5 * edge})},
+          {0.02, 0.02, 0},
+          {0, 0, 0.05}};
+}
+
+Setting under_another() {
+  Setting s = among_others();
+  s.bodies.push_back(box("on top", {edge, edge, thin}, 0.2, {0, 0, edge + 0.5 * thin}));
+  return s;
+}
+
+Setting setting_of(ContactExtreme extreme) {
+  switch (extreme) {
+    case ContactExtreme::stack_of_ten: return stack();
+    case ContactExtreme::light_on_heavy: return one_on_other(1e-3, 1.0);
+    case ContactExtreme::heavy_on_light: return one_on_other(1.0, 1e-3);
+    case ContactExtreme::light_at_wall: return at_wall(1e-6);
+    case ContactExtreme::heavy_at_wall: return at_wall(1e6);
+    case ContactExtreme::massless_at_wall: return at_wall(0.0);
+    case ContactExtreme::grasped_touching: return among_others();
+    case ContactExtreme::grasped_under_another: return under_another();
+  }
+  throw std::logic_error("an extreme without a scene");
+}
+
+Scene scene_of(const ExtremeCell& cell, const Setting& setting) {
+  Scene scene;
+  scene.name = scene.path = name_of(cell.extreme);
+  scene.contact = cell.contact;
+  scene.gravity = g;
+  scene.bench_material.friction = 0.5;
+  scene.bodies = setting.bodies;
+  return scene;
+}
+
+SimulationSettings settings_of(const ExtremeCell& cell) {
+  SimulationSettings settings;
+  settings.fork.stiffness = {cell.stiffness, cell.stiffness, 0.01 * cell.stiffness};
+  settings.dynamics.step = cell.step;
+  settings.grasp.object = "held";
+  return settings;
+}
+
+double minimum_jerk(double u) {
+  u = std::clamp(u, 0.0, 1.0);
+  return u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
+}
+
+/// The hand, with the fork pointing down, above the held one at first.
+class Hand {
+ public:
+  Hand(const ExtremeCell& cell, const Setting& setting, double length) : pressed_(setting.pressed), shifted_(setting.shifted) {
+    std::mt19937 random(cell.seed);
+    std::uniform_real_distribution<double> unit(-1.0, 1.0);
+    start_ = setting.bodies[0].X_WO.translation() + Vector3d(0, 0, length);
+    for (Vector3d* way : {&pressed_, &shifted_}) *way += 0.0025 * Vector3d(unit(random), unit(random), unit(random));
+    turn_ = 0.05 * unit(random);
+  }
+  PoseSample at(double t) const {
+    const double in = minimum_jerk(t / pressing), along = minimum_jerk((t - pressing) / shifting);
+    const Quaterniond down(0.0, 1.0, 0.0, 0.0);
+    return {t, make_transform(Quaterniond(Eigen::AngleAxisd(along * turn_, Vector3d::UnitZ())) * down,
+                              start_ + in * pressed_ + along * shifted_)};
+  }
+
+ private:
+  Vector3d start_, pressed_, shifted_;
+  double turn_;
+};
+
+class Watch {
+ public:
+  Watch(const Simulation& simulation) : simulation_(simulation), start_(simulation.objects()) {
+    for (const Body& body : simulation.scene().bodies) weight_ += body.mass_properties.mass * g;
+    hardest_ = weight_;
+  }
+
+  /// False when there is no point in going on.
+  bool look(bool at_rest, ExtremeOutcome& outcome) {
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+      const BodyState& o = simulation_.objects()[i];
+      outcome.finite = outcome.finite && o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite() && o.V_WO_W.angular.allFinite();
+      const double way = (o.X_WO.translation() - start_[i].X_WO.translation()).norm();
+      outcome.bounded = outcome.bounded && outcome.finite && way < farthest;
+      if (!o.held) outcome.pushed = std::max(outcome.pushed, way);
+    }
+    if (!outcome.bounded) return false;
+    outcome.penetration = std::max(outcome.penetration, depth());
+    double force = 0.0;
+    for (const ContactState& contact : simulation_.contacts()) force += contact.force;
+    hardest_ = std::max(hardest_, weight_ + force);
+    if (!at_rest) return true;
+    const double now = energy();
+    const Vector3d handle = simulation_.fork().X_WH_seen.translation();
+    // One that was held back is drawn to the hand again: work of the hand.
+    const double work = std::isfinite(lowest_) ? hardest_ * (handle - handle_).norm() : 0.0;
+    lowest_ = std::min(lowest_ + work, now);
+    handle_ = handle;
+    growth_ = std::max(growth_, now - lowest_);
+    outcome.energy_gained = growth_ > 0.0 ? growth_ / std::max(hardest_, 1e-9) : 0.0;
+    return true;
+  }
+
+ private:
+  double depth() const {
+    std::vector<OutlineBox> boxes;
+    const Scene& scene = simulation_.scene();
+    std::size_t object = 0;
+    for (const Body& body : scene.bodies) {
+      const RigidTransform& X_WO = body.movable ? simulation_.objects()[object++].X_WO : body.X_WO;
+      OutlineBox box = outline(body).front();
+      box.X = X_WO * box.X;
+      boxes.push_back(box);
+    }
+    double gap = 0.0;
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      if (scene.bodies[i].movable) gap = std::min(gap, gap_above(boxes[i], scene.bench_height).gap);
+      for (std::size_t j = 0; j < i; ++j) gap = std::min(gap, gap_between(boxes[i], boxes[j]).gap);
+    }
+    return -gap;
+  }
+
+  double energy() const {
+    double sum = simulation_.fork().elastic_energy;
+    std::size_t object = 0;
+    for (const Body& body : simulation_.scene().bodies) {
+      if (!body.movable) continue;
+      const BodyState& o = simulation_.objects()[object++];
+      const Vector3d w_O = o.X_WO.linear().transpose() * o.V_WO_W.angular;
+      const MassProperties& m = body.mass_properties;
+      sum += m.mass * (0.5 * o.V_WO_W.linear.squaredNorm() + g * o.X_WO.translation().z()) + 0.5 * w_O.dot(m.inertia_O * w_O);
+    }
+    return sum;
+  }
+
+  const Simulation& simulation_;
+  std::vector<BodyState> start_;
+  double weight_ = 0.0, hardest_ = 0.0;
+  Vector3d handle_ = Vector3d::Zero();  ///< that the held one saw at the last look
+  double lowest_ = std::numeric_limits<double>::infinity(), growth_ = 0.0;
+};
+
+}  // namespace
+
+const std::vector<ContactExtreme>& contact_extremes() {
+  static const std::vector<ContactExtreme> all{
+      ContactExtreme::stack_of_ten,     ContactExtreme::light_on_heavy,   ContactExtreme::heavy_on_light,
+      ContactExtreme::light_at_wall,    ContactExtreme::heavy_at_wall,    ContactExtreme::massless_at_wall,
+      ContactExtreme::grasped_touching, ContactExtreme::grasped_under_another};
+  return all;
+}
+
+std::string name_of(ContactExtreme extreme) {
+  switch (extreme) {
+    case ContactExtreme::stack_of_ten: return "stack of ten";
+    case ContactExtreme::light_on_heavy: return "1 g held on 1 kg";
+    case ContactExtreme::heavy_on_light: return "1 kg held on 1 g";
+    case ContactExtreme::light_at_wall: return "1e-6 kg at a wall";
+    case ContactExtreme::heavy_at_wall: return "1e6 kg at a wall";
+    case ContactExtreme::massless_at_wall: return "massless at a wall";
+    case ContactExtreme::grasped_touching: return "grasped while it touches";
+    case ContactExtreme::grasped_under_another: return "grasped under another";
+  }
+  throw std::logic_error("an extreme without a name");
+}
+
+ExtremeOutcome run(const ExtremeCell& cell) {
+  const Setting setting = setting_of(cell.extreme);
+  const SimulationSettings settings = settings_of(cell);
+  Simulation simulation(scene_of(cell, setting), settings);
+  const Hand hand(cell, setting, settings.fork.length);
+  const double interval = std::max(cell.step, sample_time), end = pressing + shifting + rest;
+  const int samples = static_cast<int>(std::lround(end / interval));
+  for (int i = 0; i <= samples; ++i) simulation.push_stylus(hand.at(interval * i));
+  Watch watch(simulation);
+  ExtremeOutcome outcome;
+  for (int i = 1; i <= samples; ++i) {
+    const AdvanceReport report = simulation.advance(interval * i);
+    outcome.refused += report.guards_tripped;
+    outcome.held_back += report.held_back;
+    if (!watch.look(interval * i > pressing + shifting + 1.5 * interval, outcome)) break;
+  }
+  return outcome;
+}
+
+}  // namespace spring_workbench::benchmark

@@ -1,0 +1,72 @@
+#include "benchmark/contact/extremes_table.h"
+
+#include <iterator>
+#include <sstream>
+
+#include "benchmark/contact/bodies.h"
+#include "benchmark/parallel.h"
+#include "spring_workbench/config/input_error.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr ContactMode modes[] = {ContactMode::stop, ContactMode::dynamic};
+
+/// Of the pairs of stiffness and step one in four is run, of the stack, which costs most, fewer, each with another seed.
+std::vector<ExtremeCell> cells_of(ContactExtreme extreme, ContactMode mode, bool quick) {
+  const std::vector<double> stiffnesses = quick ? std::vector<double>{1e3, 1e9} : std::vector<double>{1.0, 1e3, 1e6, 1e9};
+  const std::vector<double> steps = quick ? std::vector<double>{0.02} : std::vector<double>{0.05, 0.02, 0.005, 0.001};
+  const std::size_t one_in = quick ? 1 : extreme == ContactExtreme::stack_of_ten ? 6 : 4;
+  std::vector<ExtremeCell> cells;
+  for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
+    for (std::size_t j = 0; j < steps.size(); ++j) {
+      if ((i + j) % one_in == 0) cells.push_back({extreme, mode, stiffnesses[i], steps[j], static_cast<unsigned>(cells.size())});
+    }
+  }
+  return cells;
+}
+
+std::vector<ExtremeRow> rows_of(ContactExtreme extreme, ContactMode mode, bool quick) {
+  const std::vector<ExtremeCell> cells = cells_of(extreme, mode, quick);
+  std::vector<ExtremeRow> rows(cells.size());
+  try {
+    parallel_for(cells.size(), [&](std::size_t i) {
+      const ExtremeCell& cell = cells[i];
+      rows[i] = {name_of(extreme), name_of(mode), cell.stiffness, cell.step, static_cast<int>(cell.seed), run(cell)};
+    });
+  } catch (const InputError&) {  // no engine of this mode
+    return {};
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::size_t extreme_unit_count() { return contact_extremes().size() * std::size(modes); }
+
+std::vector<ExtremeRow> extremes_table(bool quick, Units& units) {
+  std::vector<ExtremeRow> table;
+  std::size_t number = 0;
+  for (const ContactMode mode : modes) {
+    for (const ContactExtreme extreme : contact_extremes()) {
+      const auto rows = units.rows<ExtremeRow>(number++, "contact's extremes: " + name_of(mode) + ", " + name_of(extreme),
+                                               [&] { return rows_of(extreme, mode, quick); });
+      table.insert(table.end(), rows.begin(), rows.end());
+    }
+  }
+  return table;
+}
+
+std::string extremes_csv(const std::vector<ExtremeRow>& rows) {
+  std::ostringstream out;
+  out << "extreme,contact,stiffness,step,seed,finite,bounded,penetration_um,energy_gained_um,steps_refused,steps_held_back,held\n";
+  for (const ExtremeRow& row : rows) {
+    const ExtremeOutcome& o = row.outcome;
+    out << row.extreme << ',' << row.contact << ',' << row.stiffness << ',' << row.step << ',' << row.seed << ',' << o.finite << ','
+        << o.bounded << ',' << 1e6 * o.penetration << ',' << 1e6 * o.energy_gained << ',' << o.refused << ',' << o.held_back << ','
+        << o.held() << '\n';
+  }
+  return out.str();
+}
+
+}  // namespace spring_workbench::benchmark
