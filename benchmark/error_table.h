@@ -70,8 +70,9 @@ std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, co
 /// The rows with a header line, as CSV.
 void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out);
 
-/// Number of lines, each a unit of work, and the rows of all of them.
-std::size_t line_count(const std::vector<const Method*>& methods, const ErrorTablePlan& plan);
+/// The rows of all lines. Each line is two units of work: what it gives, and, when all have been through, its run times once
+/// more, of which the lesser ones count. So a slow phase of the machine does not hit one line alone.
+std::size_t unit_count(const std::vector<const Method*>& methods, const ErrorTablePlan& plan);
 std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan, Units& units);
 
 }  // namespace spring_workbench::benchmark

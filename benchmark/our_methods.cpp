@@ -5,7 +5,7 @@
 #include <limits>
 #include <utility>
 
-#include "benchmark/dense_output.h"
+#include "benchmark/dense_strain.h"
 #include "benchmark/stepping_loop.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/so3.h"
@@ -55,39 +55,25 @@ class FunctionHand final : public FrameMotion {
   const FrameMotion& at(double) const { return *this; }
 
   OwnAxesMotion in_own_axes(double t) const override {
-    const HandMotion& hand = motion(t);
+    const HandleMotion<double> handle = handle_motion(scene_, t);
     OwnAxesMotion m;
-    m.X.linear() = hand.state.R_WT;
-    m.X.translation() = hand.state.p_WT;
-    m.v_W = hand.state.v_WT_W;
-    m.a_W = hand.acceleration.a_WT_W;
-    m.w_B = hand.state.w_WT_T;
-    m.alpha_B = hand.acceleration.alpha_WT_T;
+    m.X.linear() = matrix(handle.R_WH, 0);
+    m.X.translation() = vector(handle.p_W);
+    m.v_W = vector(handle.v_W);
+    m.a_W = vector(handle.a_W);
+    m.w_B = vector(handle.w_H);
+    m.alpha_B = vector(handle.alpha_H);
     return m;
   }
   FrameForcing<Pack> forcing(const Pack& t, double gravity) const override {
-    FrameForcing<Pack> f;
-    for (int i = 0; i < pack_size; ++i) {
-      const HandMotion& hand = motion(t[i]);
-      const ThreeByThree<double> R = three_by_three(hand.state.R_WT);
-      set_lane(f.R_WB, i, R);
-      set_lane(f.w_B, i, three(hand.state.w_WT_T));
-      set_lane(f.alpha_B, i, three(hand.acceleration.alpha_WT_T));
-      set_lane(f.a_B, i, transposed(R, three(hand.acceleration.a_WT_W) + Three<double>{0.0, 0.0, gravity}));
-    }
-    return f;
+    HandleMotion<Pack> handle;
+    handle_motion(scene_, t, handle);
+    handle.a_W.z += gravity;
+    return {handle.R_WH, handle.w_H, handle.alpha_H, transposed(handle.R_WH, handle.a_W)};
   }
 
  private:
-  /// Asked once where a step begins at the end of the last one.
-  const HandMotion& motion(double t) const {
-    if (t != t_) newest_ = handle_motion(scene_, t_ = t);
-    return newest_;
-  }
-
   const Scenario& scene_;
-  mutable double t_ = std::numeric_limits<double>::quiet_NaN();
-  mutable HandMotion newest_;
 };
 
 /// The handle by the poses of a tracker that samples once an output interval.
@@ -138,16 +124,57 @@ RunResult run_on(const Scenario& scene, const std::string& name, double step, Ha
       });
 }
 
-Moment moment(const Scenario& scene, const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
-  const StrainVector q_ddot = body.acceleration(handle, state.q, state.q_dot);
-  if (scene.kind == SceneKind::torsion) {
-    return {handle.t, Vector3d(0.0, 0.0, log_so3(handle.X_WH.linear()).z() + state.q[0]),
-            Vector3d(0.0, 0.0, handle.angular_velocity.z() + state.q_dot[0]),
-            Vector3d(0.0, 0.0, handle.angular_acceleration.z() + q_ddot[0])};
+/// The scene's outputs between the ends of steps, four at once.
+class DenseOutputs {
+ public:
+  DenseOutputs(const Scenario& scene, const HeldBody& body) : scene_(scene), shape_(body.shape()) {}
+
+  void push(double t, const StrainState& state) { strain_.push(t, state); }
+
+  /// Appends those at the next of `times` [s, ascending] that are known; false where one is not bounded.
+  bool append(const std::vector<double>& times, std::vector<Vector3d>& outputs) const {
+    const double until = strain_.known_until() + 1e-9;
+    while (outputs.size() < times.size() && times[outputs.size()] < until) {
+      Pack t = Pack{} + times[outputs.size()];
+      int count = 1;
+      for (; count < pack_size && outputs.size() + at(count) < times.size() && times[outputs.size() + at(count)] < until;) {
+        t[count] = times[outputs.size() + at(count)];
+        ++count;
+      }
+      Three<Pack> values;
+      at(t, values);
+      for (int i = 0; i < count; ++i) {
+        outputs.push_back(vector(values, i));
+        if (!is_bounded(outputs.back())) return false;
+      }
+    }
+    return true;
   }
-  const MotionState o = body.object(handle, state, &q_ddot);
-  return {handle.t, o.X.translation(), o.velocity.linear, o.acceleration.linear};
-}
+
+ private:
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+  void at(const Pack& t, Three<Pack>& values) const {
+    Pack q[max_strain_coordinates]{};
+    strain_.at(t, q);
+    if (scene_.kind != SceneKind::six_dof) {
+      values = none<Pack>();
+      scalar_hand(scene_, t, values.z);
+      values.z += q[0];
+      return;
+    }
+    const Pack at_rest[max_strain_coordinates]{};
+    TipOf<Pack> tip;
+    shape_.tip(q, at_rest, tip);
+    HandleMotion<Pack> handle;
+    handle_motion(scene_, t, handle);
+    values = handle.p_W + handle.R_WH * (tip.p_HE + tip.R_HE * three(scene_.p_EO));
+  }
+
+  const Scenario& scene_;
+  const ShapeModel& shape_;
+  DenseStrain strain_;
+};
 
 /// The steps with which a run in long steps begins: what the start sets off is followed until it has died away.
 struct Start {
@@ -171,19 +198,17 @@ RunResult run_in_long_steps(const Scenario& scene, const std::string& name, doub
   const FunctionHand hand(scene);
   set_up(scene, body, begin.step, *integrator);
   StrainState state = body.zero_state();
-  DenseOutput dense;
+  DenseOutputs dense(scene, body);
   RunResult result;
   result.outputs.reserve(times.size());
   const auto start = std::chrono::steady_clock::now();
-  dense.push(moment(scene, body, body.forcing(hand, 0.0), state));
+  dense.push(0.0, state);
   for (double t = 0.0; result.outputs.size() < times.size();) {
     const double h = t < begin.duration - 1e-9 ? begin.step : step;
     integrator->step(body, hand, t, h, state);
     t += h;
-    const Moment end = moment(scene, body, body.forcing(hand, t), state);
-    if (!is_bounded(end.value)) return result;
-    dense.push(end);
-    dense.append(times, result.outputs);
+    dense.push(t, state);
+    if (!dense.append(times, result.outputs)) return result;
   }
   result.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   result.finite = true;

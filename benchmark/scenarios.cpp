@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "benchmark/sine_and_cosine.h"
+
 namespace spring_workbench::benchmark {
 namespace {
 
@@ -19,17 +21,11 @@ constexpr double kTurnAmplitude = 0.6;  // rad
 constexpr double kTurnFrequency[2] = {1.1, 1.4};
 constexpr double kTurnPhase[2] = {0.0, 1.0};
 
-ScalarMotion sine(double amplitude, double frequency, double phase, double t) {
+template <typename S>
+SPRING_WORKBENCH_INLINE ScalarMotionOf<S> sine(double amplitude, double frequency, double phase, const S& t) {
   const double omega = kTwoPi * frequency;
-  const double s = std::sin(omega * t + phase);
-  const double c = std::cos(omega * t + phase);
-  return {amplitude * s, amplitude * omega * c, -amplitude * omega * omega * s};
-}
-
-ScalarMotion turn(int axis, double t) { return sine(kTurnAmplitude, kTurnFrequency[axis], kTurnPhase[axis], t); }
-
-ScalarMotion lissajous(int axis, double t) {
-  return sine(kLissajousAmplitude, kLissajousFrequency[axis], kLissajousPhase[axis], t);
+  const SineAndCosine<S> of = sine_and_cosine(S(omega * t + phase));
+  return {amplitude * of.sine, amplitude * omega * of.cosine, -amplitude * omega * omega * of.sine};
 }
 
 /// A cube of 10 kg with 0.05 kg m² about every axis, held at its centre.
@@ -92,91 +88,93 @@ Scenario six_dof_scene(double stiffness_factor, double damping_ratio, double mas
   return scene;
 }
 
-ScalarMotion scalar_hand(const Scenario& scene, double t) {
+namespace {
+
+template <typename S>
+SPRING_WORKBENCH_INLINE ScalarMotionOf<S> scalar_motion(const Scenario& scene, const S& t) {
   return scene.kind == SceneKind::stretch ? sine(kStretchAmplitude, kStretchFrequency, 0.0, t)
                                           : sine(kTorsionAmplitude, kTorsionFrequency, 0.0, t);
 }
 
-namespace {
-
-/// What the hand of scene C does, by its sines.
-struct Sines {
-  explicit Sines(double t) : x{lissajous(0, t), lissajous(1, t), lissajous(2, t)}, a(turn(0, t)), b(turn(1, t)) {
-    sa = std::sin(a.value), ca = std::cos(a.value), sb = std::sin(b.value), cb = std::cos(b.value);
-  }
-  ScalarMotion x[3], a, b;
-  double sa, ca, sb, cb;
-};
-
-HandState state_of(const Sines& s) {
-  HandState hand;
-  hand.p_WT = Vector3d(s.x[0].value, s.x[1].value, s.x[2].value);
-  hand.v_WT_W = Vector3d(s.x[0].rate, s.x[1].rate, s.x[2].rate);
-  hand.R_WT << s.cb, 0.0, s.sb, s.sa * s.sb, s.ca, -s.sa * s.cb, -s.ca * s.sb, s.sa, s.ca * s.cb;
-  hand.w_WT_T = Vector3d(s.a.rate * s.cb, s.b.rate, s.a.rate * s.sb);
-  return hand;
+/// Of the tip's rest frame T in scene C, the names of HandleMotion standing for T.
+template <typename S>
+SPRING_WORKBENCH_INLINE HandleMotion<S> tip_on_lissajous(const S& t) {
+  const auto way = [&t](int i) { return sine(kLissajousAmplitude, kLissajousFrequency[i], kLissajousPhase[i], t); };
+  const auto turn = [&t](int i) { return sine(kTurnAmplitude, kTurnFrequency[i], kTurnPhase[i], t); };
+  const ScalarMotionOf<S> x = way(0), y = way(1), z = way(2), a = turn(0), b = turn(1);
+  const auto [sa, ca] = sine_and_cosine(a.value);
+  const auto [sb, cb] = sine_and_cosine(b.value);
+  HandleMotion<S> m;
+  m.R_WH = {{cb, sa * sb, -ca * sb}, {S{}, ca, sa}, {sb, -sa * cb, ca * cb}};
+  m.p_W = {x.value, y.value, z.value};
+  m.v_W = {x.rate, y.rate, z.rate};
+  m.a_W = {x.acceleration, y.acceleration, z.acceleration};
+  m.w_H = {a.rate * cb, b.rate, a.rate * sb};
+  m.alpha_H = {a.acceleration * cb - a.rate * b.rate * sb, b.acceleration,
+               a.acceleration * sb + a.rate * b.rate * cb};
+  return m;
 }
 
-HandAcceleration acceleration_of(const Sines& s) {
-  HandAcceleration hand;
-  hand.a_WT_W = Vector3d(s.x[0].acceleration, s.x[1].acceleration, s.x[2].acceleration);
-  hand.alpha_WT_T = Vector3d(s.a.acceleration * s.cb - s.a.rate * s.b.rate * s.sb, s.b.acceleration,
-                             s.a.acceleration * s.sb + s.a.rate * s.b.rate * s.cb);
-  return hand;
-}
-
-/// The same of scenes A and B.
-HandState state_of(const Scenario& scene, const ScalarMotion& x) {
-  HandState hand;
+/// The same in scenes A and B.
+template <typename S>
+SPRING_WORKBENCH_INLINE HandleMotion<S> tip_on_sine(const Scenario& scene, const S& t) {
+  const ScalarMotionOf<S> x = scalar_motion(scene, t);
+  const S zero{}, one = zero + 1.0;
+  HandleMotion<S> m{};
   if (scene.kind == SceneKind::stretch) {
-    hand.p_WT.z() = x.value;
-    hand.v_WT_W.z() = x.rate;
+    m.R_WH = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
+    m.p_W.z = x.value;
+    m.v_W.z = x.rate;
+    m.a_W.z = x.acceleration;
   } else {
-    hand.R_WT = Eigen::AngleAxisd(x.value, Vector3d::UnitZ()).toRotationMatrix();
-    hand.w_WT_T.z() = x.rate;
+    const auto [s, c] = sine_and_cosine(x.value);
+    m.R_WH = {{c, s, zero}, {-s, c, zero}, {zero, zero, one}};
+    m.w_H.z = x.rate;
+    m.alpha_H.z = x.acceleration;
   }
-  return hand;
+  return m;
 }
 
-HandAcceleration acceleration_of(const Scenario& scene, const ScalarMotion& x) {
-  HandAcceleration hand;
-  (scene.kind == SceneKind::stretch ? hand.a_WT_W : hand.alpha_WT_T).z() = x.acceleration;
-  return hand;
+template <typename S>
+SPRING_WORKBENCH_INLINE HandleMotion<S> tip_motion(const Scenario& scene, const S& t) {
+  return scene.kind == SceneKind::six_dof ? tip_on_lissajous(t) : tip_on_sine(scene, t);
 }
 
-/// From T to H, `length` behind it along the fork's axis.
-HandMotion moved_to_handle(double length, const HandMotion& of_T) {
-  const Vector3d p_TH(0.0, 0.0, -length);
-  const Vector3d& w = of_T.state.w_WT_T;
-  const Matrix3d& R = of_T.state.R_WT;
-  HandMotion of_H = of_T;
-  of_H.state.p_WT += R * p_TH;
-  of_H.state.v_WT_W += R * w.cross(p_TH);
-  of_H.acceleration.a_WT_W += R * (of_T.acceleration.alpha_WT_T.cross(p_TH) + w.cross(w.cross(p_TH)));
-  return of_H;
+template <typename S>
+SPRING_WORKBENCH_INLINE HandleMotion<S> motion_of_handle(const Scenario& scene, const S& t) {
+  HandleMotion<S> m = tip_motion(scene, t);
+  m.p_W = m.p_W - scene.length * m.R_WH.z;
+  if (scene.kind != SceneKind::six_dof) return m;  // it turns about the fork's axis at most
+  const Three<S> p_TH{S{}, S{}, S{} - scene.length}, v = cross(m.w_H, p_TH);
+  m.v_W += m.R_WH * v;
+  m.a_W += m.R_WH * (cross(m.alpha_H, p_TH) + cross(m.w_H, v));
+  return m;
+}
+
+SPRING_WORKBENCH_INLINE HandState state(const HandleMotion<double>& m) {
+  return {matrix(m.R_WH, 0), vector(m.p_W), vector(m.v_W), vector(m.w_H)};
+}
+SPRING_WORKBENCH_INLINE HandAcceleration acceleration(const HandleMotion<double>& m) {
+  return {vector(m.a_W), vector(m.alpha_H)};
 }
 
 }  // namespace
 
-HandState hand_state(const Scenario& scene, double t) {
-  return scene.kind == SceneKind::six_dof ? state_of(Sines(t)) : state_of(scene, scalar_hand(scene, t));
+ScalarMotion scalar_hand(const Scenario& scene, double t) { return scalar_motion(scene, t); }
+SPRING_WORKBENCH_WIDE void scalar_hand(const Scenario& scene, const Pack& t, Pack& values) {
+  values = scalar_motion(scene, t).value;
 }
 
-HandAcceleration hand_acceleration(const Scenario& scene, double t) {
-  return scene.kind == SceneKind::six_dof ? acceleration_of(Sines(t)) : acceleration_of(scene, scalar_hand(scene, t));
+HandState hand_state(const Scenario& scene, double t) { return state(tip_motion(scene, t)); }
+HandAcceleration hand_acceleration(const Scenario& scene, double t) { return acceleration(tip_motion(scene, t)); }
+HandState handle_state(const Scenario& scene, double t) { return state(motion_of_handle(scene, t)); }
+HandAcceleration handle_acceleration(const Scenario& scene, double t) {
+  return acceleration(motion_of_handle(scene, t));
 }
-
-HandMotion handle_motion(const Scenario& scene, double t) {
-  if (scene.kind == SceneKind::six_dof) {
-    const Sines s(t);
-    return moved_to_handle(scene.length, {state_of(s), acceleration_of(s)});
-  }
-  const ScalarMotion x = scalar_hand(scene, t);
-  return moved_to_handle(scene.length, {state_of(scene, x), acceleration_of(scene, x)});
+HandleMotion<double> handle_motion(const Scenario& scene, double t) { return motion_of_handle(scene, t); }
+SPRING_WORKBENCH_WIDE void handle_motion(const Scenario& scene, const Pack& t, HandleMotion<Pack>& out) {
+  out = motion_of_handle(scene, t);
 }
-
-HandState handle_state(const Scenario& scene, double t) { return handle_motion(scene, t).state; }
-HandAcceleration handle_acceleration(const Scenario& scene, double t) { return handle_motion(scene, t).acceleration; }
 
 std::vector<double> output_times(const Scenario& scene) {
   const auto count = static_cast<std::size_t>(std::lround(scene.duration / scene.output_interval)) + 1;

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "spring_workbench/math/rigid_transform.h"
+#include "spring_workbench/math/pack.h"
 
 namespace spring_workbench::benchmark {
 
@@ -82,20 +82,26 @@ HandAcceleration hand_acceleration(const Scenario& scene, double t);
 HandState handle_state(const Scenario& scene, double t);
 HandAcceleration handle_acceleration(const Scenario& scene, double t);
 
-/// Both at once, which costs little more than one.
-struct HandMotion {
-  HandState state;
-  HandAcceleration acceleration;
+/// All of the handle frame's motion, at one moment (`S` double) or at four (Pack). Vectors in the axes of W, w and alpha in
+/// those of H.
+template <typename S>
+struct HandleMotion {
+  ThreeByThree<S> R_WH;
+  Three<S> p_W, v_W, a_W;      ///< [m], [m/s], [m/s²]
+  Three<S> w_H, alpha_H;       ///< [rad/s], [rad/s²]
 };
-HandMotion handle_motion(const Scenario& scene, double t);
+HandleMotion<double> handle_motion(const Scenario& scene, double t);
+void handle_motion(const Scenario& scene, const Pack& t, HandleMotion<Pack>& out);
 
 /// The one moving coordinate of the hand in scenes A and B: height [m] or twist [rad], with two derivatives.
-struct ScalarMotion {
-  double value = 0.0;
-  double rate = 0.0;
-  double acceleration = 0.0;
+template <typename S>
+struct ScalarMotionOf {
+  S value{}, rate{}, acceleration{};
 };
+using ScalarMotion = ScalarMotionOf<double>;
 ScalarMotion scalar_hand(const Scenario& scene, double t);
+/// Its values at four times.
+void scalar_hand(const Scenario& scene, const Pack& t, Pack& values);
 
 /// Output times: 0, output_interval, …, duration.
 std::vector<double> output_times(const Scenario& scene);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/dense_output.h"
+#include "benchmark/dense_strain.h"
 #include "benchmark/reference_solution.h"
 #include "spring_workbench/dynamics/integrator.h"
 
@@ -19,30 +19,28 @@ double error_at(const Method& method, const Scenario& scene, int steps_per_inter
   return run.finite ? output_error(scene, reference_solution(scene), run.outputs) : 1e300;
 }
 
-TEST(DenseOutput, IsExactForPolynomialsOfDegreeElevenOnUnevenSteps) {
-  // ((1 − i t / 4) / 2)¹¹, i = 1, 2, 3, with its derivatives.
-  const auto moment = [](double t) {
-    Moment m;
-    m.t = t;
-    for (int i = 0; i < 3; ++i) {
-      const double slope = 0.25 * (i + 1), base = 0.5 * (1.0 - slope * t);
-      m.value[i] = std::pow(base, 11);
-      m.rate[i] = -11.0 * 0.5 * slope * std::pow(base, 10);
-      m.acceleration[i] = 110.0 * 0.25 * slope * slope * std::pow(base, 9);
+TEST(DenseStrain, IsExactForPolynomialsOfDegreeElevenOnUnevenSteps) {
+  for (const int size : {1, 5, 6}) {
+    const auto power = [](int c, int n, double t) { return std::pow(0.5 * (1.0 - 0.15 * (c + 1) * t), n); };
+    DenseStrain dense;
+    EXPECT_LT(dense.known_until(), -1e300);
+    for (const double t : {0.0, 0.1, 0.25, 0.3, 0.5, 0.8, 0.95}) {
+      StrainState s{StrainVector(size), StrainVector(size)};
+      for (int c = 0; c < size; ++c) {
+        s.q[c] = power(c, 11, t);
+        s.q_dot[c] = -11.0 * 0.075 * (c + 1) * power(c, 10, t);
+      }
+      dense.push(t, s);
     }
-    return m;
-  };
-  std::vector<double> times;
-  for (int i = 0; i < 100; ++i) times.push_back(0.01 * i);
-  DenseOutput dense;
-  std::vector<Vector3d> outputs;
-  for (const double t : {0.0, 0.1, 0.25, 0.3, 0.5, 0.8, 0.95}) {
-    dense.push(moment(t));
-    dense.append(times, outputs);
-  }
-  ASSERT_EQ(outputs.size(), 81);  // up to the last end but one
-  for (std::size_t i = 0; i < outputs.size(); ++i) {
-    EXPECT_LT((outputs[i] - moment(times[i]).value).norm(), 1e-13) << times[i];
+    EXPECT_EQ(dense.known_until(), 0.5);
+    for (int i = 0; i < 25; ++i) {
+      const Pack t{0.02 * i, 0.02 * i + 0.005, 0.02 * i + 0.01, 0.02 * i + 0.015};
+      Pack q[max_strain_coordinates];
+      dense.at(t, q);
+      for (int c = 0; c < size; ++c) {
+        for (int lane = 0; lane < pack_size; ++lane) EXPECT_NEAR(q[c][lane], power(c, 11, t[lane]), 1e-14);
+      }
+    }
   }
 }
 

@@ -1,4 +1,5 @@
 #include "benchmark/scenarios.h"
+#include "benchmark/sine_and_cosine.h"
 
 #include <gtest/gtest.h>
 
@@ -91,6 +92,42 @@ TEST(Scenarios, HandleIsTheForksLengthBehindTheTip) {
     const HandState tip = hand_state(scene, 0.7), handle = handle_state(scene, 0.7);
     EXPECT_NEAR((tip.R_WT.transpose() * (tip.p_WT - handle.p_WT) - scene.length * Vector3d::UnitZ()).norm(), 0.0,
                 1e-15);
+  }
+}
+
+TEST(Scenarios, SinesOfFourAnglesAreTheLibrarys) {
+  std::mt19937 random(3);
+  for (const double most : {1e-3, 1.0, 10.0, 1e5}) {
+    std::uniform_real_distribution<double> angle(-most, most);
+    for (int n = 0; n < 10000; ++n) {
+      const Pack x{angle(random), angle(random), angle(random), angle(random)};
+      const SineAndCosine<Pack> of = sine_and_cosine(x);
+      for (int i = 0; i < pack_size; ++i) {
+        EXPECT_NEAR(of.sine[i], std::sin(x[i]), 3e-16 * std::min(1.0, most)) << x[i];
+        EXPECT_NEAR(of.cosine[i], std::cos(x[i]), 3e-16) << x[i];
+      }
+    }
+  }
+}
+
+TEST(Scenarios, HandleAtFourTimesIsTheHandleAtEachOfThem) {
+  const auto expect_near = [](const Three<Pack>& packs, const Vector3d& one, int i, double tolerance) {
+    EXPECT_LT((vector(packs, i) - one).norm(), tolerance);
+  };
+  for (const Scenario& scene : all_scenes()) {
+    const Pack t{0.0, 0.3, 1.7, 3.9};
+    HandleMotion<Pack> at;
+    handle_motion(scene, t, at);
+    for (int i = 0; i < pack_size; ++i) {
+      const HandState state = handle_state(scene, t[i]);
+      const HandAcceleration acceleration = handle_acceleration(scene, t[i]);
+      EXPECT_LT((matrix(at.R_WH, i) - state.R_WT).norm(), 1e-14);
+      expect_near(at.p_W, state.p_WT, i, 1e-14);
+      expect_near(at.v_W, state.v_WT_W, i, 1e-13);
+      expect_near(at.w_H, state.w_WT_T, i, 1e-13);
+      expect_near(at.a_W, acceleration.a_WT_W, i, 1e-12);
+      expect_near(at.alpha_H, acceleration.alpha_WT_T, i, 1e-12);
+    }
   }
 }
 

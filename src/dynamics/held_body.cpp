@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "spring_workbench/math/positive_definite.h"
+#include "spring_workbench/math/so3.h"
 
 namespace spring_workbench {
 namespace {
@@ -39,6 +40,7 @@ HeldBody::HeldBody(std::shared_ptr<const ShapeModel> shape, const BodyInertia& b
   p_OE_ = body.X_OE.translation();
   p_EO_ = -(body.X_OE.linear().transpose() * p_OE_);
   R_EO_ = body.X_OE.linear().transpose();
+  inertia_E_ = R_EO_ * body.inertia_O * R_EO_.transpose();
   inverse_inertia_O_ = body.inertia_O.inverse();
   shape_size_ = shape_->size();
   K_ = D_ = StrainVector::Zero(shape_size_);
@@ -54,6 +56,10 @@ void HeldBody::changed() {
     const auto c = static_cast<std::size_t>(i);
     if (mode_[c] == Mode::active) active_[static_cast<std::size_t>(active_count_++)] = i;
     if (mode_[c] == Mode::returning) ++returning_;
+  }
+  if (active_count_ == 1) {
+    const StrainVector one = StrainVector::Ones(shape_size_);
+    axial_unit_ = active_[0] == shape_->stretch().begin ? shape_->extension(one) : shape_->twist(one);
   }
   if (!modal_) return;
   Kinematics unstrained;
@@ -302,6 +308,41 @@ SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration
   return r;
 }
 
+/// The body slides along the fork's axis: Newton's law along it.
+template <typename S>
+SPRING_WORKBENCH_INLINE S HeldBody::slide(const FrameForcing<S>& h, const S& extension, S force) const {
+  const S zero{};
+  const Three<S> p_HO{zero + p_EO_.x(), zero + p_EO_.y(), extension + (shape_->length() + p_EO_.z())};
+  if (loaded_) force += transposed(h.R_WB, three(external_W_.force)).z;
+  const S a_z = h.a_B.z + h.alpha_B.x * p_HO.y - h.alpha_B.y * p_HO.x + h.w_B.z * dot(h.w_B, p_HO) -
+                p_HO.z * dot(h.w_B, h.w_B);
+  return force * (1.0 / body_.mass) - a_z;
+}
+
+/// The body turns about the fork's axis: Euler's law about it, in the axes of the tip E, where the body is at rest.
+template <typename S>
+SPRING_WORKBENCH_INLINE S HeldBody::turn(const FrameForcing<S>& h, const S& twist, const S& rate, S moment) const {
+  const So3CoefficientsOf<S> k = so3_coefficients(S(twist * twist));
+  const S sine = twist * k.a, cosine = 1.0 - twist * twist * k.b;
+  const auto to_E = [&](const Three<S>& v) {
+    return Three<S>{cosine * v.x + sine * v.y, cosine * v.y - sine * v.x, v.z};
+  };
+  const Three<double> p_HO{p_EO_.x(), p_EO_.y(), p_EO_.z() + shape_->length()};
+  const Three<double> by_turn{-p_EO_.y(), p_EO_.x(), 0.0};  // velocity of O for the turn's rate 1
+  const ThreeByThree<double> I = three_by_three(inertia_E_);
+  const Three<S> w_H = to_E(h.w_B), alpha_H = to_E(h.alpha_B);
+  const Three<S> w{w_H.x, w_H.y, w_H.z + rate};
+  const Three<S> alpha{alpha_H.x + rate * w_H.y, alpha_H.y - rate * w_H.x, alpha_H.z};
+  const Three<S> a = to_E(h.a_B) + cross(alpha_H, p_HO) + cross(w_H, cross(w_H, p_HO) + (2.0 * rate) * by_turn);
+  const Three<S> Iw = I * w;
+  if (loaded_) {
+    moment += dot(to_E(transposed(h.R_WB, three(external_W_.force))), by_turn) +
+              transposed(h.R_WB, three(external_W_.moment)).z;
+  }
+  moment -= body_.mass * dot(a, by_turn) + (I * alpha).z + w.x * Iw.y - w.y * Iw.x;
+  return moment * (1.0 / (I.z.z + body_.mass * dot(by_turn, by_turn)));
+}
+
 template <int n, typename S>
 SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const FrameForcing<S>& h, const S* q, const S* q_dot,
                                                   S* q_ddot) const {
@@ -316,6 +357,15 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const FrameForcing
   if (modal_) {
     for (int j = 0; j < n; ++j) {
       for (int i = 0; i < n; ++i) springs[i] -= D_modal_(i, j) * q_dot[j];
+    }
+  }
+  if constexpr (n == 1) {
+    if (returning_ == 0) {
+      const bool stretch = active_[0] == shape_->stretch().begin;
+      const double per_unit = 1.0 / axial_unit_;
+      const S x = axial_unit_ * q[0], force = per_unit * springs[0];
+      q_ddot[0] = per_unit * (stretch ? slide(h, x, force) : turn(h, x, S(axial_unit_ * q_dot[0]), force));
+      return;
     }
   }
   if (returning_ > 0) {

@@ -134,6 +134,12 @@ class HeldBody {
               StrainVector& q_ddot_all) const;
   template <int n, typename S>
   void accelerate(const S& t, const FrameForcing<S>& handle, const S* q, const S* q_dot, S* q_ddot) const;
+  /// Acceleration of the extension where stretch alone is on, and of the twist where torsion alone is, under the force or
+  /// moment of spring and damper.
+  template <typename S>
+  S slide(const FrameForcing<S>& handle, const S& extension, S force) const;
+  template <typename S>
+  S turn(const FrameForcing<S>& handle, const S& twist, const S& rate, S moment) const;
   template <typename S>
   struct Rigid;  ///< the object's inertial and contact wrench for q̈ = 0
   template <typename S>
@@ -151,6 +157,7 @@ class HeldBody {
   BodyInertia body_;
   Vector3d p_OE_, p_EO_;  ///< grasp in O; centre of mass in E
   Matrix3d R_EO_;
+  Matrix3d inertia_E_;  ///< about O, axes of E
   Matrix3d inverse_inertia_O_;
   double gravity_;
   long version_ = 0;
@@ -163,6 +170,7 @@ class HeldBody {
   std::array<Return, max_strain_coordinates> return_;
   std::array<int, max_strain_coordinates> active_;  ///< indices of the active coordinates
   int active_count_ = 0;
+  double axial_unit_ = 1.0;  ///< extension [m] or twist [rad] by strain 1, where that coordinate alone is active
   int shape_size_ = 0;
   int returning_ = 0;
   Wrench external_W_;
