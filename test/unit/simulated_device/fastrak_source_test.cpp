@@ -127,9 +127,8 @@ TEST(FastrakSource, LosesNoRecordInTenMinutesOfFourStations) {
   std::size_t received = 0, wrong = 0, idle = 0;
   for (std::size_t cycle = 0; received < records && idle < 20000;) {
     simulator.serve(0.0);
-    const auto left = [&] { return simulator.records_sent() < records; };
-    const bool more = simulator.waiting() == 0 && left();
-    for (int i = 0; more && left() && i < 16; ++i) simulator.measure(static_cast<double>(cycle++) / 480.0);
+    const bool more = simulator.waiting() == 0 && simulator.records_sent() < records;
+    for (int i = 0; more && i < 16; ++i) simulator.measure(static_cast<double>(cycle++) / 480.0);
     const auto samples = source.read(more ? 0.0 : 1e-3);
     idle = samples.empty() ? idle + 1 : 0;
     for (const StationSample& sample : samples) wrong += sample.station == static_cast<int>(received++ % 4) + 1 ? 0 : 1;
