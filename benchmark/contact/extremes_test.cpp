@@ -15,7 +15,7 @@ class Extremes : public ::testing::TestWithParam<ContactMode> {
     if (extreme == ContactExtreme::stack_of_ten) {
       EXPECT_LT(o.pushed, 0.02) << stiffness;  // it stands: the hand goes 0.013 m sideways
       if (GetParam() == ContactMode::dynamic) {
-        // Its boxes go deeper into each other than any other cell's: 0.17 mm at this stiffness, a failure in the map.
+        // Its boxes go 0.17 mm into each other: the map draws such a cell as one that does not hold.
         EXPECT_TRUE(o.finite && o.bounded && o.gains_nothing() && o.refused == 0 && o.penetration < 3e-4) << o.penetration;
         return;
       }
@@ -30,9 +30,7 @@ class Extremes : public ::testing::TestWithParam<ContactMode> {
 };
 
 TEST_P(Extremes, OnASoftForkAreFiniteBoundedAndGainNoEnergy) {
-  for (const ContactExtreme extreme : contact_extremes()) {
-    for (unsigned seed = 0; seed < (extreme == ContactExtreme::stack_of_ten ? 1u : 2u); ++seed) run_and_check(extreme, 1e3, seed);
-  }
+  for (const ContactExtreme extreme : contact_extremes()) run_and_check(extreme, 1e3, 0);
 }
 
 TEST_P(Extremes, AtAWallAreSoOnAnyFork) {
