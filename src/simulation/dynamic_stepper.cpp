@@ -122,6 +122,7 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<SteppedBod
   double sound = sound_part(held, candidates, driven, h);
   double before = 0.0;
   for (int solution = 1; sound < 1.0 && sound > before && solution < most_solutions; ++solution) {
+    if (foreseen_sound_part(driven) < 1.0) break;
     before = sound;
     // The fork gives way otherwise than to the load that was assumed: once more, about this one.
     for (std::size_t i = 0; i < held.size(); ++i) {
@@ -164,6 +165,22 @@ double DynamicStepper::sound_part(const std::vector<SteppedBody*>& held, const s
     const bool possible = held[i]->advance(h, driven[i].contact_W);
     const double part = world_->sound_part(held[i]->index(), candidates[i].begin.X, held[i]->object().X);
     sound = std::min(sound, possible ? part : 0.0);
+  }
+  return sound;
+}
+
+double DynamicStepper::foreseen_sound_part(const std::vector<DrivenBody>& driven) const {
+  double sound = 1.0;
+  for (const DrivenBody& d : driven) {
+    Vector6d load, impact, way;
+    load << d.contact_W.force, d.contact_W.moment;
+    impact << d.impact_W.force, d.impact_W.moment;
+    way << d.displacement_W.linear, d.displacement_W.angular;
+    way += d.compliance * load + d.coasting * impact;
+    RigidTransform end = d.X_WO;
+    end.translation() += way.head<3>();
+    end.linear() = exp_so3(way.tail<3>()) * d.X_WO.linear();
+    sound = std::min(sound, world_->sound_part(d.body, d.X_WO, end));
   }
   return sound;
 }

@@ -59,6 +59,8 @@ class DynamicStepper {
   /// The held bodies go over a piece under these loads; which part of their ways is sound.
   double sound_part(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates,
                     const std::vector<DrivenBody>& driven, double h) const;
+  /// The same of the ways that the solver foresaw for them.
+  double foreseen_sound_part(const std::vector<DrivenBody>& driven) const;
   /// The held bodies stay where they are for one piece, while the others go on.
   void hold_back(const std::vector<SteppedBody*>& held, double h, Outcome& outcome);
   void take(SteppedBody& body, const Wrench& contact_W);
