@@ -131,9 +131,10 @@ TEST(FastrakSource, LosesNoRecordInTenMinutesOfFourStations) {
     if (now - last_round > std::chrono::milliseconds(100)) GTEST_SKIP() << "the processor was taken away for too long";
     last_round = now;
     simulator.serve(0.0);
-    const bool more = simulator.waiting() == 0 && simulator.records_sent() < records;
-    for (int i = 0; more && i < 16; ++i) simulator.measure(static_cast<double>(cycle++) / 480.0);
-    const auto samples = source.read(more ? 0.0 : 1e-3);
+    const bool room = simulator.waiting() == 0;
+    const auto more = [&] { return room && simulator.records_sent() < records; };
+    for (int i = 0; more() && i < 16; ++i) simulator.measure(static_cast<double>(cycle++) / 480.0);
+    const auto samples = source.read(more() ? 0.0 : 1e-3);
     idle = samples.empty() ? idle + 1 : 0;
     for (const StationSample& sample : samples) wrong += sample.station == static_cast<int>(received++ % 4) + 1 ? 0 : 1;
   }
