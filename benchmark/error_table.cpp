@@ -24,9 +24,9 @@ ErrorTablePlan error_table_plan(bool quick) {
   for (double tolerance = 1e-3; tolerance > 5e-12; tolerance *= quick ? 1e-2 : 1e-1) {
     plan.tolerances.push_back(tolerance);
   }
-  plan.own_solution_steps = quick ? 64 : 256;
-  plan.longest_run = quick ? 0.003 : 0.025;
-  plan.repetition = quick ? Repetition{1, 0.005} : Repetition{2, 0.025};
+  plan.own_solution_steps = quick ? 32 : 256;
+  plan.longest_run = quick ? 0.002 : 0.025;
+  plan.repetition = quick ? Repetition{1, 0.0025} : Repetition{2, 0.025};
   return plan;
 }
 

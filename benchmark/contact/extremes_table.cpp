@@ -12,12 +12,14 @@ namespace {
 
 constexpr ContactMode modes[] = {ContactMode::stop, ContactMode::dynamic};
 
-/// Of the pairs of stiffness and step one in four is run, of the stack, which costs most, fewer, each with another seed.
+/// Of the pairs of stiffness and step one in four is run, of the stack, which costs most, fewer, or none to be quick; each with
+/// another seed.
 std::vector<ExtremeCell> cells_of(ContactExtreme extreme, ContactMode mode, bool quick) {
-  const std::vector<double> stiffnesses = quick ? std::vector<double>{1e3, 1e9} : std::vector<double>{1.0, 1e3, 1e6, 1e9};
+  const std::vector<double> stiffnesses = quick ? std::vector<double>{1e3} : std::vector<double>{1.0, 1e3, 1e6, 1e9};
   const std::vector<double> steps = quick ? std::vector<double>{0.02} : std::vector<double>{0.05, 0.02, 0.005, 0.001};
   const std::size_t one_in = quick ? 1 : extreme == ContactExtreme::stack_of_ten ? 6 : 4;
   std::vector<ExtremeCell> cells;
+  if (quick && extreme == ContactExtreme::stack_of_ten) return cells;
   for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
     for (std::size_t j = 0; j < steps.size(); ++j) {
       if ((i + j) % one_in == 0) cells.push_back({extreme, mode, stiffnesses[i], steps[j], static_cast<unsigned>(cells.size())});

@@ -1,8 +1,10 @@
 #include "benchmark/report/sections.h"
 
 #include <algorithm>
+#include <functional>
 #include <sstream>
 
+#include "benchmark/parallel.h"
 #include "benchmark/report/pictures.h"
 #include "benchmark/report/tables.h"
 
@@ -158,9 +160,17 @@ std::vector<PageSection> page_sections(const Measurements& measured, const std::
   costs.text = "exponential, by shape model and number of coordinates: processor time of the thread, the least of many short "
                "runs [ns].";
   costs.tables.push_back({"", step_cost_csv(measured.step_costs), false});
-  return {verdict, scenes_section(measured, tables, folder), rods_section(measured, tables, folder),
-          shapes_section(measured, elastica_difference, tables, folder),
-          contact_section(measured.contact, tables, folder), stability_section(measured, tables, folder), costs};
+  const std::vector<std::function<PageSection()>> sections = {
+      [&] { return verdict; },
+      [&] { return scenes_section(measured, tables, folder); },
+      [&] { return rods_section(measured, tables, folder); },
+      [&] { return shapes_section(measured, elastica_difference, tables, folder); },
+      [&] { return contact_section(measured.contact, tables, folder); },
+      [&] { return stability_section(measured, tables, folder); },
+      [&] { return costs; }};
+  std::vector<PageSection> made(sections.size());
+  parallel_for(sections.size(), [&](std::size_t i) { made[i] = sections[i](); });  // pictures take their time
+  return made;
 }
 
 }  // namespace spring_workbench::benchmark
