@@ -36,8 +36,7 @@ struct ExtremeOutcome {
   bool bounded = true;       ///< none of them more than 0.5 m from where it began; the hand goes 0.1 m
   double penetration = 0.0;  ///< the deepest of an object in another or the bench [m]
   /// Largest growth of the energy of all objects and the fork while the hand rests, beyond the work of a handle that was held
-  /// back and comes back to it, over the weights and the largest sum
-  /// of contact forces: a depth that is worth as much [m].
+  /// back and comes back to it, over the weights and the largest sum of contact forces: a depth that is worth as much [m].
   double energy_gained = 0.0;
   double pushed = 0.0;   ///< the longest way of what is not held, from where it began [m]
   int refused = 0;       ///< steps that would not have been finite or possible
