@@ -97,5 +97,32 @@ TEST(DynamicContact, PushesANeighbourAlong) {
   EXPECT_NEAR(object(s, "pushed").X_WO.translation().z(), 0.03, 1e-4);
 }
 
+TEST(DynamicContact, LightAndHeavyStiffAndSoftAgainstAWallStayBounded) {
+  for (const double mass : {1e-6, 1e-3, 1.0, 1e6}) {
+    for (const double k : {1e-2, 1e1, 1e3, 1e6, 1e9}) {
+      Scene scene = scene_of({box("box", Vector3d(0.1, 0.1, 0.1), mass, Vector3d(0, 0, 0.5)),
+                              box("wall", Vector3d(0.1, 1.0, 1.0), 0.0, Vector3d(0.3, 0, 0.5))});
+      scene.gravity = 0.0;
+      SimulationSettings set;
+      set.fork.stiffness = {k, k, k * 0.01};
+      set.grasp.object = "box";
+      Simulation s(scene, set);
+      const Vector3d start(0, 0, 0.5 + set.fork.length);
+      push_move(s, 0.0, 0.5, start, start + Vector3d(0.22, 0, 0));
+      push_move(s, 0.52, 1.0, start + Vector3d(0.22, 0, 0), start + Vector3d(0.22, 0, 0));
+      for (double t = 0.02; t < 1.0 + 1e-9; t += 0.02) {
+        EXPECT_EQ(s.advance(t).guards_tripped, 0) << mass << " " << k;
+        const BodyState& box_state = s.objects()[0];
+        const RigidTransform& X = box_state.X_WO;
+        ASSERT_TRUE(X.matrix().allFinite()) << mass << " " << k;
+        const double reach = X.linear().row(0).cwiseAbs().sum() * 0.05;
+        EXPECT_LT(X.translation().x() + reach, 0.25 + 2e-4) << mass << " " << k << " " << t;
+        EXPECT_LT((X.translation() - Vector3d(0, 0, 0.5)).norm(), 0.25) << mass << " " << k;
+        EXPECT_LT(box_state.V_WO_W.linear.norm(), 2.0) << mass << " " << k;  // the hand's fastest is 0.83 m/s
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace spring_workbench
