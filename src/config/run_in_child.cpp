@@ -10,9 +10,11 @@
 #include <cerrno>
 #include <cmath>
 #include <csignal>
+#include <cstring>
 #include <exception>
 #include <fstream>
-#include <stdexcept>
+
+#include "spring_workbench/config/input_error.h"
 
 namespace spring_workbench {
 namespace {
@@ -78,16 +80,22 @@ std::string read_all(int file) {
   }
 }
 
+[[noreturn]] void refuse_without_child(int reason) {
+  throw InputError(std::string("child process: cannot be made: ") + std::strerror(reason) +
+                   ": must be possible, to read what may do harm");
+}
+
 }  // namespace
 
 std::optional<std::string> run_in_child(const std::function<std::string()>& work, const ChildLimits& limits) {
   int ends[2];
-  if (pipe(ends) != 0) throw std::runtime_error("no pipe to a child process");
+  if (pipe(ends) != 0) refuse_without_child(errno);
   const pid_t process = fork();
   if (process < 0) {
+    const int reason = errno;
     close(ends[0]);
     close(ends[1]);
-    throw std::runtime_error("no child process");
+    refuse_without_child(reason);
   }
   if (process == 0) {
     close(ends[0]);

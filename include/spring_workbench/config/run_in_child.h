@@ -16,7 +16,7 @@ struct ChildLimits {
 
 /// What `work` returns, from a child process whose output goes nowhere: what aborts, hangs, eats memory or runs wild
 /// there does not take the caller along. Nothing where the child died, `work` threw, or it hit a limit. The child has
-/// the calling thread alone: `work` must not wait for others. Throws std::runtime_error where no process can be made.
+/// the calling thread alone: `work` must not wait for others. Throws InputError where no process can be made.
 std::optional<std::string> run_in_child(const std::function<std::string()>& work, const ChildLimits& limits);
 
 }  // namespace spring_workbench

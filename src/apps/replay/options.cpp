@@ -43,11 +43,12 @@ void set_once(const std::string& option, const char* value, std::string& field) 
   field = value;
 }
 
-void check_complete(const Options& options) {
+void check_complete(const Options& options, bool frames_given) {
   if (options.scene.empty()) refuse(kWhere, "--scene", "(nothing)", "the path of a scene's URDF");
   if (options.motion.empty() == options.bag.empty()) {
     refuse(kWhere, "--motion, --bag", options.bag.empty() ? "none of both" : "both", "one of both");
   }
+  if (options.bag.empty() && frames_given) refuse(kWhere, "--parent, --child", "with --motion", "given with --bag");
   if (options.out.empty()) refuse(kWhere, "--out", "(nothing)", "the path of the CSV file to write");
 }
 
@@ -110,7 +111,7 @@ Options parse_options(int argc, char** argv) {
     }
   }
   if (optind < argc) refuse(kWhere, "argument", argv[optind], "an option that --help lists");
-  check_complete(options);
+  check_complete(options, !parent_frame.empty() || !child_frame.empty());
   if (!parent_frame.empty()) options.parent = parent_frame;
   if (!child_frame.empty()) options.child = child_frame;
   if (!settings_path.empty()) apply(load_yaml_file(settings_path), settings_path, options);

@@ -1,12 +1,15 @@
 #include "spring_workbench/config/run_in_child.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstdlib>
 #include <memory>
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "spring_workbench/config/input_error.h"
 
 namespace spring_workbench {
 namespace {
@@ -60,6 +63,23 @@ TEST(RunInChild, ComesBackWithNothingFromWhatEatsMemory) {
   };
   EXPECT_EQ(run_in_child(eat(20), {60.0, 200 * mebibyte}), "20");
   EXPECT_FALSE(run_in_child(eat(400), {60.0, 200 * mebibyte}));
+}
+
+/// As a node needs it: a scene is then refused, and the node goes on.
+TEST(RunInChild, RefusesWhereTheSystemGivesNoProcess) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{0, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  std::string answer;
+  try {
+    run_in_child([] { return std::string(); }, ample);
+  } catch (const InputError& refusal) {
+    answer = refusal.what();
+  }
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_EQ(answer, "child process: cannot be made: Too many open files: must be possible, to read what may do harm");
+  EXPECT_EQ(run_in_child([] { return std::string("again"); }, ample), "again");
 }
 
 TEST(RunInChild, FromManyThreadsAtOnce) {
