@@ -7,12 +7,14 @@
 #include <algorithm>
 #include <array>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <sstream>
 
 #include "spring_workbench/config/input_error.h"
 #include "spring_workbench/config/one_line.h"
 #include "spring_workbench/config/run_in_child.h"
+#include "spring_workbench/config/yaml_fields.h"
 
 namespace spring_workbench {
 namespace {
@@ -173,11 +175,39 @@ TiXmlDocument load_xml(const std::string& path) {
   return document;
 }
 
-/// With all that hang on it.
-std::size_t count_links(const urdf::Link& link) {
-  std::size_t count = 1;
-  for (const auto& child : link.child_links) count += count_links(*child);
-  return count;
+/// The link that a joint goes from ("parent") or to ("child"); empty where it names none, of which urdfdom tells.
+std::string end_of(const TiXmlElement& joint, const char* which) {
+  const TiXmlElement* end = joint.FirstChildElement(which);
+  const char* link = end != nullptr ? end->Attribute("link") : nullptr;
+  return link != nullptr ? link : "";
+}
+
+struct Hung {
+  std::string parent;
+  const TiXmlElement* joint;
+  std::size_t walk = 0;  ///< the first that came by
+};
+
+[[noreturn]] void refuse_joint(const TiXmlElement& joint, const std::string& path) {
+  const char* name = joint.Attribute("name");
+  refuse(one_line(place(path, joint.Row()) + ": joint '" + (name != nullptr ? name : "") + "'"), "child",
+         one_line(end_of(joint, "child")), "on no other joint, and not above its parent");
+}
+
+/// Links make a tree; urdfdom takes others, too, walks them without an end, and never lets go of them.
+void refuse_loops(const TiXmlElement& robot, const std::string& path) {
+  std::map<std::string, Hung> links;
+  for (auto joint = robot.FirstChildElement("joint"); joint; joint = joint->NextSiblingElement("joint")) {
+    const std::string child = end_of(*joint, "child");
+    if (!child.empty() && !links.insert({child, {end_of(*joint, "parent"), joint}}).second) refuse_joint(*joint, path);
+  }
+  std::size_t walk = 0;
+  for (const auto& entry : links) {
+    ++walk;
+    auto at = links.find(entry.first);
+    for (; at != links.end() && at->second.walk == 0; at = links.find(at->second.parent)) at->second.walk = walk;
+    if (at != links.end() && at->second.walk == walk) refuse_joint(*at->second.joint, path);
+  }
 }
 
 }  // namespace
@@ -192,6 +222,7 @@ UrdfFile read_urdf_file(const std::string& path) {
   UrdfFile file;
   file.path = path;
   if (TiXmlElement* robot = document.FirstChildElement("robot")) {
+    refuse_loops(*robot, path);
     std::size_t links = 0;
     for (TiXmlElement* link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
       if (++links > most_links) throw InputError(path + ": links: must be at most " + std::to_string(most_links));
@@ -206,10 +237,6 @@ UrdfFile read_urdf_file(const std::string& path) {
         path + ": not a URDF: " + (result.complaints.empty() ? "refused without a reason" : result.complaints.front()));
   }
   file.model = result.model;
-  if (count_links(*file.model->getRoot()) < file.model->links_.size()) {
-    throw InputError(path + ": not a URDF: there are links that hang in a loop, not on " +
-                     one_line(file.model->getRoot()->name));
-  }
   for (const std::string& complaint : result.complaints) file.warnings.push_back(path + ": " + complaint);
   return file;
 }

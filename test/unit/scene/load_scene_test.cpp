@@ -5,6 +5,8 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <random>
+#include <set>
 #include <sstream>
 #include <thread>
 
@@ -253,6 +255,37 @@ TEST_F(LoadScene, WhatUrdfdomRefusesIsRefusedWithItsReasonAndNothingOnTheConsole
   EXPECT_TRUE(has(refusal("<link/>"), "name"));
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
+}
+
+/// Of random joints those are loaded, and those alone, by which every link but one hangs on one joint and all are reached.
+TEST_F(LoadScene, LinksMakeATreeOrAreRefused) {
+  std::mt19937 random(1);
+  int loaded = 0;
+  for (int round = 0; round < 300; ++round) {
+    const int links = 1 + static_cast<int>(random() % 4), joints = links - 1 + (random() % 3 == 0);
+    std::string robot;
+    for (int i = 0; i < links; ++i) robot += "<link name='l" + std::to_string(i) + "'/>";
+    std::vector<std::pair<int, int>> ends;
+    for (int i = 0; i < joints; ++i) {
+      ends.emplace_back(random() % static_cast<unsigned>(links), random() % static_cast<unsigned>(links));
+      robot += "<joint name='j" + std::to_string(i) + "' type='fixed'><parent link='l" + std::to_string(ends.back().first) +
+               "'/><child link='l" + std::to_string(ends.back().second) + "'/></joint>";
+    }
+    bool tree = false;  // from one of them all others are reached, by as many joints as there are others
+    for (int root = 0; root < links; ++root) {
+      std::set<int> reached{root};
+      for (int hop = 0; hop < links; ++hop) {
+        for (const auto& [parent, child] : ends) {
+          if (reached.count(parent) > 0) reached.insert(child);
+        }
+      }
+      tree = tree || (joints == links - 1 && reached.size() == static_cast<std::size_t>(links));
+    }
+    loaded += tree;
+    EXPECT_EQ(refusal(robot) == "(loaded)", tree) << robot;
+  }
+  EXPECT_GT(loaded, 20);
+  EXPECT_LT(loaded, 280);
 }
 
 TEST_F(LoadScene, AFileThatIsNotThereIsRefused) {
