@@ -257,7 +257,8 @@ TEST_F(LoadScene, WhatUrdfdomRefusesIsRefusedWithItsReasonAndNothingOnTheConsole
   EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
 }
 
-/// Of random joints those are loaded, and those alone, by which every link but one hangs on one joint and all are reached.
+/// Of random joints those are loaded, and those alone, by which every link but one hangs on one joint and all are
+/// reached.
 TEST_F(LoadScene, LinksMakeATreeOrAreRefused) {
   std::mt19937 random(1);
   int loaded = 0;
@@ -268,8 +269,9 @@ TEST_F(LoadScene, LinksMakeATreeOrAreRefused) {
     std::vector<std::pair<int, int>> ends;
     for (int i = 0; i < joints; ++i) {
       ends.emplace_back(random() % static_cast<unsigned>(links), random() % static_cast<unsigned>(links));
-      robot += "<joint name='j" + std::to_string(i) + "' type='fixed'><parent link='l" + std::to_string(ends.back().first) +
-               "'/><child link='l" + std::to_string(ends.back().second) + "'/></joint>";
+      robot += "<joint name='j" + std::to_string(i) + "' type='fixed'><parent link='l" +
+               std::to_string(ends.back().first) + "'/><child link='l" + std::to_string(ends.back().second) +
+               "'/></joint>";
     }
     bool tree = false;  // from one of them all others are reached, by as many joints as there are others
     for (int root = 0; root < links; ++root) {
