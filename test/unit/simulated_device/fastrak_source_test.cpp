@@ -1,8 +1,12 @@
 #include "spring_workbench/tracker/fastrak_source.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
 #include <chrono>
+#include <deque>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -114,36 +118,69 @@ FastrakSettings two_stations() {
   return settings;
 }
 
-/// 120 Hz from each of four stations for ten minutes of the device's clock, as fast as the line takes them.
+/// The reader's end of a line, looked at from beside.
+class Line {
+ public:
+  explicit Line(const std::string& port) : file_(open(port.c_str(), O_RDONLY | O_NOCTTY | O_NONBLOCK)) {}
+  ~Line() { close(file_); }
+  Line(const Line&) = delete;
+  Line& operator=(const Line&) = delete;
+  /// That there is nothing to read.
+  bool empty() const {
+    int bytes = 0;
+    return ioctl(file_, FIONREAD, &bytes) == 0 && bytes == 0;
+  }
+
+ private:
+  int file_;
+};
+
+/// 120 Hz from each of four stations for ten minutes of the device's clock, as fast as the line takes them: what comes is what was
+/// sent, to the bit and in order. The device sends on to the end: a pseudo-terminal that was full may keep its last bytes until the
+/// next ones come. A line that stays empty for a quarter of a second has lost its stream by rule; the kernel's own threads carry
+/// the bytes, and a busy machine takes the processor from them, too.
 TEST(FastrakSource, LosesNoRecordInTenMinutesOfFourStations) {
   test_support::TemporaryFolder folder;
   const std::vector<PlayedMotion> motions(4, test_support::circling_hand());
   FastrakSimulator simulator(FastrakDevice(motions), LineFaults(), folder.path("port"));
+  const Line line(folder.path("port"));
   FastrakSettings settings;
   settings.port = folder.path("port");
   settings.stations = {1, 2, 3, 4};
   FastrakSource source(settings);
   constexpr std::size_t records = 600 * 120 * 4;
   std::size_t received = 0, wrong = 0, idle = 0;
-  auto last_round = steady_clock::now();
+  std::deque<double> on_the_way;  // when they were measured [s]
+  bool held_up = false;
+  auto last_receipt = steady_clock::now();
   for (std::size_t cycle = 0; received < records && idle < 20000;) {
-    const auto now = steady_clock::now();
-    if (now - last_round > std::chrono::milliseconds(100)) GTEST_SKIP() << "the processor was taken away for too long";
-    last_round = now;
+    held_up |= received > 0 && steady_clock::now() - last_receipt > std::chrono::milliseconds(100) && line.empty();
+    if (held_up && source.health().counters["times the stream was lost"] > 0) GTEST_SKIP() << "the machine held up the line";
     simulator.serve(0.0);
     const bool room = simulator.waiting() == 0;
-    const auto more = [&] { return room && simulator.records_sent() < records; };
-    for (int i = 0; more() && i < 16; ++i) simulator.measure(static_cast<double>(cycle++) / 480.0);
-    const auto samples = source.read(more() ? 0.0 : 1e-3);
+    for (int i = 0; simulator.waiting() == 0 && i < 16; ++i) {
+      const double t = static_cast<double>(cycle++) / 480.0;
+      const std::size_t before = simulator.records_sent();
+      simulator.measure(t);
+      if (simulator.records_sent() > before) on_the_way.push_back(t);
+    }
+    const auto samples = source.read(room ? 0.0 : 1e-3);
     idle = samples.empty() ? idle + 1 : 0;
-    for (const StationSample& sample : samples) wrong += sample.station == static_cast<int>(received++ % 4) + 1 ? 0 : 1;
+    if (!samples.empty()) last_receipt = steady_clock::now();
+    for (const StationSample& sample : samples) {
+      const auto is_next = [&] { return key(sample) == key(sample.station, motions[0].at(on_the_way.front())); };
+      while (received == 0 && !on_the_way.empty() && !is_next()) on_the_way.pop_front();  // those of a set-up begun anew
+      ASSERT_FALSE(on_the_way.empty());
+      const int station = static_cast<int>(received++ % 4) + 1;  // each in its turn
+      wrong += is_next() && sample.station == station ? 0 : 1;
+      on_the_way.pop_front();
+    }
   }
-  EXPECT_EQ(received, records);
-  EXPECT_EQ(simulator.records_sent(), records);
+  EXPECT_GE(received, records) << source.health().text;
   EXPECT_EQ(simulator.records_dropped(), 0u);
-  EXPECT_EQ(wrong, 0u);  // each station in its turn
+  EXPECT_EQ(wrong, 0u);
   auto counters = source.health().counters;
-  EXPECT_EQ(counters["records"], records);
+  EXPECT_EQ(counters["records"], received);
   EXPECT_EQ(counters["bytes left out"], 0u);
   EXPECT_EQ(counters["times the stream was lost"], 0u);
 }
