@@ -5,6 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/scene/clear_way.h"
@@ -152,6 +154,7 @@ void BulletWorld::enter(std::size_t index) {
   world_.addRigidBody(item.bullet.get());
   item.in_world = true;
   in_world_.push_back(index);
+  if (item.movable) remembered_.push_back({index, item.X_WO, item.V_WO_W, ISLAND_SLEEPING, 0.0});
 }
 
 void BulletWorld::leave(std::size_t index) {
@@ -259,14 +262,22 @@ void BulletWorld::end_driving(const std::vector<DrivenBody>& driven) {
   }
 }
 
+void BulletWorld::enter_what_is_near(double h) {
+  std::vector<std::size_t> reached;
+  std::copy_if(in_world_.begin(), in_world_.end(), std::back_inserter(reached), [&](std::size_t i) { return awake(items_[i]); });
+  std::set<std::size_t> known(reached.begin(), reached.end());
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    for (const std::size_t other : inside(way_of(reached[k], h))) {
+      enter(other);
+      if (items_[other].movable && known.insert(other).second) reached.push_back(other);
+    }
+  }
+}
+
 void BulletWorld::step(double h, std::vector<DrivenBody>& driven) {
   ++steps_;
   begin_driving(driven, h);
-  const std::vector<std::size_t> present = in_world_;
-  for (const std::size_t i : present) {
-    if (!awake(items_[i])) continue;
-    for (const std::size_t other : inside(way_of(i, h))) enter(other);
-  }
+  enter_what_is_near(h);
   world_.stepSimulation(h, 0);
   take_states();
   take_contacts();
