@@ -15,7 +15,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import Joy
 from tf2_msgs.msg import TFMessage
 
-DEADLINE = 60.0  # [s] of wall time; far more than anything here takes
+DEADLINE = 120.0  # [s] of wall time; far more than anything here takes
 
 
 def wait_for(condition, what, deadline=DEADLINE):
