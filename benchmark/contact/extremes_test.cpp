@@ -14,11 +14,6 @@ class Extremes : public ::testing::TestWithParam<ContactMode> {
     const ExtremeOutcome o = run({extreme, GetParam(), stiffness, 0.02, seed});
     if (extreme == ContactExtreme::stack_of_ten) {
       EXPECT_LT(o.pushed, 0.02) << stiffness;  // it stands: the hand goes 0.013 m sideways
-      if (GetParam() == ContactMode::dynamic) {
-        // Its boxes go 0.17 mm into each other: the map draws such a cell as one that does not hold.
-        EXPECT_TRUE(o.finite && o.bounded && o.gains_nothing() && o.refused == 0 && o.penetration < 3e-4) << o.penetration;
-        return;
-      }
     }
     EXPECT_TRUE(o.held()) << name_of(extreme) << " on " << stiffness << " N/m, seed " << seed << ": " << 1e6 * o.penetration
                           << " µm deep, " << 1e6 * o.energy_gained << " µm gained, " << o.refused << " refused";

@@ -69,7 +69,7 @@ class RigidWorld {
   /// anything; 0 … 1. Others are taken to stand still.
   virtual double free_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const = 0;
   /// Which part it surely goes without having gone through anything or, among boxes, without being deeper than 0.05 mm,
-  /// or than at the start. Others have gone straight from where they were at remember() to where they are.
+  /// or than at the start (half, if the last step was not solved to 1 µm). Others have gone straight since remember().
   virtual double sound_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const = 0;
 
   /// Contacts of the last step that pressed or were closed.

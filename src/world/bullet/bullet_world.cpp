@@ -5,6 +5,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/scene/clear_way.h"
@@ -21,6 +23,7 @@ constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does no
 constexpr double penetration_share = 0.2;  ///< of a penetration that is undone in a step, where it pushes free bodies
 constexpr double blind_way = 2e-4;         ///< [m] towards what is near, where the shapes are not boxes
 constexpr double deepest_way = 5e-5;       ///< [m]; no deeper goes a box into another
+constexpr double missed_way = 1e-6;        ///< [m]; where the solver missed more, half a way at most is sure
 constexpr double closed_gap = 1e-5;        ///< [m]; a contact without impulse is told while its gap is smaller
 
 using Extent = Eigen::AlignedBox3d;
@@ -152,6 +155,7 @@ void BulletWorld::enter(std::size_t index) {
   world_.addRigidBody(item.bullet.get());
   item.in_world = true;
   in_world_.push_back(index);
+  if (item.movable) remembered_.push_back({index, item.X_WO, item.V_WO_W, ISLAND_SLEEPING, 0.0});
 }
 
 void BulletWorld::leave(std::size_t index) {
@@ -259,14 +263,22 @@ void BulletWorld::end_driving(const std::vector<DrivenBody>& driven) {
   }
 }
 
+void BulletWorld::enter_what_is_near(double h) {
+  std::vector<std::size_t> reached;
+  std::copy_if(in_world_.begin(), in_world_.end(), std::back_inserter(reached), [&](std::size_t i) { return awake(items_[i]); });
+  std::set<std::size_t> known(reached.begin(), reached.end());
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    for (const std::size_t other : inside(way_of(reached[k], h))) {
+      enter(other);
+      if (items_[other].movable && known.insert(other).second) reached.push_back(other);
+    }
+  }
+}
+
 void BulletWorld::step(double h, std::vector<DrivenBody>& driven) {
   ++steps_;
   begin_driving(driven, h);
-  const std::vector<std::size_t> present = in_world_;
-  for (const std::size_t i : present) {
-    if (!awake(items_[i])) continue;
-    for (const std::size_t other : inside(way_of(i, h))) enter(other);
-  }
+  enter_what_is_near(h);
   world_.stepSimulation(h, 0);
   take_states();
   take_contacts();
@@ -334,8 +346,8 @@ RigidTransform BulletWorld::remembered_pose(std::size_t body) const {
 double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                                 bool untouched) const {
   const Item& item = items_[body];
-  double part = 1.0;
-  if (item.leaf == nullptr) return part;
+  if (item.leaf == nullptr) return 1.0;
+  double part = !untouched && solver_.missed_way() > missed_way ? 0.5 : 1.0;
   // Of a pair whose shapes are not both boxes, only what the boxes around them say is known.
   const auto by_extent = [&](const BoxGap& gap, const Way& way) {
     const double left = gap.gap - 2.0 * contact_skin;

@@ -79,6 +79,8 @@ class BulletWorld final : public RigidWorld {
   static void let_move(Item& item, bool may_move);  ///< one without mass: Bullet takes contacts of what cannot for none
   void enter(std::size_t index);
   void leave(std::size_t index);
+  /// What is near an awake body, and what is near that: what one pushes may push the next one in the same step.
+  void enter_what_is_near(double h);
   void put(std::size_t index, const RigidTransform& X_WO, const Twist& V_WO_W);
   void update_box(Item& item);
   std::vector<std::size_t> inside(const Eigen::AlignedBox3d& box_W) const;

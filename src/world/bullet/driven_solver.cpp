@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace spring_workbench {
 namespace {
@@ -25,6 +26,7 @@ Eigen::Matrix<double, 6, 1> both(const btVector3& linear, const btVector3& angul
 void DrivenSolver::set_driven(std::vector<Driven> driven, double h) {
   driven_ = std::move(driven);
   impacts_.clear();
+  missed_way_ = 0.0;
   h_ = h;
 }
 
@@ -91,7 +93,7 @@ double DrivenSolver::sweep(Rows& rows) const {
   return largest_step;
 }
 
-void DrivenSolver::solve(Rows& rows) const {
+void DrivenSolver::solve(Rows& rows) {
   // Nonsmooth nonlinear conjugate gradients (Silcowitz, Niebe and Erleben 2010): a sweep's change is the gradient.
   const std::size_t contacts = rows.normal.size();
   const auto size = static_cast<Eigen::Index>(3 * contacts);
@@ -120,7 +122,15 @@ void DrivenSolver::solve(Rows& rows) const {
   }
   const bool finite =
       std::all_of(rows.change.begin(), rows.change.end(), [](const Vector6d& v) { return v.allFinite(); });
-  if (finite) return;
+  if (finite) {
+    for (const Row& n : rows.normal) {
+      if (!(n.inverse_effective_mass > 0.0)) continue;
+      const double missing = n.target - n.rate(rows.change);
+      missed_way_ = std::max(missed_way_, h_ * (n.impulse > 0.0 ? std::abs(missing) : missing));
+    }
+    return;
+  }
+  missed_way_ = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < 3 * contacts; ++k) row(k).impulse = 0.0;
   std::fill(rows.change.begin(), rows.change.end(), Vector6d::Zero());
 }

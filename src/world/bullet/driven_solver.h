@@ -25,6 +25,8 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
     Vector3d impulse_W;  ///< on the manifold's first body [N·s]
   };
   const std::vector<Impact>& impacts() const { return impacts_; }
+  /// How far a contact that presses would still go in or out in the last step, or another one in [m]: what the sweeps left.
+  double missed_way() const { return missed_way_; }
 
  private:
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
@@ -63,12 +65,13 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   void hand_back_impacts(const Rows& rows, const std::vector<std::size_t>& contacts);
   /// One projected Gauss–Seidel sweep; returns the largest change of an impulse.
   double sweep(Rows& rows) const;
-  void solve(Rows& rows) const;
+  void solve(Rows& rows);
   void hand_back(const Rows& rows);
 
   std::vector<Driven> driven_;
   std::vector<Impact> impacts_;
   double h_ = 1.0;
+  double missed_way_ = 0.0;
 };
 
 }  // namespace spring_workbench
