@@ -135,10 +135,10 @@ class Line {
   int file_;
 };
 
-/// 120 Hz from each of four stations for ten minutes of the device's clock, as fast as the line takes them: what comes is what was
-/// sent, to the bit and in order. The device sends on to the end: a pseudo-terminal that was full may keep its last bytes until the
-/// next ones come. A line that stays empty for a quarter of a second has lost its stream by rule; the kernel's own threads carry
-/// the bytes, and a busy machine takes the processor from them, too.
+/// 120 Hz from each of four stations for ten minutes of the device's clock, as fast as the line takes them: what comes
+/// is what was sent, to the bit and in order. The device sends on to the end: a pseudo-terminal that was full may keep
+/// its last bytes until the next ones come. A line that stays empty for a quarter of a second has lost its stream by
+/// rule; the kernel's own threads carry the bytes, and a busy machine takes the processor from them, too.
 TEST(FastrakSource, LosesNoRecordInTenMinutesOfFourStations) {
   test_support::TemporaryFolder folder;
   const std::vector<PlayedMotion> motions(4, test_support::circling_hand());
@@ -155,7 +155,8 @@ TEST(FastrakSource, LosesNoRecordInTenMinutesOfFourStations) {
   auto last_receipt = steady_clock::now();
   for (std::size_t cycle = 0; received < records && idle < 20000;) {
     held_up |= received > 0 && steady_clock::now() - last_receipt > std::chrono::milliseconds(100) && line.empty();
-    if (held_up && source.health().counters["times the stream was lost"] > 0) GTEST_SKIP() << "the machine held up the line";
+    if (held_up && source.health().counters["times the stream was lost"] > 0)
+      GTEST_SKIP() << "the machine held up the line";
     simulator.serve(0.0);
     const bool room = simulator.waiting() == 0;
     for (int i = 0; simulator.waiting() == 0 && i < 16; ++i) {
@@ -169,7 +170,8 @@ TEST(FastrakSource, LosesNoRecordInTenMinutesOfFourStations) {
     if (!samples.empty()) last_receipt = steady_clock::now();
     for (const StationSample& sample : samples) {
       const auto is_next = [&] { return key(sample) == key(sample.station, motions[0].at(on_the_way.front())); };
-      while (received == 0 && !on_the_way.empty() && !is_next()) on_the_way.pop_front();  // those of a set-up begun anew
+      while (received == 0 && !on_the_way.empty() && !is_next())
+        on_the_way.pop_front();  // those of a set-up begun anew
       ASSERT_FALSE(on_the_way.empty());
       const int station = static_cast<int>(received++ % 4) + 1;  // each in its turn
       wrong += is_next() && sample.station == station ? 0 : 1;
