@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+
+#include "spring_workbench/math/friction_cones.h"
 
 namespace spring_workbench {
 namespace {
 
-constexpr int most_sweeps = 1000;
+constexpr int most_sweeps = 200;
+constexpr std::size_t most_at_once = 150;  ///< contacts whose equations are solved at once, where the sweeps are not done
 constexpr double small_change = 1e-8;   ///< of the largest impulse: the sweeps end
 constexpr double closed = 5e-5;         ///< [m]; a contact with a smaller gap is stopped by an impulse
 constexpr double rest_speed = 0.02;     ///< [m/s]; a slower approach does not bounce
@@ -93,46 +97,84 @@ double DrivenSolver::sweep(Rows& rows) const {
   return largest_step;
 }
 
-void DrivenSolver::solve(Rows& rows) {
+bool DrivenSolver::sweep_until_done(Rows& rows) const {
   // Nonsmooth nonlinear conjugate gradients (Silcowitz, Niebe and Erleben 2010): a sweep's change is the gradient.
-  const std::size_t contacts = rows.normal.size();
-  const auto size = static_cast<Eigen::Index>(3 * contacts);
-  const auto row = [&](std::size_t k) -> Row& { return k < contacts ? rows.normal[k] : rows.across[k - contacts]; };
+  const std::size_t count = 3 * rows.normal.size();
+  const auto size = static_cast<Eigen::Index>(count);
   Eigen::VectorXd before(size), change(size), direction = Eigen::VectorXd::Zero(size);
   double last_square = 0.0;
   for (int i = 0; i < most_sweeps; ++i) {
-    for (std::size_t k = 0; k < 3 * contacts; ++k) before[static_cast<Eigen::Index>(k)] = row(k).impulse;
+    for (std::size_t k = 0; k < count; ++k) before[static_cast<Eigen::Index>(k)] = rows[k].impulse;
     const double largest_step = sweep(rows);
     double largest = 0.0;
-    for (std::size_t k = 0; k < 3 * contacts; ++k) {
-      change[static_cast<Eigen::Index>(k)] = row(k).impulse - before[static_cast<Eigen::Index>(k)];
-      largest = std::max(largest, row(k).impulse);
+    for (std::size_t k = 0; k < count; ++k) {
+      change[static_cast<Eigen::Index>(k)] = rows[k].impulse - before[static_cast<Eigen::Index>(k)];
+      largest = std::max(largest, rows[k].impulse);
     }
-    if (largest_step <= small_change * largest) break;
+    if (largest_step <= small_change * largest) return true;
     const double square = change.squaredNorm();
     if (last_square > 0.0 && square <= last_square && i + 1 < most_sweeps) {
       const double share = square / last_square;
-      for (std::size_t k = 0; k < 3 * contacts; ++k)
-        row(k).apply(share * direction[static_cast<Eigen::Index>(k)], rows.change);
+      for (std::size_t k = 0; k < count; ++k) rows[k].apply(share * direction[static_cast<Eigen::Index>(k)], rows.change);
       direction = change + share * direction;
     } else {
       direction = change;
     }
     last_square = square;
   }
-  const bool finite =
-      std::all_of(rows.change.begin(), rows.change.end(), [](const Vector6d& v) { return v.allFinite(); });
-  if (finite) {
-    for (const Row& n : rows.normal) {
-      if (!(n.inverse_effective_mass > 0.0)) continue;
-      const double missing = n.target - n.rate(rows.change);
-      missed_way_ = std::max(missed_way_, h_ * (n.impulse > 0.0 ? std::abs(missing) : missing));
-    }
-    return;
+  return false;
+}
+
+void DrivenSolver::solve_at_once(Rows& rows) const {
+  std::vector<std::size_t> giving;  // rows of the contacts that give way, three for each
+  std::vector<double> friction;
+  for (std::size_t i = 0; i < rows.normal.size(); ++i) {
+    if (!(rows.normal[i].inverse_effective_mass > 0.0)) continue;
+    for (const std::size_t k : {i, rows.normal.size() + 2 * i, rows.normal.size() + 2 * i + 1}) giving.push_back(k);
+    friction.push_back(rows.normal[i].friction);
   }
-  missed_way_ = std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < 3 * contacts; ++k) row(k).impulse = 0.0;
-  std::fill(rows.change.begin(), rows.change.end(), Vector6d::Zero());
+  const auto size = static_cast<Eigen::Index>(giving.size());
+  Eigen::MatrixXd A(size, size);
+  Eigen::VectorXd b(size), impulse;
+  std::vector<Vector6d> alone(rows.change.size(), Vector6d::Zero());
+  for (Eigen::Index j = 0; j < size; ++j) {
+    const Row& row = rows[giving[static_cast<std::size_t>(j)]];
+    b[j] = -row.target;
+    Row unit = row;
+    unit.apply(1.0, alone);
+    for (Eigen::Index i = 0; i < size; ++i) A(i, j) = rows[giving[static_cast<std::size_t>(i)]].rate(alone);
+    alone[static_cast<std::size_t>(row.a)].setZero();
+    alone[static_cast<std::size_t>(row.b)].setZero();
+  }
+  if (!solve_in_cones(A, b, friction, impulse)) return;
+  Rows found = rows;
+  found.clear();
+  for (Eigen::Index i = 0; i < size; ++i) found[giving[static_cast<std::size_t>(i)]].apply(impulse[i], found.change);
+  sweep(found);
+  if (missed(found) < missed(rows)) rows = std::move(found);
+}
+
+double DrivenSolver::missed(const Rows& rows) const {
+  double missed = 0.0;
+  for (const Row& n : rows.normal) {
+    if (!(n.inverse_effective_mass > 0.0)) continue;
+    const double missing = n.target - n.rate(rows.change);
+    missed = std::max(missed, h_ * (n.impulse > 0.0 ? std::abs(missing) : missing));
+  }
+  const auto finite = [](const Vector6d& v) { return v.allFinite(); };
+  return std::all_of(rows.change.begin(), rows.change.end(), finite) ? missed : std::numeric_limits<double>::infinity();
+}
+
+void DrivenSolver::solve(Rows& rows) {
+  if (!sweep_until_done(rows) && rows.normal.size() <= most_at_once) solve_at_once(rows);
+  const double missed_now = missed(rows);
+  if (!std::isfinite(missed_now)) rows.clear();
+  missed_way_ = std::max(missed_way_, missed_now);
+}
+
+void DrivenSolver::Rows::clear() {
+  for (std::size_t k = 0; k < 3 * normal.size(); ++k) (*this)[k].impulse = 0.0;
+  std::fill(change.begin(), change.end(), Vector6d::Zero());
 }
 
 DrivenSolver::Vector6d DrivenSolver::velocity(int solver_body, bool at_start) const {

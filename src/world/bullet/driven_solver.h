@@ -9,7 +9,7 @@ namespace spring_workbench {
 
 /// Bullet's contact solver with four changes: driven bodies answer to a load by their full 6 × 6 compliance instead of
 /// a mass; before it, contacts of theirs that are closed and approach are stopped by impulses; friction lies in a round
-/// cone; and the sweeps go on until they change nothing.
+/// cone; and the sweeps go on until they change nothing, or where they are too many, all contacts are solved at once.
 class DrivenSolver final : public btSequentialImpulseConstraintSolver {
  public:
   struct Driven {
@@ -57,6 +57,8 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
     std::vector<Row> normal;       ///< one per contact
     std::vector<Row> across;       ///< two per contact
     std::vector<Vector6d> change;  ///< of the bodies' velocities, by the impulses so far
+    Row& operator[](std::size_t k) { return k < normal.size() ? normal[k] : across[k - normal.size()]; }
+    void clear();  ///< no impulses
   };
   Rows make_rows(const btContactSolverInfo& info);
   Row impact_row(const Row& row) const;
@@ -65,6 +67,9 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   void hand_back_impacts(const Rows& rows, const std::vector<std::size_t>& contacts);
   /// One projected Gauss–Seidel sweep; returns the largest change of an impulse.
   double sweep(Rows& rows) const;
+  bool sweep_until_done(Rows& rows) const;  ///< false: the sweeps were too many
+  void solve_at_once(Rows& rows) const;     ///< by solve_in_cones(), where that is nearer to the law
+  double missed(const Rows& rows) const;    ///< see missed_way()
   void solve(Rows& rows);
   void hand_back(const Rows& rows);
 
