@@ -23,7 +23,6 @@ constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does no
 constexpr double penetration_share = 0.2;  ///< of a penetration that is undone in a step, where it pushes free bodies
 constexpr double blind_way = 2e-4;         ///< [m] towards what is near, where the shapes are not boxes
 constexpr double deepest_way = 5e-5;       ///< [m]; no deeper goes a box into another
-constexpr double missed_way = 1e-6;        ///< [m]; where the solver missed more, half a way at most is sure
 constexpr double closed_gap = 1e-5;        ///< [m]; a contact without impulse is told while its gap is smaller
 
 using Extent = Eigen::AlignedBox3d;
@@ -347,7 +346,7 @@ double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, c
                                 bool untouched) const {
   const Item& item = items_[body];
   if (item.leaf == nullptr) return 1.0;
-  double part = !untouched && solver_.missed_way() > missed_way ? 0.5 : 1.0;
+  double part = !untouched && solver_.missed_way() > DrivenSolver::small_miss ? 0.5 : 1.0;
   // Of a pair whose shapes are not both boxes, only what the boxes around them say is known.
   const auto by_extent = [&](const BoxGap& gap, const Way& way) {
     const double left = gap.gap - 2.0 * contact_skin;

@@ -10,7 +10,7 @@
 namespace spring_workbench {
 namespace {
 
-constexpr int most_sweeps = 200;
+constexpr int most_sweeps = 1000;
 constexpr std::size_t most_at_once = 150;  ///< contacts whose equations are solved at once, where the sweeps are not done
 constexpr double small_change = 1e-8;   ///< of the largest impulse: the sweeps end
 constexpr double closed = 5e-5;         ///< [m]; a contact with a smaller gap is stopped by an impulse
@@ -166,7 +166,7 @@ double DrivenSolver::missed(const Rows& rows) const {
 }
 
 void DrivenSolver::solve(Rows& rows) {
-  if (!sweep_until_done(rows) && rows.normal.size() <= most_at_once) solve_at_once(rows);
+  if (!sweep_until_done(rows) && missed(rows) > small_miss && rows.normal.size() <= most_at_once) solve_at_once(rows);
   const double missed_now = missed(rows);
   if (!std::isfinite(missed_now)) rows.clear();
   missed_way_ = std::max(missed_way_, missed_now);

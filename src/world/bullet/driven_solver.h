@@ -27,6 +27,7 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   const std::vector<Impact>& impacts() const { return impacts_; }
   /// How far a contact that presses would still go in or out in the last step, or another one in [m]: what the sweeps left.
   double missed_way() const { return missed_way_; }
+  static constexpr double small_miss = 1e-6;  ///< [m]; with less, a step is solved
 
  private:
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
