@@ -11,7 +11,7 @@ namespace spring_workbench {
 ///
 /// A primal-dual interior point method on the friction cones (Nesterov and Todd's scaling, Mehrotra's corrector), with
 /// De Saxcé's shift of the normal rate by the slip: it takes some 20 systems of equations however unlike the masses are,
-/// where Gauss–Seidel's sweeps take thousands. False, with `x` as it was, where it found none.
+/// where Gauss–Seidel's sweeps take thousands [NT98, DF98 in doc/model.md]. False, with `x` as it was, where it found none.
 bool solve_in_cones(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vector<double>& friction,
                     Eigen::VectorXd& x);
 
