@@ -15,8 +15,8 @@ using Eigen::VectorXd;
 
 constexpr int most_iterations = 100;
 constexpr double solved = 1e-11;          ///< of the rates and impulses, both scaled to 1
-constexpr double acceptable = 1e-6;
-constexpr double slip_share = 0.1;
+constexpr double acceptable = 1e-6;       ///< where no iteration comes nearer
+constexpr double slip_share = 0.1;        ///< of what is missing: the least distance from the cones that is aimed at
 constexpr double least_friction = 1e-6;   ///< a narrower cone is taken so wide
 constexpr double least_answer = 1e-6;     ///< of that of the contact that gives way most
 

@@ -9,7 +9,8 @@ namespace spring_workbench {
 
 /// Bullet's contact solver with four changes: driven bodies answer to a load by their full 6 × 6 compliance instead of
 /// a mass; before it, contacts of theirs that are closed and approach are stopped by impulses; friction lies in a round
-/// cone; and the sweeps go on until they change nothing, or where they are too many, all contacts are solved at once.
+/// cone; and the sweeps go on until they change nothing. Where they are too many and leave a miss, all contacts are solved
+/// at once.
 class DrivenSolver final : public btSequentialImpulseConstraintSolver {
  public:
   struct Driven {
