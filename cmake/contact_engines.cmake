@@ -1,6 +1,6 @@
 # What contact is computed with. Each engine is left out where it is not found or not wanted: its contact mode is then refused.
-option(SPRING_WORKBENCH_WITH_FCL "Contact mode stop, where FCL is found" ON)
-option(SPRING_WORKBENCH_WITH_BULLET "Contact mode dynamic, where Bullet is found" ON)
+option(SPRING_WORKBENCH_WITH_FCL "Contact modes stop and dynamic, where FCL is found" ON)
+option(SPRING_WORKBENCH_WITH_BULLET "Contact mode dynamic, where Bullet and FCL are found" ON)
 
 set(SPRING_WORKBENCH_FCL_FOUND OFF)
 if(SPRING_WORKBENCH_WITH_FCL)
@@ -13,7 +13,7 @@ endif()
 # Bullet in double precision. Its other build, in single precision, has the same symbols: nothing that links it may link this.
 set(SPRING_WORKBENCH_BULLET_FOUND OFF)
 set(SPRING_WORKBENCH_BULLET_LIBRARIES)
-if(SPRING_WORKBENCH_WITH_BULLET)
+if(SPRING_WORKBENCH_WITH_BULLET AND SPRING_WORKBENCH_FCL_FOUND)
   find_path(SPRING_WORKBENCH_BULLET_INCLUDE btBulletDynamicsCommon.h PATH_SUFFIXES bullet)
   foreach(part BulletDynamics BulletCollision LinearMath)
     find_library(SPRING_WORKBENCH_${part}_LIBRARY ${part}-float64)

@@ -10,15 +10,14 @@
 namespace spring_workbench {
 namespace {
 
-/// The library that makes the worlds of this contact mode, and its function that makes one.
+/// The library that makes worlds of a kind, and its function that makes one.
 struct Engine {
-  const char* mode;
   const char* library;
   const char* function;
 };
 
-constexpr Engine fcl = {"stop", "libspring_workbench_collision_engine.so", "spring_workbench_new_collision_world"};
-constexpr Engine bullet = {"dynamic", "libspring_workbench_world_engine.so", "spring_workbench_new_rigid_world"};
+constexpr Engine fcl = {"libspring_workbench_collision_engine.so", "spring_workbench_new_collision_world"};
+constexpr Engine bullet = {"libspring_workbench_world_engine.so", "spring_workbench_new_rigid_world"};
 
 /// Opens the library, which then stays open.
 void* find_function(const Engine& engine, const Scene& scene) {
@@ -27,7 +26,8 @@ void* find_function(const Engine& engine, const Scene& scene) {
   void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
   void* function = library == nullptr ? nullptr : dlsym(library, engine.function);
   if (function == nullptr) {
-    refuse(scene.path, "contact", engine.mode, std::string("a mode that this build has an engine for (") + dlerror() + ")");
+    const char* mode = scene.contact == ContactMode::dynamic ? "dynamic" : "stop";
+    refuse(scene.path, "contact", mode, std::string("a mode that this build has the engines for (") + dlerror() + ")");
   }
   return function;
 }

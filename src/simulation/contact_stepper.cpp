@@ -239,8 +239,8 @@ bool ContactStepper::is_finite(const MotionState& s) {
   return s.X.matrix().allFinite() && s.velocity.linear.allFinite() && s.velocity.angular.allFinite();
 }
 
-ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std::vector<ContactRow>& rows,
-                                                ContactOutcome& outcome) const {
+ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, const MayGo& may_go,
+                                                std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
   constexpr double smaller = 0.25;
   const std::size_t index = body.index();
   const MotionState begin = body.object();
@@ -254,6 +254,10 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
     return {false, in_contact ? smaller : 0.0, {}, false};
   }
   const MotionState end = body.object();
+  if (!may_go(begin.X, end.X)) {
+    body.go_back();
+    return {false, 0.0, {}, true, false};
+  }
   const double bowed = bow(index, begin, end, h);
   const double straight = safety * std::sqrt(most_segments * most_segments * most_bow / std::max(bowed, 1e-3 * most_bow));
   if (in_contact || collision_.may_touch(index, begin.X, end.X, std::max(bowed, most_bow))) {
@@ -283,7 +287,10 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, std
   return {true, in_contact ? std::clamp(straight, 0.5, longer) : longer, {}};
 }
 
-void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) {
+bool ContactStepper::step(SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
+                          ContactOutcome& outcome) {
+  const MayGo on_the_way = [](const RigidTransform&, const RigidTransform&) { return true; };
+  if (const RigidTransform here = body.object().X; !may_go(here, here)) return false;
   double left = h, piece = h;
   int unsolved = 0;
   const auto stay = [&](double duration) {
@@ -297,7 +304,8 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
   collide(body, rows, Bounce::of_materials);
   for (int i = 0; i < most_tries && left > 1e-9 * h; ++i) {
     piece = std::min(piece, left);
-    Piece tried = try_piece(body, piece, rows, outcome);
+    Piece tried = try_piece(body, piece, left == h ? may_go : on_the_way, rows, outcome);
+    if (!tried.allowed) return false;
     if (tried.done) {
       left -= piece;
       piece *= tried.next;
@@ -317,6 +325,7 @@ void ContactStepper::step(SteppedBody& body, double h, std::vector<ContactRow>& 
   if (left > 1e-9 * h) stay(left);
   rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap > probe_depth; }), rows.end());
   outcome.rows = rows;
+  return true;
 }
 
 bool ContactStepper::meet(SteppedBody& body, const std::vector<ContactRow>& touched, std::vector<ContactRow>& rows) const {

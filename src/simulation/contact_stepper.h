@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "spring_workbench/collision/collision_world.h"
@@ -21,8 +22,11 @@ class ContactStepper {
  public:
   ContactStepper(const Scene& scene, CollisionWorld& collision, int bisection_levels);
 
+  /// Whether the way between two poses is one that the body goes with nothing movable about.
+  using MayGo = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
   /// Carries the body over `h` [s]. `rows`: its contacts at the end of the last step; replaced by those at the end of this.
-  void step(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome);
+  /// False, and the body is where it was, when it may not go its way (or the first piece of it).
+  bool step(SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows, ContactOutcome& outcome);
 
  private:
   double friction(std::size_t body, std::size_t other) const;
@@ -51,10 +55,12 @@ class ContactStepper {
     double next = 0.0;                  ///< how long the next piece to try is, over this one
     std::vector<ContactRow> touched;    ///< not done: what was in the way
     bool solved = true;                 ///< loads were found, with which the body can be carried
+    bool allowed = true;                ///< it may go there
   };
   static bool is_finite(const MotionState& s);
   /// Tries to go `h` on, under the rows' loads where there are rows. Not done, the body is where it was.
-  Piece try_piece(SteppedBody& body, double h, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
+  Piece try_piece(SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
+                  ContactOutcome& outcome) const;
   /// Corrects the impulses that the rows' loads have given over a piece of `h` [s] so that no contact approaches at its end,
   /// and none slips where friction, which is constant over the piece, has turned its slip round or could have held it.
   void settle(SteppedBody& body, const std::vector<ContactRow>& rows, double h) const;

@@ -8,8 +8,8 @@
 
 namespace spring_workbench {
 
-/// Contact mode `dynamic` (doc/model.md): held bodies and all movable ones in one rigid-body world. A held body that
-/// nothing can touch is carried by its own integrator alone; near others, all go on together in short pieces, in which
+/// Contact mode `dynamic` (doc/model.md) where movable bodies are near: held bodies and all movable ones in one rigid-body
+/// world. A held body that nothing can touch is carried by its own integrator alone; near others, all go on together in short pieces, in which
 /// the held body answers to contact with the compliance of its fork.
 class DynamicStepper {
  public:

@@ -233,7 +233,7 @@ void Simulation::Impl::fill_parts(AdvanceReport& report) const {
   part("gravity", scene.gravity > 0.0 && report.steps > 0);
   part("free_bodies", workbench.any_free());
   part("collision", workbench.with_contact() && report.steps > 0);
-  part("movable_neighbours", scene.contact == ContactMode::dynamic && report.steps > 0);
+  part("movable_neighbours", report.steps_among_movable > 0);
 }
 
 Simulation::Simulation(const Scene& scene, const SimulationSettings& settings)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "spring_workbench/engines/contact_engines.h"
 #include "spring_workbench/scene/geometry.h"
@@ -21,7 +22,7 @@ Workbench::Workbench(const Scene& scene, int bisection_levels) : scene_(scene), 
     object_of_.push_back(movable_.size());
     if (scene.bodies[i].movable) movable_.push_back(i);
   }
-  if (scene.contact == ContactMode::stop) {
+  if (with_contact()) {
     collision_ = open_collision_world(scene);
     contact_stepper_ = std::make_unique<ContactStepper>(scene, *collision_, bisection_levels);
   }
@@ -79,7 +80,6 @@ void Workbench::hold(std::size_t object, Grip grip, double now) {
   ++(grip == Grip::grasp ? tools_[object].grasping : tools_[object].pushing);
   free_bodies_[object].reset();
   free_.erase(object);
-  rows_[object].clear();
   BodyState& o = states_[object];
   o.held = tools_[object].grasping > 0;
   if (o.held) o.highlighted = false;
@@ -127,7 +127,7 @@ void Workbench::set_free(std::size_t object, const Twist& V_WO_W, double now) {
 }
 
 void Workbench::wake_what_lies_on(std::size_t object, double now) {
-  if (!collision_) return;
+  if (scene_.contact != ContactMode::stop) return;  // Bullet's sleepers wake by themselves
   std::vector<ContactPoint> found;
   RigidTransform lifted = states_[object].X_WO;
   lifted.translation().z() += support_gap;
@@ -142,11 +142,11 @@ void Workbench::wake_what_lies_on(std::size_t object, double now) {
   }
 }
 
-void Workbench::carry(SteppedBody& stepped, std::size_t object, double h, AdvanceReport& report) {
-  ++report.steps;
+bool Workbench::carry(SteppedBody& stepped, std::size_t object, double h, const ContactStepper::MayGo& may_go,
+                      AdvanceReport& report) {
   ContactOutcome outcome;
   if (contact_stepper_) {
-    contact_stepper_->step(stepped, h, rows_[object], outcome);
+    if (!contact_stepper_->step(stepped, h, may_go, rows_[object], outcome)) return false;
   } else {
     stepped.remember();
     if (stepped.advance(h, Wrench())) {
@@ -157,44 +157,67 @@ void Workbench::carry(SteppedBody& stepped, std::size_t object, double h, Advanc
       outcome.refused = true;
     }
   }
+  ++report.steps;
   take_state(object, stepped.object());
   report.collision_queries += outcome.queries;
   if (outcome.held_back) ++report.held_back;
   if (outcome.refused) ++report.guards_tripped;
   states_[object].in_contact = !outcome.rows.empty();
   contacts_.note(object, states_[object], outcome.rows, h);
+  return true;
 }
 
 void Workbench::step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report) {
   if (dynamic_stepper_) {
-    step_together(held, h, report);
+    step_among_movable(held, h, report);
     return;
   }
-  for (const Carried& c : held) carry(*c.body, c.object, h, report);
+  const auto anywhere = [](const RigidTransform&, const RigidTransform&) { return true; };
+  for (const Carried& c : held) carry(*c.body, c.object, h, anywhere, report);
   const std::set<std::size_t> free = free_;
   for (const std::size_t i : free) {
-    carry(*free_bodies_[i], i, h, report);
+    carry(*free_bodies_[i], i, h, anywhere, report);
     put_to_sleep_if_slow(i, now + h);
   }
 }
 
+void Workbench::step_among_movable(const std::vector<Carried>& held, double h, AdvanceReport& report) {
+  std::vector<std::size_t> bodies;
+  for (const Carried& c : held) bodies.push_back(movable_[c.object]);
+  RigidWorld& world = dynamic_stepper_->world();
+  std::vector<Carried> among_others;
+  for (const Carried& c : held) {
+    const std::size_t body = movable_[c.object];
+    const auto among_fixed = [&](const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
+      return !world.near_movable(body, X0_WO, X1_WO, h, bodies);
+    };
+    if (!carry(*c.body, c.object, h, among_fixed, report)) {
+      rows_[c.object].clear();
+      among_others.push_back(c);
+      continue;
+    }
+    in_contact_.erase(c.object);
+    world.place(body, states_[c.object].X_WO, states_[c.object].V_WO_W, false);
+  }
+  if (!among_others.empty() || dynamic_stepper_->others_awake()) step_together(among_others, h, report);
+}
+
 void Workbench::step_together(const std::vector<Carried>& held, double h, AdvanceReport& report) {
-  if (held.empty() && !dynamic_stepper_->others_awake()) return;
   std::vector<SteppedBody*> bodies;
   for (const Carried& c : held) bodies.push_back(c.body);
   const DynamicStepper::Outcome outcome = dynamic_stepper_->step(bodies, h);
   report.steps += outcome.pieces;
+  report.steps_among_movable += outcome.pieces;
   report.collision_queries += outcome.pieces;
   if (outcome.held_back) ++report.held_back;
   if (outcome.refused) ++report.guards_tripped;
   for (const Carried& c : held) take_state(c.object, c.body->object());
   const RigidWorld& world = dynamic_stepper_->world();
   for (const std::size_t near : world.bodies_near()) {
-    BodyState& o = states_[object_of_[near]];
-    if (!scene_.bodies[near].movable || o.held) continue;
-    o.X_WO = world.pose(near);
-    o.V_WO_W = world.velocity(near);
-    o.asleep = !world.awake(near);
+    const std::size_t object = object_of_[near];
+    if (!scene_.bodies[near].movable || tools_[object].grasping + tools_[object].pushing > 0) continue;
+    take_state(object, {world.pose(near), world.velocity(near), {}});
+    states_[object].asleep = !world.awake(near);
   }
   note_world_contacts(h);
 }
@@ -209,7 +232,7 @@ void Workbench::note_world_contacts(double h) {
     row.load_W = c.impulse_W / h;
     rows[object_of_[c.body]].push_back(row);
   }
-  for (const auto& [object, of_object] : rows) {
+  for (auto& [object, of_object] : rows) {
     if (of_object.empty() && states_[object].asleep) continue;
     states_[object].in_contact = !of_object.empty();
     contacts_.note(object, states_[object], of_object, h);
@@ -218,6 +241,7 @@ void Workbench::note_world_contacts(double h) {
     } else {
       in_contact_.insert(object);
     }
+    rows_[object] = std::move(of_object);
   }
 }
 

@@ -62,16 +62,19 @@ class Workbench {
   void step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report);
 
  private:
+  /// Contact mode `dynamic`: what only fixed bodies are near is carried as with `stop`, all the rest in one world.
+  void step_among_movable(const std::vector<Carried>& held, double h, AdvanceReport& report);
   void step_together(const std::vector<Carried>& held, double h, AdvanceReport& report);
   void note_world_contacts(double h);
-  void carry(SteppedBody& stepped, std::size_t object, double h, AdvanceReport& report);
+  /// False, and nothing is done, when the body may not go its way.
+  bool carry(SteppedBody& stepped, std::size_t object, double h, const ContactStepper::MayGo& may_go, AdvanceReport& report);
   /// On its way from its state, without a tool; a massless one stays.
   void let_fly(std::size_t object, double now);
   void set_free(std::size_t object, const Twist& V_WO_W, double now);
   void put_to_sleep_if_slow(std::size_t object, double now);
 
   const Scene& scene_;
-  std::unique_ptr<CollisionWorld> collision_;       ///< of contact mode `stop` alone
+  std::unique_ptr<CollisionWorld> collision_;        ///< null without contact
   std::unique_ptr<ContactStepper> contact_stepper_;  ///< likewise
   std::unique_ptr<DynamicStepper> dynamic_stepper_;  ///< of contact mode `dynamic` alone
   ContactLog contacts_;

@@ -11,10 +11,10 @@ namespace spring_workbench {
 // that calls neither maps neither FCL nor Bullet. Both throw InputError where the library is not there: a build may leave it
 // out.
 
-/// The world of contact mode `stop`, with all bodies at the scene's poses.
+/// The world of the sweeps among what stands still, with all bodies at the scene's poses.
 std::unique_ptr<CollisionWorld> open_collision_world(const Scene& scene);
 
-/// The world of contact mode `dynamic`: all movable bodies begin asleep at the scene's poses.
+/// The world of what moves together (contact mode `dynamic`): all movable bodies begin asleep at the scene's poses.
 std::unique_ptr<RigidWorld> open_rigid_world(const Scene& scene);
 
 }  // namespace spring_workbench

@@ -326,6 +326,19 @@ Extent BulletWorld::swept(const Item& item, const RigidTransform& X0_WO, const R
   return Extent(way.min() - grown, way.max() + grown);
 }
 
+bool BulletWorld::near_movable(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
+                               const std::vector<std::size_t>& carried) const {
+  if (items_[body].leaf == nullptr) return false;
+  const Extent way = swept(items_[body], X0_WO, X1_WO, margin_near);
+  const auto comes_near = [&](std::size_t i) {
+    return i != body && items_[i].leaf != nullptr && way_of(i, h).intersects(way);
+  };
+  const std::vector<std::size_t> found = inside(way);
+  return std::any_of(found.begin(), found.end(), [&](std::size_t i) { return i != body && items_[i].movable; }) ||
+         std::any_of(in_world_.begin(), in_world_.end(), [&](std::size_t i) { return awake(items_[i]) && comes_near(i); }) ||
+         std::any_of(carried.begin(), carried.end(), comes_near);
+}
+
 bool BulletWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                             double margin) const {
   const Item& item = items_[body];

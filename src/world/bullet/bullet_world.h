@@ -38,6 +38,8 @@ class BulletWorld final : public RigidWorld {
   const RigidTransform& pose(std::size_t body) const override { return items_[body].X_WO; }
   const Twist& velocity(std::size_t body) const override { return items_[body].V_WO_W; }
   bool awake(std::size_t body) const override { return awake(items_[body]); }
+  bool near_movable(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
+                    const std::vector<std::size_t>& carried) const override;
   bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                  double margin) const override;
   double free_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const override {

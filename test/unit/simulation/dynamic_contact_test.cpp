@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
@@ -21,15 +23,82 @@ void push_line(Simulation& simulation, double t0, double t1, const Vector3d& a, 
   for (double t = t0; t < t1 + 1e-9; t += 0.02) simulation.push_stylus({t, pointing_down(a + (t - t0) / (t1 - t0) * (b - a))});
 }
 
+/// Poses of what is held, turned and pressed askew onto the bench and into a wall, at every sample.
+std::vector<RigidTransform> pressed_askew(Scene scene, ContactMode contact, AdvanceReport& sum) {
+  scene.contact = contact;
+  SimulationSettings set;
+  set.grasp.object = "held";
+  Simulation s(scene, set);
+  const Vector3d start(0, 0, 0.05 + set.fork.length);
+  push_move(s, 0.0, 1.0, start, start + Vector3d(0.25, 0.05, -0.06), 1.0);
+  std::vector<RigidTransform> poses;
+  for (double t = 0.02; t < 1.0; t += 0.02) {
+    const AdvanceReport report = s.advance(t);
+    sum.steps_among_movable += report.steps_among_movable;
+    poses.push_back(s.objects()[0].X_WO);
+  }
+  return poses;
+}
+
+TEST(DynamicContact, WhereNothingMovableIsNearItIsStop) {
+  const Body held = box("held", Vector3d(0.1, 0.06, 0.04), 1.0, Vector3d(0, 0, 0.05));
+  const Body wall = box("wall", Vector3d(0.02, 1.0, 1.0), 0.0, Vector3d(0.22, 0, 0.5));
+  const Scene far_away = scene_of({held, wall, box("far", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(-1, 0, 0.05))});
+  AdvanceReport none, stop, dynamic;
+  const std::vector<RigidTransform> free = pressed_askew(far_away, ContactMode::none, none);
+  const std::vector<RigidTransform> swept = pressed_askew(far_away, ContactMode::stop, stop);
+  const std::vector<RigidTransform> looked_after = pressed_askew(far_away, ContactMode::dynamic, dynamic);
+  EXPECT_GT((free.back().translation() - swept.back().translation()).norm(), 0.02);  // there was contact
+  EXPECT_EQ(dynamic.steps_among_movable, 0);
+  for (std::size_t i = 0; i < swept.size(); ++i) EXPECT_EQ(swept[i].matrix(), looked_after[i].matrix()) << i;
+}
+
+// One that is near and not in the way changes the engine, and nothing else.
+TEST(DynamicContact, ANeighbourThatIsNotTouchedIsNotFelt) {
+  const auto dragged_past = [](double gap) {
+    Scene scene = scene_of({box("held", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02)),
+                            box("beside", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0.15, 0.1 + gap, 0.02))});
+    SimulationSettings set;
+    set.fork.shape = "bushing";
+    set.fork.stiffness = {2000.0, 2000.0, 50.0};
+    set.grasp.object = "held";
+    set.dynamics.step = 0.002;
+    Simulation s(scene, set);
+    const Vector3d start(0, 0, set.fork.length);
+    push_move(s, 0.0, 2.0, start, start + Vector3d(0.4, 0, 0));
+    AdvanceReport sum;
+    std::vector<Vector3d> way;
+    for (double t = 0.02; t < 2.0; t += 0.02) {
+      sum.steps_among_movable += s.advance(t).steps_among_movable;
+      way.push_back(s.objects()[0].X_WO.translation());
+    }
+    return std::pair(sum.steps_among_movable, way);
+  };
+  const auto [far_steps, far_way] = dragged_past(1.0);
+  const auto [near_steps, near_way] = dragged_past(1e-3);
+  EXPECT_EQ(far_steps, 0);
+  EXPECT_GT(near_steps, 100);
+  for (std::size_t i = 0; i < far_way.size(); ++i) EXPECT_LT((far_way[i] - near_way[i]).norm(), 1e-4) << i;
+}
+
 // The drag scene: 5 kg pressed 0.1 m below the plane by the hand, dragged 0.5 m; with springs that do not bend into each
 // other the lag is μ k_stretch 0.1 m / k_bend, and the weight presses beside.
-class Drag : public ::testing::TestWithParam<ContactMode> {};
+struct DragOn {
+  ContactMode contact;
+  double slab;  // height of a movable slab on the bench, on which the box is dragged [m]; 0: none
+};
+class Drag : public ::testing::TestWithParam<DragOn> {};
 
 TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
   for (const double factor : {0.1, 1.0, 100.0, 1e6}) {
     for (const double mu : {0.0, 0.5, 1.0}) {
-      Scene scene = scene_of({box("box", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, 0.025), mu)}, mu);
-      scene.contact = GetParam();
+      const double floor = GetParam().slab;
+      Scene scene = scene_of({box("box", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, floor + 0.025), mu)}, mu);
+      scene.contact = GetParam().contact;
+      if (floor > 0.0) {
+        scene.bodies.push_back(box("slab", Vector3d(2.0, 1.0, floor), 1000.0, Vector3d(0, 0, 0.5 * floor), mu));
+        scene.bench_material.friction = 4.0;  // on which the slab stays
+      }
       SimulationSettings set;
       set.fork.shape = "bushing";
       set.fork.length = 0.2;
@@ -37,14 +106,14 @@ TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
       set.dynamics.step = mu == 0.5 ? 0.004 : 0.02;
       set.grasp.object = "box";
       Simulation s(scene, set);
-      const double z = 0.225;
+      const double z = floor + 0.225;
       push_move(s, 0.0, 1.0, {0, 0, z}, {0, 0, z - 0.1});
       push_line(s, 1.02, 6.02, {0, 0, z - 0.1}, {0.5, 0, z - 0.1});
       double deepest = 0.0;
       for (int i = 1; i <= 300; ++i) {
         s.advance(0.02 * i);
         const RigidTransform& X = s.objects()[0].X_WO;
-        deepest = std::max(deepest, X.linear().row(2).cwiseAbs().dot(Vector3d(0.1, 0.05, 0.025)) - X.translation().z());
+        deepest = std::max(deepest, X.linear().row(2).cwiseAbs().dot(Vector3d(0.1, 0.05, 0.025)) + floor - X.translation().z());
       }
       EXPECT_LE(deepest, 1e-5) << factor << " " << mu;
       const double pressed = 5000.0 * factor * 0.1 + 5.0 * g;
@@ -52,13 +121,13 @@ TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
       const double lag = s.fork().X_WH.translation().x() - p.x();
       // Friction acts below the tip: the slope spring gives way to its moment, the flush face does not let it.
       EXPECT_NEAR(lag, mu * pressed / (5000.0 * factor), 1e-3 * std::max(mu, 0.1) * 0.1) << factor << " " << mu;
-      EXPECT_NEAR(p.z(), 0.025, 1e-5) << factor << " " << mu;
+      EXPECT_NEAR(p.z(), floor + 0.025, 1e-5) << factor << " " << mu;
     }
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, Drag, ::testing::Values(ContactMode::stop, ContactMode::dynamic),
-                         [](const auto& tested) { return tested.param == ContactMode::stop ? "stop" : "dynamic"; });
+INSTANTIATE_TEST_SUITE_P(Modes, Drag, ::testing::Values(DragOn{ContactMode::stop, 0.0}, DragOn{ContactMode::dynamic, 0.1}),
+                         [](const auto& tested) { return tested.param.slab > 0.0 ? "on_a_slab_dynamic" : "stop"; });
 
 TEST(DynamicContact, LiftsAStackAndPutsItDown) {
   Scene scene = scene_of({box("lower", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02)),
