@@ -69,7 +69,8 @@ void each_field(DragRow& r, Fields& fields) {
 /// The run of a method: processor time is the least of `runs`, of the steps alone.
 DragRow run_drag(const DragMethod& method, const DragScene& scene, double step, int runs);
 
-/// Ours through Simulation, in both contact modes, with the shape `bushing` and the hand's samples at 50 Hz.
+/// Ours through Simulation: with contact mode `stop` on the bench, with `dynamic` on a movable slab (on the bench that is
+/// `stop`); with the shape `bushing` and the hand's samples at 50 Hz.
 std::vector<DragMethod> our_drags();
 /// Engines as a competent user couples them.
 std::vector<DragMethod> bullet_drags();

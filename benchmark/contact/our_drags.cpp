@@ -7,7 +7,9 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double sample_time = 0.02;  // s
+constexpr double sample_time = 0.02;   // s
+constexpr double slab_mass = 1000.0;   // kg
+const Vector3d slab_size(2.0, 1.0, 0.1);  // m
 
 Scene scene_of(const DragScene& drag, ContactMode contact) {
   Scene scene;
@@ -24,6 +26,19 @@ Scene scene_of(const DragScene& drag, ContactMode contact) {
   box.material.friction = drag.friction;
   box.collision.push_back({Box{drag.size}});
   scene.bodies.push_back(box);
+  if (contact == ContactMode::dynamic) {
+    // On the bench it goes as with `stop`: the plane is the top of a movable slab, that the world has to do with it.
+    Body slab = box;
+    slab.name = "slab";
+    slab.X_WO.translation().z() = -0.5 * slab_size.z();
+    slab.mass_properties.mass = slab_mass;
+    slab.mass_properties.inertia_O = slab_mass / 12.0 * (slab_size.squaredNorm() * Matrix3d::Identity() -
+                                                         Matrix3d(slab_size.cwiseAbs2().asDiagonal()));
+    slab.collision = {{Box{slab_size}}};
+    scene.bodies.push_back(slab);
+    scene.bench_height = -slab_size.z();
+    scene.bench_material.friction = 4.0;  // it stays
+  }
   return scene;
 }
 

@@ -12,7 +12,9 @@ namespace {
 
 constexpr int most_sweeps = 1000;
 constexpr std::size_t most_at_once = 150;  ///< contacts whose equations are solved at once, where the sweeps are not done
-constexpr double small_change = 1e-8;   ///< of the largest impulse: the sweeps end
+constexpr double small_change = 1e-8;   ///< of the largest impulse: the sweeps end …
+constexpr int enough_sweeps = 30;       ///< … or, after so many, …
+constexpr double small_way = 1e-8;      ///< [m] … where one changes no way by more, and no contact is further off
 constexpr double closed = 5e-5;         ///< [m]; a contact with a smaller gap is stopped by an impulse
 constexpr double rest_speed = 0.02;     ///< [m/s]; a slower approach does not bounce
 constexpr double recovery_time = 2e-3;  ///< [s] in which a penetration is undone
@@ -72,8 +74,8 @@ DrivenSolver::Row DrivenSolver::make_row(btSolverConstraint& c) const {
   return row;
 }
 
-double DrivenSolver::sweep(Rows& rows) const {
-  double largest_step = 0.0;
+DrivenSolver::Change DrivenSolver::sweep(Rows& rows) const {
+  Change largest;
   const auto step_of = [&](const Row& row) {
     return row.inverse_effective_mass > 0.0 ? (row.target - row.rate(rows.change)) / row.inverse_effective_mass : 0.0;
   };
@@ -92,9 +94,12 @@ double DrivenSolver::sweep(Rows& rows) const {
     const Eigen::Vector2d slid(wanted[0] - u.impulse, wanted[1] - v.impulse);
     u.apply(slid[0], rows.change);
     v.apply(slid[1], rows.change);
-    largest_step = std::max({largest_step, std::abs(pressed), slid.norm()});
+    largest.impulse = std::max({largest.impulse, std::abs(pressed), slid.norm()});
+    largest.way = std::max({largest.way, h_ * std::abs(pressed) * n.inverse_effective_mass,
+                            h_ * std::abs(slid[0]) * u.inverse_effective_mass,
+                            h_ * std::abs(slid[1]) * v.inverse_effective_mass});
   }
-  return largest_step;
+  return largest;
 }
 
 bool DrivenSolver::sweep_until_done(Rows& rows) const {
@@ -105,13 +110,14 @@ bool DrivenSolver::sweep_until_done(Rows& rows) const {
   double last_square = 0.0;
   for (int i = 0; i < most_sweeps; ++i) {
     for (std::size_t k = 0; k < count; ++k) before[static_cast<Eigen::Index>(k)] = rows[k].impulse;
-    const double largest_step = sweep(rows);
+    const Change of_sweep = sweep(rows);
     double largest = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
       change[static_cast<Eigen::Index>(k)] = rows[k].impulse - before[static_cast<Eigen::Index>(k)];
       largest = std::max(largest, rows[k].impulse);
     }
-    if (largest_step <= small_change * largest) return true;
+    if (of_sweep.impulse <= small_change * largest) return true;
+    if (i >= enough_sweeps && of_sweep.way <= small_way && missed(rows) <= small_way) return true;
     const double square = change.squaredNorm();
     if (last_square > 0.0 && square <= last_square && i + 1 < most_sweeps) {
       const double share = square / last_square;

@@ -67,8 +67,12 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   /// Stops what approaches, and takes what that does to the rest of the step into `rows`.
   void stop_approaches(Rows& rows);
   void hand_back_impacts(const Rows& rows, const std::vector<std::size_t>& contacts);
-  /// One projected Gauss–Seidel sweep; returns the largest change of an impulse.
-  double sweep(Rows& rows) const;
+  /// The largest changes in a sweep: of an impulse [N·s], and of the way that its row alone would make of that [m].
+  struct Change {
+    double impulse = 0.0, way = 0.0;
+  };
+  /// One projected Gauss–Seidel sweep.
+  Change sweep(Rows& rows) const;
   bool sweep_until_done(Rows& rows) const;  ///< false: the sweeps were too many
   void solve_at_once(Rows& rows) const;     ///< by solve_in_cones(), where that is nearer to the law
   double missed(const Rows& rows) const;    ///< see missed_way()
