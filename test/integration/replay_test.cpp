@@ -391,6 +391,8 @@ TEST_F(Replay, RecordedMotionsRun) {
     const std::string objects = content(path("run.csv"));
     EXPECT_EQ(objects.find("nan"), std::string::npos);
     EXPECT_EQ(objects.find("inf"), std::string::npos);
+    EXPECT_EQ(outcome.out.find("nan"), std::string::npos) << outcome.out;
+    EXPECT_EQ(outcome.out.find("inf"), std::string::npos) << outcome.out;
     EXPECT_GT(summary_of(outcome)["outputs"].as<int>(), 1000);
   }
 }
