@@ -4,6 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
+#include <limits>
 
 namespace spring_workbench {
 namespace {
@@ -88,6 +89,10 @@ LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const 
     A.bottomLeftCorner(n, n) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());
     A.bottomRightCorner(n, n) = -(to_shapes * part.damping * shapes);
     solver.compute(A);
+    if (solver.info() != Eigen::Success) {
+      part.to_modes = part.from_modes = ModeMatrix::Constant(2 * n, 2 * n, std::numeric_limits<double>::quiet_NaN());
+      return part;
+    }
     sort_modes(solver, V, part);
     V_inverse = V.partialPivLu().inverse();
     if (V.norm() * V_inverse.norm() < worst_condition) break;

@@ -17,7 +17,7 @@ struct LinearPart {
   StrainMatrix stiffness, damping;  ///< M⁻¹ K with the loads' own stiffness, and M⁻¹ D
   StrainMatrix inverse_mass;
   StrainVector mass;                ///< diagonal of M
-  ModeMatrix to_modes, from_modes;  ///< inverse of each other
+  ModeMatrix to_modes, from_modes;  ///< inverse of each other; not finite where the equation overflows and has no modes
   /// The first 2 `pairs` modes are pairs (x₀, x₁) of which z = x₀ − i x₁ follows ż = rate z; the rest has real rates.
   int pairs = 0;
   std::array<std::complex<double>, most_modes> rates;  ///< [1/s]; a pair has its rate twice

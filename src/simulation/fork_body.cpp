@@ -159,6 +159,9 @@ double ForkBody::added_energy(const Advance& advance) const {
   StrainState middle;
   middle.q = 0.5 * (begin.q + end.q) + 5.0 / 32.0 * h * (begin.q_dot - end.q_dot) + h * h / 64.0 * (a0 + a1);
   middle.q_dot = 15.0 / 8.0 / h * (end.q - begin.q) - 7.0 / 16.0 * (begin.q_dot + end.q_dot) + h / 32.0 * (a1 - a0);
+  if (!held_.shape().admissible(held_.full_state(t + 0.5 * h, middle).q)) {  // a jerk: no way of the fork; the straight one
+    middle = {0.5 * (begin.q + end.q), (end.q - begin.q) / h};
+  }
   const StrainVector a_middle =
       held_.acceleration(held_.forcing(motion, t + 0.5 * h), middle.q, middle.q_dot);
   look(t, begin, a0);

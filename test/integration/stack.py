@@ -110,15 +110,18 @@ def stylus_transform(stamp, position, rotation):
 
 
 class Hand:
-    """A hand that owns the ROS clock: the clock runs, and samples of the stylus come, only while it moves or rests."""
+    """A hand that owns the ROS clock: the clock runs, and samples of the stylus come, only while it moves or rests. With
+    `followed_by`, topics of `manipulation`, each move ends when these have come to its end, however slow the node is."""
 
     STEP = 0.005  # [s] of the clock
     SAMPLE = 4    # steps between samples
     SPEED = 3.0   # of the clock against the wall
+    PERIOD = 0.01  # [s] of the node's steps
 
-    def __init__(self, start=100.0, position=(0.0, 0.0, 0.4), rotation=DOWN):
+    def __init__(self, start=100.0, position=(0.0, 0.0, 0.4), rotation=DOWN, followed_by=()):
         self.tick = round(start / self.STEP)
         self.position, self.rotation, self.pressed = position, rotation, False
+        self.followed_by = followed_by
         self.clock = rospy.Publisher("/clock", Clock, queue_size=100)
         self.tf = rospy.Publisher("/tf", TFMessage, queue_size=100)
         self.joy = rospy.Publisher("stylus/joy", Joy, queue_size=100)
@@ -151,6 +154,17 @@ class Hand:
                 self.send_button()
             self.clock.publish(Clock(self.now()))
             time.sleep(self.STEP / self.SPEED)
+        if samples:
+            self.wait_until_followed()
+
+    def wait_until_followed(self):
+        """The node goes as far as the step before the last sample but one."""
+        newest = self.tick // self.SAMPLE * self.SAMPLE
+        end = (newest - self.SAMPLE) * self.STEP - self.PERIOD
+        now = self.tick * self.STEP  # the clock may have been set back: what is later is from before
+        for topic in self.followed_by:
+            wait_for(lambda: topic.last and end - 1e-6 < topic.last.header.stamp.to_sec() < now + 1e-6,
+                     "%s to come to the end of the hand's way" % topic.subscriber.name)
 
     def send(self, transform):
         self.tf.publish(TFMessage([transform]))

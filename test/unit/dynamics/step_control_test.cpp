@@ -99,6 +99,28 @@ TEST_P(SteppedWithATolerance, LandsWithinAFactorOfThreeOfItsTolerance) {
   }
 }
 
+/// A strain that is finite, but so far off that the equations overflow and have no modes.
+TEST(StepControl, TakesNoStepFromAStrainFarOff) {
+  std::mt19937 random(1);
+  for (const std::string& integrator : integrator_names()) {
+    for (const std::string& shape : shape_model_names()) {
+      for (const bool stretch_alone : {false, true}) {
+        Case c = random_case(shape, 1.0, 0.02, random);
+        if (stretch_alone) c.held.set_dofs({true, false, false}, 0.0, 0.05, c.held.zero_state());
+        for (const double size : {1e20, 1e100, 1e153, 1e155, 1e200, 1e305}) {
+          const StepControl control(make_integrator(integrator));
+          StepControl::Memory memory;
+          StrainState state = c.held.zero_state();
+          state.q.setConstant(size);
+          EXPECT_FALSE(control.advance(c.held, c.hand, 0.0, 0.02, state, memory).fine)
+              << integrator << " " << shape << " " << stretch_alone << " " << size;
+          EXPECT_TRUE((state.q.array() == size).all() && state.q_dot.isZero(0.0));
+        }
+      }
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Integrators, SteppedWithATolerance, testing::ValuesIn(integrator_names()),
                          [](const auto& instance) { return instance.param; });
 

@@ -25,9 +25,10 @@ struct Extreme {
 
 double energy(const Scene& scene, const Simulation& s) {
   double sum = s.fork().elastic_energy;
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    const BodyState& state = object(s, scene.bodies[i].name);
-    const auto& m = scene.bodies[i].mass_properties;
+  for (const Body& body : scene.bodies) {
+    if (!body.movable) continue;
+    const BodyState& state = object(s, body.name);
+    const auto& m = body.mass_properties;
     const Vector3d w_O = state.X_WO.linear().transpose() * state.V_WO_W.angular;
     sum += 0.5 * m.mass * state.V_WO_W.linear.squaredNorm() + 0.5 * w_O.dot(m.inertia_O * w_O) +
            m.mass * scene.gravity * state.X_WO.translation().z();
