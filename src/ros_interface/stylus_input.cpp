@@ -170,6 +170,8 @@ void StylusInput::offer(const geometry_msgs::TransformStamped& transform, const 
 
 void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
+  // Without a clock yet there is no time that it could be of: an epoch that it began would be followed by the true one.
+  if (ros::Time::now().isZero()) return leave_out("no clock", joy_ + ": no time on /clock yet");
   if (message->buttons.empty()) {
     return leave_out("no buttons", joy_ + ": buttons: [] is not allowed: must be at least one button");
   }

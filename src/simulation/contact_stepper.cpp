@@ -235,10 +235,6 @@ ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const Motion
   return {};
 }
 
-bool ContactStepper::is_finite(const MotionState& s) {
-  return s.X.matrix().allFinite() && s.velocity.linear.allFinite() && s.velocity.angular.allFinite();
-}
-
 ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, const MayGo& may_go,
                                                 std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
   constexpr double smaller = 0.25;

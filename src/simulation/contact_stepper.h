@@ -57,7 +57,6 @@ class ContactStepper {
     bool solved = true;                 ///< loads were found, with which the body can be carried
     bool allowed = true;                ///< it may go there
   };
-  static bool is_finite(const MotionState& s);
   /// Tries to go `h` on, under the rows' loads where there are rows. Not done, the body is where it was.
   Piece try_piece(SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
                   ContactOutcome& outcome) const;

@@ -44,7 +44,7 @@ DynamicStepper::Candidate DynamicStepper::try_piece(SteppedBody& body, double h)
   const auto load = load_W_.find(body.index());
   if (load != load_W_.end()) c.load_W = load->second;
   body.remember();
-  c.possible = body.advance(h, c.load_W);
+  c.possible = body.advance(h, c.load_W) && is_finite(body.object());
   c.end = c.possible ? body.object() : c.begin;
   if (!c.possible) c.end.velocity = Twist();
   return c;
@@ -162,9 +162,9 @@ double DynamicStepper::sound_part(const std::vector<SteppedBody*>& held, const s
   for (std::size_t i = 0; i < held.size(); ++i) {
     const Wrench& impact = driven[i].impact_W;
     if (!impact.force.isZero(0.0) || !impact.moment.isZero(0.0)) held[i]->add_impulse(impact);
-    const bool possible = held[i]->advance(h, driven[i].contact_W);
-    const double part = world_->sound_part(held[i]->index(), candidates[i].begin.X, held[i]->object().X);
-    sound = std::min(sound, possible ? part : 0.0);
+    const bool possible = held[i]->advance(h, driven[i].contact_W) && is_finite(held[i]->object());
+    if (!possible) return 0.0;
+    sound = std::min(sound, world_->sound_part(held[i]->index(), candidates[i].begin.X, held[i]->object().X));
   }
   return sound;
 }

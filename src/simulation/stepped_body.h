@@ -5,6 +5,10 @@
 
 namespace spring_workbench {
 
+inline bool is_finite(const MotionState& s) {
+  return s.X.matrix().allFinite() && s.velocity.linear.allFinite() && s.velocity.angular.allFinite();
+}
+
 /// A body that contact can carry over a step again and again until its load fits: the held body on its fork, or a free one.
 class SteppedBody {
  public:

@@ -111,6 +111,7 @@ class Faults(unittest.TestCase):
         kill_and_wait("/manipulation")
         self.hand.wait_for_node()
         self.hand.pressed = False
+        self.hand.send_button()  # before the new node has heard of the clock: it begins no time of its own
         self.keep_going()
 
     def test_a_killed_node_comes_back_as_it_was(self):
