@@ -185,7 +185,7 @@ void Workbench::step_among_movable(const std::vector<Carried>& held, double h, A
   std::vector<std::size_t> bodies;
   for (const Carried& c : held) bodies.push_back(movable_[c.object]);
   RigidWorld& world = dynamic_stepper_->world();
-  std::vector<Carried> among_others;
+  std::vector<Carried> among_others, alone;
   for (const Carried& c : held) {
     const std::size_t body = movable_[c.object];
     const auto among_fixed = [&](const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
@@ -196,10 +196,14 @@ void Workbench::step_among_movable(const std::vector<Carried>& held, double h, A
       among_others.push_back(c);
       continue;
     }
-    in_contact_.erase(c.object);
+    in_contact_.erase(c.object);  // its contacts are noted already
     world.place(body, states_[c.object].X_WO, states_[c.object].V_WO_W, false);
+    alone.push_back(c);
   }
   if (!among_others.empty() || dynamic_stepper_->others_awake()) step_together(among_others, h, report);
+  for (const Carried& c : alone) {
+    if (states_[c.object].in_contact) in_contact_.insert(c.object);
+  }
 }
 
 void Workbench::step_together(const std::vector<Carried>& held, double h, AdvanceReport& report) {

@@ -92,7 +92,7 @@ class Workbench {
   // Few of many: a step looks at no others.
   std::vector<std::size_t> highlighted_;
   std::set<std::size_t> free_;           ///< those with a free body
-  std::set<std::size_t> in_contact_;     ///< in the world of contact mode `dynamic`
+  std::set<std::size_t> in_contact_;     ///< with contact mode `dynamic`
 };
 
 }  // namespace spring_workbench
