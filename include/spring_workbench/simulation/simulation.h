@@ -78,7 +78,7 @@ struct AdvanceReport {
   double energy_added = 0.0;              ///< to the held object and the fork, beyond the work of hand, gravity, damping
                                           ///< and contact [J]; means something where stiffest_omega_dt is below about 1
   double stiffest_omega_dt = 0.0;         ///< ω·dt of the stiffest mode
-  int steps_among_movable = 0;            ///< of these, with other movable objects (contact mode `dynamic`)
+  int steps_among_movable = 0;            ///< of `steps`, with other movable objects (contact mode `dynamic`)
   int collision_queries = 0;
   int steps_rejected = 0;                 ///< steps tried and taken again shorter, for their error
   int energy_held = 0;                    ///< steps whose gain of energy, with the hand at rest, was taken away

@@ -38,8 +38,8 @@ struct WorldContact {
   Vector3d impulse_W = Vector3d::Zero();  ///< on `body`, in the last step [N·s]
 };
 
-/// What moves together in contact mode `dynamic` (doc/model.md): all bodies of the scene in one rigid-body world. Friction is Coulomb's with a
-/// round cone, the pair's coefficients are geometric means. Bodies at rest are put to sleep and leave the world until
+/// What moves together in contact mode `dynamic` (doc/model.md): all bodies of the scene in one rigid-body world. Friction
+/// is Coulomb's with a round cone, the pair's coefficients are geometric means. Bodies at rest are put to sleep and leave the world until
 /// something comes near: they cost nothing. Deterministic. One thread at a time.
 class RigidWorld {
  public:

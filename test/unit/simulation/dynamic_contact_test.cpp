@@ -126,8 +126,13 @@ TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, Drag, ::testing::Values(DragOn{ContactMode::stop, 0.0}, DragOn{ContactMode::dynamic, 0.1}),
-                         [](const auto& tested) { return tested.param.slab > 0.0 ? "on_a_slab_dynamic" : "stop"; });
+INSTANTIATE_TEST_SUITE_P(Modes, Drag,
+                         ::testing::Values(DragOn{ContactMode::stop, 0.0}, DragOn{ContactMode::dynamic, 0.0},
+                                           DragOn{ContactMode::dynamic, 0.1}),
+                         [](const auto& tested) {
+                           if (tested.param.slab > 0.0) return "on_a_slab_dynamic";
+                           return tested.param.contact == ContactMode::stop ? "stop" : "dynamic";
+                         });
 
 TEST(DynamicContact, LiftsAStackAndPutsItDown) {
   Scene scene = scene_of({box("lower", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02)),
