@@ -24,7 +24,8 @@ constexpr double most_strain = 1e12;  ///< in the coordinates' own units; no sta
 constexpr double safety = 0.9;
 constexpr double most_growth = 3.0, least_growth = 0.1;
 constexpr double longest_swing = 1.0;   ///< [s]; over this a rate that no spring stops becomes a strain
-constexpr double smallest_step = 1e-4;  ///< of the span; taken whatever its error
+constexpr double smallest_step = 1e-4;  ///< of the span; one shorter than two of these is taken whatever its error
+constexpr double shortest_step = 2e-6;  ///< [s]; the same where it is longer: pieces between contacts may be short
 
 struct Sizes {
   double position, angle;  ///< [m], [rad]
@@ -164,7 +165,7 @@ bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
     memory.error = span.body.zero_state();
     memory.next_h = h;
   }
-  const double end = t + h, shortest = smallest_step * h, order = integrator_->order();
+  const double end = t + h, shortest = std::max(smallest_step * h, shortest_step), order = integrator_->order();
   int rejected = 0;
   const HandleForcing begin = span.body.forcing(span.handle, t);
   const LinearisedMotion motion(span.body, begin, state, span.body.acceleration(begin, state.q, state.q_dot));
@@ -176,7 +177,9 @@ bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
     const ControlledStep report_before = span.report;
     StrainState next = state;
     StepEstimate estimate;
-    const bool fine = try_step(span, t, dt, next, estimate);
+    const bool fine = try_step(span, t, dt, next, estimate) && estimate.q_error.allFinite() && estimate.q_dot_error.allFinite();
+    const bool smallest = dt < 2.0 * shortest;
+    if (smallest && !fine) return false;
     StrainState error = memory.error;
     double growth = least_growth;
     bool good = false;
@@ -190,23 +193,29 @@ bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
       const double local = amplitude(estimate.q_error, estimate.q_dot_error);
       error.q += estimate.q_error;
       error.q_dot += estimate.q_dot_error;
-      good = local <= allowed || amplitude(error.q, error.q_dot) <= tolerance_;
+      const double size = amplitude(error.q, error.q_dot);
+      good = local <= allowed || size <= tolerance_;
+      if (!std::isfinite(size)) {
+        error = span.body.zero_state();
+      } else if (size > tolerance_) {  // short steps take no error back: more than this need not be known
+        error.q *= tolerance_ / size;
+        error.q_dot *= tolerance_ / size;
+      }
       const double power = rejected > 0 ? 0.5 : 1.0 / (order + 1.0);  // a stiff step may behave as one of low order
       growth = local > 0.0 ? safety * std::pow(allowed / local, power) : most_growth;
     }
     growth = std::clamp(growth, least_growth, rejected > 0 ? 1.0 : most_growth);
-    if (good || (fine && dt <= shortest)) {
+    if (good || smallest) {
       memory.error = error;
       // A step that the span's end has cut short says nothing against a longer one.
-      memory.next_h = std::max(dt < memory_before.next_h ? memory_before.next_h : 0.0, dt * growth);
+      memory.next_h = std::max({dt < memory_before.next_h ? memory_before.next_h : 0.0, dt * growth, shortest});
       state = next;
       t += dt;
       rejected = 0;
     } else {
-      if (dt <= shortest) return false;
       memory = memory_before;
       span.report = report_before;
-      memory.next_h = dt * std::min(growth, 0.8);
+      memory.next_h = std::max(dt * std::min(growth, 0.8), shortest);
       ++span.report.rejected;
       ++rejected;
     }

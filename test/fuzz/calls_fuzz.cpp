@@ -65,8 +65,11 @@ void call(Choices& next, Simulation& simulation, PoseSample& hand) {
     case 3: {
       const std::string name = next.name(integrator_names());
       const double step = next.number();
-      // Not to wait for hours: a step that is allowed is no shorter than 2 ms, a tolerance no smaller than a micrometre.
-      simulation.set_integrator(name, step > 0.0 ? std::max(step, 0.002) : step, next.flag() ? 1e-6 : 0.0);
+      const bool to_tolerance = next.flag();
+      // Not to wait for hours: a step that is allowed is no shorter than 2 ms, or 50 ms where it is made of as many as a
+      // tolerance takes, which is 1 cm.
+      const double shortest = to_tolerance ? 0.05 : 0.002;
+      simulation.set_integrator(name, step > 0.0 ? std::max(step, shortest) : step, to_tolerance ? 0.01 : 0.0);
       break;
     }
     case 4: simulation.select_tool(next.name(tool_names()), next.byte() % 2); break;

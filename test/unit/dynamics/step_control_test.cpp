@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <vector>
@@ -116,6 +117,38 @@ TEST(StepControl, TakesNoStepFromAStrainFarOff) {
               << integrator << " " << shape << " " << stretch_alone << " " << size;
           EXPECT_TRUE((state.q.array() == size).all() && state.q_dot.isZero(0.0));
         }
+      }
+    }
+  }
+}
+
+/// A hand that jerks and forks so stiff that rounding is more than the tolerance.
+TEST_P(SteppedWithATolerance, EndsWhereNoStepKeepsIt) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> normal;
+  PoseTrack track;
+  for (int i = 0; i < 12; ++i) {
+    const Vector3d by(normal(random), normal(random), normal(random));
+    track.push({0.004 * i, make_transform(Quaterniond(exp_so3(0.05 * by)), 0.01 * by)});
+  }
+  for (const double stiffness : {1e3, 1e9, 1e15}) {
+    Case c = random_case(shape_model_names().front(), 1.0, 1.0, random);
+    ForkSettings fork;
+    fork.stiffness = {stiffness, stiffness, stiffness};
+    fork.damping_ratio = {1.0, 1.0, 1.0};
+    c.held.set_springs(fork);
+    const StepControl control(make_integrator(GetParam()), 1e-9);
+    StepControl::Memory memory;
+    StrainState state = c.held.zero_state();
+    for (double t = 0.0; t < 0.04;) {
+      const MotionSegment segment = track.segment(t);
+      for (const double h : {1e-4, segment.end() - t - 1e-4}) {
+        const ControlledStep step = control.advance(c.held, segment, t, h, state, memory);
+        const int most = static_cast<int>(h / 2e-6) + 1;
+        EXPECT_LE(step.steps, most) << stiffness << " " << h;
+        EXPECT_LE(step.rejected, 2 * most) << stiffness << " " << h;
+        EXPECT_TRUE(state.q.allFinite() && state.q_dot.allFinite()) << stiffness;
+        t += h;
       }
     }
   }
