@@ -8,6 +8,7 @@ namespace {
 
 constexpr const char* kUse = "SCENE.urdf [STEPS [SETTINGS.yaml]]";
 constexpr double kMemoryGrowth = 1.01;
+constexpr double kEnergyGrowth = 2.0;
 constexpr double kDrift = 1e-4;  // m
 
 int judge(bool law, const char* text) {
@@ -30,6 +31,7 @@ int main(int argc, char** argv) {
     std::cout << "placed " << r.placed << " of " << r.targets << " in " << r.assemblies << " assemblies, " << r.refused
               << " steps refused\nhash " << std::hex << std::setfill('0') << std::setw(16) << r.hash << std::dec << '\n';
     return judge(r.finite, "everything is finite") | judge(r.drift < kDrift, "objects at rest stay within 0.1 mm in 10 s") |
+           judge(r.largest_energy <= kEnergyGrowth * r.energy_early, "energy stays within twice the most of the first tenth") |
            judge(r.memory_late <= kMemoryGrowth * r.memory_early, "resident memory is flat within 1 %");
   } catch (const InputError& error) {
     std::cerr << "soak: " << error.what() << '\n';

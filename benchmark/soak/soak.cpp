@@ -112,9 +112,11 @@ class Soak {
     }
     result_.finite = result_.finite && tool.X_WE.matrix().allFinite() && std::isfinite(tool.elastic_energy);
     result_.largest_energy = std::max(result_.largest_energy, tool.elastic_energy + tool.kinetic_energy);
+    const bool early = 10 * result_.steps <= options_.steps;
+    if (early) result_.energy_early = result_.largest_energy;
     if (result_.steps < next_line_) return;
     const double memory = resident_bytes();
-    if (10 * result_.steps <= options_.steps) result_.memory_early = std::max(result_.memory_early, memory);
+    if (early) result_.memory_early = std::max(result_.memory_early, memory);
     result_.memory_late = memory;
     next_line_ += std::max(1L, options_.steps / kLines / 5);
     if (++looks_ % 5 == 0) {

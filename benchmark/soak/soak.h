@@ -20,6 +20,7 @@ struct SoakResult {
   int assemblies = 0, placed = 0, targets = 0;
   double simulated_time = 0.0;   ///< [s]
   double largest_energy = 0.0;   ///< kinetic energy of the held object and elastic energy of the tool [J]
+  double energy_early = 0.0;     ///< the same in the first tenth of the steps [J]
   double drift = 0.0;            ///< farthest that an object at rest has moved in a rest of 10 s [m]
   long refused = 0;              ///< steps that would not have been finite or bounded
   bool finite = true;            ///< everything that came out, always

@@ -30,15 +30,17 @@ StrainVector find_strain(const HeldBody& held, double t, const std::function<Str
   for (int iteration = 0; iteration < most_iterations && f.norm() > small; ++iteration) {
     StrainVector change = -slope(force, q).partialPivLu().solve(f);
     if (!change.allFinite()) break;
-    for (int halving = 0; halving < most_halvings; ++halving, change *= 0.5) {
+    bool nearer = false;
+    for (int halving = 0; halving < most_halvings && !nearer; ++halving, change *= 0.5) {
       const StrainVector tried = q + change;
       if (!admissible(tried)) continue;
       const StrainVector f_tried = force(tried);
       if (!f_tried.allFinite() || f_tried.norm() >= f.norm()) continue;
       q = tried;
       f = f_tried;
-      break;
+      nearer = true;
     }
+    if (!nearer) break;
   }
   return q;
 }
