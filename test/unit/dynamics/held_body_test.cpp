@@ -178,6 +178,25 @@ TEST(HeldBody, ObjectObeysNewtonAndEulerUnderTheRodsWrench) {
   }
 }
 
+TEST(HeldBody, TheElasticForceIsTheSlopeOfTheElasticEnergy) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const std::string& shape : shape_model_names()) {
+    for (int trial = 0; trial < 10; ++trial) {
+      const HeldBody held = held_by(shape, {1000.0, 200.0, 3.0}, {1.0, 1.0, 1.0}, box_off_centre());
+      StrainState s = held.zero_state();
+      s.q = StrainVector::NullaryExpr(held.size(), [&] { return 0.3 * uniform(random); });
+      const StrainVector way = StrainVector::NullaryExpr(held.size(), [&] { return uniform(random); });
+      const auto energy = [&](double part) {
+        return held.elastic_energy(0.0, {s.q + part * way, s.q_dot});
+      };
+      const double slope = (energy(1e-4) - energy(-1e-4)) / 2e-4;
+      const double scale = held.elastic_force(0.0, s.q).norm() * way.norm();
+      EXPECT_NEAR(slope, held.elastic_force(0.0, s.q).dot(way), 1e-6 * scale) << shape;
+    }
+  }
+}
+
 /// Grasps of a long box at its centre, off its centre, at an edge and at a corner, turned, of `mass` [kg].
 std::vector<BodyInertia> grasps_of_long_box(double mass) {
   std::vector<BodyInertia> grasps;
