@@ -22,7 +22,8 @@ struct ControlledStep {
 /// With a tolerance, what is held to it is the error that the run has at any time: the estimates of all local errors so
 /// far, each carried on by the springs and dampers to the present. Its size is the distance of the object's centre of mass
 /// from where it should be [m] and the angle times the object's radius of gyration, as one length. Where nothing damps
-/// an error away, it may grow by the tolerance in each `undamped_horizon`.
+/// an error away, it may grow by the tolerance in each `undamped_horizon`. A step of less than 4 µs, or two ten-thousandths
+/// of the span, is taken whatever its error: a span ends, in up to 10,000 steps, where none keeps the tolerance.
 ///
 /// An integrator that no stiffness limits is guarded besides. A step with a large local error is taken again in halves; a
 /// fork at the end of its way stops there. While the handle rests and no contact pushes, energy may not grow: what a step
