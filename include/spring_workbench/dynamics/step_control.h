@@ -20,7 +20,7 @@ struct ControlledStep {
 /// Carries the held body over a span of time with an integrator: in one step, or, with a tolerance, in as many as it takes.
 ///
 /// With a tolerance, what is held to it is the error that the run has at any time: the estimates of all local errors so
-/// far, each carried on by the springs and dampers to the present. Its size is the distance of the object's centre of mass
+/// far, each carried on by the linearised equations to the present. Its size is the distance of the object's centre of mass
 /// from where it should be [m] and the angle times the object's radius of gyration, as one length. Where nothing damps
 /// an error away, it may grow by the tolerance in each `undamped_horizon`. A step of less than 4 µs, or two ten-thousandths
 /// of the span, is taken whatever its error: a span ends, in up to 10,000 steps, where none keeps the tolerance.
