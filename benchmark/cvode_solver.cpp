@@ -1,6 +1,5 @@
 #include "benchmark/cvode_solver.h"
 
-
 namespace spring_workbench::benchmark {
 
 CvodeSolver::CvodeSolver(const Scenario& scene, CvodeCoordinates coordinates)

@@ -6,9 +6,9 @@
 
 namespace spring_workbench::benchmark {
 
-/// The strain of a run between the ends of its steps: of each step by the polynomial of degree eleven through strain and
-/// strain rate at six ends, its own two and those of the two steps before and after (Hermite, in Newton's form). So it is
-/// known up to the last end but two.
+/// The strain of a run between the ends of its steps: of each step by the polynomial of degree eleven through strain
+/// and strain rate at six ends, its own two and those of the two steps before and after (Hermite, in Newton's form). So
+/// it is known up to the last end but two.
 class DenseStrain {
  public:
   DenseStrain();

@@ -14,9 +14,9 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr double kHalfPi = 1.5707963267948966192313216916398;
-constexpr double kLength = 0.2;         // m
-constexpr double kBend = 500.0;         // N/m
-constexpr double kRigid = 1e10;         // N/m, N m/rad
+constexpr double kLength = 0.2;  // m
+constexpr double kBend = 500.0;  // N/m
+constexpr double kRigid = 1e10;  // N/m, N m/rad
 constexpr int kLoadSteps = 40;
 constexpr double kNewtonTolerance = 1e-13;
 
@@ -34,8 +34,8 @@ double root_of_load(double slope) {
   return std::comp_ellint_1(m.k) - std::ellint_1(m.k, m.phi);
 }
 
-/// The body on the tip of a rod that hardly extends or twists: its mass sets no more than the scale of the accelerations,
-/// which vanish. Families are not off, so that `quadratic` knows the tension.
+/// The body on the tip of a rod that hardly extends or twists: its mass sets no more than the scale of the
+/// accelerations, which vanish. Families are not off, so that `quadratic` knows the tension.
 HeldBody bending_body(const std::string& shape) {
   HeldBody body(make_shape_model(shape, kLength), BodyInertia(), 0.0);
   body.set_springs({kRigid, kBend, kRigid}, {1.0, 1.0, 1.0});
@@ -52,7 +52,8 @@ void find_rest(const HeldBody& body, const HandleForcing& handle, StrainVector& 
       const double step = 1e-5 * K[0] / std::max(K[0], K[j]);
       up[j] += step;
       down[j] -= step;
-      slope.col(j) = (body.acceleration(handle, up, still) - body.acceleration(handle, down, still)) / (up[j] - down[j]);
+      slope.col(j) =
+          (body.acceleration(handle, up, still) - body.acceleration(handle, down, still)) / (up[j] - down[j]);
     }
     const StrainVector change = slope.partialPivLu().solve(body.acceleration(handle, q, still));
     q -= change;
@@ -95,8 +96,8 @@ std::vector<ElasticaRow> elastica_table() {
   for (const std::string& shape : shape_model_names()) {
     for (const double alpha : {0.1, 0.25, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0}) {
       ElasticaRow row{shape, alpha, exact_elastica(alpha), shape_deflection(shape, alpha)};
-      row.tip_error = std::hypot(row.model.deflection - row.exact.deflection,
-                                 row.model.shortening - row.exact.shortening);
+      row.tip_error =
+          std::hypot(row.model.deflection - row.exact.deflection, row.model.shortening - row.exact.shortening);
       row.slope_error = std::abs(row.model.slope - row.exact.slope);
       rows.push_back(row);
     }
@@ -133,8 +134,8 @@ double elastica_check(const std::string& folder) {
     for (int column = 0; column < 4 && std::getline(in, cell, ','); ++column) v.push_back(std::stod(cell));
     if (v.size() != 4) continue;
     const TipDeflection exact = exact_elastica(v[0]);
-    largest = std::max({largest, std::abs(exact.deflection - v[1]), std::abs(exact.shortening - v[2]),
-                        std::abs(exact.slope - v[3])});
+    largest = std::max(
+        {largest, std::abs(exact.deflection - v[1]), std::abs(exact.shortening - v[2]), std::abs(exact.slope - v[3])});
   }
   return largest;
 }
@@ -145,8 +146,8 @@ std::string elastica_csv(const std::vector<ElasticaRow>& rows) {
   out << "shape,alpha,exact_slope,exact_w_over_L,exact_u_over_L,slope,w_over_L,u_over_L,tip_error_over_L,slope_error\n";
   for (const ElasticaRow& row : rows) {
     out << row.shape << ',' << row.alpha << ',' << row.exact.slope << ',' << row.exact.deflection << ','
-        << row.exact.shortening << ',' << row.model.slope << ',' << row.model.deflection << ','
-        << row.model.shortening << ',' << row.tip_error << ',' << row.slope_error << '\n';
+        << row.exact.shortening << ',' << row.model.slope << ',' << row.model.deflection << ',' << row.model.shortening
+        << ',' << row.tip_error << ',' << row.slope_error << '\n';
   }
   return out.str();
 }

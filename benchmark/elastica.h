@@ -25,7 +25,7 @@ struct ElasticaRow {
   std::string shape;
   double alpha = 0.0;
   TipDeflection exact, model;
-  double tip_error = 0.0;  ///< distance of the tips over the length
+  double tip_error = 0.0;    ///< distance of the tips over the length
   double slope_error = 0.0;  ///< [rad]
 };
 template <typename Fields>

@@ -23,8 +23,8 @@ void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out) {
     out << ',' << row.own_reference << ',' << row.reference_uncertainty << ',';
     if (row.finite) {
       out << row.error << ',' << row.angle_error << ',' << row.error_over_hand_amplitude << ','
-          << row.error_over_largest_deflection << ',' << row.wall_us_per_simulated_second << ','
-          << row.steps_per_second << ',';
+          << row.error_over_largest_deflection << ',' << row.wall_us_per_simulated_second << ',' << row.steps_per_second
+          << ',';
       if (row.error_over_tolerance > 0.0) out << row.error_over_tolerance;
     } else {
       out << ",,,,,,";

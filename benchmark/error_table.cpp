@@ -19,7 +19,8 @@ ErrorTablePlan error_table_plan(bool quick) {
   for (const double k : springs) plan.scenes.push_back(stretch_scene(k));
   for (const double k : twists) plan.scenes.push_back(torsion_scene(k));
   for (const double factor : factors) plan.scenes.push_back(six_dof_scene(factor));
-  plan.outputs_per_step = quick ? std::vector<double>{8, 4, 2} : std::vector<double>{25, 20, 15, 12, 10, 8, 6.5, 5, 4, 3, 2, 1.5};
+  plan.outputs_per_step =
+      quick ? std::vector<double>{8, 4, 2} : std::vector<double>{25, 20, 15, 12, 10, 8, 6.5, 5, 4, 3, 2, 1.5};
   for (int n = 1; n <= 8192; n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
   for (double tolerance = 1e-3; tolerance > 5e-12; tolerance *= quick ? 1e-2 : 1e-1) {
     plan.tolerances.push_back(tolerance);

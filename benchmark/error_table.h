@@ -13,12 +13,12 @@ namespace spring_workbench::benchmark {
 struct ErrorTablePlan {
   std::vector<Scenario> scenes;
   std::vector<double> outputs_per_step;  ///< dense methods with a step take output_interval times these
-  std::vector<int> steps_per_output;  ///< methods with a step take output_interval divided by these
-  std::vector<double> tolerances;     ///< methods with a tolerance
-  int own_solution_steps = 0;         ///< steps per output of the coarsest of the three runs of own_solution()
-  double longest_run = 0.025;         ///< a line ends with the first run that takes longer [s per simulated second]
+  std::vector<int> steps_per_output;     ///< methods with a step take output_interval divided by these
+  std::vector<double> tolerances;        ///< methods with a tolerance
+  int own_solution_steps = 0;            ///< steps per output of the coarsest of the three runs of own_solution()
+  double longest_run = 0.025;            ///< a line ends with the first run that takes longer [s per simulated second]
   Repetition repetition;
-  double time_limit = 20.0;           ///< of a run [s]
+  double time_limit = 20.0;  ///< of a run [s]
 };
 
 /// The plan for the report: all stiffnesses and steps, or a few of them.
@@ -40,16 +40,16 @@ struct ErrorRow {
   double error_over_hand_amplitude = 0.0;
   double error_over_largest_deflection = 0.0;
   double wall_us_per_simulated_second = 0.0;
-  double steps_per_second = 0.0;       ///< taken, per simulated second; 0: not known
-  double error_over_tolerance = 0.0;   ///< of rods run to a tolerance: error_as_length() over it
+  double steps_per_second = 0.0;      ///< taken, per simulated second; 0: not known
+  double error_over_tolerance = 0.0;  ///< of rods run to a tolerance: error_as_length() over it
   bool finite = false;
-  bool given_up = false;               ///< of rods run to a tolerance: not finished in the time that was left for it
+  bool given_up = false;  ///< of rods run to a tolerance: not finished in the time that was left for it
 };
 
 template <typename Fields>
 void each_field(ErrorRow& r, Fields& fields) {
-  fields(r.scene, r.stiffness_factor, r.shape, r.method, r.hand, r.step, r.tolerance, r.own_reference, r.reference_uncertainty,
-         r.error, r.angle_error, r.error_over_hand_amplitude, r.error_over_largest_deflection,
+  fields(r.scene, r.stiffness_factor, r.shape, r.method, r.hand, r.step, r.tolerance, r.own_reference,
+         r.reference_uncertainty, r.error, r.angle_error, r.error_over_hand_amplitude, r.error_over_largest_deflection,
          r.wall_us_per_simulated_second, r.steps_per_second, r.error_over_tolerance, r.finite, r.given_up);
 }
 
@@ -70,8 +70,8 @@ std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, co
 /// The rows with a header line, as CSV.
 void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out);
 
-/// The rows of all lines. Each line is two units of work: what it gives, and, when all have been through, its run times once
-/// more, of which the lesser ones count. So a slow phase of the machine does not hit one line alone.
+/// The rows of all lines. Each line is two units of work: what it gives, and, when all have been through, its run times
+/// once more, of which the lesser ones count. So a slow phase of the machine does not hit one line alone.
 std::size_t unit_count(const std::vector<const Method*>& methods, const ErrorTablePlan& plan);
 std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan, Units& units);
 

@@ -148,8 +148,8 @@ std::vector<ForkCurveRow> measure_fork_curves() {
       const Sections exact = load[0] == 'c' ? cantilever(alpha) : s_shape(alpha);
       const Section& tip = exact.back();
       const StrainVector q = strain_to_tip(*shape, tip);
-      const RigidTransform X_WE = make_transform(Quaterniond(Eigen::AngleAxisd(tip[0], Vector3d::UnitY())),
-                                                 Vector3d(tip[2], 0.0, tip[3]));
+      const RigidTransform X_WE =
+          make_transform(Quaterniond(Eigen::AngleAxisd(tip[0], Vector3d::UnitY())), Vector3d(tip[2], 0.0, tip[3]));
       rows.push_back(measure("rod", exact, [&] { return rod_curve(*shape, q, X_WH); }));
       rows.push_back(measure("bezier", exact, [&] { return bezier_curve(X_WH, X_WE, 1.0, 0.0); }));
       for (std::size_t i = rows.size() - 2; i < rows.size(); ++i) {

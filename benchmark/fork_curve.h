@@ -5,8 +5,8 @@
 
 namespace spring_workbench::benchmark {
 
-/// How far a curve that the fork is drawn along is off the exact elastica, and what it costs. The curve is driven by the
-/// exact tip: deflection and slope, and, for `bezier`, the shortening too.
+/// How far a curve that the fork is drawn along is off the exact elastica, and what it costs. The curve is driven by
+/// the exact tip: deflection and slope, and, for `bezier`, the shortening too.
 struct ForkCurveRow {
   std::string curve;          ///< rod (shape model `linear`) or bezier
   std::string load;           ///< cantilever: a transverse force that keeps its direction; s_shape: the tip cannot turn

@@ -46,11 +46,16 @@ bool same(const PoseSample& a, const PoseSample& b) { return a.X.matrix() == b.X
 
 std::string name_of(MapHand hand) {
   switch (hand) {
-    case MapHand::lissajous: return "lissajous";
-    case MapHand::jump: return "jump";
-    case MapHand::flip: return "flip";
-    case MapHand::dropout: return "dropout";
-    case MapHand::noise: break;
+    case MapHand::lissajous:
+      return "lissajous";
+    case MapHand::jump:
+      return "jump";
+    case MapHand::flip:
+      return "flip";
+    case MapHand::dropout:
+      return "dropout";
+    case MapHand::noise:
+      break;
   }
   return "noise";
 }
@@ -58,7 +63,9 @@ std::string name_of(MapHand hand) {
 MapHandMotion map_hand_motion(MapHand hand, double interval, double step) {
   MapHandMotion motion;
   std::vector<PoseSample>& samples = motion.samples;
-  const auto count = [&](double seconds) { return std::max(kLeastRests, static_cast<int>(std::lround(seconds / interval))); };
+  const auto count = [&](double seconds) {
+    return std::max(kLeastRests, static_cast<int>(std::lround(seconds / interval)));
+  };
   const auto next = [&] { return samples.empty() ? 0.0 : samples.back().t + interval; };
   const auto stay = [&](const RigidTransform& X, double seconds) {
     for (int i = 0, n = count(seconds); i < n; ++i) samples.push_back({next(), X});

@@ -46,7 +46,8 @@ bool wants_another(const Repetition& repetition, int runs, double spent) {
 
 RunResult run_isolated(const Method& method, const Scenario& scene, double setting, const Repetition& repetition,
                        double time_limit) {
-  const auto data = run_in_child([&] { return packed(run_repeatedly(method, scene, setting, repetition)); }, {time_limit});
+  const auto data =
+      run_in_child([&] { return packed(run_repeatedly(method, scene, setting, repetition)); }, {time_limit});
   RunResult result;
   if (!data) return result;
   Header header{};

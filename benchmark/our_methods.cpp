@@ -99,7 +99,8 @@ class SampledHand {
   int newest_ = -1;  ///< number of the next sample
 };
 
-/// One step that is thrown away: what an integrator derives from stiffness and mass is set up, as the peers' models are.
+/// One step that is thrown away: what an integrator derives from stiffness and mass is set up, as the peers' models
+/// are.
 void set_up(const Scenario& scene, const HeldBody& body, double step, Integrator& integrator) {
   StrainState state = body.zero_state();
   integrator.step(body, FunctionHand(scene), 0.0, step, state);

@@ -11,7 +11,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kSameTime = 1e-9;  // s
+constexpr double kSameTime = 1e-9;             // s
 constexpr double kRecordedUncertainty = 2e-9;  // m: what the recorded trajectories say of themselves
 
 std::vector<RigidTransform> recorded_poses(const RodCase& one) {
@@ -30,7 +30,8 @@ std::vector<RigidTransform> recorded_poses(const RodCase& one) {
     poses.push_back(make_transform(Quaterniond(v[7], v[4], v[5], v[6]).normalized(), {v[1], v[2], v[3]}));
   }
   if (poses.size() != times.size()) {
-    throw std::runtime_error(one.recorded + ": fewer rows than outputs at 50 Hz to " + std::to_string(one.duration) + " s");
+    throw std::runtime_error(one.recorded + ": fewer rows than outputs at 50 Hz to " + std::to_string(one.duration) +
+                             " s");
   }
   return poses;
 }

@@ -155,7 +155,8 @@ RodRun unpacked(const std::string& data) {
 /// In a child process, given up after `time_limit` [s].
 RodRun run_rod_to_tolerance_isolated(const RodCase& one, const std::string& shape, const std::string& integrator,
                                      double tolerance, double time_limit) {
-  const auto data = run_in_child([&] { return packed(run_rod_to_tolerance(one, shape, integrator, tolerance)); }, {time_limit});
+  const auto data =
+      run_in_child([&] { return packed(run_rod_to_tolerance(one, shape, integrator, tolerance)); }, {time_limit});
   if (data) return unpacked(*data);
   RodRun run;
   run.given_up = true;
@@ -171,7 +172,8 @@ std::vector<std::pair<const RodCase*, std::string>> pairs_of(const std::vector<R
 }
 
 /// Of every case and shape that is measured here, in their order; on all processors, since nothing is timed.
-std::vector<RodReference> rod_references(const std::vector<std::pair<const RodCase*, std::string>>& pairs, Units& units) {
+std::vector<RodReference> rod_references(const std::vector<std::pair<const RodCase*, std::string>>& pairs,
+                                         Units& units) {
   std::vector<RodReference> references(pairs.size());
   parallel_for(pairs.size(), [&](std::size_t i) {
     units.progress().next("reference: " + pairs[i].first->name + ' ' + pairs[i].second);
@@ -197,7 +199,8 @@ class Line {
     all.insert(all.end(), rows.begin(), rows.end());
     rows.clear();
     for (const double tolerance : plan_.tolerances) {
-      rows.push_back(row(run_rod_to_tolerance_isolated(case_, shape_, integrator_, tolerance, plan_.tolerance_time_limit)));
+      rows.push_back(
+          row(run_rod_to_tolerance_isolated(case_, shape_, integrator_, tolerance, plan_.tolerance_time_limit)));
       ErrorRow& last = rows.back();
       last.tolerance = tolerance;
       if (last.given_up) break;

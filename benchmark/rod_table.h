@@ -20,8 +20,8 @@ struct RodTablePlan {
 /// The synthetic cases, and the recorded ones where `recorded_folder` has them.
 RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder);
 
-/// One run of an integrator with the largest step `step` [s], on the body and the integrator alone; the timed loop holds
-/// the segments between the samples, the steps and the poses at the outputs.
+/// One run of an integrator with the largest step `step` [s], on the body and the integrator alone; the timed loop
+/// holds the segments between the samples, the steps and the poses at the outputs.
 struct RodRun {
   std::vector<RigidTransform> X_WO;  ///< at output_times(one)
   double wall_seconds = 0.0;
@@ -35,8 +35,9 @@ RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& 
 RodRun run_rod_to_tolerance(const RodCase& one, const std::string& shape, const std::string& integrator,
                             double tolerance);
 
-/// Number of units of progress, and the rows of all: every integrator × shape × step of every case, with hand() "samples". A
-/// unit of work is an integrator's line; the lines of a case and shape, which share a reference, are one shard's.
+/// Number of units of progress, and the rows of all: every integrator × shape × step of every case, with hand()
+/// "samples". A unit of work is an integrator's line; the lines of a case and shape, which share a reference, are one
+/// shard's.
 std::size_t line_count(const RodTablePlan& plan);
 std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units);
 

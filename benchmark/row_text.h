@@ -11,8 +11,9 @@
 
 namespace spring_workbench::benchmark {
 
-/// Writes and reads rows as text, a line each, fields with tabs between. Every bit of a number comes back. A kind of row has a
-/// function `each_field(row, fields)` beside it, which calls `fields(…)` with all its fields; a string has no tab or line's end.
+/// Writes and reads rows as text, a line each, fields with tabs between. Every bit of a number comes back. A kind of
+/// row has a function `each_field(row, fields)` beside it, which calls `fields(…)` with all its fields; a string has no
+/// tab or line's end.
 class FieldWriter {
  public:
   template <typename... Fields>
@@ -71,7 +72,9 @@ class FieldReader {
     }
     if (text.empty() || *rest != '\0') wrong(text);
   }
-  [[noreturn]] void wrong(const std::string& value) const { refuse(where_, "row", value, "a row as report --shard writes it"); }
+  [[noreturn]] void wrong(const std::string& value) const {
+    refuse(where_, "row", value, "a row as report --shard writes it");
+  }
 
   std::string line_, where_;
   std::size_t at_ = 0;

@@ -110,8 +110,7 @@ SPRING_WORKBENCH_INLINE HandleMotion<S> tip_on_lissajous(const S& t) {
   m.v_W = {x.rate, y.rate, z.rate};
   m.a_W = {x.acceleration, y.acceleration, z.acceleration};
   m.w_H = {a.rate * cb, b.rate, a.rate * sb};
-  m.alpha_H = {a.acceleration * cb - a.rate * b.rate * sb, b.acceleration,
-               a.acceleration * sb + a.rate * b.rate * cb};
+  m.alpha_H = {a.acceleration * cb - a.rate * b.rate * sb, b.acceleration, a.acceleration * sb + a.rate * b.rate * cb};
   return m;
 }
 

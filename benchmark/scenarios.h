@@ -82,13 +82,13 @@ HandAcceleration hand_acceleration(const Scenario& scene, double t);
 HandState handle_state(const Scenario& scene, double t);
 HandAcceleration handle_acceleration(const Scenario& scene, double t);
 
-/// All of the handle frame's motion, at one moment (`S` double) or at four (Pack). Vectors in the axes of W, w and alpha in
-/// those of H.
+/// All of the handle frame's motion, at one moment (`S` double) or at four (Pack). Vectors in the axes of W, w and
+/// alpha in those of H.
 template <typename S>
 struct HandleMotion {
   ThreeByThree<S> R_WH;
-  Three<S> p_W, v_W, a_W;      ///< [m], [m/s], [m/s²]
-  Three<S> w_H, alpha_H;       ///< [rad/s], [rad/s²]
+  Three<S> p_W, v_W, a_W;  ///< [m], [m/s], [m/s²]
+  Three<S> w_H, alpha_H;   ///< [rad/s], [rad/s²]
 };
 HandleMotion<double> handle_motion(const Scenario& scene, double t);
 void handle_motion(const Scenario& scene, const Pack& t, HandleMotion<Pack>& out);

@@ -13,7 +13,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kFarthest = 100.0;    // m from the hand
+constexpr double kFarthest = 100.0;        // m from the hand
 constexpr double kTrackerInterval = 0.02;  // s
 constexpr double kWatchedSteps = 20.0;
 constexpr std::size_t kFailuresKept = 12;  // of an integrator and a shape
@@ -109,15 +109,15 @@ void add(const StabilityOutcome& outcome, StabilityRow& row) {
 }
 
 void keep_the_worst(std::vector<StabilityFailure>& failures) {
-  std::stable_sort(failures.begin(), failures.end(), [](const StabilityFailure& a, const StabilityFailure& b) {
-    return worse(a.outcome, b.outcome);
-  });
+  std::stable_sort(failures.begin(), failures.end(),
+                   [](const StabilityFailure& a, const StabilityFailure& b) { return worse(a.outcome, b.outcome); });
   if (failures.size() > kFailuresKept) failures.resize(kFailuresKept);
 }
 
 /// Runs the cells of a stiffness; `failures` becomes the worst of them.
-std::vector<StabilityRow> rows_of_cells(const StabilityPlan& plan, const std::string& integrator, const std::string& shape,
-                                        double factor, std::vector<StabilityFailure>& failures) {
+std::vector<StabilityRow> rows_of_cells(const StabilityPlan& plan, const std::string& integrator,
+                                        const std::string& shape, double factor,
+                                        std::vector<StabilityFailure>& failures) {
   const std::vector<StabilityCell> cells = cells_of(plan, factor);
   std::vector<StabilityOutcome> outcomes(cells.size());
   parallel_for(cells.size(), [&](std::size_t i) { outcomes[i] = run_cell(integrator, shape, cells[i]); });
@@ -148,8 +148,7 @@ StabilityPlan stability_plan(bool quick) {
   plan.integrators = integrator_names();
   plan.shapes = {"linear"};
   plan.stiffness_factors = decades(1e-6, 1e12, quick ? 1e6 : 1e2);
-  plan.masses = quick ? std::vector<double>{0.0, 1e-6, 1.0, 1e6}
-                      : std::vector<double>{0.0, 1e-6, 1e-3, 1.0, 1e3, 1e6};
+  plan.masses = quick ? std::vector<double>{0.0, 1e-6, 1.0, 1e6} : std::vector<double>{0.0, 1e-6, 1e-3, 1.0, 1e3, 1e6};
   plan.steps = quick ? std::vector<double>{0.05} : std::vector<double>{0.05, 0.02, 0.005, 0.001};
   plan.in_turn = {40, 24, 8, 4};
   plan.damping_ratios = quick ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.0, 0.1, 1.0, 10.0};
@@ -167,7 +166,8 @@ std::vector<StabilityCell> cells_of(const StabilityPlan& plan, double stiffness_
       for (const double zeta : plan.damping_ratios) {
         for (std::size_t i = 0; i < std::min(plan.in_turn[s], pairs); ++i) {
           const std::size_t pair = next[s]++ % pairs;
-          cells.push_back({stiffness_factor, mass, plan.steps[s], zeta, plan.families[pair / hands], plan.hands[pair % hands]});
+          cells.push_back(
+              {stiffness_factor, mass, plan.steps[s], zeta, plan.families[pair / hands], plan.hands[pair % hands]});
         }
       }
     }
@@ -187,7 +187,8 @@ StabilityOutcome run_cell(const std::string& integrator, const std::string& shap
     }
     EnergyWatch watch(one.mass * 9.81, one.fork.length);
     // Every step at first, and then every 20 ms: what has grown stays above the lowest.
-    for (reached = begin; reached < end + 1e-9; reached += reached - begin < kWatchedSteps * cell.step ? cell.step : kTrackerInterval) {
+    for (reached = begin; reached < end + 1e-9;
+         reached += reached - begin < kWatchedSteps * cell.step ? cell.step : kTrackerInterval) {
       if (!run.advance(reached)) return run.outcome();
       if (one.mass > 0.0) watch.look(run.simulation());
     }
@@ -211,8 +212,9 @@ StabilityMap stability_map(const StabilityPlan& plan, Units& units) {
         std::ostringstream name;
         name << integrator << ' ' << shape << " × " << factor;
         std::vector<StabilityFailure> failures;
-        const auto rows = units.rows<StabilityRow>(number, "stability: " + name.str(),
-                                                   [&] { return rows_of_cells(plan, integrator, shape, factor, failures); });
+        const auto rows = units.rows<StabilityRow>(number, "stability: " + name.str(), [&] {
+          return rows_of_cells(plan, integrator, shape, factor, failures);
+        });
         failures = units.rows<StabilityFailure>(number++, "failures: " + name.str(), [&] { return failures; });
         map.rows.insert(map.rows.end(), rows.begin(), rows.end());
         worst.insert(worst.end(), failures.begin(), failures.end());
@@ -226,11 +228,12 @@ StabilityMap stability_map(const StabilityPlan& plan, Units& units) {
 
 std::string stability_csv(const StabilityMap& map) {
   std::ostringstream out;
-  out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,cells,finite,bounded,energy_kept,none_refused,held\n";
+  out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,cells,finite,bounded,energy_kept,none_refused,"
+         "held\n";
   for (const StabilityRow& row : map.rows) {
-    out << row.integrator << ',' << row.shape << ',' << row.stiffness_factor << ',' << row.mass << ',' << row.step << ','
-        << row.damping_ratio << ',' << row.cells << ',' << row.finite << ',' << row.bounded << ',' << row.energy_kept
-        << ',' << row.none_refused << ',' << row.held << '\n';
+    out << row.integrator << ',' << row.shape << ',' << row.stiffness_factor << ',' << row.mass << ',' << row.step
+        << ',' << row.damping_ratio << ',' << row.cells << ',' << row.finite << ',' << row.bounded << ','
+        << row.energy_kept << ',' << row.none_refused << ',' << row.held << '\n';
   }
   return out.str();
 }

@@ -60,8 +60,8 @@ struct StabilityRow {
 
 template <typename Fields>
 void each_field(StabilityRow& r, Fields& fields) {
-  fields(r.integrator, r.shape, r.stiffness_factor, r.mass, r.step, r.damping_ratio, r.cells, r.finite, r.bounded, r.energy_kept,
-         r.none_refused, r.held);
+  fields(r.integrator, r.shape, r.stiffness_factor, r.mass, r.step, r.damping_ratio, r.cells, r.finite, r.bounded,
+         r.energy_kept, r.none_refused, r.held);
 }
 
 /// A cell that did not hold.
@@ -74,8 +74,8 @@ template <typename Fields>
 void each_field(StabilityFailure& f, Fields& fields) {
   StabilityCell& c = f.cell;
   StabilityOutcome& o = f.outcome;
-  fields(f.integrator, f.shape, c.stiffness_factor, c.mass, c.step, c.damping_ratio, c.families.stretch, c.families.bend,
-         c.families.torsion, c.hand, o.finite, o.bounded, o.energy_growth, o.refused);
+  fields(f.integrator, f.shape, c.stiffness_factor, c.mass, c.step, c.damping_ratio, c.families.stretch,
+         c.families.bend, c.families.torsion, c.hand, o.finite, o.bounded, o.energy_growth, o.refused);
 }
 
 struct StabilityMap {
@@ -83,8 +83,8 @@ struct StabilityMap {
   std::vector<StabilityFailure> failures;  ///< the worst few of each integrator and shape, worst first
 };
 
-/// The cells of one stiffness. Of a step with fewer in turn than there are pairs of families and hands, each pair has its
-/// turn with some of the masses and damping ratios.
+/// The cells of one stiffness. Of a step with fewer in turn than there are pairs of families and hands, each pair has
+/// its turn with some of the masses and damping ratios.
 std::vector<StabilityCell> cells_of(const StabilityPlan& plan, double stiffness_factor);
 
 /// Number of units of progress, and the map; runs cells on all processors at once.

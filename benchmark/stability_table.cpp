@@ -36,8 +36,10 @@ std::vector<StabilityCount> stability_table(const std::vector<const Method*>& me
   for (const Method* method : methods) {
     if (!has_stability_counts(*method)) continue;
     for (const SceneKind kind : {SceneKind::stretch, SceneKind::six_dof}) {
-      const std::string name = std::string("stability counts: ") + (kind == SceneKind::stretch ? "A " : "C ") + method->name();
-      const auto rows = units.rows<StabilityCount>(number++, name, [&] { return std::vector{count_stable(*method, kind)}; });
+      const std::string name =
+          std::string("stability counts: ") + (kind == SceneKind::stretch ? "A " : "C ") + method->name();
+      const auto rows =
+          units.rows<StabilityCount>(number++, name, [&] { return std::vector{count_stable(*method, kind)}; });
       counts.insert(counts.end(), rows.begin(), rows.end());
     }
   }

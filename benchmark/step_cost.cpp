@@ -50,7 +50,9 @@ void add(const std::string& shape, const ForkDofs& dofs, std::vector<StepCost>& 
 
   volatile double sink = 0.0;  // so that nothing is left out
   TipKinematics tip;
-  const auto note = [&](const char* part, auto&& call) { costs.push_back({shape, body.size(), part, least_nanoseconds(calls, call)}); };
+  const auto note = [&](const char* part, auto&& call) {
+    costs.push_back({shape, body.size(), part, least_nanoseconds(calls, call)});
+  };
   note("hand at one moment", [&](int i) { sink = body.forcing(hand[1], h * (1.0 + 0.001 * i)).angular_velocity[0]; });
   note("tip", [&](int) {
     body.shape().tip(full.q, full.q_dot, tip);

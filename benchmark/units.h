@@ -23,8 +23,8 @@ struct UnitRows {
 };
 using RowsByUnit = std::map<std::string, UnitRows>;
 
-/// The units of work that a report is made of. Each has a name that no other has. They are all measured here, or those of one
-/// shard are, or they have been measured by shards.
+/// The units of work that a report is made of. Each has a name that no other has. They are all measured here, or those
+/// of one shard are, or they have been measured by shards.
 class Units {
  public:
   Units(Progress& progress, Shard shard) : progress_(progress), shard_(shard) {}
@@ -33,8 +33,8 @@ class Units {
   /// Whether units with this number are measured here.
   bool measured_here(std::size_t number) const { return !merging_ && number % shard_.count == shard_.index - 1; }
 
-  /// The rows of a unit: those of `measure()`, those that a shard has measured, or none where it is another shard's. Throws
-  /// InputError where no shard has it, or its rows are none of these.
+  /// The rows of a unit: those of `measure()`, those that a shard has measured, or none where it is another shard's.
+  /// Throws InputError where no shard has it, or its rows are none of these.
   template <typename Row, typename Measure>
   std::vector<Row> rows(std::size_t number, const std::string& name, Measure&& measure) {
     std::vector<Row> rows;

@@ -57,9 +57,12 @@ Best best_of(const std::vector<ErrorRow>& rows, const std::string& scene, double
   }
   Best best;
   for (const std::string& method : methods) {
-    const auto time = run_time_for_error(curve(rows, [&](const ErrorRow& row) {
-      return row.scene == scene && row.stiffness_factor == factor && row.hand == "function" && row.method == method;
-    }), kError);
+    const auto time = run_time_for_error(curve(rows,
+                                               [&](const ErrorRow& row) {
+                                                 return row.scene == scene && row.stiffness_factor == factor &&
+                                                        row.hand == "function" && row.method == method;
+                                               }),
+                                         kError);
     if (time && *time < best.run_time) best = {method, *time};
   }
   return best;
@@ -82,7 +85,8 @@ void one_step_per_sample(const Measurements& m, const std::string& scene, std::v
     double largest = 0.0;
     bool any = false, finite = true;
     for (const ErrorRow& row : m.scenes) {
-      if (row.scene != scene || row.method != kOurs || row.hand != hand || std::abs(row.step - kEvery50Hz) > 1e-9) continue;
+      if (row.scene != scene || row.method != kOurs || row.hand != hand || std::abs(row.step - kEvery50Hz) > 1e-9)
+        continue;
       any = true;
       finite = finite && row.finite;
       largest = std::max(largest, row.error);
@@ -90,8 +94,9 @@ void one_step_per_sample(const Measurements& m, const std::string& scene, std::v
     if (!any) continue;
     const std::string unit = scene == "A" ? " m" : " rad";
     const bool given = std::string(hand) == "function";
-    const std::string claim = "Scene " + scene + ", " + kOurs + ", one step per 50 Hz sample, every stiffness; the hand's " +
-                              (given ? "pose, velocity and acceleration known at the samples" : "poses alone known at the samples");
+    const std::string claim =
+        "Scene " + scene + ", " + kOurs + ", one step per 50 Hz sample, every stiffness; the hand's " +
+        (given ? "pose, velocity and acceleration known at the samples" : "poses alone known at the samples");
     if (given) {
       out.push_back(judged(claim, "error ≤ 1e-6" + unit, text(largest) + unit, finite && largest <= 1e-6));
     } else {
@@ -105,8 +110,9 @@ void beats_every_peer(const Measurements& m, const std::string& scene, std::vect
   for (const double factor : factors_of(m.scenes, scene)) {
     const Best ours = best_of(m.scenes, scene, factor, [](const std::string& s) { return is_ours(s); });
     const Best peer = best_of(m.scenes, scene, factor, [](const std::string& s) { return !is_ours(s); });
-    out.push_back(judged("Scene " + scene + " × " + text(factor) + " at 1e-6 of the amplitude: run time against every peer",
-                         "less", "ours " + time_of(ours) + "; best peer " + time_of(peer), ours.run_time < peer.run_time));
+    out.push_back(
+        judged("Scene " + scene + " × " + text(factor) + " at 1e-6 of the amplitude: run time against every peer",
+               "less", "ours " + time_of(ours) + "; best peer " + time_of(peer), ours.run_time < peer.run_time));
   }
 }
 
@@ -115,8 +121,8 @@ void faster_by(const Measurements& m, double factor, double target, const std::s
   const Best ours = best_of(m.scenes, "C", factor, [](const std::string& s) { return is_ours(s); });
   const Best other = best_of(m.scenes, "C", factor, wanted);
   const double ratio = other.run_time / ours.run_time;
-  const std::string figure =
-      "ours " + time_of(ours) + "; " + time_of(other) + (other.found() && ours.found() ? " = " + text(ratio) + "×" : "");
+  const std::string figure = "ours " + time_of(ours) + "; " + time_of(other) +
+                             (other.found() && ours.found() ? " = " + text(ratio) + "×" : "");
   out.push_back(judged("Scene C × " + text(factor) + " at 1e-6 of the amplitude: " + whom + " over ours",
                        "≥ " + text(target) + "×", figure, ours.found() && !(ratio < target)));
 }
@@ -126,7 +132,8 @@ void scene_c(const Measurements& m, std::vector<Verdict>& out) {
     const bool stiff = factor >= 100.0;
     faster_by(m, factor, stiff ? 50.0 : 20.0, "best engine", is_engine, out);
     for (const char* formulation : {"cvode_world", "cvode_deflection"}) {
-      faster_by(m, factor, stiff ? 20.0 : 2.0, formulation, [&](const std::string& s) { return s == formulation; }, out);
+      faster_by(
+          m, factor, stiff ? 20.0 : 2.0, formulation, [&](const std::string& s) { return s == formulation; }, out);
     }
   }
 }
@@ -149,9 +156,10 @@ void sketch(const Measurements& m, std::vector<Verdict>& out) {
   for (const auto& [factor, run_time] : {std::pair{1.0, 425.0}, std::pair{100.0, 42.0}}) {
     if (factors_of(m.scenes, "C").count(factor) == 0) continue;
     const Best ours = best_of(m.scenes, "C", factor, [](const std::string& s) { return is_ours(s); });
-    out.push_back(judged("Scene C × " + text(factor) + " at 1e-6: the feasibility sketch, scaled by MuJoCo's step here and there",
-                         "< " + text(run_time) + " × " + text(slower) + " = " + text(run_time * slower) + " µs/s",
-                         time_of(ours), ours.run_time < run_time * slower));
+    out.push_back(
+        judged("Scene C × " + text(factor) + " at 1e-6: the feasibility sketch, scaled by MuJoCo's step here and there",
+               "< " + text(run_time) + " × " + text(slower) + " = " + text(run_time * slower) + " µs/s", time_of(ours),
+               ours.run_time < run_time * slower));
   }
 }
 
@@ -241,8 +249,9 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
     if (kExplicit.count(name) != 0) {
       out.push_back({claim + " (a baseline with a stability limit)", "none", figure, Verdict::Result::not_measured});
     } else {
-      out.push_back(judged(claim, "every cell finite, bounded, energy never growing with the hand at rest; a step may be refused", figure,
-                           sum.finite == sum.cells && sum.bounded == sum.cells && sum.energy_kept == sum.cells));
+      out.push_back(
+          judged(claim, "every cell finite, bounded, energy never growing with the hand at rest; a step may be refused",
+                 figure, sum.finite == sum.cells && sum.bounded == sum.cells && sum.energy_kept == sum.cells));
     }
   }
 }
@@ -298,7 +307,8 @@ void contact(const Measurements& m, std::vector<Verdict>& out) {
       if (row.scene != scene || std::abs(row.step - 2e-3) > 1e-9) continue;
       out.push_back(judged("Dynamic world, " + scene + ", step 2 ms (the longest near others)",
                            "within 1 % of the way of the " + row.against + " run",
-                           text(1e3 * row.error) + " mm = " + text(100.0 * row.error_share) + " %", row.error_share <= 0.01));
+                           text(1e3 * row.error) + " mm = " + text(100.0 * row.error_share) + " %",
+                           row.error_share <= 0.01));
     }
   }
 }
@@ -315,11 +325,12 @@ void contact_extremes(const Measurements& m, std::vector<Verdict>& out) {
       worst.energy_gained = std::max(worst.energy_gained, row.outcome.energy_gained);
     }
     if (cells == 0) continue;
-    out.push_back(judged(std::string("Contact at its extremes, ") + mode,
-                         "every cell finite, bounded, ≤ 0.1 mm deep, gains no more energy than 3 µm of depth are worth, none refused",
-                         std::to_string(held) + " of " + std::to_string(cells) + " cells; deepest " +
-                             text(1e3 * worst.penetration) + " mm, most gained " + text(1e6 * worst.energy_gained) + " µm",
-                         held == cells));
+    out.push_back(judged(
+        std::string("Contact at its extremes, ") + mode,
+        "every cell finite, bounded, ≤ 0.1 mm deep, gains no more energy than 3 µm of depth are worth, none refused",
+        std::to_string(held) + " of " + std::to_string(cells) + " cells; deepest " + text(1e3 * worst.penetration) +
+            " mm, most gained " + text(1e6 * worst.energy_gained) + " µm",
+        held == cells));
   }
 }
 
@@ -327,9 +338,12 @@ void contact_extremes(const Measurements& m, std::vector<Verdict>& out) {
 
 std::string name_of(Verdict::Result result) {
   switch (result) {
-    case Verdict::Result::held: return "held";
-    case Verdict::Result::not_held: return "NOT held";
-    case Verdict::Result::not_measured: break;
+    case Verdict::Result::held:
+      return "held";
+    case Verdict::Result::not_held:
+      return "NOT held";
+    case Verdict::Result::not_measured:
+      break;
   }
   return "–";
 }

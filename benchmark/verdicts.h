@@ -25,7 +25,7 @@ struct Measurements {
   std::vector<ForkCurveRow> fork_curves;
   ContactTable contact;
   std::vector<ExtremeRow> extremes;  ///< of contact
-  double seconds = 0.0;  ///< that the report took
+  double seconds = 0.0;              ///< that the report took
   bool quick = false;
 };
 

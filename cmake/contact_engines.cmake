@@ -1,4 +1,5 @@
-# What contact is computed with. Each engine is left out where it is not found or not wanted: its contact mode is then refused.
+# What contact is computed with. Each engine is left out where it is not found or not wanted: its contact mode is then
+# refused.
 option(SPRING_WORKBENCH_WITH_FCL "Contact modes stop and dynamic, where FCL is found" ON)
 option(SPRING_WORKBENCH_WITH_BULLET "Contact mode dynamic, where Bullet and FCL are found" ON)
 
@@ -10,7 +11,8 @@ if(SPRING_WORKBENCH_WITH_FCL)
   endif()
 endif()
 
-# Bullet in double precision. Its other build, in single precision, has the same symbols: nothing that links it may link this.
+# Bullet in double precision. Its other build, in single precision, has the same symbols: nothing that links it may
+# link this.
 set(SPRING_WORKBENCH_BULLET_FOUND OFF)
 set(SPRING_WORKBENCH_BULLET_LIBRARIES)
 if(SPRING_WORKBENCH_WITH_BULLET AND SPRING_WORKBENCH_FCL_FOUND)

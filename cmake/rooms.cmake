@@ -1,8 +1,8 @@
 # One CMake target per room; the link line is the law of who may know whom (doc/architecture.md).
 set(SPRING_WORKBENCH_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
 
-# For rooms that compute: without signals from floating point, errno from <cmath>, or complex products that look for NaN.
-# Results stay those of IEEE arithmetic.
+# For rooms that compute: without signals from floating point, errno from <cmath>, or complex products that look for
+# NaN. Results stay those of IEEE arithmetic.
 set(SPRING_WORKBENCH_ARITHMETIC -fno-math-errno -fno-trapping-math)
 include(CheckCXXCompilerFlag)
 check_cxx_compiler_flag(-fcx-limited-range SPRING_WORKBENCH_LIMITED_RANGE)   # GCC; clang since 18
@@ -23,8 +23,8 @@ endif()
 # add_room(<name> [FOLDER <folder>] [OPENED <ON|OFF>] [DEPENDS <rooms>...] [LIBRARIES <external libraries>...]
 #          [INCLUDES <external folders>...] [DEFINITIONS <of its own sources>...] [OPTIONS <compile options>...])
 # Builds src/<name>/*.cpp (with FOLDER: src/<name>/<folder>/*.cpp) into the library spring_workbench_<name>.
-# OPENED: into the shared library spring_workbench_<name>_engine, where ON; it is opened at run time, and who uses the room
-# has its headers alone.
+# OPENED: into the shared library spring_workbench_<name>_engine, where ON; it is opened at run time, and who uses the
+# room has its headers alone.
 function(add_room name)
   cmake_parse_arguments(ROOM "" "FOLDER;OPENED" "DEPENDS;LIBRARIES;INCLUDES;DEFINITIONS;OPTIONS" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${name}/${ROOM_FOLDER}/*.cpp)

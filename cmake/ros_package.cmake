@@ -5,7 +5,8 @@ set(SPRING_WORKBENCH_MESSAGE_PACKAGES diagnostic_msgs geometry_msgs sensor_msgs 
 file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages ${CMAKE_BINARY_DIR}/devel/lib/pkgconfig)
 # catkin installs its setup files into the prefix of the configuration. Here they go where all else goes, also with
 # `cmake --install build --prefix DIR`.
-if(CMAKE_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR AND NOT CATKIN_BUILD_BINARY_PACKAGE AND NOT CMAKE_INSTALL_PREFIX STREQUAL "/usr")
+if(CMAKE_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR AND NOT CATKIN_BUILD_BINARY_PACKAGE AND NOT CMAKE_INSTALL_PREFIX
+  STREQUAL "/usr")
   set(CATKIN_INSTALL_INTO_PREFIX_ROOT FALSE)
   set(setup ${CMAKE_BINARY_DIR}/catkin_generated/installspace)
   file(WRITE ${setup}/.catkin "")   # marks what is installed
@@ -15,9 +16,11 @@ endif()
 find_package(catkin REQUIRED COMPONENTS
   interactive_markers message_generation rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
 
-add_message_files(FILES Contact.msg Contacts.msg ForkState.msg ObjectState.msg ObjectStates.msg PlacementState.msg StepReport.msg
+add_message_files(FILES Contact.msg Contacts.msg ForkState.msg ObjectState.msg ObjectStates.msg PlacementState.msg
+  StepReport.msg
   TaskState.msg)
-add_service_files(FILES LoadScene.srv SelectTool.srv SetForkDamping.srv SetForkDofs.srv SetForkStiffness.srv SetIntegrator.srv)
+add_service_files(FILES LoadScene.srv SelectTool.srv SetForkDamping.srv SetForkDofs.srv SetForkStiffness.srv
+  SetIntegrator.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
 find_package(dynamic_reconfigure QUIET)   # optional: live tuning

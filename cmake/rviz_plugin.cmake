@@ -1,7 +1,8 @@
 # Room rviz_plugin: panel, display and view of rviz. Built only where rviz and Qt 5 are found.
 option(SPRING_WORKBENCH_WITH_RVIZ "Plugins for rviz, where it is found" ON)
 if(NOT SPRING_WORKBENCH_WITH_RVIZ)
-  file(REMOVE ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_LIB_DESTINATION}/libspring_workbench_rviz.so)   # of a build that had it
+  # of a build that had it
+  file(REMOVE ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_LIB_DESTINATION}/libspring_workbench_rviz.so)
   message(STATUS "no rviz plugins: rviz shows ~markers")
   return()
 endif()
@@ -12,7 +13,8 @@ if(NOT rviz_FOUND OR NOT Qt5_FOUND)
   return()
 endif()
 
-file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/rviz_plugin/*.cpp ${PROJECT_SOURCE_DIR}/src/rviz_plugin/*.h)
+file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/rviz_plugin/*.cpp
+  ${PROJECT_SOURCE_DIR}/src/rviz_plugin/*.h)
 add_library(spring_workbench_rviz SHARED ${sources})
 set_target_properties(spring_workbench_rviz PROPERTIES AUTOMOC ON)
 target_compile_options(spring_workbench_rviz PRIVATE ${SPRING_WORKBENCH_WARNINGS})

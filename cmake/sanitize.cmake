@@ -1,4 +1,5 @@
-# SPRING_WORKBENCH_SANITIZE: "address,undefined" or "thread" builds everything with these sanitizers; scripts/sanitize runs it.
+# SPRING_WORKBENCH_SANITIZE: "address,undefined" or "thread" builds everything with these sanitizers; scripts/sanitize
+# runs it.
 set(SPRING_WORKBENCH_SANITIZE "" CACHE STRING "Sanitizers to build with: address,undefined or thread; empty: none")
 if(SPRING_WORKBENCH_SANITIZE)
   # Not vptr: it wants to be linked with the classes of the contact engines, which are opened.

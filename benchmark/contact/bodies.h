@@ -22,8 +22,8 @@ inline Body standing(const std::string& name, Geometry geometry, const RigidTran
 }
 
 /// `principal`: moments of inertia about O [kg·m²].
-inline Body movable(const std::string& name, Geometry geometry, const RigidTransform& X_WO, double friction, double mass,
-                    const Vector3d& principal) {
+inline Body movable(const std::string& name, Geometry geometry, const RigidTransform& X_WO, double friction,
+                    double mass, const Vector3d& principal) {
   Body body = standing(name, std::move(geometry), X_WO, friction);
   body.movable = true;
   body.mass_properties.mass = mass;
@@ -39,7 +39,8 @@ inline Vector3d box_inertia(double mass, const Vector3d& size) {
 inline RigidTransform at(const Vector3d& p_WO) { return RigidTransform(Eigen::Translation3d(p_WO)); }
 
 /// A movable one, along the axes of W.
-inline Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO, double friction = 0.5) {
+inline Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO,
+                double friction = 0.5) {
   return movable(name, Box{size}, at(p_WO), friction, mass, box_inertia(mass, size));
 }
 

@@ -74,7 +74,8 @@ class BulletForce final : public BulletDrag {
 /// btGeneric6DofSpring2Constraint to a kinematic hand, with its silent limit on the stiffness (its default) or without.
 class BulletSpring2 final : public BulletDrag {
  public:
-  BulletSpring2(const DragScene& scene, double step, bool limited) : BulletDrag(scene), hand_(0.0, nullptr, &hand_shape_) {
+  BulletSpring2(const DragScene& scene, double step, bool limited)
+      : BulletDrag(scene), hand_(0.0, nullptr, &hand_shape_) {
     hand_.setCollisionFlags(hand_.getCollisionFlags() | btCollisionObject::CF_KINEMATIC_OBJECT);
     hand_.setActivationState(DISABLE_DEACTIVATION);
     hand_.setWorldTransform(hand_transform(0.0));
@@ -117,9 +118,10 @@ std::vector<DragMethod> bullet_drags() {
       return std::make_unique<BulletSpring2>(scene, step, limited);
     };
   };
-  return {{"bullet_explicit", true, [](const DragScene& scene, double) { return std::make_unique<BulletForce>(scene); }},
-          {"bullet_spring2", true, spring2(true)},
-          {"bullet_spring2_unlimited", true, spring2(false)}};
+  return {
+      {"bullet_explicit", true, [](const DragScene& scene, double) { return std::make_unique<BulletForce>(scene); }},
+      {"bullet_spring2", true, spring2(true)},
+      {"bullet_spring2_unlimited", true, spring2(false)}};
 }
 
 }  // namespace spring_workbench::benchmark

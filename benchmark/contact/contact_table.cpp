@@ -30,7 +30,9 @@ std::vector<Line> lines_of(const std::vector<DragMethod>& methods) {
   return lines;
 }
 
-std::vector<double> factors(bool quick) { return quick ? std::vector<double>{1.0} : std::vector<double>{1.0, 100.0, 1e4}; }
+std::vector<double> factors(bool quick) {
+  return quick ? std::vector<double>{1.0} : std::vector<double>{1.0, 100.0, 1e4};
+}
 
 std::vector<double> steps() { return {1.0 / 50.0, 1.0 / 100.0, 1.0 / 250.0, 1.0 / 1000.0}; }
 
@@ -41,12 +43,15 @@ DragRow isolated_drag(const DragMethod& method, const DragScene& scene, double s
   failed.turns = scene.turns;
   failed.step = step;
   constexpr std::size_t numbers = 6;
-  const auto data = run_in_child([&] {
-    const DragRow row = run_drag(method, scene, step, runs);
-    const double values[numbers] = {row.finite ? 1.0 : 0.0, row.lag, row.lag_error, row.penetration,
-                                    row.cpu_us_per_simulated_second, row.cpu_us_per_step};
-    return std::string(reinterpret_cast<const char*>(values), sizeof values);
-  }, {time_limit});
+  const auto data = run_in_child(
+      [&] {
+        const DragRow row = run_drag(method, scene, step, runs);
+        const double values[numbers] = {
+            row.finite ? 1.0 : 0.0, row.lag, row.lag_error, row.penetration, row.cpu_us_per_simulated_second,
+            row.cpu_us_per_step};
+        return std::string(reinterpret_cast<const char*>(values), sizeof values);
+      },
+      {time_limit});
   double values[numbers] = {};
   if (!data || data->size() != sizeof values) return failed;
   std::memcpy(values, data->data(), sizeof values);
@@ -84,10 +89,12 @@ ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, U
       }
     }
   }
-  table.impacts =
-      units.rows<ImpactRow>(number++, "search for the pose of contact", [&] { return measure_impact_search(quick ? 60 : 500); });
-  table.world_steps = units.rows<WorldStepRow>(number++, "steps of the dynamic world", [&] { return measure_world_steps(quick); });
-  table.costs = units.rows<ContactCost>(number++, "cost of the parts of contact", [] { return measure_contact_costs(); });
+  table.impacts = units.rows<ImpactRow>(number++, "search for the pose of contact",
+                                        [&] { return measure_impact_search(quick ? 60 : 500); });
+  table.world_steps =
+      units.rows<WorldStepRow>(number++, "steps of the dynamic world", [&] { return measure_world_steps(quick); });
+  table.costs =
+      units.rows<ContactCost>(number++, "cost of the parts of contact", [] { return measure_contact_costs(); });
   return table;
 }
 
@@ -96,7 +103,8 @@ std::string drags_csv(const std::vector<DragRow>& rows) {
   out << "method,stiffness_factor,box,step,finite,lag_mm,lag_error_percent,penetration_mm,cpu_us_per_simulated_second,"
          "cpu_us_per_step\n";
   for (const DragRow& row : rows) {
-    out << row.method << ',' << row.stiffness_factor << ',' << (row.turns ? "turns" : "cannot turn") << ',' << row.step << ',' << row.finite << ',';
+    out << row.method << ',' << row.stiffness_factor << ',' << (row.turns ? "turns" : "cannot turn") << ',' << row.step
+        << ',' << row.finite << ',';
     if (row.finite) {
       out << 1e3 * row.lag << ',' << 100.0 * row.lag_error << ',' << 1e3 * row.penetration << ','
           << row.cpu_us_per_simulated_second << ',' << row.cpu_us_per_step << '\n';

@@ -15,15 +15,15 @@ struct DragScene {
   double stiffness_factor = 1.0;
   bool turns = true;  ///< false: it cannot turn, which is easier: contact has nothing to rock
 
-  double mass = 5.0;                         ///< [kg]
-  Vector3d size{0.2, 0.1, 0.05};             ///< [m]
-  double friction = 0.5, gravity = 9.81;     ///< –, [m/s²]
-  double stiffness() const { return 2000.0 * stiffness_factor; }           ///< of moving, every direction [N/m]
-  double turning_stiffness() const { return 20.0 * stiffness_factor; }     ///< every direction [N·m/rad]
-  double damping() const;                                                  ///< critical [N·s/m]
-  double turning_damping() const;                                          ///< [N·m·s/rad]; critical about z
-  Vector3d inertia() const;                                                ///< about the principal axes [kg m²]
-  double exact_lag() const;                                                ///< [m]
+  double mass = 5.0;                                                    ///< [kg]
+  Vector3d size{0.2, 0.1, 0.05};                                        ///< [m]
+  double friction = 0.5, gravity = 9.81;                                ///< –, [m/s²]
+  double stiffness() const { return 2000.0 * stiffness_factor; }        ///< of moving, every direction [N/m]
+  double turning_stiffness() const { return 20.0 * stiffness_factor; }  ///< every direction [N·m/rad]
+  double damping() const;                                               ///< critical [N·s/m]
+  double turning_damping() const;                                       ///< [N·m·s/rad]; critical about z
+  Vector3d inertia() const;                                             ///< about the principal axes [kg m²]
+  double exact_lag() const;                                             ///< [m]
 };
 
 /// Where the hand would have the box's centre, and how that moves.
@@ -53,24 +53,24 @@ struct DragRow {
   std::string method;
   double stiffness_factor = 1.0;
   bool turns = true;
-  double step = 0.0;             ///< [s]
+  double step = 0.0;  ///< [s]
   bool finite = false;
-  double lag = 0.0;              ///< at the end [m]
-  double lag_error = 0.0;        ///< of the exact lag, as a share
-  double penetration = 0.0;      ///< of a corner in the plane, largest of all steps [m]
+  double lag = 0.0;          ///< at the end [m]
+  double lag_error = 0.0;    ///< of the exact lag, as a share
+  double penetration = 0.0;  ///< of a corner in the plane, largest of all steps [m]
   double cpu_us_per_simulated_second = 0.0;
   double cpu_us_per_step = 0.0;
 };
 template <typename Fields>
 void each_field(DragRow& r, Fields& fields) {
-  fields(r.method, r.stiffness_factor, r.turns, r.step, r.finite, r.lag, r.lag_error, r.penetration, r.cpu_us_per_simulated_second,
-         r.cpu_us_per_step);
+  fields(r.method, r.stiffness_factor, r.turns, r.step, r.finite, r.lag, r.lag_error, r.penetration,
+         r.cpu_us_per_simulated_second, r.cpu_us_per_step);
 }
 /// The run of a method: processor time is the least of `runs`, of the steps alone.
 DragRow run_drag(const DragMethod& method, const DragScene& scene, double step, int runs);
 
-/// Ours through Simulation: with contact mode `stop` on the bench, with `dynamic` on a movable slab (on the bench that is
-/// `stop`); with the shape `bushing` and the hand's samples at 50 Hz.
+/// Ours through Simulation: with contact mode `stop` on the bench, with `dynamic` on a movable slab (on the bench that
+/// is `stop`); with the shape `bushing` and the hand's samples at 50 Hz.
 std::vector<DragMethod> our_drags();
 /// Engines as a competent user couples them.
 std::vector<DragMethod> bullet_drags();

@@ -13,7 +13,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double g = 9.81, edge = 0.1, thin = 0.05;          // m/s², m, m
+constexpr double g = 9.81, edge = 0.1, thin = 0.05;           // m/s², m, m
 constexpr double pressing = 0.1, shifting = 0.1, rest = 0.2;  // s, of the hand
 constexpr double farthest = 0.5;                              // m
 constexpr double sample_time = 0.02;                          // s
@@ -24,7 +24,9 @@ struct Setting {
   Vector3d pressed, shifted;  // the hand's two ways
 };
 
-Body cube(const std::string& name, double mass, const Vector3d& p_WO) { return box(name, Vector3d::Constant(edge), mass, p_WO); }
+Body cube(const std::string& name, double mass, const Vector3d& p_WO) {
+  return box(name, Vector3d::Constant(edge), mass, p_WO);
+}
 
 /// Its face towards −x is at `x`.
 Body wall(double x) {
@@ -33,7 +35,9 @@ Body wall(double x) {
 }
 
 Setting one_on_other(double upper, double lower) {
-  return {{cube("held", upper, {0.02, 0, 1.5 * edge + 0.01}), cube("lower", lower, {0, 0, 0.5 * edge})}, {0, 0, -0.03}, {0.02, 0, 0}};
+  return {{cube("held", upper, {0.02, 0, 1.5 * edge + 0.01}), cube("lower", lower, {0, 0, 0.5 * edge})},
+          {0, 0, -0.03},
+          {0.02, 0, 0}};
 }
 
 Setting at_wall(double mass) {
@@ -62,14 +66,22 @@ Setting under_another() {
 
 Setting setting_of(ContactExtreme extreme) {
   switch (extreme) {
-    case ContactExtreme::stack_of_ten: return stack();
-    case ContactExtreme::light_on_heavy: return one_on_other(1e-3, 1.0);
-    case ContactExtreme::heavy_on_light: return one_on_other(1.0, 1e-3);
-    case ContactExtreme::light_at_wall: return at_wall(1e-6);
-    case ContactExtreme::heavy_at_wall: return at_wall(1e6);
-    case ContactExtreme::massless_at_wall: return at_wall(0.0);
-    case ContactExtreme::grasped_touching: return among_others();
-    case ContactExtreme::grasped_under_another: return under_another();
+    case ContactExtreme::stack_of_ten:
+      return stack();
+    case ContactExtreme::light_on_heavy:
+      return one_on_other(1e-3, 1.0);
+    case ContactExtreme::heavy_on_light:
+      return one_on_other(1.0, 1e-3);
+    case ContactExtreme::light_at_wall:
+      return at_wall(1e-6);
+    case ContactExtreme::heavy_at_wall:
+      return at_wall(1e6);
+    case ContactExtreme::massless_at_wall:
+      return at_wall(0.0);
+    case ContactExtreme::grasped_touching:
+      return among_others();
+    case ContactExtreme::grasped_under_another:
+      return under_another();
   }
   throw std::logic_error("an extreme without a scene");
 }
@@ -100,7 +112,8 @@ double minimum_jerk(double u) {
 /// The hand, with the fork pointing down, above the held one at first.
 class Hand {
  public:
-  Hand(const ExtremeCell& cell, const Setting& setting, double length) : pressed_(setting.pressed), shifted_(setting.shifted) {
+  Hand(const ExtremeCell& cell, const Setting& setting, double length)
+      : pressed_(setting.pressed), shifted_(setting.shifted) {
     std::mt19937 random(cell.seed);
     std::uniform_real_distribution<double> unit(-1.0, 1.0);
     start_ = setting.bodies[0].X_WO.translation() + Vector3d(0, 0, length);
@@ -130,7 +143,8 @@ class Watch {
   bool look(bool at_rest, ExtremeOutcome& outcome) {
     for (std::size_t i = 0; i < start_.size(); ++i) {
       const BodyState& o = simulation_.objects()[i];
-      outcome.finite = outcome.finite && o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite() && o.V_WO_W.angular.allFinite();
+      outcome.finite =
+          outcome.finite && o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite() && o.V_WO_W.angular.allFinite();
       const double way = (o.X_WO.translation() - start_[i].X_WO.translation()).norm();
       outcome.bounded = outcome.bounded && outcome.finite && way < farthest;
       if (!o.held) outcome.pushed = std::max(outcome.pushed, way);
@@ -179,7 +193,8 @@ class Watch {
       const BodyState& o = simulation_.objects()[object++];
       const Vector3d w_O = o.X_WO.linear().transpose() * o.V_WO_W.angular;
       const MassProperties& m = body.mass_properties;
-      sum += m.mass * (0.5 * o.V_WO_W.linear.squaredNorm() + g * o.X_WO.translation().z()) + 0.5 * w_O.dot(m.inertia_O * w_O);
+      sum += m.mass * (0.5 * o.V_WO_W.linear.squaredNorm() + g * o.X_WO.translation().z()) +
+             0.5 * w_O.dot(m.inertia_O * w_O);
     }
     return sum;
   }
@@ -194,23 +209,31 @@ class Watch {
 }  // namespace
 
 const std::vector<ContactExtreme>& contact_extremes() {
-  static const std::vector<ContactExtreme> all{
-      ContactExtreme::stack_of_ten,     ContactExtreme::light_on_heavy,   ContactExtreme::heavy_on_light,
-      ContactExtreme::light_at_wall,    ContactExtreme::heavy_at_wall,    ContactExtreme::massless_at_wall,
-      ContactExtreme::grasped_touching, ContactExtreme::grasped_under_another};
+  static const std::vector<ContactExtreme> all{ContactExtreme::stack_of_ten,     ContactExtreme::light_on_heavy,
+                                               ContactExtreme::heavy_on_light,   ContactExtreme::light_at_wall,
+                                               ContactExtreme::heavy_at_wall,    ContactExtreme::massless_at_wall,
+                                               ContactExtreme::grasped_touching, ContactExtreme::grasped_under_another};
   return all;
 }
 
 std::string name_of(ContactExtreme extreme) {
   switch (extreme) {
-    case ContactExtreme::stack_of_ten: return "stack of ten";
-    case ContactExtreme::light_on_heavy: return "1 g held on 1 kg";
-    case ContactExtreme::heavy_on_light: return "1 kg held on 1 g";
-    case ContactExtreme::light_at_wall: return "1e-6 kg at a wall";
-    case ContactExtreme::heavy_at_wall: return "1e6 kg at a wall";
-    case ContactExtreme::massless_at_wall: return "massless at a wall";
-    case ContactExtreme::grasped_touching: return "grasped while it touches";
-    case ContactExtreme::grasped_under_another: return "grasped under another";
+    case ContactExtreme::stack_of_ten:
+      return "stack of ten";
+    case ContactExtreme::light_on_heavy:
+      return "1 g held on 1 kg";
+    case ContactExtreme::heavy_on_light:
+      return "1 kg held on 1 g";
+    case ContactExtreme::light_at_wall:
+      return "1e-6 kg at a wall";
+    case ContactExtreme::heavy_at_wall:
+      return "1e6 kg at a wall";
+    case ContactExtreme::massless_at_wall:
+      return "massless at a wall";
+    case ContactExtreme::grasped_touching:
+      return "grasped while it touches";
+    case ContactExtreme::grasped_under_another:
+      return "grasped under another";
   }
   throw std::logic_error("an extreme without a name");
 }

@@ -12,8 +12,8 @@ namespace {
 
 constexpr ContactMode modes[] = {ContactMode::stop, ContactMode::dynamic};
 
-/// Of the pairs of stiffness and step one in four is run, of the stack, which costs most, fewer, or none to be quick; each with
-/// another seed.
+/// Of the pairs of stiffness and step one in four is run, of the stack, which costs most, fewer, or none to be quick;
+/// each with another seed.
 std::vector<ExtremeCell> cells_of(ContactExtreme extreme, ContactMode mode, bool quick) {
   const std::vector<double> stiffnesses = quick ? std::vector<double>{1e3} : std::vector<double>{1.0, 1e3, 1e6, 1e9};
   const std::vector<double> steps = quick ? std::vector<double>{0.02} : std::vector<double>{0.05, 0.02, 0.005, 0.001};
@@ -22,7 +22,8 @@ std::vector<ExtremeCell> cells_of(ContactExtreme extreme, ContactMode mode, bool
   if (quick && extreme == ContactExtreme::stack_of_ten) return cells;
   for (std::size_t i = 0; i < stiffnesses.size(); ++i) {
     for (std::size_t j = 0; j < steps.size(); ++j) {
-      if ((i + j) % one_in == 0) cells.push_back({extreme, mode, stiffnesses[i], steps[j], static_cast<unsigned>(cells.size())});
+      if ((i + j) % one_in == 0)
+        cells.push_back({extreme, mode, stiffnesses[i], steps[j], static_cast<unsigned>(cells.size())});
     }
   }
   return cells;
@@ -51,8 +52,9 @@ std::vector<ExtremeRow> extremes_table(bool quick, Units& units) {
   std::size_t number = 0;
   for (const ContactMode mode : modes) {
     for (const ContactExtreme extreme : contact_extremes()) {
-      const auto rows = units.rows<ExtremeRow>(number++, "contact's extremes: " + name_of(mode) + ", " + name_of(extreme),
-                                               [&] { return rows_of(extreme, mode, quick); });
+      const auto rows =
+          units.rows<ExtremeRow>(number++, "contact's extremes: " + name_of(mode) + ", " + name_of(extreme),
+                                 [&] { return rows_of(extreme, mode, quick); });
       table.insert(table.end(), rows.begin(), rows.end());
     }
   }
@@ -61,12 +63,13 @@ std::vector<ExtremeRow> extremes_table(bool quick, Units& units) {
 
 std::string extremes_csv(const std::vector<ExtremeRow>& rows) {
   std::ostringstream out;
-  out << "extreme,contact,stiffness,step,seed,finite,bounded,penetration_um,energy_gained_um,steps_refused,steps_held_back,held\n";
+  out << "extreme,contact,stiffness,step,seed,finite,bounded,penetration_um,energy_gained_um,steps_refused,steps_held_"
+         "back,held\n";
   for (const ExtremeRow& row : rows) {
     const ExtremeOutcome& o = row.outcome;
-    out << row.extreme << ',' << row.contact << ',' << row.stiffness << ',' << row.step << ',' << row.seed << ',' << o.finite << ','
-        << o.bounded << ',' << 1e6 * o.penetration << ',' << 1e6 * o.energy_gained << ',' << o.refused << ',' << o.held_back << ','
-        << o.held() << '\n';
+    out << row.extreme << ',' << row.contact << ',' << row.stiffness << ',' << row.step << ',' << row.seed << ','
+        << o.finite << ',' << o.bounded << ',' << 1e6 * o.penetration << ',' << 1e6 * o.energy_gained << ','
+        << o.refused << ',' << o.held_back << ',' << o.held() << '\n';
   }
   return out.str();
 }

@@ -18,11 +18,12 @@ struct ExtremeRow {
 template <typename Fields>
 void each_field(ExtremeRow& r, Fields& fields) {
   ExtremeOutcome& o = r.outcome;
-  fields(r.extreme, r.contact, r.stiffness, r.step, r.seed, o.finite, o.bounded, o.penetration, o.energy_gained, o.refused, o.held_back);
+  fields(r.extreme, r.contact, r.stiffness, r.step, r.seed, o.finite, o.bounded, o.penetration, o.energy_gained,
+         o.refused, o.held_back);
 }
 
-/// Every extreme in both contact modes, with forks of 1 … 1e9 N/m and steps of 1/20 … 1/1000 s in turn. A mode that was not
-/// built has no rows. Runs on all processors at once.
+/// Every extreme in both contact modes, with forks of 1 … 1e9 N/m and steps of 1/20 … 1/1000 s in turn. A mode that was
+/// not built has no rows. Runs on all processors at once.
 std::vector<ExtremeRow> extremes_table(bool quick, Units& units);
 /// Number of units of work.
 std::size_t extreme_unit_count();

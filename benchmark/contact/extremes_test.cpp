@@ -15,8 +15,9 @@ class Extremes : public ::testing::TestWithParam<ContactMode> {
     if (extreme == ContactExtreme::stack_of_ten) {
       EXPECT_LT(o.pushed, 0.02) << stiffness;  // it stands: the hand goes 0.013 m sideways
     }
-    EXPECT_TRUE(o.held()) << name_of(extreme) << " on " << stiffness << " N/m, seed " << seed << ": " << 1e6 * o.penetration
-                          << " µm deep, " << 1e6 * o.energy_gained << " µm gained, " << o.refused << " refused";
+    EXPECT_TRUE(o.held()) << name_of(extreme) << " on " << stiffness << " N/m, seed " << seed << ": "
+                          << 1e6 * o.penetration << " µm deep, " << 1e6 * o.energy_gained << " µm gained, " << o.refused
+                          << " refused";
     EXPECT_EQ(o.held_back, 0) << name_of(extreme) << ' ' << stiffness << ' ' << seed;
     if (GetParam() == ContactMode::stop) {
       EXPECT_LT(o.penetration, 2.1e-5) << name_of(extreme) << ' ' << stiffness << ' ' << seed;

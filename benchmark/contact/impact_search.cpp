@@ -26,8 +26,9 @@ MeshPtr box_mesh(const Vector3d& box) {
   for (int i = 0; i < 8; ++i) {
     mesh->vertices.push_back(0.5 * box.cwiseProduct(Vector3d((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1)));
   }
-  for (const Eigen::Vector4i& f : {Eigen::Vector4i(0, 2, 3, 1), Eigen::Vector4i(4, 5, 7, 6), Eigen::Vector4i(0, 1, 5, 4),
-                                   Eigen::Vector4i(2, 6, 7, 3), Eigen::Vector4i(0, 4, 6, 2), Eigen::Vector4i(1, 3, 7, 5)}) {
+  for (const Eigen::Vector4i& f :
+       {Eigen::Vector4i(0, 2, 3, 1), Eigen::Vector4i(4, 5, 7, 6), Eigen::Vector4i(0, 1, 5, 4),
+        Eigen::Vector4i(2, 6, 7, 3), Eigen::Vector4i(0, 4, 6, 2), Eigen::Vector4i(1, 3, 7, 5)}) {
     mesh->triangles.emplace_back(f[0], f[1], f[2]);
     mesh->triangles.emplace_back(f[0], f[2], f[3]);
   }
@@ -62,9 +63,11 @@ std::vector<Pair> pairs() {
   };
   std::vector<Pair> all;
   all.push_back({"box on bench", world_of({body_of("box", Box{size}, start, true)}, 0.0)});
-  all.push_back({"box on box", world_of({body_of("box", Box{size}, start, true), body_of("floor", Box{floor}, below, false)}, -9.0)});
-  all.push_back({"mesh on mesh", world_of({body_of("box", box_mesh(size), start, true),
-                                           body_of("floor", box_mesh(floor), below, false)}, -9.0)});
+  all.push_back({"box on box",
+                 world_of({body_of("box", Box{size}, start, true), body_of("floor", Box{floor}, below, false)}, -9.0)});
+  all.push_back(
+      {"mesh on mesh",
+       world_of({body_of("box", box_mesh(size), start, true), body_of("floor", box_mesh(floor), below, false)}, -9.0)});
   return all;
 }
 

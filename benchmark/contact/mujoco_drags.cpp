@@ -38,9 +38,9 @@ std::string model_of(const DragScene& s) {
       << "/><worldbody><geom type=\"plane\" size=\"5 5 1\" friction=\"" << s.friction << "\"/><body>"
       << joints("slide", 0.0, 0.0, hand_inertia) << "<inertial mass=\"1\" diaginertia=\"1 1 1\" pos=\"0 0 0\"/><body>"
       << joints("slide", s.stiffness(), s.damping(), 0.0)
-      << (s.turns ? joints("hinge", s.turning_stiffness(), s.turning_damping(), 0.0) : "") << "<inertial mass=\"" << s.mass
-      << "\" diaginertia=" << triple(s.inertia()) << " pos=\"0 0 0\"/><geom type=\"box\" size="
-      << triple(Vector3d(0.5 * s.size)) << " friction=\"" << s.friction
+      << (s.turns ? joints("hinge", s.turning_stiffness(), s.turning_damping(), 0.0) : "") << "<inertial mass=\""
+      << s.mass << "\" diaginertia=" << triple(s.inertia())
+      << " pos=\"0 0 0\"/><geom type=\"box\" size=" << triple(Vector3d(0.5 * s.size)) << " friction=\"" << s.friction
       << "\"/></body></body></worldbody></mujoco>";
   return out.str();
 }
@@ -77,10 +77,11 @@ class MujocoDrag final : public DragWorld {
   }
   RigidTransform box() const override {
     const mjtNum* q = data_->qpos;
-    const Matrix3d R = !scene_.turns ? Matrix3d::Identity().eval()
-                                     : (Eigen::AngleAxisd(q[6], Vector3d::UnitX()) * Eigen::AngleAxisd(q[7], Vector3d::UnitY()) *
-                                        Eigen::AngleAxisd(q[8], Vector3d::UnitZ()))
-                                           .toRotationMatrix();
+    const Matrix3d R = !scene_.turns
+                           ? Matrix3d::Identity().eval()
+                           : (Eigen::AngleAxisd(q[6], Vector3d::UnitX()) * Eigen::AngleAxisd(q[7], Vector3d::UnitY()) *
+                              Eigen::AngleAxisd(q[8], Vector3d::UnitZ()))
+                                 .toRotationMatrix();
     return make_transform(Quaterniond(R), Vector3d(q[0] + q[3], q[1] + q[4], q[2] + q[5]));
   }
 

@@ -8,8 +8,9 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-/// The box on a kinematic hand by motors whose rows are implicit spring-dampers: ERP = h k / (h k + c) as target velocity
-/// ERP x / h, CFM = 1 / (h k + c). Contact by up to eight points with Coulomb's law as a pyramid. Direct solver.
+/// The box on a kinematic hand by motors whose rows are implicit spring-dampers: ERP = h k / (h k + c) as target
+/// velocity ERP x / h, CFM = 1 / (h k + c). Contact by up to eight points with Coulomb's law as a pyramid. Direct
+/// solver.
 class OdeDrag final : public DragWorld {
  public:
   explicit OdeDrag(const DragScene& scene) : scene_(scene) {
@@ -72,7 +73,8 @@ class OdeDrag final : public DragWorld {
   }
 
  private:
-  static void set_rows(dJointID joint, void (*set)(dJointID, int, dReal), const Vector3d& x, double k, double c, double h) {
+  static void set_rows(dJointID joint, void (*set)(dJointID, int, dReal), const Vector3d& x, double k, double c,
+                       double h) {
     for (int i = 0; i < 3; ++i) {
       set(joint, dParamVel + dParamGroup * i, k / (h * k + c) * x[i]);  // of the hand against the box
       set(joint, dParamCFM + dParamGroup * i, 1.0 / (h * k + c));

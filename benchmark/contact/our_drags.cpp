@@ -7,8 +7,8 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double sample_time = 0.02;   // s
-constexpr double slab_mass = 1000.0;   // kg
+constexpr double sample_time = 0.02;      // s
+constexpr double slab_mass = 1000.0;      // kg
 const Vector3d slab_size(2.0, 1.0, 0.1);  // m
 
 Scene scene_of(const DragScene& drag, ContactMode contact) {
@@ -32,8 +32,9 @@ Scene scene_of(const DragScene& drag, ContactMode contact) {
     slab.name = "slab";
     slab.X_WO.translation().z() = -0.5 * slab_size.z();
     slab.mass_properties.mass = slab_mass;
-    slab.mass_properties.inertia_O = slab_mass / 12.0 * (slab_size.squaredNorm() * Matrix3d::Identity() -
-                                                         Matrix3d(slab_size.cwiseAbs2().asDiagonal()));
+    slab.mass_properties.inertia_O =
+        slab_mass / 12.0 *
+        (slab_size.squaredNorm() * Matrix3d::Identity() - Matrix3d(slab_size.cwiseAbs2().asDiagonal()));
     slab.collision = {{Box{slab_size}}};
     scene.bodies.push_back(slab);
     scene.bench_height = -slab_size.z();

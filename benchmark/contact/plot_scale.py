@@ -11,7 +11,9 @@ import matplotlib.pyplot as plt
 with open(sys.argv[1]) as file:
     rows = list(csv.DictReader(file))
 figure, axes = plt.subplots(1, 3, figsize=(11, 3.2))
-for axis, (column, label) in zip(axes, [("step_us", "step of 20 ms [µs]"), ("start_ms", "start [ms]"), ("memory_MB", "memory [MB]")]):
+for axis, (column, label) in zip(
+    axes, [("step_us", "step of 20 ms [µs]"), ("start_ms", "start [ms]"), ("memory_MB", "memory [MB]")]
+):
     for mode in dict.fromkeys(row["contact"] for row in rows):
         of_mode = [row for row in rows if row["contact"] == mode]
         axis.plot([int(row["objects"]) for row in of_mode], [float(row[column]) for row in of_mode], "o-", label=mode)

@@ -58,7 +58,8 @@ ScaleRow measure(ContactMode contact, int objects) {
   double used = 0.0;
   for (int i = 0; i < steps_warm + windows * steps_a_window; ++i) {
     const double t = sample_time * i, lifted = std::min(1.0, t / 0.2);
-    const Vector3d p(0.1 * std::sin(3.0 * t), 0.1 * std::sin(4.0 * t), 0.5 * edge + 0.06 * lifted + settings.fork.length);
+    const Vector3d p(0.1 * std::sin(3.0 * t), 0.1 * std::sin(4.0 * t),
+                     0.5 * edge + 0.06 * lifted + settings.fork.length);
     simulation.push_stylus({t, make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), p)});
     const double step_begin = processor_time();
     simulation.advance(t);

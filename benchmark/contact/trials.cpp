@@ -20,16 +20,16 @@ constexpr const char* where = "command line";
 int count_at(const std::vector<std::string>& arguments, std::size_t index, int otherwise) {
   if (index >= arguments.size()) return otherwise;
   const std::string& text = arguments[index];
-  const bool digits = !text.empty() && text.size() < 9 && std::all_of(text.begin(), text.end(), [](unsigned char c) {
-    return c >= '0' && c <= '9';
-  });
+  const bool digits = !text.empty() && text.size() < 9 &&
+                      std::all_of(text.begin(), text.end(), [](unsigned char c) { return c >= '0' && c <= '9'; });
   if (!digits) refuse(where, "argument", text, "a whole number");
   return std::stoi(text);
 }
 
 void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes, const std::vector<ContactMode>& modes,
               std::ostream& out) {
-  out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,held_back,refused,cpu_s_per_motion\n";
+  out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,held_back,refused,cpu_s_per_"
+         "motion\n";
   for (const ContactMode mode : modes) {
     for (const WildScene scene : scenes) {
       WildResult sum;
@@ -128,14 +128,16 @@ void run_scale(int most, std::ostream& out) {
 void run_contact_trials(const std::vector<std::string>& arguments, std::ostream& out) {
   const std::string what = arguments.empty() ? "" : arguments[0];
   if (what == "wild" && arguments.size() <= 5) {
-    run_wild(count_at(arguments, 1, 100), count_at(arguments, 2, 0), scenes_at(arguments, 3), modes_at(arguments, 4), out);
+    run_wild(count_at(arguments, 1, 100), count_at(arguments, 2, 0), scenes_at(arguments, 3), modes_at(arguments, 4),
+             out);
   } else if (what == "record" && arguments.size() == 6) {
     record(arguments[1], scenes_at(arguments, 2).front(), modes_at(arguments, 3).front(), count_at(arguments, 4, 0),
            count_at(arguments, 5, 0), out);
   } else if (what == "scale" && arguments.size() <= 2) {
     run_scale(count_at(arguments, 1, 10000), out);
   } else {
-    refuse(where, "arguments", what, "wild [N [FIRST_SEED [SCENE [CONTACT]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED, or scale [MOST]");
+    refuse(where, "arguments", what,
+           "wild [N [FIRST_SEED [SCENE [CONTACT]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED, or scale [MOST]");
   }
 }
 

@@ -15,13 +15,13 @@ namespace {
 
 constexpr double sample_time = 0.02, duration = 0.2;
 constexpr double most_speed = 5.0, most_turning = 50.0;
-constexpr double hand_reach = 0.35;                            // m from the middle; there the hand turns back
-const Vector3d middle(0.0, 0.0, 1.0);                          // of the scene, m
-const Vector3d rod_size(0.3, 0.01, 0.01);                      // m
-constexpr double room = 0.25, wall = 0.001;                    // m: from the middle to a wall's middle, its thickness
-constexpr double ring_radius = 0.05, tube_radius = 0.01;       // m
+constexpr double hand_reach = 0.35;                       // m from the middle; there the hand turns back
+const Vector3d middle(0.0, 0.0, 1.0);                     // of the scene, m
+const Vector3d rod_size(0.3, 0.01, 0.01);                 // m
+constexpr double room = 0.25, wall = 0.001;               // m: from the middle to a wall's middle, its thickness
+constexpr double ring_radius = 0.05, tube_radius = 0.01;  // m
 constexpr int ring_segments = 24, tube_segments = 12;
-constexpr double pin_radius = 0.005, pin_length = 4.0;         // m, of the rod through the ring
+constexpr double pin_radius = 0.005, pin_length = 4.0;  // m, of the rod through the ring
 
 Body fixed(const std::string& name, const Geometry& geometry, const RigidTransform& X_WO) {
   Body body;
@@ -120,8 +120,8 @@ Setting set_scene(const WildMotion& motion, const Matrix3d& R_scene, const Matri
         Vector3d size = Vector3d::Constant(2.0 * room + 0.1), p = Vector3d::Zero();
         size[axis] = wall;
         p[axis] = side;
-        s.scene.bodies.push_back(fixed("wall" + std::to_string(s.scene.bodies.size()), Box{size},
-                                       s.X_WF * Eigen::Translation3d(p)));
+        s.scene.bodies.push_back(
+            fixed("wall" + std::to_string(s.scene.bodies.size()), Box{size}, s.X_WF * Eigen::Translation3d(p)));
       }
     }
   } else {
@@ -161,8 +161,10 @@ const std::vector<WildScene>& wild_scenes() {
 
 std::string name_of(WildScene scene) {
   switch (scene) {
-    case WildScene::rod_in_room: return "rod_in_room";
-    case WildScene::ring_on_rod: return "ring_on_rod";
+    case WildScene::rod_in_room:
+      return "rod_in_room";
+    case WildScene::ring_on_rod:
+      return "ring_on_rod";
   }
   throw std::logic_error("a scene without a name");
 }

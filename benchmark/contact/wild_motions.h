@@ -23,12 +23,12 @@ struct WildMotion {
 };
 
 struct WildResult {
-  double penetration = 0.0;      ///< largest, looked for every 2 ms [m]; exact, from the shapes' own geometry
-  bool passed_through = false;   ///< outside at the end, or no longer linked
-  double seconds = 0.0;          ///< processor time
+  double penetration = 0.0;     ///< largest, looked for every 2 ms [m]; exact, from the shapes' own geometry
+  bool passed_through = false;  ///< outside at the end, or no longer linked
+  double seconds = 0.0;         ///< processor time
   int steps = 0;
-  int held_back = 0;             ///< steps
-  int refused = 0;               ///< steps
+  int held_back = 0;  ///< steps
+  int refused = 0;    ///< steps
 };
 
 WildResult run(const WildMotion& motion);

@@ -15,7 +15,8 @@ namespace {
 constexpr double g = 9.81, mu = 0.4, restitution = 0.7, radius = 0.05;  // m/s², –, –, m
 constexpr double speed = 1.5, drop = 0.5;                               // m/s, m
 
-Body body_of(const std::string& name, const Geometry& geometry, double mass, const Vector3d& inertia, const Vector3d& p_WO) {
+Body body_of(const std::string& name, const Geometry& geometry, double mass, const Vector3d& inertia,
+             const Vector3d& p_WO) {
   Body body;
   body.name = name;
   body.movable = true;
@@ -51,9 +52,9 @@ Scene scene_of(std::vector<Body> bodies, double bounce = 0.0) {
 struct Alone {
   std::string name;
   Scene scene;
-  Vector3d v;                                     ///< at the start [m/s]
-  double duration;                                ///< [s]
-  std::function<Vector3d(double t)> p_exact;      ///< of the centre [m]
+  Vector3d v;                                 ///< at the start [m/s]
+  double duration;                            ///< [s]
+  std::function<Vector3d(double t)> p_exact;  ///< of the centre [m]
 };
 
 std::vector<Alone> scenes_alone() {
@@ -72,9 +73,10 @@ std::vector<Alone> scenes_alone() {
     for (; left > 2.0 * v / g; v *= restitution) left -= 2.0 * v / g;
     return along(radius + v * left - 0.5 * g * left * left, 0.0);
   };
-  return {{"box slides and stops", scene_of({box("box", 0.1, Vector3d(0, 0, 0.05))}), Vector3d(speed, 0, 0), 0.6, slides},
-          {"sphere slips, then rolls", scene_of({ball(radius)}), Vector3d(speed, 0, 0), 0.6, rolls},
-          {"sphere bounces", scene_of({ball(radius + drop)}, restitution), Vector3d::Zero(), 1.2, bounces}};
+  return {
+      {"box slides and stops", scene_of({box("box", 0.1, Vector3d(0, 0, 0.05))}), Vector3d(speed, 0, 0), 0.6, slides},
+      {"sphere slips, then rolls", scene_of({ball(radius)}), Vector3d(speed, 0, 0), 0.6, rolls},
+      {"sphere bounces", scene_of({ball(radius + drop)}, restitution), Vector3d::Zero(), 1.2, bounces}};
 }
 
 WorldStepRow run_alone(const Alone& s, double step) {
@@ -113,7 +115,8 @@ Push push(double step) {
   SimulationSettings set;
   set.grasp.object = "pusher";
   set.dynamics.step = step;
-  Simulation simulation(scene_of({box("pusher", edge, Vector3d(0, 0, 0.06)), box("pushed", edge, Vector3d(0.15, 0, 0.05))}), set);
+  Simulation simulation(
+      scene_of({box("pusher", edge, Vector3d(0, 0, 0.06)), box("pushed", edge, Vector3d(0.15, 0, 0.05))}), set);
   const int samples = static_cast<int>(std::lround(push_duration / sample_time));
   Push run;
   for (int i = 0; i <= samples; ++i) {
@@ -157,12 +160,14 @@ bool has_dynamic_contact() {
 std::vector<WorldStepRow> measure_world_steps(bool quick) {
   std::vector<WorldStepRow> rows;
   if (!has_dynamic_contact()) return rows;
-  const std::vector<double> alone = quick ? std::vector<double>{1e-2, 2e-3, 5e-4} : std::vector<double>{2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4};
+  const std::vector<double> alone = quick ? std::vector<double>{1e-2, 2e-3, 5e-4}
+                                          : std::vector<double>{2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4};
   for (const Alone& scene : scenes_alone()) {
     for (const double step : alone) rows.push_back(run_alone(scene, step));
   }
-  add_pushes(quick ? std::vector<double>{2e-2, 2e-3, 1e-3} : std::vector<double>{2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2.5e-4},
-             quick ? 2.5e-4 : 1e-4, rows);
+  add_pushes(
+      quick ? std::vector<double>{2e-2, 2e-3, 1e-3} : std::vector<double>{2e-2, 1e-2, 5e-3, 2e-3, 1e-3, 5e-4, 2.5e-4},
+      quick ? 2.5e-4 : 1e-4, rows);
   return rows;
 }
 

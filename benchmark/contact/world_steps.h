@@ -20,9 +20,9 @@ void each_field(WorldStepRow& r, Fields& fields) {
   fields(r.scene, r.against, r.step, r.error, r.error_share, r.cpu_us_per_simulated_second);
 }
 
-/// A box that slides and stops, a sphere that slips and then rolls, and one that bounces, in the world alone and against
-/// their exact solutions; a held box that pushes another, through Simulation, against a run with steps of 0.1 ms. Empty
-/// where there is no Bullet. `quick`: fewer steps.
+/// A box that slides and stops, a sphere that slips and then rolls, and one that bounces, in the world alone and
+/// against their exact solutions; a held box that pushes another, through Simulation, against a run with steps of 0.1
+/// ms. Empty where there is no Bullet. `quick`: fewer steps.
 std::vector<WorldStepRow> measure_world_steps(bool quick);
 
 /// Whether there is contact mode `dynamic` in this build.

@@ -74,7 +74,8 @@ int main(int argc, char** argv) {
   FastrakSimulator simulator(FastrakDevice({motion}), LineFaults(), port);
   const auto held = [&] { return !ros::ok() || !observer.seen().empty(); };
   try {
-    const std::vector<Moment> written = play(simulator, motion, {rate, kSettle, kSettle + length, 2.0 * kSettle + length}, held);
+    const std::vector<Moment> written =
+        play(simulator, motion, {rate, kSettle, kSettle + length, 2.0 * kSettle + length}, held);
     const std::vector<Moment> seen = observer.seen();
     const double offset = seen.empty() ? 0.0 : seen.back().x - (0.3 + kSpeed * length);  // in the end both are at rest
     const std::vector<double> all = latencies(written, seen, offset);

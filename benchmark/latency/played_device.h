@@ -21,13 +21,14 @@ struct Playing {
   double begin = 0.0, end = 0.0, until = 0.0;
 };
 
-/// Plays the device in real time, in which station 1 has `motion`; first it is served until `ready` says so. Gives the moments
-/// at which records of the moving hand were written.
+/// Plays the device in real time, in which station 1 has `motion`; first it is served until `ready` says so. Gives the
+/// moments at which records of the moving hand were written.
 std::vector<Moment> play(FastrakSimulator& simulator, const PlayedMotion& motion, const Playing& playing,
                          const std::function<bool()>& ready);
 
-/// From each record to the first of those moments seen that have gone as far for good [s], in ascending order. `offset`: how
-/// far what is seen is from the hand along x [m]. Throws std::runtime_error where hardly any record was seen.
+/// From each record to the first of those moments seen that have gone as far for good [s], in ascending order.
+/// `offset`: how far what is seen is from the hand along x [m]. Throws std::runtime_error where hardly any record was
+/// seen.
 std::vector<double> latencies(const std::vector<Moment>& written, std::vector<Moment> seen, double offset);
 
 /// Of values in ascending order, the one that `part` (0 … 1) of them do not exceed.

@@ -1,4 +1,5 @@
 #include <ros/ros.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <exception>
@@ -12,24 +13,22 @@
 #include <string>
 #include <vector>
 
-#include <unistd.h>
-
 #include "benchmark/latency/played_device.h"
 #include "spring_workbench/ForkState.h"
 #include "spring_workbench/StepReport.h"
 #include "spring_workbench/scene/scene.h"
 
-// What the running nodes cost: one or two hands each take an object of the scene, press it on what it stands on and push it
-// along x, behind a simulated device. doc/load.md says what is measured.
+// What the running nodes cost: one or two hands each take an object of the scene, press it on what it stands on and
+// push it along x, behind a simulated device. doc/load.md says what is measured.
 
 namespace {
 
 using namespace spring_workbench;
 using namespace spring_workbench::benchmark;
 
-constexpr double kSpeed = 0.01;                                     // [m/s] along x
-constexpr double kReach = 0.2;                                      // [m] of the fork, from the handle to the tip
-constexpr double kAbove = 0.15, kPressed = 0.005;                   // [m]
+constexpr double kSpeed = 0.01;                                        // [m/s] along x
+constexpr double kReach = 0.2;                                         // [m] of the fork, from the handle to the tip
+constexpr double kAbove = 0.15, kPressed = 0.005;                      // [m]
 constexpr double kDown = 1.0, kGrasp = 1.5, kBegin = 2.5, kEnd = 2.0;  // [s]
 
 /// Down to an object, in which the tip then is; grasps, presses, goes evenly along x, and rests.
@@ -91,7 +90,9 @@ class Observer {
     const std::lock_guard<std::mutex> lock(mutex_);
     return use();
   }
-  bool sees_hand() const { return locked([this] { return !seen.empty(); }); }
+  bool sees_hand() const {
+    return locked([this] { return !seen.empty(); });
+  }
 
   // Under the lock.
   std::vector<Moment> seen;          ///< of the first hand
@@ -141,8 +142,8 @@ std::vector<Vector3d> objects_of(const Scene& scene, std::size_t count) {
   return places;
 }
 
-/// Start [ms], memory [MB], cycles, 50, 99 and 99.9 % of their time [µs], deadlines missed, 50 %, 99 % and longest latency [ms],
-/// parts that ran, and parts that never did.
+/// Start [ms], memory [MB], cycles, 50, 99 and 99.9 % of their time [µs], deadlines missed, 50 %, 99 % and longest
+/// latency [ms], parts that ran, and parts that never did.
 void tell(Observer& observer, const Process& process, const std::vector<double>& all, std::ostream& out) {
   observer.locked([&] {
     std::vector<double>& steps = observer.step_times;
@@ -171,7 +172,8 @@ int main(int argc, char** argv) {
   try {
     const Scene scene = load_scene(parameters.param<std::string>("scene", ""));
     std::vector<PlayedMotion> motions;
-    for (const Vector3d& place : objects_of(scene, static_cast<std::size_t>(hands))) motions.push_back(work_at(place, length));
+    for (const Vector3d& place : objects_of(scene, static_cast<std::size_t>(hands)))
+      motions.push_back(work_at(place, length));
     FastrakSimulator simulator(FastrakDevice(motions, {1, 2}), LineFaults(), port);
     const Playing playing{rate, kBegin, kBegin + length, kBegin + length + kEnd};
     const std::vector<Moment> written =

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Runs the node `load` (main.cpp) against manipulation and tracker_driver, one case after the other, on a ROS master of its own, and
-writes the tables into the document between its marks. scripts/load calls it."""
+"""Runs the node `load` (main.cpp) against manipulation and tracker_driver, one case after the other, on a ROS master
+of its own, and writes the tables into the document between its marks. scripts/load calls it."""
 import argparse
 import math
 import os
@@ -19,7 +19,8 @@ DEADLINE = 60.0  # [s]
 SCENES = ["single_box", "mini_world"]
 CONTACTS = ["none", "stop", "dynamic"]
 RATES = [(50, 100), (120, 100), (1000, 1000)]  # of the tracker for each hand, and of manipulation [Hz]
-GRID_LINK = """<link name="box%d"><inertial><mass value="0.1"/><inertia ixx="3e-5" iyy="3e-5" izz="3e-5" ixy="0" ixz="0" iyz="0"/>
+GRID_LINK = """<link name="box%d"><inertial><mass value="0.1"/>
+                      <inertia ixx="3e-5" iyy="3e-5" izz="3e-5" ixy="0" ixz="0" iyz="0"/>
 </inertial><visual><geometry><box size="0.04 0.04 0.04"/></geometry></visual>
 <collision><geometry><box size="0.04 0.04 0.04"/></geometry></collision></link>
 <joint name="j%d" type="floating"><parent link="workbench"/><child link="box%d"/><origin xyz="%g %g 0.02"/></joint>
@@ -44,10 +45,13 @@ class Master:
             s.bind(("", 0))
             port = s.getsockname()[1]
         self.environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port)
-        self.process = subprocess.Popen(["roscore", "-p", str(port)], env=self.environment, stdout=subprocess.DEVNULL,
-                                        stderr=subprocess.DEVNULL)
+        self.process = subprocess.Popen(
+            ["roscore", "-p", str(port)], env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+        )
         end = time.monotonic() + DEADLINE
-        while subprocess.run(["rosparam", "list"], env=self.environment, capture_output=True, check=False).returncode != 0:
+        while (
+            subprocess.run(["rosparam", "list"], env=self.environment, capture_output=True, check=False).returncode != 0
+        ):
             if time.monotonic() > end:
                 raise RuntimeError("no ROS master")
         return self
@@ -59,8 +63,13 @@ class Master:
     def start(self, program, **parameters):
         text = "{%s}" % ", ".join("%s: %s" % (key, value) for key, value in parameters.items())
         subprocess.run(["rosparam", "set", "/" + program, text], env=self.environment, check=True)
-        return subprocess.Popen([str(PROGRAMS / program)], env=self.environment, stdout=subprocess.DEVNULL,
-                                stderr=subprocess.PIPE, text=True)
+        return subprocess.Popen(
+            [str(PROGRAMS / program)],
+            env=self.environment,
+            stdout=subprocess.DEVNULL,
+            stderr=subprocess.PIPE,
+            text=True,
+        )
 
     def forget(self):
         for node in ["manipulation", "tracker_driver", "load"]:
@@ -78,8 +87,16 @@ def measure(master, folder, scene, contact, hands, rate, physics_rate, length):
             raise RuntimeError("no device: " + load.communicate()[1])
         time.sleep(0.01)
     both = [1, 2][:hands]
-    driver = master.start("tracker_driver", source="fastrak", port=port, baud=115200, stations=both, stylus=both,
-                          hemisphere="0 0 1", offset="0 0 0 0 0 0 1")
+    driver = master.start(
+        "tracker_driver",
+        source="fastrak",
+        port=port,
+        baud=115200,
+        stations=both,
+        stylus=both,
+        hemisphere="0 0 1",
+        offset="0 0 0 0 0 0 1",
+    )
     try:
         said = load.communicate(timeout=length + DEADLINE)[1]
         if load.returncode != 0:
@@ -103,7 +120,9 @@ def scenes_table(master, folder, length):
             f = measure(master, folder, ROOT / "scenes" / (name + ".urdf"), contact, 1, 120, 100, min(length, 5.0))
             rows.append([name, contact, f[10], f[11], "%.0f" % float(f[3]), "%.0f" % float(f[0]), "%.1f" % float(f[1])])
             print("| " + " | ".join(rows[-1]) + " |", flush=True)
-    return table(["scene", "contact", "parts run", "parts left out", "cycle, median [µs]", "start [ms]", "resident [MB]"], rows)
+    return table(
+        ["scene", "contact", "parts run", "parts left out", "cycle, median [µs]", "start [ms]", "resident [MB]"], rows
+    )
 
 
 def load_table(master, folder, length):
@@ -112,17 +131,46 @@ def load_table(master, folder, length):
         for hands in [1, 2]:
             for rate, physics_rate in RATES:
                 f = measure(master, folder, scene, "stop", hands, rate, physics_rate, length)
-                rows.append([name, str(hands), str(rate), str(physics_rate), *["%.0f" % float(x) for x in f[3:6]],
-                             "%s of %s" % (f[6], f[2]), *["%.1f" % float(x) for x in f[7:10]], "%.1f" % float(f[1])])
+                rows.append(
+                    [
+                        name,
+                        str(hands),
+                        str(rate),
+                        str(physics_rate),
+                        *["%.0f" % float(x) for x in f[3:6]],
+                        "%s of %s" % (f[6], f[2]),
+                        *["%.1f" % float(x) for x in f[7:10]],
+                        "%.1f" % float(f[1]),
+                    ]
+                )
                 print("| " + " | ".join(rows[-1]) + " |", flush=True)
-    return table(["scene", "hands", "tracker [Hz]", "manipulation [Hz]", "cycle 50 % [µs]", "99 %", "99.9 %", "deadlines missed",
-                  "latency 50 % [ms]", "99 %", "longest", "resident [MB]"], rows)
+    return table(
+        [
+            "scene",
+            "hands",
+            "tracker [Hz]",
+            "manipulation [Hz]",
+            "cycle 50 % [µs]",
+            "99 %",
+            "99.9 %",
+            "deadlines missed",
+            "latency 50 % [ms]",
+            "99 %",
+            "longest",
+            "resident [MB]",
+        ],
+        rows,
+    )
 
 
 def machine():
     with open("/proc/cpuinfo") as file:
         model = re.search(r"model name\s*: (.*)", file.read())
-    return "%s, %d processors, Linux %s" % (model.group(1) if model else platform.machine(), os.cpu_count(), platform.release())
+    return "%s, %d processors, Linux %s" % (
+        model.group(1) if model else platform.machine(),
+        os.cpu_count(),
+        platform.release(),
+    )
 
 
 def main():
@@ -131,8 +179,11 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=ROOT / "doc/load.md")
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder, Master() as master:
-        sections = {"scenes": scenes_table(master, pathlib.Path(folder), arguments.length),
-                    "load": load_table(master, pathlib.Path(folder), arguments.length), "machine": machine()}
+        sections = {
+            "scenes": scenes_table(master, pathlib.Path(folder), arguments.length),
+            "load": load_table(master, pathlib.Path(folder), arguments.length),
+            "machine": machine(),
+        }
     text = (ROOT / "doc/load.md").read_text()
     for name, content in sections.items():
         mark = "<!-- %s -->" % name

@@ -17,8 +17,8 @@ Shard shard_of(const std::string& text) {
   Shard shard;
   char slash = 0, rest = 0;
   const bool digits = text.find_first_not_of("0123456789/") == std::string::npos && text.size() < 12;
-  if (!digits || std::sscanf(text.c_str(), "%zu%c%zu%c", &shard.index, &slash, &shard.count, &rest) != 3 || slash != '/' ||
-      shard.index < 1 || shard.index > shard.count || shard.count > kMost) {
+  if (!digits || std::sscanf(text.c_str(), "%zu%c%zu%c", &shard.index, &slash, &shard.count, &rest) != 3 ||
+      slash != '/' || shard.index < 1 || shard.index > shard.count || shard.count > kMost) {
     refuse(kWhere, "--shard", text, "I/N with 1 <= I <= N <= 10000");
   }
   return shard;
@@ -47,7 +47,8 @@ ReportOptions parse_report_options(int argc, char** argv) {
       refuse(kWhere, "argument", argument, "one of --quick, --out DIR, --shard I/N, --merge PART...");
     }
   }
-  if (options.shard && has_out) refuse(kWhere, "--shard, --out", "both", "one of both: a shard goes to the standard output");
+  if (options.shard && has_out)
+    refuse(kWhere, "--shard, --out", "both", "one of both: a shard goes to the standard output");
   if (!options.parts.empty() && (options.shard || options.quick)) {
     refuse(kWhere, "--merge", "together with --shard or --quick", "without: the files say what they are");
   }

@@ -16,7 +16,8 @@ struct ReportOptions {
   std::vector<std::string> parts;  ///< files of all shards, to be merged; empty: none
 };
 
-/// Throws InputError for anything but `[--quick] [--out DIR]`, `[--quick] --shard I/N` or `[--out DIR] --merge PART...`.
+/// Throws InputError for anything but `[--quick] [--out DIR]`, `[--quick] --shard I/N` or `[--out DIR] --merge
+/// PART...`.
 ReportOptions parse_report_options(int argc, char** argv);
 
 /// Makes the folder where it is not there. Throws InputError where it cannot be made or written.

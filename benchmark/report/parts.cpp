@@ -40,7 +40,8 @@ class PartFile {
 
   std::string line() {
     std::string text;
-    if (!std::getline(file_, text) || file_.eof()) refuse(where(), "end of the file", "here", "after all rows: the shard was not done");
+    if (!std::getline(file_, text) || file_.eof())
+      refuse(where(), "end of the file", "here", "after all rows: the shard was not done");
     ++line_;
     return text;
   }

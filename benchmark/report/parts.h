@@ -22,9 +22,9 @@ struct ReportPart {
 /// As text that read_parts() reads: lines, with tabs between what stands in them; its last line says that it is all.
 void write_part(const ReportPart& part, std::ostream& out);
 
-/// The parts in these files together: facts and warnings that differ stand beside each other, the seconds are the longest.
-/// Throws InputError for a file that is not a part or not a whole one, parts of different reports, and where a shard is missing
-/// or there twice.
+/// The parts in these files together: facts and warnings that differ stand beside each other, the seconds are the
+/// longest. Throws InputError for a file that is not a part or not a whole one, parts of different reports, and where a
+/// shard is missing or there twice.
 ReportPart read_parts(const std::vector<std::string>& paths);
 
 }  // namespace spring_workbench::benchmark

@@ -14,8 +14,8 @@ struct Picture {
   std::string caption;
 };
 
-/// Draws into `folder` by the Python script that stands beside the package. Path of the PNG file; empty where it did not
-/// come about, which is said on stderr: without Python 3 and matplotlib (package python3-matplotlib).
+/// Draws into `folder` by the Python script that stands beside the package. Path of the PNG file; empty where it did
+/// not come about, which is said on stderr: without Python 3 and matplotlib (package python3-matplotlib).
 std::string draw(const Picture& picture, const std::string& folder);
 
 }  // namespace spring_workbench::benchmark

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Draws the report's pictures from its CSV files, without a display.
 Usage: plot_report.py scene    error_table.csv PICTURE.png SCENE    a column per stiffness, a row per measure of error
-       plot_report.py overview error_table.csv PICTURE.png          scene C x 1 and x 100: ours and the best of each peer
-       plot_report.py rods     rod_table.csv PICTURE.png            a panel per case, a line per integrator
+       plot_report.py overview error_table.csv PICTURE.png          scene C x 1 and x 100: ours and the best of each
+       peer plot_report.py rods     rod_table.csv PICTURE.png            a panel per case, a line per integrator
        plot_report.py shapes   elastica.csv PICTURE.png rod_table.csv  error of the model beside that of integration
        plot_report.py tolerance rod_table.csv PICTURE.png           error reached against tolerance asked
        plot_report.py stability stability_map.csv PICTURE.png contact_extremes.csv
@@ -21,16 +21,24 @@ matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
 
 LEAST_ERROR = 1e-13  # smaller ones are drawn here
-MEASURES = {"error_over_hand_amplitude": "largest error / hand's amplitude",
-            "error_over_largest_deflection": "largest error / largest deflection"}
+MEASURES = {
+    "error_over_hand_amplitude": "largest error / hand's amplitude",
+    "error_over_largest_deflection": "largest error / largest deflection",
+}
 TIME = "wall_us_per_simulated_second"
 TIME_LABEL = "run time [µs per simulated second]"
 OURS = ["#d62728", "#1f77b4", "#2ca02c", "#9467bd", "#8c564b", "#e377c2", "#17becf", "#bcbd22"]
 PEERS = ["#ff7f0e", "#7f7f7f", "#2ca02c", "#1f77b4", "#9467bd", "#8c564b", "#17becf", "#bcbd22"]
 DEFAULT = "exponential"
 MARKERS = "s^vD<>pPX*hd"
-ENGINES = {"bullet": "Bullet", "mujoco": "MuJoCo", "ode": "ODE", "dart": "DART", "cvode": "CVODE",
-           "hand": "hand-written"}
+ENGINES = {
+    "bullet": "Bullet",
+    "mujoco": "MuJoCo",
+    "ode": "ODE",
+    "dart": "DART",
+    "cvode": "CVODE",
+    "hand": "hand-written",
+}
 
 
 def read(path):
@@ -75,15 +83,22 @@ def save(figure, picture, legend_from, right=False):
     if right:
         share = 1.0 - 2.9 / figure.get_figwidth()
         figure.tight_layout(rect=(0, 0, share, 1))
-        figure.legend([handles[label] for label in labels], labels, loc="center left", bbox_to_anchor=(share, 0.5),
-                      frameon=False, fontsize=9)
+        figure.legend(
+            [handles[label] for label in labels],
+            labels,
+            loc="center left",
+            bbox_to_anchor=(share, 0.5),
+            frameon=False,
+            fontsize=9,
+        )
     elif labels:
         columns = min(6, len(labels))
         rows = -(-len(labels) // columns)
         space = (0.24 * rows + 0.1) / figure.get_figheight()
         figure.tight_layout(rect=(0, space, 1, 1))
-        figure.legend([handles[label] for label in labels], labels, loc="lower center", ncol=columns, fontsize=8.5,
-                      frameon=False)
+        figure.legend(
+            [handles[label] for label in labels], labels, loc="lower center", ncol=columns, fontsize=8.5, frameon=False
+        )
     figure.savefig(picture, dpi=110)
 
 
@@ -98,13 +113,23 @@ def styles(rows):
     style = {}
     for i, name in enumerate(ours):
         colour = OURS[i % len(OURS)]
-        style[name, "function"] = dict(color=colour, linewidth=2.4, marker="o", markersize=4, zorder=3, label=f"{name} (ours)")
-        style[name, "samples"] = dict(color=colour, linewidth=1.6, linestyle=":", marker=".", markersize=4, zorder=3,
-                                      label=f"{name} (ours),\nhand by 50 Hz poses alone")
+        style[name, "function"] = dict(
+            color=colour, linewidth=2.4, marker="o", markersize=4, zorder=3, label=f"{name} (ours)"
+        )
+        style[name, "samples"] = dict(
+            color=colour,
+            linewidth=1.6,
+            linestyle=":",
+            marker=".",
+            markersize=4,
+            zorder=3,
+            label=f"{name} (ours),\nhand by 50 Hz poses alone",
+        )
     tab20 = pyplot.get_cmap("tab20").colors
     for i, name in enumerate(peers):
-        style[name, "function"] = dict(color=tab20[i % 20], marker=MARKERS[i % len(MARKERS)], linewidth=0.9, markersize=3.5,
-                                       zorder=2, label=name)
+        style[name, "function"] = dict(
+            color=tab20[i % 20], marker=MARKERS[i % len(MARKERS)], linewidth=0.9, markersize=3.5, zorder=2, label=name
+        )
     return style
 
 
@@ -114,8 +139,14 @@ def scene(table, picture, name):
         sys.exit(f"plot_report.py: no finite run of scene {name} in {table}")
     style = styles(rows)
     factors = sorted({float(row["stiffness_factor"]) for row in rows})
-    figure, panels = pyplot.subplots(len(MEASURES), len(factors), figsize=(2.9 + max(6.0, 3.8 * len(factors)), 10.0),
-                                     sharex="col", sharey="row", squeeze=False)
+    figure, panels = pyplot.subplots(
+        len(MEASURES),
+        len(factors),
+        figsize=(2.9 + max(6.0, 3.8 * len(factors)), 10.0),
+        sharex="col",
+        sharey="row",
+        squeeze=False,
+    )
     for line_of_panels, (measure, label) in zip(panels, MEASURES.items()):
         for axes, factor in zip(line_of_panels, factors):
             here = [row for row in rows if float(row["stiffness_factor"]) == factor]
@@ -144,7 +175,9 @@ def merit(line, error=1e-6):
 
 
 def overview(table, picture):
-    rows = [row for row in by_step(read(table)) if row["scene"] == "C" and float(row["stiffness_factor"]) in (1.0, 100.0)]
+    rows = [
+        row for row in by_step(read(table)) if row["scene"] == "C" and float(row["stiffness_factor"]) in (1.0, 100.0)
+    ]
     ours = our_names(rows)
     figure, panels = pyplot.subplots(1, 2, figsize=(12.0, 5.0), sharey=True)
     lines = defaultdict(dict)
@@ -153,17 +186,44 @@ def overview(table, picture):
         lines[key].setdefault(float(row["stiffness_factor"]), []).append(row)
     measure = "error_over_hand_amplitude"
     total = {key: sum(merit(points(found.get(f, []), measure)) for f in (1.0, 100.0)) for key, found in lines.items()}
-    chosen = [((DEFAULT, "function"), dict(color=OURS[0], linewidth=3, marker="o", markersize=5, zorder=4,
-                                           label=f"{DEFAULT} (ours)")),
-              ((DEFAULT, "samples"), dict(color=OURS[0], linewidth=1.6, linestyle=":", marker="o", markersize=3, zorder=3,
-                                          label="the same, the hand known\nby 50 Hz poses alone"))]
-    groups = {prefix: [key for key in lines if key[0] not in ours and key[0].split("_")[0] == prefix] for prefix in ENGINES}
+    chosen = [
+        (
+            (DEFAULT, "function"),
+            dict(color=OURS[0], linewidth=3, marker="o", markersize=5, zorder=4, label=f"{DEFAULT} (ours)"),
+        ),
+        (
+            (DEFAULT, "samples"),
+            dict(
+                color=OURS[0],
+                linewidth=1.6,
+                linestyle=":",
+                marker="o",
+                markersize=3,
+                zorder=3,
+                label="the same, the hand known\nby 50 Hz poses alone",
+            ),
+        ),
+    ]
+    groups = {
+        prefix: [key for key in lines if key[0] not in ours and key[0].split("_")[0] == prefix] for prefix in ENGINES
+    }
     groups = {prefix: keys for prefix, keys in groups.items() if keys}
     for i, (prefix, keys) in enumerate(groups.items()):
         cheapest = min(keys, key=total.get)
-        rest = cheapest[0][len(prefix) + 1:].replace("_", " ")
-        chosen.append((cheapest, dict(color=PEERS[i % len(PEERS)], linewidth=1.3, marker=MARKERS[i], markersize=4, zorder=2,
-                                  label=f"{ENGINES[prefix]}: {rest}")))
+        rest = cheapest[0][len(prefix) + 1 :].replace("_", " ")
+        chosen.append(
+            (
+                cheapest,
+                dict(
+                    color=PEERS[i % len(PEERS)],
+                    linewidth=1.3,
+                    marker=MARKERS[i],
+                    markersize=4,
+                    zorder=2,
+                    label=f"{ENGINES[prefix]}: {rest}",
+                ),
+            )
+        )
     for axes, factor in zip(panels, (1.0, 100.0)):
         for key, look in chosen:
             line = points(lines[key].get(factor, []), measure)
@@ -192,7 +252,9 @@ def rods(table, picture):
         here = [row for row in rows if row["scene"] == name]
         shape = "linear" if any(row["shape"] == "linear" for row in here) else "constant"
         for i, method in enumerate(methods):
-            line = points([r for r in here if r["method"] == method and r["shape"] == shape], "error_over_largest_deflection")
+            line = points(
+                [r for r in here if r["method"] == method and r["shape"] == shape], "error_over_largest_deflection"
+            )
             draw_line(axes, line, color=OURS[i % len(OURS)], marker="o", markersize=3.5, linewidth=1.8, label=method)
         log_axes(axes, title=f"{name}\n({shape})", xlabel=TIME_LABEL, ylim=(1e-12, 10.0))
         axes.set_ylabel("largest error / largest deflection")
@@ -205,12 +267,24 @@ def shapes(table, picture, rod_table):
     figure, (model, integration) = pyplot.subplots(1, 2, figsize=(12.0, 4.8))
     for i, shape in enumerate(in_order(row["shape"] for row in static)):
         look = dict(color=OURS[i % len(OURS)], marker="o", markersize=4, linewidth=1.8, label=shape)
-        draw_line(model, [(float(r["alpha"]), float(r["tip_error_over_L"])) for r in static if r["shape"] == shape], **look)
-        draw_line(integration, points([r for r in rows if r["shape"] == shape], "error_over_largest_deflection"), **look)
-    log_axes(model, title="error of the model: tip against the exact elastica", xlabel="load P L² / EI",
-             ylabel="distance of the tips / L")
-    log_axes(integration, title="error of integration: heavy_large_bend, exponential", xlabel=TIME_LABEL,
-             ylabel="largest error / largest deflection")
+        draw_line(
+            model, [(float(r["alpha"]), float(r["tip_error_over_L"])) for r in static if r["shape"] == shape], **look
+        )
+        draw_line(
+            integration, points([r for r in rows if r["shape"] == shape], "error_over_largest_deflection"), **look
+        )
+    log_axes(
+        model,
+        title="error of the model: tip against the exact elastica",
+        xlabel="load P L² / EI",
+        ylabel="distance of the tips / L",
+    )
+    log_axes(
+        integration,
+        title="error of integration: heavy_large_bend, exponential",
+        xlabel=TIME_LABEL,
+        ylabel="largest error / largest deflection",
+    )
     save(figure, picture, [model])
 
 
@@ -221,13 +295,29 @@ def tolerance(table, picture):
     methods = in_order(row["method"] for row in rows)
     figure, panels = grid(len(methods))
     for axes, method in zip(panels, methods):
-        here = [(float(r["tolerance"]), float(r["tolerance"]) * float(r["error_over_tolerance"])) for r in rows
-                if r["method"] == method]
+        here = [
+            (float(r["tolerance"]), float(r["tolerance"]) * float(r["error_over_tolerance"]))
+            for r in rows
+            if r["method"] == method
+        ]
         ends = [min(p[0] for p in here), max(p[0] for p in here)]
-        axes.fill_between(ends, [e / 3.0 for e in ends], [e * 3.0 for e in ends], color="#2ca02c", alpha=0.15,
-                          label="within a factor of 3")
-        axes.plot([p[0] for p in here], [max(p[1], LEAST_ERROR) for p in here], "o", color=OURS[0], markersize=4, alpha=0.6,
-                  label="a case and shape")
+        axes.fill_between(
+            ends,
+            [e / 3.0 for e in ends],
+            [e * 3.0 for e in ends],
+            color="#2ca02c",
+            alpha=0.15,
+            label="within a factor of 3",
+        )
+        axes.plot(
+            [p[0] for p in here],
+            [max(p[1], LEAST_ERROR) for p in here],
+            "o",
+            color=OURS[0],
+            markersize=4,
+            alpha=0.6,
+            label="a case and shape",
+        )
         log_axes(axes, title=method, xlabel="tolerance asked [m]", ylabel="error reached [m]")
     save(figure, picture, panels[:1])
 
@@ -250,7 +340,9 @@ def shares(rows, line_of, column_of):
         place = line_of(row), column_of(row)
         held[place] += int(row["held"])
         cells[place] += int(row.get("cells", 1))
-    return {place: held[place] / cells[place] for place in cells}, f"{sum(held.values())} of {sum(cells.values())} cells hold"
+    return {
+        place: held[place] / cells[place] for place in cells
+    }, f"{sum(held.values())} of {sum(cells.values())} cells hold"
 
 
 def stability(table, picture, extremes):
@@ -265,11 +357,16 @@ def stability(table, picture, extremes):
     figure, panels = grid(len(names) + len(modes))
     mass_names = ["0" if m == 0.0 else f"1e{math.log10(m):.0f}" for m in masses]
     for axes, name in zip(panels, names):
-        share, total = shares([row for row in rows if row["integrator"] == name], lambda row: float(row["mass"]),
-                              lambda row: float(row["stiffness_factor"]))
-        image = share_panel(axes, [[share.get((m, k), 0.0) for k in stiffnesses] for m in masses], stiffnesses, mass_names)
+        share, total = shares(
+            [row for row in rows if row["integrator"] == name],
+            lambda row: float(row["mass"]),
+            lambda row: float(row["stiffness_factor"]),
+        )
+        image = share_panel(
+            axes, [[share.get((m, k), 0.0) for k in stiffnesses] for m in masses], stiffnesses, mass_names
+        )
         axes.set(title=f"{name}\n{total}", xlabel="stiffness factor, power of ten", ylabel="mass [kg]")
-    for axes, mode in zip(panels[len(names):], modes):
+    for axes, mode in zip(panels[len(names) :], modes):
         here = [row for row in contact_rows if row["contact"] == mode]
         forks, lines = sorted({float(row["stiffness"]) for row in here}), in_order(row["extreme"] for row in here)
         share, total = shares(here, lambda row: row["extreme"], lambda row: float(row["stiffness"]))
@@ -290,29 +387,57 @@ def contact(table, picture, impacts, steps):
     for i, name in enumerate(names):
         ours = name in ("stop", "dynamic")
         for box, dashes in (("turns", "-"), ("cannot turn", ":")):
-            line = [(float(r["cpu_us_per_simulated_second"]), max(float(r["lag_error_percent"]), 1e-7)) for r in drags
-                    if r["method"] == name and r["box"] == box]
+            line = [
+                (float(r["cpu_us_per_simulated_second"]), max(float(r["lag_error_percent"]), 1e-7))
+                for r in drags
+                if r["method"] == name and r["box"] == box
+            ]
             if line:
-                draw_line(panels[0], line, label=name + ("" if box == "turns" else ", cannot turn"), linestyle=dashes,
-                          color=(OURS if ours else PEERS)[i % 8], marker="o" if ours else MARKERS[i],
-                          linewidth=2.0 if ours else 1.0)
-    log_axes(panels[0], title="drag, 50 to 1000 steps a second", xlabel=TIME_LABEL.replace("run time", "processor time"),
-             ylabel="error of the lag [%]")
+                draw_line(
+                    panels[0],
+                    line,
+                    label=name + ("" if box == "turns" else ", cannot turn"),
+                    linestyle=dashes,
+                    color=(OURS if ours else PEERS)[i % 8],
+                    marker="o" if ours else MARKERS[i],
+                    linewidth=2.0 if ours else 1.0,
+                )
+    log_axes(
+        panels[0],
+        title="drag, 50 to 1000 steps a second",
+        xlabel=TIME_LABEL.replace("run time", "processor time"),
+        ylabel="error of the lag [%]",
+    )
     rows = read(impacts)
     for i, pair in enumerate(in_order(row["pair"] for row in rows)):
         here = [r for r in rows if r["pair"] == pair]
-        line = [(float(r["cpu_us"]), max(float(r["largest_error_um"]), 1e-3)) for r in here if r["search"] == "bisection"]
+        line = [
+            (float(r["cpu_us"]), max(float(r["largest_error_um"]), 1e-3)) for r in here if r["search"] == "bisection"
+        ]
         draw_line(panels[1], line, label=pair + ", 2 to 16 levels", color=OURS[i], marker="o")
-        toi = [(float(r["cpu_us"]), max(float(r["largest_error_um"]), 1e-3)) for r in here if r["search"] != "bisection"]
-        draw_line(panels[1], toi, label=pair + ", time of impact", color=OURS[i], marker="*", markersize=12, linestyle="none")
-    log_axes(panels[1], title="pose of first contact", xlabel="processor time of a search [µs]", ylabel="largest error [µm]")
+        toi = [
+            (float(r["cpu_us"]), max(float(r["largest_error_um"]), 1e-3)) for r in here if r["search"] != "bisection"
+        ]
+        draw_line(
+            panels[1], toi, label=pair + ", time of impact", color=OURS[i], marker="*", markersize=12, linestyle="none"
+        )
+    log_axes(
+        panels[1], title="pose of first contact", xlabel="processor time of a search [µs]", ylabel="largest error [µm]"
+    )
     rows = read(steps)
     for i, scene_name in enumerate(in_order(row["scene"] for row in rows)):
-        line = [(float(r["cpu_us_per_simulated_second"]), max(float(r["error_mm"]), 1e-7)) for r in rows
-                if r["scene"] == scene_name]
+        line = [
+            (float(r["cpu_us_per_simulated_second"]), max(float(r["error_mm"]), 1e-7))
+            for r in rows
+            if r["scene"] == scene_name
+        ]
         draw_line(panels[2], line, label=scene_name, color=OURS[i], marker="o")
-    log_axes(panels[2], title="steps of the dynamic world", xlabel="processor time [µs per simulated second]",
-             ylabel="largest error [mm]")
+    log_axes(
+        panels[2],
+        title="steps of the dynamic world",
+        xlabel="processor time [µs per simulated second]",
+        ylabel="largest error [mm]",
+    )
     figure.set_size_inches(13.0, 5.6)
     for axes in panels:
         axes.legend(fontsize=7, loc="upper center", bbox_to_anchor=(0.5, -0.15), ncol=2)
@@ -320,8 +445,15 @@ def contact(table, picture, impacts, steps):
     figure.savefig(picture, dpi=110)
 
 
-KINDS = {"contact": contact, "scene": scene, "overview": overview, "rods": rods, "shapes": shapes, "tolerance": tolerance,
-         "stability": stability}
+KINDS = {
+    "contact": contact,
+    "scene": scene,
+    "overview": overview,
+    "rods": rods,
+    "shapes": shapes,
+    "tolerance": tolerance,
+    "stability": stability,
+}
 
 
 def main(arguments):

@@ -55,7 +55,7 @@ struct Plan {
 };
 
 std::size_t units_of(const Plan& plan, const std::vector<const Method*>& methods, const std::vector<DragMethod>& drags,
-                  bool quick) {
+                     bool quick) {
   std::size_t counts = 0;
   for (const Method* method : methods) counts += has_stability_counts(*method) ? 2 : 0;
   return unit_count(methods, plan.scenes) + line_count(plan.rods) + unit_count(plan.map) + (quick ? 0 : counts) +
@@ -136,7 +136,8 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   Measurements measured = measure(plan, methods, peers.drags, quick, units);
   progress.finish();
   if (merging && !units.kept().empty()) {
-    refuse("shards", "unit", units.kept().begin()->first, "one that this report has: same build, same peers, same recordings");
+    refuse("shards", "unit", units.kept().begin()->first,
+           "one that this report has: same build, same peers, same recordings");
   }
   if (!merging) part.seconds = progress.elapsed();
   if (options.shard) {

@@ -27,7 +27,8 @@ PageSection scenes_section(const Measurements& measured, const Tables& tables, c
   section.text =
       "A held body on a spring on a moving hand: A stretch, B torsion, C six coordinates; times a factor on the "
       "stiffness. The peers are given the hand as a function of time, pose and velocity whenever they ask; so are ours "
-      "(full lines), who ask at the ends of their steps. A user's hand is known by a tracker's poses alone: those are the "
+      "(full lines), who ask at the ends of their steps. A user's hand is known by a tracker's poses alone: those are "
+      "the "
       "runs \"hand by 50 Hz poses alone\" (dotted), whose error has a floor, since nobody knows the motion between two "
       "samples. cvode_world is CVODE on the object's pose and velocity, cvode_deflection on the deflection, with "
       "tolerances of its size. Run times between two settings of a method by a power law.";
@@ -36,17 +37,22 @@ PageSection scenes_section(const Measurements& measured, const Tables& tables, c
     if (std::find(names.begin(), names.end(), row.scene) == names.end()) names.push_back(row.scene);
   }
   for (const std::string& name : names) {
-    section.figures.push_back(figure({"scene", tables.scenes, "error_against_run_time_" + name + ".png", {name},
-                                      "Scene " + name + ": largest error against run time"}, folder));
+    section.figures.push_back(figure({"scene",
+                                      tables.scenes,
+                                      "error_against_run_time_" + name + ".png",
+                                      {name},
+                                      "Scene " + name + ": largest error against run time"},
+                                     folder));
   }
   for (const double error : {1e-3, 1e-6, 1e-9}) {
     std::ostringstream title;
     title << "µs per simulated second for an error of " << error;
     section.tables.push_back({title.str() + " of the hand's amplitude",
-                              run_time_for_error_csv(measured.scenes, error, &ErrorRow::error_over_hand_amplitude), false});
-    section.tables.push_back(
-        {title.str() + " of the largest deflection",
-         run_time_for_error_csv(measured.scenes, error, &ErrorRow::error_over_largest_deflection), true});
+                              run_time_for_error_csv(measured.scenes, error, &ErrorRow::error_over_hand_amplitude),
+                              false});
+    section.tables.push_back({title.str() + " of the largest deflection",
+                              run_time_for_error_csv(measured.scenes, error, &ErrorRow::error_over_largest_deflection),
+                              true});
   }
   section.tables.push_back({"All runs", as_csv(measured.scenes), true});
   return section;
@@ -59,16 +65,22 @@ PageSection rods_section(const Measurements& measured, const Tables& tables, con
       "The hand is known by its samples, and the motion through them is the same for all, so that what is left is the "
       "error of integration, against SUNDIALS CVODE at 1e-12; \"recorded\" cases: against the trajectories of another "
       "solver, good to 2e-9 m. Steps end at samples.";
-  section.figures.push_back(figure({"rods", tables.rods, "rods.png", {}, "Error against run time on the rods"}, folder));
+  section.figures.push_back(
+      figure({"rods", tables.rods, "rods.png", {}, "Error against run time on the rods"}, folder));
   for (const std::string& shape : shape_model_names()) {
-    section.tables.push_back({"Step 0.02 s, shape " + shape + ": position, angle (position over the largest deflection), cost",
-                              one_step_per_sample_csv(measured.rods, shape), shape != "linear"});
+    section.tables.push_back(
+        {"Step 0.02 s, shape " + shape + ": position, angle (position over the largest deflection), cost",
+         one_step_per_sample_csv(measured.rods, shape), shape != "linear"});
   }
   const auto to_tolerance = [](const ErrorRow& row) { return row.error_over_tolerance > 0.0; };
   if (std::any_of(measured.rods.begin(), measured.rods.end(), to_tolerance)) {
-    section.figures.push_back(figure({"tolerance", tables.rods, "tolerance.png", {},
-                                      "Tolerance asked and error reached, every case and shape; run through Simulation"},
-                                     folder));
+    section.figures.push_back(
+        figure({"tolerance",
+                tables.rods,
+                "tolerance.png",
+                {},
+                "Tolerance asked and error reached, every case and shape; run through Simulation"},
+               folder));
   }
   section.tables.push_back({"All runs", as_csv(measured.rods), true});
   return section;
@@ -85,12 +97,14 @@ PageSection shapes_section(const Measurements& measured, double difference, cons
     section.text += text.str();
   }
   section.text += ", beside what integration adds with one step per sample where the fork bends most.";
-  section.figures.push_back(figure({"shapes", tables.elastica, "shapes.png", {tables.rods},
-                                    "Error of the shape models and of integration"}, folder));
+  section.figures.push_back(
+      figure({"shapes", tables.elastica, "shapes.png", {tables.rods}, "Error of the shape models and of integration"},
+             folder));
   section.tables.push_back({"", shapes_csv(measured.elastica, measured.rods), false});
   section.tables.push_back({"All loads", elastica_csv(measured.elastica), true});
-  section.tables.push_back({"The drawn fork's curve against the exact elastica, driven by the exact tip, and what it costs",
-                            fork_curves_csv(measured.fork_curves), false});
+  section.tables.push_back(
+      {"The drawn fork's curve against the exact elastica, driven by the exact tip, and what it costs",
+       fork_curves_csv(measured.fork_curves), false});
   return section;
 }
 
@@ -99,27 +113,39 @@ PageSection stability_section(const Measurements& measured, const Tables& tables
   section.title = "Stability map";
   section.text =
       "Stiffness × mass × step × damping × families × hand, run through Simulation as a user runs it, its guards "
-      "included. A cell holds where pose and twist stay finite and within 100 m of the hand, the energy does not grow by "
+      "included. A cell holds where pose and twist stay finite and within 100 m of the hand, the energy does not grow "
+      "by "
       "more than 1e-9 while the hand rests (of the largest elastic and kinetic energy then and the weight times the "
       "fork's length), and no step was refused. Where an explicit method runs wild, the guard refuses its steps: the "
-      "simulation stays finite, the method has failed. For the others the guard lets a fork that is compressed to nothing or "
+      "simulation stays finite, the method has failed. For the others the guard lets a fork that is compressed to "
+      "nothing or "
       "twisted too far stop there. What it still refuses are a few steps right after the hand leaps (by 1 m within a "
-      "sample; seldom by a half turn, or where a dropout ends) under a fork that bends, mostly one that cannot give way in "
+      "sample; seldom by a half turn, or where a dropout ends) under a fork that bends, mostly one that cannot give "
+      "way in "
       "length: the rod would be wound up by more than ten turns, or nothing that a rod can have comes out. The fork is "
-      "rigid for such a step, keeps its strain, and goes on from there. The contact panel is a map of its own: boxes at the "
-      "extremes of mass, in both contact modes, pressed against others, shifted along them, and left alone. A cell holds "
-      "where all objects stay finite and within 0.5 m of where they began, none gets deeper than 0.1 mm into another, the "
-      "energy does not grow while the hand rests by more than 3 µm of depth are worth under the hardest load, and no step was "
+      "rigid for such a step, keeps its strain, and goes on from there. The contact panel is a map of its own: boxes "
+      "at the "
+      "extremes of mass, in both contact modes, pressed against others, shifted along them, and left alone. A cell "
+      "holds "
+      "where all objects stay finite and within 0.5 m of where they began, none gets deeper than 0.1 mm into another, "
+      "the "
+      "energy does not grow while the hand rests by more than 3 µm of depth are worth under the hardest load, and no "
+      "step was "
       "refused; steps in which contact left the held one no way are counted beside.";
-  section.figures.push_back(figure({"stability", tables.map, "stability_map.png", {tables.extremes},
-                                    "Share of the cells that hold, by stiffness and mass; contact at its extremes"}, folder));
+  section.figures.push_back(figure({"stability",
+                                    tables.map,
+                                    "stability_map.png",
+                                    {tables.extremes},
+                                    "Share of the cells that hold, by stiffness and mass; contact at its extremes"},
+                                   folder));
   section.tables.push_back({"Cells", map_summary_csv(measured.map), false});
   section.tables.push_back({"Contact at its extremes", extremes_csv(measured.extremes), true});
   section.tables.push_back({"The worst cells of each integrator that do not hold", failures_csv(measured.map), true});
   if (!measured.stability_counts.empty()) {
-    section.tables.push_back({"Ours and the peers on scenes A and C: cases of 11 stiffnesses × 5 masses × 4 steps that stay "
-                              "finite and bounded",
-                              stability_counts_csv(measured.stability_counts), false});
+    section.tables.push_back(
+        {"Ours and the peers on scenes A and C: cases of 11 stiffnesses × 5 masses × 4 steps that stay "
+         "finite and bounded",
+         stability_counts_csv(measured.stability_counts), false});
   }
   return section;
 }
@@ -129,17 +155,28 @@ PageSection contact_section(const ContactTable& contact, const Tables& tables, c
   section.title = "Contact: error against run time";
   section.text =
       "Drag: a box of 5 kg held by six springs is pressed 0.1 m below the plane and dragged 0.5 m, μ = 0.5; it lags by "
-      "μ (k 0.1 m + m g) / k (62.263 mm for factor 1) and should not be in the plane at all. Ours know the hand by 50 Hz "
-      "poses, the engines as a function of time, at the beginning of each step; some engines are run once more with a box that "
-      "cannot turn, which is easier, since then contact has nothing to rock. With contact dynamic the plane is the top of a "
-      "movable slab of 1000 kg: on the bench it goes as with stop, to the same bits. Search: a box that falls on a plane as it "
-      "turns, 40 mm and up to 1 rad in a step, against the exact pose of first contact; the levels of bisection halve the "
-      "0.2 mm in which the sweep found the contact, not the whole step. Steps: the dynamic world against exact solutions, "
-      "and a held box that pushes another against a run with small steps; there, near others, no piece is longer than 2 ms "
+      "μ (k 0.1 m + m g) / k (62.263 mm for factor 1) and should not be in the plane at all. Ours know the hand by 50 "
+      "Hz "
+      "poses, the engines as a function of time, at the beginning of each step; some engines are run once more with a "
+      "box that "
+      "cannot turn, which is easier, since then contact has nothing to rock. With contact dynamic the plane is the top "
+      "of a "
+      "movable slab of 1000 kg: on the bench it goes as with stop, to the same bits. Search: a box that falls on a "
+      "plane as it "
+      "turns, 40 mm and up to 1 rad in a step, against the exact pose of first contact; the levels of bisection halve "
+      "the "
+      "0.2 mm in which the sweep found the contact, not the whole step. Steps: the dynamic world against exact "
+      "solutions, "
+      "and a held box that pushes another against a run with small steps; there, near others, no piece is longer than "
+      "2 ms "
       "whatever the step. Run times are processor time.";
   if (!contact.drags.empty()) {
-    section.figures.push_back(figure({"contact", tables.drags, "contact.png", {tables.impacts, tables.world_steps},
-                                      "Drag, search for the pose of contact, and steps of the dynamic world"}, folder));
+    section.figures.push_back(figure({"contact",
+                                      tables.drags,
+                                      "contact.png",
+                                      {tables.impacts, tables.world_steps},
+                                      "Drag, search for the pose of contact, and steps of the dynamic world"},
+                                     folder));
   }
   section.tables.push_back({"Drag", drags_csv(contact.drags), false});
   section.tables.push_back({"Search for the pose of contact", impacts_csv(contact.impacts), false});
@@ -158,8 +195,9 @@ std::vector<PageSection> page_sections(const Measurements& measured, const std::
   verdict.tables.push_back({"", verdicts_csv(judged), false});
   PageSection costs;
   costs.title = "What each part of a step costs";
-  costs.text = "exponential, by shape model and number of coordinates: processor time of the thread, the least of many short "
-               "runs [ns].";
+  costs.text =
+      "exponential, by shape model and number of coordinates: processor time of the thread, the least of many short "
+      "runs [ns].";
   costs.tables.push_back({"", step_cost_csv(measured.step_costs), false});
   const std::vector<std::function<PageSection()>> sections = {
       [&] { return verdict; },

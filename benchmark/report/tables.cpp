@@ -69,10 +69,11 @@ std::string one_step_per_sample_csv(const std::vector<ErrorRow>& rods, const std
     for (const std::string& method : methods) {
       for (const ErrorRow& row : rods) {
         if (row.scene != name || row.method != method || row.shape != shape || !one_per_sample(row)) continue;
-        csv << ",\"" << (row.finite ? text(row.error) + " m, " + text(row.angle_error) + " rad (" +
-                                          text(row.error_over_largest_deflection) + "), " +
-                                          text(row.wall_us_per_simulated_second) + " µs/s"
-                                    : "fails")
+        csv << ",\""
+            << (row.finite ? text(row.error) + " m, " + text(row.angle_error) + " rad (" +
+                                 text(row.error_over_largest_deflection) + "), " +
+                                 text(row.wall_us_per_simulated_second) + " µs/s"
+                           : "fails")
             << '"';
       }
     }
@@ -124,9 +125,8 @@ std::string step_cost_csv(const std::vector<StepCost>& costs) {
   for (const std::string& part : parts) {
     csv << "\n\"" << part << '"';
     for (const std::string& name : columns) {
-      const auto found = std::find_if(costs.begin(), costs.end(), [&](const StepCost& cost) {
-        return cost.part == part && column(cost) == name;
-      });
+      const auto found = std::find_if(costs.begin(), costs.end(),
+                                      [&](const StepCost& cost) { return cost.part == part && column(cost) == name; });
       csv << ',' << (found == costs.end() ? "-" : text(std::round(found->nanoseconds)));
     }
   }

@@ -25,7 +25,8 @@ TEST(Drag, OursLagAsCoulombsLawSaysWithOneStepASample) {
 }
 
 TEST(Drag, EveryEngineIsGivenTheSameScene) {
-  // With small steps, and nothing that rocks, all come to the same lag: they have the scene's springs, weight and friction.
+  // With small steps, and nothing that rocks, all come to the same lag: they have the scene's springs, weight and
+  // friction.
   const Peers peers = all_peers();
   for (const DragMethod& method : peers.drags) {
     DragScene scene;

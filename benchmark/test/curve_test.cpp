@@ -31,7 +31,8 @@ TEST(Curve, PointsThatAnotherBeatsInBothChangeNothing) {
   const std::vector<CurvePoint> front = {{1.0, 1e-2}, {10.0, 1e-4}, {100.0, 1e-8}};
   std::vector<CurvePoint> all = front;
   for (const CurvePoint& point : front) all.push_back({1.5 * point.run_time, 2.0 * point.error});
-  for (const double error : {1e-3, 1e-5, 1e-7}) EXPECT_EQ(run_time_for_error(all, error), run_time_for_error(front, error));
+  for (const double error : {1e-3, 1e-5, 1e-7})
+    EXPECT_EQ(run_time_for_error(all, error), run_time_for_error(front, error));
 }
 
 TEST(Curve, NothingIsExtrapolated) {
@@ -55,7 +56,8 @@ ErrorRow row(const std::string& method, double time, double error, bool finite =
 }
 
 TEST(Curve, TableOfRunTimesHasALineForEachMethodAndTellsWhoKnowsTheHandByPosesAlone) {
-  std::vector<ErrorRow> rows = {row("m", 1.0, 1e-2), row("m", 100.0, 1e-6), row("m", 2.0, 0.0, false), row("n", 7.0, 1e-3)};
+  std::vector<ErrorRow> rows = {row("m", 1.0, 1e-2), row("m", 100.0, 1e-6), row("m", 2.0, 0.0, false),
+                                row("n", 7.0, 1e-3)};
   rows.push_back(row("m", 9.0, 1e-4));
   rows.back().hand = "samples";
   EXPECT_EQ(run_time_for_error_csv(rows, 1e-4, &ErrorRow::error_over_hand_amplitude),
@@ -103,10 +105,18 @@ TEST(ErrorTable, CsvHasEachFigureUnderItsName) {
   ASSERT_EQ(first.size(), names.size());
   ASSERT_EQ(second.size(), names.size());
   const std::map<std::string, std::pair<std::string, std::string>> wanted = {
-      {"scene", {"C", "C"}},      {"stiffness_factor", {"100", "100"}}, {"method", {"m", "n"}},
-      {"shape", {"bushing", "bushing"}}, {"hand", {"samples", "function"}}, {"step", {"0.02", ""}},
-      {"tolerance", {"", ""}},    {"error", {"0.25", ""}},              {"angle_error", {"3", ""}},
-      {"error_over_largest_deflection", {"2.5", ""}}, {"wall_us_per_simulated_second", {"12.5", ""}}, {"finite", {"1", "0"}}};
+      {"scene", {"C", "C"}},
+      {"stiffness_factor", {"100", "100"}},
+      {"method", {"m", "n"}},
+      {"shape", {"bushing", "bushing"}},
+      {"hand", {"samples", "function"}},
+      {"step", {"0.02", ""}},
+      {"tolerance", {"", ""}},
+      {"error", {"0.25", ""}},
+      {"angle_error", {"3", ""}},
+      {"error_over_largest_deflection", {"2.5", ""}},
+      {"wall_us_per_simulated_second", {"12.5", ""}},
+      {"finite", {"1", "0"}}};
   std::size_t seen = 0;
   for (std::size_t i = 0; i < names.size(); ++i) {
     const auto found = wanted.find(names[i]);

@@ -17,8 +17,8 @@ TEST(ForkCurves, ErrorsVanishWithTheLoadAndTheLengthStays) {
     EXPECT_GT(row.shape_error, 0.0);
     const auto lighter = heavier.find(key);
     if (lighter != heavier.end()) {
-      const double order = std::log(row.shape_error / lighter->second.shape_error) /
-                           std::log(row.alpha / lighter->second.alpha);
+      const double order =
+          std::log(row.shape_error / lighter->second.shape_error) / std::log(row.alpha / lighter->second.alpha);
       EXPECT_GT(order, row.alpha <= 1.0 ? 2.5 : 0.3) << key << row.alpha;  // at small loads, of third order
     }
     heavier[key] = row;

@@ -76,7 +76,8 @@ TEST(RodCases, ReferenceMeetsTheRecordedTrajectoriesOfAnotherSolver) {
   if (recorded.empty()) GTEST_SKIP() << "no reference trajectories in " SPRING_WORKBENCH_SHARED_DIR "/reference";
   for (RodCase one : recorded) {
     one.duration = 0.5;
-    const PoseDistance distance = largest_distance(cvode_poses(one, one.shapes[0], 1e-12), rod_reference(one, one.shapes[0]).X_WO);
+    const PoseDistance distance =
+        largest_distance(cvode_poses(one, one.shapes[0], 1e-12), rod_reference(one, one.shapes[0]).X_WO);
     EXPECT_LT(distance.position, 1e-8) << one.name;
     EXPECT_LT(distance.angle, 1e-7) << one.name;
   }
@@ -105,8 +106,10 @@ TEST(Elastica, ExactSolutionSatisfiesItsDifferentialEquation) {
     for (int i = 0; i < count; ++i) {
       const auto bend = [&](double angle) { return -alpha * std::cos(angle); };
       const double k1 = rate, l1 = bend(theta), k2 = rate + 0.5 * h * l1, l2 = bend(theta + 0.5 * h * k1);
-      const double k3 = rate + 0.5 * h * l2, l3 = bend(theta + 0.5 * h * k2), k4 = rate + h * l3, l4 = bend(theta + h * k3);
-      const double middle = theta + 0.5 * h * k1 + 0.125 * h * h * l1, next = theta + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
+      const double k3 = rate + 0.5 * h * l2, l3 = bend(theta + 0.5 * h * k2), k4 = rate + h * l3,
+                   l4 = bend(theta + h * k3);
+      const double middle = theta + 0.5 * h * k1 + 0.125 * h * h * l1,
+                   next = theta + h / 6.0 * (k1 + 2.0 * (k2 + k3) + k4);
       x += h / 6.0 * (std::sin(theta) + 4.0 * std::sin(middle) + std::sin(next));
       z += h / 6.0 * (std::cos(theta) + 4.0 * std::cos(middle) + std::cos(next));
       rate += h / 6.0 * (l1 + 2.0 * (l2 + l3) + l4);
@@ -170,7 +173,8 @@ StabilityCell cell_with(double omega_step, MapHand hand) {
 }
 
 TEST(StabilityMap, ExplicitMethodsHoldBelowTheirLimitOnOneSpringAndFailAboveIt) {
-  // ζ = 1: semi-implicit Euler with explicit damping to ω h = 0.828, RK4 to 2.785; a method of closed form has no limit.
+  // ζ = 1: semi-implicit Euler with explicit damping to ω h = 0.828, RK4 to 2.785; a method of closed form has no
+  // limit.
   for (const auto& [name, limit] : {std::pair{"semi_implicit_euler", 0.828}, std::pair{"rk4", 2.785}}) {
     EXPECT_TRUE(run_cell(name, "linear", cell_with(0.5 * limit, MapHand::noise)).held()) << name;
     EXPECT_FALSE(run_cell(name, "linear", cell_with(3.0 * limit, MapHand::jump)).held()) << name;
@@ -206,7 +210,8 @@ TEST(StabilityMap, OutcomesAreOrderedByWhatIsWorst) {
                                                      outcome(true, true, 2.0, 0),   outcome(true, true, 1e-3, 9),
                                                      outcome(true, true, 1e-10, 9), outcome(true, true, 9e-10, 1)};
   for (std::size_t i = 0; i < worst_first.size(); ++i) {
-    for (std::size_t j = 0; j < worst_first.size(); ++j) EXPECT_EQ(worse(worst_first[i], worst_first[j]), i < j) << i << " " << j;
+    for (std::size_t j = 0; j < worst_first.size(); ++j)
+      EXPECT_EQ(worse(worst_first[i], worst_first[j]), i < j) << i << " " << j;
   }
 }
 

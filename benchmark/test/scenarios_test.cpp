@@ -1,5 +1,4 @@
 #include "benchmark/scenarios.h"
-#include "benchmark/sine_and_cosine.h"
 
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include "benchmark/exact_oscillator.h"
 #include "benchmark/held_body.h"
 #include "benchmark/reference_solution.h"
+#include "benchmark/sine_and_cosine.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::benchmark {

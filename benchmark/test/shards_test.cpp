@@ -90,7 +90,8 @@ TEST(Shards, MergedTheyAreTheWholeHoweverManyThereAre) {
       Units units(progress, Shard{i, count});
       work.tables(units);
       idle += units.kept().empty();
-      paths.push_back(written(folder, std::to_string(i), text_of({{i, count}, true, 1.0 * static_cast<double>(i), "", {}, units.kept()})));
+      paths.push_back(written(folder, std::to_string(i),
+                              text_of({{i, count}, true, 1.0 * static_cast<double>(i), "", {}, units.kept()})));
     }
     EXPECT_EQ(idle > 0, count == 50);  // more shards than work: some have none, and are merged as all others
     ReportPart parts = read_parts(paths);
@@ -107,7 +108,8 @@ TEST(Shards, EveryBitOfARowComesBack) {
     ErrorRow row;
     const std::uint64_t bits = random();
     std::memcpy(&row.error, &bits, sizeof bits);
-    row.step = std::vector<double>{-0.0, std::numeric_limits<double>::infinity(), 5e-324}[static_cast<std::size_t>(i % 3)];
+    row.step =
+        std::vector<double>{-0.0, std::numeric_limits<double>::infinity(), 5e-324}[static_cast<std::size_t>(i % 3)];
     row.scene = i % 2 == 0 ? "" : "C, two";
     row.finite = i % 5 == 0;
     const ErrorRow back = row_from_text<ErrorRow>(row_text(row), "here");
@@ -132,8 +134,14 @@ TEST(Shards, WhatIsNotAllShardsOfOneReportIsRefused) {
   EXPECT_EQ(read_parts({two, one}).rows.size(), 1U);
   const std::string text = part(2, 2, true);
   const std::vector<std::vector<std::string>> bad = {
-      {one}, {one, one}, {one, two, two}, {one, "/nowhere/at/all"}, {one, "/"}, {one, "/dev/null"},
-      {one, written(folder, "other count", part(2, 3, true))}, {one, written(folder, "not quick", part(2, 2, false))},
+      {one},
+      {one, one},
+      {one, two, two},
+      {one, "/nowhere/at/all"},
+      {one, "/"},
+      {one, "/dev/null"},
+      {one, written(folder, "other count", part(2, 3, true))},
+      {one, written(folder, "not quick", part(2, 2, false))},
       {one, written(folder, "something else", "scene,stiffness_factor\nA,1\n")}};
   for (const auto& paths : bad) EXPECT_THROW(read_parts(paths), InputError) << paths.back();
   for (std::size_t length = 0; length < text.size(); ++length) {

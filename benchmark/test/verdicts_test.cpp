@@ -26,8 +26,8 @@ void add_line(const std::string& method, double factor, double scale, std::vecto
 
 Verdict::Result result_of(const Measurements& measured, const std::string& part) {
   const std::vector<Verdict> all = verdicts(measured);
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const Verdict& v) { return v.claim.find(part) != std::string::npos; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Verdict& v) { return v.claim.find(part) != std::string::npos; });
   if (found == all.end()) throw std::runtime_error("no verdict on " + part);
   return found->result;
 }

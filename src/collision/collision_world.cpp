@@ -19,7 +19,8 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double impact_precision = 1e-8;  ///< [m] of the way, between the free and the touching end of a time of impact
+constexpr double impact_precision =
+    1e-8;  ///< [m] of the way, between the free and the touching end of a time of impact
 
 /// An axis-aligned box as an object of FCL's broadphase.
 class BoxObject {
@@ -92,7 +93,8 @@ Eigen::AlignedBox3d grown(Eigen::AlignedBox3d box, double by) {
 
 /// Goes on from `free` towards `touching` by what is surely clear, and then by ever longer steps from `least` on.
 template <typename ClearFrom, typename TouchingAt>
-void approach(const ClearFrom& clear_from, const TouchingAt& touching_at, double least, double& free, double& touching) {
+void approach(const ClearFrom& clear_from, const TouchingAt& touching_at, double least, double& free,
+              double& touching) {
   constexpr int most_advances = 50;
   for (int i = 0; i < most_advances; ++i) {
     const double clear = clear_from(free, touching);
@@ -199,10 +201,10 @@ struct CollisionWorld::Impl {
     }
   }
 
-  /// Which part of the way `move`, `turn` (in the body's axes) the body can surely go from `X_WO` on without being deeper
-  /// in anything than `tolerance`, at most `longest`: conservative advancement, piece by piece. Boxes around the pieces
-  /// stay clear of each other as their corners do of a plane between them; where boxes around other shapes overlap, it is
-  /// the gap between the surfaces that is left.
+  /// Which part of the way `move`, `turn` (in the body's axes) the body can surely go from `X_WO` on without being
+  /// deeper in anything than `tolerance`, at most `longest`: conservative advancement, piece by piece. Boxes around the
+  /// pieces stay clear of each other as their corners do of a plane between them; where boxes around other shapes
+  /// overlap, it is the gap between the surfaces that is left.
   double clear_way(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
                    double tolerance, double longest) {
     const Way way{X_WO.translation(), move_W, X_WO.linear() * turn_O};
@@ -212,7 +214,8 @@ struct CollisionWorld::Impl {
       const RigidTransform X_WS = X_WO * pieces[i].X_OS;
       const OutlineBox own = pieces[i].outline(X_WS);
       const Eigen::AlignedBox3d box = pieces[i].box_at(X_WS);
-      const double by_corners = clear_above(own, way, {Vector3d::UnitZ(), bench_height}, own.exact ? tolerance : 0.0, clear);
+      const double by_corners =
+          clear_above(own, way, {Vector3d::UnitZ(), bench_height}, own.exact ? tolerance : 0.0, clear);
       clear = std::max(by_corners, std::min(clear, (box.min().z() - bench_height) / fastest));
       find_near(body, grown(box, fastest * clear));
       for (const std::size_t other : near) {

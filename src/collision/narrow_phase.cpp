@@ -113,8 +113,8 @@ const NarrowPhase::Solid& NarrowPhase::with_triangles(std::size_t index) {
   return solid;
 }
 
-double NarrowPhase::clear_way(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
-                              double tolerance) {
+double NarrowPhase::clear_way(std::size_t own, const RigidTransform& X_WA, std::size_t other,
+                              const RigidTransform& X_WB, double tolerance) {
   const auto is_a = [&](auto kind, std::size_t solid) {
     return std::holds_alternative<decltype(kind)>(solids_[solid].geometry);
   };

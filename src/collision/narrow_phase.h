@@ -10,8 +10,8 @@ namespace spring_workbench {
 /// Contact of two shapes. FCL says which shapes and which of their triangles meet. Where, how deep and in which
 /// direction is taken from it for two boxes only (held against the separating axis theorem in the tests); elsewhere its
 /// normals and depths come from GJK/EPA, are one point at most and change sign or face from pose to pose. So spheres
-/// are done by closed formulas, meshes at the side of a cylinder by their edges, and everything else, cylinders as prisms,
-/// by the triangles that meet.
+/// are done by closed formulas, meshes at the side of a cylinder by their edges, and everything else, cylinders as
+/// prisms, by the triangles that meet.
 class NarrowPhase {
  public:
   NarrowPhase();
@@ -27,8 +27,8 @@ class NarrowPhase {
   void append_contacts(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
                        double tolerance, std::vector<ContactPoint>& contacts);
 
-  /// How far every point of a shape may surely go before it is deeper in the other than `tolerance` >= 0 [m]; 0 for a sphere
-  /// and a mesh. The whole tolerance is used where depths are exact.
+  /// How far every point of a shape may surely go before it is deeper in the other than `tolerance` >= 0 [m]; 0 for a
+  /// sphere and a mesh. The whole tolerance is used where depths are exact.
   double clear_way(std::size_t own, const RigidTransform& X_WA, std::size_t other, const RigidTransform& X_WB,
                    double tolerance);
 

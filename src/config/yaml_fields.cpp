@@ -139,9 +139,11 @@ void check_keys(const YAML::Node& map, const std::string& where, const std::stri
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : YAML::Dump(entry.first);
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
-      throw InputError(one_line(place(entry.first, where) + ": " + prefix + key + ": unknown key; known are " + join(allowed)));
+      throw InputError(
+          one_line(place(entry.first, where) + ": " + prefix + key + ": unknown key; known are " + join(allowed)));
     }
-    if (!seen.insert(key).second) throw InputError(one_line(place(entry.first, where) + ": " + prefix + key + ": given twice"));
+    if (!seen.insert(key).second)
+      throw InputError(one_line(place(entry.first, where) + ": " + prefix + key + ": given twice"));
   }
 }
 
@@ -152,7 +154,8 @@ void check_extent(const YAML::Node& node, const std::string& path, int depth, lo
   constexpr int most_deep = 100;
   constexpr long most_values = 1000000;
   if (depth > most_deep) throw InputError(path + ": nesting: must be at most " + std::to_string(most_deep) + " deep");
-  if (++values > most_values) throw InputError(path + ": size: must be at most " + std::to_string(most_values) + " values");
+  if (++values > most_values)
+    throw InputError(path + ": size: must be at most " + std::to_string(most_values) + " values");
   if (node.IsSequence()) {
     for (const YAML::Node& entry : node) check_extent(entry, path, depth + 1, values);
   } else if (node.IsMap()) {

@@ -7,8 +7,9 @@
 
 namespace spring_workbench {
 
-/// Exponential collocation at the four Lobatto nodes of a step: in ẋ = λ x + N(t), N is the cubic through its values at the
-/// nodes, so that `x(c_i h) = e^{c_i h λ} x₀ + h Σ_j a_ij(hλ) N_j` (Hochbruck and Ostermann, Acta Numerica 2010, section 2.1).
+/// Exponential collocation at the four Lobatto nodes of a step: in ẋ = λ x + N(t), N is the cubic through its values at
+/// the nodes, so that `x(c_i h) = e^{c_i h λ} x₀ + h Σ_j a_ij(hλ) N_j` (Hochbruck and Ostermann, Acta Numerica 2010,
+/// section 2.1).
 struct Collocation {
   static constexpr std::size_t count = 4;
   /// 0, ½ ∓ √5/10, 1.
@@ -26,8 +27,8 @@ struct Collocation {
   /// What one mode needs for a step, `Scalar` real or complex.
   template <typename Scalar>
   struct Weights {
-    std::array<Scalar, count> decay;                   ///< e^{c_i z}
-    std::array<std::array<Scalar, count>, count> node; ///< a_ij; row 0 is zero
+    std::array<Scalar, count> decay;                    ///< e^{c_i z}
+    std::array<std::array<Scalar, count>, count> node;  ///< a_ij; row 0 is zero
     Scalar error;  ///< ∫₀¹ e^{(1−c)z} Π_j (c − c_j) dc: what one unit of the fourth divided difference does to the end
   };
   /// For `z` = h λ.

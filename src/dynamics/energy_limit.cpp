@@ -8,8 +8,8 @@ namespace {
 
 /// Of the energy that moves to and fro: what may come back above the lowest value since the handle rests.
 constexpr double allowance = 1e-11;
-constexpr double same_time = 1e-9;    ///< of the step: the end of the last half of a step and of the step
-constexpr int halvings = 40;  ///< of the way back to where the step began
+constexpr double same_time = 1e-9;  ///< of the step: the end of the last half of a step and of the step
+constexpr int halvings = 40;        ///< of the way back to where the step began
 
 struct Energy {
   double kinetic, potential;  ///< [J]
@@ -42,8 +42,8 @@ bool hold_energy(const HeldBody& body, const FrameMotion& handle, double t, doub
     memory.rests = false;
     return false;
   }
-  const bool goes_on = memory.rests && memory.version == body.version() &&
-                       std::abs(memory.t - t) <= same_time * h && memory.X_WH.matrix() == from.X_WH.matrix();
+  const bool goes_on = memory.rests && memory.version == body.version() && std::abs(memory.t - t) <= same_time * h &&
+                       memory.X_WH.matrix() == from.X_WH.matrix();
   if (!goes_on) {
     const Energy e = energy_of(body, from, begin);
     memory.lowest_energy = e.kinetic + e.potential;

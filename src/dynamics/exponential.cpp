@@ -15,8 +15,8 @@ constexpr std::size_t last = nodes - 1;
 
 constexpr int most_sweeps = 12;
 constexpr int most_halvings = 4;
-/// A step that takes no more sweeps than this is at its best. When the others' sweeps beyond it have cost what a linear part
-/// costs, it is taken anew.
+/// A step that takes no more sweeps than this is at its best. When the others' sweeps beyond it have cost what a linear
+/// part costs, it is taken anew.
 constexpr int few_sweeps = 3;
 constexpr int worth_a_linear_part = 150;
 /// Sweeps stop when what they would still change is below this share of the error that the cubic itself makes, or below
@@ -38,7 +38,8 @@ constexpr double forget_contraction = 1.3;
 constexpr double farthest_continued = 1.5;
 /// Steps whose lengths differ by less are equal: what differs is rounding of times.
 constexpr double same_length = 1e-11;
-/// The same for the start of a step and the end of the last one, as a share of the step, and for the handle's acceleration.
+/// The same for the start of a step and the end of the last one, as a share of the step, and for the handle's
+/// acceleration.
 constexpr double same_time = 1e-9;
 constexpr double same_acceleration = 1e-12;
 
@@ -49,7 +50,7 @@ bool same(const Vector3d& a, const Vector3d& b) {
 /// `A x` for sizes that the compiler knows: all of it in registers.
 template <int rows, int columns>
 SPRING_WORKBENCH_INLINE Eigen::Matrix<double, rows, 1> times(const Eigen::Matrix<double, rows, columns>& A,
-                                     const Eigen::Matrix<double, columns, 1>& x) {
+                                                             const Eigen::Matrix<double, columns, 1>& x) {
   Eigen::Matrix<double, rows, 1> y = A.col(0) * x[0];
   for (int j = 1; j < columns; ++j) y += A.col(j) * x[j];
   return y;
@@ -68,8 +69,7 @@ class Exponential::Core {
 template <int n>
 class Exponential::CoreOf final : public Core {
  public:
-  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h,
-                    StrainState& state) override {
+  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override {
     State s{state.q, state.q_dot};
     const Estimate e = step(body, handle, t, h, s, 0);
     state.q = s.q;
@@ -224,7 +224,8 @@ class Exponential::CoreOf final : public Core {
       x[at(m)] = sum;
     }
   }
-  /// Squared size of what is in modes [m² kg]: displacements as they are, velocities times what is left of them over a step.
+  /// Squared size of what is in modes [m² kg]: displacements as they are, velocities times what is left of them over a
+  /// step.
   SPRING_WORKBENCH_INLINE double squared_size(const Modes& x) const { return squared_weight_.dot(x.cwiseAbs2()); }
   SPRING_WORKBENCH_INLINE Pack squared_size(const NodeModes& x, const NodeModes& y) const {
     Pack sum{};
@@ -299,7 +300,8 @@ class Exponential::CoreOf final : public Core {
   }
 
   /// The remainders at the nodes, as far as they are known before the first sweep.
-  SPRING_WORKBENCH_INLINE void predict(const HeldBody& body, const HandleForcings& forcing, double h, const State& state) {
+  SPRING_WORKBENCH_INLINE void predict(const HeldBody& body, const HandleForcings& forcing, double h,
+                                       const State& state) {
     const bool follows = goes_on(forcing.t[0], state);
     const bool known = follows && load_version_ == body.load_version() &&
                        same(end_acceleration_, vector(forcing.of_H.a_B, 0)) &&
@@ -420,12 +422,12 @@ class Exponential::CoreOf final : public Core {
   std::array<Operator<Pack>, nodes> node_{};  ///< of the remainder at each node
   Operator<double> error_;
 
-  Swept swept_[3];         ///< the last sweeps, in turns
-  NodeModes remainder_;    ///< at the nodes of this step, or the last one
+  Swept swept_[3];       ///< the last sweeps, in turns
+  NodeModes remainder_;  ///< at the nodes of this step, or the last one
   Modes start_remainder_;
-  double contraction_ = 1.0;                               ///< of the first sweep's change by the second
-  double squared_cubic_ = 0.0;                             ///< size of the cubic's error in the last step
-  int slow_sweeps_ = 0;                                    ///< beyond few_sweeps, with this linear part
+  double contraction_ = 1.0;    ///< of the first sweep's change by the second
+  double squared_cubic_ = 0.0;  ///< size of the cubic's error in the last step
+  int slow_sweeps_ = 0;         ///< beyond few_sweeps, with this linear part
   double last_h_ = 0.0, t_end_ = 0.0;
   State end_;
   long load_version_ = -1;
@@ -441,12 +443,24 @@ Exponential::Core& Exponential::core(int n) {
   if (n != n_) {
     n_ = n;
     switch (n) {
-      case 1: core_ = std::make_unique<CoreOf<1>>(); break;
-      case 2: core_ = std::make_unique<CoreOf<2>>(); break;
-      case 3: core_ = std::make_unique<CoreOf<3>>(); break;
-      case 4: core_ = std::make_unique<CoreOf<4>>(); break;
-      case 5: core_ = std::make_unique<CoreOf<5>>(); break;
-      default: core_ = std::make_unique<CoreOf<6>>(); break;
+      case 1:
+        core_ = std::make_unique<CoreOf<1>>();
+        break;
+      case 2:
+        core_ = std::make_unique<CoreOf<2>>();
+        break;
+      case 3:
+        core_ = std::make_unique<CoreOf<3>>();
+        break;
+      case 4:
+        core_ = std::make_unique<CoreOf<4>>();
+        break;
+      case 5:
+        core_ = std::make_unique<CoreOf<5>>();
+        break;
+      default:
+        core_ = std::make_unique<CoreOf<6>>();
+        break;
     }
   }
   return *core_;

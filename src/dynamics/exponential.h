@@ -7,11 +7,11 @@
 namespace spring_workbench {
 
 /// Exponential collocation: the coupled linear part, frozen near a recent state, in closed form through its modes, with
-/// what it leaves over as the cubic through four Lobatto nodes of the step (collocation.h), found by sweeps that start from
-/// the last step's cubic and go on by Anderson's acceleration of depth two (Walker and Ni, SIAM J. Numer. Anal. 49, 2011).
-/// Order five, or six where the sweeps' error does not show; exact for linear systems whose handle accelerates as a cubic of
-/// time; no stiffness limits its step. Where the sweeps do not converge, the linear part is taken anew, then the step is
-/// halved.
+/// what it leaves over as the cubic through four Lobatto nodes of the step (collocation.h), found by sweeps that start
+/// from the last step's cubic and go on by Anderson's acceleration of depth two (Walker and Ni, SIAM J. Numer. Anal.
+/// 49, 2011). Order five, or six where the sweeps' error does not show; exact for linear systems whose handle
+/// accelerates as a cubic of time; no stiffness limits its step. Where the sweeps do not converge, the linear part is
+/// taken anew, then the step is halved.
 class Exponential final : public Integrator {
  public:
   Exponential();

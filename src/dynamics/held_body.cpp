@@ -12,8 +12,9 @@ namespace {
 /// After this many time constants a critically damped return is over: exp(−45) is below the rounding of its start.
 constexpr double return_is_over = 45.0;
 
-/// `2 ζ M^½ (M^-½ K M^-½)^½ M^½` for a diagonal `K`: of the stiff coordinates 2 ζ K^½ (K^½ M⁻¹ K^½)^-½ K^½, from the singular
-/// values of L⁻¹ K^½ with M = L Lᵀ. So soft coordinates keep their digits beside stiff ones; without stiffness no damping.
+/// `2 ζ M^½ (M^-½ K M^-½)^½ M^½` for a diagonal `K`: of the stiff coordinates 2 ζ K^½ (K^½ M⁻¹ K^½)^-½ K^½, from the
+/// singular values of L⁻¹ K^½ with M = L Lᵀ. So soft coordinates keep their digits beside stiff ones; without stiffness
+/// no damping.
 StrainMatrix modal_damping(const StrainMatrix& M, const StrainVector& K, double ratio) {
   const Eigen::Index n = K.size();
   StrainMatrix root = StrainMatrix::Zero(n, n);  // its first `stiff` columns

@@ -1,9 +1,8 @@
 // The accelerations of the held body: the equation of motion itself, in one moment or in packs of them.
-#include "spring_workbench/dynamics/held_body.h"
-
 #include <cmath>
 #include <type_traits>
 
+#include "spring_workbench/dynamics/held_body.h"
 #include "spring_workbench/math/positive_definite.h"
 #include "spring_workbench/math/so3.h"
 
@@ -31,7 +30,7 @@ template void HeldBody::prescribe(double t, int k, double* q, double* q_dot, dou
 
 template <typename S>
 struct HeldBody::Rigid {
-  Three<S> r_EO;      ///< from tip to centre of mass, axes of H
+  Three<S> r_EO;  ///< from tip to centre of mass, axes of H
   ThreeByThree<S> R_HO;
   Three<S> force;     ///< mass times acceleration of O, less gravity and contact, axes of H
   Three<S> moment_O;  ///< rate of the angular momentum about O, less the contact's moment, axes of O
@@ -90,8 +89,8 @@ SPRING_WORKBENCH_INLINE S HeldBody::slide(const FrameForcing<S>& h, const S& ext
   const S zero{};
   const Three<S> p_HO{zero + p_EO_.x(), zero + p_EO_.y(), extension + (shape_->length() + p_EO_.z())};
   if (loaded_) force += transposed(h.R_WB, three(external_W_.force)).z;
-  const S a_z = h.a_B.z + h.alpha_B.x * p_HO.y - h.alpha_B.y * p_HO.x + h.w_B.z * dot(h.w_B, p_HO) -
-                p_HO.z * dot(h.w_B, h.w_B);
+  const S a_z =
+      h.a_B.z + h.alpha_B.x * p_HO.y - h.alpha_B.y * p_HO.x + h.w_B.z * dot(h.w_B, p_HO) - p_HO.z * dot(h.w_B, h.w_B);
   return force * (1.0 / body_.mass) - a_z;
 }
 
@@ -201,7 +200,8 @@ Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleForcing& h, const
 }
 
 template <int n>
-SPRING_WORKBENCH_WIDE void HeldBody::acceleration(const HandleForcings& h, const Pack* q, const Pack* q_dot, Pack* q_ddot) const {
+SPRING_WORKBENCH_WIDE void HeldBody::acceleration(const HandleForcings& h, const Pack* q, const Pack* q_dot,
+                                                  Pack* q_ddot) const {
   accelerate<n>(h.t, h.of_H, q, q_dot, q_ddot);
 }
 
@@ -230,13 +230,20 @@ StrainVector HeldBody::acceleration(const HandleForcing& h, const StrainVector& 
     return acceleration<n>(h, Eigen::Matrix<double, n, 1>(q), Eigen::Matrix<double, n, 1>(q_dot));
   };
   switch (size()) {
-    case 1: return of(std::integral_constant<int, 1>());
-    case 2: return of(std::integral_constant<int, 2>());
-    case 3: return of(std::integral_constant<int, 3>());
-    case 4: return of(std::integral_constant<int, 4>());
-    case 5: return of(std::integral_constant<int, 5>());
-    case 6: return of(std::integral_constant<int, 6>());
-    default: return StrainVector::Zero(0);
+    case 1:
+      return of(std::integral_constant<int, 1>());
+    case 2:
+      return of(std::integral_constant<int, 2>());
+    case 3:
+      return of(std::integral_constant<int, 3>());
+    case 4:
+      return of(std::integral_constant<int, 4>());
+    case 5:
+      return of(std::integral_constant<int, 5>());
+    case 6:
+      return of(std::integral_constant<int, 6>());
+    default:
+      return StrainVector::Zero(0);
   }
 }
 
@@ -265,8 +272,8 @@ MotionState HeldBody::object(const HandleForcing& h, const StrainState& state, c
   s.velocity.angular = vector(R_WH * (w_H + w));
   if (q_ddot != nullptr) {
     const Three<double> of_O = a + cross(alpha, r_EO) + cross(w, cross(w, r_EO));
-    const Three<double> a_H = three(h.acceleration_less_gravity) + of_O + cross(alpha_H, p_HO) +
-                              cross(w_H, cross(w_H, p_HO) + 2.0 * v_rel);
+    const Three<double> a_H =
+        three(h.acceleration_less_gravity) + of_O + cross(alpha_H, p_HO) + cross(w_H, cross(w_H, p_HO) + 2.0 * v_rel);
     s.acceleration.linear = vector(R_WH * a_H) - gravity_ * Vector3d::UnitZ();
     s.acceleration.angular = vector(R_WH * (alpha_H + cross(w_H, w) + alpha));
   }

@@ -10,7 +10,7 @@ constexpr double strain_difference = 1e-6;  ///< over the length: for derivative
 constexpr double rate_difference = 1e-4;    ///< over the length [1/s]; the acceleration is quadratic in the rates
 constexpr double time_difference = 1e-4;    ///< of the step
 constexpr int most_newton_steps = 10;
-constexpr double newton_done = 1e-13;       ///< change of the strain against the step's own
+constexpr double newton_done = 1e-13;  ///< change of the strain against the step's own
 
 }  // namespace
 
@@ -65,8 +65,7 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const FrameMotion& handle
   for (int i = 0; i < most_newton_steps; ++i) {
     // q̇ is the unknown, q = q₀ + h q̇: residual q̇ − q̇₀ − h q̈.
     const StrainVector off_q = state.q + h * next.q_dot - next.q;  // of the first iterate only
-    const StrainVector change =
-        matrix.solve(motion.M * (state.q_dot - next.q_dot + h * a) - h * (motion.K * off_q));
+    const StrainVector change = matrix.solve(motion.M * (state.q_dot - next.q_dot + h * a) - h * (motion.K * off_q));
     next.q_dot += change;
     next.q = state.q + h * next.q_dot;
     const double size = change.norm();
@@ -112,8 +111,8 @@ constexpr double c_ij[stages][stages] = {
     {34.19095006749676, 15.49671153725963, 54.74760875964130, 14.16005392148534},
     {34.62605830930532, 15.30084976114473, 56.99955578662667, 18.40807009793095, -5.714285714285717}};
 
-/// One step from (q, v), each column a state of its own; `acceleration(c, q, v)` at t + c h, `by_time` its derivative by
-/// time.
+/// One step from (q, v), each column a state of its own; `acceleration(c, q, v)` at t + c h, `by_time` its derivative
+/// by time.
 template <typename Matrix, typename Acceleration>
 void rodas_step(const LinearisedMotion& motion, double h, const Acceleration& acceleration, const Matrix& by_time,
                 Matrix& q, Matrix& v) {
@@ -168,8 +167,7 @@ StrainState rodas_step(const HeldBody& body, const FrameMotion& handle, double t
 
 }  // namespace
 
-StepEstimate Rosenbrock::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
-                              StrainState& state) {
+StepEstimate Rosenbrock::step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) {
   // Between 2⁴ − 1 of smooth motions and the 2 − 1 of the stiffest.
   constexpr double finer_by = 10.0;
   const StepStart begin(body, handle, t, state);

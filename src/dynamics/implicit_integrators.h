@@ -37,9 +37,9 @@ class ImplicitEuler final : public Integrator {
   StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
 };
 
-/// Rosenbrock method of order four, stiffly accurate and L-stable, without loss of order in stiff forced systems: RODASP
-/// (Steinebach 1995; Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7, equation (7.25) for the
-/// form used). Each step is done as two halves; against one whole it gives the error estimate.
+/// Rosenbrock method of order four, stiffly accurate and L-stable, without loss of order in stiff forced systems:
+/// RODASP (Steinebach 1995; Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7, equation (7.25)
+/// for the form used). Each step is done as two halves; against one whole it gives the error estimate.
 class Rosenbrock final : public Integrator {
  public:
   std::string name() const override { return "rosenbrock"; }

@@ -39,7 +39,8 @@ Integrator::Response Integrator::response(const HeldBody& body, double t, double
 }
 
 StrainVector LastAcceleration::get(const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
-  const bool same = version_ == body.version() && load_version_ == body.load_version() && t_ == handle.t && state_.q == state.q && state_.q_dot == state.q_dot &&
+  const bool same = version_ == body.version() && load_version_ == body.load_version() && t_ == handle.t &&
+                    state_.q == state.q && state_.q_dot == state.q_dot &&
                     handle_acceleration_ == handle.acceleration_less_gravity &&
                     handle_angular_acceleration_ == handle.angular_acceleration;
   return same ? q_ddot_ : body.acceleration(handle, state.q, state.q_dot);
@@ -85,7 +86,7 @@ StepEstimate end_error(const HeldBody& body, const FrameMotion& handle, double t
     return StrainVector(h * h * (p.q_ddot - body.acceleration(body.forcing(handle, t + u * h), p.q, p.q_dot)));
   };
   const StrainVector d1 = defect(0.25), d3 = defect(0.75);
-  const StrainVector g = (d1 + d3) / 2.25;             // H''(¼) = −H''(¾) = 5.625, G''(¼) = −1.6875, G''(¾) = 3.9375
+  const StrainVector g = (d1 + d3) / 2.25;  // H''(¼) = −H''(¾) = 5.625, G''(¼) = −1.6875, G''(¾) = 3.9375
   return {(d1 + 1.6875 * g) / 5.625, 0.0, g / h};
 }
 
@@ -110,8 +111,7 @@ StepEstimate RungeKutta4::step(const HeldBody& body, const FrameMotion& handle, 
   return end_error(body, handle, t, h, {s0, a1}, {state, a_end});
 }
 
-StepEstimate ClosedForm::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
-                              StrainState& state) {
+StepEstimate ClosedForm::step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) {
   const StrainVector a = last_.get(body, body.forcing(handle, t), state);
   const StrainMatrix M = body.mass_matrix(t, state.q);
   const StrainVector K = body.stiffness(), D = body.damping().diagonal();

@@ -18,7 +18,8 @@ class LastAcceleration {
   StrainVector q_ddot_;
 };
 
-/// What simple simulators do: q̇ += h q̈(q, q̇), q += h q̇. First order; unstable for ω h > 2, with explicit damping sooner.
+/// What simple simulators do: q̇ += h q̈(q, q̇), q += h q̇. First order; unstable for ω h > 2, with explicit damping
+/// sooner.
 class SemiImplicitEuler final : public Integrator {
  public:
   std::string name() const override { return "semi_implicit_euler"; }
@@ -40,9 +41,9 @@ class RungeKutta4 final : public Integrator {
   LastAcceleration last_;
 };
 
-/// The paper's scheme (section 3.3): every coordinate on its own, the closed form of its damped oscillator initialised anew
-/// each step with the coordinate's own inertia; what couples it to the others and to the hand is held over the step.
-/// Here for any damping ratio. First order.
+/// The paper's scheme (section 3.3): every coordinate on its own, the closed form of its damped oscillator initialised
+/// anew each step with the coordinate's own inertia; what couples it to the others and to the hand is held over the
+/// step. Here for any damping ratio. First order.
 class ClosedForm final : public Integrator {
  public:
   std::string name() const override { return "closed_form"; }

@@ -9,15 +9,15 @@
 namespace spring_workbench {
 namespace {
 
-/// Eigenvectors may be worse conditioned than this only where the damping is critical to the last bit; then the linear part
-/// is taken with slightly other damping, and the difference goes to the remainder.
+/// Eigenvectors may be worse conditioned than this only where the damping is critical to the last bit; then the linear
+/// part is taken with slightly other damping, and the difference goes to the remainder.
 constexpr double worst_condition = 1e5;
 constexpr int most_attempts = 6;
 
 using ModeMatrix = LinearPart::ModeMatrix;
 
-/// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences, where the springs' own
-/// part is linear.
+/// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences, where the springs'
+/// own part is linear.
 StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& handle, const StrainVector& q) {
   const int n = body.size();
   StrainMatrix stiffness(n, n);
@@ -32,8 +32,8 @@ StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& handle
   return stiffness;
 }
 
-/// Copies eigenvectors in real columns, a conjugate pair as its real and imaginary part, pairs first. So V⁻¹ is that of what
-/// is kept of the pair, with no more error than its condition makes.
+/// Copies eigenvectors in real columns, a conjugate pair as its real and imaginary part, pairs first. So V⁻¹ is that of
+/// what is kept of the pair, with no more error than its condition makes.
 void sort_modes(const Eigen::EigenSolver<ModeMatrix>& solver, ModeMatrix& V, LinearPart& part) {
   const auto values = solver.eigenvalues();
   const auto vectors = solver.eigenvectors().eval();
@@ -65,13 +65,13 @@ LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const 
   part.inverse_mass = M.llt().solve(StrainMatrix::Identity(n, n));
   part.stiffness = stiffness_at_rest(body, handle, q);
 
-  // Undamped modes of the springs first: in them, with displacements scaled by their frequencies, stiff and soft motions
-  // stand side by side without loss of digits.
+  // Undamped modes of the springs first: in them, with displacements scaled by their frequencies, stiff and soft
+  // motions stand side by side without loss of digits.
   const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> undamped(StrainMatrix(body.stiffness().asDiagonal()), M);
   const StrainMatrix shapes = undamped.eigenvectors();
   const StrainMatrix to_shapes = shapes.transpose() * M;
-  // A free mode has no two eigenvectors, and free modes none of their own: the frozen part gets the stiffness of 1, 2, …
-  // rad/s, and the rest takes it back.
+  // A free mode has no two eigenvectors, and free modes none of their own: the frozen part gets the stiffness of 1, 2,
+  // … rad/s, and the rest takes it back.
   const StrainVector least = StrainVector::LinSpaced(n, 1.0, n).cwiseAbs2();
   const StrainVector scale = undamped.eigenvalues().cwiseMax(least).cwiseSqrt();
   const StrainVector missing = (least - undamped.eigenvalues()).cwiseMax(0.0);

@@ -7,8 +7,9 @@
 
 namespace spring_workbench {
 
-/// The equation of motion linearised about a strain at rest, `q̈ = −stiffness (q − q_reference) − damping q̇ + remainder`,
-/// and its modes: in `x = to_modes · (q − q_reference, q̇)` it falls apart into single real modes, `ẋ = rate x`, and pairs.
+/// The equation of motion linearised about a strain at rest, `q̈ = −stiffness (q − q_reference) − damping q̇ +
+/// remainder`, and its modes: in `x = to_modes · (q − q_reference, q̇)` it falls apart into single real modes, `ẋ = rate
+/// x`, and pairs.
 struct LinearPart {
   static constexpr int most_modes = 2 * max_strain_coordinates;
   using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;

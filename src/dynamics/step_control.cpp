@@ -15,10 +15,11 @@ namespace {
 /// A guarded step with a larger estimate of its error is taken again in halves.
 constexpr double large_error = 0.05;  ///< of the fork's length; of a radian
 constexpr int most_halvings = 6;
-/// How much closer than a whole step two halves are, where an estimate is made of the two: 32 where the motion is smooth,
-/// 2 to 4 where a jump of the handle's acceleration sets off a fast mode.
+/// How much closer than a whole step two halves are, where an estimate is made of the two: 32 where the motion is
+/// smooth, 2 to 4 where a jump of the handle's acceleration sets off a fast mode.
 constexpr double halves_are_closer = 4.0;
-constexpr int halvings_to_stop = 2;  ///< a piece of a step that is no longer than this may end at the end of the fork's way
+constexpr int halvings_to_stop =
+    2;  ///< a piece of a step that is no longer than this may end at the end of the fork's way
 constexpr double most_strain = 1e12;  ///< in the coordinates' own units; no state to go on from has more
 
 constexpr double safety = 0.9;
@@ -41,7 +42,8 @@ Sizes sizes(const HeldBody& body, double t, const StrainVector& q, const StrainV
 StrainMatrix swing_of(const LinearisedMotion& motion) {
   const StrainMatrix K = 0.5 * (motion.K + motion.K.transpose());
   const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> modes(K, motion.M);
-  const StrainVector period = modes.eigenvalues().cwiseAbs().cwiseMax(1.0 / (longest_swing * longest_swing)).cwiseSqrt();
+  const StrainVector period =
+      modes.eigenvalues().cwiseAbs().cwiseMax(1.0 / (longest_swing * longest_swing)).cwiseSqrt();
   return modes.eigenvectors() * period.cwiseInverse().asDiagonal() * modes.eigenvectors().transpose() * motion.M;
 }
 
@@ -77,12 +79,12 @@ ControlledStep StepControl::advance(const HeldBody& body, const FrameMotion& han
   Span span{body, handle, memory, {}, (1.0 + 1e-9) * std::ldexp(h, -halvings_to_stop)};
   const Memory before = memory;
   StrainState next = state;
-  span.report.fine = tolerance_ > 0.0              ? steps_to_tolerance(span, t, h, next)
-                     : integrator_->unlimited()    ? step_in_halves(span, t, h, 0, next)
-                                                   : [&] {
-                                                       StepEstimate estimate;
-                                                       return try_step(span, t, h, next, estimate);
-                                                     }();
+  span.report.fine = tolerance_ > 0.0           ? steps_to_tolerance(span, t, h, next)
+                     : integrator_->unlimited() ? step_in_halves(span, t, h, 0, next)
+                                                : [&] {
+                                                    StepEstimate estimate;
+                                                    return try_step(span, t, h, next, estimate);
+                                                  }();
   if (span.report.fine) {
     state = next;
   } else {
@@ -111,7 +113,8 @@ bool StepControl::try_step(Span& span, double t, double h, StrainState& state, S
   estimate = step_with_estimate(span, t, h, state);
   if (!((state.q.norm() + state.q_dot.norm()) < most_strain)) return false;
   if (!body.shape().admissible(body.full_state(t + h, state).q)) {
-    const bool stops = integrator_->unlimited() && h <= span.longest_to_stop && stop_at_limit(body, t + h, begin, state);
+    const bool stops =
+        integrator_->unlimited() && h <= span.longest_to_stop && stop_at_limit(body, t + h, begin, state);
     if (!stops) return false;
   }
   // The estimate is in the coordinates of the step.
@@ -177,7 +180,8 @@ bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
     const ControlledStep report_before = span.report;
     StrainState next = state;
     StepEstimate estimate;
-    const bool fine = try_step(span, t, dt, next, estimate) && estimate.q_error.allFinite() && estimate.q_dot_error.allFinite();
+    const bool fine =
+        try_step(span, t, dt, next, estimate) && estimate.q_error.allFinite() && estimate.q_dot_error.allFinite();
     const bool smallest = dt < 2.0 * shortest;
     if (smallest && !fine) return false;
     StrainState error = memory.error;

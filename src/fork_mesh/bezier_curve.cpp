@@ -27,7 +27,8 @@ class Bezier {
 
   Vector3d at(double t) const {
     const double s = 1.0 - t;
-    return s * s * s * points_[0] + 3.0 * s * s * t * points_[1] + 3.0 * s * t * t * points_[2] + t * t * t * points_[3];
+    return s * s * s * points_[0] + 3.0 * s * s * t * points_[1] + 3.0 * s * t * t * points_[2] +
+           t * t * t * points_[3];
   }
   Vector3d rate(double t) const {
     const double s = 1.0 - t;

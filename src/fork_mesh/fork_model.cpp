@@ -8,8 +8,8 @@ namespace spring_workbench {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double coil_radius = 0.5;     ///< [diameters], of the wire's centre
-constexpr double flange = 0.2;          ///< thickness of the discs that hold the wire's ends [diameters]
+constexpr double coil_radius = 0.5;  ///< [diameters], of the wire's centre
+constexpr double flange = 0.2;       ///< thickness of the discs that hold the wire's ends [diameters]
 
 void check(const ForkLook& look) {
   const char* const where = "fork look";
@@ -64,8 +64,8 @@ void ForkModel::make_end() {
   }
 }
 
-/// Adds the surface that the profile's points (radius, z), from back to front, sweep about the line x = `centre`, to the
-/// shaft or the end. Edges are sharp: each piece of the profile has its own vertices and normals.
+/// Adds the surface that the profile's points (radius, z), from back to front, sweep about the line x = `centre`, to
+/// the shaft or the end. Edges are sharp: each piece of the profile has its own vertices and normals.
 void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double centre, Vertices& part) {
   const int sides = look_.round_sides;
   for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
@@ -77,8 +77,8 @@ void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double cent
       for (const Eigen::Vector2d& p : {profile[k], profile[k + 1]}) {
         const double x = centre + p.x() * std::cos(angle), y = p.x() * std::sin(angle);
         const double phi = std::atan2(y, x), turn = angle - phi;
-        part.push_back({std::hypot(x, y), phi, p.y(), outward.x() * std::cos(turn), outward.x() * std::sin(turn),
-                        outward.y()});
+        part.push_back(
+            {std::hypot(x, y), phi, p.y(), outward.x() * std::cos(turn), outward.x() * std::sin(turn), outward.y()});
       }
       const int a = first + 2 * i, b = first + 2 * ((i + 1) % sides);
       if (profile[k].x() > 0.0) rigid_triangles_.emplace_back(a, b, b + 1);

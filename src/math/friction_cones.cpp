@@ -14,11 +14,11 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 constexpr int most_iterations = 100;
-constexpr double solved = 1e-11;          ///< of the rates and impulses, both scaled to 1
-constexpr double acceptable = 1e-6;       ///< where no iteration comes nearer
-constexpr double slip_share = 0.1;        ///< of what is missing: the least distance from the cones that is aimed at
-constexpr double least_friction = 1e-6;   ///< a narrower cone is taken so wide
-constexpr double least_answer = 1e-6;     ///< of that of the contact that gives way most
+constexpr double solved = 1e-11;         ///< of the rates and impulses, both scaled to 1
+constexpr double acceptable = 1e-6;      ///< where no iteration comes nearer
+constexpr double slip_share = 0.1;       ///< of what is missing: the least distance from the cones that is aimed at
+constexpr double least_friction = 1e-6;  ///< a narrower cone is taken so wide
+constexpr double least_answer = 1e-6;    ///< of that of the contact that gives way most
 
 // Vectors [v0, v1, v2] of the cone v0 ≥ |(v1, v2)|, one after the other.
 
@@ -43,7 +43,8 @@ Vector3d quotient(const Vector3d& b, const Vector3d& a) {
 /// How often `d` may be added to `v` in its cone.
 double longest_step(const Vector3d& v, const Vector3d& d) {
   const double a = determinant(d), b = v.dot(mirrored(d)), c = determinant(v);
-  const double over = std::sqrt(std::max(0.0, b * b - a * c)) - b;  // the root is of what cannot be negative but by rounding
+  const double over =
+      std::sqrt(std::max(0.0, b * b - a * c)) - b;  // the root is of what cannot be negative but by rounding
   return over > 0.0 ? c / over : std::numeric_limits<double>::infinity();
 }
 
@@ -76,7 +77,8 @@ class ScaledProblem {
     for (Index i = 0; i < count_; ++i) {
       const double slope = std::max(friction[static_cast<std::size_t>(i)], least_friction);
       by_.segment<3>(3 * i) << slope, 1.0, 1.0;
-      answer[i] = std::sqrt(A.diagonal().segment<3>(3 * i).cwiseQuotient(by_.segment<3>(3 * i).cwiseAbs2()).sum() / 3.0);
+      answer[i] =
+          std::sqrt(A.diagonal().segment<3>(3 * i).cwiseQuotient(by_.segment<3>(3 * i).cwiseAbs2()).sum() / 3.0);
     }
     const double least = least_answer * answer.maxCoeff();
     for (Index i = 0; i < count_; ++i) by_.segment<3>(3 * i) *= std::max(answer[i], least);
@@ -112,7 +114,8 @@ class ScaledProblem {
  private:
   Vector3d of(const VectorXd& v, Index i) const { return v.segment<3>(3 * i); }
 
-  /// The rates that the impulses make, each normal one with the slip added: so the law is that they lie in the cone, too.
+  /// The rates that the impulses make, each normal one with the slip added: so the law is that they lie in the cone,
+  /// too.
   VectorXd law() const {
     VectorXd y = A_ * x_ + b_;
     for (Index i = 0; i < count_; ++i) y[3 * i] += std::hypot(y[3 * i + 1], y[3 * i + 2]);

@@ -1,9 +1,10 @@
+#include "spring_workbench/ros_interface/contact_sound.h"
+
 #include <ros/ros.h>
 
 #include <iostream>
 
 #include "spring_workbench/config/input_error.h"
-#include "spring_workbench/ros_interface/contact_sound.h"
 
 /// Contacts as sound. Exit status 2: bad parameters, or nowhere to play.
 int main(int argc, char** argv) {

@@ -22,8 +22,8 @@ const char* const kHelp = R"(Where the tracker stands on the workbench, or where
 register_tracker --landmarks FILE [--motion FILE] [--registration FILE] [--largest-residual MM] --out FILE
 register_tracker --pivot          [--motion FILE] [--registration FILE] [--largest-residual MM] --out FILE
 
-  --landmarks         YAML: landmarks: [{name: a, position: [x, y, z]}, ...], metres in the workbench. Touch one after the
-                      other, in this order, and press the button while the tip rests there
+  --landmarks         YAML: landmarks: [{name: a, position: [x, y, z]}, ...], metres in the workbench. Touch one after
+                      the other, in this order, and press the button while the tip rests there
   --pivot             hold the tip in one place, press the button, turn the stylus about it to all sides, let go
   --motion            a recorded motion with a button column, as the tracker measured it, in place of the running
                       tracker_driver
@@ -42,31 +42,49 @@ struct Options {
 };
 
 Options parse_options(int argc, char** argv) {
-  const option known[] = {{"help", no_argument, nullptr, 'h'},           {"pivot", no_argument, nullptr, 'p'},
-                          {"landmarks", required_argument, nullptr, 'l'}, {"motion", required_argument, nullptr, 'm'},
-                          {"registration", required_argument, nullptr, 'g'}, {"out", required_argument, nullptr, 'o'},
-                          {"largest-residual", required_argument, nullptr, 'r'}, {nullptr, 0, nullptr, 0}};
+  const option known[] = {{"help", no_argument, nullptr, 'h'},
+                          {"pivot", no_argument, nullptr, 'p'},
+                          {"landmarks", required_argument, nullptr, 'l'},
+                          {"motion", required_argument, nullptr, 'm'},
+                          {"registration", required_argument, nullptr, 'g'},
+                          {"out", required_argument, nullptr, 'o'},
+                          {"largest-residual", required_argument, nullptr, 'r'},
+                          {nullptr, 0, nullptr, 0}};
   Options options;
   opterr = 0;
   for (int code; (code = getopt_long(argc, argv, "", known, nullptr)) != -1;) {
     switch (code) {
-      case 'h': options.help = true; return options;
-      case 'p': options.pivot = true; break;
-      case 'l': options.landmarks = optarg; break;
-      case 'm': options.motion = optarg; break;
-      case 'g': options.registration = optarg; break;
-      case 'o': options.out = optarg; break;
+      case 'h':
+        options.help = true;
+        return options;
+      case 'p':
+        options.pivot = true;
+        break;
+      case 'l':
+        options.landmarks = optarg;
+        break;
+      case 'm':
+        options.motion = optarg;
+        break;
+      case 'g':
+        options.registration = optarg;
+        break;
+      case 'o':
+        options.out = optarg;
+        break;
       case 'r':
         options.largest_residual =
             1e-3 * read_number(YAML::Node(std::string(optarg)), kWhere, "--largest-residual", positive());
         break;
-      default: refuse(kWhere, "option", argv[optind - 1], "one of those that --help lists");
+      default:
+        refuse(kWhere, "option", argv[optind - 1], "one of those that --help lists");
     }
   }
   if (optind < argc) refuse(kWhere, "argument", argv[optind], "an option that --help lists");
   if (options.out.empty()) refuse(kWhere, "--out", "(nothing)", "the path of the file to write");
   if (options.pivot == !options.landmarks.empty()) {
-    refuse(kWhere, "--landmarks", options.pivot ? "given beside --pivot" : "(nothing)", "one of --landmarks and --pivot");
+    refuse(kWhere, "--landmarks", options.pivot ? "given beside --pivot" : "(nothing)",
+           "one of --landmarks and --pivot");
   }
   return options;
 }
@@ -126,7 +144,8 @@ struct Take {
 Take take(const Options& options, std::size_t touches, int argc, char** argv) {
   if (!options.motion.empty()) {
     StoredRegistration present;
-    if (!options.registration.empty()) present = read_registration(load_yaml_file(options.registration), options.registration);
+    if (!options.registration.empty())
+      present = read_registration(load_yaml_file(options.registration), options.registration);
     std::vector<StylusSample> samples = read_motion_file(options.motion);
     for (StylusSample& sample : samples) sample.X = present.X_BT * sample.X * Eigen::Translation3d(present.p_ST);
     return {samples, present};
@@ -158,8 +177,9 @@ std::string locate(const Options& options, const std::vector<Landmark>& known, T
     report << "# " << landmarks[i].name << ": residual " << 1e3 * found.residuals[i] << " mm\n";
   }
   report << "# residuals' rms " << 1e3 * found.rms << " mm; a touch is off by " << 1e3 * found.touch_error
-         << " mm along an axis\n# expected error: position " << 1e3 * found.position_error << " mm at the landmarks' middle, angle "
-         << 1e3 * found.angle_error << " mrad\n# check: no other order of the touches fits\n";
+         << " mm along an axis\n# expected error: position " << 1e3 * found.position_error
+         << " mm at the landmarks' middle, angle " << 1e3 * found.angle_error
+         << " mrad\n# check: no other order of the touches fits\n";
   return report.str();
 }
 

@@ -56,7 +56,8 @@ SimulatedOperator::SimulatedOperator(const Scene& scene, const OperatorSettings&
       X_WH_from_(scene.X_WH_start),
       X_WH_to_(scene.X_WH_start) {
   check(settings_);
-  for (const auto& [name, target] : scene.targets) jobs_.push_back({name, scene.bodies[*find_body(scene, name)], target});
+  for (const auto& [name, target] : scene.targets)
+    jobs_.push_back({name, scene.bodies[*find_body(scene, name)], target});
   t_decide_ = settings_.reaction;
 }
 
@@ -81,15 +82,24 @@ void SimulatedOperator::decide() {
   const bool lost = button_ && phase_ != Phase::grip && !state_of(job_->object).held;
   if (lost) return give_up();
   switch (phase_) {
-    case Phase::choose: return choose();
-    case Phase::above: return reach(hand_over(state_of(job_->object).X_WO.translation()), Phase::insert);
-    case Phase::insert: return insert();
-    case Phase::grip: return grip();
-    case Phase::lift: return reach(hand_for(goal(carry_height_)), Phase::carry);
-    case Phase::carry: return carry();
-    case Phase::lower: return lower();
-    case Phase::release: return reach(hand_lifted(), Phase::choose, false);
-    case Phase::over: return;
+    case Phase::choose:
+      return choose();
+    case Phase::above:
+      return reach(hand_over(state_of(job_->object).X_WO.translation()), Phase::insert);
+    case Phase::insert:
+      return insert();
+    case Phase::grip:
+      return grip();
+    case Phase::lift:
+      return reach(hand_for(goal(carry_height_)), Phase::carry);
+    case Phase::carry:
+      return carry();
+    case Phase::lower:
+      return lower();
+    case Phase::release:
+      return reach(hand_lifted(), Phase::choose, false);
+    case Phase::over:
+      return;
   }
 }
 
@@ -154,7 +164,8 @@ void SimulatedOperator::lower() {
   const BodyState& o = state_of(job_->object);
   const bool steady = o.V_WO_W.linear.norm() < steady_speed;
   if ((off(goal(0.0), !o.in_contact) || !steady) && ++corrections_ <= most_corrections) {
-    return off(goal(0.0), !o.in_contact) ? reach(hand_for(goal(0.0)), Phase::lower) : wait(settings_.reaction, Phase::lower);
+    return off(goal(0.0), !o.in_contact) ? reach(hand_for(goal(0.0)), Phase::lower)
+                                         : wait(settings_.reaction, Phase::lower);
   }
   button_ = false;
   wait(settings_.reaction, Phase::release);

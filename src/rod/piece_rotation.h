@@ -32,9 +32,9 @@ SPRING_WORKBENCH_INLINE ThreeByThree<S> rotation_matrix(const QuaternionOf<S>& q
   return symmetric_and_skew(S(S{} + 2.0), S(1.0 - 2.0 * dot(q.v, q.v)), S(2.0 * q.w), q.v);
 }
 
-/// The rotation along a piece of a rod whose strain is a polynomial of `degree`, as a power series of its quaternion about
-/// the middle. The series of q' = ½ q (a₀ + a₁ u + …) converges for every strain; pieces that turn by less than 2.5 rad
-/// leave 1e-13.
+/// The rotation along a piece of a rod whose strain is a polynomial of `degree`, as a power series of its quaternion
+/// about the middle. The series of q' = ½ q (a₀ + a₁ u + …) converges for every strain; pieces that turn by less
+/// than 2.5 rad leave 1e-13.
 template <int degree, typename S>
 class PieceRotation {
  public:

@@ -11,10 +11,10 @@ using Vector6 = ThreeTermRod::Vector6;
 using Matrix6 = ThreeTermRod::Matrix6;
 
 constexpr int most_newton_steps = 12;
-constexpr double newton_done = 1e-9;       ///< last change of r; the next one would be its square
-constexpr double largest_condensed = 20.0; ///< of r, curvature times length
-constexpr double singular = 1e-9;          ///< of the six's Jacobian: at a full circle stretching moves nothing
-constexpr double difference = 3e-3;        ///< for second derivatives along a motion, of fourth order
+constexpr double newton_done = 1e-9;        ///< last change of r; the next one would be its square
+constexpr double largest_condensed = 20.0;  ///< of r, curvature times length
+constexpr double singular = 1e-9;           ///< of the six's Jacobian: at a full circle stretching moves nothing
+constexpr double difference = 3e-3;         ///< for second derivatives along a motion, of fourth order
 
 }  // namespace
 
@@ -158,8 +158,8 @@ void QuadraticRod::tip(const double* q_begin, const double* q_dot_begin, TipOf<d
     velocity_change += first[i] * (moved.rod.jacobian() * along);
     residual_curvature += second[i] * moved.residual;
   }
-  const Vector6 bias = speed * speed / difference *
-                        (velocity_change - J2 * (c.inverse * residual_curvature) / difference);
+  const Vector6 bias =
+      speed * speed / difference * (velocity_change - J2 * (c.inverse * residual_curvature) / difference);
   out.linear_bias = three(L * bias.head<3>());
   out.angular_bias = three(bias.tail<3>());
 }

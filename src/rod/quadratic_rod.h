@@ -7,8 +7,8 @@ namespace spring_workbench {
 
 /// The rod with three Legendre terms of curvature in each plane (doc/model.md, `quadratic`). Coordinates are the six of
 /// `linear`; the third terms r are those of least elastic energy among all strains with the same tip pose:
-/// K₂ r = J₂ᵀ λ with the wrench λ that holds the six in equilibrium, J₆ᵀ λ = K₆ q. Where a family is off, its strain is zero
-/// there as everywhere. Without stiffness against bending r = 0.
+/// K₂ r = J₂ᵀ λ with the wrench λ that holds the six in equilibrium, J₆ᵀ λ = K₆ q. Where a family is off, its strain is
+/// zero there as everywhere. Without stiffness against bending r = 0.
 class QuadraticRod final : public ShapeModel {
  public:
   /// `stiffness` [N/m, N/m, N·m/rad] ≥ 0.
@@ -32,9 +32,9 @@ class QuadraticRod final : public ShapeModel {
  private:
   using Strain = ThreeTermRod::Strain;
   struct Condensed {
-    Strain x;                             ///< all strains, of a rod of length 1
-    Eigen::Matrix<double, 2, 6> slope;    ///< dr/dq
-    Eigen::Matrix2d inverse;              ///< of the residual's derivative by r
+    Strain x;                           ///< all strains, of a rod of length 1
+    Eigen::Matrix<double, 2, 6> slope;  ///< dr/dq
+    Eigen::Matrix2d inverse;            ///< of the residual's derivative by r
     bool found = true;
   };
   Condensed condense(const StrainVector& q) const;

@@ -50,8 +50,8 @@ SPRING_WORKBENCH_INLINE StrainRod::LinearStrain<S> StrainRod::curvature(const S*
 
 template <typename S>
 SPRING_WORKBENCH_INLINE double StrainRod::turned_angle(const LinearStrain<S>& k) const {
-  return length() * (std::sqrt(largest(dot(k.value, k.value))) +
-                     0.5 * length() * std::sqrt(largest(dot(k.slope, k.slope))));
+  return length() *
+         (std::sqrt(largest(dot(k.value, k.value))) + 0.5 * length() * std::sqrt(largest(dot(k.slope, k.slope))));
 }
 
 template <typename S>
@@ -80,10 +80,10 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   // For d1 and d2, then the same times σ = −1 … 1 along the rod, then d3.
   Three<S> f[5] = {zero, zero, zero, zero, zero};          // ∫ P_j R e
   Three<S> f_cross_p[5] = {zero, zero, zero, zero, zero};  // ∫ P_j R e × p
-  Three<S> bias = zero;          // ∫ w × R k̇
-  Three<S> bias_cross_p = zero;  // ∫ (w × R k̇) × p
-  Three<S> centripetal = zero;   // ∫ w × (w × d3)
-  Three<S> coriolis = zero;      // ∫ w × d3
+  Three<S> bias = zero;                                    // ∫ w × R k̇
+  Three<S> bias_cross_p = zero;                            // ∫ (w × R k̇) × p
+  Three<S> centripetal = zero;                             // ∫ w × (w × d3)
+  Three<S> coriolis = zero;                                // ∫ w × d3
 
   for (int piece = 0; piece < count; ++piece) {
     const double s_begin = piece * h;
@@ -153,8 +153,7 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   out.angular[stretch().begin] = zero;
   out.linear[stretch().begin] = p;
   out.angular_bias = bias;
-  out.linear_bias =
-      stretched * (cross(bias, p) - bias_cross_p + centripetal) + (2.0 * stretching) * coriolis;
+  out.linear_bias = stretched * (cross(bias, p) - bias_cross_p + centripetal) + (2.0 * stretching) * coriolis;
   out.separate = out.condensed = false;
 }
 

@@ -113,8 +113,8 @@ ThreeTermRod::ThreeTermRod(const Strain& x) : stretched_(1.0 + x[stretch]), piec
 }
 
 ThreeTermRod::Matrix ThreeTermRod::load_stiffness(const Vector6& wrench) const {
-  // Component v of Jᵀ wrench is ∫ c_v · m ds with the moment m at the section; x_u turns what is beyond s by φ_u = ∫ c_u and
-  // moves it by π_u = ∫ φ_u × d₃.
+  // Component v of Jᵀ wrench is ∫ c_v · m ds with the moment m at the section; x_u turns what is beyond s by φ_u = ∫
+  // c_u and moves it by π_u = ∫ φ_u × d₃.
   const Vector3d force = stretched_ * wrench.head<3>();
   const Vector3d p_tip = p_ / stretched_;
   const Columns pi_tip = J_.topRows<3>() / stretched_;

@@ -4,8 +4,8 @@
 
 namespace spring_workbench {
 
-/// A rod of length 1 with three Legendre terms of curvature in each plane, clamped at the origin along z; nothing condensed.
-/// Strain x = (κx₀, κx₁, κy₀, κy₁, τ, ε, κx₂, κy₂).
+/// A rod of length 1 with three Legendre terms of curvature in each plane, clamped at the origin along z; nothing
+/// condensed. Strain x = (κx₀, κx₁, κy₀, κy₁, τ, ε, κx₂, κy₂).
 class ThreeTermRod {
  public:
   static constexpr int size = 8;

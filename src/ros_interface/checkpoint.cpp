@@ -58,7 +58,8 @@ void set(Simulation& simulation, const YAML::Node& state) {
   const PerFamily dofs = read_per_family(state, "dofs");
   simulation.set_dofs({dofs.stretch != 0.0, dofs.bend != 0.0, dofs.torsion != 0.0});
   simulation.set_stiffness(read_per_family(state, "stiffness"));
-  simulation.set_damping_ratio(read_per_family(state, "damping"), read_string(state["damping_law"], kKey, "damping_law"));
+  simulation.set_damping_ratio(read_per_family(state, "damping"),
+                               read_string(state["damping_law"], kKey, "damping_law"));
   simulation.set_integrator(read_string(state["integrator"], kKey, "integrator"),
                             read_number(state["step"], kKey, "step", positive()),
                             read_number(state["tolerance"], kKey, "tolerance", not_negative()));
@@ -113,8 +114,9 @@ void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
       places[read_string(object["name"], kKey, "name")] = read_pose(object["pose"], kKey, "pose");
     }
     const Scene present = runner_.locked([](const Simulation& simulation) { return simulation.scene(); });
-    runner_.resume(present.path == scene ? present : load_scene(scene, scene_roots),
-                   [&](Simulation& simulation) { set(simulation, state); }, places);
+    runner_.resume(
+        present.path == scene ? present : load_scene(scene, scene_roots),
+        [&](Simulation& simulation) { set(simulation, state); }, places);
     ROS_WARN("going on where the node of this name was when it ended without warning; nothing is held");
   } catch (const std::exception& error) {  // a broken one must not keep the node from starting
     ROS_WARN_STREAM("starting anew: " << error.what());

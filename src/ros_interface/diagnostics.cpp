@@ -60,12 +60,13 @@ std::string hint_for_silence(const InputStatistics& input, const std::vector<std
   if (input.stream.samples > 0) return "";
   if (input.messages == 0 && senders.empty()) return "nobody sends /tf: is tracker_driver, or a bag, running?";
   if (input.messages == 0) {
-    return join(senders) + " should send /tf, but nothing comes: is ROS_IP or ROS_HOSTNAME set on the sender's host, and "
+    return join(senders) +
+           " should send /tf, but nothing comes: is ROS_IP or ROS_HOSTNAME set on the sender's host, and "
            "is the device on?";
   }
   if (input.frames.count(stylus_frame) == 0) {
-    return "no frame " + stylus_frame + " on /tf, but " +
-           join({input.frames.begin(), input.frames.end()}) + ": is the parameter stylus_frame right?";
+    return "no frame " + stylus_frame + " on /tf, but " + join({input.frames.begin(), input.frames.end()}) +
+           ": is the parameter stylus_frame right?";
   }
   const auto most = std::max_element(input.left_out.begin(), input.left_out.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });

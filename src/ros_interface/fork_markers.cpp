@@ -16,8 +16,8 @@ const Color moment_color(0.75, 0.45, 1.0, 1.0);
 const Color gap_color(1.0, 0.3, 0.8, 1.0);
 const Color text_color(1.0, 1.0, 1.0, 1.0);
 
-void add_triangles(const std::string& ns, int id, const ForkModel::Triangles& triangles, const ForkMesh& mesh, const Color& color,
-                   MarkerList& markers) {
+void add_triangles(const std::string& ns, int id, const ForkModel::Triangles& triangles, const ForkMesh& mesh,
+                   const Color& color, MarkerList& markers) {
   Marker& marker = markers.add(ns, id, Marker::TRIANGLE_LIST, RigidTransform::Identity(), color);
   marker.points.reserve(3 * triangles.size());
   for (const Eigen::Vector3i& t : triangles) {
@@ -40,7 +40,8 @@ void draw_readout(const Scene& scene, const ToolState& tool, MarkerList& markers
   char text[100];
   std::snprintf(text, sizeof text, "%.2f vkg   %.2f N   %.3f N m", virtual_kilograms(force, scene),
                 force / scene.force_scale, tool.tip_wrench_W.moment.norm() / scene.force_scale);
-  const Vector3d place = tool.X_WH_seen * Vector3d(0.0, 0.0, -0.5 * tool.length) + 0.35 * tool.length * Vector3d::UnitZ();
+  const Vector3d place =
+      tool.X_WH_seen * Vector3d(0.0, 0.0, -0.5 * tool.length) + 0.35 * tool.length * Vector3d::UnitZ();
   markers.add_text("readout", 0, place, 0.13 * tool.length, text, text_color);
 }
 

@@ -12,8 +12,8 @@
 
 namespace spring_workbench {
 
-/// A stylus dragged with the mouse in rviz: an interactive marker with six degrees of freedom under `stylus/marker`, with
-/// grasping and the next tool in its menu, grasping also by the service `~grasp`.
+/// A stylus dragged with the mouse in rviz: an interactive marker with six degrees of freedom under `stylus/marker`,
+/// with grasping and the next tool in its menu, grasping also by the service `~grasp`.
 class InteractiveMarkerSource : public MessageSource {
  public:
   /// `X_WB`: the stylus at the start, in the frame `workbench_frame`.

@@ -9,8 +9,9 @@ JoySource::JoySource(ros::NodeHandle node, const JoySettings& settings, const Ri
 SourceHealth JoySource::health() const {
   const bool streaming = messages_ > 0;
   return {streaming,
-          streaming ? "moved by " + subscriber_.getTopic()
-                    : "nothing on " + subscriber_.getTopic() + ": start the device's node, e.g. joy_node or spacenav_node",
+          streaming
+              ? "moved by " + subscriber_.getTopic()
+              : "nothing on " + subscriber_.getTopic() + ": start the device's node, e.g. joy_node or spacenav_node",
           {{"messages", messages_}}};
 }
 

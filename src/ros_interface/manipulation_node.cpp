@@ -113,8 +113,8 @@ void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
   const InputStatistics input = input_.statistics();
-  const std::string hint = hint_for_silence(
-      input, input.messages == 0 ? senders_of_tf() : std::vector<std::string>(), parameters_.stylus_frame);
+  const std::string hint = hint_for_silence(input, input.messages == 0 ? senders_of_tf() : std::vector<std::string>(),
+                                            parameters_.stylus_frame);
   constexpr double patience = 10.0;  // [s]
   if (!hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(patience, "no sample of the stylus yet: " << hint);
   const TrackerInput first{input, runner_.hand_counts(0), hint};
@@ -128,7 +128,8 @@ void ManipulationNode::end_with_its_master() {
   XmlRpc::XmlRpcValue request, response, payload;
   request[0] = request[1] = ros::this_node::getName();
   if (!ros::master::check() || ros::master::execute("lookupNode", request, response, payload, false)) return;
-  ROS_FATAL("the ROS master was started anew and does not know this node: it ends; with respawn it comes back as it was");
+  ROS_FATAL(
+      "the ROS master was started anew and does not know this node: it ends; with respawn it comes back as it was");
   checkpoint_.hand_over();
   ros::shutdown();
 }

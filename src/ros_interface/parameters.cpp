@@ -88,7 +88,7 @@ ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters
   take_frame(rest, where, "stylus_frame", result.stylus_frame);
   take_truth_settings(rest, where, result.truth);
   take(rest, "resume");  // see Checkpoint
-  take(rest, "live");  // what dynamic_reconfigure left there; the simulation starts from its own settings
+  take(rest, "live");    // what dynamic_reconfigure left there; the simulation starts from its own settings
   apply_settings(rest, where, result.simulation);
   return result;
 }

@@ -26,7 +26,8 @@ void set_mesh(const TriangleMesh& mesh, Marker& marker) {
   }
   marker.type = Marker::TRIANGLE_LIST;
   for (const Eigen::Vector3i& triangle : mesh.triangles) {
-    for (const int corner : triangle) marker.points.push_back(to_point(mesh.vertices[static_cast<std::size_t>(corner)]));
+    for (const int corner : triangle)
+      marker.points.push_back(to_point(mesh.vertices[static_cast<std::size_t>(corner)]));
   }
 }
 

@@ -15,9 +15,7 @@ constexpr double kSlack = 1e-6;  // of a grid step
 
 SimulationRunner::SimulationRunner(const Scene& scene, const SimulationSettings& settings, const TruthSettings& truth,
                                    double grid)
-    : simulation_(std::make_unique<Simulation>(scene, settings)),
-      task_(scene),
-      grid_(grid) {
+    : simulation_(std::make_unique<Simulation>(scene, settings)), task_(scene), grid_(grid) {
   for (std::size_t hand = 0; hand < Simulation::most_hands; ++hand) {
     inputs_.emplace_back(hand, truth, settings.dropout_after, grid > 0.0);
   }
@@ -51,7 +49,8 @@ void SimulationRunner::feed(const LocalTime& now) {
       const bool restarts = epoch != nullptr && !joins(input, *epoch);
       if (restarts && grid_ > 0.0 && has_sample_ && has_more(target(now))) break;
       // What comes from before a jump of time that another hand has told of already is of no use.
-      if (input.in_epoch || epoch != nullptr) std::visit([&](const auto& e) { apply(input, e); }, input.waiting.front());
+      if (input.in_epoch || epoch != nullptr)
+        std::visit([&](const auto& e) { apply(input, e); }, input.waiting.front());
       input.waiting.pop_front();
     }
   }
@@ -66,8 +65,8 @@ double SimulationRunner::target(const LocalTime& now) const {
   return std::isfinite(target) ? target : -std::numeric_limits<double>::infinity();
 }
 
-/// Whether the next step of the grid lies before the target, not on it: there the segment begins whose velocity hangs on
-/// a sample that may not be here yet.
+/// Whether the next step of the grid lies before the target, not on it: there the segment begins whose velocity hangs
+/// on a sample that may not be here yet.
 bool SimulationRunner::has_more(double target) const { return next_on_grid() <= target - kSlack * grid_; }
 
 double SimulationRunner::next_on_grid() const {
@@ -93,7 +92,8 @@ void SimulationRunner::advance(double target, CycleReport& report) {
 
 std::optional<SimulationRunner::Loss> SimulationRunner::take_release(double target) {
   for (HandInput& input : inputs_) {
-    if (const auto release = input.reengagement.take_release(target - input.shift)) return Loss{*release + input.shift, input.hand};
+    if (const auto release = input.reengagement.take_release(target - input.shift))
+      return Loss{*release + input.shift, input.hand};
   }
   return std::nullopt;
 }

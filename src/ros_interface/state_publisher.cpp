@@ -9,7 +9,7 @@
 namespace spring_workbench {
 namespace {
 
-constexpr uint32_t queue = 1000;  // simulated time may go on by many steps at once, without pause
+constexpr uint32_t queue = 1000;           // simulated time may go on by many steps at once, without pause
 constexpr double shortest_lifetime = 2.0;  // of markers [s]
 const std::string handle_frame = "fork_handle";
 const std::string tip_frame = "fork_tip";
@@ -99,7 +99,7 @@ void StatePublisher::publish_markers(const Simulation& simulation, const std_msg
   const bool wait = now < next_markers_ && now > next_markers_ - marker_period_;  // a clock that went back waits not
   if (wait || markers_publisher_.getNumSubscribers() == 0) return;
   next_markers_ = now < next_markers_ + marker_period_ && now >= next_markers_ ? next_markers_ + marker_period_
-                                                                              : now + marker_period_;
+                                                                               : now + marker_period_;
   markers_were_built_ = true;
   markers_publisher_.publish(markers_.build(simulation, header));
 }

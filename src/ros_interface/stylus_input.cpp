@@ -36,8 +36,9 @@ RawSample raw(const geometry_msgs::Transform& T, double t) {
           Quaterniond(T.rotation.w, T.rotation.x, T.rotation.y, T.rotation.z)};
 }
 
-constexpr uint32_t kQueue = 2000;  // messages; what a busy machine holds up for a second, those of this node itself among it
-constexpr double kSlip = 0.1;      // [s] a clock that is set right by less goes on
+constexpr uint32_t kQueue =
+    2000;  // messages; what a busy machine holds up for a second, those of this node itself among it
+constexpr double kSlip = 0.1;  // [s] a clock that is set right by less goes on
 
 /// Keeps the newest few.
 template <typename Message>
@@ -164,8 +165,7 @@ void StylusInput::offer(const geometry_msgs::TransformStamped& transform, const 
   monitor_.sample(sample.t, sample.t + age);
   statistics_.stream = monitor_.figures();
   statistics_.newest_arrival = arrival.loop;
-  events_.push_back(
-      StylusPose{{sample.t, X_WP * taken.sample.X}, arrival, taken.verdict == Verdict::new_place});
+  events_.push_back(StylusPose{{sample.t, X_WP * taken.sample.X}, arrival, taken.verdict == Verdict::new_place});
 }
 
 void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
@@ -175,7 +175,8 @@ void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   if (message->buttons.empty()) {
     return leave_out("no buttons", joy_ + ": buttons: [] is not allowed: must be at least one button");
   }
-  if (const std::optional<ros::Time> now = moment_of(message->header.stamp, buttons_)) return on_buttons(*message, *now);
+  if (const std::optional<ros::Time> now = moment_of(message->header.stamp, buttons_))
+    return on_buttons(*message, *now);
   keep(*message, early_buttons_);
   start_anew_when_due();
 }
@@ -205,9 +206,10 @@ void StylusInput::go_on_to(const ros::Time& stamp, Stream& stream, std::deque<Me
   early.clear();
 }
 
-/// The time now, for a message with this stamp of this stream; nothing when it belongs to the time after a jump back for
-/// which it has to wait. The clock and both streams come by ways of their own, and what was sent before the jump may
-/// come after it: a stamp that goes on where its stream was, near what the clock said then, belongs to the time before.
+/// The time now, for a message with this stamp of this stream; nothing when it belongs to the time after a jump back
+/// for which it has to wait. The clock and both streams come by ways of their own, and what was sent before the jump
+/// may come after it: a stamp that goes on where its stream was, near what the clock said then, belongs to the time
+/// before.
 std::optional<ros::Time> StylusInput::moment_of(const ros::Time& stamp, Stream& stream) {
   const ros::Time now = ros::Time::now();
   // The clock went back; or the whole way back was missed, and only the stamps show it.

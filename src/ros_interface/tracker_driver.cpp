@@ -78,7 +78,8 @@ std::unique_ptr<StylusSource> TrackerDriver::open() {
     OperatorSettings settings;
     settings.seed = static_cast<unsigned>(parameters_.seed);
     eyes_->wait();
-    return std::make_unique<SimulatedOperator>(load_scene(parameters_.scene), settings, [this] { return eyes_->look(); });
+    return std::make_unique<SimulatedOperator>(load_scene(parameters_.scene), settings,
+                                               [this] { return eyes_->look(); });
   }
   const std::string path = resolve(parameters_.file);
   if (parameters_.source == "scripted") return std::make_unique<ScriptedSource>(path);
@@ -148,7 +149,8 @@ void TrackerDriver::play() {
 
 void TrackerDriver::send(const StylusSample& sample, const ros::Time& stamp) {
   transforms_.sendTransform(
-      {to_transform(X_BT_ * sample.X * Eigen::Translation3d(parameters_.p_ST), parameters_.workbench_frame, parameters_.stylus_frame, stamp),
+      {to_transform(X_BT_ * sample.X * Eigen::Translation3d(parameters_.p_ST), parameters_.workbench_frame,
+                    parameters_.stylus_frame, stamp),
        to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp)});
   send_buttons(1, sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), false,
                stamp);
@@ -178,8 +180,7 @@ void TrackerDriver::stream() {
 StationStream& TrackerDriver::stream_of(int station) {
   const auto stream = streams_.find(station);
   if (stream != streams_.end()) return stream->second;
-  return streams_
-      .emplace(station, StationStream(parameters_.truth, parameters_.dropout_after, parameters_.even_stamps))
+  return streams_.emplace(station, StationStream(parameters_.truth, parameters_.dropout_after, parameters_.even_stamps))
       .first->second;
 }
 
@@ -202,7 +203,8 @@ void TrackerDriver::send(const StationSample& sample) {
   std::vector<geometry_msgs::TransformStamped> transforms{transform_of(sample.station, taken.sample.X, stamp)};
   if (sample.station == parameters_.fastrak.stations.front()) {
     if (parameters_.head_station == 0) {
-      transforms.push_back(to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
+      transforms.push_back(
+          to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
     }
     if (!newest.isZero()) interval_ = (stamp - newest).toSec();
   }
@@ -265,7 +267,8 @@ void TrackerDriver::publish_diagnostics() {
   for (const auto& [station, stream] : streams_) {
     DiagnosticStatusBuilder of_station(name_ + ": station " + std::to_string(station), parameters_.source);
     add_stream(stream.figures(), stream.counts(), of_station);
-    for (const auto& [verdict, count] : stream.counts().left_out) of_station.add("left out: " + to_string(verdict), count);
+    for (const auto& [verdict, count] : stream.counts().left_out)
+      of_station.add("left out: " + to_string(verdict), count);
     message.status.push_back(of_station.status());
   }
   diagnostics_publisher_.publish(message);

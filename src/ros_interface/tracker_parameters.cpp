@@ -10,8 +10,8 @@ namespace {
 
 /// The parameters that go with a source.
 std::vector<std::string> keys_of(const std::string& source) {
-  std::vector<std::string> keys{"source", "rate", "workbench_frame", "stylus_frame", "head_frame", "head",
-                                "interpupillary_distance", "dropout_after"};
+  std::vector<std::string> keys{"source",     "rate", "workbench_frame",         "stylus_frame",
+                                "head_frame", "head", "interpupillary_distance", "dropout_after"};
   const auto add = [&](const std::vector<std::string>& more) { keys.insert(keys.end(), more.begin(), more.end()); };
   if (source == "fastrak") {
     add({"offset", "tip", "even_stamps", "head_station"});
@@ -42,7 +42,7 @@ TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::st
   TrackerParameters result;
   take_truth_settings(parameters, where, result.truth);
   if (parameters["source"]) {
-    result.source = read_choice(parameters["source"], where, "source", 
+    result.source = read_choice(parameters["source"], where, "source",
                                 {"motion_file", "scripted", "operator", "fastrak", "interactive_marker", "joy"});
   }
   check_keys(parameters, where, "", keys_of(result.source));

@@ -1,7 +1,6 @@
 #include "error_plot.h"
 
 #include <QPainter>
-
 #include <algorithm>
 #include <cmath>
 
@@ -15,8 +14,8 @@ struct Decades {
   double low, high;  // exponents
   double place(double value) const { return std::clamp((std::log10(value) - low) / (high - low), 0.0, 1.0); }
 };
-constexpr Decades times{-5.0, -1.0};   // [s]
-constexpr Decades errors{-13.0, -3.0}; // [m]
+constexpr Decades times{-5.0, -1.0};    // [s]
+constexpr Decades errors{-13.0, -3.0};  // [m]
 
 }  // namespace
 
@@ -41,7 +40,9 @@ void ErrorPlot::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.fillRect(rect(), QColor(30, 33, 38));
   const QRectF area = QRectF(rect()).adjusted(42.0, 6.0, -8.0, -18.0);
-  const auto at = [&](double x, double y) { return QPointF(area.left() + x * area.width(), area.bottom() - y * area.height()); };
+  const auto at = [&](double x, double y) {
+    return QPointF(area.left() + x * area.width(), area.bottom() - y * area.height());
+  };
   QFont small = font();
   small.setPointSizeF(7.0);
   painter.setFont(small);

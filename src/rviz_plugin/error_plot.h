@@ -1,12 +1,12 @@
 #pragma once
 
 #include <QWidget>
-
 #include <deque>
 
 namespace spring_workbench {
 
-/// Local error estimate [m] against wall time [s] of the cycles of the last seconds, both logarithmic; newer is brighter.
+/// Local error estimate [m] against wall time [s] of the cycles of the last seconds, both logarithmic; newer is
+/// brighter.
 class ErrorPlot : public QWidget {
   Q_OBJECT
  public:

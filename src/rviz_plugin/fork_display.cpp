@@ -5,7 +5,6 @@
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
 #include <OgreTechnique.h>
-#include <pluginlib/class_list_macros.hpp>
 #include <ros/message_traits.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
@@ -14,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <pluginlib/class_list_macros.hpp>
 #include <string>
 
 #include "spring_workbench/config/input_error.h"
@@ -59,9 +59,9 @@ bool is_finite(const geometry_msgs::Pose& pose) {
 }  // namespace
 
 ForkDisplay::ForkDisplay() : model_(ForkLook()) {
-  topic_ = new rviz::RosTopicProperty(
-      "Topic", "/manipulation/fork", QString::fromStdString(ros::message_traits::datatype<ForkState>()),
-      "The state of the fork, ~fork of manipulation.", this, SLOT(subscribe()), this);
+  topic_ = new rviz::RosTopicProperty("Topic", "/manipulation/fork",
+                                      QString::fromStdString(ros::message_traits::datatype<ForkState>()),
+                                      "The state of the fork, ~fork of manipulation.", this, SLOT(subscribe()), this);
   full_load_ = new rviz::FloatProperty("Full Load", 10.0F, "Force at the tip at which the spring is red [N].", this);
   full_load_->setMin(1e-6F);
 }
@@ -95,8 +95,8 @@ void ForkDisplay::subscribe() {
   hide();
   if (!isEnabled() || topic_->getTopicStd().empty()) return;
   setStatus(StatusProperty::Warn, "Topic", "No message yet");
-  subscriber_ = update_nh_.subscribe(topic_->getTopicStd(), 1, &ForkDisplay::on_fork, this,
-                                     ros::TransportHints().tcpNoDelay());
+  subscriber_ =
+      update_nh_.subscribe(topic_->getTopicStd(), 1, &ForkDisplay::on_fork, this, ros::TransportHints().tcpNoDelay());
 }
 
 void ForkDisplay::reset() {
@@ -143,8 +143,9 @@ bool ForkDisplay::place(const ForkState& fork) {
 bool ForkDisplay::deform(const ForkState& fork) {
   try {
     const auto shape = make_shape_model(fork.shape, fork.length);
-    const StrainVector q = Eigen::Map<const Eigen::VectorXd>(fork.strain.data(), std::min<Eigen::Index>(
-        static_cast<Eigen::Index>(fork.strain.size()), max_strain_coordinates));
+    const StrainVector q = Eigen::Map<const Eigen::VectorXd>(
+        fork.strain.data(),
+        std::min<Eigen::Index>(static_cast<Eigen::Index>(fork.strain.size()), max_strain_coordinates));
     if (q.size() != shape->size() || !shape->admissible(q) || !is_finite(fork.handle_seen)) {
       throw InputError("strain: must be what a rod of shape " + fork.shape + " can have");
     }

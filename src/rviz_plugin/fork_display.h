@@ -18,7 +18,7 @@ class ManualObject;
 namespace rviz {
 class FloatProperty;
 class RosTopicProperty;
-}
+}  // namespace rviz
 
 namespace spring_workbench {
 
@@ -47,15 +47,16 @@ class ForkDisplay : public rviz::Display {
   bool place(const ForkState& fork);
   bool deform(const ForkState& fork);
   void draw(const ForkState& fork);
-  void fill(unsigned int section, const ForkModel::Triangles& triangles, const Ogre::MaterialPtr& material, bool is_new);
+  void fill(unsigned int section, const ForkModel::Triangles& triangles, const Ogre::MaterialPtr& material,
+            bool is_new);
   void hide();
 
   rviz::RosTopicProperty* topic_;
   rviz::FloatProperty* full_load_;
   ros::Subscriber subscriber_;
   std::shared_ptr<MasterWatch> master_;
-  ForkStateConstPtr newest_;     ///< not yet drawn
-  double silence_ = 0.0;         ///< since the newest message [s]
+  ForkStateConstPtr newest_;  ///< not yet drawn
+  double silence_ = 0.0;      ///< since the newest message [s]
   ForkModel model_;
   ForkMesh mesh_;
   Ogre::ManualObject* object_ = nullptr;

@@ -2,16 +2,18 @@
 
 #include <OgreCamera.h>
 #include <OgreSceneNode.h>
-#include <pluginlib/class_list_macros.hpp>
 #include <ros/time.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
 #include <rviz/properties/tf_frame_property.h>
 
+#include <pluginlib/class_list_macros.hpp>
+
 namespace spring_workbench {
 
 HeadViewController::HeadViewController() {
-  frame_ = new rviz::TfFrameProperty("Head Frame", "head", "The camera looks along its x axis; its z axis is up.", this);
+  frame_ =
+      new rviz::TfFrameProperty("Head Frame", "head", "The camera looks along its x axis; its z axis is up.", this);
 }
 
 void HeadViewController::onInitialize() { frame_->setFrameManager(context_->getFrameManager()); }

@@ -3,7 +3,6 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QSlider>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <QWidget>
-
 #include <functional>
 
 class QLabel;
@@ -9,8 +8,8 @@ class QSlider;
 
 namespace spring_workbench {
 
-/// A slider with a logarithmic scale and its value beside it. Follows `show` but while a hand is on it, and for a moment
-/// after.
+/// A slider with a logarithmic scale and its value beside it. Follows `show` but while a hand is on it, and for a
+/// moment after.
 class LogSlider : public QWidget {
   Q_OBJECT
  public:

@@ -1,10 +1,10 @@
 #include "master_watch.h"
 
+#include <ros/console.h>
 #include <ros/master.h>
+#include <ros/network.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
-#include <ros/network.h>
-#include <ros/console.h>
 
 #include <chrono>
 #include <string>

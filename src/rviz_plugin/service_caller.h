@@ -14,8 +14,8 @@
 
 namespace spring_workbench {
 
-/// Calls services in a thread of its own, so that nobody waits for a node that is gone or stopped. Of calls with the same
-/// key that wait, only the newest is made.
+/// Calls services in a thread of its own, so that nobody waits for a node that is gone or stopped. Of calls with the
+/// same key that wait, only the newest is made.
 class ServiceCaller {
  public:
   /// `tell` gets one line about each call that was made, in the caller's thread.

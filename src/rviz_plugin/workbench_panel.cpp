@@ -12,9 +12,8 @@
 #include <QPushButton>
 #include <QTimer>
 #include <QVBoxLayout>
-#include <pluginlib/class_list_macros.hpp>
-
 #include <algorithm>
+#include <pluginlib/class_list_macros.hpp>
 #include <string>
 
 #include "error_plot.h"
@@ -44,7 +43,8 @@ QString list(const std::vector<std::string>& words) {
 }  // namespace
 
 WorkbenchPanel::WorkbenchPanel(QWidget* parent)
-    : rviz::Panel(parent), services_([this](const std::string& text) { Q_EMIT answered(QString::fromStdString(text)); }) {
+    : rviz::Panel(parent),
+      services_([this](const std::string& text) { Q_EMIT answered(QString::fromStdString(text)); }) {
   controls_ = make_controls();
   answer_ = new QLabel(this);
   answer_->setWordWrap(true);
@@ -74,7 +74,8 @@ void WorkbenchPanel::make_families(QVBoxLayout* layout) {
     double softest, stiffest;
     const char* unit;
   };
-  const std::array<Look, 3> looks{{{"Stretch", 1.0, 1e6, "N/m"}, {"Bend", 1.0, 1e6, "N/m"}, {"Torsion", 1e-3, 1e4, "N m"}}};
+  const std::array<Look, 3> looks{
+      {{"Stretch", 1.0, 1e6, "N/m"}, {"Bend", 1.0, 1e6, "N/m"}, {"Torsion", 1e-3, 1e4, "N m"}}};
   auto* grid = new QGridLayout;
   for (std::size_t i = 0; i < 3; ++i) {
     const int row = 2 * static_cast<int>(i);

@@ -27,8 +27,8 @@ namespace spring_workbench {
 class ErrorPlot;
 class LogSlider;
 
-/// Tunes the fork of the node `manipulation` while it is used. What it shows comes from `~fork` and `~steps` alone; what a
-/// hand moves is asked of the node's services. Grey while the node is silent.
+/// Tunes the fork of the node `manipulation` while it is used. What it shows comes from `~fork` and `~steps` alone;
+/// what a hand moves is asked of the node's services. Grey while the node is silent.
 class WorkbenchPanel : public rviz::Panel {
   Q_OBJECT
  public:

@@ -12,8 +12,8 @@
 namespace spring_workbench {
 
 /// The path that a file name in a scene means: `package://`, `file://`, absolute, or relative to `folder`.
-/// Throws InputError naming `where`, `key` and the name where there is no such file, it is neither in one of `roots` nor in
-/// a package (as load_scene() says), or it is larger than a scene's files may be.
+/// Throws InputError naming `where`, `key` and the name where there is no such file, it is neither in one of `roots`
+/// nor in a package (as load_scene() says), or it is larger than a scene's files may be.
 std::string resolve_file(const std::string& name, const std::string& folder, const std::vector<std::string>& roots,
                          const std::string& where, const std::string& key);
 

@@ -143,8 +143,8 @@ int depth_below(const TiXmlNode& node) {
   return deepest;
 }
 
-/// Whether TinyXML gets through it alive. It takes a stack frame for each element in another, and nobody but TinyXML knows what
-/// it takes for an element: so where there are enough for a stack, a child process tries it.
+/// Whether TinyXML gets through it alive. It takes a stack frame for each element in another, and nobody but TinyXML
+/// knows what it takes for an element: so where there are enough for a stack, a child process tries it.
 bool can_be_parsed(const std::string& xml) {
   constexpr int enough = 500;
   const auto parse = [&] {

@@ -33,8 +33,7 @@ void ContactLog::note(std::size_t object, const BodyState& state, const std::vec
     c.depth = std::max(0.0, -row.gap);
     c.force = std::max(0.0, row.load_W.dot(row.point.n_W));
     c.impulse = h * c.force;
-    const Vector3d v =
-        state.V_WO_W.linear + state.V_WO_W.angular.cross(row.point.p_W - state.X_WO.translation());
+    const Vector3d v = state.V_WO_W.linear + state.V_WO_W.angular.cross(row.point.p_W - state.X_WO.translation());
     c.slip_speed = (v - row.point.n_W * v.dot(row.point.n_W)).norm();
     now_touching.push_back(c);
   }

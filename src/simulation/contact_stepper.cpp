@@ -77,7 +77,8 @@ void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, 
   collision_.find_contacts(body, X_WO, tolerance, found);
   ++outcome.queries;
   for (const ContactPoint& point : found) {
-    const auto same = std::find_if(rows.begin(), rows.end(), [&](const ContactRow& row) { return is_same(row.point, point); });
+    const auto same =
+        std::find_if(rows.begin(), rows.end(), [&](const ContactRow& row) { return is_same(row.point, point); });
     ContactRow& row = same == rows.end() ? rows.emplace_back() : *same;
     row.point = point;
     row.friction = friction(body, point.other);
@@ -93,7 +94,8 @@ void ContactStepper::refresh(const SteppedBody& body, std::vector<ContactRow>& r
   std::vector<Vector3d> directions;
   for (const ContactRow& row : before) {
     const Vector3d& n = row.point.n_W;
-    const bool known = std::any_of(directions.begin(), directions.end(), [&](const Vector3d& d) { return d.dot(n) > 0.99; });
+    const bool known =
+        std::any_of(directions.begin(), directions.end(), [&](const Vector3d& d) { return d.dot(n) > 0.99; });
     if (known) continue;
     directions.push_back(n);
     RigidTransform pushed = X_WO;
@@ -168,8 +170,8 @@ void ContactStepper::look_at_end(const SteppedBody& body, const RigidTransform& 
   const RigidTransform X1 = body.object().X;
   const Vector3d moved_on = X1.translation() - X0.translation();
   const Vector3d turned = X0.linear() * log_so3(X0.linear().transpose() * X1.linear());
-  // A point that stays on the surface slips by its way; one of a body that rolls comes or goes, and slips by what the contact,
-  // which stays under the body, does.
+  // A point that stays on the surface slips by its way; one of a body that rolls comes or goes, and slips by what the
+  // contact, which stays under the body, does.
   const auto set_slip = [&](ContactRow& row, const Vector3d& way) {
     const bool rolls = std::abs(way.dot(row.point.n_W)) > touching;
     const Vector3d slip = rolls ? Vector3d(moved_on + turned.cross(row.lever_W)) : way;
@@ -214,14 +216,16 @@ void ContactStepper::look_at_end(const SteppedBody& body, const RigidTransform& 
 }
 
 double ContactStepper::bow(std::size_t body, const MotionState& begin, const MotionState& end, double h) const {
-  return h / 8.0 * ((end.velocity.linear - begin.velocity.linear).norm() +
-                    radius_[body] * (end.velocity.angular - begin.velocity.angular).norm());
+  return h / 8.0 *
+         ((end.velocity.linear - begin.velocity.linear).norm() +
+          radius_[body] * (end.velocity.angular - begin.velocity.angular).norm());
 }
 
 ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const MotionState& begin, const MotionState& end,
                                                   double h, double tolerance) const {
   const auto rates = [](const MotionState& s) { return Vector3d(s.X.linear().transpose() * s.velocity.angular); };
-  const MotionSegment way({0.0, begin.X}, begin.velocity.linear, rates(begin), {h, end.X}, end.velocity.linear, rates(end));
+  const MotionSegment way({0.0, begin.X}, begin.velocity.linear, rates(begin), {h, end.X}, end.velocity.linear,
+                          rates(end));
   const int count = static_cast<int>(std::ceil(std::sqrt(bow(body, begin, end, h) / most_bow)));
   RigidTransform from = begin.X;
   for (int i = 0; i < std::max(count, 1); ++i) {
@@ -255,7 +259,8 @@ ContactStepper::Piece ContactStepper::try_piece(SteppedBody& body, double h, con
     return {false, 0.0, {}, true, false};
   }
   const double bowed = bow(index, begin, end, h);
-  const double straight = safety * std::sqrt(most_segments * most_segments * most_bow / std::max(bowed, 1e-3 * most_bow));
+  const double straight =
+      safety * std::sqrt(most_segments * most_segments * most_bow / std::max(bowed, 1e-3 * most_bow));
   if (in_contact || collision_.may_touch(index, begin.X, end.X, std::max(bowed, most_bow))) {
     if (straight < safety) {
       body.go_back();
@@ -319,16 +324,19 @@ bool ContactStepper::step(SteppedBody& body, double h, const MayGo& may_go, std:
     }
   }
   if (left > 1e-9 * h) stay(left);
-  rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap > probe_depth; }), rows.end());
+  rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap > probe_depth; }),
+             rows.end());
   outcome.rows = rows;
   return true;
 }
 
-bool ContactStepper::meet(SteppedBody& body, const std::vector<ContactRow>& touched, std::vector<ContactRow>& rows) const {
+bool ContactStepper::meet(SteppedBody& body, const std::vector<ContactRow>& touched,
+                          std::vector<ContactRow>& rows) const {
   const MotionState s = body.object();
   bool met = false;
   for (const ContactRow& row : touched) {
-    const auto known = std::find_if(rows.begin(), rows.end(), [&](const ContactRow& r) { return is_same(r.point, row.point); });
+    const auto known =
+        std::find_if(rows.begin(), rows.end(), [&](const ContactRow& r) { return is_same(r.point, row.point); });
     if (known == rows.end()) {
       rows.push_back(row);
       met = true;

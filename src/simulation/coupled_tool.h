@@ -5,16 +5,16 @@
 namespace spring_workbench {
 
 /// What one tool does to a rigid body over a step, linear about where the body is: along each column of `directions` (a
-/// wrench at the object's centre, world axes) it exerts f, and `directionsᵀ · displacement = relaxed − compliance · f`, the
-/// displacement [m; rad] being the body's over the step.
+/// wrench at the object's centre, world axes) it exerts f, and `directionsᵀ · displacement = relaxed − compliance · f`,
+/// the displacement [m; rad] being the body's over the step.
 struct Coupling {
   using Directions = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, 6>;
   using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
   using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 
   Directions directions;
-  Vector relaxed;           ///< displacement with which the tool exerts nothing
-  Matrix compliance;        ///< symmetric, ≥ 0
+  Vector relaxed;            ///< displacement with which the tool exerts nothing
+  Matrix compliance;         ///< symmetric, ≥ 0
   bool pushes_only = false;  ///< f ≥ 0: a tool that leans on the object and cannot pull
 };
 

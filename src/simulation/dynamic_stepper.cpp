@@ -147,8 +147,8 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<SteppedBod
   return Piece::gone;
 }
 
-std::vector<DrivenBody> DynamicStepper::solve(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates,
-                                              double h) {
+std::vector<DrivenBody> DynamicStepper::solve(const std::vector<SteppedBody*>& held,
+                                              const std::vector<Candidate>& candidates, double h) {
   std::vector<DrivenBody> driven;
   for (std::size_t i = 0; i < held.size(); ++i) driven.push_back(driven_body(*held[i], candidates[i], h));
   world_->remember();

@@ -8,9 +8,9 @@
 
 namespace spring_workbench {
 
-/// Contact mode `dynamic` (doc/model.md) where movable bodies are near: held bodies and all movable ones in one rigid-body
-/// world. A held body that nothing can touch is carried by its own integrator alone; near others, all go on together in short pieces, in which
-/// the held body answers to contact with the compliance of its fork.
+/// Contact mode `dynamic` (doc/model.md) where movable bodies are near: held bodies and all movable ones in one
+/// rigid-body world. A held body that nothing can touch is carried by its own integrator alone; near others, all go on
+/// together in short pieces, in which the held body answers to contact with the compliance of its fork.
 class DynamicStepper {
  public:
   explicit DynamicStepper(const Scene& scene);
@@ -55,7 +55,8 @@ class DynamicStepper {
   /// then all are where they were, and `h` is a piece to try instead, or none is short enough.
   Piece go_in_contact(const std::vector<SteppedBody*>& held, std::vector<Candidate> candidates, double& h);
   /// The world goes on over a piece, and says what contact does to the held bodies, which are at their begin.
-  std::vector<DrivenBody> solve(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates, double h);
+  std::vector<DrivenBody> solve(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates,
+                                double h);
   /// The held bodies go over a piece under these loads; which part of their ways is sound.
   double sound_part(const std::vector<SteppedBody*>& held, const std::vector<Candidate>& candidates,
                     const std::vector<DrivenBody>& driven, double h) const;

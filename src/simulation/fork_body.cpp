@@ -11,12 +11,12 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double return_time = 0.05;          ///< [s] on which the proxy comes back to the hand
-constexpr double give_time = 5e-3;            ///< [s]; squared over the object's mass, how the proxy gives way at rest
+constexpr double return_time = 0.05;  ///< [s] on which the proxy comes back to the hand
+constexpr double give_time = 5e-3;    ///< [s]; squared over the object's mass, how the proxy gives way at rest
 // Below these an object on a hand at rest stops (the paper's threshold, section 3.3).
-constexpr double rest_speed = 1e-7;           ///< [m/s], and of a turning times the fork's length
-constexpr double rest_acceleration = 1e-6;    ///< [m/s²], likewise
-constexpr double largest_distance = 1e6;      ///< [m]; an object further away is not one to go on with
+constexpr double rest_speed = 1e-7;         ///< [m/s], and of a turning times the fork's length
+constexpr double rest_acceleration = 1e-6;  ///< [m/s²], likewise
+constexpr double largest_distance = 1e6;    ///< [m]; an object further away is not one to go on with
 
 RigidTransform shrunk(const RigidTransform& offset, double factor) {
   RigidTransform X;
@@ -122,7 +122,8 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   state_.pull_W.reset();
   state_.behind = behind;
   state_.offset = behind ? offset : RigidTransform::Identity();
-  if (held_.returning() && held_.drop_finished_returns(state_.t) && held_.size() == 0) state_.strain = held_.zero_state();
+  if (held_.returning() && held_.drop_finished_returns(state_.t) && held_.size() == 0)
+    state_.strain = held_.zero_state();
   return hand_pose().translation().norm() < largest_distance;
 }
 
@@ -149,7 +150,8 @@ double ForkBody::added_energy(const Advance& advance) const {
     const Vector3d force = m * (o.acceleration.linear + up) - contact.force;  // of the rod on the object
     const Vector3d moment = I_W * o.acceleration.angular + w.cross(I_W * w) - contact.moment;
     const Vector3d arm = o.X.translation() - handle.X_WH.translation();
-    energy = held_.elastic_energy(at, s) + held_.kinetic_energy(o.velocity, o.X.linear()) + m * up.dot(o.X.translation());
+    energy =
+        held_.elastic_energy(at, s) + held_.kinetic_energy(o.velocity, o.X.linear()) + m * up.dot(o.X.translation());
     power = force.dot(handle.v_WH_W) + (moment + arm.cross(force)).dot(handle.X_WH.linear() * handle.angular_velocity) +
             contact.force.dot(o.velocity.linear) + contact.moment.dot(w) - s.q_dot.dot(D * s.q_dot);
   };
@@ -159,11 +161,11 @@ double ForkBody::added_energy(const Advance& advance) const {
   StrainState middle;
   middle.q = 0.5 * (begin.q + end.q) + 5.0 / 32.0 * h * (begin.q_dot - end.q_dot) + h * h / 64.0 * (a0 + a1);
   middle.q_dot = 15.0 / 8.0 / h * (end.q - begin.q) - 7.0 / 16.0 * (begin.q_dot + end.q_dot) + h / 32.0 * (a1 - a0);
-  if (!held_.shape().admissible(held_.full_state(t + 0.5 * h, middle).q)) {  // a jerk: no way of the fork; the straight one
+  if (!held_.shape().admissible(
+          held_.full_state(t + 0.5 * h, middle).q)) {  // a jerk: no way of the fork; the straight one
     middle = {0.5 * (begin.q + end.q), (end.q - begin.q) / h};
   }
-  const StrainVector a_middle =
-      held_.acceleration(held_.forcing(motion, t + 0.5 * h), middle.q, middle.q_dot);
+  const StrainVector a_middle = held_.acceleration(held_.forcing(motion, t + 0.5 * h), middle.q, middle.q_dot);
   look(t, begin, a0);
   const double energy_begin = energy;
   double work = power;
@@ -191,9 +193,7 @@ ForkBody::Jacobian ForkBody::jacobian_W(const Matrix3d& R_WH, double t) const {
 }
 
 StrainMatrix ForkBody::inverse_mass() const {
-  return held_.mass_matrix(state_.t, state_.strain.q)
-      .llt()
-      .solve(StrainMatrix::Identity(held_.size(), held_.size()));
+  return held_.mass_matrix(state_.t, state_.strain.q).llt().solve(StrainMatrix::Identity(held_.size(), held_.size()));
 }
 
 SteppedBody::Answer ForkBody::answer(double h) const {

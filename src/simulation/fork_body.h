@@ -55,14 +55,15 @@ class ForkBody final : public ToolHold {
   }
 
   double time() const { return state_.t; }
-  HandleForcing handle() const;        ///< the handle that the object sees, at present
-  RigidTransform hand_pose() const;    ///< the handle as the hand has it
+  HandleForcing handle() const;      ///< the handle that the object sees, at present
+  RigidTransform hand_pose() const;  ///< the handle as the hand has it
   /// Acceleration of the object at present.
   MotionState object_with_acceleration() const;
 
   /// Energy [J] that integration has added since the grasp: what the object and the fork have gained beyond the work of
   /// hand, gravity, contact and damping. That work is a three-point quadrature over each step, so the figure means
-  /// something where the step resolves the motion (ω·dt below about 1). While a family returns to zero nothing is added.
+  /// something where the step resolves the motion (ω·dt below about 1). While a family returns to zero nothing is
+  /// added.
   double energy_added() const override { return state_.energy_added; }
 
   /// Fills in what the fork knows of its state. `massless`: the object has no mass, and forces mean nothing.
@@ -74,11 +75,11 @@ class ForkBody final : public ToolHold {
   struct State {
     double t = 0.0;
     StrainState strain;
-    bool behind = false;                                   ///< the seen handle is not where the hand is
-    RigidTransform offset = RigidTransform::Identity();    ///< seen handle = offset · hand, in world
-    double energy_added = 0.0;                             ///< [J]
+    bool behind = false;                                 ///< the seen handle is not where the hand is
+    RigidTransform offset = RigidTransform::Identity();  ///< seen handle = offset · hand, in world
+    double energy_added = 0.0;                           ///< [J]
     StepControl::Memory stepping;
-    std::optional<Wrench> pull_W;                          ///< on the object at its centre, where it was shared last
+    std::optional<Wrench> pull_W;  ///< on the object at its centre, where it was shared last
   };
   static constexpr double no_offset = 1e-9;  ///< [m, rad]; the proxy has come back
   /// How the proxy gives way to a wrench at the centre of mass over a step, in what the coordinates cannot follow: as a
@@ -93,7 +94,8 @@ class ForkBody final : public ToolHold {
   StrainMatrix inverse_mass() const;
   /// What the rod does to the object at its centre, world axes: its change of momentum less gravity and contact.
   Wrench pull() const;
-  /// The strain with which the springs do `pull_W` to the object, turned as `R_WO`; the present one where none is found.
+  /// The strain with which the springs do `pull_W` to the object, turned as `R_WO`; the present one where none is
+  /// found.
   StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const;
   /// The strain with the object at `X_WO`, `h` [s] after the last; `handle` the hand itself.
   void fit(const HandleForcing& handle, const RigidTransform& X_WO, double h);

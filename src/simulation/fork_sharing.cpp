@@ -8,10 +8,11 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double rigid_share = 1e-3;      ///< of a free body's compliance: how what has no coordinate gives way
-constexpr double least_stiffness = 1e-9;  ///< of what would hold the mass within a step, so that no family is without any
+constexpr double rigid_share = 1e-3;  ///< of a free body's compliance: how what has no coordinate gives way
+constexpr double least_stiffness =
+    1e-9;  ///< of what would hold the mass within a step, so that no family is without any
 constexpr int most_iterations = 20;
-constexpr double fitted = 1e-13;          ///< [m, rad]
+constexpr double fitted = 1e-13;  ///< [m, rad]
 
 /// From `X0` to `X1`, at the origin of `X0`, world axes.
 Vector6d difference(const RigidTransform& X0, const RigidTransform& X1) {
@@ -44,7 +45,8 @@ Coupling ForkBody::coupling(double h, const RigidTransform& X_WO, const Matrix6d
   return c;
 }
 
-/// With fewer than six coordinates, springs and what gives way beside them share the difference as they do in coupling().
+/// With fewer than six coordinates, springs and what gives way beside them share the difference as they do in
+/// coupling().
 void ForkBody::fit(const HandleForcing& handle, const RigidTransform& X_WO, double h) {
   const int n = held_.size();
   if (n == 0) return;

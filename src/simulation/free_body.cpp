@@ -13,8 +13,7 @@ constexpr int most_pieces = 1000;
 
 }  // namespace
 
-FreeBody::FreeBody(std::size_t index, const Body& body, double gravity, const RigidTransform& X_WO,
-                   const Twist& V_WO_W)
+FreeBody::FreeBody(std::size_t index, const Body& body, double gravity, const RigidTransform& X_WO, const Twist& V_WO_W)
     : index_(index),
       mass_(body.mass_properties.mass),
       inertia_O_(body.mass_properties.inertia_O),

@@ -54,9 +54,14 @@ void Hand::apply_buttons(double now) {
 
 void Hand::apply_grasp_button(bool pressed, double now) {
   switch (selection_.set_button(pressed, hold_ != nullptr)) {
-    case GraspEvent::grasp: grasp(*selection_.inserted(), std::nullopt, false, now); break;
-    case GraspEvent::release: let_go(settings_.grasp.release == "thrown", now); break;
-    case GraspEvent::none: break;
+    case GraspEvent::grasp:
+      grasp(*selection_.inserted(), std::nullopt, false, now);
+      break;
+    case GraspEvent::release:
+      let_go(settings_.grasp.release == "thrown", now);
+      break;
+    case GraspEvent::none:
+      break;
   }
 }
 
@@ -93,7 +98,8 @@ void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, 
   if (settings_.grasp.calibrate) fit_size(grasp_);
   make_hold(now);
   if (settings_.grasp.calibrate) calibrate_hold();
-  // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the hand's.
+  // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the
+  // hand's.
   if (!follow_hand && dynamic()) hold_->take_twist(workbench_.states()[object].V_WO_W);
   workbench_.hold(object, Workbench::Grip::grasp, now);
   workbench_.take_state(object, hold_->object());

@@ -34,8 +34,8 @@ class Hand {
   void let_go(bool thrown, double now);
   /// What the tool carries, in the workbench: the object that is held, or pushed by the probe.
   std::optional<std::size_t> carried() const;
-  /// What is held by this tool alone, ready to be carried over the next `h` [s]; null where it rests and nothing has to be
-  /// done.
+  /// What is held by this tool alone, ready to be carried over the next `h` [s]; null where it rests and nothing has to
+  /// be done.
   SteppedBody* begin_step(double now, double h);
   /// The tool as one of several on what it carries, or pushing it.
   CoupledTool* begin_shared_step(double now);
@@ -59,8 +59,8 @@ class Hand {
   double elastic_energy() const;
   /// The families that ran since the last call of begin_call().
   ForkDofs families_run() const;
-  /// Whether what is held takes more of the tool's springs than their breakaway force or moment: now, or, where `h` > 0 [s],
-  /// at the end of that time if it touches nothing then.
+  /// Whether what is held takes more of the tool's springs than their breakaway force or moment: now, or, where `h` > 0
+  /// [s], at the end of that time if it touches nothing then.
   bool overloaded(double now, double h);
   void begin_call() { moved_ = false; }
   ToolState state() const;
@@ -100,7 +100,7 @@ class Hand {
   std::unique_ptr<ToolHold> hold_;  ///< while something is held
   std::unique_ptr<Probe> probe_;    ///< while the probe touches something
   bool pushes_ = false;             ///< what the probe touches can move, and is the grip's object
-  Grasp grasp_{};                     ///< of what is held
+  Grasp grasp_{};                   ///< of what is held
   bool moved_ = false;              ///< what is held, in this call of advance
   double energy_added_before_ = 0.0;
 };

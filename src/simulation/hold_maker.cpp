@@ -12,7 +12,7 @@ namespace {
 
 constexpr double least_rest_length = 1e-4;  ///< [m] of the tool `spring`
 constexpr double point_mass_radius = 1e-2;  ///< of the fork's length: radius of gyration of a point mass
-constexpr double on_the_axis = 1e-3;        ///< of the fork's length; a point mass so near to the fork's axis cannot twist it
+constexpr double on_the_axis = 1e-3;  ///< of the fork's length; a point mass so near to the fork's axis cannot twist it
 
 }  // namespace
 
@@ -56,8 +56,8 @@ std::unique_ptr<ToolHold> HoldMaker::make(const Grasp& grasp, double now) const 
   if (grasp.tool != Tool::spring || workbench_.massless(grasp.object)) return make_fork(grasp, now);
   const RigidTransform& X_WO = workbench_.states()[grasp.object].X_WO;
   const double rest_length = std::max((X_WO.translation() - grasp.X_WS.translation()).norm(), least_rest_length);
-  return std::make_unique<SpringBody>(workbench_.scene_index(grasp.object), workbench_.body(grasp.object), scene_.gravity,
-                                      X_WO, rest_length, settings_.fork);
+  return std::make_unique<SpringBody>(workbench_.scene_index(grasp.object), workbench_.body(grasp.object),
+                                      scene_.gravity, X_WO, rest_length, settings_.fork);
 }
 
 }  // namespace spring_workbench

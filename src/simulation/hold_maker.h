@@ -12,11 +12,11 @@ namespace spring_workbench {
 /// How a tool is about to hold an object.
 struct Grasp {
   Tool tool;
-  std::size_t object;    ///< in the workbench
-  RigidTransform X_WS;   ///< the stylus
-  RigidTransform X_OE;   ///< the tip in the object
-  double reach;          ///< from the stylus to the tip, along z [m]
-  double length;         ///< of the spring part of a fork [m]; the rest of the reach is rigid
+  std::size_t object;   ///< in the workbench
+  RigidTransform X_WS;  ///< the stylus
+  RigidTransform X_OE;  ///< the tip in the object
+  double reach;         ///< from the stylus to the tip, along z [m]
+  double length;        ///< of the spring part of a fork [m]; the rest of the reach is rigid
 };
 
 /// Makes a tool's hold on an object.

@@ -7,9 +7,10 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double no_give = 1e-9;              ///< of the depth; a material that gives way less is rigid
-constexpr double position_uncertainty = 1e-4;  ///< [m], one standard deviation: how well a tracker knows where the tip is
-constexpr double least_stiffness = 1e-9;      ///< of what would hold the mass within a step
+constexpr double no_give = 1e-9;  ///< of the depth; a material that gives way less is rigid
+constexpr double position_uncertainty =
+    1e-4;                                 ///< [m], one standard deviation: how well a tracker knows where the tip is
+constexpr double least_stiffness = 1e-9;  ///< of what would hold the mass within a step
 
 }  // namespace
 

@@ -11,13 +11,13 @@ namespace spring_workbench {
 
 /// What is in front of a hand along its z axis.
 struct InFront {
-  double distance = 0.0;        ///< [m]
-  const Body* body = nullptr;   ///< null: the bench plane
+  double distance = 0.0;       ///< [m]
+  const Body* body = nullptr;  ///< null: the bench plane
   const Material* material = nullptr;
 };
 
-/// The tool `spring_probe` where it touches something (doc/model.md, "The probe"): a spring along the probe's axis in series
-/// with the material's, which it reads out. It can only push, without friction at its tip.
+/// The tool `spring_probe` where it touches something (doc/model.md, "The probe"): a spring along the probe's axis in
+/// series with the material's, which it reads out. It can only push, without friction at its tip.
 class Probe final : public CoupledTool {
  public:
   /// Touches what is `touched.distance` in front of the hand, nearer than the probe's `length` [m]. Keeps no reference.

@@ -91,10 +91,11 @@ std::vector<Field> scene_fields() {
   return {
       by_default(as_scene,
                  choice("tool", tool_names(), "the tool in the hand", [](S& s) -> std::string& { return s.tool; })),
-      by_default(as_scene, choice("contact", {"none", "stop", "dynamic"},
-                                  "none: nothing is felt; stop: the held object stops at everything else and slides on; "
-                                  "dynamic: it pushes, lifts and carries what it touches",
-                                  [](S& s) -> std::string& { return s.contact; })),
+      by_default(as_scene,
+                 choice("contact", {"none", "stop", "dynamic"},
+                        "none: nothing is felt; stop: the held object stops at everything else and slides on; "
+                        "dynamic: it pushes, lifts and carries what it touches",
+                        [](S& s) -> std::string& { return s.contact; })),
       by_default(as_scene, number("gravity", "m/s²", between(0.0, 1e3), "along −z of world",
                                   [](S& s) -> double& { return s.gravity; })),
       by_default(as_scene, number("force_scale", "–", between(1e-9, 1e9), "virtual per real unit of force",
@@ -135,10 +136,11 @@ std::vector<Field> fork_fields() {
              [](S& s) -> double& { return s.fork.damping_ratio.bend; }),
       number("fork.damping.torsion", "–", ratio, "damping ratio of twisting; 1 is critical",
              [](S& s) -> double& { return s.fork.damping_ratio.torsion; }),
-      choice("fork.damping_law", damping_laws,
-             "per_family: Kelvin–Voigt, the ratio that of each family alone; modal: every mode of the held object has the "
-             "ratio, which must be the same for all families",
-             [](S& s) -> std::string& { return s.fork.damping_law; }),
+      choice(
+          "fork.damping_law", damping_laws,
+          "per_family: Kelvin–Voigt, the ratio that of each family alone; modal: every mode of the held object has the "
+          "ratio, which must be the same for all families",
+          [](S& s) -> std::string& { return s.fork.damping_law; }),
       flag("fork.dofs.stretch", "the fork stretches; false: rigid", [](S& s) -> bool& { return s.fork.dofs.stretch; }),
       flag("fork.dofs.bend", "the fork bends; false: rigid", [](S& s) -> bool& { return s.fork.dofs.bend; }),
       flag("fork.dofs.torsion", "the fork twists; false: rigid", [](S& s) -> bool& { return s.fork.dofs.torsion; }),

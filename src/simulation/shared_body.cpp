@@ -26,10 +26,10 @@ RigidTransform displaced(const RigidTransform& X, const Vector6d& by) {
 /// (A + Pᵀ B P) f = relaxed − Pᵀ d, with the displacement d without tools and B = h² mobility.
 struct SharedBody::Pulls {
   Matrix6d B;
-  Eigen::MatrixXd P, A;     ///< of all tools, side by side
+  Eigen::MatrixXd P, A;  ///< of all tools, side by side
   Eigen::VectorXd relaxed;
-  std::vector<Eigen::Index> begin;   ///< of each tool's columns, and the end
-  std::vector<bool> pushes_only;     ///< by tool
+  std::vector<Eigen::Index> begin;  ///< of each tool's columns, and the end
+  std::vector<bool> pushes_only;    ///< by tool
 
   Eigen::VectorXd solve(const Vector6d& d) const {
     Eigen::MatrixXd left = A + P.transpose() * B * P;

@@ -7,10 +7,10 @@
 
 namespace spring_workbench {
 
-/// An object on several tools, or pushed by the probe: a free rigid body, and the tools' springs and dampers on it. All of
-/// them enter implicitly (backward Euler, of order one): no stiffness, however large, makes a step unstable, and statics are
-/// exact. Tools without any give (rigid ones, families off) give way by a share of what a free body would, so that two of
-/// them that ask for different poses meet half way.
+/// An object on several tools, or pushed by the probe: a free rigid body, and the tools' springs and dampers on it. All
+/// of them enter implicitly (backward Euler, of order one): no stiffness, however large, makes a step unstable, and
+/// statics are exact. Tools without any give (rigid ones, families off) give way by a share of what a free body would,
+/// so that two of them that ask for different poses meet half way.
 class SharedBody final : public SteppedBody {
  public:
   /// Keeps references to `body` and the tools, which must be there as long as this.

@@ -36,7 +36,8 @@ Scene set_up(Scene scene, const SimulationSettings& settings) {
     }
   }
   if (settings.grasp.X_OE && !settings.grasp.start_follow) {
-    refuse(scene.path, "grasp.tip_in_object", "(a pose)", "used with start.follow: true, so that the object can move to it");
+    refuse(scene.path, "grasp.tip_in_object", "(a pose)",
+           "used with start.follow: true, so that the object can move to it");
   }
   check_damping(scene.path, settings.fork);
   make_integrator(settings.dynamics.integrator);
@@ -63,7 +64,8 @@ struct Simulation::Impl {
 
   Impl(const Scene& s, const SimulationSettings& set)
       : settings(set), scene(set_up(s, set)), workbench(scene, set.bisection_levels) {
-    for (std::size_t i = 0; i < most_hands; ++i) hands.emplace_back(scene, settings, workbench, tool_called(scene.tool, scene.path));
+    for (std::size_t i = 0; i < most_hands; ++i)
+      hands.emplace_back(scene, settings, workbench, tool_called(scene.tool, scene.path));
   }
   Hand& hand(std::size_t index) { return hands.at(index); }
 
@@ -184,7 +186,8 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
     for (Hand* hand : on_it) tools.push_back(hand->begin_shared_step(now));
     const BodyState& o = workbench.states()[object];
     const bool massless = workbench.massless(object);
-    const Body& body = massless ? unit_mass : workbench.body(object);  // which is of no effect where all tools are rigid
+    const Body& body =
+        massless ? unit_mass : workbench.body(object);  // which is of no effect where all tools are rigid
     shared.emplace_back(workbench.scene_index(object), body, massless ? 0.0 : scene.gravity, o.X_WO, o.V_WO_W, tools);
     carried.push_back({object, &shared.back()});
   }
@@ -250,7 +253,9 @@ double Simulation::time() const {
   return impl_->started || !std::isfinite(first) ? impl_->now : first;
 }
 
-bool Simulation::push_stylus(const PoseSample& sample, std::size_t hand) { return impl_->hand(hand).stylus().push(sample); }
+bool Simulation::push_stylus(const PoseSample& sample, std::size_t hand) {
+  return impl_->hand(hand).stylus().push(sample);
+}
 
 void Simulation::push_button(double t, bool pressed, std::size_t hand) {
   impl_->hand(hand).stylus().push(t, pressed ? Stylus::Press::grasp : Stylus::Press::release);
@@ -310,7 +315,8 @@ ChangeReport Simulation::select_tool(const std::string& name, std::size_t hand) 
   const bool held = impl_->hand(hand).holds();
   impl_->with_handover([&] { impl_->hand(hand).select_tool(tool, impl_->now); });
   change.elastic_energy_after = impl_->elastic_energy();
-  change.message = "tool: " + name + (held && !impl_->hand(hand).holds() ? "; it cannot hold, the object is let go" : "");
+  change.message =
+      "tool: " + name + (held && !impl_->hand(hand).holds() ? "; it cannot hold, the object is let go" : "");
   return change;
 }
 

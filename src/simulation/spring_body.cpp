@@ -9,9 +9,10 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double least_stiffness = 1e-9;  ///< of what would hold the mass within a step, so that no direction is without any
+constexpr double least_stiffness =
+    1e-9;  ///< of what would hold the mass within a step, so that no direction is without any
 constexpr double least_length = 1e-4;  ///< [m] at rest
-constexpr double no_length = 1e-12;  ///< [m]; a shorter span has no direction
+constexpr double no_length = 1e-12;    ///< [m]; a shorter span has no direction
 
 Vector3d direction(const Vector3d& d) { return d.norm() > no_length ? Vector3d(d.normalized()) : Vector3d(0, 0, -1); }
 
@@ -114,9 +115,11 @@ bool SpringBody::advance(double h, const Wrench& contact_W) {
 SteppedBody::Answer SpringBody::answer(double h) const {
   Answer answer = state_.free.answer(h);
   const Linear a = linear(span());
-  const OscillatorStep along = damped_oscillator(a.alpha, a.radial, h), across = damped_oscillator(0.0, a.transverse, h);
+  const OscillatorStep along = damped_oscillator(a.alpha, a.radial, h),
+                       across = damped_oscillator(0.0, a.transverse, h);
   const Matrix3d radial = a.n * a.n.transpose();
-  answer.displacement.topLeftCorner<3, 3>() = (across.xg * Matrix3d::Identity() + (along.xg - across.xg) * radial) / mass_;
+  answer.displacement.topLeftCorner<3, 3>() =
+      (across.xg * Matrix3d::Identity() + (along.xg - across.xg) * radial) / mass_;
   answer.velocity.topLeftCorner<3, 3>() = (across.vg * Matrix3d::Identity() + (along.vg - across.vg) * radial) / mass_;
   return answer;
 }

@@ -6,9 +6,9 @@
 
 namespace spring_workbench {
 
-/// The object on the tool `spring` (doc/model.md, "Tools"): a spring-damper between the hand and the centre of mass, which
-/// the object is free to turn about. F = −(k (r − L) + c ṙ) n, with r n from the hand to the centre.
-/// Stepped by an exponential midpoint rule of order two: the linear part in closed form, so that no stiffness limits it.
+/// The object on the tool `spring` (doc/model.md, "Tools"): a spring-damper between the hand and the centre of mass,
+/// which the object is free to turn about. F = −(k (r − L) + c ṙ) n, with r n from the hand to the centre. Stepped by
+/// an exponential midpoint rule of order two: the linear part in closed form, so that no stiffness limits it.
 class SpringBody final : public ToolHold {
  public:
   /// Keeps a reference to `body`, whose mass must be > 0. `rest_length` [m] > 0; stiffness and damping of `stretch`.

@@ -9,7 +9,8 @@ inline bool is_finite(const MotionState& s) {
   return s.X.matrix().allFinite() && s.velocity.linear.allFinite() && s.velocity.angular.allFinite();
 }
 
-/// A body that contact can carry over a step again and again until its load fits: the held body on its fork, or a free one.
+/// A body that contact can carry over a step again and again until its load fits: the held body on its fork, or a free
+/// one.
 class SteppedBody {
  public:
   virtual ~SteppedBody() = default;
@@ -18,8 +19,8 @@ class SteppedBody {
   /// Pose and velocity of the object frame at present, world axes.
   virtual MotionState object() const = 0;
 
-  /// Goes `h` [s] on under a constant wrench at the centre of mass, world axes; false where the result is not one to go on
-  /// from (not finite, or out of bounds), and then nothing has changed.
+  /// Goes `h` [s] on under a constant wrench at the centre of mass, world axes; false where the result is not one to go
+  /// on from (not finite, or out of bounds), and then nothing has changed.
   virtual bool advance(double h, const Wrench& contact_W) = 0;
   /// The last advance() was not a trial: the body stays there.
   virtual void accept() {}
@@ -35,13 +36,13 @@ class SteppedBody {
   /// How an impulse changes the velocity.
   virtual Matrix6d mobility() const = 0;
   virtual void add_impulse(const Wrench& impulse_W) = 0;
-  /// Whether its way over a step is the mean of the velocities at both ends, times the step: what holds it in its place then
-  /// leaves it with its velocity turned round.
+  /// Whether its way over a step is the mean of the velocities at both ends, times the step: what holds it in its place
+  /// then leaves it with its velocity turned round.
   virtual bool turns_round() const { return false; }
   /// Lets `h` [s] pass at rest where it is: the way out when nothing else fits.
   virtual void stay(double h) = 0;
-  /// Lets `h` [s] pass with its tool rigid, as one that has come to the end of its way: the way out where nothing can be in
-  /// the way. Adds no energy while the hand rests.
+  /// Lets `h` [s] pass with its tool rigid, as one that has come to the end of its way: the way out where nothing can
+  /// be in the way. Adds no energy while the hand rests.
   virtual void go_along(double h) { stay(h); }
 };
 

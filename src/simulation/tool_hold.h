@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "spring_workbench/simulation/simulation.h"
 #include "coupled_tool.h"
+#include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench {
 
@@ -31,8 +31,8 @@ class ToolHold : public SteppedBody, public CoupledTool {
   virtual void let_pass(double h) = 0;
   /// What the springs do to the object at its centre, world axes; its dampers left out.
   virtual Wrench spring_pull() const = 0;
-  /// The tool is gripped anew, with the object at `X_WO`: what there was of strain is gone, and the springs do `pull_W` to
-  /// the object, at its centre, as far as the tool has springs for it (doc/model.md, "Gripped anew").
+  /// The tool is gripped anew, with the object at `X_WO`: what there was of strain is gone, and the springs do `pull_W`
+  /// to the object, at its centre, as far as the tool has springs for it (doc/model.md, "Gripped anew").
   virtual void grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) = 0;
   /// The object's twist comes as near as it can to this one.
   virtual void take_twist(const Twist& V_WO_W) = 0;
@@ -44,10 +44,10 @@ class ToolHold : public SteppedBody, public CoupledTool {
   virtual bool set_dofs(const ForkDofs& dofs, double switch_off_time) = 0;
   virtual void set_step_control(const DynamicsSettings& settings) = 0;
 
-  virtual int coordinates() const = 0;           ///< number of the strain coordinates; 0 is rigid
-  virtual double length() const = 0;             ///< rest length [m]
-  virtual double elastic_energy() const = 0;     ///< [J]
-  virtual double energy_added() const = 0;       ///< by integration since the grasp [J]
+  virtual int coordinates() const = 0;        ///< number of the strain coordinates; 0 is rigid
+  virtual double length() const = 0;          ///< rest length [m]
+  virtual double elastic_energy() const = 0;  ///< [J]
+  virtual double energy_added() const = 0;    ///< by integration since the grasp [J]
   virtual StepEstimates take_estimates() = 0;
   /// Fills in what the tool knows of its state. `massless`: the object has no mass, and forces mean nothing.
   virtual void describe(bool massless, ToolState& state) const = 0;

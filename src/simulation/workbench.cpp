@@ -120,8 +120,8 @@ void Workbench::set_free(std::size_t object, const Twist& V_WO_W, double now) {
     dynamic_stepper_->set_free(movable_[object], states_[object].X_WO, V_WO_W);
     return;
   }
-  free_bodies_[object] = std::make_unique<FreeBody>(movable_[object], body(object), scene_.gravity,
-                                                    states_[object].X_WO, V_WO_W);
+  free_bodies_[object] =
+      std::make_unique<FreeBody>(movable_[object], body(object), scene_.gravity, states_[object].X_WO, V_WO_W);
   free_.insert(object);
   slow_since_[object] = now;
 }

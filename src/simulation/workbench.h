@@ -19,7 +19,8 @@ struct Carried {
 };
 
 /// The movable objects of a scene: their states, those that fly freely and those that sleep, and what they touch.
-/// An object is named by its place in `states()`. A tool takes it with `hold`, carries it, and gives it back with `let_go`.
+/// An object is named by its place in `states()`. A tool takes it with `hold`, carries it, and gives it back with
+/// `let_go`.
 class Workbench {
  public:
   /// Keeps a reference to `scene`. `bisection_levels`: of the search for contact.
@@ -57,8 +58,8 @@ class Workbench {
   /// Whether nothing that a held object could touch moves.
   bool rests(std::size_t object) const;
 
-  /// Carries what is held and all that flies freely over `h` [s] from `now` on, with contact as the scene has it; who has
-  /// been slow for long enough falls asleep.
+  /// Carries what is held and all that flies freely over `h` [s] from `now` on, with contact as the scene has it; who
+  /// has been slow for long enough falls asleep.
   void step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report);
 
  private:
@@ -67,7 +68,8 @@ class Workbench {
   void step_together(const std::vector<Carried>& held, double h, AdvanceReport& report);
   void note_world_contacts(double h);
   /// False, and nothing is done, when the body may not go its way.
-  bool carry(SteppedBody& stepped, std::size_t object, double h, const ContactStepper::MayGo& may_go, AdvanceReport& report);
+  bool carry(SteppedBody& stepped, std::size_t object, double h, const ContactStepper::MayGo& may_go,
+             AdvanceReport& report);
   /// On its way from its state, without a tool; a massless one stays.
   void let_fly(std::size_t object, double now);
   void set_free(std::size_t object, const Twist& V_WO_W, double now);
@@ -86,13 +88,13 @@ class Workbench {
   struct Tools {
     int grasping = 0, pushing = 0;
   };
-  std::vector<Tools> tools_;                            ///< that carry it
-  std::vector<double> slow_since_;                      ///< [s]
-  std::vector<std::size_t> object_of_;                  ///< by index in the scene; means something for movable bodies
+  std::vector<Tools> tools_;            ///< that carry it
+  std::vector<double> slow_since_;      ///< [s]
+  std::vector<std::size_t> object_of_;  ///< by index in the scene; means something for movable bodies
   // Few of many: a step looks at no others.
   std::vector<std::size_t> highlighted_;
-  std::set<std::size_t> free_;           ///< those with a free body
-  std::set<std::size_t> in_contact_;     ///< with contact mode `dynamic`
+  std::set<std::size_t> free_;        ///< those with a free body
+  std::set<std::size_t> in_contact_;  ///< with contact mode `dynamic`
 };
 
 }  // namespace spring_workbench

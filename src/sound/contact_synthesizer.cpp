@@ -9,17 +9,18 @@ namespace spring_workbench {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
-constexpr double half_impulse = 0.2;   ///< heard half as loud as the loudest [N·s]
-constexpr double half_speed = 0.2;     ///< likewise [m/s]
-constexpr double scrape_gain = 0.25;   ///< of the loudest scrape beside the loudest impact
-constexpr double fade_time = 0.01;     ///< of a change of speed [s]
+constexpr double half_impulse = 0.2;  ///< heard half as loud as the loudest [N·s]
+constexpr double half_speed = 0.2;    ///< likewise [m/s]
+constexpr double scrape_gain = 0.25;  ///< of the loudest scrape beside the loudest impact
+constexpr double fade_time = 0.01;    ///< of a change of speed [s]
 
 }  // namespace
 
 ContactSynthesizer::ContactSynthesizer(double volume) : volume_(volume) {
   check_number("contact sound", "volume", volume, between(0.0, 1.0));
   // A small wooden block: frequency [Hz], time to 1/e [s], share.
-  constexpr double ringing[4][3] = {{420.0, 0.060, 0.45}, {960.0, 0.035, 0.3}, {1730.0, 0.02, 0.15}, {3100.0, 0.01, 0.1}};
+  constexpr double ringing[4][3] = {
+      {420.0, 0.060, 0.45}, {960.0, 0.035, 0.3}, {1730.0, 0.02, 0.15}, {3100.0, 0.01, 0.1}};
   for (std::size_t i = 0; i < modes_.size(); ++i) {
     const double turn = 2.0 * pi * ringing[i][0] / sample_rate;
     const double decay = std::exp(-1.0 / (ringing[i][1] * sample_rate));

@@ -35,9 +35,9 @@ class WavFile final : public AudioOutput {
     file_ << "RIFF";
     put(36 + data_bytes_, 4);
     file_ << "WAVEfmt ";
-    put(16, 4);        // bytes that follow
-    put(1, 2);         // PCM
-    put(1, 2);         // channels
+    put(16, 4);  // bytes that follow
+    put(1, 2);   // PCM
+    put(1, 2);   // channels
     put(rate, 4);
     put(2 * rate, 4);  // bytes a second
     put(2, 2);         // bytes a frame

@@ -10,8 +10,8 @@ Placement judge_placement(const Body& body, const Target& target, const RigidTra
   placement.object = body.name;
   placement.position_error = (X_WL.translation() - target.X_WL.translation()).norm();
   placement.angle_error = log_so3(target.X_WL.linear().transpose() * X_WL.linear()).norm();
-  placement.in_place = !held && placement.position_error <= target.position_tolerance &&
-                       placement.angle_error <= target.angle_tolerance;
+  placement.in_place =
+      !held && placement.position_error <= target.position_tolerance && placement.angle_error <= target.angle_tolerance;
   return placement;
 }
 

@@ -5,9 +5,9 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double drop_height = 0.02;     ///< [m] a released object that falls further was dropped
-constexpr double same_contact = 0.2;     ///< [s] a contact that comes back within this time is the same one
-constexpr double from_below = 0.7;       ///< z of a normal: the other one carries the object
+constexpr double drop_height = 0.02;  ///< [m] a released object that falls further was dropped
+constexpr double same_contact = 0.2;  ///< [s] a contact that comes back within this time is the same one
+constexpr double from_below = 0.7;    ///< z of a normal: the other one carries the object
 }  // namespace
 
 TaskMonitor::TaskMonitor(const Scene& scene) {
@@ -60,7 +60,8 @@ void TaskMonitor::judge(const std::vector<BodyState>& objects) {
   int angles = 0;
   for (std::size_t i = 0; i < watched_.size(); ++i) {
     const Watched& w = watched_[i];
-    const auto o = std::find_if(objects.begin(), objects.end(), [&](const BodyState& s) { return s.name == w.body.name; });
+    const auto o =
+        std::find_if(objects.begin(), objects.end(), [&](const BodyState& s) { return s.name == w.body.name; });
     placements_[i] = judge_placement(w.body, w.target, o->X_WO, o->held);
     score_.placed += placements_[i].in_place ? 1 : 0;
     score_.position_error += placements_[i].position_error / static_cast<double>(watched_.size());

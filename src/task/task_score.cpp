@@ -14,8 +14,8 @@ std::string score_csv(const TaskScore& s) {
   std::ostringstream line;
   line.imbue(std::locale::classic());
   line.precision(9);
-  line << s.placed << ',' << s.targets << ',' << s.time << ',' << s.hand_path << ',' << s.object_path << ','
-       << s.grasps << ',' << s.collisions << ',' << s.drops << ',' << s.largest_force << ',' << s.position_error << ','
+  line << s.placed << ',' << s.targets << ',' << s.time << ',' << s.hand_path << ',' << s.object_path << ',' << s.grasps
+       << ',' << s.collisions << ',' << s.drops << ',' << s.largest_force << ',' << s.position_error << ','
        << s.angle_error;
   return line.str();
 }

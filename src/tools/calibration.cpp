@@ -37,8 +37,8 @@ PerFamily calibrated_stiffness(const std::string& shape, double length, const Bo
   const StrainState zero{StrainVector::Zero(size), StrainVector::Zero(size)};
   held.set_dofs({true, true, true}, 0.0, 1.0, zero);
   RigidTransform hanging = RigidTransform::Identity(), level = RigidTransform::Identity();
-  hanging.linear() = exp_so3(Vector3d(pi, 0.0, 0.0));     // z of the handle is down
-  level.linear() = exp_so3(Vector3d(0.0, -0.5 * pi, 0.0)); // x of the handle is up
+  hanging.linear() = exp_so3(Vector3d(pi, 0.0, 0.0));       // z of the handle is down
+  level.linear() = exp_so3(Vector3d(0.0, -0.5 * pi, 0.0));  // x of the handle is up
   PerFamily k{g / sag, g / sag, held.axial_inertia() * omega * omega};
   StrainVector q_hanging = zero.q, q_level = zero.q;
   for (int iteration = 0; iteration < 40; ++iteration) {

@@ -6,11 +6,11 @@
 namespace spring_workbench {
 namespace {
 
-constexpr double kBucket = 0.5;             // [s]
-constexpr std::size_t kBuckets = 20;        // ten seconds
-constexpr double kShortestFit = 2.0;        // [s] before this, drift is not known and taken as none
-constexpr double kLargestDrift = 5e-3;      // relative
-constexpr double kLateFor = 0.5;            // [s] and no less than kLateInARow receipts
+constexpr double kBucket = 0.5;         // [s]
+constexpr std::size_t kBuckets = 20;    // ten seconds
+constexpr double kShortestFit = 2.0;    // [s] before this, drift is not known and taken as none
+constexpr double kLargestDrift = 5e-3;  // relative
+constexpr double kLateFor = 0.5;        // [s] and no less than kLateInARow receipts
 constexpr double kLateInARow = 16.0;
 constexpr double kSilence = 0.25;           // [s]
 constexpr double kDoubt = 2.0;              // [s] for which a count that went on may be taken back
@@ -91,8 +91,8 @@ void CadenceClock::fit() {
   }
   slope_ = 0.0;
   if ((hull.back().k - hull.front().k) * interval_ >= kShortestFit) {
-    const auto right = std::upper_bound(hull.begin() + 1, hull.end() - 1, middle,
-                                        [](double k, const Point& p) { return k < p.k; });
+    const auto right =
+        std::upper_bound(hull.begin() + 1, hull.end() - 1, middle, [](double k, const Point& p) { return k < p.k; });
     const Point a = *(right - 1), b = *right;
     const double largest = kLargestDrift * interval_;
     slope_ = std::clamp((b.late - a.late) / (b.k - a.k), -largest, largest);

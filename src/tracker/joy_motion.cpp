@@ -12,7 +12,8 @@ namespace {
 constexpr int most_controls = 64;  // axes or buttons of one device
 
 bool is_down(const std::vector<int>& buttons, int number) {
-  return number >= 0 && static_cast<std::size_t>(number) < buttons.size() && buttons[static_cast<std::size_t>(number)] != 0;
+  return number >= 0 && static_cast<std::size_t>(number) < buttons.size() &&
+         buttons[static_cast<std::size_t>(number)] != 0;
 }
 
 std::array<int, 6> read_axes(const YAML::Node& node, const std::string& where) {
@@ -30,7 +31,8 @@ std::array<int, 6> read_axes(const YAML::Node& node, const std::string& where) {
 }  // namespace
 
 const std::vector<std::string>& joy_keys() {
-  static const std::vector<std::string> keys{"axes", "move_speed", "turn_speed", "dead_zone", "grasp_button", "tool_button"};
+  static const std::vector<std::string> keys{"axes",      "move_speed",   "turn_speed",
+                                             "dead_zone", "grasp_button", "tool_button"};
   return keys;
 }
 

@@ -140,7 +140,8 @@ PivotCalibration calibrate_tip(const std::vector<RigidTransform>& poses_TS, doub
   }
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const double turned = svd.singularValues()[5] / std::sqrt(static_cast<double>(n));
-  if (!(turned > least_turned)) refuse(kWhere, "poses", "too little turning", "turned by 20 degrees or more about two axes");
+  if (!(turned > least_turned))
+    refuse(kWhere, "poses", "too little turning", "turned by 20 degrees or more about two axes");
   const Eigen::VectorXd x = svd.solve(b);
   PivotCalibration result{x.head<3>(), x.tail<3>(), std::sqrt((A * x - b).squaredNorm() / static_cast<double>(n))};
   if (!(result.rms <= largest_rms)) {

@@ -8,12 +8,12 @@ namespace spring_workbench {
 namespace {
 
 // Below these a move is never an outlier: noise of a tracker, and of stamps that are close together.
-constexpr double kFreeDistance = 5e-3;       // [m]
-constexpr double kFreeAngle = 0.05;          // [rad]
-constexpr double kShortestInterval = 0.5e-9; // [s] half of what ROS time resolves, as PoseTrack has it
-constexpr double kClosest = 5e-5;            // [s] and no closer than kClosestShare of the usual interval
+constexpr double kFreeDistance = 5e-3;        // [m]
+constexpr double kFreeAngle = 0.05;           // [rad]
+constexpr double kShortestInterval = 0.5e-9;  // [s] half of what ROS time resolves, as PoseTrack has it
+constexpr double kClosest = 5e-5;             // [s] and no closer than kClosestShare of the usual interval
 constexpr double kClosestShare = 0.25;
-constexpr double kAwayFromOrigin = 10.0;     // radii; a hand that was nearer may have come to the origin by itself
+constexpr double kAwayFromOrigin = 10.0;  // radii; a hand that was nearer may have come to the origin by itself
 
 /// Angle of the rotation from a to b [rad], 0 … π, the signs of the quaternions aside.
 double angle_between(const Quaterniond& a, const Quaterniond& b) {
@@ -24,16 +24,26 @@ double angle_between(const Quaterniond& a, const Quaterniond& b) {
 
 std::string to_string(Verdict verdict) {
   switch (verdict) {
-    case Verdict::accepted: return "accepted";
-    case Verdict::new_place: return "new place";
-    case Verdict::not_finite: return "not finite";
-    case Verdict::bad_quaternion: return "not a unit quaternion";
-    case Verdict::too_far: return "too far";
-    case Verdict::not_later: return "stamp not later";
-    case Verdict::too_close: return "too close to the last";
-    case Verdict::too_fast: return "too fast";
-    case Verdict::turns_too_fast: return "turns too fast";
-    case Verdict::out_of_view: return "out of view";
+    case Verdict::accepted:
+      return "accepted";
+    case Verdict::new_place:
+      return "new place";
+    case Verdict::not_finite:
+      return "not finite";
+    case Verdict::bad_quaternion:
+      return "not a unit quaternion";
+    case Verdict::too_far:
+      return "too far";
+    case Verdict::not_later:
+      return "stamp not later";
+    case Verdict::too_close:
+      return "too close to the last";
+    case Verdict::too_fast:
+      return "too fast";
+    case Verdict::turns_too_fast:
+      return "turns too fast";
+    case Verdict::out_of_view:
+      return "out of view";
   }
   return "";
 }
@@ -47,7 +57,8 @@ std::string complaint(Verdict verdict, const RawSample& sample, const TruthSetti
   rotation << "rotation: (" << q.x() << ", " << q.y() << ", " << q.z() << ", " << q.w() << ") is not allowed: must be ";
   switch (verdict) {
     case Verdict::accepted:
-    case Verdict::new_place: break;
+    case Verdict::new_place:
+      break;
     case Verdict::not_finite:
       if (!std::isfinite(sample.t)) {
         out << "stamp: " << sample.t << " is not allowed: must be a finite number";

@@ -1,6 +1,5 @@
 #include "spring_workbench/tracker/touches.h"
 
-
 #include <algorithm>
 #include <iomanip>
 #include <sstream>
@@ -29,8 +28,8 @@ std::string write_registration(const StoredRegistration& registration, const std
   const Vector3d p = registration.X_BT.translation(), tip = registration.p_ST;
   const Quaterniond q(registration.X_BT.linear());
   std::ostringstream out;
-  out << comment << std::setprecision(9) << "offset: [" << p.x() << ", " << p.y() << ", " << p.z() << ", " << q.x() << ", "
-      << q.y() << ", " << q.z() << ", " << q.w() << "]\n"
+  out << comment << std::setprecision(9) << "offset: [" << p.x() << ", " << p.y() << ", " << p.z() << ", " << q.x()
+      << ", " << q.y() << ", " << q.z() << ", " << q.w() << "]\n"
       << "tip: [" << tip.x() << ", " << tip.y() << ", " << tip.z() << "]\n";
   return out.str();
 }
@@ -45,7 +44,8 @@ std::vector<Landmark> read_landmarks(const std::string& path) {
   for (const YAML::Node& entry : map["landmarks"]) {
     check_keys(entry, path, "landmarks.", {"name", "position"});
     if (!entry["name"] || !entry["position"]) refuse(path, "landmarks", "an entry without them", "{name, position}");
-    landmarks.push_back({read_string(entry["name"], path, "name"), read_point(entry["position"], path, "position"), {}});
+    landmarks.push_back(
+        {read_string(entry["name"], path, "name"), read_point(entry["position"], path, "position"), {}});
   }
   return landmarks;
 }
@@ -62,9 +62,11 @@ std::vector<std::vector<StylusSample>> presses(const std::vector<StylusSample>& 
 }
 
 std::vector<Landmark> touched_landmarks(std::vector<Landmark> landmarks,
-                                        const std::vector<std::vector<StylusSample>>& touches, double largest_residual) {
+                                        const std::vector<std::vector<StylusSample>>& touches,
+                                        double largest_residual) {
   if (touches.size() != landmarks.size()) {
-    refuse("registration", "touches", std::to_string(touches.size()), "as many as landmarks: " + std::to_string(landmarks.size()));
+    refuse("registration", "touches", std::to_string(touches.size()),
+           "as many as landmarks: " + std::to_string(landmarks.size()));
   }
   for (std::size_t i = 0; i < touches.size(); ++i) {
     Vector3d mean = Vector3d::Zero();
@@ -74,7 +76,8 @@ std::vector<Landmark> touched_landmarks(std::vector<Landmark> landmarks,
     for (const StylusSample& sample : touches[i]) {
       const double off = (sample.X.translation() - mean).norm();
       if (off <= largest_residual) continue;
-      refuse("registration", "touch of " + landmarks[i].name, "a tip that moved by " + std::to_string(1e3 * off) + " mm",
+      refuse("registration", "touch of " + landmarks[i].name,
+             "a tip that moved by " + std::to_string(1e3 * off) + " mm",
              "at rest within " + std::to_string(1e3 * largest_residual) + " mm while the button is down");
     }
     landmarks[i].p_T = mean;

@@ -46,7 +46,8 @@ const std::vector<Entry>& entries() {
       {"max_turn_rate", "rad/s", "likewise", NumberField{&T::max_turn_rate, positive_or_infinite()}},
       {"accept_after", "–", "so many samples in a row that fit to each other make the new place true",
        CountField{&T::accept_after, 1, 10000}},
-      {"origin_radius", "m", "a pose this close to the frame's origin that the hand was not near is out of view; 0: off",
+      {"origin_radius", "m",
+       "a pose this close to the frame's origin that the hand was not near is out of view; 0: off",
        NumberField{&T::origin_radius, between(0.0, 1.0)}},
       {"origin_angle", "rad", "and turned by no more than this", NumberField{&T::origin_angle, between(0.0, 3.15)}},
       {"filter.min_cutoff", "Hz", "cut-off of the One Euro filter at rest; 0: no filter",
@@ -62,7 +63,8 @@ const std::vector<Entry>& entries() {
       {"lost_after", "s", "so long without a sample and the hand is lost", NumberField{&T::lost_after, positive()}},
       {"reengage_speed", "m/s", "the most that catching up with a hand that is back adds to its speed",
        NumberField{&T::reengage_speed, positive_or_infinite()}},
-      {"reengage_turn_rate", "rad/s", "likewise, of turning", NumberField{&T::reengage_turn_rate, positive_or_infinite()}},
+      {"reengage_turn_rate", "rad/s", "likewise, of turning",
+       NumberField{&T::reengage_turn_rate, positive_or_infinite()}},
   };
   return table;
 }

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""The rooms know each other in one direction: the one of the add_room lines. Reads the #include lines of the sources."""
+"""The rooms know each other in one direction: the one of the add_room lines. Reads the #include lines."""
 import pathlib
 import re
 import sys
@@ -11,13 +11,24 @@ OWN = "spring_workbench/"
 # What may use ROS; apps only where bags are read.
 ROS_ROOMS = {"ros_interface", "nodes", "rviz_plugin"}
 EXTERNAL = [  # headers, rooms that may use them, whether their public headers may as well
-    (re.compile(r"^(ros|rosbag|tf2\w*|\w+_msgs|std_srvs|dynamic_reconfigure|pluginlib|rviz|interactive_markers|XmlRpc\w*)(/|\.h|$)"), ROS_ROOMS, True),
+    (
+        re.compile(
+            r"^(ros|rosbag|tf2\w*|\w+_msgs|std_srvs|dynamic_reconfigure|pluginlib|rviz"
+            r"|interactive_markers|XmlRpc\w*)(/|\.h|$)"
+        ),
+        ROS_ROOMS,
+        True,
+    ),
     (re.compile(r"^(bt|Bullet|LinearMath/)"), {"world"}, False),
     (re.compile(r"^fcl/"), {"collision"}, False),
     (re.compile(r"^SDL"), {"sound"}, False),
     (re.compile(r"^(urdf\w*|assimp)/"), {"scene"}, False),
 ]
-USERS = {"rviz_plugin": {"fork_mesh", "tools"}, "nodes": {"ros_interface"}, "apps": {"simulation", "tracker", "simulated_device", "operator"}}  # folders of executables, not rooms
+USERS = {
+    "rviz_plugin": {"fork_mesh", "tools"},
+    "nodes": {"ros_interface"},
+    "apps": {"simulation", "tracker", "simulated_device", "operator"},
+}  # folders of executables, not rooms
 
 
 def rooms_of(cmake_text):
@@ -25,8 +36,8 @@ def rooms_of(cmake_text):
     rooms = {}
     for arguments in re.findall(r"^\s*add_room\(([^)]*)\)", cmake_text, re.MULTILINE):
         name, *words = arguments.split()
-        depends = words[words.index("DEPENDS") + 1:] if "DEPENDS" in words else []
-        rooms[name] = set(depends[:depends.index("LIBRARIES")] if "LIBRARIES" in depends else depends)
+        depends = words[words.index("DEPENDS") + 1 :] if "DEPENDS" in words else []
+        rooms[name] = set(depends[: depends.index("LIBRARIES")] if "LIBRARIES" in depends else depends)
     return rooms
 
 
@@ -42,7 +53,9 @@ def reach(rooms, room):
 
 
 def find_faults(root):
-    cmake_text = "".join(path.read_text() for path in [root / "CMakeLists.txt", *sorted((root / "cmake").glob("*.cmake"))])
+    cmake_text = "".join(
+        path.read_text() for path in [root / "CMakeLists.txt", *sorted((root / "cmake").glob("*.cmake"))]
+    )
     rooms = {**rooms_of(cmake_text), **USERS}
     faults, files = [], 0
     for base in ["include/spring_workbench", "src"]:
@@ -62,7 +75,7 @@ def find_faults(root):
 
 def fault_of(header, room, path, private, allowed):
     if header.startswith(OWN):
-        parts = header[len(OWN):].split("/")
+        parts = header[len(OWN) :].split("/")
         if len(parts) == 1:  # generated from a message or service
             return None if room in ROS_ROOMS else "messages belong to the ROS side"
         return None if parts[0] in allowed else f"must be one of {', '.join(sorted(allowed))}"
@@ -106,8 +119,9 @@ class IncludeDirection(unittest.TestCase):
         for file, line, wrong in cases:
             with self.subTest(file=file, line=line), tempfile.TemporaryDirectory() as folder:
                 root = pathlib.Path(folder)
-                (root / "CMakeLists.txt").write_text("add_room(low)\nadd_room(collision DEPENDS low)\n"
-                                                     "add_room(high DEPENDS low LIBRARIES x)\n")
+                (root / "CMakeLists.txt").write_text(
+                    "add_room(low)\nadd_room(collision DEPENDS low)\n" "add_room(high DEPENDS low LIBRARIES x)\n"
+                )
                 (root / file).parent.mkdir(parents=True)
                 (root / file).write_text(line + "\n")
                 self.assertEqual(len(find_faults(root)[0]), 1 if wrong else 0)

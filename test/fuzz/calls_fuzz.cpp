@@ -24,8 +24,9 @@ class Choices {
   /// Any number: those at the rims of what is allowed more often than the others.
   double number() {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    constexpr std::array<double, 16> rims{0.0,  -0.0, -1.0, 1e-300, 1e-6, 1e-3, 0.02, 0.5,
-                                          1.0,  10.0, 1e3,  1e6,    1e12, 1e300, infinity, std::numeric_limits<double>::quiet_NaN()};
+    constexpr std::array<double, 16> rims{
+        0.0, -0.0, -1.0, 1e-300, 1e-6, 1e-3,  0.02,     0.5,
+        1.0, 10.0, 1e3,  1e6,    1e12, 1e300, infinity, std::numeric_limits<double>::quiet_NaN()};
     const unsigned choice = byte();
     if (choice < rims.size()) return rims[choice];
     if (choice >= 0xf0) {
@@ -37,7 +38,8 @@ class Choices {
     }
     return (choice - 128.0) / 128.0;
   }
-  /// A number of which no more is asked than a hand can do that the truth layer lets through; what is not finite stays so.
+  /// A number of which no more is asked than a hand can do that the truth layer lets through; what is not finite stays
+  /// so.
   double hand_number() {
     const double value = number();
     return std::isfinite(value) ? std::clamp(value, -2.0, 2.0) : value;
@@ -59,25 +61,43 @@ class Choices {
 /// One call, as the services make it, with numbers as they come.
 void call(Choices& next, Simulation& simulation, PoseSample& hand) {
   switch (next.byte() % 11) {
-    case 0: simulation.set_dofs({next.flag(), next.flag(), next.flag()}); break;
-    case 1: simulation.set_stiffness(next.per_family()); break;
-    case 2: simulation.set_damping_ratio(next.per_family()); break;
+    case 0:
+      simulation.set_dofs({next.flag(), next.flag(), next.flag()});
+      break;
+    case 1:
+      simulation.set_stiffness(next.per_family());
+      break;
+    case 2:
+      simulation.set_damping_ratio(next.per_family());
+      break;
     case 3: {
       const std::string name = next.name(integrator_names());
       const double step = next.number();
       const bool to_tolerance = next.flag();
-      // Not to wait for hours: a step that is allowed is no shorter than 2 ms, or 50 ms where it is made of as many as a
-      // tolerance takes, which is 1 cm.
+      // Not to wait for hours: a step that is allowed is no shorter than 2 ms, or 50 ms where it is made of as many as
+      // a tolerance takes, which is 1 cm.
       const double shortest = to_tolerance ? 0.05 : 0.002;
       simulation.set_integrator(name, step > 0.0 ? std::max(step, shortest) : step, to_tolerance ? 0.01 : 0.0);
       break;
     }
-    case 4: simulation.select_tool(next.name(tool_names()), next.byte() % 2); break;
-    case 5: simulation.calibrate(); break;
-    case 6: simulation.reset(); break;
-    case 7: simulation.release(); break;
-    case 8: simulation.push_button(hand.t, next.flag(), next.byte() % 2); break;
-    case 9: simulation.push_next_tool(hand.t, next.byte() % 2); break;
+    case 4:
+      simulation.select_tool(next.name(tool_names()), next.byte() % 2);
+      break;
+    case 5:
+      simulation.calibrate();
+      break;
+    case 6:
+      simulation.reset();
+      break;
+    case 7:
+      simulation.release();
+      break;
+    case 8:
+      simulation.push_button(hand.t, next.flag(), next.byte() % 2);
+      break;
+    case 9:
+      simulation.push_next_tool(hand.t, next.byte() % 2);
+      break;
     default: {
       PoseSample sample = hand;
       sample.t += 0.02 * (1.0 + next.byte() / 64.0);

@@ -15,7 +15,8 @@ bool accepted(const std::function<void()>& work) {
   } catch (const InputError& error) {
     const std::string message = error.what();
     const auto controls = [](char c) { return std::iscntrl(static_cast<unsigned char>(c)) != 0; };
-    require(!message.empty() && std::none_of(message.begin(), message.end(), controls), "one line says what is wrong: " + message);
+    require(!message.empty() && std::none_of(message.begin(), message.end(), controls),
+            "one line says what is wrong: " + message);
     return false;
   }
 }

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""assembly_trials as a user runs it: scores, table, recorded hand, bad input. Usage: assembly_trials_test.py PROGRAM REPLAY SOURCE"""
+"""assembly_trials as a user runs it: scores, table, recorded hand, bad input. Usage: assembly_trials_test.py PROGRAM
+REPLAY SOURCE"""
 import csv
 import os
 import pathlib
@@ -21,7 +22,9 @@ class AssemblyTrials(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             files = {name: os.path.join(folder, name) for name in ["trials.csv", "table.md", "hand.tum", "run.csv"]}
             arguments = ["--scene", SCENE, "--settings", SETTINGS, "--tool", "direct", "--trials", "2", "--seed", "3"]
-            done = run(*arguments, "--out", files["trials.csv"], "--table", files["table.md"], "--record", files["hand.tum"])
+            done = run(
+                *arguments, "--out", files["trials.csv"], "--table", files["table.md"], "--record", files["hand.tum"]
+            )
             self.assertEqual((done.returncode, done.stderr, done.stdout), (0, "", ""))
             text = pathlib.Path(files["trials.csv"]).read_text()
             self.assertEqual(run(*arguments).stdout, text)  # same seed, same bytes
@@ -36,19 +39,48 @@ class AssemblyTrials(unittest.TestCase):
             self.assertEqual(len(table), 3)
             self.assertTrue(table[2].startswith("| `direct` | 2 | 100 %"), table[2])
             # The recorded hand does the same work again.
-            again = subprocess.run([REPLAY, "--scene", SCENE, "--settings", SETTINGS, "--set", "tool=direct", "--motion",
-                                    files["hand.tum"], "--out", files["run.csv"]], capture_output=True, text=True)
+            again = subprocess.run(
+                [
+                    REPLAY,
+                    "--scene",
+                    SCENE,
+                    "--settings",
+                    SETTINGS,
+                    "--set",
+                    "tool=direct",
+                    "--motion",
+                    files["hand.tum"],
+                    "--out",
+                    files["run.csv"],
+                ],
+                capture_output=True,
+                text=True,
+            )
             self.assertEqual(again.returncode, 0, again.stderr)
-            last = {row["object"]: row for row in csv.DictReader(pathlib.Path(files["run.csv"]).read_text().splitlines())}
-            for name in ["red_box", "green_box", "yellow_box", "orange_box", "purple_sphere", "steel_sphere", "white_sphere"]:
+            last = {
+                row["object"]: row for row in csv.DictReader(pathlib.Path(files["run.csv"]).read_text().splitlines())
+            }
+            for name in [
+                "red_box",
+                "green_box",
+                "yellow_box",
+                "orange_box",
+                "purple_sphere",
+                "steel_sphere",
+                "white_sphere",
+            ]:
                 self.assertTrue(0.13 < float(last[name]["x"]) < 0.42, name)
                 self.assertTrue(-0.1 < float(last[name]["y"]) < 0.1, name)
 
     def test_bad_input_is_refused_in_one_line(self):
-        for arguments, word in [([], "--scene"), (["--scene", SCENE, "--tool", "tongs"], "tongs"),
-                                (["--scene", SCENE, "--trials", "0"], "--trials"),
-                                (["--scene", SOURCE + "/scenes/single_box.urdf"], "targets"),
-                                (["--scene", "/nowhere.urdf"], "/nowhere.urdf"), (["--scene", SCENE, "more"], "more")]:
+        for arguments, word in [
+            ([], "--scene"),
+            (["--scene", SCENE, "--tool", "tongs"], "tongs"),
+            (["--scene", SCENE, "--trials", "0"], "--trials"),
+            (["--scene", SOURCE + "/scenes/single_box.urdf"], "targets"),
+            (["--scene", "/nowhere.urdf"], "/nowhere.urdf"),
+            (["--scene", SCENE, "more"], "more"),
+        ]:
             done = run(*arguments)
             self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
             self.assertIn(word, done.stderr)

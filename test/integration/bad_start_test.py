@@ -30,8 +30,13 @@ class BadStart(unittest.TestCase):
         name = "/" + node + "_refused"
         master.setParam(name, parameters)
         try:
-            done = subprocess.run(roslib.packages.find_node("spring_workbench", node) + ["__name:=" + name[1:]], timeout=60, text=True,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+            done = subprocess.run(
+                roslib.packages.find_node("spring_workbench", node) + ["__name:=" + name[1:]],
+                timeout=60,
+                text=True,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT,
+            )
         finally:
             master.deleteParam(name)
         return done.returncode, [line for line in done.stdout.splitlines() if line.strip()]
@@ -47,30 +52,36 @@ class BadStart(unittest.TestCase):
 
     def test_manipulation(self):
         broken = file_with("<robot name='a'><link name='b'></robot>", ".urdf")
-        self.check("manipulation", [
-            ({"rate": 100}, ["scene", "nothing"]),
-            ({"scene": "/nowhere/a.urdf"}, ["/nowhere/a.urdf"]),
-            ({"scene": broken}, [broken]),
-            ({"scene": SCENE, "scene_file": "a"}, ["scene_file", "unknown"]),
-            ({"scene": SCENE, "rate": "fast"}, ["rate", "fast"]),
-            ({"scene": SCENE, "fork": {"stiffness": {"bend": math.nan}}}, ["fork.stiffness.bend", "nan"]),
-            ({"scene": SCENE, "fork": {"stiffness": {"bend": -5.0}}}, ["fork.stiffness.bend", "-5"]),
-            ({"scene": SCENE, "fork": 3}, ["fork", "unknown"]),
-            ({"scene": SCENE, "grasp": {"object": "teapot"}}, ["grasp.object", "teapot"]),
-        ])
+        self.check(
+            "manipulation",
+            [
+                ({"rate": 100}, ["scene", "nothing"]),
+                ({"scene": "/nowhere/a.urdf"}, ["/nowhere/a.urdf"]),
+                ({"scene": broken}, [broken]),
+                ({"scene": SCENE, "scene_file": "a"}, ["scene_file", "unknown"]),
+                ({"scene": SCENE, "rate": "fast"}, ["rate", "fast"]),
+                ({"scene": SCENE, "fork": {"stiffness": {"bend": math.nan}}}, ["fork.stiffness.bend", "nan"]),
+                ({"scene": SCENE, "fork": {"stiffness": {"bend": -5.0}}}, ["fork.stiffness.bend", "-5"]),
+                ({"scene": SCENE, "fork": 3}, ["fork", "unknown"]),
+                ({"scene": SCENE, "grasp": {"object": "teapot"}}, ["grasp.object", "teapot"]),
+            ],
+        )
 
     def test_tracker_driver(self):
         broken = file_with("0 0 0 0 0 0 0 1\n0.1 0 0 zero 0 0 0 1\n", ".tum")
         no_waypoints = file_with("rate: 50\nwaypoints: []\n", ".yaml")
-        self.check("tracker_driver", [
-            ({}, ["file"]),
-            ({"file": "/nowhere/a.tum"}, ["/nowhere/a.tum"]),
-            ({"file": broken}, [broken + ":2", "zero"]),
-            ({"file": no_waypoints, "source": "scripted"}, [no_waypoints, "waypoints"]),
-            ({"file": MOTION, "source": "mouse"}, ["source", "mouse"]),
-            ({"file": MOTION, "speed": -1.0}, ["speed", "-1"]),
-            ({"file": "package://no_such_package/a.tum"}, ["no_such_package"]),
-        ])
+        self.check(
+            "tracker_driver",
+            [
+                ({}, ["file"]),
+                ({"file": "/nowhere/a.tum"}, ["/nowhere/a.tum"]),
+                ({"file": broken}, [broken + ":2", "zero"]),
+                ({"file": no_waypoints, "source": "scripted"}, [no_waypoints, "waypoints"]),
+                ({"file": MOTION, "source": "mouse"}, ["source", "mouse"]),
+                ({"file": MOTION, "speed": -1.0}, ["speed", "-1"]),
+                ({"file": "package://no_such_package/a.tum"}, ["no_such_package"]),
+            ],
+        )
 
 
 if __name__ == "__main__":

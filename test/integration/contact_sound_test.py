@@ -22,8 +22,9 @@ NODE = roslib.packages.find_node("spring_workbench", "contact_sound")[0]
 
 class Player:
     def __init__(self, *parameters, **environment):
-        self.process = subprocess.Popen([NODE, *parameters],
-                                        env={**os.environ, **environment}, stderr=subprocess.PIPE, text=True)
+        self.process = subprocess.Popen(
+            [NODE, *parameters], env={**os.environ, **environment}, stderr=subprocess.PIPE, text=True
+        )
 
     def end(self):
         self.process.send_signal(signal.SIGINT)
@@ -31,8 +32,9 @@ class Player:
 
 
 def contact(phase, impulse=0.0, slip_speed=0.0):
-    return Contacts(contacts=[Contact(object="box", other="workbench", phase=phase, impulse=impulse,
-                                      slip_speed=slip_speed)])
+    return Contacts(
+        contacts=[Contact(object="box", other="workbench", phase=phase, impulse=impulse, slip_speed=slip_speed)]
+    )
 
 
 class ContactSound(unittest.TestCase):
@@ -56,9 +58,9 @@ class ContactSound(unittest.TestCase):
                 samples = array.array("h", file.readframes(file.getnframes()))
         self.assertGreater(len(samples), 44100)
         first = next(i for i, s in enumerate(samples) if abs(s) > 500)
-        ringing = samples[first:first + 2205]
-        later = samples[first + 15000:first + 20000]  # rung out, nothing slips yet
-        scrape = samples[first + 35000:first + 45000]
+        ringing = samples[first : first + 2205]
+        later = samples[first + 15000 : first + 20000]  # rung out, nothing slips yet
+        scrape = samples[first + 35000 : first + 45000]
         loudness = lambda part: sum(s * s for s in part) / len(part)
         self.assertGreater(loudness(ringing), 100 * loudness(later) + 1)
         self.assertGreater(loudness(scrape), 100 * loudness(later) + 1)
@@ -66,8 +68,10 @@ class ContactSound(unittest.TestCase):
     def test_plays_on_a_device(self):
         player = Player(SDL_AUDIODRIVER="dummy")
         try:
-            wait_for(lambda: self.publisher.get_num_connections() > 0 or player.process.poll() is not None,
-                     "the player to listen")
+            wait_for(
+                lambda: self.publisher.get_num_connections() > 0 or player.process.poll() is not None,
+                "the player to listen",
+            )
         finally:
             said, status = player.end()
         if "built without SDL 2" in said:
@@ -76,8 +80,7 @@ class ContactSound(unittest.TestCase):
 
     def test_bad_parameters_are_refused_in_one_line(self):
         for parameter, word in [("_volume:=2", "volume"), ("_file:=/nowhere/a.wav", "/nowhere/a.wav"), ("_x:=1", "x")]:
-            process = subprocess.run([NODE, parameter], capture_output=True,
-                                     text=True, timeout=DEADLINE)
+            process = subprocess.run([NODE, parameter], capture_output=True, text=True, timeout=DEADLINE)
             rospy.delete_param("contact_sound")
             self.assertEqual(process.returncode, 2)
             self.assertEqual(len(process.stderr.strip().splitlines()), 1, process.stderr)

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""tracker_driver on a simulated FASTRAK: three stations that slide along x, the third on the head, and a plug that is pulled after 8 s."""
+"""tracker_driver on a simulated FASTRAK: three stations that slide along x, the third on the head, and a plug that is
+pulled after 8 s."""
 import sys
 import unittest
 
@@ -38,7 +39,9 @@ class Fastrak(unittest.TestCase):
                 self.assertTrue(0.999 < p.y < 1.491, p.y)
         self.assertGreater(len(joy.messages), COUNT / 2)
         self.assertEqual({m.buttons[0] for m in joy.messages}, {0})
-        wait_for(lambda: {m.buttons[0] for m in second_joy.messages} == {0, 1}, "the second stylus' switch, up and down")
+        wait_for(
+            lambda: {m.buttons[0] for m in second_joy.messages} == {0, 1}, "the second stylus' switch, up and down"
+        )
         self.assertEqual({m.header.frame_id for m in second_joy.messages}, {"stylus_2"})
 
         def values():

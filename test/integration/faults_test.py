@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""The stack while things go wrong: nodes killed and started again, a master started anew, a subscriber that does not read, a full
-disk, a stopped processor, a flood of service calls. The hand owns the ROS clock (stack.Hand)."""
+"""The stack while things go wrong: nodes killed and started again, a master started anew, a subscriber that does not
+read, a full disk, a stopped processor, a flood of service calls. The hand owns the ROS clock (stack.Hand)."""
 import os
 import signal
 import socket
@@ -18,16 +18,24 @@ import rostest
 from roscpp.srv import SetLoggerLevel
 from rosgraph.names import ns_join
 from spring_workbench.msg import ForkState, ObjectStates, StepReport
-from spring_workbench.srv import (LoadScene, SelectTool, SetForkDamping, SetForkDofs, SetForkStiffness, SetIntegrator)
+from spring_workbench.srv import LoadScene, SelectTool, SetForkDamping, SetForkDofs, SetForkStiffness, SetIntegrator
 from std_srvs.srv import Trigger
 
 from stack import DEADLINE, DOWN, Hand, Launched, Listener, kill_and_wait, pid_of, slave_api, wait_for
 
 SCENE = "scene:=package://spring_workbench/scenes/single_box.urdf"
 STACK = ["workbench.launch", SCENE, "tracker:=false", "rviz:=false", "respawn:=true"]
-SERVICES = {"set_dofs": SetForkDofs, "set_stiffness": SetForkStiffness, "set_damping": SetForkDamping, "reset": Trigger,
-            "set_integrator": SetIntegrator, "select_tool": SelectTool, "calibrate": Trigger, "release": Trigger,
-            "load_scene": LoadScene}
+SERVICES = {
+    "set_dofs": SetForkDofs,
+    "set_stiffness": SetForkStiffness,
+    "set_damping": SetForkDamping,
+    "reset": Trigger,
+    "set_integrator": SetIntegrator,
+    "select_tool": SelectTool,
+    "calibrate": Trigger,
+    "release": Trigger,
+    "load_scene": LoadScene,
+}
 
 
 def memory_of(pid):
@@ -125,7 +133,9 @@ class Faults(unittest.TestCase):
         self.assertGreater(before.x, 0.08)
         self.assertTrue(self.call("select_tool", "direct", 0).success)
         self.keep_going()
-        self.wait_for_checkpoint(lambda checkpoint: checkpoint["tools"][0] == "direct" and self.keeps_the_box(checkpoint))
+        self.wait_for_checkpoint(
+            lambda checkpoint: checkpoint["tools"][0] == "direct" and self.keeps_the_box(checkpoint)
+        )
         self.kill_and_wait()
         self.hand.run(1.0)
         self.keep_going()
@@ -139,7 +149,9 @@ class Faults(unittest.TestCase):
         fork = self.fork.last
         self.assertEqual((fork.stretch_on, fork.bend_on, fork.torsion_on), (True, True, False))
         self.assertEqual((fork.stretch_stiffness, fork.bend_stiffness, fork.torsion_stiffness), (1500.0, 700.0, 3.0))
-        self.assertEqual((fork.stretch_damping_ratio, fork.bend_damping_ratio, fork.torsion_damping_ratio), (0.5, 0.6, 0.7))
+        self.assertEqual(
+            (fork.stretch_damping_ratio, fork.bend_damping_ratio, fork.torsion_damping_ratio), (0.5, 0.6, 0.7)
+        )
         self.assertEqual(fork.integrator, "rosenbrock")
 
     def test_of_a_checkpoint_that_cannot_be_used_nothing_is(self):
@@ -175,13 +187,20 @@ class Faults(unittest.TestCase):
     def test_a_subscriber_that_does_not_read_holds_nobody_up(self):
         """It asks for the widest topics, and never reads: the node goes on for the others, in bounded memory."""
         deaf = []
-        for topic, kind, md5 in [("objects", "spring_workbench/ObjectStates", ObjectStates._md5sum),
-                                 ("fork", "spring_workbench/ForkState", ForkState._md5sum)]:
+        for topic, kind, md5 in [
+            ("objects", "spring_workbench/ObjectStates", ObjectStates._md5sum),
+            ("fork", "spring_workbench/ForkState", ForkState._md5sum),
+        ]:
             name = ns_join("/manipulation", topic)
             protocol = slave_api("/manipulation").requestTopic("/deaf", name, [["TCPROS"]])[2]
             connection = socket.create_connection((protocol[1], protocol[2]))
             connection.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-            fields = [b"callerid=/deaf", ("topic=" + name).encode(), ("type=" + kind).encode(), ("md5sum=" + md5).encode()]
+            fields = [
+                b"callerid=/deaf",
+                ("topic=" + name).encode(),
+                ("type=" + kind).encode(),
+                ("md5sum=" + md5).encode(),
+            ]
             header = b"".join(len(f).to_bytes(4, "little") + f for f in fields)
             connection.sendall(len(header).to_bytes(4, "little") + header)
             deaf.append(connection)
@@ -203,14 +222,20 @@ class Faults(unittest.TestCase):
         self.hand.run(2.0)
         os.kill(pid, signal.SIGCONT)
         self.keep_going()
-        wait_for(lambda: self.steps.messages[seen:] and self.objects.last.header.stamp.to_sec() >
-                 self.hand.now().to_sec() - 0.5, "simulated time to come up with the hand's")
+        wait_for(
+            lambda: self.steps.messages[seen:]
+            and self.objects.last.header.stamp.to_sec() > self.hand.now().to_sec() - 0.5,
+            "simulated time to come up with the hand's",
+        )
         self.assertEqual(sum(m.guards_tripped for m in self.steps.messages[seen:]), 0)
 
     def test_a_full_disk_under_a_recording(self):
         with tempfile.TemporaryDirectory() as folder:
-            recording = subprocess.Popen(["bash", "-c", "ulimit -f 16; exec rosbag record -a -O %s/r.bag" % folder],
-                                         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            recording = subprocess.Popen(
+                ["bash", "-c", "ulimit -f 16; exec rosbag record -a -O %s/r.bag" % folder],
+                stdout=subprocess.DEVNULL,
+                stderr=subprocess.DEVNULL,
+            )
             end = time.monotonic() + DEADLINE
             while recording.poll() is None:
                 self.assertLess(time.monotonic(), end, "16 KiB are not full yet")
@@ -220,14 +245,21 @@ class Faults(unittest.TestCase):
     def test_a_flood_of_calls_while_holding(self):
         """All services that leave the object in the hand where it is, from four clients at once."""
         self.carry_off()
-        calls = [("set_stiffness", (2000.0, 500.0, 5.0)), ("set_damping", (1.0, 0.9, 0.8, "per_family")), ("set_dofs", (True, True, True)),
-                 ("set_integrator", ("exponential", 0.02, 0.0)), ("set_stiffness", (-1.0, 0.0, 0.0))]
+        calls = [
+            ("set_stiffness", (2000.0, 500.0, 5.0)),
+            ("set_damping", (1.0, 0.9, 0.8, "per_family")),
+            ("set_dofs", (True, True, True)),
+            ("set_integrator", ("exponential", 0.02, 0.0)),
+            ("set_stiffness", (-1.0, 0.0, 0.0)),
+        ]
         answered, broken = [0] * 4, []
 
         def flood(client):
             try:
-                proxies = {name: rospy.ServiceProxy("manipulation/" + name, SERVICES[name], persistent=True)
-                           for name, _ in calls}
+                proxies = {
+                    name: rospy.ServiceProxy("manipulation/" + name, SERVICES[name], persistent=True)
+                    for name, _ in calls
+                }
                 for i in range(300):
                     name, arguments = calls[(i + client) % len(calls)]
                     if proxies[name](*arguments).success == (arguments[:1] != (-1.0,)):
@@ -250,16 +282,27 @@ class Faults(unittest.TestCase):
         self.assertTrue(self.box().held)
         heights = [m.objects[0].pose.position.z for m in self.objects.messages[seen:]]
         self.assertLess(max(heights) - min(heights), 1e-3)
-        wait_for(lambda: self.objects.last.header.stamp.to_sec() > self.hand.now().to_sec() - 0.5,
-                 "simulated time to come up with the hand's")
+        wait_for(
+            lambda: self.objects.last.header.stamp.to_sec() > self.hand.now().to_sec() - 0.5,
+            "simulated time to come up with the hand's",
+        )
         self.assertEqual(sum(m.guards_tripped for m in self.steps.messages[told:]), 0)
 
     def test_all_services_at_once(self):
-        """Four clients call everything there is in an order of their own: each call is answered, and the node is as good as new."""
-        calls = [("select_tool", ("direct", 0)), ("select_tool", ("spring_fork", 2)), ("set_dofs", (True, False, True)),
-                 ("set_stiffness", (900.0, 500.0, 5.0)), ("set_damping", (1.0, 0.9, 0.8, "per_family")), ("calibrate", ()),
-                 ("set_integrator", ("implicit_euler", 0.02, 0.0)), ("reset", ()), ("release", ()),
-                 ("load_scene", ("package://spring_workbench/scenes/single_box.urdf",))]
+        """Four clients call everything there is in an order of their own: each call is answered, and the node is as
+        good as new."""
+        calls = [
+            ("select_tool", ("direct", 0)),
+            ("select_tool", ("spring_fork", 2)),
+            ("set_dofs", (True, False, True)),
+            ("set_stiffness", (900.0, 500.0, 5.0)),
+            ("set_damping", (1.0, 0.9, 0.8, "per_family")),
+            ("calibrate", ()),
+            ("set_integrator", ("implicit_euler", 0.02, 0.0)),
+            ("reset", ()),
+            ("release", ()),
+            ("load_scene", ("package://spring_workbench/scenes/single_box.urdf",)),
+        ]
         self.carry_off()
         node, answers, broken = pid_of("/manipulation"), [0] * 4, []
 
@@ -283,7 +326,11 @@ class Faults(unittest.TestCase):
         self.assertEqual(answers, [40] * 4)
         self.assertEqual(pid_of("/manipulation"), node)
         self.hand.pressed = False
-        for service, arguments in [("load_scene", calls[-1][1]), ("select_tool", ("spring_fork", 0)), ("set_dofs", (True, True, True))]:
+        for service, arguments in [
+            ("load_scene", calls[-1][1]),
+            ("select_tool", ("spring_fork", 0)),
+            ("set_dofs", (True, True, True)),
+        ]:
             self.assertTrue(self.call(service, *arguments).success)
         self.hand.run(0.5)
         self.carry_off()
@@ -312,10 +359,13 @@ class NewMaster(unittest.TestCase):
                 works = lambda: answers("rosservice", "call", "/manipulation/set_stiffness", "{bend: 321.0}")
                 wait_for(works, "the stack")
                 # A processor that is taken away for half a second: the node tells that it missed its deadline.
-                api = ServerProxy(rosgraph.Master("/faults", master_uri=environment["ROS_MASTER_URI"]).lookupNode("/manipulation"))
+                api = ServerProxy(
+                    rosgraph.Master("/faults", master_uri=environment["ROS_MASTER_URI"]).lookupNode("/manipulation")
+                )
                 pid = api.getPid("/faults")[2]
-                late = subprocess.Popen(["rostopic", "echo", "-n", "1", "--filter", "m.deadline_missed", "/manipulation/steps"],
-                                        **quiet)
+                late = subprocess.Popen(
+                    ["rostopic", "echo", "-n", "1", "--filter", "m.deadline_missed", "/manipulation/steps"], **quiet
+                )
                 end = time.monotonic() + DEADLINE
                 while late.poll() is None:
                     self.assertLess(time.monotonic(), end, "no missed deadline is told")

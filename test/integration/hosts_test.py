@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Tracker, manipulation and a viewer on a host each: three network namespaces on one switch. The tracker's cable is pulled out
-for two seconds; and, where there is an SSH server, hosts.launch starts the nodes from the bench. Needs root, `ip`, and the setup
-file sourced; where there are no network namespaces it is skipped (exit status 77). Usage: hosts_test.py DEVEL_SPACE"""
+"""Tracker, manipulation and a viewer on a host each: three network namespaces on one switch. The tracker's cable is
+pulled out for two seconds; and, where there is an SSH server, hosts.launch starts the nodes from the bench. Needs
+root, `ip`, and the setup file sourced; where there are no network namespaces it is skipped (exit status 77). Usage:
+hosts_test.py DEVEL_SPACE"""
 import getpass
 import math
 import os
@@ -93,7 +94,9 @@ def diagnostics(m):
             d = {v.key: v.value for v in s.values}
             print("D", d.get("samples"), d.get("dropouts"), d.get("came after their time was simulated"),
                   d.get("left out: too old", "0"), d.get("times the hand was found again"),
-                  d.get("times the hand was lost"), poses[0], markers[0], held[0], "%.4f" % fastest[0], "|", d.get("hint", ""), flush=True)
+                  d.get("times the hand was lost"), poses[0], markers[0], held[0], "%.4f" % fastest[0],
+                  "|", d.get("hint", ""),
+                  flush=True)
 held, poses, markers = [False], [0], [0]
 def tf(m):
     poses[0] += sum(t.child_frame_id == "stylus" for t in m.transforms)
@@ -156,8 +159,18 @@ def run(folder, lost):
     nodes = DEVEL + "/lib/spring_workbench/"
     processes = [start_master()]
     try:
-        processes.append(start(BENCH, nodes + "manipulation", "_scene:=" + scene, "_contact:=none", "_grasp/object:=box",
-                               "_start/follow:=true", "_truth/lost:=" + lost, "_truth/lost_after:=1.0"))
+        processes.append(
+            start(
+                BENCH,
+                nodes + "manipulation",
+                "_scene:=" + scene,
+                "_contact:=none",
+                "_grasp/object:=box",
+                "_start/follow:=true",
+                "_truth/lost:=" + lost,
+                "_truth/lost_after:=1.0",
+            )
+        )
         watch = Watch()
         processes.append(watch.process)
         deaf = start(TRACKER, nodes + "tracker_driver", "_file:=" + motion, named=False)
@@ -166,8 +179,10 @@ def run(folder, lost):
         assert "/tracker_driver" in hint, hint
         stop(deaf)
         processes.append(start(TRACKER, nodes + "tracker_driver", "_file:=" + motion))
-        watch.until(lambda v: v["samples"] > 200 and v["held"] and v["poses"] > 100 and v["markers"] > 30,
-                    "the object to be held, and seen by the viewer")
+        watch.until(
+            lambda v: v["samples"] > 200 and v["held"] and v["poses"] > 100 and v["markers"] > 30,
+            "the object to be held, and seen by the viewer",
+        )
         ip("-n", space(TRACKER), "link", "set", cable(TRACKER), "down")
         time.sleep(2.0)  # the cut itself
         ip("-n", space(TRACKER), "link", "set", cable(TRACKER), "up")
@@ -194,22 +209,49 @@ def launched(folder):
     keys = os.path.join(folder, ".ssh")
     os.makedirs(keys, mode=0o700)
     for name in ["id_rsa", "host_key"]:
-        subprocess.run(["ssh-keygen", "-q", "-t", "rsa", "-m", "PEM", "-N", "", "-f", os.path.join(keys, name)], check=True)
+        subprocess.run(
+            ["ssh-keygen", "-q", "-t", "rsa", "-m", "PEM", "-N", "", "-f", os.path.join(keys, name)], check=True
+        )
     shutil.copy(os.path.join(keys, "id_rsa.pub"), os.path.join(keys, "authorized_keys"))
-    options = ["Port=22", "HostKey=%s/host_key" % keys, "AuthorizedKeysFile=%s/authorized_keys" % keys, "StrictModes=no",
-               "PermitRootLogin=yes", "UsePAM=no", "PidFile=none", "PrintMotd=no"]
+    options = [
+        "Port=22",
+        "HostKey=%s/host_key" % keys,
+        "AuthorizedKeysFile=%s/authorized_keys" % keys,
+        "StrictModes=no",
+        "PermitRootLogin=yes",
+        "UsePAM=no",
+        "PidFile=none",
+        "PrintMotd=no",
+    ]
     os.makedirs("/run/sshd", exist_ok=True)
-    processes = [start(host, server, "-D", "-f", "/dev/null", *(w for o in options for w in ["-o", o]))
-                 for host in [TRACKER, VIEWER]]
+    processes = [
+        start(host, server, "-D", "-f", "/dev/null", *(w for o in options for w in ["-o", o]))
+        for host in [TRACKER, VIEWER]
+    ]
     processes.append(start_master())
     try:
         watch = Watch()
         processes.append(watch.process)
-        processes.append(start(BENCH, "roslaunch", "spring_workbench", "hosts.launch", "tracker_host:=" + HOSTS[TRACKER],
-                               "rviz_host:=" + HOSTS[VIEWER], "rviz:=false", "simulator:=true",
-                               environment={"HOME": folder, "USER": getpass.getuser(), "ROSLAUNCH_SSH_UNKNOWN": "1"}))
-        print("hosts.launch:", watch.until(lambda v: v["samples"] > 100 and v["poses"] > 100 and v["markers"] > 30,
-                                           "the hand of the tracker's host to arrive"))
+        processes.append(
+            start(
+                BENCH,
+                "roslaunch",
+                "spring_workbench",
+                "hosts.launch",
+                "tracker_host:=" + HOSTS[TRACKER],
+                "rviz_host:=" + HOSTS[VIEWER],
+                "rviz:=false",
+                "simulator:=true",
+                environment={"HOME": folder, "USER": getpass.getuser(), "ROSLAUNCH_SSH_UNKNOWN": "1"},
+            )
+        )
+        print(
+            "hosts.launch:",
+            watch.until(
+                lambda v: v["samples"] > 100 and v["poses"] > 100 and v["markers"] > 30,
+                "the hand of the tracker's host to arrive",
+            ),
+        )
     finally:
         for process in reversed(processes):
             stop(process)

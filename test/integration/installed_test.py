@@ -23,8 +23,15 @@ class Installed(unittest.TestCase):
         folder = tempfile.TemporaryDirectory()
         self.addCleanup(folder.cleanup)
         self.prefix, self.port = folder.name + "/prefix", free_port()
-        subprocess.run([CMAKE, "--install", BUILD, "--prefix", self.prefix], check=True, stdout=subprocess.DEVNULL, timeout=DEADLINE)
-        sourced = subprocess.run([self.prefix + "/env.sh", "env", "-0"], capture_output=True, text=True, check=True, timeout=DEADLINE)
+        subprocess.run(
+            [CMAKE, "--install", BUILD, "--prefix", self.prefix],
+            check=True,
+            stdout=subprocess.DEVNULL,
+            timeout=DEADLINE,
+        )
+        sourced = subprocess.run(
+            [self.prefix + "/env.sh", "env", "-0"], capture_output=True, text=True, check=True, timeout=DEADLINE
+        )
         self.environment = dict(line.split("=", 1) for line in sourced.stdout.split("\0") if line)
         self.environment.update(ROS_HOME=folder.name, ROS_MASTER_URI="http://localhost:" + self.port)
 
@@ -39,20 +46,44 @@ class Installed(unittest.TestCase):
                 self.assertEqual(os.path.commonpath([self.prefix, file]), self.prefix)
 
     def test_replay_reads_from_the_installed_package(self):
-        subprocess.run([self.prefix + "/lib/spring_workbench/replay", "--scene", "package://spring_workbench/scenes/mini_world.urdf",
-                        "--motion", self.prefix + "/share/spring_workbench/config/mini_world_demo.yaml", "--out", "run.csv"],
-                       check=True, cwd=self.prefix, env=self.environment, timeout=DEADLINE, stdout=subprocess.DEVNULL)
+        subprocess.run(
+            [
+                self.prefix + "/lib/spring_workbench/replay",
+                "--scene",
+                "package://spring_workbench/scenes/mini_world.urdf",
+                "--motion",
+                self.prefix + "/share/spring_workbench/config/mini_world_demo.yaml",
+                "--out",
+                "run.csv",
+            ],
+            check=True,
+            cwd=self.prefix,
+            env=self.environment,
+            timeout=DEADLINE,
+            stdout=subprocess.DEVNULL,
+        )
         with open(self.prefix + "/run.csv") as file:
             self.assertGreater(sum(1 for _ in file), 100)
 
     def test_the_demo_takes_an_object_into_the_hand(self):
-        launch = subprocess.Popen(["roslaunch", "-p", self.port, "spring_workbench", "demo.launch", "rviz:=false", "pause:=0"],
-                                  env=self.environment)
+        launch = subprocess.Popen(
+            ["roslaunch", "-p", self.port, "spring_workbench", "demo.launch", "rviz:=false", "pause:=0"],
+            env=self.environment,
+        )
         try:
-            subprocess.run(["bash", "-c", "until rostopic list 2>&1 | grep -q /manipulation/fork$; do sleep 0.2; done"], check=True,
-                           env=self.environment, timeout=DEADLINE)
-            held = subprocess.run(["rostopic", "echo", "-n", "1", "--filter", "m.held_object != ''", "/manipulation/fork"],
-                                  env=self.environment, timeout=DEADLINE, capture_output=True, text=True)
+            subprocess.run(
+                ["bash", "-c", "until rostopic list 2>&1 | grep -q /manipulation/fork$; do sleep 0.2; done"],
+                check=True,
+                env=self.environment,
+                timeout=DEADLINE,
+            )
+            held = subprocess.run(
+                ["rostopic", "echo", "-n", "1", "--filter", "m.held_object != ''", "/manipulation/fork"],
+                env=self.environment,
+                timeout=DEADLINE,
+                capture_output=True,
+                text=True,
+            )
             self.assertIn("held_object", held.stdout)
         finally:
             launch.terminate()

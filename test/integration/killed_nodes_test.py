@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""Nodes beside manipulation are killed while it is at work, and come back: it goes on meanwhile, and does not notice."""
+"""Nodes beside manipulation are killed while it is at work, and come back: it goes on meanwhile, and does not
+notice."""
 import os
 import shutil
 import subprocess
@@ -61,8 +62,11 @@ class KilledNodes(unittest.TestCase):
     @unittest.skipUnless(shutil.which("Xvfb") and shutil.which("rviz"), "no rviz or no virtual display (xvfb)")
     def test_rviz(self):
         reader, writer = os.pipe()
-        server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "800x600x24", "+extension", "GLX"],
-                                  pass_fds=[writer], stderr=subprocess.DEVNULL)
+        server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "800x600x24", "+extension", "GLX"],
+            pass_fds=[writer],
+            stderr=subprocess.DEVNULL,
+        )
         self.addCleanup(server.wait)
         self.addCleanup(server.terminate)
         screen = {"DISPLAY": ":" + os.read(reader, 16).decode().strip(), "LIBGL_ALWAYS_SOFTWARE": "1"}

@@ -37,10 +37,14 @@ class LaunchFiles(unittest.TestCase):
         bag = os.path.join(folder, "hand.bag")
         make_bag(bag)
         objects, steps = Listener("manipulation/objects", ObjectStates), Listener("manipulation/steps", StepReport)
-        with Launched("playback.launch", "bag:=" + bag, "scene:=package://spring_workbench/scenes/single_box.urdf",
-                      "rviz:=false"):
-            is_there = lambda m: (m.objects[0].held and m.objects[0].pose.position.z > 0.15 and
-                                  abs(m.objects[0].pose.position.x - 0.2) < 0.01)
+        with Launched(
+            "playback.launch", "bag:=" + bag, "scene:=package://spring_workbench/scenes/single_box.urdf", "rviz:=false"
+        ):
+            is_there = lambda m: (
+                m.objects[0].held
+                and m.objects[0].pose.position.z > 0.15
+                and abs(m.objects[0].pose.position.x - 0.2) < 0.01
+            )
             objects.next(is_there, "the box to be lifted and carried")
             self.assertLess(objects.last.header.stamp.to_sec(), 1010.0)  # the bag's time
             self.assertEqual(sum(m.guards_tripped for m in steps.messages), 0)
@@ -51,8 +55,11 @@ class LaunchFiles(unittest.TestCase):
             self.skipTest("Xvfb is not installed")
         rospy.set_param("/use_sim_time", False)
         reader, writer = os.pipe()
-        server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "800x600x24", "+extension", "GLX"],
-                                  pass_fds=[writer], stderr=subprocess.DEVNULL)
+        server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "800x600x24", "+extension", "GLX"],
+            pass_fds=[writer],
+            stderr=subprocess.DEVNULL,
+        )
         os.environ["DISPLAY"] = ":" + os.read(reader, 16).decode().strip()
         os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
         try:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What a node has in its memory: the engines of the contact mode that its scene asks for, and no other; what a build has left out
-is refused in one line."""
+"""What a node has in its memory: the engines of the contact mode that its scene asks for, and no other; what a build
+has left out is refused in one line."""
 import os
 import subprocess
 import sys
@@ -26,8 +26,12 @@ class LeftOut(unittest.TestCase):
         name = "looked_at_" + contact
         rospy.set_param(name, {"scene": PACKAGE + "/scenes/mini_world.urdf", "contact": contact})
         objects = Listener(name + "/objects", ObjectStates)
-        node = subprocess.Popen(roslib.packages.find_node("spring_workbench", "manipulation") + ["__name:=" + name],
-                                text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        node = subprocess.Popen(
+            roslib.packages.find_node("spring_workbench", "manipulation") + ["__name:=" + name],
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+        )
         try:
             if not all(os.path.exists(LIBRARIES % room) for room in NEEDED[contact]):
                 said = node.communicate(timeout=DEADLINE)[0].splitlines()

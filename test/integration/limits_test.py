@@ -100,8 +100,14 @@ class Limits(unittest.TestCase):
 
     def run_program(self, words):
         before = sorted(os.listdir(self.folder))
-        done = subprocess.run([PROGRAMS + words[0]] + words[1:], cwd=self.folder, timeout=LONGEST, text=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        done = subprocess.run(
+            [PROGRAMS + words[0]] + words[1:],
+            cwd=self.folder,
+            timeout=LONGEST,
+            text=True,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
         self.assertEqual(sorted(os.listdir(self.folder)), before, "something was written")
         return one_line(done, words[0])
 
@@ -167,8 +173,14 @@ class Limits(unittest.TestCase):
 
     def transform(self, text, stamp):
         """The hand over the bench, with what the text changes."""
-        fields = {"header": {"frame_id": "workbench"}, "child_frame_id": "stylus",
-                  "transform": {"translation": {"x": 0.2, "y": 0.0, "z": 0.4}, "rotation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0}}}
+        fields = {
+            "header": {"frame_id": "workbench"},
+            "child_frame_id": "stylus",
+            "transform": {
+                "translation": {"x": 0.2, "y": 0.0, "z": 0.4},
+                "rotation": {"x": 0.0, "y": 0.0, "z": 0.0, "w": 1.0},
+            },
+        }
         merge(fields, yaml.safe_load(text))
         message = TransformStamped()
         genpy.message.fill_message_args(message, [fields])
@@ -186,8 +198,10 @@ class Limits(unittest.TestCase):
         self.walk("Bags", answer)
 
     def test_topics(self):
-        publishers = {"/tf": rospy.Publisher("/tf", TFMessage, queue_size=10),
-                      "stylus/joy": rospy.Publisher("stylus/joy", Joy, queue_size=10)}
+        publishers = {
+            "/tf": rospy.Publisher("/tf", TFMessage, queue_size=10),
+            "stylus/joy": rospy.Publisher("stylus/joy", Joy, queue_size=10),
+        }
         diagnostics = diagnostics_listener()
         wait_for(lambda: all(p.get_num_connections() > 0 for p in publishers.values()), "the node to listen")
         publishers["/tf"].publish(self.transform("{}", rospy.Time.now()))
@@ -215,10 +229,17 @@ class Limits(unittest.TestCase):
 
         def answer(node, parameters):
             name = "/" + node + "_refused"
-            master.setParam(name, dict({"scene": SCENE} if node == "manipulation" else {}, **yaml.safe_load(parameters)))
+            master.setParam(
+                name, dict({"scene": SCENE} if node == "manipulation" else {}, **yaml.safe_load(parameters))
+            )
             try:
-                done = subprocess.run([PROGRAMS + node, "__name:=" + name[1:]], timeout=LONGEST, text=True,
-                                      stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                done = subprocess.run(
+                    [PROGRAMS + node, "__name:=" + name[1:]],
+                    timeout=LONGEST,
+                    text=True,
+                    stdout=subprocess.PIPE,
+                    stderr=subprocess.PIPE,
+                )
             finally:
                 master.deleteParam(name)
             return one_line(done, node)
@@ -227,10 +248,20 @@ class Limits(unittest.TestCase):
 
     def state(self):
         fork, objects = self.fork.next(), self.objects.next()
-        return (fork.tool, fork.integrator, fork.stretch_on, fork.bend_on, fork.torsion_on, fork.stretch_stiffness,
-                fork.bend_stiffness, fork.torsion_stiffness, fork.stretch_damping_ratio, fork.bend_damping_ratio,
-                fork.torsion_damping_ratio,
-                [(o.name, o.pose.position.x, o.pose.position.y, o.pose.position.z) for o in objects.objects])
+        return (
+            fork.tool,
+            fork.integrator,
+            fork.stretch_on,
+            fork.bend_on,
+            fork.torsion_on,
+            fork.stretch_stiffness,
+            fork.bend_stiffness,
+            fork.torsion_stiffness,
+            fork.stretch_damping_ratio,
+            fork.bend_damping_ratio,
+            fork.torsion_damping_ratio,
+            [(o.name, o.pose.position.x, o.pose.position.y, o.pose.position.z) for o in objects.objects],
+        )
 
     def test_services(self):
         before = self.state()

@@ -35,8 +35,13 @@ class LiveTuning(unittest.TestCase):
         rospy.ServiceProxy("manipulation/set_dofs", SetForkDofs)(False, True, True)
         rospy.ServiceProxy("manipulation/set_integrator", SetIntegrator)("closed_form", 0.005, 0.0)
         shown = lambda: self.client.get_configuration(timeout=DEADLINE)
-        wait_for(lambda: shown()["torsion_stiffness"] == 7.25 and not shown()["stretch"] and
-                 shown()["integrator"] == "closed_form" and shown()["step"] == 0.005, "the changes to be shown")
+        wait_for(
+            lambda: shown()["torsion_stiffness"] == 7.25
+            and not shown()["stretch"]
+            and shown()["integrator"] == "closed_form"
+            and shown()["step"] == 0.005,
+            "the changes to be shown",
+        )
 
     def test_what_the_simulation_refuses_is_put_back(self):
         before = self.fork.next().integrator

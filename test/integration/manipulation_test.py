@@ -13,12 +13,22 @@ from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
-from stack import (DEADLINE, DOWN, Hand, Listener, diagnostic_values, diagnostics_listener, product, quaternion,
-                   stylus_transform, wait_for)
+from stack import (
+    DEADLINE,
+    DOWN,
+    Hand,
+    Listener,
+    diagnostic_values,
+    diagnostics_listener,
+    product,
+    quaternion,
+    stylus_transform,
+    wait_for,
+)
 
 NAN = float("nan")
 LENGTH, MASS, GRAVITY = 0.2, 1.0, 9.81
-IN_BOX = (0.03, 0.0, 0.02 + LENGTH)   # the tip is 3 cm beside the centre of the box
+IN_BOX = (0.03, 0.0, 0.02 + LENGTH)  # the tip is 3 cm beside the centre of the box
 LIFTED = (0.03, 0.0, 0.30 + LENGTH)
 
 
@@ -26,9 +36,16 @@ class Manipulation(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.services = {}
-        for name, kind in [("set_dofs", SetForkDofs), ("set_stiffness", SetForkStiffness), ("set_damping", SetForkDamping),
-                           ("set_integrator", SetIntegrator), ("load_scene", LoadScene), ("calibrate", Trigger),
-                           ("reset", Trigger), ("release", Trigger)]:
+        for name, kind in [
+            ("set_dofs", SetForkDofs),
+            ("set_stiffness", SetForkStiffness),
+            ("set_damping", SetForkDamping),
+            ("set_integrator", SetIntegrator),
+            ("load_scene", LoadScene),
+            ("calibrate", Trigger),
+            ("reset", Trigger),
+            ("release", Trigger),
+        ]:
             rospy.wait_for_service("manipulation/" + name, DEADLINE)
             cls.services[name] = rospy.ServiceProxy("manipulation/" + name, kind)
         cls.objects = Listener("manipulation/objects", ObjectStates)
@@ -50,8 +67,11 @@ class Manipulation(unittest.TestCase):
         self.call("set_integrator", "exponential", 0.02, 0.0)
         self.hand.position, self.hand.rotation, self.hand.pressed = (0.03, 0.0, 0.4), DOWN, False
         self.hand.run(0.2)
-        self.fork.next(lambda m: math.dist((m.handle.position.x, m.handle.position.y, m.handle.position.z),
-                                           self.hand.position) < 1e-9, "a fork in this hand")
+        self.fork.next(
+            lambda m: math.dist((m.handle.position.x, m.handle.position.y, m.handle.position.z), self.hand.position)
+            < 1e-9,
+            "a fork in this hand",
+        )
 
     def call(self, service, *arguments):
         answer = self.services[service](*arguments)
@@ -112,8 +132,9 @@ class Manipulation(unittest.TestCase):
         values = wait_for(lambda: diagnostic_values(self.diagnostics.messages, "physics loop"), "diagnostics")
         self.assertIn("deadlines missed", values)
         self.assertEqual(sum(m.guards_tripped for m in self.steps.messages[seen:]), 0)
-        self.assertAlmostEqual(float(diagnostic_values(self.diagnostics.messages, "tracker input")["rate [Hz]"]), 50.0,
-                               delta=1.0)
+        self.assertAlmostEqual(
+            float(diagnostic_values(self.diagnostics.messages, "tracker input")["rate [Hz]"]), 50.0, delta=1.0
+        )
 
     def test_contacts_start_persist_slip_and_end(self):
         seen = len(self.contacts.messages)
@@ -121,8 +142,10 @@ class Manipulation(unittest.TestCase):
         self.hand.move((0.03, 0.0, 0.01 + LENGTH), DOWN, 0.5)  # presses the box on the bench
         self.hand.run(0.5)
         pressed = self.contacts.next(lambda m: m.contacts and m.contacts[0].phase == Contact.PERSISTING)
-        step = wait_for(lambda: next((m for m in self.steps.messages if m.header.stamp == pressed.header.stamp and m.steps),
-                                     None), "the step of these contacts")
+        step = wait_for(
+            lambda: next((m for m in self.steps.messages if m.header.stamp == pressed.header.stamp and m.steps), None),
+            "the step of these contacts",
+        )
         force = sum(c.impulse for c in pressed.contacts) * step.steps / step.simulated_time
         self.assertAlmostEqual(force, MASS * GRAVITY - self.fork.next().tip_wrench.force.z, delta=0.02 * force)
         self.assertEqual(step.held_back, 0)
@@ -156,6 +179,7 @@ class Manipulation(unittest.TestCase):
         def one():
             self.hand.run(0.05)
             return listener.last
+
         return wait_for(one, "a message")
 
     def switch(self, service, *arguments):
@@ -173,7 +197,9 @@ class Manipulation(unittest.TestCase):
         return answer, before, after
 
     def test_switching_while_held_and_twisted(self):
-        level = product(quaternion((1, 0, 0), math.pi / 2), (0.0, 0.0, 0.0, 1.0))  # the fork is level: the box twists it
+        level = product(
+            quaternion((1, 0, 0), math.pi / 2), (0.0, 0.0, 0.0, 1.0)
+        )  # the fork is level: the box twists it
         self.lift(level)
         twist = self.fork.next().torsion
         self.assertGreater(abs(twist), 0.01)
@@ -189,8 +215,9 @@ class Manipulation(unittest.TestCase):
         self.assertEqual((after.stretch_stiffness, after.bend_stiffness, after.torsion_stiffness), (2000.0, 250.0, 5.0))
         self.assertLess(answer.elastic_energy_after, answer.elastic_energy_before)
         answer, before, after = self.switch("set_damping", 0.5, 0.6, 0.7, "")
-        self.assertEqual((after.stretch_damping_ratio, after.bend_damping_ratio, after.torsion_damping_ratio),
-                         (0.5, 0.6, 0.7))
+        self.assertEqual(
+            (after.stretch_damping_ratio, after.bend_damping_ratio, after.torsion_damping_ratio), (0.5, 0.6, 0.7)
+        )
         self.assertEqual(answer.elastic_energy_after, answer.elastic_energy_before)
         self.hand.run(0.5)
         self.assertEqual(self.fork.next().held_object, "box")
@@ -198,9 +225,15 @@ class Manipulation(unittest.TestCase):
     def test_every_integrator_holds_the_box(self):
         self.lift()
         resting = self.box().pose.position.z
-        for name, step, tolerance in [("closed_form", 0.01, 0.0), ("rk4", 1e-3, 0.0), ("semi_implicit_euler", 1e-3, 0.0),
-                                      ("implicit_euler", 0.02, 0.0), ("rosenbrock", 0.02, 0.0), ("rk4", 0.02, 1e-5),
-                                      ("exponential", 0.02, 0.0)]:
+        for name, step, tolerance in [
+            ("closed_form", 0.01, 0.0),
+            ("rk4", 1e-3, 0.0),
+            ("semi_implicit_euler", 1e-3, 0.0),
+            ("implicit_euler", 0.02, 0.0),
+            ("rosenbrock", 0.02, 0.0),
+            ("rk4", 0.02, 1e-5),
+            ("exponential", 0.02, 0.0),
+        ]:
             self.call("set_integrator", name, step, tolerance)
             self.hand.run(1.0)
             self.assertEqual(self.fork.next().integrator, name)
@@ -230,21 +263,22 @@ class Manipulation(unittest.TestCase):
         self.lift()
         before = self.fork.next()
         for service, arguments, words in [
-                ("set_stiffness", (NAN, 0.0, 0.0), ("stretch", "nan")),
-                ("set_stiffness", (0.0, -1.0, 0.0), ("bend", "-1")),
-                ("set_stiffness", (0.0, 0.0, math.inf), ("torsion", "inf")),
-                ("set_damping", (0.0, 11.0, 0.0, ""), ("bend", "11")),
-                ("set_damping", (NAN, 1.0, 1.0, ""), ("stretch", "nan")),
-                ("set_integrator", ("magic", 0.0, 0.0), ("magic", "exponential")),
-                ("set_integrator", ("rk4", -1.0, 0.0), ("step", "-1")),
-                ("set_integrator", ("rk4", NAN, 0.0), ("step", "nan")),
-                ("set_integrator", ("rk4", 2.0, 0.0), ("step", "2")),
-                ("set_integrator", ("rk4", 0.0, -1e-3), ("tolerance", "-0.001")),
-                ("set_integrator", ("rk4", 0.0, 1.0), ("tolerance", "0.1")),
-                ("set_integrator", ("rk4", 0.0, NAN), ("tolerance", "nan")),
-                ("load_scene", ("/nowhere/to/be/found.urdf",), ("/nowhere/to/be/found.urdf",)),
-                ("load_scene", ("package://no_such_package/a.urdf",), ("no_such_package",)),
-                ("load_scene", ("package://spring_workbench/package.xml",), ("package.xml",))]:
+            ("set_stiffness", (NAN, 0.0, 0.0), ("stretch", "nan")),
+            ("set_stiffness", (0.0, -1.0, 0.0), ("bend", "-1")),
+            ("set_stiffness", (0.0, 0.0, math.inf), ("torsion", "inf")),
+            ("set_damping", (0.0, 11.0, 0.0, ""), ("bend", "11")),
+            ("set_damping", (NAN, 1.0, 1.0, ""), ("stretch", "nan")),
+            ("set_integrator", ("magic", 0.0, 0.0), ("magic", "exponential")),
+            ("set_integrator", ("rk4", -1.0, 0.0), ("step", "-1")),
+            ("set_integrator", ("rk4", NAN, 0.0), ("step", "nan")),
+            ("set_integrator", ("rk4", 2.0, 0.0), ("step", "2")),
+            ("set_integrator", ("rk4", 0.0, -1e-3), ("tolerance", "-0.001")),
+            ("set_integrator", ("rk4", 0.0, 1.0), ("tolerance", "0.1")),
+            ("set_integrator", ("rk4", 0.0, NAN), ("tolerance", "nan")),
+            ("load_scene", ("/nowhere/to/be/found.urdf",), ("/nowhere/to/be/found.urdf",)),
+            ("load_scene", ("package://no_such_package/a.urdf",), ("no_such_package",)),
+            ("load_scene", ("package://spring_workbench/package.xml",), ("package.xml",)),
+        ]:
             line = self.refused(service, *arguments)
             for word in words:
                 self.assertIn(word, line)
@@ -258,14 +292,17 @@ class Manipulation(unittest.TestCase):
     def test_bad_transforms_are_left_out(self):
         self.lift()
         self.diagnostics.next()  # counts all samples of this hand
-        count = lambda reason: int(diagnostic_values(self.diagnostics.messages, "tracker input").get(
-            "left out: " + reason, "0"))
-        reasons = {"not finite": stylus_transform(self.hand.now(), (NAN, 0, 0), DOWN),
-                   "not a unit quaternion": stylus_transform(self.hand.now(), (0, 0, 0), (0, 0, 0, 0)),
-                   "stamp not later": stylus_transform(self.hand.now() - rospy.Duration(0.1), (0, 0, 0), DOWN),
-                   "too old": stylus_transform(self.hand.now() - rospy.Duration(50), (0, 0, 0), DOWN),
-                   "from the future": stylus_transform(self.hand.now() + rospy.Duration(50), (0, 0, 0), DOWN),
-                   "unknown frame": stylus_transform(self.hand.now() + rospy.Duration(0.001), (0, 0, 0), DOWN)}
+        count = lambda reason: int(
+            diagnostic_values(self.diagnostics.messages, "tracker input").get("left out: " + reason, "0")
+        )
+        reasons = {
+            "not finite": stylus_transform(self.hand.now(), (NAN, 0, 0), DOWN),
+            "not a unit quaternion": stylus_transform(self.hand.now(), (0, 0, 0), (0, 0, 0, 0)),
+            "stamp not later": stylus_transform(self.hand.now() - rospy.Duration(0.1), (0, 0, 0), DOWN),
+            "too old": stylus_transform(self.hand.now() - rospy.Duration(50), (0, 0, 0), DOWN),
+            "from the future": stylus_transform(self.hand.now() + rospy.Duration(50), (0, 0, 0), DOWN),
+            "unknown frame": stylus_transform(self.hand.now() + rospy.Duration(0.001), (0, 0, 0), DOWN),
+        }
         reasons["unknown frame"].header.frame_id = "moon"
         before = {reason: count(reason) for reason in reasons}
         resting = self.box().pose.position

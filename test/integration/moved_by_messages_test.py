@@ -24,8 +24,12 @@ class Driver:
     """tracker_driver with a source; ended at the end of the block."""
 
     def __init__(self, source, *parameters):
-        self.arguments = [DEVEL + "/lib/spring_workbench/tracker_driver", "_source:=" + source,
-                          "_start:=%g %g %g 1 0 0 0" % START, *parameters]
+        self.arguments = [
+            DEVEL + "/lib/spring_workbench/tracker_driver",
+            "_source:=" + source,
+            "_start:=%g %g %g 1 0 0 0" % START,
+            *parameters,
+        ]
 
     def __enter__(self):
         self.tf, self.joy = Listener("/tf", TFMessage), Listener("stylus/joy", Joy)
@@ -80,8 +84,9 @@ class MovedByMessages(unittest.TestCase):
             self.assertTrue(driver.is_at(START)())
 
             def send(position=START, event=InteractiveMarkerFeedback.POSE_UPDATE, entry=0, frame="workbench", w=0.0):
-                feedback = InteractiveMarkerFeedback(client_id="test", marker_name=marker.name, event_type=event,
-                                                     menu_entry_id=entry)
+                feedback = InteractiveMarkerFeedback(
+                    client_id="test", marker_name=marker.name, event_type=event, menu_entry_id=entry
+                )
                 feedback.header.frame_id = frame
                 p, q = feedback.pose.position, feedback.pose.orientation
                 p.x, p.y, p.z = position
@@ -90,11 +95,16 @@ class MovedByMessages(unittest.TestCase):
 
             send((0.2, 0.1, 0.5))
             wait_for(driver.is_at((0.2, 0.1, 0.5)), "the stylus at the marker")
-            for bad in [dict(position=(float("nan"), 0, 0)), dict(position=(0, 0, 0), frame="elsewhere"),
-                        dict(position=(0, 0, 0), w=5.0)]:
+            for bad in [
+                dict(position=(float("nan"), 0, 0)),
+                dict(position=(0, 0, 0), frame="elsewhere"),
+                dict(position=(0, 0, 0), w=5.0),
+            ]:
                 send(**bad)
-            wait_for(lambda: diagnostic_values(driver.diagnostics.messages, "source").get("poses left out") == "3",
-                     "three poses left out")
+            wait_for(
+                lambda: diagnostic_values(driver.diagnostics.messages, "source").get("poses left out") == "3",
+                "three poses left out",
+            )
             send((-0.3, 0.1, 0.5))
             wait_for(driver.is_at((-0.3, 0.1, 0.5)), "the stylus to go on")
 
@@ -121,7 +131,9 @@ class MovedByMessages(unittest.TestCase):
             def push_until(condition, what, **message):
                 wait_for(lambda: publisher.publish(Joy(**message)) or condition(), what)
 
-            push_until(lambda: driver.position()[0] > START[0] + 0.05, "the stylus to move", axes=[0, 1, 0, 0], buttons=[1, 0])
+            push_until(
+                lambda: driver.position()[0] > START[0] + 0.05, "the stylus to move", axes=[0, 1, 0, 0], buttons=[1, 0]
+            )
             driver.wait_for_buttons(1, 0)
             self.assertEqual(driver.position()[1:], START[1:])
             push_until(lambda: driver.position()[2] < START[2] - 0.05, "the stylus to go down", axes=[0, 0, -1, 0])

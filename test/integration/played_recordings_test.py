@@ -40,8 +40,10 @@ class Watch:
     def __init__(self):
         self.fastest = self.strongest = 0.0
         self.states, self.bad, self.held = 0, 0, 0
-        self.listeners = [rospy.Subscriber("manipulation/objects", ObjectStates, self.on_objects, queue_size=1000),
-                          rospy.Subscriber("manipulation/fork", ForkState, self.on_fork, queue_size=1000)]
+        self.listeners = [
+            rospy.Subscriber("manipulation/objects", ObjectStates, self.on_objects, queue_size=1000),
+            rospy.Subscriber("manipulation/fork", ForkState, self.on_fork, queue_size=1000),
+        ]
 
     def on_objects(self, message):
         box = message.objects[0]
@@ -89,8 +91,10 @@ class PlayedRecordings(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.settings = os.path.join(folder.name, "settings.yaml")
         with open(self.settings, "w") as file:
-            file.write("contact: none\ngrasp: {object: box, tip_in_object: 0 0 0 1 0 0 0}\nstart: {follow: true}\n"
-                       "max_age: 5.0\n")
+            file.write(
+                "contact: none\ngrasp: {object: box, tip_in_object: 0 0 0 1 0 0 0}\nstart: {follow: true}\n"
+                "max_age: 5.0\n"
+            )
         self.patient = os.path.join(folder.name, "patient.yaml")  # ten times as fast, an age grows as quickly
         with open(self.patient, "w") as file:
             file.write("max_age: 5.0\n")
@@ -99,7 +103,9 @@ class PlayedRecordings(unittest.TestCase):
 
     def check(self, watch, name):
         watch.end()
-        print("%s: %d states, fastest %.2f m/s, strongest %.0f N" % (name, watch.states, watch.fastest, watch.strongest))
+        print(
+            "%s: %d states, fastest %.2f m/s, strongest %.0f N" % (name, watch.states, watch.fastest, watch.strongest)
+        )
         self.assertEqual(watch.bad, 0)
         self.assertGreater(watch.held, 100)
         self.assertLess(watch.fastest, FASTEST)
@@ -113,10 +119,20 @@ class PlayedRecordings(unittest.TestCase):
             for path in files:
                 with self.subTest(path=path):
                     watch, diagnostics = Watch(), diagnostics_listener()
-                    with Launched("workbench.launch", SCENE, "settings:=" + self.settings, "rviz:=false",
-                                  "input:=motion_file", "motion:=" + path, "pause:=30"):
-                        wait_for(lambda: diagnostic_values(diagnostics.messages, "source").get("state") == "over",
-                                 "the motion's end", 120.0)
+                    with Launched(
+                        "workbench.launch",
+                        SCENE,
+                        "settings:=" + self.settings,
+                        "rviz:=false",
+                        "input:=motion_file",
+                        "motion:=" + path,
+                        "pause:=30",
+                    ):
+                        wait_for(
+                            lambda: diagnostic_values(diagnostics.messages, "source").get("state") == "over",
+                            "the motion's end",
+                            120.0,
+                        )
                         values = wait_for(lambda: diagnostic_values(diagnostics.messages, "tracker input"), "input")
                     diagnostics.subscriber.unregister()
                     print({k: v for k, v in values.items() if v != "0"})
@@ -125,13 +141,22 @@ class PlayedRecordings(unittest.TestCase):
     def test_every_bag(self):
         if not os.path.isdir(DATA + "/bags"):
             self.skipTest("no recordings in " + DATA)
-        for name, parent, child, states in [("evo_tf_example_lz4", "odom", "base_footprint", 4000),
-                                            ("rosbagjs_turtlesim_tf", "world", "turtle1", 1500)]:
+        for name, parent, child, states in [
+            ("evo_tf_example_lz4", "odom", "base_footprint", 4000),
+            ("rosbagjs_turtlesim_tf", "world", "turtle1", 1500),
+        ]:
             with self.subTest(bag=name):
                 watch = Watch()
-                with Launched("playback.launch", "bag:=%s/bags/%s.bag" % (DATA, name), SCENE, "speed:=%d" % SPEED,
-                              "settings:=" + self.settings, "rviz:=false", "workbench_frame:=" + parent,
-                              "stylus_frame:=" + child):
+                with Launched(
+                    "playback.launch",
+                    "bag:=%s/bags/%s.bag" % (DATA, name),
+                    SCENE,
+                    "speed:=%d" % SPEED,
+                    "settings:=" + self.settings,
+                    "rviz:=false",
+                    "workbench_frame:=" + parent,
+                    "stylus_frame:=" + child,
+                ):
                     wait_for(lambda: watch.states > states, "the bag to be played")
                 self.check(watch, name)
 
@@ -142,7 +167,9 @@ class PlayedRecordings(unittest.TestCase):
             with self.subTest(bag=name):
                 diagnostics = diagnostics_listener()
                 with Launched("playback.launch", "bag:=%s/bags/%s.bag" % (DATA, name), SCENE, "rviz:=false"):
-                    hint = wait_for(lambda: diagnostic_values(diagnostics.messages, "tracker input").get("hint"), "a hint")
+                    hint = wait_for(
+                        lambda: diagnostic_values(diagnostics.messages, "tracker input").get("hint"), "a hint"
+                    )
                 diagnostics.subscriber.unregister()
                 self.assertIn("/tf", hint)
 
@@ -163,8 +190,15 @@ class PlayedRecordings(unittest.TestCase):
 
         memory = []
         subscriber = rospy.Subscriber("manipulation/objects", ObjectStates, on_objects, queue_size=10000)
-        with Launched("playback.launch", "bag:=" + self.bag, SCENE, "settings:=" + self.patient, "rviz:=false",
-                      "loop:=true", "speed:=%d" % SPEED):
+        with Launched(
+            "playback.launch",
+            "bag:=" + self.bag,
+            SCENE,
+            "settings:=" + self.patient,
+            "rviz:=false",
+            "loop:=true",
+            "speed:=%d" % SPEED,
+        ):
             for goal in [20, 50, ROUNDS + 2]:
                 wait_for(lambda: len(rounds) >= goal, "round %d" % goal, 300.0)
                 memory.append(self.memory_of("/manipulation"))
@@ -176,13 +210,15 @@ class PlayedRecordings(unittest.TestCase):
         # The bag lasts 2.28 s. What decides a step is the sample after it: the round ends before the last but one.
         self.assertGreater(max(first) - min(first), 2.22e9)
         worst = 0.0
-        for one in rounds[1:ROUNDS + 1]:
+        for one in rounds[1 : ROUNDS + 1]:
             self.assertEqual(set(one), set(first))
             for stamp, pose in one.items():
                 self.assertEqual(pose[7], first[stamp][7])
                 worst = max(worst, max(abs(a - b) for a, b in zip(first[stamp][:7], pose[:7])))
-        print("%d rounds of %d states, largest difference %.3g; memory %d kB, then %d kB" %
-              (ROUNDS, len(first), worst, memory[0], memory[-1]))
+        print(
+            "%d rounds of %d states, largest difference %.3g; memory %d kB, then %d kB"
+            % (ROUNDS, len(first), worst, memory[0], memory[-1])
+        )
         self.assertLess(worst, 1e-9)
         self.assertLess(memory[-1] - memory[0], 1024)
 

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
-"""Every recorded motion and every bag of ../shared/data through `replay`, which has the truth layer of the nodes, with an
-object held: nothing that is no number, and speed, acceleration and wrench within limits, through every gap, flip and jump.
+"""Every recorded motion and every bag of ../shared/data through `replay`, which has the truth layer of the nodes, with
+an object held: nothing that is no number, and speed, acceleration and wrench within limits, through every gap, flip
+and jump.
 
 Usage: recordings_test.py REPLAY SHARED_DIR SCENE
 """
@@ -19,8 +20,8 @@ SKIPPED = 77  # exit status that ctest takes for a skipped test
 
 # The hands of the recordings move at up to 2.5 m/s; catching up adds 0.5 m/s. The object on its fork may swing faster
 # than the hand by the fork's own motion. Mass 1 kg: the weight is 9.81 N.
-FASTEST = 4.0        # [m/s]
-STRONGEST = 250.0    # [N]
+FASTEST = 4.0  # [m/s]
+STRONGEST = 250.0  # [N]
 HARDEST_TURN = 25.0  # [N m]
 LEFT_OUT = {  # every other file: nothing
     "falcon5_unsorted_stamps.tum": {"stamp not later": 1300},
@@ -75,9 +76,21 @@ class Recordings(unittest.TestCase):
                 if held[rows]:  # what was let go of falls
                     fastest = max(fastest, math.hypot(float(row["vx"]), float(row["vy"]), float(row["vz"])))
                 rows += 1
-        print("%-40s %s\n    %d samples, left out %s, dropouts %d, found again %d; fastest %.2f m/s, strongest %.0f N, %.2f N m" %
-              (os.path.basename(arguments[1]), " ".join(arguments[2:]), summary["samples"], summary["left_out"],
-               summary["dropouts"], summary["reengagements"], fastest, strongest, hardest_turn))
+        print(
+            "%-40s %s\n    %d samples, left out %s, dropouts %d, found again %d; "
+            "fastest %.2f m/s, strongest %.0f N, %.2f N m"
+            % (
+                os.path.basename(arguments[1]),
+                " ".join(arguments[2:]),
+                summary["samples"],
+                summary["left_out"],
+                summary["dropouts"],
+                summary["reengagements"],
+                fastest,
+                strongest,
+                hardest_turn,
+            )
+        )
         self.assertGreater(rows, 100)
         self.assertEqual(summary["guards_tripped"], 0)
         self.assertLess(fastest, FASTEST)
@@ -97,8 +110,15 @@ class Recordings(unittest.TestCase):
                 self.assertEqual(summary["reengagements"], DROPOUTS.get(name, 0))
 
     def test_a_lost_hand_lets_go(self):
-        summary = self.check("--motion", SHARED + "/data/motions/tumvi_room2_gaps_60s.tum", "--set", "truth.lost=release",
-                             "--set", "truth.lost_after=1.0", may_lose=True)
+        summary = self.check(
+            "--motion",
+            SHARED + "/data/motions/tumvi_room2_gaps_60s.tum",
+            "--set",
+            "truth.lost=release",
+            "--set",
+            "truth.lost_after=1.0",
+            may_lose=True,
+        )
         self.assertGreaterEqual(summary["losses"], 1)
 
     def test_every_bag(self):

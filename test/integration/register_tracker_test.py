@@ -17,8 +17,9 @@ import yaml
 
 from stack import Launched, Listener, wait_for
 
-RECORDING = os.path.join(rospkg.RosPack().get_path("spring_workbench"), "..", "shared", "data", "motions",
-                         "plus_stylus_8landmarks_60s.tum")
+RECORDING = os.path.join(
+    rospkg.RosPack().get_path("spring_workbench"), "..", "shared", "data", "motions", "plus_stylus_8landmarks_60s.tum"
+)
 PROGRAM = os.path.join(os.environ["CMAKE_PREFIX_PATH"].split(":")[0], "lib", "spring_workbench", "register_tracker")
 PLACES = [(0, 0, 0), (0.4, 0, 0), (0.1, 0.3, 0), (0.35, 0.25, 0.1), (0.0, 0.15, 0.2)]  # in the workbench [m]
 OFFSET = (0.5, -0.2, 0.3, 0.1, -0.7, 0.1, 0.7)  # of the tracker in the workbench
@@ -27,9 +28,13 @@ TIP = (0.01, -0.02, 0.15)
 
 def rotation(q):
     x, y, z, w = numpy.array(q) / numpy.linalg.norm(q)
-    return numpy.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
+    return numpy.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
 
 
 def place_of(p_B, offset=OFFSET):
@@ -57,22 +62,32 @@ class RegisterTracker(unittest.TestCase):
         return path
 
     def landmarks(self, places):
-        return self.file("landmarks.yaml", yaml.safe_dump(
-            {"landmarks": [{"name": "abcdefgh"[i], "position": [float(x) for x in p]} for i, p in enumerate(places)]}))
+        return self.file(
+            "landmarks.yaml",
+            yaml.safe_dump(
+                {
+                    "landmarks": [
+                        {"name": "abcdefgh"[i], "position": [float(x) for x in p]} for i, p in enumerate(places)
+                    ]
+                }
+            ),
+        )
 
     def motion(self, tips, noise=0.0, tip=TIP):
-        """The stylus that rests with its tip at each place in turn, the button down for a second; it turns all the time."""
+        """The stylus that rests with its tip at each place in turn, the button down for a second; it turns all the
+        time."""
         lines = []
         for i, p in enumerate(tips):
             for k in range(150):
                 q = turning(20 * i + k)
                 p_S = numpy.array(p) - rotation(q) @ numpy.array(tip) + [self.random.gauss(0, noise) for _ in range(3)]
-                lines.append("%.3f %s %d" % (0.02 * len(lines), " ".join("%.9f" % x for x in (*p_S, *q)), 50 <= k < 100))
+                lines.append(
+                    "%.3f %s %d" % (0.02 * len(lines), " ".join("%.9f" % x for x in (*p_S, *q)), 50 <= k < 100)
+                )
         return self.file("motion.tum", "\n".join(lines) + "\n")
 
     def run_program(self, *arguments):
-        return subprocess.run([PROGRAM, *arguments], capture_output=True,
-                              text=True, timeout=60)
+        return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, timeout=60)
 
     def register(self, *arguments):
         out = self.file("out.yaml")
@@ -100,8 +115,14 @@ class RegisterTracker(unittest.TestCase):
         tip = self.file("tip.yaml", yaml.safe_dump(found))
         known = self.landmarks(PLACES)
         for noise, position, angle in [(0.0, 1e-6, 1e-5), (1e-3, 1e-3, 5e-3)]:
-            found, report = self.register("--landmarks", known, "--registration", tip, "--motion",
-                                          self.motion([place_of(p) for p in PLACES], noise))
+            found, report = self.register(
+                "--landmarks",
+                known,
+                "--registration",
+                tip,
+                "--motion",
+                self.motion([place_of(p) for p in PLACES], noise),
+            )
             self.check_offset(found["offset"], OFFSET, position, angle)
             self.assertLess(numpy.linalg.norm(numpy.array(found["tip"]) - TIP), 1e-6)
             self.assertEqual(report.count("residual "), len(PLACES))
@@ -114,19 +135,24 @@ class RegisterTracker(unittest.TestCase):
         self.refuse("order b, a, c, d, e", *again, self.motion([straight[i] for i in (1, 0, 2, 3, 4)]))
         self.refuse("touches: 4", *again, self.motion(straight[:4]))
         self.refuse("at rest", "--landmarks", known, "--motion", self.motion(straight))  # without the tip
-        self.refuse("turning", "--pivot", "--motion", self.file("still.tum", "".join(
-            "%g 0 0 0 0 0 0 1 %d\n" % (0.02 * k, k > 10) for k in range(100))))
+        self.refuse(
+            "turning",
+            "--pivot",
+            "--motion",
+            self.file("still.tum", "".join("%g 0 0 0 0 0 0 1 %d\n" % (0.02 * k, k > 10) for k in range(100))),
+        )
         self.refuse("one of --landmarks and --pivot")
         self.refuse("one of --landmarks and --pivot", "--pivot", "--landmarks", known)
         self.refuse("option", "--no-such-option")
 
     def test_recorded_stylus_on_landmarks(self):
-        """A real hand: where it dwells is a touch, and the landmarks are those touches as another tracker pose sees them."""
+        """A real hand: where it dwells is a touch, and the landmarks are those touches as another tracker pose sees
+        them."""
         if not os.path.exists(RECORDING):
             self.skipTest("no recordings")
         rows = numpy.loadtxt(RECORDING)
         rows[:, 0] -= rows[0, 0]
-        windows = {k: rows[k:k + 6, 1:4] for k in range(len(rows) - 6)}  # 0.4 s
+        windows = {k: rows[k : k + 6, 1:4] for k in range(len(rows) - 6)}  # 0.4 s
         spread = {k: numpy.linalg.norm(p - p.mean(0), axis=1).max() for k, p in windows.items()}
         rests = []
         for k in sorted(spread, key=spread.get):
@@ -137,10 +163,14 @@ class RegisterTracker(unittest.TestCase):
         touches = [windows[k].mean(0) for k in sorted(rests)]
         button = numpy.zeros(len(rows), int)
         for k in rests:
-            button[k:k + 6] = 1
-        motion = self.file("real.tum", "".join("%.9f %s %d\n" % (r[0], " ".join("%.9f" % x for x in r[1:]), b)
-                                               for r, b in zip(rows, button)))
-        places = [rotation(OFFSET[3:]) @ p + OFFSET[:3] + [self.random.gauss(0, 5e-4) for _ in range(3)] for p in touches]
+            button[k : k + 6] = 1
+        motion = self.file(
+            "real.tum",
+            "".join("%.9f %s %d\n" % (r[0], " ".join("%.9f" % x for x in r[1:]), b) for r, b in zip(rows, button)),
+        )
+        places = [
+            rotation(OFFSET[3:]) @ p + OFFSET[:3] + [self.random.gauss(0, 5e-4) for _ in range(3)] for p in touches
+        ]
         found, report = self.register("--landmarks", self.landmarks(places), "--motion", motion)
         print("%d landmarks\n%s" % (len(touches), report))
         self.check_offset(found["offset"], OFFSET, 3e-3, 3e-2)
@@ -160,8 +190,12 @@ class RegisterTracker(unittest.TestCase):
         rospy.delete_param("/tracker_driver")
         transforms = Listener("/tf", tf2_msgs.msg.TFMessage)
         with Launched(*start, "registration:=" + out, "pause:=3"):
-            first = wait_for(lambda: next((t for m in transforms.messages for t in m.transforms
-                                           if t.child_frame_id == "stylus"), None), "the stylus")
+            first = wait_for(
+                lambda: next(
+                    (t for m in transforms.messages for t in m.transforms if t.child_frame_id == "stylus"), None
+                ),
+                "the stylus",
+            )
         p = first.transform.translation
         self.assertLess(numpy.linalg.norm([p.x, p.y, p.z]), 1e-5)  # the tip on the first landmark, the origin
         rospy.delete_param("/tracker_driver")

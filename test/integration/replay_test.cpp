@@ -379,8 +379,9 @@ TEST_F(Replay, ReadsBagsFromElsewhere) {
   expect_refused("--scene box.urdf --bag '" + bags + "rosbagjs_no-messages.bag' --out run.csv", {"no-messages.bag"});
 }
 
-/// Every recorded hand holds the box from first to last without anything that is not finite. Under a sanitizer the first 500 lines
-/// of each: refused steps, a few there and 1,287 in all of a hand that leaps (falcon5), take more than eleven minutes with it.
+/// Every recorded hand holds the box from first to last without anything that is not finite. Under a sanitizer the
+/// first 500 lines of each: refused steps, a few there and 1,287 in all of a hand that leaps (falcon5), take more than
+/// eleven minutes with it.
 TEST_F(Replay, RecordedMotionsRun) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   constexpr int most_lines = 500, least_outputs = 100;
@@ -397,8 +398,9 @@ TEST_F(Replay, RecordedMotionsRun) {
     int lines = 0;
     for (std::string line; lines < most_lines && std::getline(recorded, line); ++lines) motion += line + "\n";
     folder_.write("recorded.tum", motion);
-    const Outcome outcome = run("--scene box.urdf --motion recorded.tum --set grasp.object=box --set start.follow=true "
-                                "--set contact=none --out run.csv");
+    const Outcome outcome =
+        run("--scene box.urdf --motion recorded.tum --set grasp.object=box --set start.follow=true "
+            "--set contact=none --out run.csv");
     ASSERT_EQ(outcome.status, 0) << outcome.err;
     const std::string objects = content(path("run.csv"));
     EXPECT_EQ(objects.find("nan"), std::string::npos);

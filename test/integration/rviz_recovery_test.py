@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """What rviz shows while nodes come and go, by the pixels of its window: no fork is left of a node that has ended, and
-display, markers and panel are there again when the node, rviz or the ROS master is started anew, or another scene loaded.
-Needs the setup file sourced; where rviz' plugins or a program for a virtual display are missing it is skipped (exit status
-77). Usage: rviz_recovery_test.py DEVEL_SPACE"""
+display, markers and panel are there again when the node, rviz or the ROS master is started anew, or another scene
+loaded. Needs the setup file sourced; where rviz' plugins or a program for a virtual display are missing it is skipped
+(exit status 77). Usage: rviz_recovery_test.py DEVEL_SPACE"""
 import os
 import shutil
 import signal
@@ -40,11 +40,19 @@ class Stack:
     def __init__(self, folder):
         self.folder = folder
         reader, writer = os.pipe()
-        self.server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % SIZE, "+extension",
-                                        "GLX", "-noreset"], pass_fds=[writer], stderr=subprocess.DEVNULL)
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % SIZE, "+extension", "GLX", "-noreset"],
+            pass_fds=[writer],
+            stderr=subprocess.DEVNULL,
+        )
         self.port = free_port()
-        self.environment = dict(os.environ, DISPLAY=":" + os.read(reader, 16).decode().strip(), LIBGL_ALWAYS_SOFTWARE="1",
-                                ROS_MASTER_URI="http://localhost:%d" % self.port, ROS_HOME=folder)
+        self.environment = dict(
+            os.environ,
+            DISPLAY=":" + os.read(reader, 16).decode().strip(),
+            LIBGL_ALWAYS_SOFTWARE="1",
+            ROS_MASTER_URI="http://localhost:%d" % self.port,
+            ROS_HOME=folder,
+        )
         self.processes = []
 
     def start(self, *command):
@@ -63,8 +71,10 @@ class Stack:
 
     def master(self):
         process = self.start("roscore", "-p", str(self.port))
-        self.until(lambda: subprocess.run(["rosparam", "list"], env=self.environment, capture_output=True).returncode == 0,
-                   "the master")
+        self.until(
+            lambda: subprocess.run(["rosparam", "list"], env=self.environment, capture_output=True).returncode == 0,
+            "the master",
+        )
         return process
 
     def manipulation(self, scene):
@@ -74,20 +84,35 @@ class Stack:
         config = {
             "Panels": [{"Class": "spring_workbench/Workbench", "Name": "Workbench"}],
             "Visualization Manager": {
-                "Class": "", "Displays": [{"Enabled": True, "Value": True, **DISPLAYS[kind]}], "Enabled": True, "Value": True,
+                "Class": "",
+                "Displays": [{"Enabled": True, "Value": True, **DISPLAYS[kind]}],
+                "Enabled": True,
+                "Value": True,
                 "Global Options": {"Background Color": "38; 42; 48", "Fixed Frame": "world", "Frame Rate": 30},
-                "Views": {"Current": {"Class": "rviz/Orbit", "Name": "Current View", "Distance": 1.2, "Pitch": 0.4,
-                                      "Yaw": 4.4, "Focal Point": {"X": 0, "Y": 0, "Z": 0.2}, "Target Frame": "world"}}},
-            "Window Geometry": {"Width": SIZE[0], "Height": SIZE[1], "X": 0, "Y": 0}}
+                "Views": {
+                    "Current": {
+                        "Class": "rviz/Orbit",
+                        "Name": "Current View",
+                        "Distance": 1.2,
+                        "Pitch": 0.4,
+                        "Yaw": 4.4,
+                        "Focal Point": {"X": 0, "Y": 0, "Z": 0.2},
+                        "Target Frame": "world",
+                    }
+                },
+            },
+            "Window Geometry": {"Width": SIZE[0], "Height": SIZE[1], "X": 0, "Y": 0},
+        }
         path = os.path.join(self.folder, "view.rviz")
         with open(path, "w") as file:
             yaml.safe_dump(config, file)
         return self.start("rviz", "-d", path)
 
     def pixels(self):
-        raw = subprocess.run(["import", "-window", "root", "-depth", "8", "rgb:-"], check=True, capture_output=True,
-                             env=self.environment).stdout
-        return [raw[i:i + 3] for i in range(0, len(raw), 3)]
+        raw = subprocess.run(
+            ["import", "-window", "root", "-depth", "8", "rgb:-"], check=True, capture_output=True, env=self.environment
+        ).stdout
+        return [raw[i : i + 3] for i in range(0, len(raw), 3)]
 
     def until(self, condition, what):
         end = time.monotonic() + DEADLINE
@@ -120,8 +145,8 @@ class Recovery(unittest.TestCase):
         return drawn, sum(max(p) < 60 for p in left) - self.grey
 
     def start_rviz(self, kind, shows):
-        """rviz, once it shows what it should. On a virtual display it sometimes ends, or stays black, while it starts; then
-        it is started again."""
+        """rviz, once it shows what it should. On a virtual display it sometimes ends, or stays black, while it starts;
+        then it is started again."""
         for _ in range(4):
             rviz = self.stack.rviz(kind)
             patience = time.monotonic() + DEADLINE / 2
@@ -133,6 +158,7 @@ class Recovery(unittest.TestCase):
 
     def open_rviz(self, kind):
         """rviz without anything in it; where its view is."""
+
         def view():
             places = [i for i, p in enumerate(self.stack.pixels()) if p == BACKGROUND]
             return places if len(places) > SIZE[0] * SIZE[1] // 4 else None
@@ -192,8 +218,12 @@ class Recovery(unittest.TestCase):
         self.expect_shown(drawn, writing, "a new node of a new master to be shown")
 
         for scene in ["mini_world", "single_box"]:
-            subprocess.run(["rosservice", "call", "/manipulation/load_scene", "scene: '%s%s.urdf'" % (SCENES, scene)],
-                           env=stack.environment, check=True, stdout=subprocess.DEVNULL)
+            subprocess.run(
+                ["rosservice", "call", "/manipulation/load_scene", "scene: '%s%s.urdf'" % (SCENES, scene)],
+                env=stack.environment,
+                check=True,
+                stdout=subprocess.DEVNULL,
+            )
         self.expect_shown(drawn, writing, "the scene that was loaded last, and nothing of the one before")
 
         stack.stop(rviz)

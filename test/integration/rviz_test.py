@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""rviz with the panel, the fork's display and the marker of the mouse, worked by clicks and drags on a virtual display."""
+"""rviz with the panel, the fork's display and the marker of the mouse, worked by clicks and drags on a virtual
+display."""
 import contextlib
 import os
 import shutil
@@ -36,8 +37,9 @@ def config(folder):
     for display in manager["Displays"]:
         if display["Class"] == "spring_workbench/SpringFork":
             display["Enabled"] = display["Value"] = True
-    manager["Views"]["Current"].update({"Pitch": 0.0, "Yaw": 4.712389, "Distance": DISTANCE,
-                                        "Focal Point": {"X": 0.0, "Y": 0.0, "Z": FOCUS}})
+    manager["Views"]["Current"].update(
+        {"Pitch": 0.0, "Yaw": 4.712389, "Distance": DISTANCE, "Focal Point": {"X": 0.0, "Y": 0.0, "Z": FOCUS}}
+    )
     content["Window Geometry"] = {"Width": SIZE[0], "Height": SIZE[1], "X": 0, "Y": 0}
     path = os.path.join(folder, "view.rviz")
     with open(path, "w") as file:
@@ -48,8 +50,11 @@ def config(folder):
 @contextlib.contextmanager
 def display():
     reader, writer = os.pipe()
-    server = subprocess.Popen(["Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % SIZE, "+extension", "GLX"],
-                              pass_fds=[writer], stderr=subprocess.DEVNULL)
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % SIZE, "+extension", "GLX"],
+        pass_fds=[writer],
+        stderr=subprocess.DEVNULL,
+    )
     os.environ["DISPLAY"] = ":" + os.read(reader, 16).decode().strip()
     os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
     windows = subprocess.Popen(["openbox"], stderr=subprocess.DEVNULL)
@@ -66,28 +71,34 @@ class Picture:
 
     def __init__(self):
         width, height = SIZE
-        pixels = subprocess.run(["import", "-window", "root", "-depth", "8", "rgb:-"], check=True, capture_output=True).stdout
-        rows = [pixels[3 * width * y:3 * width * (y + 1)] for y in range(height)]
+        pixels = subprocess.run(
+            ["import", "-window", "root", "-depth", "8", "rgb:-"], check=True, capture_output=True
+        ).stdout
+        rows = [pixels[3 * width * y : 3 * width * (y + 1)] for y in range(height)]
         background = bytes([38, 42, 48])
         wide = [y for y, row in enumerate(rows) if row.count(background) > width // 4]
         self.ready = bool(wide)
         if not self.ready:
             return
-        columns = [x for x in range(width) if rows[wide[0] + 20][3 * x:3 * x + 3] == background]
+        columns = [x for x in range(width) if rows[wide[0] + 20][3 * x : 3 * x + 3] == background]
         left, right, top = columns[0], columns[-1], wide[0]
-        grey = rows[height - 4][3 * (width // 2):3 * (width // 2) + 3]  # of the status bar
-        bottom = next(y for y in range(height - 4, top, -1) if rows[y][3 * (left + 5):3 * (left + 5) + 3] != grey)
+        grey = rows[height - 4][3 * (width // 2) : 3 * (width // 2) + 3]  # of the status bar
+        bottom = next(y for y in range(height - 4, top, -1) if rows[y][3 * (left + 5) : 3 * (left + 5) + 3] != grey)
         self.centre = ((left + right) / 2, (top + bottom) / 2)
         self.metres = 2 * DISTANCE * 0.41421356 / (bottom - top)  # a pixel, at the distance of the focal point
 
     def pixel(self, position):
-        return (round(self.centre[0] + position.x / self.metres),
-                round(self.centre[1] - (position.z - FOCUS) / self.metres))
+        return (
+            round(self.centre[0] + position.x / self.metres),
+            round(self.centre[1] - (position.z - FOCUS) / self.metres),
+        )
 
 
 @unittest.skipUnless(os.path.exists(PLUGINS), "the rviz plugins were not built")
-@unittest.skipUnless(all(map(shutil.which, ["Xvfb", "openbox", "xdotool", "import"])),
-                     "Xvfb, openbox, xdotool or ImageMagick is not installed")
+@unittest.skipUnless(
+    all(map(shutil.which, ["Xvfb", "openbox", "xdotool", "import"])),
+    "Xvfb, openbox, xdotool or ImageMagick is not installed",
+)
 class Rviz(unittest.TestCase):
     def setUp(self):
         rospy.set_param("/use_sim_time", False)
@@ -96,9 +107,15 @@ class Rviz(unittest.TestCase):
         self.stack = contextlib.ExitStack()
         folder = self.stack.enter_context(tempfile.TemporaryDirectory())
         self.stack.enter_context(display())
-        self.stack.enter_context(Launched("workbench.launch", "input:=mouse", "rviz_config:=" + config(folder),
-                                          "scene:=package://spring_workbench/scenes/single_box.urdf",
-                                          "settings:=" + PACKAGE + "/config/demo_fork.yaml"))
+        self.stack.enter_context(
+            Launched(
+                "workbench.launch",
+                "input:=mouse",
+                "rviz_config:=" + config(folder),
+                "scene:=package://spring_workbench/scenes/single_box.urdf",
+                "settings:=" + PACKAGE + "/config/demo_fork.yaml",
+            )
+        )
         subscribers = lambda: dict(rosgraph.Master("/test").getSystemState()[1])
         wait_for(lambda: "/rviz" in subscribers().get("/manipulation/fork", []), "the panel to listen")
         self.picture = wait_for(lambda: (lambda p: p.ready and p)(Picture()), "rviz to show the scene")
@@ -140,8 +157,23 @@ class Rviz(unittest.TestCase):
         xdotool("sleep", 0.5, "mouseup", 1, "sleep", 0.8)
 
     def choose_grasp(self, down):
-        xdotool("mousemove", *self.grab(), "sleep", 0.3, "click", 3, "sleep", 1.0, "mousemove_relative", 40, 12,
-                "sleep", 0.3, "click", 1)
+        xdotool(
+            "mousemove",
+            *self.grab(),
+            "sleep",
+            0.3,
+            "click",
+            3,
+            "sleep",
+            1.0,
+            "mousemove_relative",
+            40,
+            12,
+            "sleep",
+            0.3,
+            "click",
+            1
+        )
         wait_for(lambda: self.joy.last.buttons[0] == down, "the grasp button %s" % ("down" if down else "up"), 15.0)
 
     def test_panel_switches_torsion(self):

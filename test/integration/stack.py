@@ -66,8 +66,10 @@ class Listener:
     def next(self, condition=lambda message: True, what="a message"):
         """The first message from now on that fulfils the condition."""
         seen = len(self.messages)
-        return wait_for(lambda: next((m for m in self.messages[seen:] if condition(m)), None),
-                        "%s on %s" % (what, self.subscriber.name))
+        return wait_for(
+            lambda: next((m for m in self.messages[seen:] if condition(m)), None),
+            "%s on %s" % (what, self.subscriber.name),
+        )
 
 
 def diagnostic_values(messages, name_part):
@@ -91,8 +93,12 @@ def quaternion(axis, angle):
 def product(a, b):
     ax, ay, az, aw = a
     bx, by, bz, bw = b
-    return (aw * bx + ax * bw + ay * bz - az * by, aw * by - ax * bz + ay * bw + az * bx,
-            aw * bz + ax * by - ay * bx + az * bw, aw * bw - ax * bx - ay * by - az * bz)
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by - ax * bz + ay * bw + az * bx,
+        aw * bz + ax * by - ay * bx + az * bw,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
 
 
 DOWN = (1.0, 0.0, 0.0, 0.0)  # the fork points down
@@ -110,12 +116,14 @@ def stylus_transform(stamp, position, rotation):
 
 
 class Hand:
-    """A hand that owns the ROS clock: the clock runs, and samples of the stylus come, only while it moves or rests. With
-    `followed_by`, topics of `manipulation`, each move ends when these have come to its end, however slow the node is."""
+    """A hand that owns the ROS clock: the clock runs, and samples of the stylus come, only while it moves or rests.
+    With `followed_by`, topics of `manipulation`, each move ends when these have come to its end,
+    however slow the node is.
+    """
 
     STEP = 0.005  # [s] of the clock
-    SAMPLE = 4    # steps between samples
-    SPEED = 3.0   # of the clock against the wall
+    SAMPLE = 4  # steps between samples
+    SPEED = 3.0  # of the clock against the wall
     PERIOD = 0.01  # [s] of the node's steps
 
     def __init__(self, start=100.0, position=(0.0, 0.0, 0.4), rotation=DOWN, followed_by=()):
@@ -130,8 +138,12 @@ class Hand:
         return rospy.Time.from_sec(self.tick * self.STEP)
 
     def wait_for_node(self):
-        wait_for(lambda: self.tf.get_num_connections() > 0 and self.joy.get_num_connections() > 0 and
-                 self.clock.get_num_connections() > 1, "the node to listen")
+        wait_for(
+            lambda: self.tf.get_num_connections() > 0
+            and self.joy.get_num_connections() > 0
+            and self.clock.get_num_connections() > 1,
+            "the node to listen",
+        )
 
     def run(self, seconds, samples=True):
         """Lets the clock run, the stylus at rest."""
@@ -163,8 +175,10 @@ class Hand:
         end = (newest - self.SAMPLE) * self.STEP - self.PERIOD
         now = self.tick * self.STEP  # the clock may have been set back: what is later is from before
         for topic in self.followed_by:
-            wait_for(lambda: topic.last and end - 1e-6 < topic.last.header.stamp.to_sec() < now + 1e-6,
-                     "%s to come to the end of the hand's way" % topic.subscriber.name)
+            wait_for(
+                lambda: topic.last and end - 1e-6 < topic.last.header.stamp.to_sec() < now + 1e-6,
+                "%s to come to the end of the hand's way" % topic.subscriber.name,
+            )
 
     def send(self, transform):
         self.tf.publish(TFMessage([transform]))
@@ -196,8 +210,14 @@ class Launched:
 
 def make_bag(path, speed=1.0):
     """A hand that goes down into the box of single_box, grasps, lifts, carries it 0.2 m along x and holds it there."""
-    waypoints = [(0.0, (0, 0, 0.4)), (1.0, (0, 0, 0.22)), (1.6, (0, 0, 0.22)), (2.6, (0, 0, 0.4)), (3.6, (0.2, 0, 0.4)),
-                 (4.6, (0.2, 0, 0.4))]
+    waypoints = [
+        (0.0, (0, 0, 0.4)),
+        (1.0, (0, 0, 0.22)),
+        (1.6, (0, 0, 0.22)),
+        (2.6, (0, 0, 0.4)),
+        (3.6, (0.2, 0, 0.4)),
+        (4.6, (0.2, 0, 0.4)),
+    ]
     start = rospy.Time(1000)
     with rosbag.Bag(path, "w") as bag:
         for k in range(int(230 / speed)):

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The tools of `manipulation` and its second stylus, by topics and services: scenes/single_box, hands on their own clock."""
+"""The tools of `manipulation` and its second stylus, by topics and services: scenes/single_box, hands on their own
+clock."""
 import math
 import sys
 import unittest
@@ -48,8 +49,13 @@ class Tools(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.services = {}
-        for name, kind in [("select_tool", SelectTool), ("set_stiffness", SetForkStiffness), ("reset", Trigger),
-                           ("calibrate", Trigger), ("release", Trigger)]:
+        for name, kind in [
+            ("select_tool", SelectTool),
+            ("set_stiffness", SetForkStiffness),
+            ("reset", Trigger),
+            ("calibrate", Trigger),
+            ("release", Trigger),
+        ]:
             rospy.wait_for_service("manipulation/" + name, DEADLINE)
             cls.services[name] = rospy.ServiceProxy("manipulation/" + name, kind)
         cls.objects = Listener("manipulation/objects", ObjectStates)
@@ -131,7 +137,7 @@ class Tools(unittest.TestCase):
         self.call("calibrate")
         self.hand.run(2.0)
         fork = self.fork.next()
-        gyration = math.sqrt((0.1 ** 2 + 0.06 ** 2 + 0.04 ** 2) / 18.0)
+        gyration = math.sqrt((0.1**2 + 0.06**2 + 0.04**2) / 18.0)
         self.assertAlmostEqual(fork.length, 7.0 * gyration, delta=1e-9)
         self.assertAlmostEqual(fork.stretch, 0.1 * fork.length, delta=1e-3 * fork.length)
         self.assertAlmostEqual(self.box().pose.position.z, before, delta=1e-5)
@@ -177,7 +183,9 @@ class Tools(unittest.TestCase):
         self.hand.pressed = self.hand.second_pressed = False
         self.hand.run(0.6)
         self.assertAlmostEqual(self.box().pose.position.z, 0.02, delta=1e-9)
-        newest = self.fork_2.next(lambda m: abs((m.header.stamp - self.hand.now()).to_sec()) < 0.5, "the second stylus").handle
+        newest = self.fork_2.next(
+            lambda m: abs((m.header.stamp - self.hand.now()).to_sec()) < 0.5, "the second stylus"
+        ).handle
         self.assertAlmostEqual(newest.position.x, -0.03, delta=1e-9)
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The node `tracker_driver` by its topics: a motion file of 50 samples, turned and moved by `start`, at double speed."""
+"""The node `tracker_driver` by its topics: a motion file of 50 samples, turned and moved by `start`, at double
+speed."""
 import sys
 import unittest
 

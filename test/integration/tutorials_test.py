@@ -26,7 +26,8 @@ def blocks(text):
 
 
 def parts(block):
-    """What comes before a roslaunch line, and that line with the lines that it is continued on; '' where there is none."""
+    """What comes before a roslaunch line, and that line with the lines that it is continued on; '' where there is
+    none."""
     before, launch = re.fullmatch(r"(?ms)(.*?)(^roslaunch .*)?", block).groups()
     return before, launch or ""
 
@@ -57,8 +58,13 @@ class Tutorials(unittest.TestCase):
             os.symlink(BUILD, os.path.join(folder, "build"))
             for heading, block in blocks(open(os.path.join(PACKAGE, "doc/tutorials", name)).read()):
                 before, launch = parts(block)
-                done = subprocess.run(["bash", "-ec", before.replace("--duration=30", "--duration=3")], cwd=folder,
-                                      capture_output=True, text=True, timeout=2 * DEADLINE)
+                done = subprocess.run(
+                    ["bash", "-ec", before.replace("--duration=30", "--duration=3")],
+                    cwd=folder,
+                    capture_output=True,
+                    text=True,
+                    timeout=2 * DEADLINE,
+                )
                 if heading in bad:
                     bad.remove(heading)
                     self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)

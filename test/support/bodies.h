@@ -9,7 +9,8 @@
 namespace spring_workbench {
 
 /// A box of `size` with its centre at `p_WO`; one without mass stands fixed.
-inline Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO, double friction = 0.5) {
+inline Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO,
+                double friction = 0.5) {
   Body b;
   b.name = name;
   b.movable = mass > 0.0;

@@ -20,7 +20,8 @@ inline MotionSegment random_hand(double duration, std::mt19937& random) {
   PoseSample a, b;
   a.X = make_transform(Quaterniond(exp_so3(vector(1.0))), vector(0.1));
   b.t = duration;
-  b.X = make_transform(Quaterniond(a.X.linear() * exp_so3(vector(2.0 * duration))), a.X.translation() + vector(0.5 * duration));
+  b.X = make_transform(Quaterniond(a.X.linear() * exp_so3(vector(2.0 * duration))),
+                       a.X.translation() + vector(0.5 * duration));
   const Vector3d v = vector(0.5), w = vector(2.0);
   return MotionSegment(a, v, w, b, vector(0.5), vector(2.0));
 }

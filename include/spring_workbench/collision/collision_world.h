@@ -10,10 +10,10 @@ namespace spring_workbench {
 
 /// A point where a body touches or enters another.
 struct ContactPoint {
-  std::size_t other = 0;                  ///< index of the other body in the scene, or `CollisionWorld::bench`
-  Vector3d p_W = Vector3d::Zero();        ///< on the surface of the other body, in world [m]
-  Vector3d n_W = Vector3d::UnitZ();       ///< unit normal, from the other body towards this one
-  double depth = 0.0;                     ///< how far this body is in the other along `n_W` [m]; > 0 is penetration
+  std::size_t other = 0;             ///< index of the other body in the scene, or `CollisionWorld::bench`
+  Vector3d p_W = Vector3d::Zero();   ///< on the surface of the other body, in world [m]
+  Vector3d n_W = Vector3d::UnitZ();  ///< unit normal, from the other body towards this one
+  double depth = 0.0;                ///< how far this body is in the other along `n_W` [m]; > 0 is penetration
 };
 
 /// How far a body may move from one pose to another before it touches something.
@@ -23,10 +23,10 @@ struct SweepResult {
   double touching_fraction = 1.0;  ///< the smallest fraction found touching; contacts are looked up here
 };
 
-/// What touches what, where and when. Knows shapes and poses; no forces, no time. FCL does the work (in the .cpp alone).
-/// Bodies are those of the scene, by index; the bench is the half-space below `scene.bench_height`.
-/// Not copyable; one thread at a time. Virtual, so that who uses one from `open_collision_world` (engines/contact_engines.h)
-/// is not linked with FCL; who makes one by itself is.
+/// What touches what, where and when. Knows shapes and poses; no forces, no time. FCL does the work (in the .cpp
+/// alone). Bodies are those of the scene, by index; the bench is the half-space below `scene.bench_height`. Not
+/// copyable; one thread at a time. Virtual, so that who uses one from `open_collision_world`
+/// (engines/contact_engines.h) is not linked with FCL; who makes one by itself is.
 class CollisionWorld {
  public:
   static constexpr std::size_t bench = static_cast<std::size_t>(-1);
@@ -53,12 +53,13 @@ class CollisionWorld {
   virtual void find_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance,
                              std::vector<ContactPoint>& contacts) const;
 
-  /// The paper's search (section 5) on the whole way from `X0` to `X1` (straight in position, constant axis in rotation).
-  /// It goes on by what the gaps leave surely clear, and where there are none, by pieces in which no point of the body moves
-  /// further than `resolution` [m]. In the first piece that touches, the free and the touching fraction are found by `levels`
-  /// halvings, or, with 0, as the time of impact: by what is surely clear again (conservative advancement, Mirtich 1996).
-  virtual SweepResult sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double tolerance,
-                            double resolution, int levels) const;
+  /// The paper's search (section 5) on the whole way from `X0` to `X1` (straight in position, constant axis in
+  /// rotation). It goes on by what the gaps leave surely clear, and where there are none, by pieces in which no point
+  /// of the body moves further than `resolution` [m]. In the first piece that touches, the free and the touching
+  /// fraction are found by `levels` halvings, or, with 0, as the time of impact: by what is surely clear again
+  /// (conservative advancement, Mirtich 1996).
+  virtual SweepResult sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                            double tolerance, double resolution, int levels) const;
 
  private:
   struct Impl;

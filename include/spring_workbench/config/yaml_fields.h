@@ -1,10 +1,10 @@
 #pragma once
 
+#include <yaml-cpp/yaml.h>
+
 #include <limits>
 #include <string>
 #include <vector>
-
-#include <yaml-cpp/yaml.h>
 
 #include "spring_workbench/config/input_error.h"
 #include "spring_workbench/math/rigid_transform.h"
@@ -15,8 +15,8 @@ namespace spring_workbench {
 struct NumberRule {
   double min = -std::numeric_limits<double>::max();
   double max = std::numeric_limits<double>::max();
-  bool min_allowed = true;       ///< false: must be greater than `min`
-  bool infinity_allowed = false; ///< true: `.inf` is allowed although it is greater than `max`
+  bool min_allowed = true;        ///< false: must be greater than `min`
+  bool infinity_allowed = false;  ///< true: `.inf` is allowed although it is greater than `max`
 
   bool allows(double value) const;
   std::string text() const;  ///< e.g. "a number > 0", "a number in [0, 1]"
@@ -47,12 +47,13 @@ std::vector<double> read_numbers(const YAML::Node& node, const std::string& wher
 /// A pose as `x y z qx qy qz qw` (list or string) [m, –]; the quaternion is normalised, a zero one is refused.
 RigidTransform read_pose(const YAML::Node& node, const std::string& where, const std::string& key);
 
-/// Refuses a node that is not a map, or one with a key that is not in `allowed` or is there twice; `prefix` goes before the key in messages.
+/// Refuses a node that is not a map, or one with a key that is not in `allowed` or is there twice; `prefix` goes before
+/// the key in messages.
 void check_keys(const YAML::Node& map, const std::string& where, const std::string& prefix,
                 const std::vector<std::string>& allowed);
 
-/// Parses a YAML file. An empty file is an empty map. Throws InputError with file:line for what cannot be read or parsed, and
-/// for what aliases make endless or immense.
+/// Parses a YAML file. An empty file is an empty map. Throws InputError with file:line for what cannot be read or
+/// parsed, and for what aliases make endless or immense.
 YAML::Node load_yaml_file(const std::string& path);
 
 /// "a, b, c"

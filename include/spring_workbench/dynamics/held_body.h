@@ -11,17 +11,17 @@ namespace spring_workbench {
 
 /// The rigid body that hangs on the tip: object frame O (centre of mass) and tip frame E.
 struct BodyInertia {
-  double mass = 1.0;                                  ///< [kg], > 0
-  Matrix3d inertia_O = Matrix3d::Identity();          ///< about the centre of mass, axes of O [kg·m²], positive definite
-  RigidTransform X_OE = RigidTransform::Identity();   ///< the grasp G
+  double mass = 1.0;                          ///< [kg], > 0
+  Matrix3d inertia_O = Matrix3d::Identity();  ///< about the centre of mass, axes of O [kg·m²], positive definite
+  RigidTransform X_OE = RigidTransform::Identity();  ///< the grasp G
 };
 
 /// What the moving handle does to the equations at one moment, in the axes of the handle frame H.
 struct HandleForcing {
-  double t = 0.0;                                 ///< [s]
+  double t = 0.0;  ///< [s]
   RigidTransform X_WH = RigidTransform::Identity();
-  Vector3d v_WH_W = Vector3d::Zero();             ///< [m/s], world axes
-  Vector3d angular_velocity = Vector3d::Zero();   ///< [rad/s]
+  Vector3d v_WH_W = Vector3d::Zero();            ///< [m/s], world axes
+  Vector3d angular_velocity = Vector3d::Zero();  ///< [rad/s]
   Vector3d angular_acceleration = Vector3d::Zero();
   Vector3d acceleration_less_gravity = Vector3d::Zero();  ///< of the origin of H [m/s²]
 };
@@ -59,17 +59,17 @@ class HeldBody {
   void set_springs(const PerFamily& stiffness, const PerFamily& damping_ratio);
   /// Damping coefficients outright, per family, the unit of its stiffness times s: `D = (c / k) K`.
   void set_springs_and_dampers(const PerFamily& stiffness, const PerFamily& damping);
-  /// The same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, M that of the
-  /// unstrained fork. Goes with set_dofs().
+  /// The same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, M that of
+  /// the unstrained fork. Goes with set_dofs().
   void set_springs_with_modal_damping(const PerFamily& stiffness, double damping_ratio);
   /// Stiffness, damping ratios and damping law of `fork`.
   void set_springs(const ForkSettings& fork);
   /// Moment of inertia about the fork's axis through the grasp [kg·m²].
   double axial_inertia() const;
 
-  /// Switches families. One that goes off while strained follows, from time `t` [s] on, the critically damped return with
-  /// the time constant `return_time` [s]; `full` is the state in all coordinates at `t`. Returns the new active state:
-  /// pose and twist of the body do not change.
+  /// Switches families. One that goes off while strained follows, from time `t` [s] on, the critically damped return
+  /// with the time constant `return_time` [s]; `full` is the state in all coordinates at `t`. Returns the new active
+  /// state: pose and twist of the body do not change.
   StrainState set_dofs(const ForkDofs& dofs, double t, double return_time, const StrainState& full);
   /// Drops prescribed motions that have come to zero by time `t`. True when one was dropped.
   bool drop_finished_returns(double t);
@@ -123,19 +123,19 @@ class HeldBody {
   };
   struct Kinematics {
     TipKinematics tip;
-    Vector3d r_EO;           ///< from tip to centre of mass, axes of H
-    Vector3d p_HO;           ///< axes of H
+    Vector3d r_EO;  ///< from tip to centre of mass, axes of H
+    Vector3d p_HO;  ///< axes of H
     Matrix3d R_HO;
-    StrainJacobian linear;   ///< of O
-    StrainVector q, q_dot;   ///< all coordinates
+    StrainJacobian linear;  ///< of O
+    StrainVector q, q_dot;  ///< all coordinates
   };
   /// All coordinates' strain and rate at time `t` from the active ones' and what is prescribed.
   void expand(double t, const StrainVector& q, const StrainVector& q_dot, StrainVector& q_all, StrainVector& q_dot_all,
               StrainVector& q_ddot_all) const;
   template <int n, typename S>
   void accelerate(const S& t, const FrameForcing<S>& handle, const S* q, const S* q_dot, S* q_ddot) const;
-  /// Acceleration of the extension where stretch alone is on, and of the twist where torsion alone is, under the force or
-  /// moment of spring and damper.
+  /// Acceleration of the extension where stretch alone is on, and of the twist where torsion alone is, under the force
+  /// or moment of spring and damper.
   template <typename S>
   S slide(const FrameForcing<S>& handle, const S& extension, S force) const;
   template <typename S>

@@ -10,8 +10,10 @@ namespace spring_workbench {
 
 /// What one step says of itself.
 struct StepEstimate {
-  StrainVector q_error;    ///< estimate of the step's local error (what came out less the truth) in the active coordinates
-  double omega_dt = 0.0;   ///< frequency of the stiffest mode [rad/s] times the step; 0 where the method does not know it
+  StrainVector
+      q_error;  ///< estimate of the step's local error (what came out less the truth) in the active coordinates
+  double omega_dt =
+      0.0;  ///< frequency of the stiffest mode [rad/s] times the step; 0 where the method does not know it
   StrainVector q_dot_error = StrainVector();  ///< the same of the strain rates [1/s]
 };
 

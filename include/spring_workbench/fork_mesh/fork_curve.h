@@ -9,15 +9,15 @@ namespace spring_workbench {
 
 /// One place on the curve along which the fork's spring is drawn.
 struct CurvePoint {
-  Vector3d p = Vector3d::Zero();           ///< [m]
-  Vector3d p_rate = Vector3d::UnitZ();     ///< dp/du [m]
-  Matrix3d R = Matrix3d::Identity();       ///< local frame (the paper's LCS), z along the curve
-  Vector3d turn_rate = Vector3d::Zero();   ///< angular rate of the frame along u, in the axes of the local frame [rad]
+  Vector3d p = Vector3d::Zero();          ///< [m]
+  Vector3d p_rate = Vector3d::UnitZ();    ///< dp/du [m]
+  Matrix3d R = Matrix3d::Identity();      ///< local frame (the paper's LCS), z along the curve
+  Vector3d turn_rate = Vector3d::Zero();  ///< angular rate of the frame along u, in the axes of the local frame [rad]
 };
 
-/// The paper's function f(t) (section 4): a smooth curve with a local frame at every point, from the handle (u = 0) to the
-/// tip (u = 1). `u` is the arc length of the rest shape over the rest length. Between the stations that it is made of,
-/// positions are cubic and rotations go at a constant rate.
+/// The paper's function f(t) (section 4): a smooth curve with a local frame at every point, from the handle (u = 0) to
+/// the tip (u = 1). `u` is the arc length of the rest shape over the rest length. Between the stations that it is made
+/// of, positions are cubic and rotations go at a constant rate.
 class ForkCurve {
  public:
   /// At least five frames evenly spaced in u, in any one frame. Throws InputError for fewer.
@@ -30,17 +30,18 @@ class ForkCurve {
 
  private:
   std::vector<RigidTransform> stations_;
-  std::vector<Vector3d> p_rates_;      ///< at the stations, over one interval [m]
-  std::vector<Vector3d> turn_rates_;   ///< in the intervals, over one interval [rad]
+  std::vector<Vector3d> p_rates_;     ///< at the stations, over one interval [m]
+  std::vector<Vector3d> turn_rates_;  ///< in the intervals, over one interval [rad]
 };
 
-/// The curve of the rod itself: the sections of `shape` with strain `q`, clamped at the pose `X_WH` of the handle; in W.
+/// The curve of the rod itself: the sections of `shape` with strain `q`, clamped at the pose `X_WH` of the handle; in
+/// W.
 ForkCurve rod_curve(const ShapeModel& shape, const StrainVector& q, const RigidTransform& X_WH);
 
-/// The paper's arc-length parameterised Bézier curve with compensated length (section 4): from the handle along its z to
-/// the tip `X_WE` along the tip's z, both control arms equally long, such that the curve is `arc_length` [m] long. Frames
-/// are carried along without twist; the rest up to the tip's rotation, within half a turn of `twist` [rad], is spread
-/// evenly. Where no arms give the length (a tip farther away than it), they are a third of it.
+/// The paper's arc-length parameterised Bézier curve with compensated length (section 4): from the handle along its z
+/// to the tip `X_WE` along the tip's z, both control arms equally long, such that the curve is `arc_length` [m] long.
+/// Frames are carried along without twist; the rest up to the tip's rotation, within half a turn of `twist` [rad], is
+/// spread evenly. Where no arms give the length (a tip farther away than it), they are a third of it.
 ForkCurve bezier_curve(const RigidTransform& X_WH, const RigidTransform& X_WE, double arc_length, double twist);
 
 /// The curves that `make_fork_curve` knows: "rod" and "bezier".

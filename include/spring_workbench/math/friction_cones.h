@@ -5,13 +5,14 @@
 
 namespace spring_workbench {
 
-/// Impulses `x` of contacts, three for each [normal, across, across], that keep Coulomb's law with the rates `y = A x + b`:
-/// a contact that presses does not move along its normal, one that slides opposes its slip with `friction` times the normal
-/// impulse, and no contact closes. `A` is symmetric and positive semidefinite, 3 n × 3 n.
+/// Impulses `x` of contacts, three for each [normal, across, across], that keep Coulomb's law with the rates `y = A x +
+/// b`: a contact that presses does not move along its normal, one that slides opposes its slip with `friction` times
+/// the normal impulse, and no contact closes. `A` is symmetric and positive semidefinite, 3 n × 3 n.
 ///
 /// A primal-dual interior point method on the friction cones (Nesterov and Todd's scaling, Mehrotra's corrector), with
-/// De Saxcé's shift of the normal rate by the slip: it takes some 20 systems of equations however unlike the masses are,
-/// where Gauss–Seidel's sweeps take thousands [NT98, DF98 in doc/model.md]. False, with `x` as it was, where it found none.
+/// De Saxcé's shift of the normal rate by the slip: it takes some 20 systems of equations however unlike the masses
+/// are, where Gauss–Seidel's sweeps take thousands [NT98, DF98 in doc/model.md]. False, with `x` as it was, where it
+/// found none.
 bool solve_in_cones(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vector<double>& friction,
                     Eigen::VectorXd& x);
 

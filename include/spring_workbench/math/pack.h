@@ -6,8 +6,9 @@
 
 #define SPRING_WORKBENCH_INLINE inline __attribute__((always_inline))
 
-/// Compiles a function twice: for every processor, and for those that hold a pack in one register and multiply and add at
-/// once. Which one runs is found when the program starts. For free and non-virtual functions that get packs by reference.
+/// Compiles a function twice: for every processor, and for those that hold a pack in one register and multiply and add
+/// at once. Which one runs is found when the program starts. For free and non-virtual functions that get packs by
+/// reference.
 #if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 11 && !defined(__clang__) && !defined(__AVX2__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SPRING_WORKBENCH_WIDE __attribute__((target_clones("default", "fma")))
@@ -133,7 +134,9 @@ template <typename S>
 SPRING_WORKBENCH_INLINE ThreeByThree<S> symmetric_and_skew(const S& p, const S& q, const S& r, const Three<S>& v) {
   const Three<S> pv = p * v, rv = r * v;
   const S xy = pv.x * v.y, xz = pv.x * v.z, yz = pv.y * v.z;
-  return {{pv.x * v.x + q, xy + rv.z, xz - rv.y}, {xy - rv.z, pv.y * v.y + q, yz + rv.x}, {xz + rv.y, yz - rv.x, pv.z * v.z + q}};
+  return {{pv.x * v.x + q, xy + rv.z, xz - rv.y},
+          {xy - rv.z, pv.y * v.y + q, yz + rv.x},
+          {xz + rv.y, yz - rv.x, pv.z * v.z + q}};
 }
 
 }  // namespace spring_workbench

@@ -7,8 +7,8 @@
 
 namespace spring_workbench {
 
-/// The functions of the angle θ in the exponential of SO(3), its Jacobians and their derivatives, from `t = θ²` ≥ 0, each
-/// exact to rounding, also near zero.
+/// The functions of the angle θ in the exponential of SO(3), its Jacobians and their derivatives, from `t = θ²` ≥ 0,
+/// each exact to rounding, also near zero.
 template <typename S>
 struct So3CoefficientsOf {
   S a;        ///< sin θ / θ
@@ -77,7 +77,8 @@ SPRING_WORKBENCH_INLINE ThreeByThree<S> exp_so3(const Three<S>& theta, const So3
 /// The skew matrix `[v]×` with `[v]× w = v × w`.
 Matrix3d skew(const Vector3d& v);
 
-/// Rotation matrix of the rotation vector `theta` [rad]: `exp([theta]×)`. Exact to rounding for every length, also zero.
+/// Rotation matrix of the rotation vector `theta` [rad]: `exp([theta]×)`. Exact to rounding for every length, also
+/// zero.
 Matrix3d exp_so3(const Vector3d& theta);
 
 /// Rotation vector [rad] of length 0 … π with `exp_so3(log_so3(R)) = R`. At a half turn the axis' sign is free.
@@ -89,8 +90,8 @@ Matrix3d right_jacobian_so3(const Vector3d& theta);
 /// Inverse of the right Jacobian; singular at |theta| = 2π.
 Matrix3d right_jacobian_inverse_so3(const Vector3d& theta);
 
-/// `d/dt [J_r(theta(t))] v` for the rate `theta_dot`: the part of the body's angular acceleration that is quadratic in the
-/// rates when `v = theta_dot`.
+/// `d/dt [J_r(theta(t))] v` for the rate `theta_dot`: the part of the body's angular acceleration that is quadratic in
+/// the rates when `v = theta_dot`.
 Vector3d right_jacobian_rate_so3(const Vector3d& theta, const Vector3d& theta_dot, const Vector3d& v);
 
 }  // namespace spring_workbench

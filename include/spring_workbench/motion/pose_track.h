@@ -72,9 +72,9 @@ class MotionSegment final : public FrameMotion {
   double end_;
   bool moving_;
   bool turning_ = false;
-  Polynomial position_;  ///< world axes [m]
-  Polynomial rotation_;  ///< rotation vector from the pose at the start, in its axes [rad]; where turning
-  bool elsewhere_ = false;                              ///< the frame is not that of the samples, B, but C
+  Polynomial position_;     ///< world axes [m]
+  Polynomial rotation_;     ///< rotation vector from the pose at the start, in its axes [rad]; where turning
+  bool elsewhere_ = false;  ///< the frame is not that of the samples, B, but C
   RigidTransform X_BC_ = RigidTransform::Identity();
 };
 

@@ -15,26 +15,26 @@ namespace spring_workbench {
 
 /// How the simulated operator moves. The numbers are those of people reaching for things in the literature, rounded.
 struct OperatorSettings {
-  unsigned seed = 1;               ///< of everything random
-  double rate = 50.0;              ///< samples per second [Hz], 1 … 1000
-  double reaction = 0.2;           ///< what is seen is seen this late [s], 0 … 2
-  double position_noise = 1e-4;    ///< of the tracker: standard deviation per axis and sample [m], 0 … 0.1
-  double angle_noise = 5e-4;       ///< the same about each axis [rad], 0 … 1
-  double aim_scatter = 0.02;       ///< a reach ends off its goal by this part of its length, per axis, 0 … 0.5
+  unsigned seed = 1;             ///< of everything random
+  double rate = 50.0;            ///< samples per second [Hz], 1 … 1000
+  double reaction = 0.2;         ///< what is seen is seen this late [s], 0 … 2
+  double position_noise = 1e-4;  ///< of the tracker: standard deviation per axis and sample [m], 0 … 0.1
+  double angle_noise = 5e-4;     ///< the same about each axis [rad], 0 … 1
+  double aim_scatter = 0.02;     ///< a reach ends off its goal by this part of its length, per axis, 0 … 0.5
 };
 
 /// What the operator sees at one moment.
 struct OperatorView {
-  std::vector<BodyState> objects;                          ///< the movable ones
-  RigidTransform X_HE = RigidTransform::Identity();        ///< the tool's tip at rest, in the handle
-  bool turns = true;                                       ///< the tool turns what it holds: all but `spring` do
+  std::vector<BodyState> objects;                    ///< the movable ones
+  RigidTransform X_HE = RigidTransform::Identity();  ///< the tool's tip at rest, in the handle
+  bool turns = true;                                 ///< the tool turns what it holds: all but `spring` do
 };
 
 /// A simulated person who assembles the scene: takes each object that is not at its target with the tool in the hand,
 /// carries it there and sets it down, by looking at where the object is and correcting, whatever the tool does. Reaches
 /// are minimum-jerk motions whose duration follows Fitts' law (J. Exp. Psychology 47, 1954); each ends a little off its
-/// goal, and what is seen is seen late. It knows of a tool where its tip is at rest, and whether it turns what it holds: with
-/// one that does not, it carries objects as they are, and leaves alone one that is in its place but turned.
+/// goal, and what is seen is seen late. It knows of a tool where its tip is at rest, and whether it turns what it
+/// holds: with one that does not, it carries objects as they are, and leaves alone one that is in its place but turned.
 /// It is not a person: no learning, no tiring, no second thoughts.
 class SimulatedOperator final : public StylusSource {
  public:
@@ -52,7 +52,7 @@ class SimulatedOperator final : public StylusSource {
   struct Seen {
     double t;
     OperatorView view;
-    RigidTransform X_WH;   ///< where the hand was then, as the operator feels it
+    RigidTransform X_WH;  ///< where the hand was then, as the operator feels it
   };
   struct Job {
     std::string object;
@@ -74,7 +74,7 @@ class SimulatedOperator final : public StylusSource {
   RigidTransform hand_for(const RigidTransform& X_WO) const;
   RigidTransform hand_over(const Vector3d& p_WE) const;
   RigidTransform hand_lifted() const;
-  RigidTransform goal(double lift) const;   ///< of the held object's frame O: its target, `lift` [m] above
+  RigidTransform goal(double lift) const;  ///< of the held object's frame O: its target, `lift` [m] above
   bool off(const RigidTransform& X_WO_goal, bool height_too) const;
   bool done(const Job& job) const;
   bool can_turn(const Target& target) const;
@@ -88,14 +88,14 @@ class SimulatedOperator final : public StylusSource {
   const Look look_;
   std::vector<Job> jobs_;
   Job* job_ = nullptr;
-  double carry_height_;                     ///< how far objects are lifted above their target to be carried [m]
-  Matrix3d R_WH_;                           ///< attitude of the hand that takes things up
+  double carry_height_;  ///< how far objects are lifted above their target to be carried [m]
+  Matrix3d R_WH_;        ///< attitude of the hand that takes things up
   std::mt19937 random_;
-  std::deque<Seen> seen_;                   ///< the first one is what the operator is aware of
+  std::deque<Seen> seen_;  ///< the first one is what the operator is aware of
   Phase phase_ = Phase::choose;
   long samples_ = 0;
   double t_ = 0.0;
-  RigidTransform X_WH_;                     ///< where the hand is, but for the noise
+  RigidTransform X_WH_;  ///< where the hand is, but for the noise
   RigidTransform X_WH_from_, X_WH_to_;
   double t_from_ = 0.0, t_to_ = 0.0, t_decide_ = 0.0;
   bool button_ = false;

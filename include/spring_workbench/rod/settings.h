@@ -26,18 +26,19 @@ struct ForkDofs {
 
 /// The spring-fork's elastic part (doc/model.md, "The spring-fork is a rod").
 struct ForkSettings {
-  std::string shape = "linear";               ///< key `shape`: the shape model's name
-  double length = 0.2;                        ///< key `fork.length` [m], > 0: rest length L
-  PerFamily stiffness{2000.0, 500.0, 5.0};    ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
-  PerFamily damping_ratio{1.0, 1.0, 1.0};     ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
-  std::string damping_law = "per_family";     ///< key `fork.damping_law`: per_family, or modal: the same ζ in every mode of
-                                              ///< the held body, for one ζ of all families
-  ForkDofs dofs;                              ///< keys `fork.dofs.*`
-  double breakaway_force = std::numeric_limits<double>::infinity();   ///< key `fork.breakaway_force` [N], > 0: at the tip;
-  double breakaway_moment = std::numeric_limits<double>::infinity();  ///< key `fork.breakaway_moment` [N·m], > 0: likewise;
-                                                                      ///< what would take more is let go
-  double switch_off_time = 0.05;              ///< key `fork.switch_off_time` [s], > 0: time constant on which a family that
-                                              ///< is switched off while strained goes back to zero strain
+  std::string shape = "linear";             ///< key `shape`: the shape model's name
+  double length = 0.2;                      ///< key `fork.length` [m], > 0: rest length L
+  PerFamily stiffness{2000.0, 500.0, 5.0};  ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
+  PerFamily damping_ratio{1.0, 1.0, 1.0};   ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
+  std::string damping_law = "per_family";   ///< key `fork.damping_law`: per_family, or modal: the same ζ in every mode
+                                            ///< of the held body, for one ζ of all families
+  ForkDofs dofs;                            ///< keys `fork.dofs.*`
+  double breakaway_force =
+      std::numeric_limits<double>::infinity();  ///< key `fork.breakaway_force` [N], > 0: at the tip;
+  double breakaway_moment = std::numeric_limits<double>::infinity();  ///< key `fork.breakaway_moment` [N·m], > 0:
+                                                                      ///< likewise; what would take more is let go
+  double switch_off_time = 0.05;  ///< key `fork.switch_off_time` [s], > 0: time constant on which a family that
+                                  ///< is switched off while strained goes back to zero strain
 };
 
 }  // namespace spring_workbench

@@ -20,12 +20,12 @@ using StrainJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_strain
 /// Where the fork's tip E is in the handle frame H and how it moves with the strain; all vectors in the axes of H.
 struct TipKinematics {
   Matrix3d R_HE = Matrix3d::Identity();
-  Vector3d p_HE = Vector3d::Zero();                 ///< [m]
-  StrainJacobian angular;                           ///< tip's angular velocity = angular · q̇
-  StrainJacobian linear;                            ///< tip's velocity = linear · q̇
-  Vector3d angular_bias = Vector3d::Zero();         ///< angular acceleration = angular · q̈ + angular_bias [rad/s²]
-  Vector3d linear_bias = Vector3d::Zero();          ///< acceleration = linear · q̈ + linear_bias [m/s²]
-  StrainVector condensed_force;                     ///< ∂U/∂q beyond K q, from coordinates that are condensed
+  Vector3d p_HE = Vector3d::Zero();          ///< [m]
+  StrainJacobian angular;                    ///< tip's angular velocity = angular · q̇
+  StrainJacobian linear;                     ///< tip's velocity = linear · q̇
+  Vector3d angular_bias = Vector3d::Zero();  ///< angular acceleration = angular · q̈ + angular_bias [rad/s²]
+  Vector3d linear_bias = Vector3d::Zero();   ///< acceleration = linear · q̈ + linear_bias [m/s²]
+  StrainVector condensed_force;              ///< ∂U/∂q beyond K q, from coordinates that are condensed
 };
 
 /// The same for one strain (`S` double) or several.
@@ -64,11 +64,11 @@ class ShapeModel {
   CoordinateRange torsion() const { return {size() - 2, 1}; }
   CoordinateRange stretch() const { return {size() - 1, 1}; }
 
-  /// Diagonal of the stiffness matrix K, `U = ½ qᵀ K q` [J] with nothing condensed, for the families' stiffness [N/m, N/m,
-  /// N·m/rad].
+  /// Diagonal of the stiffness matrix K, `U = ½ qᵀ K q` [J] with nothing condensed, for the families' stiffness [N/m,
+  /// N/m, N·m/rad].
   virtual StrainVector stiffness(const PerFamily& k) const = 0;
-  /// The same shape for this stiffness, where the stiffness decides on the shape (by coordinates that are condensed); else
-  /// null. As made by make_shape_model a shape has none of them.
+  /// The same shape for this stiffness, where the stiffness decides on the shape (by coordinates that are condensed);
+  /// else null. As made by make_shape_model a shape has none of them.
   virtual std::shared_ptr<const ShapeModel> for_stiffness(const PerFamily& k) const;
   /// Elastic energy in condensed coordinates, beyond ½ qᵀ K q [J].
   virtual double condensed_energy(const StrainVector& q) const;
@@ -86,8 +86,8 @@ class ShapeModel {
   /// Pose of the rod's section at arc length `s` of the rest shape, 0 ≤ s ≤ length(), in H.
   virtual RigidTransform section(const StrainVector& q, double s) const = 0;
 
-  /// Where other coordinates give the same tip with less strain, takes those, with the rates of the same motion (a rotation
-  /// vector beyond a half turn: the other way round). Returns whether it did.
+  /// Where other coordinates give the same tip with less strain, takes those, with the rates of the same motion (a
+  /// rotation vector beyond a half turn: the other way round). Returns whether it did.
   virtual bool rechart(StrainVector& q, StrainVector& q_dot) const;
 
   /// Whether the strain is one that a rod can have: finite, not turned inside out, not wound up beyond `max_turns`.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <ros/ros.h>
+
 #include <string>
 #include <vector>
 
@@ -8,14 +9,15 @@
 
 namespace spring_workbench {
 
-/// What a node `manipulation` that is started again after a crash goes on with: scene, tools, switches, stiffness, damping,
-/// integrator, and where the objects were; nobody holds anything. It lies on the parameter server under `~resume`, is
-/// brought up to date twice a second while something changes, and is deleted when the node ends in order.
+/// What a node `manipulation` that is started again after a crash goes on with: scene, tools, switches, stiffness,
+/// damping, integrator, and where the objects were; nobody holds anything. It lies on the parameter server under
+/// `~resume`, is brought up to date twice a second while something changes, and is deleted when the node ends in order.
 class Checkpoint {
  public:
-  /// Brings the runner to the checkpoint, where there is one of a node that was started with the same scene; one that cannot be
-  /// used is told, and nothing of it is. `runner` must outlive this; `scene_roots`: as of load_scene().
-  Checkpoint(const ros::NodeHandle& private_node, SimulationRunner& runner, const std::vector<std::string>& scene_roots);
+  /// Brings the runner to the checkpoint, where there is one of a node that was started with the same scene; one that
+  /// cannot be used is told, and nothing of it is. `runner` must outlive this; `scene_roots`: as of load_scene().
+  Checkpoint(const ros::NodeHandle& private_node, SimulationRunner& runner,
+             const std::vector<std::string>& scene_roots);
   ~Checkpoint();
   Checkpoint(const Checkpoint&) = delete;
   Checkpoint& operator=(const Checkpoint&) = delete;

@@ -10,7 +10,8 @@
 
 namespace spring_workbench {
 
-/// The node `contact_sound`: `contacts` in, sound out, to the sound device or to the WAV file `~file`. Call `ros::spin()`.
+/// The node `contact_sound`: `contacts` in, sound out, to the sound device or to the WAV file `~file`. Call
+/// `ros::spin()`.
 class ContactSound {
  public:
   /// Reads `~volume` and `~file`. Throws InputError when one cannot be used or there is no sound device.

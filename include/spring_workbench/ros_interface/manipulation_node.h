@@ -19,8 +19,8 @@
 namespace spring_workbench {
 
 /// The node `manipulation`: tf and buttons in; physics in its own thread, on the steady clock or, under `use_sim_time`,
-/// on ROS time; states, markers and reports out. Call the callbacks of the global queue beside it. It ends in order when it is
-/// destroyed before ros::shutdown().
+/// on ROS time; states, markers and reports out. Call the callbacks of the global queue beside it. It ends in order
+/// when it is destroyed before ros::shutdown().
 class ManipulationNode {
  public:
   /// Reads parameters and scene. Throws InputError when one cannot be used.

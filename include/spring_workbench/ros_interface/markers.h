@@ -11,10 +11,10 @@
 
 namespace spring_workbench {
 
-/// Draws the simulation for rviz: bodies, targets, shadows on the bench, the deformed fork in the colour of its load with
-/// a legend, force and moment at the tip as arrows and text, contact points with their normals. Every marker keeps its
-/// namespace and id while what it shows is there and is deleted by name when it is gone, so that nothing flickers; rviz
-/// drops by itself what is no longer sent.
+/// Draws the simulation for rviz: bodies, targets, shadows on the bench, the deformed fork in the colour of its load
+/// with a legend, force and moment at the tip as arrows and text, contact points with their normals. Every marker keeps
+/// its namespace and id while what it shows is there and is deleted by name when it is gone, so that nothing flickers;
+/// rviz drops by itself what is no longer sent.
 class MarkerBuilder {
  public:
   /// `fork_curve`: one of fork_curve_names(). `lifetime` [s] of a marker that is not sent again.

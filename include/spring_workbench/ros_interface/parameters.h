@@ -21,7 +21,7 @@ YAML::Node private_parameters(const ros::NodeHandle& private_node);
 /// Private parameters of the node `manipulation`: these, and every key of `setting_descriptions()`
 /// and `truth_descriptions()`.
 struct ManipulationParameters {
-  std::string scene;                  ///< `scene`, required: a URDF's path or package:// URI
+  std::string scene;                     ///< `scene`, required: a URDF's path or package:// URI
   std::vector<std::string> scene_roots;  ///< `scene_roots`: folders that `~load_scene` may read from, beside packages
   double rate = 100.0;                ///< `rate` [Hz], 1 … 2000: of the physics loop and of all messages but markers
   double markers_rate = 30.0;         ///< `markers_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with

@@ -38,7 +38,7 @@ class PlayoutClock {
   LocalTime arrival_;
   double buttons_until_ = -std::numeric_limits<double>::infinity();
   double buttons_arrival_ = -std::numeric_limits<double>::infinity();  ///< in attended time
-  double interval_ = 0.0;  ///< smoothed time between samples [s]
+  double interval_ = 0.0;                                              ///< smoothed time between samples [s]
 };
 
 }  // namespace spring_workbench

@@ -44,8 +44,8 @@ class SimulationRunner {
   void restart();
   /// Another scene, with the settings as they are now. Throws InputError, and keeps the old one, when it does not fit.
   void load(const Scene& scene);
-  /// The same, and `prepare` changes the simulation first; then these objects are where they are said to be, and there when
-  /// the first hand comes: see Simulation::place. Where anything throws, all stays as it was.
+  /// The same, and `prepare` changes the simulation first; then these objects are where they are said to be, and there
+  /// when the first hand comes: see Simulation::place. Where anything throws, all stays as it was.
   void resume(const Scene& scene, const std::function<void(Simulation&)>& prepare,
               const std::map<std::string, RigidTransform>& X_WO);
 
@@ -100,9 +100,9 @@ class SimulationRunner {
   std::unique_ptr<Simulation> simulation_;
   TaskMonitor task_;
   std::vector<HandInput> inputs_;
-  double grid_;              ///< [s]; 0: none
-  ros::Time zero_;           ///< of the simulation's times
-  bool has_sample_ = false;  ///< of any hand since the last start
+  double grid_;                                   ///< [s]; 0: none
+  ros::Time zero_;                                ///< of the simulation's times
+  bool has_sample_ = false;                       ///< of any hand since the last start
   std::map<std::string, RigidTransform> places_;  ///< of objects, for the first epoch
 };
 

@@ -38,8 +38,8 @@ class StatePublisher {
   bool markers_were_built_ = false;  ///< in this cycle
   MarkerBuilder markers_;
   tf2_ros::TransformBroadcaster transforms_;
-  ros::Publisher objects_publisher_, fork_publisher_, second_fork_publisher_, wrench_publisher_, contacts_publisher_, markers_publisher_,
-      steps_publisher_, task_publisher_;
+  ros::Publisher objects_publisher_, fork_publisher_, second_fork_publisher_, wrench_publisher_, contacts_publisher_,
+      markers_publisher_, steps_publisher_, task_publisher_;
 };
 
 }  // namespace spring_workbench

@@ -50,9 +50,9 @@ using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, NextTool, B
 
 /// What came in so far.
 struct InputStatistics {
-  std::size_t messages = 0;                     ///< on /tf, those of this node left out
-  std::set<std::string> frames;                 ///< child frames in them
-  StreamFigures stream;                         ///< of the samples used
+  std::size_t messages = 0;      ///< on /tf, those of this node left out
+  std::set<std::string> frames;  ///< child frames in them
+  StreamFigures stream;          ///< of the samples used
   GateCounts gate;
   std::size_t restarts = 0;                     ///< times ROS time jumped back
   std::map<std::string, std::size_t> left_out;  ///< by reason
@@ -60,11 +60,12 @@ struct InputStatistics {
   double newest_arrival = 0.0;                  ///< local time [s]
 };
 
-/// One stylus: listens to /tf, /tf_static and its buttons, and keeps what came, in order, until it is taken. What cannot be used is
-/// left out, counted by reason and told in one throttled line.
+/// One stylus: listens to /tf, /tf_static and its buttons, and keeps what came, in order, until it is taken. What
+/// cannot be used is left out, counted by reason and told in one throttled line.
 class StylusInput {
  public:
-  /// Listens to the child frame `frame` and to `joy` (`stylus/joy`: button 0 grasps while it is down, 1 takes the next tool).
+  /// Listens to the child frame `frame` and to `joy` (`stylus/joy`: button 0 grasps while it is down, 1 takes the next
+  /// tool).
   StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame, std::string joy);
 
   /// What came since the last call. The first event ever, and the first after a jump of time, is a NewEpoch.
@@ -107,7 +108,7 @@ class StylusInput {
   std::map<std::string, ros::WallTime> told_;  ///< when a reason to leave a sample out was last logged
   ros::Time zero_;                             ///< of the epoch; zero before the first input
   ros::Time last_now_;
-  bool jumped_ = false;  ///< ROS time went back, and the streams have not both followed yet
+  bool jumped_ = false;     ///< ROS time went back, and the streams have not both followed yet
   double jumped_at_ = 0.0;  ///< when that was noticed, in attended time [s]
   bool pressed_ = false, next_tool_ = false;
   ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;

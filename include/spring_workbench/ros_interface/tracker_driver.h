@@ -19,8 +19,9 @@ namespace spring_workbench {
 
 /// The node `tracker_driver`: plays a motion in its own time, or passes a device's samples on, or those of
 /// a stylus that is moved by messages (a marker in rviz, a game pad), as tf frames (stylus,
-/// head) and buttons (`stylus/joy`, of station k `stylus_k/joy`; 0: grasp, 1: next tool), stamped with the moment at which each sample is due (a
-/// device's: at which it came). A device's station 1 is the stylus, head_station the head, station k else the frame stylus_k.
+/// head) and buttons (`stylus/joy`, of station k `stylus_k/joy`; 0: grasp, 1: next tool), stamped with the moment at
+/// which each sample is due (a device's: at which it came). A device's station 1 is the stylus, head_station the head,
+/// station k else the frame stylus_k.
 class TrackerDriver {
  public:
   /// Throws InputError when a parameter or the file cannot be used.
@@ -54,7 +55,7 @@ class TrackerDriver {
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   RigidTransform X_BT_;
   std::unique_ptr<OperatorEyes> eyes_;  ///< for the operator
-  TruthLayer played_;  ///< the motion that is played
+  TruthLayer played_;                   ///< the motion that is played
   std::size_t sent_ = 0, left_out_ = 0, passes_ = 0;
   double interval_ = 0.0;  ///< between the last two samples sent [s]
   bool over_ = false;

@@ -16,11 +16,11 @@ struct OutlineBox {
 /// The boxes around a body's collision shapes, in its object frame.
 std::vector<OutlineBox> outline(const Body& body);
 
-/// Along which direction two boxes are furthest apart, and by how much: at least the gap between them. Negative where they
-/// overlap; its size is then the least way that separates them (the fifteen axes of the separating axis theorem).
+/// Along which direction two boxes are furthest apart, and by how much: at least the gap between them. Negative where
+/// they overlap; its size is then the least way that separates them (the fifteen axes of the separating axis theorem).
 struct BoxGap {
-  double gap = 0.0;                 ///< [m]
-  Vector3d n_W = Vector3d::UnitZ(); ///< unit, from `b` towards `a`
+  double gap = 0.0;                  ///< [m]
+  Vector3d n_W = Vector3d::UnitZ();  ///< unit, from `b` towards `a`
 };
 BoxGap gap_between(const OutlineBox& a, const OutlineBox& b);
 

@@ -25,10 +25,10 @@ struct Cylinder {
 };
 /// Triangles in the shape's frame; shared, never changed after loading.
 struct TriangleMesh {
-  std::vector<Vector3d> vertices;                ///< [m]
-  std::vector<Eigen::Vector3i> triangles;        ///< indices into `vertices`, counter-clockwise from outside
-  std::string uri;                               ///< where it came from, for markers
-  Vector3d scale = Vector3d::Ones();             ///< already applied to `vertices`
+  std::vector<Vector3d> vertices;          ///< [m]
+  std::vector<Eigen::Vector3i> triangles;  ///< indices into `vertices`, counter-clockwise from outside
+  std::string uri;                         ///< where it came from, for markers
+  Vector3d scale = Vector3d::Ones();       ///< already applied to `vertices`
 };
 using MeshPtr = std::shared_ptr<const TriangleMesh>;
 using Geometry = std::variant<Box, Sphere, Cylinder, MeshPtr>;
@@ -47,22 +47,22 @@ struct MassProperties {
 };
 
 struct Material {
-  double friction = 0.5;                                             ///< Coulomb coefficient, ≥ 0
-  double restitution = 0.0;                                          ///< 0 … 1
-  double density = 1000.0;                                           ///< [kg/m³], > 0
-  double stiffness = std::numeric_limits<double>::infinity();        ///< [N/m], read by the spring-probe; > 0
+  double friction = 0.5;                                       ///< Coulomb coefficient, ≥ 0
+  double restitution = 0.0;                                    ///< 0 … 1
+  double density = 1000.0;                                     ///< [kg/m³], > 0
+  double stiffness = std::numeric_limits<double>::infinity();  ///< [N/m], read by the spring-probe; > 0
 };
 
 /// One rigid body of the scene: a URDF link with everything that hangs on it by fixed joints.
 struct Body {
-  std::string name;                                     ///< the URDF link's name; unique in the scene
+  std::string name;  ///< the URDF link's name; unique in the scene
   bool movable = false;
-  RigidTransform X_WO = RigidTransform::Identity();     ///< start pose of the object frame O in world
-  RigidTransform X_OL = RigidTransform::Identity();     ///< the URDF link frame L in O (a translation: −centre of mass)
-  MassProperties mass_properties;                       ///< zero for a body that is not movable or has no mass
+  RigidTransform X_WO = RigidTransform::Identity();  ///< start pose of the object frame O in world
+  RigidTransform X_OL = RigidTransform::Identity();  ///< the URDF link frame L in O (a translation: −centre of mass)
+  MassProperties mass_properties;                    ///< zero for a body that is not movable or has no mass
   Material material;
   std::vector<Shape> collision;
-  std::vector<Shape> visual;                            ///< the collision shapes where the URDF gives no visual
+  std::vector<Shape> visual;  ///< the collision shapes where the URDF gives no visual
 };
 
 enum class ContactMode { none, stop, dynamic };
@@ -79,15 +79,15 @@ struct Scene {
   std::string name;
   std::string path;
   std::vector<Body> bodies;
-  double gravity = 9.81;                        ///< [m/s²], along −z of world; ≥ 0
-  double bench_height = 0.0;                    ///< z of the workbench plane in world [m]
-  Material bench_material;                      ///< the scene's defaults
+  double gravity = 9.81;      ///< [m/s²], along −z of world; ≥ 0
+  double bench_height = 0.0;  ///< z of the workbench plane in world [m]
+  Material bench_material;    ///< the scene's defaults
   ContactMode contact = ContactMode::stop;
   std::string tool = "spring_fork";
-  double force_scale = 1.0;                     ///< virtual per real unit of force, > 0
+  double force_scale = 1.0;                                ///< virtual per real unit of force, > 0
   RigidTransform X_WH_start = RigidTransform::Identity();  ///< start of the fork's handle
   std::map<std::string, Target> targets;
-  std::vector<std::string> warnings;            ///< what was mended on loading; each names the link
+  std::vector<std::string> warnings;  ///< what was mended on loading; each names the link
 };
 
 /// The folder of a package in the colon-separated folders of ROS_PACKAGE_PATH, or an empty string: no ROS needed.

@@ -29,8 +29,8 @@ class PlayedMotion {
 /// without effect: `A`, `I`, `N`, `R`, `r`, `o`. Ctrl-Y and `W` give the state at power-on, at once.
 class FastrakDevice {
  public:
-  /// 1 … 4 motions; throws InputError for another number. `switches`: the stations whose stylus' switch works; 1 alone with
-  /// the maker's device, while one that emulates it may know more.
+  /// 1 … 4 motions; throws InputError for another number. `switches`: the stations whose stylus' switch works; 1 alone
+  /// with the maker's device, while one that emulates it may know more.
   explicit FastrakDevice(std::vector<PlayedMotion> motions, std::vector<int> switches = {1});
 
   /// What the device answers to these bytes of the host.

@@ -15,21 +15,22 @@ class Node;
 
 namespace spring_workbench {
 
-/// Everything that can be set from outside about a simulation. One field per key; the keys with unit, range and meaning are
-/// in `setting_descriptions()`, which the parameter server, `replay` and the reference in doc/ are all made from.
+/// Everything that can be set from outside about a simulation. One field per key; the keys with unit, range and meaning
+/// are in `setting_descriptions()`, which the parameter server, `replay` and the reference in doc/ are all made from.
 struct SimulationSettings {
-  std::string tool = "";               ///< key `tool`; empty: as the scene says
-  std::string contact = "";            ///< key `contact`; none, stop, dynamic; empty: as the scene says
-  double gravity = -1.0;               ///< key `gravity` [m/s²]; negative: as the scene says
-  double force_scale = -1.0;           ///< key `force_scale`; negative: as the scene says
-  DynamicsSettings dynamics;           ///< keys `integrator`, `step`, `tolerance`, `inertia`
-  ForkSettings fork;                   ///< keys `shape`, `fork.*`
-  GraspSettings grasp;                 ///< keys `calibrate`, `grasp.*`, `start.follow`, `release`
-  double dropout_after = 0.5;          ///< key `dropout_after` [s]
-  int bisection_levels = 8;            ///< key `bisection_levels`; 0 … 30 (paper, section 5); 0: time of impact
+  std::string tool = "";       ///< key `tool`; empty: as the scene says
+  std::string contact = "";    ///< key `contact`; none, stop, dynamic; empty: as the scene says
+  double gravity = -1.0;       ///< key `gravity` [m/s²]; negative: as the scene says
+  double force_scale = -1.0;   ///< key `force_scale`; negative: as the scene says
+  DynamicsSettings dynamics;   ///< keys `integrator`, `step`, `tolerance`, `inertia`
+  ForkSettings fork;           ///< keys `shape`, `fork.*`
+  GraspSettings grasp;         ///< keys `calibrate`, `grasp.*`, `start.follow`, `release`
+  double dropout_after = 0.5;  ///< key `dropout_after` [s]
+  int bisection_levels = 8;    ///< key `bisection_levels`; 0 … 30 (paper, section 5); 0: time of impact
 };
 
-/// Throws InputError for an unknown damping law, or one that the damping ratios do not go with (doc/model.md, "Damping").
+/// Throws InputError for an unknown damping law, or one that the damping ratios do not go with (doc/model.md,
+/// "Damping").
 void check_damping(const std::string& where, const ForkSettings& fork);
 
 /// Which tolerances `integrator` may be given [m]; 0: fixed steps.
@@ -37,10 +38,10 @@ NumberRule allowed_tolerance();
 
 /// What one key means.
 struct SettingDescription {
-  std::string key;            ///< e.g. "fork.stiffness.bend"
-  std::string type;           ///< bool, int, double, string, double list
-  std::string unit;           ///< SI unit, or "–"
-  std::string allowed;        ///< e.g. "> 0"
+  std::string key;      ///< e.g. "fork.stiffness.bend"
+  std::string type;     ///< bool, int, double, string, double list
+  std::string unit;     ///< SI unit, or "–"
+  std::string allowed;  ///< e.g. "> 0"
   std::string default_value;
   std::string meaning;
 };

@@ -16,75 +16,75 @@ namespace spring_workbench {
 struct BodyState {
   std::string name;
   RigidTransform X_WO = RigidTransform::Identity();
-  Twist V_WO_W;               ///< [m/s, rad/s]
+  Twist V_WO_W;  ///< [m/s, rad/s]
   bool held = false;
-  bool highlighted = false;   ///< the fork's tip is in it and the button is up
+  bool highlighted = false;  ///< the fork's tip is in it and the button is up
   bool in_contact = false;
   bool asleep = true;
 };
 
 /// State of the tool in a hand.
 struct ToolState {
-  bool present = false;                                          ///< a sample of this hand is known
+  bool present = false;  ///< a sample of this hand is known
   std::string tool = "spring_fork";
-  std::string held_object;                                       ///< empty when nothing is held
-  std::string touched;                                           ///< what the probe is on, "workbench" for the bench; else empty
+  std::string held_object;  ///< empty when nothing is held
+  std::string touched;      ///< what the probe is on, "workbench" for the bench; else empty
   std::string shape;
   std::string integrator;
-  ForkDofs dofs;                                                 ///< families switched on
-  double length = 0.0;                                           ///< rest length [m]
-  PerFamily stiffness;                                           ///< [N/m, N/m, N·m/rad]
-  PerFamily damping_ratio;                                       ///< –
-  StrainVector strain;                                           ///< all coordinates of the shape model; zero when nothing is held
-  double stretch = 0.0;                                          ///< extension along the rod [m]
-  Eigen::Vector2d bend = Eigen::Vector2d::Zero();                ///< tip deflection along x and y of the handle [m]
-  double torsion = 0.0;                                          ///< twist angle [rad]
-  RigidTransform X_WS = RigidTransform::Identity();              ///< the stylus
-  RigidTransform X_WH = RigidTransform::Identity();              ///< the handle, as the hand has it: the stylus itself unless
-                                                                 ///< the fork was given another size, or gripped anew
-  RigidTransform X_WH_seen = RigidTransform::Identity();         ///< the handle that the object sees (proxy of the hand)
-  RigidTransform X_WE = RigidTransform::Identity();              ///< the tip
-  Wrench tip_wrench_W;                                           ///< on the object at the tip, world axes [N, N·m]
-  Wrench handle_wrench_H;                                        ///< what the hand would feel, at and in the handle frame
-  double elastic_energy = 0.0;                                   ///< [J]
-  double kinetic_energy = 0.0;                                   ///< of the held object, in world [J]
-  double force_scale = 1.0;                                      ///< virtual per real unit of force
-  double weight = 0.0;                                           ///< the tool as a scale: upward force on the object over g [vkg]
-  double torque = 0.0;                                           ///< the tool as a torque wrench: moment about its axis at the tip [N·m]
-  double material_stiffness = 0.0;                               ///< that the probe reads [N/m]; infinite: rigid; 0: no reading
-  double material_stiffness_uncertainty = 0.0;                   ///< one standard deviation [N/m]
+  ForkDofs dofs;                                     ///< families switched on
+  double length = 0.0;                               ///< rest length [m]
+  PerFamily stiffness;                               ///< [N/m, N/m, N·m/rad]
+  PerFamily damping_ratio;                           ///< –
+  StrainVector strain;                               ///< all coordinates of the shape model; zero when nothing is held
+  double stretch = 0.0;                              ///< extension along the rod [m]
+  Eigen::Vector2d bend = Eigen::Vector2d::Zero();    ///< tip deflection along x and y of the handle [m]
+  double torsion = 0.0;                              ///< twist angle [rad]
+  RigidTransform X_WS = RigidTransform::Identity();  ///< the stylus
+  RigidTransform X_WH = RigidTransform::Identity();  ///< the handle, as the hand has it: the stylus itself unless
+                                                     ///< the fork was given another size, or gripped anew
+  RigidTransform X_WH_seen = RigidTransform::Identity();  ///< the handle that the object sees (proxy of the hand)
+  RigidTransform X_WE = RigidTransform::Identity();       ///< the tip
+  Wrench tip_wrench_W;                                    ///< on the object at the tip, world axes [N, N·m]
+  Wrench handle_wrench_H;                                 ///< what the hand would feel, at and in the handle frame
+  double elastic_energy = 0.0;                            ///< [J]
+  double kinetic_energy = 0.0;                            ///< of the held object, in world [J]
+  double force_scale = 1.0;                               ///< virtual per real unit of force
+  double weight = 0.0;              ///< the tool as a scale: upward force on the object over g [vkg]
+  double torque = 0.0;              ///< the tool as a torque wrench: moment about its axis at the tip [N·m]
+  double material_stiffness = 0.0;  ///< that the probe reads [N/m]; infinite: rigid; 0: no reading
+  double material_stiffness_uncertainty = 0.0;  ///< one standard deviation [N/m]
 };
 
 enum class ContactPhase { started, persisting, ended };
 
 struct ContactState {
   std::string object;
-  std::string other;                      ///< another object's name, or "workbench"
-  Vector3d p_W = Vector3d::Zero();        ///< [m]
-  Vector3d n_W = Vector3d::UnitZ();       ///< towards `object`
-  double depth = 0.0;                     ///< penetration [m]
-  double impulse = 0.0;                   ///< normal impulse in the last step [N·s]
-  double force = 0.0;                     ///< the same as a mean force over that step [N]
-  double slip_speed = 0.0;                ///< [m/s]
+  std::string other;                 ///< another object's name, or "workbench"
+  Vector3d p_W = Vector3d::Zero();   ///< [m]
+  Vector3d n_W = Vector3d::UnitZ();  ///< towards `object`
+  double depth = 0.0;                ///< penetration [m]
+  double impulse = 0.0;              ///< normal impulse in the last step [N·s]
+  double force = 0.0;                ///< the same as a mean force over that step [N]
+  double slip_speed = 0.0;           ///< [m/s]
   ContactPhase phase = ContactPhase::started;
 };
 
 /// What a call of `advance` did.
 struct AdvanceReport {
-  int steps = 0;                          ///< integrator steps taken
-  double simulated_time = 0.0;            ///< [s]
-  double position_error = 0.0;            ///< largest estimate of a step's local error [m]
-  double angle_error = 0.0;               ///< [rad]
-  double energy_added = 0.0;              ///< to the held object and the fork, beyond the work of hand, gravity, damping
-                                          ///< and contact [J]; means something where stiffest_omega_dt is below about 1
-  double stiffest_omega_dt = 0.0;         ///< ω·dt of the stiffest mode
-  int steps_among_movable = 0;            ///< of `steps`, with other movable objects (contact mode `dynamic`)
+  int steps = 0;                   ///< integrator steps taken
+  double simulated_time = 0.0;     ///< [s]
+  double position_error = 0.0;     ///< largest estimate of a step's local error [m]
+  double angle_error = 0.0;        ///< [rad]
+  double energy_added = 0.0;       ///< to the held object and the fork, beyond the work of hand, gravity, damping
+                                   ///< and contact [J]; means something where stiffest_omega_dt is below about 1
+  double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
+  int steps_among_movable = 0;     ///< of `steps`, with other movable objects (contact mode `dynamic`)
   int collision_queries = 0;
-  int steps_rejected = 0;                 ///< steps tried and taken again shorter, for their error
-  int energy_held = 0;                    ///< steps whose gain of energy, with the hand at rest, was taken away
-  int held_back = 0;                      ///< steps in which contact left a body no way that was found, and it stayed
-  int guards_tripped = 0;                 ///< times a step was refused because it would not have been finite or bounded
-  std::vector<std::string> parts_run;     ///< e.g. "stretch", "gravity", "collision"
+  int steps_rejected = 0;              ///< steps tried and taken again shorter, for their error
+  int energy_held = 0;                 ///< steps whose gain of energy, with the hand at rest, was taken away
+  int held_back = 0;                   ///< steps in which contact left a body no way that was found, and it stayed
+  int guards_tripped = 0;              ///< times a step was refused because it would not have been finite or bounded
+  std::vector<std::string> parts_run;  ///< e.g. "stretch", "gravity", "collision"
   std::vector<std::string> parts_left_out;
 };
 
@@ -119,8 +119,8 @@ class Simulation {
   bool push_stylus(const PoseSample& sample, std::size_t hand = 0);
   /// The grasp button goes down or up at time `t` [s]; takes effect at the first step that begins at or after `t`.
   void push_button(double t, bool pressed, std::size_t hand = 0);
-  /// The second button of the stylus is pressed at time `t` [s]: the next of tool_names(), or, while something is held, the
-  /// next that can hold it.
+  /// The second button of the stylus is pressed at time `t` [s]: the next of tool_names(), or, while something is held,
+  /// the next that can hold it.
   void push_next_tool(double t, std::size_t hand = 0);
   /// Time of the newest sample of any hand, or time() where there is none.
   double newest_sample() const;
@@ -130,16 +130,16 @@ class Simulation {
 
   /// Objects back to their start, nothing held, no sample known: for a jump of time, or on request.
   void reset();
-  /// These objects to where they are said to be, from rest, in all hands' stead: nothing is held. Names that the scene does not
-  /// have are left out. Throws InputError when a pose is not finite.
+  /// These objects to where they are said to be, from rest, in all hands' stead: nothing is held. Names that the scene
+  /// does not have are left out. Throws InputError when a pose is not finite.
   void place(const std::map<std::string, RigidTransform>& X_WO);
   /// Every hand lets go of what it holds. False when nothing was held.
   bool release();
   /// The same of one hand.
   bool release(std::size_t hand);
 
-  // Changes while running, of the tools in all hands; pose and twist of the object go on without a jump. Bad values throw
-  // InputError and change nothing.
+  // Changes while running, of the tools in all hands; pose and twist of the object go on without a jump. Bad values
+  // throw InputError and change nothing.
   /// One of tool_names(), for one hand. The object that it holds goes on; the new tool starts without strain. The probe
   /// cannot hold: with it the object is let go.
   ChangeReport select_tool(const std::string& name, std::size_t hand = 0);
@@ -148,8 +148,8 @@ class Simulation {
   ChangeReport set_stiffness(const PerFamily& stiffness);
   /// `law`: one of damping_laws(); empty keeps the present one. `modal` takes one ratio for all families.
   ChangeReport set_damping_ratio(const PerFamily& ratio, const std::string& law = "");
-  /// Stiffness from the mass and size of the held object, the first hand's where both hold one; the damping ratios stay.
-  /// Throws InputError when nothing is held.
+  /// Stiffness from the mass and size of the held object, the first hand's where both hold one; the damping ratios
+  /// stay. Throws InputError when nothing is held.
   ChangeReport calibrate();
   /// By name; `step` [s] 0 keeps the present one; `tolerance` [m] of the run, 0 takes fixed steps (see StepControl).
   void set_integrator(const std::string& name, double step, double tolerance = 0.0);

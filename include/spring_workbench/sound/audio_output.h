@@ -16,7 +16,8 @@ class AudioOutput {
 /// A WAV file (16 bit); complete when the output is destroyed. Throws InputError when it cannot be written.
 std::unique_ptr<AudioOutput> open_wav_file(const std::string& path);
 
-/// The default sound device, through SDL 2. Throws InputError when there is none, or where the package was built without.
+/// The default sound device, through SDL 2. Throws InputError when there is none, or where the package was built
+/// without.
 std::unique_ptr<AudioOutput> open_audio_device();
 
 }  // namespace spring_workbench

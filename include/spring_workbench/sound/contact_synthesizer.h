@@ -35,8 +35,8 @@ class ContactSynthesizer {
 
   double volume_;
   std::array<Mode, 4> modes_;
-  double speed_ = 0.0, heard_speed_ = 0.0;   ///< [m/s]; the second follows the first without a click
-  double low_ = 0.0, band_ = 0.0;            ///< state of the noise's band-pass
+  double speed_ = 0.0, heard_speed_ = 0.0;  ///< [m/s]; the second follows the first without a click
+  double low_ = 0.0, band_ = 0.0;           ///< state of the noise's band-pass
   std::uint32_t noise_ = 1;
 };
 

@@ -34,7 +34,7 @@ class TaskMonitor {
   struct Last {
     double t = 0.0;
     Vector3d hand = Vector3d::Zero();
-    std::string held;              ///< empty: nothing
+    std::string held;  ///< empty: nothing
     Vector3d p_held = Vector3d::Zero();
   };
 

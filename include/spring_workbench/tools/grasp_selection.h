@@ -10,8 +10,8 @@ namespace spring_workbench {
 /// What the hand does with the grasp button (paper, section 5): insert the fork, adjust it, press and hold, let go.
 enum class GraspEvent { none, grasp, release };
 
-/// Turns the button's level and the object that the tip is inserted in into grasp and release. Pressing in the air grasps
-/// nothing, also when the tip enters an object afterwards with the button still down.
+/// Turns the button's level and the object that the tip is inserted in into grasp and release. Pressing in the air
+/// grasps nothing, also when the tip enters an object afterwards with the button still down.
 class GraspSelection {
  public:
   /// The object whose inside the tip is in at present, if any.

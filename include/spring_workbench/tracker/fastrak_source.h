@@ -35,8 +35,8 @@ const std::vector<int>& fastrak_baud_rates();
 const std::vector<std::string>& fastrak_keys();
 
 /// From a map: `port`, `baud`, `format` (binary, ascii), `stations` (list), `orientation` (quaternion, euler),
-/// `redundant`, `hemisphere` (x y z), `stylus` (true: station 1; false: none; or a list); other keys are not looked at. Throws InputError with `where`, key,
-/// value and rule.
+/// `redundant`, `hemisphere` (x y z), `stylus` (true: station 1; false: none; or a list); other keys are not looked at.
+/// Throws InputError with `where`, key, value and rule.
 FastrakSettings read_fastrak_settings(const YAML::Node& map, const std::string& where);
 
 /// The commands that bring the device into the mode that the settings ask for, whatever it was in, in portions that it

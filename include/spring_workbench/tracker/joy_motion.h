@@ -12,12 +12,13 @@ namespace spring_workbench {
 
 /// How a game pad or a 3D mouse moves the stylus.
 struct JoySettings {
-  std::array<int, 6> axes = {0, 1, 2, 3, 4, 5};  ///< `axes`: numbers of those for x y z and turning about x y z; −1: none
-  double move_speed = 0.25;                      ///< `move_speed` [m/s] at full deflection, 0 … 2
-  double turn_speed = 1.0;                       ///< `turn_speed` [rad/s] at full deflection, 0 … 10
-  double dead_zone = 0.1;                        ///< `dead_zone`, 0 … 0.9 of full deflection: counts as none
-  int grasp_button = 0;                          ///< `grasp_button`: grasp while held; −1: none
-  int tool_button = 1;                           ///< `tool_button`: next tool; −1: none
+  std::array<int, 6> axes = {0, 1, 2,
+                             3, 4, 5};  ///< `axes`: numbers of those for x y z and turning about x y z; −1: none
+  double move_speed = 0.25;             ///< `move_speed` [m/s] at full deflection, 0 … 2
+  double turn_speed = 1.0;              ///< `turn_speed` [rad/s] at full deflection, 0 … 10
+  double dead_zone = 0.1;               ///< `dead_zone`, 0 … 0.9 of full deflection: counts as none
+  int grasp_button = 0;                 ///< `grasp_button`: grasp while held; −1: none
+  int tool_button = 1;                  ///< `tool_button`: next tool; −1: none
 };
 
 /// The keys of read_joy_settings.

@@ -23,10 +23,10 @@ class PoseFilter {
   bool running_ = false;
   bool active_;
   TruthSettings settings_;
-  PoseSample raw_;                     ///< the newest sample
-  RigidTransform X_;                   ///< filtered
-  Vector3d v_ = Vector3d::Zero();      ///< low-passed velocity [m/s]
-  Vector3d w_B_ = Vector3d::Zero();    ///< low-passed turn rate, body axes [rad/s]
+  PoseSample raw_;                   ///< the newest sample
+  RigidTransform X_;                 ///< filtered
+  Vector3d v_ = Vector3d::Zero();    ///< low-passed velocity [m/s]
+  Vector3d w_B_ = Vector3d::Zero();  ///< low-passed turn rate, body axes [rad/s]
 };
 
 }  // namespace spring_workbench

@@ -4,8 +4,8 @@
 
 namespace spring_workbench {
 
-/// A pose that goes after a goal which comes in leaps (a dragged marker's, at the rate of its picture): towards it with a
-/// time constant, and never faster than a hand. It reaches a goal at rest and does not go beyond it.
+/// A pose that goes after a goal which comes in leaps (a dragged marker's, at the rate of its picture): towards it with
+/// a time constant, and never faster than a hand. It reaches a goal at rest and does not go beyond it.
 class PoseFollower {
  public:
   static constexpr double time_constant = 0.03;  ///< [s]

@@ -19,9 +19,9 @@ struct ReengagementCounts {
 /// Gives the hand that the simulation follows: the tracked one, but where that is lost and found elsewhere, one that
 /// sets out at rest from where it was held and catches up with it.
 ///
-/// From sample to sample the pose followed goes along with the tracked hand's own step, and besides a part of the way to
-/// it: at `reengage_speed` and `reengage_turn_rate`, and at the end with a time constant of 0.1 s. Both come in smoothly
-/// over 0.2 s. So the hand that is followed is never quicker than the tracked one by more than these two.
+/// From sample to sample the pose followed goes along with the tracked hand's own step, and besides a part of the way
+/// to it: at `reengage_speed` and `reengage_turn_rate`, and at the end with a time constant of 0.1 s. Both come in
+/// smoothly over 0.2 s. So the hand that is followed is never quicker than the tracked one by more than these two.
 class Reengagement {
  public:
   explicit Reengagement(const TruthSettings& settings) : settings_(settings) {}
@@ -29,8 +29,8 @@ class Reengagement {
   /// What to follow after this sample, in order: nothing when it is not later than `simulated_until` [s] (it came too
   /// late); two samples when the hand was held beyond the last one. `new_place`: see Verdict.
   std::vector<PoseSample> follow(const PoseSample& sample, bool new_place, double simulated_until);
-  /// The next time up to `until` [s] at which the held object is to be let go of because the hand was lost, if any. Each
-  /// is told once, and none where `lost` is freeze.
+  /// The next time up to `until` [s] at which the held object is to be let go of because the hand was lost, if any.
+  /// Each is told once, and none where `lost` is freeze.
   std::optional<double> take_release(double until);
   const ReengagementCounts& counts() const { return counts_; }
   /// Forgets the hand; keeps the counts.
@@ -46,9 +46,9 @@ class Reengagement {
   std::optional<PoseSample> newest_;  ///< followed
   PoseSample tracked_;                ///< the newest one, as it was tracked
   bool catching_up_ = false;
-  double set_out_at_ = 0.0;           ///< [s]
-  bool loss_noted_ = false;           ///< of the time since `newest_`
-  std::deque<double> releases_;       ///< not taken yet
+  double set_out_at_ = 0.0;      ///< [s]
+  bool loss_noted_ = false;      ///< of the time since `newest_`
+  std::deque<double> releases_;  ///< not taken yet
   ReengagementCounts counts_;
 };
 

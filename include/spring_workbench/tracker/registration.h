@@ -24,14 +24,13 @@ struct Registration {
   double angle_error = 0.0;       ///< expected RMS angle of the rotation's error [rad]
 };
 
-/// Least-squares pose (Umeyama, IEEE PAMI 13(4), 1991, without scale) of at least three landmarks. With touches that are
-/// off by σ along each axis, `E[Σ residual²] = (3N − 6) σ²` (Sibson 1979; Fitzpatrick, West, Maurer, IEEE TMI 17(5),
-/// 1998), from which the touches' error is estimated; position and angle errors follow by linear propagation:
-/// `3 σ²/N` and `σ² tr (Σ (|d|² I − d dᵀ))⁻¹`, d from the landmarks' middle.
-/// Throws InputError when there are too few, two names are the same, they lie (within a centimetre) on one line, a
-/// residual is larger than `largest_residual` [m] (the message names the worst, and the order that would fit if there is
-/// one), or, for up to seven landmarks, another order of the touches fits nearly as well: then their arrangement is
-/// symmetric and cannot tell which is which.
+/// Least-squares pose (Umeyama, IEEE PAMI 13(4), 1991, without scale) of at least three landmarks. With touches that
+/// are off by σ along each axis, `E[Σ residual²] = (3N − 6) σ²` (Sibson 1979; Fitzpatrick, West, Maurer, IEEE TMI
+/// 17(5), 1998), from which the touches' error is estimated; position and angle errors follow by linear propagation: `3
+/// σ²/N` and `σ² tr (Σ (|d|² I − d dᵀ))⁻¹`, d from the landmarks' middle. Throws InputError when there are too few, two
+/// names are the same, they lie (within a centimetre) on one line, a residual is larger than `largest_residual` [m]
+/// (the message names the worst, and the order that would fit if there is one), or, for up to seven landmarks, another
+/// order of the touches fits nearly as well: then their arrangement is symmetric and cannot tell which is which.
 Registration register_tracker(const std::vector<Landmark>& landmarks, double largest_residual);
 
 /// Where the tip is in the stylus' frame, found by turning the stylus about its resting tip.

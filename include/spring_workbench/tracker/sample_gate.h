@@ -11,20 +11,20 @@ namespace spring_workbench {
 
 /// A sample as it came: nothing is known of it yet.
 struct RawSample {
-  double t = 0.0;                          ///< stamp [s]
-  Vector3d p = Vector3d::Zero();           ///< origin of the tracked frame, in the tracker's frame [m]
-  Quaterniond q = Quaterniond::Identity(); ///< its rotation; perhaps of another length than 1
+  double t = 0.0;                           ///< stamp [s]
+  Vector3d p = Vector3d::Zero();            ///< origin of the tracked frame, in the tracker's frame [m]
+  Quaterniond q = Quaterniond::Identity();  ///< its rotation; perhaps of another length than 1
 };
 
 /// What the gate says of a sample.
 enum class Verdict {
-  accepted,        ///< goes on from the sample before
-  new_place,       ///< accepted, but not from where the last one was: after a jump or a dropout, or the first of all
+  accepted,   ///< goes on from the sample before
+  new_place,  ///< accepted, but not from where the last one was: after a jump or a dropout, or the first of all
   not_finite,
   bad_quaternion,  ///< far from unit length
   too_far,
-  not_later,       ///< repeated or backward stamp
-  too_close,       ///< a stamp right after the last one, as a burst has them: a step over that time says no velocity
+  not_later,  ///< repeated or backward stamp
+  too_close,  ///< a stamp right after the last one, as a burst has them: a step over that time says no velocity
   too_fast,
   turns_too_fast,
   out_of_view,
@@ -39,9 +39,9 @@ std::string complaint(Verdict verdict, const RawSample& sample, const TruthSetti
 /// What the gate met so far.
 struct GateCounts {
   std::size_t accepted = 0;
-  std::size_t new_places = 0;           ///< jumps that were taken as true
-  std::size_t dropouts = 0;             ///< gaps between accepted samples longer than `dropout_after`
-  std::size_t sign_flips = 0;           ///< neighbours whose quaternions have opposite signs; harmless
+  std::size_t new_places = 0;  ///< jumps that were taken as true
+  std::size_t dropouts = 0;    ///< gaps between accepted samples longer than `dropout_after`
+  std::size_t sign_flips = 0;  ///< neighbours whose quaternions have opposite signs; harmless
   std::map<Verdict, std::size_t> left_out;
 };
 

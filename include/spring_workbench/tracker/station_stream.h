@@ -11,7 +11,8 @@
 namespace spring_workbench {
 
 /// One station of a device on its way from the wire: stamped by the device's cadence, then through the truth layer.
-/// The cadence is measured over three seconds without a gap, anew if it proves wrong; until then a stamp is the moment of receipt.
+/// The cadence is measured over three seconds without a gap, anew if it proves wrong; until then a stamp is the moment
+/// of receipt.
 class StationStream {
  public:
   /// `dropout_after` [s], > 0: see SampleGate. `even_stamps`: false leaves the moments of receipt as they are.

@@ -8,11 +8,11 @@ namespace spring_workbench {
 /// How evenly the samples of a station come. Smoothed over some fifty samples.
 struct StreamFigures {
   std::size_t samples = 0;
-  double interval = 0.0;         ///< mean time between stamps [s]; 0 before the second sample
-  double stamp_jitter = 0.0;     ///< standard deviation of it [s]
-  double receipt_jitter = 0.0;   ///< standard deviation of the time between receipts [s]
-  double age = 0.0;              ///< of the newest sample when it came: receipt less stamp [s]
-  double longest_gap = 0.0;      ///< between stamps [s]
+  double interval = 0.0;        ///< mean time between stamps [s]; 0 before the second sample
+  double stamp_jitter = 0.0;    ///< standard deviation of it [s]
+  double receipt_jitter = 0.0;  ///< standard deviation of the time between receipts [s]
+  double age = 0.0;             ///< of the newest sample when it came: receipt less stamp [s]
+  double longest_gap = 0.0;     ///< between stamps [s]
 };
 
 /// Keeps the figures of a stream of stamps [s] and their receipts [s], both of one clock or each of its own.

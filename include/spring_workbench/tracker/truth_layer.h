@@ -15,8 +15,7 @@ struct TrueSample {
 class TruthLayer {
  public:
   /// `dropout_after` [s], > 0: see SampleGate.
-  TruthLayer(const TruthSettings& settings, double dropout_after)
-      : gate_(settings, dropout_after), filter_(settings) {}
+  TruthLayer(const TruthSettings& settings, double dropout_after) : gate_(settings, dropout_after), filter_(settings) {}
 
   TrueSample take(const RawSample& raw);
   /// The same for a pose that is known to be one, which comes through unchanged to the bit where nothing is filtered.

@@ -38,9 +38,9 @@ struct WorldContact {
   Vector3d impulse_W = Vector3d::Zero();  ///< on `body`, in the last step [N·s]
 };
 
-/// What moves together in contact mode `dynamic` (doc/model.md): all bodies of the scene in one rigid-body world. Friction
-/// is Coulomb's with a round cone, the pair's coefficients are geometric means. Bodies at rest are put to sleep and leave the world until
-/// something comes near: they cost nothing. Deterministic. One thread at a time.
+/// What moves together in contact mode `dynamic` (doc/model.md): all bodies of the scene in one rigid-body world.
+/// Friction is Coulomb's with a round cone, the pair's coefficients are geometric means. Bodies at rest are put to
+/// sleep and leave the world until something comes near: they cost nothing. Deterministic. One thread at a time.
 class RigidWorld {
  public:
   static constexpr std::size_t bench = static_cast<std::size_t>(-1);
@@ -61,8 +61,8 @@ class RigidWorld {
   virtual const Twist& velocity(std::size_t body) const = 0;  ///< at O, world axes
   virtual bool awake(std::size_t body) const = 0;             ///< false for one that is not movable
 
-  /// Broadphase: whether anything movable comes near the body's way over `h` [s]: a sleeper, or one awake or of `carried`
-  /// on its own way.
+  /// Broadphase: whether anything movable comes near the body's way over `h` [s]: a sleeper, or one awake or of
+  /// `carried` on its own way.
   virtual bool near_movable(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
                             const std::vector<std::size_t>& carried) const = 0;
 

@@ -33,17 +33,37 @@ Options parse_options(int argc, char** argv) {
   opterr = 0;
   for (int code; (code = getopt_long(argc, argv, ":", known, nullptr)) != -1;) {
     switch (code) {
-      case help: options.help = true; return options;
-      case scene: options.scene = optarg; break;
-      case settings: apply_settings(load_yaml_file(optarg), optarg, options.settings); break;
-      case tool: options.tool = read_choice(YAML::Node(std::string(optarg)), kWhere, "--tool", tool_labels()); break;
-      case trials: options.trials = whole_number("--trials", optarg, 1, 10000); break;
-      case seed: options.seed = whole_number("--seed", optarg, 0, 1000000000); break;
-      case out: options.out = optarg; break;
-      case table: options.table = optarg; break;
-      case record: options.record = optarg; break;
-      case ':': refuse(kWhere, argv[optind - 1], "(nothing)", "followed by a value");
-      default: refuse(kWhere, "option", argv[optind - 1], "one of those that --help lists");
+      case help:
+        options.help = true;
+        return options;
+      case scene:
+        options.scene = optarg;
+        break;
+      case settings:
+        apply_settings(load_yaml_file(optarg), optarg, options.settings);
+        break;
+      case tool:
+        options.tool = read_choice(YAML::Node(std::string(optarg)), kWhere, "--tool", tool_labels());
+        break;
+      case trials:
+        options.trials = whole_number("--trials", optarg, 1, 10000);
+        break;
+      case seed:
+        options.seed = whole_number("--seed", optarg, 0, 1000000000);
+        break;
+      case out:
+        options.out = optarg;
+        break;
+      case table:
+        options.table = optarg;
+        break;
+      case record:
+        options.record = optarg;
+        break;
+      case ':':
+        refuse(kWhere, argv[optind - 1], "(nothing)", "followed by a value");
+      default:
+        refuse(kWhere, "option", argv[optind - 1], "one of those that --help lists");
     }
   }
   if (optind < argc) refuse(kWhere, "argument", argv[optind], "an option that --help lists");
@@ -65,7 +85,8 @@ assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--tria
   --trials    of each tool; default 20
   --seed      of the first trial; the others count up; default 1
   --out       a line of CSV per trial:
-              tool,seed,)" + score_csv_header() + R"(
+              tool,seed,)" +
+         score_csv_header() + R"(
   --table     a table in Markdown of each tool's mean and its 95 % confidence interval
   --record    the hand of the first trial as a motion file: replay and tracker_driver play it
 

@@ -47,7 +47,8 @@ std::string completed(const std::vector<TaskScore>& scores) {
 
 std::string markdown_table(const std::vector<ToolTrials>& tools) {
   std::string table =
-      "| tool | trials | completed | placed | time [s] | hand's way [m] | objects' way [m] | grasps | collisions | drops "
+      "| tool | trials | completed | placed | time [s] | hand's way [m] | objects' way [m] | grasps | collisions | "
+      "drops "
       "| largest force [N] | placement error [mm] |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const ToolTrials& tool : tools) {

@@ -9,7 +9,8 @@
 
 namespace spring_workbench {
 
-/// Runs a program and turns what it throws into one line and an exit status: 0 done, 2 bad arguments or input, 1 failed.
+/// Runs a program and turns what it throws into one line and an exit status: 0 done, 2 bad arguments or input, 1
+/// failed.
 template <typename Program>
 int run_program(const std::string& name, Program&& program) {
   const auto end = [&](std::string line, int status) {

@@ -100,8 +100,8 @@ fastrak_simulator --motion FILE [--motion FILE ...] [--link PATH] [--rate HZ] [-
   --rate      records per second of all stations together, 0.1 ... 10000; 120, as the device
   --speed     of the device's clock, 0.01 ... 1000; 1
   --duration  of the device's clock [s]; 0: until it is interrupted
-  --switch    station K, 2 ... 4, has a stylus whose switch works, too: its motion's button. Of the maker's device that of
-              station 1 alone does, of devices that emulate it others may
+  --switch    station K, 2 ... 4, has a stylus whose switch works, too: its motion's button. Of the maker's device
+              that of station 1 alone does, of devices that emulate it others may
   --fault     what goes wrong from `from` to `until` [s; 0, for ever], with the part `rate` (0 ... 1; 1) of the records:
               garbage     random bytes before, in or after a record, or a bit that is wrong
               cut         a stretch of a record is missing

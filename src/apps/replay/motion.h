@@ -14,8 +14,8 @@ struct ButtonEvent {
 
 /// A recorded hand. Times in s from the first sample; stamps as recorded, also repeated and backward ones.
 struct Motion {
-  std::vector<PoseSample> samples;   ///< never empty
-  std::vector<ButtonEvent> buttons;  ///< changes of the grasp button, which starts up
+  std::vector<PoseSample> samples;     ///< never empty
+  std::vector<ButtonEvent> buttons;    ///< changes of the grasp button, which starts up
   std::vector<ButtonEvent> next_tool;  ///< the same of the button for the next tool
 };
 

@@ -149,10 +149,11 @@ RUN.fork.csv, a line per output time:
   elastic_energy,kinetic_energy             [J] of the fork; of the held object
 
 The last line on standard output is one JSON object: steps, simulated_time and wall_time and time_per_step [s], outputs,
-samples, samples_left_out (by the rules of truth.*; left_out says why), reengagements, losses (of the hand), position_error [m] and angle_error [rad] (the
-largest estimate of a step's local error), energy_drift [J] (added by integration beyond hand, gravity, damping and
-contact), stiffest_omega_dt, contacts (pairs that came into contact, as seen at the output times), collision_queries,
-held_back (steps in which contact left an object no way and it stayed), guards_tripped, parts_run, parts_left_out.
+samples, samples_left_out (by the rules of truth.*; left_out says why), reengagements, losses (of the hand),
+position_error [m] and angle_error [rad] (the largest estimate of a step's local error), energy_drift [J] (added by
+integration beyond hand, gravity, damping and contact), stiffest_omega_dt, contacts (pairs that came into
+contact, as seen at the output times), collision_queries, held_back (steps in which contact left an object
+no way and it stayed), guards_tripped, parts_run, parts_left_out.
 Exit status: 0 done; 2 bad arguments or input, with one line on standard error.
 
 Keys (unit; allowed; default): meaning

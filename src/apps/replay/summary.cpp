@@ -85,8 +85,8 @@ std::string Summary::json() const {
       << ", \"energy_drift\": " << total_.energy_added << ", \"stiffest_omega_dt\": " << total_.stiffest_omega_dt
       << ", \"contacts\": " << contacts_ << ", \"collision_queries\": " << total_.collision_queries
       << ", \"steps_rejected\": " << total_.steps_rejected << ", \"energy_held\": " << total_.energy_held
-      << ", \"held_back\": " << total_.held_back << ", \"guards_tripped\": " << total_.guards_tripped << ", \"parts_run\": " << list_of(parts_run_)
-      << ", \"parts_left_out\": " << list_of(never_run) << "}";
+      << ", \"held_back\": " << total_.held_back << ", \"guards_tripped\": " << total_.guards_tripped
+      << ", \"parts_run\": " << list_of(parts_run_) << ", \"parts_left_out\": " << list_of(never_run) << "}";
   return out.str();
 }
 

@@ -13,11 +13,11 @@ namespace spring_workbench::replay {
 /// What a whole run did.
 class Summary {
  public:
-  int samples = 0;           ///< of the motion
-  GateCounts gate;           ///< of them
+  int samples = 0;  ///< of the motion
+  GateCounts gate;  ///< of them
   ReengagementCounts hand;
-  int outputs = 0;           ///< output times
-  double wall_time = 0.0;    ///< [s]
+  int outputs = 0;         ///< output times
+  double wall_time = 0.0;  ///< [s]
 
   void add(const AdvanceReport& report);
   /// Counts the pairs in contact now that were not at the call before.

@@ -264,7 +264,8 @@ void BulletWorld::end_driving(const std::vector<DrivenBody>& driven) {
 
 void BulletWorld::enter_what_is_near(double h) {
   std::vector<std::size_t> reached;
-  std::copy_if(in_world_.begin(), in_world_.end(), std::back_inserter(reached), [&](std::size_t i) { return awake(items_[i]); });
+  std::copy_if(in_world_.begin(), in_world_.end(), std::back_inserter(reached),
+               [&](std::size_t i) { return awake(items_[i]); });
   std::set<std::size_t> known(reached.begin(), reached.end());
   for (std::size_t k = 0; k < reached.size(); ++k) {
     for (const std::size_t other : inside(way_of(reached[k], h))) {
@@ -335,7 +336,8 @@ bool BulletWorld::near_movable(std::size_t body, const RigidTransform& X0_WO, co
   };
   const std::vector<std::size_t> found = inside(way);
   return std::any_of(found.begin(), found.end(), [&](std::size_t i) { return i != body && items_[i].movable; }) ||
-         std::any_of(in_world_.begin(), in_world_.end(), [&](std::size_t i) { return awake(items_[i]) && comes_near(i); }) ||
+         std::any_of(in_world_.begin(), in_world_.end(),
+                     [&](std::size_t i) { return awake(items_[i]) && comes_near(i); }) ||
          std::any_of(carried.begin(), carried.end(), comes_near);
 }
 

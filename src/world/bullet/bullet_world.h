@@ -54,10 +54,10 @@ class BulletWorld final : public RigidWorld {
  private:
   struct Item {
     bool movable = false;
-    bool massless = false;                             ///< movable, but only by what drives it
+    bool massless = false;  ///< movable, but only by what drives it
     Eigen::AlignedBox3d box_O;
     double radius = 0.0;
-    std::vector<OutlineBox> outline_O;                 ///< a box around each shape
+    std::vector<OutlineBox> outline_O;  ///< a box around each shape
     RigidTransform X_WO = RigidTransform::Identity();
     Twist V_WO_W;
     RigidTransform X_OB = RigidTransform::Identity();  ///< principal axes, where Bullet's tensors are diagonal
@@ -65,8 +65,8 @@ class BulletWorld final : public RigidWorld {
     std::unique_ptr<BulletShape> shape;                ///< these two are made when something first comes near
     std::unique_ptr<btRigidBody> bullet;
     bool in_world = false;
-    bool driven = false;                               ///< in the present step
-    long near_at = 0;                                  ///< step in which something awake was last near
+    bool driven = false;  ///< in the present step
+    long near_at = 0;     ///< step in which something awake was last near
   };
 
   struct Remembered {

@@ -11,7 +11,8 @@ namespace spring_workbench {
 namespace {
 
 constexpr int most_sweeps = 1000;
-constexpr std::size_t most_at_once = 150;  ///< contacts whose equations are solved at once, where the sweeps are not done
+constexpr std::size_t most_at_once =
+    150;                                ///< contacts whose equations are solved at once, where the sweeps are not done
 constexpr double small_change = 1e-8;   ///< of the largest impulse: the sweeps end …
 constexpr int enough_sweeps = 30;       ///< … or, after so many, …
 constexpr double small_way = 1e-8;      ///< [m] … where one changes no way by more, and no contact is further off
@@ -121,7 +122,8 @@ bool DrivenSolver::sweep_until_done(Rows& rows) const {
     const double square = change.squaredNorm();
     if (last_square > 0.0 && square <= last_square && i + 1 < most_sweeps) {
       const double share = square / last_square;
-      for (std::size_t k = 0; k < count; ++k) rows[k].apply(share * direction[static_cast<Eigen::Index>(k)], rows.change);
+      for (std::size_t k = 0; k < count; ++k)
+        rows[k].apply(share * direction[static_cast<Eigen::Index>(k)], rows.change);
       direction = change + share * direction;
     } else {
       direction = change;

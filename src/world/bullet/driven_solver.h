@@ -9,8 +9,8 @@ namespace spring_workbench {
 
 /// Bullet's contact solver with four changes: driven bodies answer to a load by their full 6 × 6 compliance instead of
 /// a mass; before it, contacts of theirs that are closed and approach are stopped by impulses; friction lies in a round
-/// cone; and the sweeps go on until they change nothing. Where they are too many and leave a miss, all contacts are solved
-/// at once.
+/// cone; and the sweeps go on until they change nothing. Where they are too many and leave a miss, all contacts are
+/// solved at once.
 class DrivenSolver final : public btSequentialImpulseConstraintSolver {
  public:
   struct Driven {
@@ -26,7 +26,8 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
     Vector3d impulse_W;  ///< on the manifold's first body [N·s]
   };
   const std::vector<Impact>& impacts() const { return impacts_; }
-  /// How far a contact that presses would still go in or out in the last step, or another one in [m]: what the sweeps left.
+  /// How far a contact that presses would still go in or out in the last step, or another one in [m]: what the sweeps
+  /// left.
   double missed_way() const { return missed_way_; }
   static constexpr double small_miss = 1e-6;  ///< [m]; with less, a step is solved
 

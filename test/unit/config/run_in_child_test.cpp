@@ -88,8 +88,9 @@ TEST(RunInChild, FromManyThreadsAtOnce) {
   std::vector<int> right(8, 0);
   for (std::size_t i = 0; i < right.size(); ++i) {
     threads.emplace_back([&right, i] {
-      for (int k = 0; k < 10; ++k) right[i] += run_in_child([i] { return std::string(100000, static_cast<char>(i)); }, ample) ==
-                                               std::string(100000, static_cast<char>(i));
+      for (int k = 0; k < 10; ++k)
+        right[i] += run_in_child([i] { return std::string(100000, static_cast<char>(i)); }, ample) ==
+                    std::string(100000, static_cast<char>(i));
     });
   }
   for (std::thread& thread : threads) thread.join();

@@ -45,8 +45,8 @@ TEST(Allocations, AreCounted) {
 }
 
 TEST_P(Stepping, AllocatesNothing) {
-  // Whole steps and steps to a tolerance, loads that come and go, a stiffness that changes, motions that need new linear
-  // parts.
+  // Whole steps and steps to a tolerance, loads that come and go, a stiffness that changes, motions that need new
+  // linear parts.
   for (const std::string& shape : shape_model_names()) {
     for (const bool all : {true, false}) {
       for (const double tolerance : {0.0, 1e-3}) {

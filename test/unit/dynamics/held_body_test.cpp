@@ -139,8 +139,9 @@ TEST(HeldBody, ProjectedTwistIsTheObjectsOwnWhereTheForkCanFollow) {
   EXPECT_LT((o.velocity.angular - twist.angular).norm(), 1e-11);
 }
 
-const std::vector<ForkDofs> families{{true, true, true},  {true, true, false}, {true, false, true}, {false, true, true},
-                                     {true, false, false}, {false, true, false}, {false, false, true}};
+const std::vector<ForkDofs> families{{true, true, true},  {true, true, false},  {true, false, true},
+                                     {false, true, true}, {true, false, false}, {false, true, false},
+                                     {false, false, true}};
 
 TEST(HeldBody, ObjectObeysNewtonAndEulerUnderTheRodsWrench) {
   // D'Alembert: what the body's inertia, gravity and a load do along each coordinate is what spring and damper do.
@@ -187,9 +188,7 @@ TEST(HeldBody, TheElasticForceIsTheSlopeOfTheElasticEnergy) {
       StrainState s = held.zero_state();
       s.q = StrainVector::NullaryExpr(held.size(), [&] { return 0.3 * uniform(random); });
       const StrainVector way = StrainVector::NullaryExpr(held.size(), [&] { return uniform(random); });
-      const auto energy = [&](double part) {
-        return held.elastic_energy(0.0, {s.q + part * way, s.q_dot});
-      };
+      const auto energy = [&](double part) { return held.elastic_energy(0.0, {s.q + part * way, s.q_dot}); };
       const double slope = (energy(1e-4) - energy(-1e-4)) / 2e-4;
       const double scale = held.elastic_force(0.0, s.q).norm() * way.norm();
       EXPECT_NEAR(slope, held.elastic_force(0.0, s.q).dot(way), 1e-6 * scale) << shape;
@@ -219,7 +218,8 @@ TEST(HeldBody, StretchAloneAndTorsionAloneHaveTheirDampingRatios) {
       only(held, {!torsion, false, torsion});
       ASSERT_EQ(held.size(), 1);
       const double M = held.mass_matrix(0.0, held.zero_state().q)(0, 0), K = held.stiffness()[0];
-      EXPECT_NEAR(held.damping()(0, 0) / (2.0 * std::sqrt(K * M)), torsion ? ratio.torsion : ratio.stretch, 1e-12) << shape;
+      EXPECT_NEAR(held.damping()(0, 0) / (2.0 * std::sqrt(K * M)), torsion ? ratio.torsion : ratio.stretch, 1e-12)
+          << shape;
     }
   }
 }

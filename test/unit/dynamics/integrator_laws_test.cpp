@@ -44,7 +44,9 @@ TEST_P(EveryIntegrator, HasItsOrderOfAccuracy) {
     };
     // Steps of about ω h = 0.2 or, of low order, less; 1; and, of order one, 1/1000 of the time.
     const int per_omega = static_cast<int>(0.2 * c.omega);
-    const int steps = order == 1 ? 1000 : limited_by_stiffness(GetParam()) ? (order < 4 ? 40 : 5) * per_omega : 5 + per_omega;
+    const int steps = order == 1                         ? 1000
+                      : limited_by_stiffness(GetParam()) ? (order < 4 ? 40 : 5) * per_omega
+                                                         : 5 + per_omega;
     const double coarse = error(steps), fine = error(2 * steps);
     const double found = std::log2(coarse / fine);
     if (GetParam() == "exponential") {  // six, where what ends the sweeps leaves less than the cubic does
@@ -66,7 +68,7 @@ TEST_P(EveryIntegrator, EstimatesItsLocalErrorWithinAFactorOfTenInNineStepsOfTen
     const Case c = random_case(shape, zeta, 1.0, random);
     // Steps from well resolved to, where the method can, stiff.
     const double omega_dt = limited_by_stiffness(GetParam()) ? 0.02 * std::pow(20.0, uniform(random)) / (1.0 + zeta)
-                                      : 0.05 * std::pow(1000.0, uniform(random));
+                                                             : 0.05 * std::pow(1000.0, uniform(random));
     const double h = std::min(omega_dt / c.omega, 0.05);
     const int finer = 10 + static_cast<int>(std::ceil(20.0 * (1.0 + zeta) * h * c.omega));
     const auto integrator = make_integrator(GetParam()), reference = make_integrator("rk4");

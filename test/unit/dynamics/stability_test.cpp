@@ -10,8 +10,8 @@
 namespace spring_workbench {
 namespace {
 
-// The cells of the stability map: stiffness × mass × step × damping × families × hand. Samples of the hand come with the
-// steps, at most 50 a second.
+// The cells of the stability map: stiffness × mass × step × damping × families × hand. Samples of the hand come with
+// the steps, at most 50 a second.
 
 constexpr double stiffness_factors[] = {1e-6, 1e-3, 1.0, 1e3, 1e6, 1e9, 1e12};
 constexpr double masses[] = {1e-6, 1e-3, 1.0, 1e3, 1e6};
@@ -25,12 +25,17 @@ RigidTransform pose(Hand hand, double t, std::mt19937& random) {
   std::normal_distribution<double> normal;
   switch (hand) {
     case Hand::lissajous:
-      return make_transform(Quaterniond(exp_so3(Vector3d(0.6 * std::sin(5.0 * t), 0.6 * std::sin(7.0 * t), 0.0))), on_sines);
-    case Hand::jump: return make_transform(Quaterniond::Identity(), Vector3d(t > 0.2 ? 1.0 : 0.0, 0.0, 0.0));
-    case Hand::flip: return make_transform(Quaterniond(exp_so3(Vector3d(t > 0.2 ? M_PI : 0.0, 0.0, 0.0))), Vector3d::Zero());
-    case Hand::dropout: return make_transform(Quaterniond::Identity(), t < 0.2 ? on_sines : Vector3d(0.1, 0.2, 0.3));
+      return make_transform(Quaterniond(exp_so3(Vector3d(0.6 * std::sin(5.0 * t), 0.6 * std::sin(7.0 * t), 0.0))),
+                            on_sines);
+    case Hand::jump:
+      return make_transform(Quaterniond::Identity(), Vector3d(t > 0.2 ? 1.0 : 0.0, 0.0, 0.0));
+    case Hand::flip:
+      return make_transform(Quaterniond(exp_so3(Vector3d(t > 0.2 ? M_PI : 0.0, 0.0, 0.0))), Vector3d::Zero());
+    case Hand::dropout:
+      return make_transform(Quaterniond::Identity(), t < 0.2 ? on_sines : Vector3d(0.1, 0.2, 0.3));
     case Hand::noise: {
-      const Vector3d p(normal(random), normal(random), normal(random)), w(normal(random), normal(random), normal(random));
+      const Vector3d p(normal(random), normal(random), normal(random)),
+          w(normal(random), normal(random), normal(random));
       return make_transform(Quaterniond(exp_so3(M_PI / 180.0 * w)), 1e-3 * p);
     }
   }
@@ -51,7 +56,8 @@ HeldBody body_of(const Cell& cell, const std::string& shape) {
   HeldBody held(make_shape_model(shape, 0.2), body, 9.81);
   held.set_springs({5000.0 * cell.factor, 2000.0 * cell.factor, 20.0 * cell.factor}, {cell.zeta, cell.zeta, cell.zeta});
   const StrainVector zero = StrainVector::Zero(held.shape().size());
-  held.set_dofs({(cell.families & 1) != 0, (cell.families & 2) != 0, (cell.families & 4) != 0}, 0.0, 0.05, {zero, zero});
+  held.set_dofs({(cell.families & 1) != 0, (cell.families & 2) != 0, (cell.families & 4) != 0}, 0.0, 0.05,
+                {zero, zero});
   return held;
 }
 
@@ -140,9 +146,9 @@ TEST_P(StableIntegrator, EveryCellStaysBoundedAndNoEnergyGrowsWithTheHandAtRest)
     const std::string complaint = what_is_wrong(cell, shape, GetParam());
     if (complaint.empty()) continue;
     ++wrong;
-    ADD_FAILURE() << shape << ": stiffness × " << cell.factor << ", " << cell.mass << " kg, step " << cell.step << " s, ζ "
-                  << cell.zeta << ", families " << cell.families << ", hand " << static_cast<int>(cell.hand) << ": "
-                  << complaint;
+    ADD_FAILURE() << shape << ": stiffness × " << cell.factor << ", " << cell.mass << " kg, step " << cell.step
+                  << " s, ζ " << cell.zeta << ", families " << cell.families << ", hand " << static_cast<int>(cell.hand)
+                  << ": " << complaint;
   }
   EXPECT_EQ(wrong, 0) << "of " << trials;
 }

@@ -92,11 +92,12 @@ TEST_P(SteppedWithATolerance, LandsWithinAFactorOfThreeOfItsTolerance) {
       largest = std::max(largest, distance(c, c.hand.end(), state, run.exact[i]));
     }
     EXPECT_LT(largest, 3.0 * tolerance) << c.held.shape().name() << " ζ " << run.zeta;
-    // From below where neither stability (explicit methods) nor a mode that decays within a step nor the samples, at which
-    // a step ends, rule the step.
+    // From below where neither stability (explicit methods) nor a mode that decays within a step nor the samples, at
+    // which a step ends, rule the step.
     const bool step_is_free =
         !limited_by_stiffness(GetParam()) && (first_order || run.zeta < 1.0) && steps > run.hand.size();
-    EXPECT_TRUE(!step_is_free || largest > tolerance / 3.0) << c.held.shape().name() << " ζ " << run.zeta << " " << largest;
+    EXPECT_TRUE(!step_is_free || largest > tolerance / 3.0)
+        << c.held.shape().name() << " ζ " << run.zeta << " " << largest;
   }
 }
 

@@ -156,7 +156,8 @@ TEST(ShapeModel, UnknownNameIsRefusedWithTheKnownOnes) {
   }
 }
 
-/// A small end moment M turns the bushing's tip by M L / EI, as it does the rod with a linear curvature, which is exact there.
+/// A small end moment M turns the bushing's tip by M L / EI, as it does the rod with a linear curvature, which is exact
+/// there.
 TEST(Bushing, AnEndMomentTurnsItAsItDoesTheRod) {
   const PerFamily k{2000.0, 500.0, 5.0};
   for (const double length : {0.1, 0.2, 0.7}) {

@@ -139,8 +139,7 @@ TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
   for (const double t : {0.5, 2.2, 2.6, 4.0}) {
     go_to(t);
     const ToolState tool = simulation_.fork();
-    const Vector3d point =
-        tool.X_WE * Vector3d(0.0, 0.0, ForkLook().prong_length * coil_diameter(tool.length));
+    const Vector3d point = tool.X_WE * Vector3d(0.0, 0.0, ForkLook().prong_length * coil_diameter(tool.length));
     double nearest = 1.0;
     const MarkerArray markers = build();
     for (const auto& p : find(markers, "fork", 1)->points) {

@@ -66,7 +66,8 @@ TEST(TrackerReference, TruthSettingsAreThoseOfTheCode) {
   }
   std::string right;
   for (const TruthDescription& d : truth_descriptions()) {
-    right += "| `truth." + d.key + "` | " + d.unit + " | " + d.allowed + " | " + d.default_value + " | " + d.meaning + " |\n";
+    right += "| `truth." + d.key + "` | " + d.unit + " | " + d.allowed + " | " + d.default_value + " | " + d.meaning +
+             " |\n";
   }
   EXPECT_TRUE(given == right) << "put these rows into doc/reference.md:\n" << right;
 }

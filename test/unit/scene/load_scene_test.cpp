@@ -371,7 +371,8 @@ void write_fine_sphere(const std::string& path, std::uint32_t n) {
   const auto corner = [&](std::uint32_t i, std::uint32_t j) {
     const double down = M_PI * i / n, around = 2.0 * M_PI * (j % n) / n;
     const double across = i % n == 0 ? 0.0 : std::sin(down);
-    return Eigen::Vector3f(Vector3d(across * std::cos(around), across * std::sin(around), std::cos(down)).cast<float>());
+    return Eigen::Vector3f(
+        Vector3d(across * std::cos(around), across * std::sin(around), std::cos(down)).cast<float>());
   };
   const auto write = [&](const auto& value) { stl.write(reinterpret_cast<const char*>(&value), sizeof value); };
   stl << std::string(80, ' ');
@@ -543,12 +544,14 @@ TEST_F(LoadScene, ReadsFromTheFoldersAllowedAndFromPackagesAlone) {
   folder_.write("allowed/scene.urdf", one_link);
   folder_.write("elsewhere/scene.urdf", one_link);
   folder_.write("elsewhere/t.obj", tetrahedron_obj);
-  folder_.write("allowed/up.urdf", "<robot name='r'><link name='a'><collision><geometry><mesh filename='../elsewhere/t.obj'/>"
-                                   "</geometry></collision></link></robot>");
+  folder_.write("allowed/up.urdf",
+                "<robot name='r'><link name='a'><collision><geometry><mesh filename='../elsewhere/t.obj'/>"
+                "</geometry></collision></link></robot>");
   std::filesystem::create_symlink(folder_.path("elsewhere/scene.urdf"), folder_.path("allowed/link.urdf"));
   const std::vector<std::string> roots = {folder_.path("nowhere"), folder_.path("allowed")};
   EXPECT_EQ(refusal_from(folder_.path("allowed/scene.urdf"), roots), "(loaded)");
-  for (const std::string path : {"elsewhere/scene.urdf", "allowed/../elsewhere/scene.urdf", "allowed/link.urdf", "allowed/up.urdf"}) {
+  for (const std::string path :
+       {"elsewhere/scene.urdf", "allowed/../elsewhere/scene.urdf", "allowed/link.urdf", "allowed/up.urdf"}) {
     EXPECT_TRUE(has(refusal_from(folder_.path(path), roots), "one of the folders")) << path;
     EXPECT_EQ(refusal_from(folder_.path(path), {}), "(loaded)") << path;
   }
@@ -583,7 +586,8 @@ TEST_F(LoadScene, RefusesHostileFiles) {
   std::string chain = "<robot name='r'><link name='l0'/>";
   for (int i = 1; i < 10001; ++i) {
     const std::string a = std::to_string(i - 1), b = std::to_string(i);
-    chain += "<link name='l" + b + "'/><joint name='j" + b + "' type='fixed'><parent link='l" + a + "'/><child link='l" + b + "'/></joint>";
+    chain += "<link name='l" + b + "'/><joint name='j" + b + "' type='fixed'><parent link='l" + a +
+             "'/><child link='l" + b + "'/></joint>";
   }
   folder_.write("chain.urdf", chain + "</robot>");
   EXPECT_TRUE(has(refusal_from(folder_.path("chain.urdf"), {}), "links"));
@@ -607,25 +611,31 @@ TEST_F(LoadScene, RefusesHostileFiles) {
     aliases += "a" + std::to_string(i) + ": &a" + std::to_string(i) + " [" + a + ", " + a + "]\n";
   }
   EXPECT_TRUE(has(refusal("<link name='a'/>", aliases), "size"));
-  EXPECT_TRUE(has(refusal("<link name='a'/>", "objects:\n  b:\n    " + std::string("pose: &a [&b [1, 1], *b]\n")), "pose"));
+  EXPECT_TRUE(
+      has(refusal("<link name='a'/>", "objects:\n  b:\n    " + std::string("pose: &a [&b [1, 1], *b]\n")), "pose"));
 }
 
 std::string collada(const std::string& nodes, const std::string& library = "", const std::string& count = "12") {
-  return "<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><library_geometries><geometry id='g'><mesh>"
-         "<source id='p'><float_array id='pa' count='" + count + "'>0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common>"
+  return "<COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' version='1.4.1'><library_geometries><geometry "
+         "id='g'><mesh>"
+         "<source id='p'><float_array id='pa' count='" +
+         count +
+         "'>0 0 0 1 0 0 0 1 0 0 0 1</float_array><technique_common>"
          "<accessor source='#pa' count='4' stride='3'><param name='X' type='float'/><param name='Y' type='float'/>"
          "<param name='Z' type='float'/></accessor></technique_common></source><vertices id='v'>"
-         "<input semantic='POSITION' source='#p'/></vertices><triangles count='4'><input semantic='VERTEX' source='#v' offset='0'/>"
-         "<p>0 2 1 0 1 3 1 2 3 0 3 2</p></triangles></mesh></geometry></library_geometries><library_nodes>" + library +
-         "</library_nodes><library_visual_scenes><visual_scene id='s'>" + nodes +
+         "<input semantic='POSITION' source='#p'/></vertices><triangles count='4'><input semantic='VERTEX' source='#v' "
+         "offset='0'/>"
+         "<p>0 2 1 0 1 3 1 2 3 0 3 2</p></triangles></mesh></geometry></library_geometries><library_nodes>" +
+         library + "</library_nodes><library_visual_scenes><visual_scene id='s'>" + nodes +
          "</visual_scene></library_visual_scenes><scene><instance_visual_scene url='#s'/></scene></COLLADA>";
 }
 
 // Each takes its reader along, or never ends, where it is read like any other.
 TEST_F(LoadScene, RefusesHostileMeshes) {
   const auto answer = [&](const std::string& name) {
-    folder_.write("scene.urdf", "<robot name='r'><link name='a'><collision><geometry><mesh filename='" + name + "'/></geometry>"
-                                "</collision></link></robot>");
+    folder_.write("scene.urdf", "<robot name='r'><link name='a'><collision><geometry><mesh filename='" + name +
+                                    "'/></geometry>"
+                                    "</collision></link></robot>");
     return refusal_from(folder_.path("scene.urdf"), {});
   };
   const std::string part = "<instance_geometry url='#g'/>";
@@ -641,8 +651,9 @@ TEST_F(LoadScene, RefusesHostileMeshes) {
   }
   folder_.write("deep.dae", collada(deep + part + end));
   EXPECT_TRUE(has(answer("deep.dae"), "must be readable"));
-  folder_.write("loop.dae", collada("<node id='n'><instance_node url='#a'/></node>",
-                                    "<node id='a'><instance_node url='#b'/></node><node id='b'><instance_node url='#a'/></node>"));
+  folder_.write("loop.dae",
+                collada("<node id='n'><instance_node url='#a'/></node>",
+                        "<node id='a'><instance_node url='#b'/></node><node id='b'><instance_node url='#a'/></node>"));
   EXPECT_TRUE(has(answer("loop.dae"), "must be readable"));
   std::string doubled = "<node id='m0'>" + part + "</node>";
   for (int i = 1; i < 40; ++i) {

@@ -20,7 +20,8 @@ Scene scene_of(std::vector<Body> bodies, double friction = 0.5) {
 
 /// Samples at 50 Hz from `a` to `b` at constant speed.
 void push_line(Simulation& simulation, double t0, double t1, const Vector3d& a, const Vector3d& b) {
-  for (double t = t0; t < t1 + 1e-9; t += 0.02) simulation.push_stylus({t, pointing_down(a + (t - t0) / (t1 - t0) * (b - a))});
+  for (double t = t0; t < t1 + 1e-9; t += 0.02)
+    simulation.push_stylus({t, pointing_down(a + (t - t0) / (t1 - t0) * (b - a))});
 }
 
 /// Poses of what is held, turned and pressed askew onto the bench and into a wall, at every sample.
@@ -81,8 +82,8 @@ TEST(DynamicContact, ANeighbourThatIsNotTouchedIsNotFelt) {
   for (std::size_t i = 0; i < far_way.size(); ++i) EXPECT_LT((far_way[i] - near_way[i]).norm(), 1e-4) << i;
 }
 
-// The drag scene: 5 kg pressed 0.1 m below the plane by the hand, dragged 0.5 m; with springs that do not bend into each
-// other the lag is μ k_stretch 0.1 m / k_bend, and the weight presses beside.
+// The drag scene: 5 kg pressed 0.1 m below the plane by the hand, dragged 0.5 m; with springs that do not bend into
+// each other the lag is μ k_stretch 0.1 m / k_bend, and the weight presses beside.
 struct DragOn {
   ContactMode contact;
   double slab;  // height of a movable slab on the bench, on which the box is dragged [m]; 0: none
@@ -113,7 +114,8 @@ TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
       for (int i = 1; i <= 300; ++i) {
         s.advance(0.02 * i);
         const RigidTransform& X = s.objects()[0].X_WO;
-        deepest = std::max(deepest, X.linear().row(2).cwiseAbs().dot(Vector3d(0.1, 0.05, 0.025)) + floor - X.translation().z());
+        deepest = std::max(deepest,
+                           X.linear().row(2).cwiseAbs().dot(Vector3d(0.1, 0.05, 0.025)) + floor - X.translation().z());
       }
       EXPECT_LE(deepest, 1e-5) << factor << " " << mu;
       const double pressed = 5000.0 * factor * 0.1 + 5.0 * g;

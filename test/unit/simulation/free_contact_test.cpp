@@ -44,7 +44,9 @@ INSTANTIATE_TEST_SUITE_P(Modes, LetGo, testing::Values(ContactMode::stop, Contac
 
 TEST_P(LetGo, ABoxSlidesAsFarAsFrictionLetsIt) {
   for (const double mu : {0.2, 0.4}) {
-    Simulation s = let_go(scene_of({box("held", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02 + 1e-6), mu)}, GetParam(), mu), 1.0, 3.0);
+    Simulation s =
+        let_go(scene_of({box("held", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02 + 1e-6), mu)}, GetParam(), mu),
+               1.0, 3.0);
     const BodyState start = s.objects()[0];
     ASSERT_GT(start.V_WO_W.linear.x(), 0.5);
     s.advance(3.0);
@@ -102,7 +104,8 @@ TEST_P(LetGo, OnAnInclineItStaysBelowTheAngleOfFrictionAndSlidesAbove) {
     set.fork.shape = "bushing";
     set.fork.stiffness = {0.0, 0.0, 0.0};
     Simulation s(scene_of({ramp, b}, GetParam(), mu), set);
-    const double duration = off < 0.0 ? 60.0 : 5.0, waking = 0.14;  // s, shorter than it takes a slow one to fall asleep
+    const double duration = off < 0.0 ? 60.0 : 5.0,
+                 waking = 0.14;  // s, shorter than it takes a slow one to fall asleep
     for (double t = 0.0; t < 0.2 + duration; t += 0.02) {
       s.push_stylus({t, pointing_down(b.X_WO.translation() + set.fork.length * Vector3d::UnitZ())});
     }

@@ -41,8 +41,10 @@ TEST(Probe, ReadsTheMaterialStiffnessInSeriesWithItsOwn) {
       const double force = depth / (1.0 / material + 1.0 / probe);
       EXPECT_NEAR(tool.handle_wrench_H.force.z(), -force, 1e-6 * force);
       EXPECT_NEAR(tool.stretch, -force / probe, 1e-6 * depth);
-      // A given error of the tip's position means as much more as the material is stiffer than the pressing force shows.
-      EXPECT_NEAR(tool.material_stiffness_uncertainty, 1e-4 * material * material / force, 0.03 * 1e-4 * material * material / force);
+      // A given error of the tip's position means as much more as the material is stiffer than the pressing force
+      // shows.
+      EXPECT_NEAR(tool.material_stiffness_uncertainty, 1e-4 * material * material / force,
+                  0.03 * 1e-4 * material * material / force);
     }
   }
 }

@@ -46,8 +46,8 @@ TEST(ReferenceDoc, SettingsAreThoseOfTheCode) {
   const std::string text = whole_file(SPRING_WORKBENCH_SOURCE_DIR "/doc/reference.md");
   ASSERT_NE(text, "") << "doc/reference.md cannot be read";
   const std::string right = settings_table();
-  EXPECT_TRUE(block_between_markers(text) == right)
-      << "put this between the settings markers of doc/reference.md:\n" << begin_marker << right << end_marker;
+  EXPECT_TRUE(block_between_markers(text) == right) << "put this between the settings markers of doc/reference.md:\n"
+                                                    << begin_marker << right << end_marker;
 }
 
 }  // namespace

@@ -55,8 +55,7 @@ TEST(Simulation, ThrownObjectFliesOnAParabolaAndKeepsItsAngularMomentum) {
   simulation.advance(0.5);
   const BodyState& end = simulation.objects()[0];
   const double t = 0.2;
-  const Vector3d expected =
-      start.X_WO.translation() + t * start.V_WO_W.linear - 0.5 * 9.81 * t * t * Vector3d::UnitZ();
+  const Vector3d expected = start.X_WO.translation() + t * start.V_WO_W.linear - 0.5 * 9.81 * t * t * Vector3d::UnitZ();
   EXPECT_LT((end.X_WO.translation() - expected).norm(), 1e-12);
   EXPECT_LT((momentum(end) - momentum(start)).norm(), 1e-12 + 1e-9 * momentum(start).norm());
 }
@@ -161,8 +160,8 @@ TEST(Simulation, RigidForkLeavesTheHandleBehindInsteadOfPushingThrough) {
   EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.12, 1e-6);
 }
 
-/// Pressed on the bench by a hand that trembles, through a fork that only bends: what holds it back there holds no longer
-/// than the hand presses.
+/// Pressed on the bench by a hand that trembles, through a fork that only bends: what holds it back there holds no
+/// longer than the hand presses.
 TEST(Simulation, ABoxPressedThroughAForkThatOnlyBendsComesAlongWhenItIsLifted) {
   for (unsigned seed = 0; seed < 8; ++seed) {
     std::mt19937 random(seed);
@@ -175,7 +174,8 @@ TEST(Simulation, ABoxPressedThroughAForkThatOnlyBendsComesAlongWhenItIsLifted) {
       const double t = 0.02 * i, lifted = 0.1 * std::clamp((t - 1.0) / 0.6, 0.0, 1.0);
       const double pressed = t < 1.0 ? 2e-4 : 0.0;
       const Vector3d tremble(noise(random), noise(random), noise(random));
-      simulation.push_stylus({t, pointing_down(above + tremble + Vector3d(0.0, 0.0, lifted - pressed), 5.0 * noise(random))});
+      simulation.push_stylus(
+          {t, pointing_down(above + tremble + Vector3d(0.0, 0.0, lifted - pressed), 5.0 * noise(random))});
     }
     simulation.push_button(0.0, true);
     for (int i = 1; i <= 100; ++i) simulation.advance(0.02 * i);
@@ -492,7 +492,8 @@ TEST(Calibrated, NoWeightAndThreeHundredKilogramsAreBothEasyToMove) {
     for (int i = 1; i <= 150; ++i) {
       guards += simulation.advance(0.02 * i).guards_tripped;
       farthest = std::max(farthest, simulation.objects()[0].X_WO.translation().x());
-      const Vector3d behind = simulation.objects()[0].X_WO.translation() + Vector3d(0, 0, 0.2) - simulation.fork().X_WS.translation();
+      const Vector3d behind =
+          simulation.objects()[0].X_WO.translation() + Vector3d(0, 0, 0.2) - simulation.fork().X_WS.translation();
       EXPECT_LT(behind.head<2>().norm(), 0.1) << mass;
       if (i > 100) {
         const double sag = mass > 0.0 ? 0.1 * simulation.fork().length : 0.0;
@@ -575,7 +576,8 @@ class HeldAtRest : public testing::Test {
     EXPECT_TRUE(simulation.objects()[0].held);
     EXPECT_EQ(simulation.objects()[0].V_WO_W.linear.norm(), 0.0);
     EXPECT_EQ(simulation.objects()[0].X_WO.matrix(), before.matrix());
-    EXPECT_NE(std::find(report.parts_left_out.begin(), report.parts_left_out.end(), "bend"), report.parts_left_out.end());
+    EXPECT_NE(std::find(report.parts_left_out.begin(), report.parts_left_out.end(), "bend"),
+              report.parts_left_out.end());
   }
   /// It is awake over the next moment, starts from where it was, and falls asleep again somewhere else.
   void expect_awake() {
@@ -630,7 +632,8 @@ TEST_F(HeldAtRest, FallsWhenItIsLetGo) {
 TEST(Simulation, SleeperOnABenchWakesWhenTheHandPullsItUp) {
   Simulation simulation(box_scene({0.0, 0.0, 0.02}), settings());
   push_move(simulation, 0.0, 1.0, above, above - Vector3d(0.0, 0.0, 0.01));
-  for (double t = 1.02; t < 4.01; t += 0.02) simulation.push_stylus({t, pointing_down(above - Vector3d(0.0, 0.0, 0.01))});
+  for (double t = 1.02; t < 4.01; t += 0.02)
+    simulation.push_stylus({t, pointing_down(above - Vector3d(0.0, 0.0, 0.01))});
   push_move(simulation, 4.02, 5.0, above - Vector3d(0.0, 0.0, 0.01), above + Vector3d(0.0, 0.0, 0.1));
   simulation.push_button(0.0, true);
   simulation.advance(3.5);

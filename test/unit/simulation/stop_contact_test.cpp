@@ -155,7 +155,8 @@ TEST(StopContact, BetweenTwoSurfacesItSlidesAndStaysOutOfBoth) {
 /// A hand presses a box on the bench along what is rigid, and shifts it sideways by less than friction holds.
 TEST(StopContact, AForkThatCannotFollowPressesAsItsRuleSaysAndHoldsNothingBack) {
   constexpr double pressed = 2e-3, T = 5e-3;  // m, s: doc/model.md
-  for (const ForkDofs dofs : {ForkDofs{false, false, false}, ForkDofs{false, true, false}, ForkDofs{false, true, true}}) {
+  for (const ForkDofs dofs :
+       {ForkDofs{false, false, false}, ForkDofs{false, true, false}, ForkDofs{false, true, true}}) {
     for (const double mass : {0.1, 5.0}) {
       for (const double step : {0.02, 0.004}) {
         SimulationSettings set;
@@ -173,7 +174,8 @@ TEST(StopContact, AForkThatCannotFollowPressesAsItsRuleSaysAndHoldsNothingBack) 
         EXPECT_EQ(s.advance(0.4).held_back, 0);
         double force = 0.0;
         for (const ContactState& c : s.contacts()) force += c.force;
-        EXPECT_NEAR(force, mass * pressed / (T * T), 0.05 * force) << dofs.bend << dofs.torsion << " " << mass << " " << step;
+        EXPECT_NEAR(force, mass * pressed / (T * T), 0.05 * force)
+            << dofs.bend << dofs.torsion << " " << mass << " " << step;
         EXPECT_EQ(s.advance(1.0).held_back, 0);
         const Vector3d p = s.objects()[0].X_WO.translation();
         EXPECT_EQ(s.advance(3.0).held_back, 0);
@@ -220,7 +222,8 @@ TEST(StopContact, APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling) {
   EXPECT_NEAR(s.objects()[0].X_WO.translation().z(), 0.035, 1e-3);
 }
 
-/// Dropped flat from a height, it comes back to e² of it, where e is the geometric mean of both materials' restitutions.
+/// Dropped flat from a height, it comes back to e² of it, where e is the geometric mean of both materials'
+/// restitutions.
 TEST(StopContact, ADroppedBoxBouncesByItsRestitution) {
   constexpr double edge = 0.1, height = 0.3;
   for (const double of_box : {0.9, 0.4}) {
@@ -237,7 +240,8 @@ TEST(StopContact, ADroppedBoxBouncesByItsRestitution) {
     const double down = std::sqrt(2.0 * height / 9.81), e = std::sqrt(of_box * 0.8);
     for (double t = 0.0; t < down * (1.0 + 1.9 * e); t += 1e-3) {
       simulation.advance(t);
-      if (t > 1.05 * down) highest = std::max(highest, object(simulation, "dropped").X_WO.translation().z() - 0.5 * edge);
+      if (t > 1.05 * down)
+        highest = std::max(highest, object(simulation, "dropped").X_WO.translation().z() - 0.5 * edge);
     }
     EXPECT_NEAR(highest, e * e * height, 0.03 * height) << of_box;
   }

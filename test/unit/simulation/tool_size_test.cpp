@@ -20,7 +20,9 @@ SimulationSettings settings(bool calibrate) {
   return set;
 }
 
-Scene one_box(const Vector3d& size, double mass) { return scene_of({box("box", size, mass, start)}, ContactMode::none); }
+Scene one_box(const Vector3d& size, double mass) {
+  return scene_of({box("box", size, mass, start)}, ContactMode::none);
+}
 
 double fitting_length(const Scene& scene) {
   const MassProperties& m = scene.bodies[0].mass_properties;
@@ -110,7 +112,8 @@ TEST(ToolSize, CalibratingWhileHoldingMovesNothingAtRest) {
 }
 
 TEST(ToolSize, CalibratingOnTheWayJumpsNeitherInPoseNorInTwist) {
-  for (const ForkDofs& dofs : {ForkDofs{true, true, true}, ForkDofs{false, true, false}, ForkDofs{false, false, false}}) {
+  for (const ForkDofs& dofs :
+       {ForkDofs{true, true, true}, ForkDofs{false, true, false}, ForkDofs{false, false, false}}) {
     SimulationSettings set = settings(false);
     set.fork.dofs = dofs;
     Simulation simulation(one_box({0.1, 0.06, 0.04}, 1.0), set);

@@ -55,7 +55,8 @@ TEST(TwoHands, ObjectOfTwoKilogramsOnTwoForksSagsHalf) {
   }
   // Both at once: half the weight, and half the sag of one fork, on each.
   const double k = 2000.0;
-  Simulation simulation(scene_of({box("box", size, 2.0, Vector3d(0, 0, 0.5))}, ContactMode::none), with_stiffness(k, 500.0, 5.0));
+  Simulation simulation(scene_of({box("box", size, 2.0, Vector3d(0, 0, 0.5))}, ContactMode::none),
+                        with_stiffness(k, 500.0, 5.0));
   for (std::size_t hand = 0; hand < 2; ++hand) {
     simulation.push_stylus({0.0, pointing_down(hand == 0 ? left : right)}, hand);
     simulation.push_button(0.0, true, hand);
@@ -81,7 +82,8 @@ TEST(TwoHands, OneSpringAndOneForkShareTheWeight) {
 TEST(TwoHands, NoStiffnessMakesItBlowUp) {
   for (const double k : {0.0, 1.0, 1e6, 1e12}) {
     for (const std::string& shape : shape_model_names()) {
-      for (const ForkDofs& dofs : {ForkDofs{true, true, true}, ForkDofs{false, true, false}, ForkDofs{false, false, false}}) {
+      for (const ForkDofs& dofs :
+           {ForkDofs{true, true, true}, ForkDofs{false, true, false}, ForkDofs{false, false, false}}) {
         SimulationSettings set = with_stiffness(k, k, 1e-2 * k, shape);
         set.fork.dofs = dofs;
         BothHold two(set, 0.5, ContactMode::stop);
@@ -229,7 +231,8 @@ TEST(TwoHands, AnObjectWithoutMassIsHeldByBothAndStays) {
   scene.bodies[0].mass_properties = MassProperties();
   Simulation simulation(scene, SimulationSettings());
   for (std::size_t hand = 0; hand < 2; ++hand) {
-    push_move(simulation, 0.0, 1.0, hand == 0 ? left : right, (hand == 0 ? left : right) + Vector3d(0.1, 0.0, 0.1), 0.0, hand);
+    push_move(simulation, 0.0, 1.0, hand == 0 ? left : right, (hand == 0 ? left : right) + Vector3d(0.1, 0.0, 0.1), 0.0,
+              hand);
     simulation.push_button(0.0, true, hand);
   }
   simulation.advance(1.0);
@@ -249,7 +252,8 @@ TEST(NextTool, GoesThroughAllTools) {
 }
 
 TEST(NextTool, WhileHoldingGoesThroughThoseThatHoldWithoutAJump) {
-  Simulation simulation(scene_of({box("box", size, 1.0, Vector3d(0, 0, 0.5))}, ContactMode::none), SimulationSettings());
+  Simulation simulation(scene_of({box("box", size, 1.0, Vector3d(0, 0, 0.5))}, ContactMode::none),
+                        SimulationSettings());
   push_move(simulation, 0.0, 2.0, left, left + Vector3d(0.2, 0.0, 0.0), 1.0);
   std::vector<std::string> seen;
   simulation.push_button(0.1, true);

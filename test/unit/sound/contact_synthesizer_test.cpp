@@ -38,7 +38,9 @@ int crossings(const std::vector<float>& samples) {
   return count;
 }
 
-TEST(ContactSynthesizer, IsSilentUntilSomethingTouches) { EXPECT_EQ(energy(ContactSynthesizer(1.0).render(second)), 0.0); }
+TEST(ContactSynthesizer, IsSilentUntilSomethingTouches) {
+  EXPECT_EQ(energy(ContactSynthesizer(1.0).render(second)), 0.0);
+}
 
 TEST(ContactSynthesizer, AnImpactIsLouderWithItsImpulseAndDiesAway) {
   double last = 0.0;

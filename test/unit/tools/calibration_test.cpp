@@ -88,7 +88,8 @@ TEST(Calibration, EveryModeHasTheDampingRatioWhereverTheGraspIs) {
       for (const Vector3d& p_OE : grasps) {
         const HeldBody held = calibrated(box(mass, p_OE), ratio);
         const StrainMatrix K = held.stiffness().asDiagonal();
-        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(K, held.mass_matrix(0.0, StrainVector::Zero(6)));
+        const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
+            K, held.mass_matrix(0.0, StrainVector::Zero(6)));
         const Eigen::MatrixXd D = modes.eigenvectors().transpose() * held.damping() * modes.eigenvectors();
         const Eigen::VectorXd omega = modes.eigenvalues().cwiseSqrt();
         EXPECT_LT((D - Eigen::MatrixXd((2.0 * ratio * omega).asDiagonal())).norm(), 1e-6 * D.norm()) << mass;
@@ -97,7 +98,8 @@ TEST(Calibration, EveryModeHasTheDampingRatioWhereverTheGraspIs) {
   }
 }
 
-/// The object pushed aside by a small steady load along one direction, and let go: the time after which it stays within 2 %.
+/// The object pushed aside by a small steady load along one direction, and let go: the time after which it stays within
+/// 2 %.
 double settling_time(const BodyInertia& body, int direction) {
   const HeldBody held = calibrated(body, 1.0);
   const auto integrator = make_integrator("exponential");
@@ -123,8 +125,8 @@ double settling_time(const BodyInertia& body, int direction) {
   return settled;
 }
 
-/// Held at its centre it settles alike in every direction. Held at an edge or a corner a push turns it as well, which takes
-/// up to 1.4 times as long: three stiffnesses cannot make six directions equal there.
+/// Held at its centre it settles alike in every direction. Held at an edge or a corner a push turns it as well, which
+/// takes up to 1.4 times as long: three stiffnesses cannot make six directions equal there.
 TEST(Calibration, EveryDirectionSettlesAlikeOverTwelveDecadesOfMass) {
   const double omega = std::sqrt(gravity / (CalibrationGoal().sag * length));
   const double critical = 5.834 / omega;  // (1 + ωt) exp(−ωt) = 0.02

@@ -174,8 +174,8 @@ TEST(StationStream, MeasuresAnewACadenceThatProvesWrong) {
   EXPECT_LT(after.deviation(), before.deviation() / 20.0);
 }
 
-/// A hand that goes evenly along x at 1 m/s, read in bursts from the very start: what is played between the samples must
-/// stay on its way. Samples microseconds apart would make velocities of a thousand metres per second.
+/// A hand that goes evenly along x at 1 m/s, read in bursts from the very start: what is played between the samples
+/// must stay on its way. Samples microseconds apart would make velocities of a thousand metres per second.
 TEST(StationStream, BurstsMakeNoJumpBetweenSamples) {
   for (const double rate : {50.0, 120.0, 1000.0}) {
     std::mt19937 random(4);
@@ -202,7 +202,8 @@ TEST(StationStream, BurstsMakeNoJumpBetweenSamples) {
         }
       }
     }
-    std::cout << rate << " Hz: " << used << " of " << sent << " samples, way between them off by " << farthest << " m\n";
+    std::cout << rate << " Hz: " << used << " of " << sent << " samples, way between them off by " << farthest
+              << " m\n";
     EXPECT_GT(used, sent / 3);
     EXPECT_LT(farthest, 0.05);  // the longest time between reads, at 1 m/s
   }

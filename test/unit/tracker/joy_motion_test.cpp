@@ -56,7 +56,8 @@ TEST(JoyMotion, SpeedGrowsFromZeroAtTheEdgeOfTheDeadZoneAndIsOdd) {
       EXPECT_DOUBLE_EQ(ways[0], 0.1 * settings.move_speed);
     }
     EXPECT_GE(ways[0], last);
-    EXPECT_LE(ways[0] - last, 0.1 * settings.move_speed * 0.0126);  // no jump: 0.01 of deflection over the 0.8 that count
+    EXPECT_LE(ways[0] - last,
+              0.1 * settings.move_speed * 0.0126);  // no jump: 0.01 of deflection over the 0.8 that count
     last = ways[0];
   }
 }
@@ -105,9 +106,10 @@ TEST(JoyMotion, ButtonsAreDownWhileHeld) {
 }
 
 TEST(JoySettings, BadValuesAreRefusedByName) {
-  const std::vector<std::string> bad{"axes: [0, 1]",   "axes: 3",         "axes: [0, 1, 2, 3, 4, 64]", "axes: [0, 1, 2, 3, 4, x]",
-                                     "move_speed: -1", "move_speed: 2.1", "turn_speed: .nan",          "dead_zone: 1",
-                                     "grasp_button: -2", "tool_button: 1.5"};
+  const std::vector<std::string> bad{
+      "axes: [0, 1]",     "axes: 3",         "axes: [0, 1, 2, 3, 4, 64]", "axes: [0, 1, 2, 3, 4, x]",
+      "move_speed: -1",   "move_speed: 2.1", "turn_speed: .nan",          "dead_zone: 1",
+      "grasp_button: -2", "tool_button: 1.5"};
   for (const std::string& text : bad) {
     try {
       read_joy_settings(YAML::Load("{" + text + "}"), "here");

@@ -9,7 +9,9 @@ namespace spring_workbench {
 namespace {
 
 double distance(const RigidTransform& a, const RigidTransform& b) { return (a.translation() - b.translation()).norm(); }
-double angle(const RigidTransform& a, const RigidTransform& b) { return log_so3(a.linear().transpose() * b.linear()).norm(); }
+double angle(const RigidTransform& a, const RigidTransform& b) {
+  return log_so3(a.linear().transpose() * b.linear()).norm();
+}
 
 TEST(PoseFollower, StaysWithoutGoal) {
   const RigidTransform start = make_transform(Quaterniond(1.0, 2.0, 3.0, 4.0), Vector3d(0.1, 0.2, 0.3));
@@ -39,7 +41,8 @@ TEST(PoseFollower, ComesToEveryGoalNeverFasterThanAHandAndNeverAway) {
 }
 
 TEST(PoseFollower, NearAGoalTheWayDoesNotDependOnTheSteps) {
-  const RigidTransform goal = make_transform(Quaterniond(exp_so3(Vector3d(0.01, 0.02, 0.0))), Vector3d(0.003, 0.0, 0.004));
+  const RigidTransform goal =
+      make_transform(Quaterniond(exp_so3(Vector3d(0.01, 0.02, 0.0))), Vector3d(0.003, 0.0, 0.004));
   PoseFollower coarse(RigidTransform::Identity()), fine(RigidTransform::Identity());
   coarse.set_goal(goal);
   fine.set_goal(goal);

@@ -16,9 +16,7 @@ constexpr double kInterval = 1.0 / 120.0;
 double angle(const RigidTransform& a, const RigidTransform& b) {
   return log_so3(a.linear().transpose() * b.linear()).norm();
 }
-double distance(const RigidTransform& a, const RigidTransform& b) {
-  return (a.translation() - b.translation()).norm();
-}
+double distance(const RigidTransform& a, const RigidTransform& b) { return (a.translation() - b.translation()).norm(); }
 
 TEST(Reengagement, AHandThatIsNeverLostIsFollowedToTheBit) {
   srand(1);

@@ -183,7 +183,8 @@ TEST(SampleGate, ComplaintsNameFieldValueAndRuleInOneLine) {
                                                                   {Verdict::turns_too_fast, "rotation", "0.5"},
                                                                   {Verdict::out_of_view, "position", "7.25"}}) {
     const std::string line = complaint(verdict, bad, settings);
-    for (const std::string& word : {field, value, std::string("must be")}) EXPECT_NE(line.find(word), line.npos) << line;
+    for (const std::string& word : {field, value, std::string("must be")})
+      EXPECT_NE(line.find(word), line.npos) << line;
     EXPECT_EQ(line.find('\n'), line.npos);
   }
   const RawSample nan{1.5, Vector3d(kNan, 0, 0), Quaterniond::Identity()};

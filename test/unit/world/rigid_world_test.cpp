@@ -65,7 +65,7 @@ TEST(RigidWorld, SleepersCostNothingAndStay) {
     bodies.push_back(box("b" + std::to_string(i), Vector3d(0.04, 0.04, 0.04), 0.1, Vector3d(0.1 * i, 0.0, 0.02)));
   }
   const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(bodies, ContactMode::dynamic));
-    RigidWorld& world = *owner;
+  RigidWorld& world = *owner;
   run(world, 0.1);
   EXPECT_EQ(world.bodies_near().size(), 0u);
   EXPECT_FALSE(any_awake(world));
@@ -80,7 +80,8 @@ TEST(RigidWorld, SleepersCostNothingAndStay) {
 
 TEST(RigidWorld, SlidingBoxStopsWhereItMust) {
   for (const double mu : {0.2, 0.5, 1.0}) {
-    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({box("b", Vector3d(0.1, 0.1, 0.02), 2.0, Vector3d(0, 0, 0.01), mu)}, ContactMode::dynamic, mu));
+    const std::unique_ptr<RigidWorld> owner = make_rigid_world(
+        scene_of({box("b", Vector3d(0.1, 0.1, 0.02), 2.0, Vector3d(0, 0, 0.01), mu)}, ContactMode::dynamic, mu));
     RigidWorld& world = *owner;
     const double v = 1.0;
     world.place(0, world.pose(0), moving({v, 0.0, 0.0}), true);
@@ -118,8 +119,9 @@ TEST(RigidWorld, InclineHoldsBelowTheAngleOfFriction) {
 }
 
 TEST(RigidWorld, SphereRollsAtFiveSeventhsOfItsSpeed) {
-  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 0.05), 0.4, 0.0)}, ContactMode::dynamic, 0.4));
-    RigidWorld& world = *owner;
+  const std::unique_ptr<RigidWorld> owner =
+      make_rigid_world(scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 0.05), 0.4, 0.0)}, ContactMode::dynamic, 0.4));
+  RigidWorld& world = *owner;
   world.place(0, world.pose(0), moving({2.0, 0.0, 0.0}), true);
   run(world, 1.0);
   EXPECT_NEAR(world.velocity(0).linear.x(), 2.0 * 5.0 / 7.0, 0.01 * 2.0);
@@ -130,7 +132,7 @@ TEST(RigidWorld, BallBouncesToTheSquareOfItsRestitution) {
   Scene s = scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 1.05), 0.0, 0.8)}, ContactMode::dynamic, 0.0);
   s.bench_material.restitution = 0.8;
   const std::unique_ptr<RigidWorld> owner = make_rigid_world(s);
-    RigidWorld& world = *owner;
+  RigidWorld& world = *owner;
   world.place(0, world.pose(0), Twist(), true);
   const double fall = std::sqrt(2.0 / g);
   run(world, fall + 0.8 * fall, 5e-4);  // the highest point after the first bounce
@@ -138,9 +140,9 @@ TEST(RigidWorld, BallBouncesToTheSquareOfItsRestitution) {
 }
 
 TEST(RigidWorld, AWayEndsWhereItTouches) {
-  const std::unique_ptr<RigidWorld> owner = make_rigid_world(
-      scene_of({box("b", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(0, 0, 0.15)), box("wall", {0.001, 1, 1}, 0.0, {0.2505, 0, 0.5})},
-               ContactMode::dynamic));
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(
+      {box("b", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(0, 0, 0.15)), box("wall", {0.001, 1, 1}, 0.0, {0.2505, 0, 0.5})},
+      ContactMode::dynamic));
   const RigidWorld& world = *owner;
   const auto to = [&](double x, double z) {
     RigidTransform X = world.pose(0);
@@ -176,8 +178,9 @@ TEST(RigidWorld, PressedAndDraggedLagsByFrictionOverStiffness) {
   for (const double k : {2e1, 2e3, 2e9}) {
     for (const double mu : {0.0, 0.5, 1.0}) {
       const double h = 2e-3;
-      const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({box("b", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, 0.025), mu)}, ContactMode::dynamic, mu));
-    RigidWorld& world = *owner;
+      const std::unique_ptr<RigidWorld> owner = make_rigid_world(
+          scene_of({box("b", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, 0.025), mu)}, ContactMode::dynamic, mu));
+      RigidWorld& world = *owner;
       OnSpring spring{k, Vector3d(0, 0, 0.025), {}};
       spring.driven.X_WO.translation() = spring.hand;
       for (int i = 1; i <= 50; ++i) spring.step(world, Vector3d(0, 0, 0.025 - 0.1 * i / 50), h);
@@ -195,7 +198,7 @@ TEST(RigidWorld, DrivenBodyPushesANeighbourAndCarriesAnother) {
   Body cup = box("cup", Vector3d(0.05, 0.05, 0.05), 0.2, Vector3d(0, 0, 0.045));
   Body block = box("block", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(0.3, 0, 0.05));
   const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({tray, cup, block}, ContactMode::dynamic));
-    RigidWorld& world = *owner;
+  RigidWorld& world = *owner;
   OnSpring spring{1e5, Vector3d(0, 0, 0.01), {}};
   spring.driven.X_WO.translation() = spring.hand;
   const double h = 2e-3;
