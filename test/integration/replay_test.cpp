@@ -68,17 +68,19 @@ std::string motion_text(const std::vector<Sample>& samples, double t_first = 0.0
 struct BagFrames {
   std::string parent = "workbench";
   std::string child = "stylus";
+  std::string joy = "/stylus/joy";
 };
 
-void write_bag(const std::string& path, const std::vector<Sample>& samples, const BagFrames& frames = {}) {
-  rosbag::Bag bag(path, rosbag::bagmode::Write);
+void write_bag(const std::string& path, const std::vector<Sample>& samples, const BagFrames& frames = {},
+               rosbag::bagmode::BagMode mode = rosbag::bagmode::Write) {
+  rosbag::Bag bag(path, mode);
   const ros::Time first(1500000000, 123456789);
   for (const Sample& s : samples) {
     const ros::Time stamp = first + ros::Duration().fromNSec(static_cast<int64_t>(s.milliseconds) * 1000000);
     sensor_msgs::Joy joy;
     joy.header.stamp = stamp;
     joy.buttons = {s.button ? 1 : 0, 0};
-    bag.write("/stylus/joy", stamp, joy);
+    bag.write(frames.joy, stamp, joy);
     geometry_msgs::TransformStamped transform;
     transform.header.stamp = stamp;
     transform.header.frame_id = frames.parent;
@@ -226,6 +228,29 @@ TEST_F(Replay, ABagGivesTheSameBytesAsTheMotionFile) {
     expect_same_bytes("a.csv", name + ".csv");
     expect_same_bytes("a.fork.csv", name + ".fork.csv");
   }
+}
+
+TEST_F(Replay, ABagOfTwoHandsGivesTheSameBytesAsTheirMotionFiles) {
+  std::vector<Sample> second = lifting_hand();
+  for (Sample& s : second) s.x += 0.02;
+  folder_.write("second.tum", motion_text(second));
+  write_bag(path("hands.bag"), lifting_hand());
+  write_bag(path("hands.bag"), second, {"workbench", "stylus_2", "stylus_2/joy"}, rosbag::bagmode::Append);
+  ASSERT_EQ(run("--scene box.urdf --motion hand.tum --motion second.tum --out a.csv").status, 0);
+  ASSERT_EQ(run("--scene box.urdf --bag hands.bag --out b.csv").status, 0);
+  expect_same_bytes("a.csv", "b.csv");
+  expect_same_bytes("a.fork.csv", "b.fork.csv");
+  const auto fork = table("a.fork.csv");
+  ASSERT_EQ(fork.size(), 2 * (table("a.csv").size() - 1) + 1);
+  int both_hold = 0;
+  for (std::size_t row = 1; row < fork.size(); row += 2) {
+    EXPECT_EQ(fork[row][1] + fork[row + 1][1], "forkfork_2");
+    EXPECT_EQ(fork[row][0], fork[row + 1][0]);
+    both_hold += fork[row][3] == "box" && fork[row + 1][3] == "box" ? 1 : 0;
+  }
+  EXPECT_GT(both_hold, 50);
+  expect_refused("--scene box.urdf --motion hand.tum --motion hand.tum --motion hand.tum --out run.csv",
+                 {"--motion", "2 times"});
 }
 
 TEST_F(Replay, TheStartOfTimeMakesNoDifference) {

@@ -5,12 +5,14 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <set>
 #include <utility>
 
 #include "motion.h"
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench::replay {
 namespace {
@@ -40,34 +42,70 @@ RigidTransform to_pose(const geometry_msgs::Transform& transform, const std::str
   return make_transform(rotation, Vector3d(p.x, p.y, p.z));
 }
 
-/// Collects one hand from the messages of a bag.
+/// Collects the hands from the messages of a bag.
 class BagReader {
  public:
   BagReader(std::string path, const std::string& parent, const std::string& child)
-      : path_(std::move(path)), parent_(bare(parent)), child_(bare(child)) {}
+      : path_(std::move(path)), parent_(bare(parent)) {
+    for (std::size_t i = 0; i < hands_.size(); ++i) {
+      const std::string ending = i == 0 ? "" : "_" + std::to_string(i + 1);
+      hands_[i].frame = bare(child) + ending;
+      hands_[i].joy = "stylus" + ending + "/joy";
+    }
+  }
 
-  Motion read() {
+  std::vector<Motion> read() {
     rosbag::Bag bag(path_, rosbag::bagmode::Read);
     rosbag::View view(bag);
     for (const rosbag::MessageInstance& message : view) take(message);
-    if (motion_.samples.empty()) refuse_missing();
-    for (const Buttons& b : buttons_) {
-      const double t = std::max(0.0, seconds_between(first_stamp_, b.stamp));
-      add_button(t, b.grasp, motion_.buttons);
-      add_button(t, b.next_tool, motion_.next_tool);
+    if (hands_.front().poses.empty()) refuse_missing();
+    ros::Time zero = hands_.front().poses.front().stamp;
+    for (const Hand& hand : hands_) {
+      if (!hand.poses.empty()) zero = std::min(zero, hand.poses.front().stamp);
     }
-    return std::move(motion_);
+    std::vector<Motion> motions;
+    for (const Hand& hand : hands_) {
+      if (!hand.poses.empty()) motions.push_back(motion(hand, zero));
+    }
+    return motions;
   }
 
  private:
+  struct Pose {
+    ros::Time stamp;
+    RigidTransform X;
+  };
+  struct Buttons {
+    ros::Time stamp;
+    bool grasp, next_tool;
+  };
+  struct Hand {
+    std::string frame, joy;
+    std::vector<Pose> poses;
+    std::vector<Buttons> buttons;
+  };
+
+  static Motion motion(const Hand& hand, const ros::Time& zero) {
+    Motion motion;
+    for (const Pose& pose : hand.poses) motion.samples.push_back({seconds_between(zero, pose.stamp), pose.X});
+    for (const Buttons& b : hand.buttons) {
+      const double t = std::max(0.0, seconds_between(zero, b.stamp));
+      add_button(t, b.grasp, motion.buttons);
+      add_button(t, b.next_tool, motion.next_tool);
+    }
+    return motion;
+  }
+
   void take(const rosbag::MessageInstance& message) {
     const std::string topic = bare(message.getTopic());
     if (topic == "tf_static") return;
-    if (message.getDataType() == "sensor_msgs/Joy" && topic == "stylus/joy") {
+    if (message.getDataType() == "sensor_msgs/Joy") {
+      const auto hand = std::find_if(hands_.begin(), hands_.end(), [&](const Hand& h) { return h.joy == topic; });
+      if (hand == hands_.end()) return;
       const auto joy = message.instantiate<sensor_msgs::Joy>();
       if (!joy || joy->buttons.empty()) return;
-      buttons_.push_back({joy->header.stamp.isZero() ? message.getTime() : joy->header.stamp, joy->buttons[0] != 0,
-                          joy->buttons.size() > 1 && joy->buttons[1] != 0});
+      hand->buttons.push_back({joy->header.stamp.isZero() ? message.getTime() : joy->header.stamp, joy->buttons[0] != 0,
+                               joy->buttons.size() > 1 && joy->buttons[1] != 0});
     } else if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {  // also the older tf/tfMessage
       for (const auto& transform : tf->transforms) take(transform, message.getTime());
     }
@@ -77,35 +115,28 @@ class BagReader {
     const std::string from = bare(transform.header.frame_id);
     const std::string to = bare(transform.child_frame_id);
     pairs_.insert(from + " -> " + to);
-    if (from != parent_ || to != child_) return;
+    const auto hand = std::find_if(hands_.begin(), hands_.end(), [&](const Hand& h) { return h.frame == to; });
+    if (from != parent_ || hand == hands_.end()) return;
     const ros::Time stamp = transform.header.stamp.isZero() ? received : transform.header.stamp;
-    if (motion_.samples.empty()) first_stamp_ = stamp;
-    const double t = seconds_between(first_stamp_, stamp);
     const std::string where =
         path_ + ": " + from + " -> " + to + " at " + std::to_string(stamp.sec) + "." + std::to_string(stamp.nsec);
-    motion_.samples.push_back({t, to_pose(transform.transform, where)});
+    hand->poses.push_back({stamp, to_pose(transform.transform, where)});
   }
 
   [[noreturn]] void refuse_missing() const {
     const std::vector<std::string> there(pairs_.begin(), pairs_.end());
-    refuse(path_, "transform", parent_ + " -> " + child_,
+    refuse(path_, "transform", parent_ + " -> " + hands_.front().frame,
            there.empty() ? "one of the bag's, which has none" : "one of " + join(there));
   }
 
-  std::string path_, parent_, child_;
-  Motion motion_;
-  ros::Time first_stamp_;
-  struct Buttons {
-    ros::Time stamp;
-    bool grasp, next_tool;
-  };
-  std::vector<Buttons> buttons_;
+  std::string path_, parent_;
+  std::array<Hand, Simulation::most_hands> hands_;
   std::set<std::string> pairs_;  ///< all that are in the bag, for the message
 };
 
 }  // namespace
 
-Motion read_bag(const std::string& path, const std::string& parent, const std::string& child) {
+std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child) {
   try {
     return BagReader(path, parent, child).read();
   } catch (const InputError&) {

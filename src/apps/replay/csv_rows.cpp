@@ -89,10 +89,10 @@ std::string fork_header() {
   return row.end();
 }
 
-std::string fork_row(double t, const Simulation& simulation) {
-  const auto fork = simulation.fork();
+std::string fork_row(double t, const Simulation& simulation, std::size_t hand) {
+  const auto fork = simulation.fork(hand);
   Row row;
-  row.add(t).add(std::string("fork")).add(fork.tool).add(fork.held_object);
+  row.add(t).add(hand == 0 ? "fork" : "fork_" + std::to_string(hand + 1)).add(fork.tool).add(fork.held_object);
   row.add(fork.stretch).add(fork.bend).add(fork.torsion);
   row.add(fork.X_WH).add(fork.X_WH_seen).add(fork.X_WE);
   row.add(fork.tip_wrench_W.force).add(fork.tip_wrench_W.moment);

@@ -12,6 +12,6 @@ namespace spring_workbench::replay {
 std::string object_header();
 std::string object_rows(double t, const Simulation& simulation);  ///< a line per movable object
 std::string fork_header();
-std::string fork_row(double t, const Simulation& simulation);
+std::string fork_row(double t, const Simulation& simulation, std::size_t hand);
 
 }  // namespace spring_workbench::replay

@@ -25,7 +25,8 @@ void add_button(double t, bool pressed, std::vector<ButtonEvent>& buttons);
 /// Everything that the source has.
 Motion read_motion(StylusSource& source);
 
-/// The transforms `parent` → `child` of a bag, and buttons 0 and 1 of stylus/joy. Throws InputError.
-Motion read_bag(const std::string& path, const std::string& parent, const std::string& child);
+/// The transforms `parent` → `child` of a bag with buttons 0 and 1 of stylus/joy, and where the bag has them those of
+/// further styluses (`child`_2, stylus_2/joy). Times from the first sample of all. Throws InputError.
+std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child);
 
 }  // namespace spring_workbench::replay

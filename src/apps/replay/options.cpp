@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench::replay {
 namespace {
@@ -43,9 +44,16 @@ void set_once(const std::string& option, const char* value, std::string& field) 
   field = value;
 }
 
+void add_motion(const char* path, std::vector<std::string>& motions) {
+  if (*path == '\0') refuse(kWhere, "--motion", "(nothing)", "a path");
+  const std::string most = std::to_string(Simulation::most_hands);
+  if (motions.size() == Simulation::most_hands) refuse(kWhere, "--motion", path, "given " + most + " times at most");
+  motions.push_back(path);
+}
+
 void check_complete(const Options& options, bool frames_given) {
   if (options.scene.empty()) refuse(kWhere, "--scene", "(nothing)", "the path of a scene's URDF");
-  if (options.motion.empty() == options.bag.empty()) {
+  if (options.motions.empty() == options.bag.empty()) {
     refuse(kWhere, "--motion, --bag", options.bag.empty() ? "none of both" : "both", "one of both");
   }
   if (options.bag.empty() && frames_given) refuse(kWhere, "--parent, --child", "with --motion", "given with --bag");
@@ -84,7 +92,7 @@ Options parse_options(int argc, char** argv) {
         set_once("--scene", optarg, options.scene);
         break;
       case motion:
-        set_once("--motion", optarg, options.motion);
+        add_motion(optarg, options.motions);
         break;
       case bag:
         set_once("--bag", optarg, options.bag);
@@ -123,23 +131,26 @@ std::string help_text() {
   std::ostringstream text;
   text << R"(The simulation without ROS master or clock, from a recorded hand to CSV: same input, same bytes out.
 
-replay --scene SCENE.urdf (--motion FILE | --bag FILE.bag) [--settings FILE.yaml] [--set key=value ...] --out RUN.csv
+replay --scene SCENE.urdf (--motion FILE [--motion FILE] | --bag FILE.bag) [--settings FILE.yaml]
+       [--set key=value ...] --out RUN.csv
 
   --scene     a scene: path or package:// URI of a URDF; the YAML file of the same name beside it is read too
-  --motion    the hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints
-  --bag       the hand from a bag: its transforms --parent -> --child (default workbench -> stylus) of any topic but
-              /tf_static, and button 0 of stylus/joy
+  --motion    the hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints.
+              Given twice: a hand each, both from their own first sample on
+  --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus) of any topic but
+              /tf_static, and buttons 0 (grasp) and 1 (next tool) of stylus/joy; a second hand from CHILD_2 (stylus_2)
+              and stylus_2/joy, where the bag has them
   --settings  a YAML file of the keys below
   --set       one key; may be given several times; wins over --settings
   --out       writes RUN.csv and RUN.fork.csv; nothing is written when something fails
 
-Times are in s from the motion's first sample. Without a button in the motion, nothing is held unless grasp.object says
-so; with grasp.object the buttons are not looked at.
+Times are in s from the first sample of all. Without a button in the motion, nothing is held unless grasp.object says
+so; with grasp.object, which the first hand holds, the buttons are not looked at.
 
 RUN.csv, a line per output time and movable object (world, centre of mass; m, -, m/s, rad/s):
   t,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz
-RUN.fork.csv, a line per output time:
-  t,fork,tool,held                          [s], the fork's name, its tool, the object held
+RUN.fork.csv, a line per output time and hand:
+  t,fork,tool,held                          [s], the hand's fork (fork, fork_2), its tool, the object held
   stretch,bend_x,bend_y,torsion             [m, m, m, rad] strain, seen at the tip
   handle_x,...,handle_qw                    the hand in world
   seen_x,...,seen_qw                        the handle that the object sees (differs where the object cannot follow)

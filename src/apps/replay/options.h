@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "spring_workbench/simulation/settings.h"
 #include "spring_workbench/tracker/truth_settings.h"
@@ -11,8 +12,8 @@ namespace spring_workbench::replay {
 struct Options {
   bool help = false;
   std::string scene;                 ///< path or package:// URI of a URDF
-  std::string motion;                ///< path; empty where `bag` is given
-  std::string bag;                   ///< path; empty where `motion` is given
+  std::vector<std::string> motions;  ///< paths, one a stylus; none where `bag` is given
+  std::string bag;                   ///< path; empty where `motions` are given
   std::string parent = "workbench";  ///< frames of the stylus' transform in the bag
   std::string child = "stylus";
   std::string out;     ///< path of the CSV file of the objects

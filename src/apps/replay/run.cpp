@@ -3,6 +3,7 @@
 #include <chrono>
 #include <iostream>
 #include <limits>
+#include <map>
 
 #include "csv_rows.h"
 #include "output_file.h"
@@ -15,9 +16,11 @@ namespace {
 
 constexpr double kTimeTolerance = 1e-9;  // [s] an output time this much after the motion's end is still given
 
-Motion load_motion(const Options& options) {
+std::vector<Motion> load_motions(const Options& options) {
   if (!options.bag.empty()) return read_bag(options.bag, options.parent, options.child);
-  return read_motion(*open_motion(options.motion));
+  std::vector<Motion> motions;
+  for (const std::string& path : options.motions) motions.push_back(read_motion(*open_motion(path)));
+  return motions;
 }
 
 /// RUN.csv → RUN.fork.csv
@@ -35,8 +38,8 @@ Simulation make_simulation(const Options& options) {
 }
 
 /// Gives the simulation the samples that the truth layer lets through, as `manipulation` does.
-void push_motion(const Motion& motion, const Options& options, Reengagement& hand, Simulation& simulation,
-                 Summary& summary) {
+void push_motion(const Motion& motion, std::size_t hand, const Options& options, Reengagement& follower,
+                 Simulation& simulation, Summary& summary) {
   constexpr double nothing_simulated = -std::numeric_limits<double>::infinity();
   TruthLayer truth(options.truth, options.settings.dropout_after);
   for (const PoseSample& sample : motion.samples) {
@@ -44,21 +47,27 @@ void push_motion(const Motion& motion, const Options& options, Reengagement& han
     const TrueSample taken = truth.take(sample);
     if (!usable(taken.verdict)) continue;
     const bool new_place = taken.verdict == Verdict::new_place;
-    for (const PoseSample& s : hand.follow(taken.sample, new_place, nothing_simulated)) simulation.push_stylus(s);
+    for (const PoseSample& s : follower.follow(taken.sample, new_place, nothing_simulated)) {
+      simulation.push_stylus(s, hand);
+    }
   }
-  summary.gate = truth.counts();
+  summary.add(truth.counts());
   for (const ButtonEvent& event : motion.next_tool) {
-    if (event.pressed) simulation.push_next_tool(event.t);
+    if (event.pressed) simulation.push_next_tool(event.t, hand);
   }
   if (!options.settings.grasp.object.empty()) return;
-  for (const ButtonEvent& event : motion.buttons) simulation.push_button(event.t, event.pressed);
+  for (const ButtonEvent& event : motion.buttons) simulation.push_button(event.t, event.pressed, hand);
 }
 
-/// Goes to t; lets go of what is held where the hand is lost on the way.
-void advance(double t, Reengagement& hand, Simulation& simulation, Summary& summary) {
-  while (const auto release = hand.take_release(t)) {
-    summary.add(simulation.advance(*release));
-    simulation.release();
+/// Goes to t; lets go of what a hand holds where it is lost on the way.
+void advance(double t, std::vector<Reengagement>& hands, Simulation& simulation, Summary& summary) {
+  std::multimap<double, std::size_t> releases;
+  for (std::size_t hand = 0; hand < hands.size(); ++hand) {
+    while (const auto release = hands[hand].take_release(t)) releases.emplace(*release, hand);
+  }
+  for (const auto& [at, hand] : releases) {
+    summary.add(simulation.advance(at));
+    simulation.release(hand);
   }
   summary.add(simulation.advance(t));
 }
@@ -66,7 +75,7 @@ void advance(double t, Reengagement& hand, Simulation& simulation, Summary& summ
 }  // namespace
 
 Summary run(const Options& options) {
-  const Motion motion = load_motion(options);
+  const std::vector<Motion> motions = load_motions(options);
   Simulation simulation = make_simulation(options);
   OutputFile objects(options.out);
   OutputFile fork(fork_path(options.out));
@@ -74,18 +83,20 @@ Summary run(const Options& options) {
   fork.write(fork_header());
 
   Summary summary;
-  Reengagement hand(options.truth);
-  push_motion(motion, options, hand, simulation, summary);
+  std::vector<Reengagement> hands(motions.size(), Reengagement(options.truth));
+  for (std::size_t hand = 0; hand < hands.size(); ++hand) {
+    push_motion(motions[hand], hand, options, hands[hand], simulation, summary);
+  }
   const double end = simulation.newest_sample() + kTimeTolerance;
   const auto started = std::chrono::steady_clock::now();
   for (double t = 0.0; t <= end; t = ++summary.outputs / options.rate) {
-    advance(t, hand, simulation, summary);
+    advance(t, hands, simulation, summary);
     summary.add_contacts(simulation.contacts());
     objects.write(object_rows(t, simulation));
-    fork.write(fork_row(t, simulation));
+    for (std::size_t hand = 0; hand < hands.size(); ++hand) fork.write(fork_row(t, simulation, hand));
   }
   summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  summary.hand = hand.counts();
+  for (const Reengagement& hand : hands) summary.add(hand.counts());
   fork.commit();
   objects.commit();
   return summary;

@@ -58,6 +58,17 @@ void Summary::add(const AdvanceReport& report) {
   parts_left_out_.insert(report.parts_left_out.begin(), report.parts_left_out.end());
 }
 
+void Summary::add(const GateCounts& of_hand) {
+  gate.accepted += of_hand.accepted;
+  gate.dropouts += of_hand.dropouts;
+  for (const auto& [verdict, count] : of_hand.left_out) gate.left_out[verdict] += count;
+}
+
+void Summary::add(const ReengagementCounts& of_hand) {
+  hand.reengagements += of_hand.reengagements;
+  hand.losses += of_hand.losses;
+}
+
 void Summary::add_contacts(const std::vector<ContactState>& contacts) {
   std::set<Pair> now;
   for (const ContactState& contact : contacts) {

@@ -13,13 +13,15 @@ namespace spring_workbench::replay {
 /// What a whole run did.
 class Summary {
  public:
-  int samples = 0;  ///< of the motion
+  int samples = 0;  ///< of all hands
   GateCounts gate;  ///< of them
   ReengagementCounts hand;
   int outputs = 0;         ///< output times
   double wall_time = 0.0;  ///< [s]
 
   void add(const AdvanceReport& report);
+  void add(const GateCounts& of_hand);
+  void add(const ReengagementCounts& of_hand);
   /// Counts the pairs in contact now that were not at the call before.
   void add_contacts(const std::vector<ContactState>& contacts);
   /// One line of JSON, as `help_text()` describes it.
