@@ -14,16 +14,16 @@ class DenseStrain {
   DenseStrain();
 
   /// The next end of a step, later than the last one; always with as many coordinates.
-  void push(double t, const StrainState& state);
+  void push(double t, const dynamics::StrainState& state);
   /// Up to when at() holds [s]: from the first end on; minus infinity before there are six of them.
   double known_until() const;
   /// The strain at four times: a pack for each coordinate.
-  void at(const Pack& t, Pack* q) const;
+  void at(const math::Pack& t, math::Pack* q) const;
 
  private:
   static constexpr std::size_t ends = 6, terms = 2 * ends;
-  static constexpr std::size_t packs = (max_strain_coordinates + pack_size - 1) / pack_size;
-  using Coordinates = std::array<Pack, packs>;
+  static constexpr std::size_t packs = (rod::max_strain_coordinates + math::pack_size - 1) / math::pack_size;
+  using Coordinates = std::array<math::Pack, packs>;
 
   std::size_t size_ = 0, count_ = 0;  ///< coordinates; ends that were pushed
   std::array<double, terms> t_;       ///< the ends, each twice, the last one first

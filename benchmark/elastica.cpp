@@ -36,26 +36,26 @@ double root_of_load(double slope) {
 
 /// The body on the tip of a rod that hardly extends or twists: its mass sets no more than the scale of the
 /// accelerations, which vanish. Families are not off, so that `quadratic` knows the tension.
-HeldBody bending_body(const std::string& shape) {
-  HeldBody body(make_shape_model(shape, kLength), BodyInertia(), 0.0);
+dynamics::HeldBody bending_body(const std::string& shape) {
+  dynamics::HeldBody body(rod::make_shape_model(shape, kLength), dynamics::BodyInertia(), 0.0);
   body.set_springs({kRigid, kBend, kRigid}, {1.0, 1.0, 1.0});
   return body;
 }
 
 /// Newton's method on q̈ = 0 at rest.
-void find_rest(const HeldBody& body, const HandleForcing& handle, StrainVector& q) {
-  const StrainVector still = StrainVector::Zero(body.size()), K = body.stiffness();
+void find_rest(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, rod::StrainVector& q) {
+  const rod::StrainVector still = rod::StrainVector::Zero(body.size()), K = body.stiffness();
   for (int iteration = 0; iteration < 50; ++iteration) {
-    StrainMatrix slope(body.size(), body.size());
+    rod::StrainMatrix slope(body.size(), body.size());
     for (int j = 0; j < body.size(); ++j) {
-      StrainVector up = q, down = q;
+      rod::StrainVector up = q, down = q;
       const double step = 1e-5 * K[0] / std::max(K[0], K[j]);
       up[j] += step;
       down[j] -= step;
       slope.col(j) =
           (body.acceleration(handle, up, still) - body.acceleration(handle, down, still)) / (up[j] - down[j]);
     }
-    const StrainVector change = slope.partialPivLu().solve(body.acceleration(handle, q, still));
+    const rod::StrainVector change = slope.partialPivLu().solve(body.acceleration(handle, q, still));
     q -= change;
     if (change.norm() < kNewtonTolerance * (1.0 + q.norm())) return;
   }
@@ -76,24 +76,24 @@ TipDeflection exact_elastica(double alpha) {
 }
 
 TipDeflection shape_deflection(const std::string& shape, double alpha) {
-  HeldBody body = bending_body(shape);
-  const HandleForcing handle = body.forcing(MotionSegment(RigidTransform::Identity()), 0.0);
+  dynamics::HeldBody body = bending_body(shape);
+  const dynamics::HandleForcing handle = body.forcing(motion::MotionSegment(RigidTransform::Identity()), 0.0);
   const double EI = kBend * kLength * kLength * kLength / 3.0;
-  StrainVector q = StrainVector::Zero(body.size());
+  rod::StrainVector q = rod::StrainVector::Zero(body.size());
   for (int step = 1; step <= kLoadSteps; ++step) {
     Wrench load;
     load.force = Vector3d(alpha * EI / (kLength * kLength) * step / kLoadSteps, 0.0, 0.0);
     body.set_external_wrench(load);
     find_rest(body, handle, q);
   }
-  const RigidTransform tip = body.object(handle, {q, StrainVector::Zero(body.size())}).X;
+  const RigidTransform tip = body.object(handle, {q, rod::StrainVector::Zero(body.size())}).X;
   const Matrix3d R = tip.linear();
   return {std::atan2(R(0, 2), R(2, 2)), tip.translation().x() / kLength, 1.0 - tip.translation().z() / kLength};
 }
 
 std::vector<ElasticaRow> elastica_table() {
   std::vector<ElasticaRow> rows;
-  for (const std::string& shape : shape_model_names()) {
+  for (const std::string& shape : rod::shape_model_names()) {
     for (const double alpha : {0.1, 0.25, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0}) {
       ElasticaRow row{shape, alpha, exact_elastica(alpha), shape_deflection(shape, alpha)};
       row.tip_error =
@@ -108,10 +108,10 @@ std::vector<ElasticaRow> elastica_table() {
 double evaluation_cost(const std::string& shape) {
   using Clock = std::chrono::steady_clock;
   constexpr int batch = 1000;
-  HeldBody body(make_shape_model(shape, kLength), BodyInertia(), 9.81);
+  dynamics::HeldBody body(rod::make_shape_model(shape, kLength), dynamics::BodyInertia(), 9.81);
   body.set_springs({2000.0, kBend, 5.0}, {1.0, 1.0, 1.0});
-  const HandleForcing handle = body.forcing(MotionSegment(RigidTransform::Identity()), 0.0);
-  StrainVector q = StrainVector::Constant(body.size(), 0.05), q_dot = q;
+  const dynamics::HandleForcing handle = body.forcing(motion::MotionSegment(RigidTransform::Identity()), 0.0);
+  rod::StrainVector q = rod::StrainVector::Constant(body.size(), 0.05), q_dot = q;
   double least = std::numeric_limits<double>::infinity(), spent = 0.0;
   while (spent < 0.05) {
     const Clock::time_point start = Clock::now();

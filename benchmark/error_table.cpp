@@ -6,7 +6,7 @@
 #include <optional>
 #include <sstream>
 
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::benchmark {
 
@@ -180,7 +180,7 @@ std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, con
     const std::vector<ErrorRow> again = units.rows<ErrorRow>(
         number, name, [&line, &plan] { return timed_again(*line.method, *line.scene, line.rows, plan); });
     if (again.size() != line.rows.size()) {
-      refuse("shards", "unit", name, "as many rows as the line that it times again");
+      validation::refuse("shards", "unit", name, "as many rows as the line that it times again");
     }
     for (std::size_t i = 0; i < line.rows.size(); ++i) {
       double& time = line.rows[i].wall_us_per_simulated_second;

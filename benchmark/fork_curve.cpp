@@ -60,11 +60,11 @@ Sections s_shape(double force) {
 }
 
 /// Strain of the rod `linear` with this deflection and slope at its tip, by Newton; length stays.
-StrainVector strain_to_tip(const ShapeModel& shape, const Section& tip) {
-  StrainVector q = StrainVector::Zero(shape.size());
+rod::StrainVector strain_to_tip(const rod::ShapeModel& shape, const Section& tip) {
+  rod::StrainVector q = rod::StrainVector::Zero(shape.size());
   const int mean = 2, slope = 3;  // of the curvature about y
   q[mean] = tip[0];
-  const auto miss = [&](const StrainVector& at) {
+  const auto miss = [&](const rod::StrainVector& at) {
     const RigidTransform X = shape.section(at, 1.0);
     return Eigen::Vector2d(std::atan2(X(0, 2), X(2, 2)) - tip[0], X(0, 3) - tip[2]);
   };
@@ -72,7 +72,7 @@ StrainVector strain_to_tip(const ShapeModel& shape, const Section& tip) {
     constexpr double d = 1e-6;
     Eigen::Matrix2d J;
     for (const int c : {mean, slope}) {
-      StrainVector up = q, down = q;
+      rod::StrainVector up = q, down = q;
       up[c] += d;
       down[c] -= d;
       J.col(c - mean) = (miss(up) - miss(down)) / (2.0 * d);
@@ -100,7 +100,7 @@ double cost_us(Work&& work) {
   return 1e6 * least;
 }
 
-double length_of(const ForkCurve& curve) {
+double length_of(const fork_mesh::ForkCurve& curve) {
   constexpr int parts = 20000;
   double sum = 0.0;
   Vector3d last = curve.at(0.0).p;
@@ -112,17 +112,17 @@ double length_of(const ForkCurve& curve) {
   return sum;
 }
 
-ForkModel fine_fork() {
-  ForkLook look;
+fork_mesh::ForkModel fine_fork() {
+  fork_mesh::ForkLook look;
   look.points_per_turn = 64;
   look.wire_sides = 16;
-  return ForkModel(look);
+  return fork_mesh::ForkModel(look);
 }
 
 template <typename MakeCurve>
 ForkCurveRow measure(const std::string& name, const Sections& exact, MakeCurve&& make) {
-  static const ForkModel fork = fine_fork();
-  const ForkCurve curve = make();
+  static const fork_mesh::ForkModel fork = fine_fork();
+  const fork_mesh::ForkCurve curve = make();
   ForkCurveRow row;
   row.curve = name;
   for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -131,8 +131,8 @@ ForkCurveRow measure(const std::string& name, const Sections& exact, MakeCurve&&
   }
   row.length_error = std::abs(length_of(curve) - 1.0);
   row.curve_us = cost_us(make);
-  ForkMesh mesh;
-  row.deform_us = cost_us([&] { fork.deform(curve, coil_diameter(1.0), mesh); });
+  fork_mesh::ForkMesh mesh;
+  row.deform_us = cost_us([&] { fork.deform(curve, fork_mesh::coil_diameter(1.0), mesh); });
   row.vertices = fork.vertex_count();
   return row;
 }
@@ -140,18 +140,18 @@ ForkCurveRow measure(const std::string& name, const Sections& exact, MakeCurve&&
 }  // namespace
 
 std::vector<ForkCurveRow> measure_fork_curves() {
-  const auto shape = make_shape_model("linear", 1.0);
+  const auto shape = rod::make_shape_model("linear", 1.0);
   const RigidTransform X_WH = RigidTransform::Identity();
   std::vector<ForkCurveRow> rows;
   for (const char* load : {"cantilever", "s_shape"}) {
     for (const double alpha : {0.5, 1.0, 2.0, 5.0, 10.0}) {
       const Sections exact = load[0] == 'c' ? cantilever(alpha) : s_shape(alpha);
       const Section& tip = exact.back();
-      const StrainVector q = strain_to_tip(*shape, tip);
+      const rod::StrainVector q = strain_to_tip(*shape, tip);
       const RigidTransform X_WE =
           make_transform(Quaterniond(Eigen::AngleAxisd(tip[0], Vector3d::UnitY())), Vector3d(tip[2], 0.0, tip[3]));
-      rows.push_back(measure("rod", exact, [&] { return rod_curve(*shape, q, X_WH); }));
-      rows.push_back(measure("bezier", exact, [&] { return bezier_curve(X_WH, X_WE, 1.0, 0.0); }));
+      rows.push_back(measure("rod", exact, [&] { return fork_mesh::rod_curve(*shape, q, X_WH); }));
+      rows.push_back(measure("bezier", exact, [&] { return fork_mesh::bezier_curve(X_WH, X_WE, 1.0, 0.0); }));
       for (std::size_t i = rows.size() - 2; i < rows.size(); ++i) {
         rows[i].load = load;
         rows[i].alpha = alpha;

@@ -6,8 +6,9 @@ namespace spring_workbench::benchmark {
 
 BodyState body_state(const Scenario& scene, const HandState& hand, const BushingState& state) {
   const Vector3d d = state.q.head<3>(), phi = state.q.tail<3>();
-  const Matrix3d R_TE = exp_so3(phi);
-  const Vector3d w_WE_E = R_TE.transpose() * hand.w_WT_T + right_jacobian_so3(phi) * Vector3d(state.q_dot.tail<3>());
+  const Matrix3d R_TE = math::exp_so3(phi);
+  const Vector3d w_WE_E =
+      R_TE.transpose() * hand.w_WT_T + math::right_jacobian_so3(phi) * Vector3d(state.q_dot.tail<3>());
   const Matrix3d R_WE = hand.R_WT * R_TE;
   BodyState body;
   body.p_WO = hand.p_WT + hand.R_WT * d + R_WE * scene.p_EO;
@@ -24,12 +25,12 @@ BushingState bushing_state(const Scenario& scene, const HandState& hand, const B
   const Matrix3d R_TE = hand.R_WT.transpose() * R_WO;
   const Vector3d p_TE = hand.R_WT.transpose() * (body.p_WO - R_WO * scene.p_EO - hand.p_WT);
   const Vector3d v_WE_W = body.v_WO_W - R_WO * body.w_WO_O.cross(scene.p_EO);
-  const Vector3d phi = log_so3(R_TE);
+  const Vector3d phi = math::log_so3(R_TE);
   const Vector3d relative_rate = body.w_WO_O - R_TE.transpose() * hand.w_WT_T;
   BushingState state;
   state.q << p_TE, phi;
   state.q_dot << hand.R_WT.transpose() * (v_WE_W - hand.v_WT_W) - hand.w_WT_T.cross(p_TE),
-      right_jacobian_inverse_so3(phi) * relative_rate;
+      math::right_jacobian_inverse_so3(phi) * relative_rate;
   return state;
 }
 
@@ -44,7 +45,7 @@ BodyLoad bushing_load(const Scenario& scene, const HandState& hand, const Bushin
   const Vector3d phi = state.q.tail<3>();
   BodyLoad load;
   load.force_W = hand.R_WT * generalised.head<3>();
-  const Vector3d moment_at_tip = right_jacobian_inverse_so3(phi).transpose() * generalised.tail<3>();
+  const Vector3d moment_at_tip = math::right_jacobian_inverse_so3(phi).transpose() * generalised.tail<3>();
   load.moment_O = moment_at_tip - scene.p_EO.cross(R_WO.transpose() * load.force_W);
   return load;
 }
@@ -65,11 +66,11 @@ Vector6d bushing_acceleration(const Scenario& scene, double t, const BushingStat
   const HandAcceleration hand_rate = hand_acceleration(scene, t);
   const Vector3d d = state.q.head<3>(), phi = state.q.tail<3>();
   const Vector3d d_dot = state.q_dot.head<3>(), phi_dot = state.q_dot.tail<3>();
-  const Matrix3d R_TE = exp_so3(phi);
+  const Matrix3d R_TE = math::exp_so3(phi);
   const Matrix3d R_WE = hand.R_WT * R_TE;
   const Vector3d& w_WT_T = hand.w_WT_T;
   const Vector3d w_WT_E = R_TE.transpose() * w_WT_T;
-  const Vector3d w_TE_E = right_jacobian_so3(phi) * phi_dot;
+  const Vector3d w_TE_E = math::right_jacobian_so3(phi) * phi_dot;
   const Vector3d w_WE_E = w_WT_E + w_TE_E;
 
   const BodyAcceleration body = body_acceleration(scene, bushing_load(scene, hand, state, R_WE), w_WE_E);
@@ -79,7 +80,7 @@ Vector6d bushing_acceleration(const Scenario& scene, double t, const BushingStat
                           2.0 * w_WT_T.cross(d_dot) - w_WT_T.cross(w_WT_T.cross(d));
   const Vector3d alpha_TE_E = body.alpha_WO_O - R_TE.transpose() * hand_rate.alpha_WT_T + w_TE_E.cross(w_WT_E);
   const Vector3d phi_ddot =
-      right_jacobian_inverse_so3(phi) * (alpha_TE_E - right_jacobian_rate_so3(phi, phi_dot, phi_dot));
+      math::right_jacobian_inverse_so3(phi) * (alpha_TE_E - math::right_jacobian_rate_so3(phi, phi_dot, phi_dot));
   Vector6d q_ddot;
   q_ddot << d_ddot, phi_ddot;
   return q_ddot;

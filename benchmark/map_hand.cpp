@@ -21,7 +21,7 @@ constexpr double kPi = 3.1415926535897932384626433832795;
 /// The fork points forward and up.
 RigidTransform home() {
   RigidTransform X = RigidTransform::Identity();
-  X.linear() = exp_so3(Vector3d(0.0, 1.0, 0.0));
+  X.linear() = math::exp_so3(Vector3d(0.0, 1.0, 0.0));
   return X;
 }
 
@@ -35,12 +35,12 @@ RigidTransform lissajous(double t) {
 
 RigidTransform moved(const Vector3d& shift, const Vector3d& turn) {
   RigidTransform X = home();
-  X.linear() = exp_so3(turn) * X.linear();
+  X.linear() = math::exp_so3(turn) * X.linear();
   X.translation() += shift;
   return X;
 }
 
-bool same(const PoseSample& a, const PoseSample& b) { return a.X.matrix() == b.X.matrix(); }
+bool same(const motion::PoseSample& a, const motion::PoseSample& b) { return a.X.matrix() == b.X.matrix(); }
 
 }  // namespace
 
@@ -62,7 +62,7 @@ std::string name_of(MapHand hand) {
 
 MapHandMotion map_hand_motion(MapHand hand, double interval, double step) {
   MapHandMotion motion;
-  std::vector<PoseSample>& samples = motion.samples;
+  std::vector<motion::PoseSample>& samples = motion.samples;
   const auto count = [&](double seconds) {
     return std::max(kLeastRests, static_cast<int>(std::lround(seconds / interval)));
   };

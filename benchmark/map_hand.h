@@ -20,7 +20,7 @@ std::string name_of(MapHand hand);
 
 /// The samples of a hand, and when it rests for certain: from one end of a step to another.
 struct MapHandMotion {
-  std::vector<PoseSample> samples;
+  std::vector<motion::PoseSample> samples;
   std::vector<std::pair<double, double>> rests;  ///< begin, end [s]
 };
 

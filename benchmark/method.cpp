@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "spring_workbench/config/run_in_child.h"
+#include "spring_workbench/validation/run_in_child.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -46,8 +46,8 @@ bool wants_another(const Repetition& repetition, int runs, double spent) {
 
 RunResult run_isolated(const Method& method, const Scenario& scene, double setting, const Repetition& repetition,
                        double time_limit) {
-  const auto data =
-      run_in_child([&] { return packed(run_repeatedly(method, scene, setting, repetition)); }, {time_limit});
+  const auto data = validation::run_in_child([&] { return packed(run_repeatedly(method, scene, setting, repetition)); },
+                                             {time_limit});
   RunResult result;
   if (!data) return result;
   Header header{};

@@ -61,7 +61,7 @@ class OdeWorld {
     place_hand(hand, next, p_WE, h);
     const Vector3d d = hand.R_WT.transpose() * (p_WE - hand.p_WT);
     set_rows(linear_, d, h);
-    set_rows(angular_, log_so3(hand.R_WT.transpose() * R_WO), h);
+    set_rows(angular_, math::log_so3(hand.R_WT.transpose() * R_WO), h);
     dWorldStep(world_, h);
   }
 
@@ -102,7 +102,7 @@ class OdeWorld {
   void place_hand(const HandState& now, const HandState& next, const Vector3d& p_WE, double h) {
     const Vector3d p_TE = now.R_WT.transpose() * (p_WE - now.p_WT);
     const Vector3d v_tip = (next.p_WT + next.R_WT * p_TE - p_WE) / h;
-    const Vector3d w = now.R_WT * log_so3(now.R_WT.transpose() * next.R_WT) / h;
+    const Vector3d w = now.R_WT * math::log_so3(now.R_WT.transpose() * next.R_WT) / h;
     const Vector3d from_tip = p_WE - position(object_);
     const Vector3d p = p_WE + from_tip;
     const Vector3d v = v_tip + w.cross(from_tip);

@@ -21,17 +21,17 @@ Scenario with_length_of_its_slopes(Scenario scene) {
   return scene;
 }
 
-PerFamily families(const Vector6d& coordinates) { return {coordinates[2], coordinates[0], coordinates[5]}; }
+rod::PerFamily families(const Vector6d& coordinates) { return {coordinates[2], coordinates[0], coordinates[5]}; }
 
-HeldBody held_body(const Scenario& scene) {
-  BodyInertia inertia;
+dynamics::HeldBody held_body(const Scenario& scene) {
+  dynamics::BodyInertia inertia;
   inertia.mass = scene.mass;
   inertia.inertia_O = scene.inertia.asDiagonal();
   inertia.X_OE.translation() = -scene.p_EO;
-  HeldBody body(make_shape_model("bushing", scene.length), inertia, scene.gravity);
+  dynamics::HeldBody body(rod::make_shape_model("bushing", scene.length), inertia, scene.gravity);
   body.set_springs_and_dampers(families(scene.stiffness), families(scene.damping));
   if (scene.kind != SceneKind::six_dof) {
-    ForkDofs dofs;
+    rod::ForkDofs dofs;
     dofs.bend = false;
     dofs.stretch = scene.kind == SceneKind::stretch;
     dofs.torsion = scene.kind == SceneKind::torsion;
@@ -40,37 +40,37 @@ HeldBody held_body(const Scenario& scene) {
   return body;
 }
 
-PoseSample handle_sample(const Scenario& scene, double t) {
+motion::PoseSample handle_sample(const Scenario& scene, double t) {
   const HandState handle = handle_state(scene, t);
-  PoseSample sample{t, RigidTransform::Identity()};
+  motion::PoseSample sample{t, RigidTransform::Identity()};
   sample.X.linear() = handle.R_WT;
   sample.X.translation() = handle.p_WT;
   return sample;
 }
 
 /// The handle as a function of time.
-class FunctionHand final : public FrameMotion {
+class FunctionHand final : public motion::FrameMotion {
  public:
   explicit FunctionHand(const Scenario& scene) : scene_(scene) {}
 
-  const FrameMotion& at(double) const { return *this; }
+  const motion::FrameMotion& at(double) const { return *this; }
 
-  OwnAxesMotion in_own_axes(double t) const override {
+  motion::OwnAxesMotion in_own_axes(double t) const override {
     const HandleMotion<double> handle = handle_motion(scene_, t);
-    OwnAxesMotion m;
-    m.X.linear() = matrix(handle.R_WH, 0);
-    m.X.translation() = vector(handle.p_W);
-    m.v_W = vector(handle.v_W);
-    m.a_W = vector(handle.a_W);
-    m.w_B = vector(handle.w_H);
-    m.alpha_B = vector(handle.alpha_H);
+    motion::OwnAxesMotion m;
+    m.X.linear() = math::matrix(handle.R_WH, 0);
+    m.X.translation() = math::vector(handle.p_W);
+    m.v_W = math::vector(handle.v_W);
+    m.a_W = math::vector(handle.a_W);
+    m.w_B = math::vector(handle.w_H);
+    m.alpha_B = math::vector(handle.alpha_H);
     return m;
   }
-  FrameForcing<Pack> forcing(const Pack& t, double gravity) const override {
-    HandleMotion<Pack> handle;
+  motion::FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const override {
+    HandleMotion<math::Pack> handle;
     handle_motion(scene_, t, handle);
     handle.a_W.z += gravity;
-    return {handle.R_WH, handle.w_H, handle.alpha_H, transposed(handle.R_WH, handle.a_W)};
+    return {handle.R_WH, handle.w_H, handle.alpha_H, math::transposed(handle.R_WH, handle.a_W)};
   }
 
  private:
@@ -85,7 +85,7 @@ class SampledHand {
   }
 
   /// The segment of the step that starts at `t`; steps come in order. The tracker is a sample ahead of its end.
-  const FrameMotion& at(double t) {
+  const motion::FrameMotion& at(double t) {
     for (; (newest_ - 2) * scene_.output_interval < t + 1e-9; ++newest_) {
       track_.push(handle_sample(scene_, newest_ * scene_.output_interval));
       track_.forget_before(t);
@@ -95,24 +95,24 @@ class SampledHand {
 
  private:
   const Scenario& scene_;
-  PoseTrack track_;
+  motion::PoseTrack track_;
   int newest_ = -1;  ///< number of the next sample
 };
 
 /// One step that is thrown away: what an integrator derives from stiffness and mass is set up, as the peers' models
 /// are.
-void set_up(const Scenario& scene, const HeldBody& body, double step, Integrator& integrator) {
-  StrainState state = body.zero_state();
+void set_up(const Scenario& scene, const dynamics::HeldBody& body, double step, dynamics::Integrator& integrator) {
+  dynamics::StrainState state = body.zero_state();
   integrator.step(body, FunctionHand(scene), 0.0, step, state);
 }
 
 template <typename Hand>
 RunResult run_on(const Scenario& scene, const std::string& name, double step, Hand hand) {
-  const HeldBody body = held_body(scene);
-  const std::unique_ptr<Integrator> integrator = make_integrator(name);
+  const dynamics::HeldBody body = held_body(scene);
+  const std::unique_ptr<dynamics::Integrator> integrator = dynamics::make_integrator(name);
   set_up(scene, body, scene.output_interval / steps_per_output(scene, step), *integrator);
-  StrainState state = body.zero_state();
-  const FrameMotion* motion = &hand.at(0.0);
+  dynamics::StrainState state = body.zero_state();
+  const motion::FrameMotion* motion = &hand.at(0.0);
   return stepping_loop(
       scene, step,
       [&](double t, double h) {
@@ -120,18 +120,18 @@ RunResult run_on(const Scenario& scene, const std::string& name, double step, Ha
         integrator->step(body, *motion, t, h, state);
       },
       [&](double t) -> Vector3d {
-        const HandleForcing handle = body.forcing(*motion, t);
+        const dynamics::HandleForcing handle = body.forcing(*motion, t);
         if (scene.kind != SceneKind::torsion) return body.object(handle, state).X.translation();
-        return {0.0, 0.0, log_so3(handle.X_WH.linear()).z() + state.q[0]};
+        return {0.0, 0.0, math::log_so3(handle.X_WH.linear()).z() + state.q[0]};
       });
 }
 
 /// The scene's outputs between the ends of steps, four at once.
 class DenseOutputs {
  public:
-  DenseOutputs(const Scenario& scene, const HeldBody& body) : scene_(scene), shape_(body.shape()) {}
+  DenseOutputs(const Scenario& scene, const dynamics::HeldBody& body) : scene_(scene), shape_(body.shape()) {}
 
-  void push(double t, const StrainState& state) { strain_.push(t, state); }
+  void push(double t, const dynamics::StrainState& state) { strain_.push(t, state); }
 
   /// Appends those at the next of `times` [s, ascending] that are known; false where one is not bounded.
   bool append(const std::vector<double>& times, std::vector<Vector3d>& outputs) const {
@@ -139,13 +139,13 @@ class DenseOutputs {
     std::size_t known = outputs.size();
     while (known < times.size() && times[known] < until) ++known;
     while (outputs.size() < known) {
-      const std::size_t begin = outputs.size(), count = std::min<std::size_t>(pack_size, known - begin);
-      Pack t;
-      for (std::size_t i = 0; i < pack_size; ++i) t[i] = times[begin + std::min(i, count - 1)];
-      Three<Pack> values;
+      const std::size_t begin = outputs.size(), count = std::min<std::size_t>(math::pack_size, known - begin);
+      math::Pack t;
+      for (std::size_t i = 0; i < math::pack_size; ++i) t[i] = times[begin + std::min(i, count - 1)];
+      math::Three<math::Pack> values;
       at(t, values);
       for (std::size_t i = 0; i < count; ++i) {
-        outputs.push_back(vector(values, static_cast<int>(i)));
+        outputs.push_back(math::vector(values, static_cast<int>(i)));
         if (!is_bounded(outputs.back())) return false;
       }
     }
@@ -153,25 +153,25 @@ class DenseOutputs {
   }
 
  private:
-  void at(const Pack& t, Three<Pack>& values) const {
-    Pack q[max_strain_coordinates]{};
+  void at(const math::Pack& t, math::Three<math::Pack>& values) const {
+    math::Pack q[rod::max_strain_coordinates]{};
     strain_.at(t, q);
     if (scene_.kind != SceneKind::six_dof) {
-      values = none<Pack>();
+      values = math::none<math::Pack>();
       scalar_hand(scene_, t, values.z);
       values.z += q[0];
       return;
     }
-    const Pack at_rest[max_strain_coordinates]{};
-    TipOf<Pack> tip;
+    const math::Pack at_rest[rod::max_strain_coordinates]{};
+    rod::TipOf<math::Pack> tip;
     shape_.tip(q, at_rest, tip);
-    HandleMotion<Pack> handle;
+    HandleMotion<math::Pack> handle;
     handle_motion(scene_, t, handle);
-    values = handle.p_W + handle.R_WH * (tip.p_HE + tip.R_HE * three(scene_.p_EO));
+    values = handle.p_W + handle.R_WH * (tip.p_HE + tip.R_HE * math::three(scene_.p_EO));
   }
 
   const Scenario& scene_;
-  const ShapeModel& shape_;
+  const rod::ShapeModel& shape_;
   DenseStrain strain_;
 };
 
@@ -190,13 +190,13 @@ struct Start {
 
 /// In steps that do not end at the outputs.
 RunResult run_in_long_steps(const Scenario& scene, const std::string& name, double step) {
-  const HeldBody body = held_body(scene);
-  const std::unique_ptr<Integrator> integrator = make_integrator(name);
+  const dynamics::HeldBody body = held_body(scene);
+  const std::unique_ptr<dynamics::Integrator> integrator = dynamics::make_integrator(name);
   const std::vector<double> times = output_times(scene);
   const Start begin(scene, step);
   const FunctionHand hand(scene);
   set_up(scene, body, begin.step, *integrator);
-  StrainState state = body.zero_state();
+  dynamics::StrainState state = body.zero_state();
   DenseOutputs dense(scene, body);
   RunResult result;
   result.outputs.reserve(times.size());
@@ -238,7 +238,7 @@ class OurMethod : public Method {
 
 std::vector<MethodPtr> our_methods() {
   std::vector<MethodPtr> methods;
-  for (const std::string& name : integrator_names()) {
+  for (const std::string& name : dynamics::integrator_names()) {
     for (const bool samples : {false, true}) methods.push_back(std::make_unique<OurMethod>(name, samples));
   }
   return methods;

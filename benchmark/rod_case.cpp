@@ -51,7 +51,7 @@ double sum(const std::array<Sine, 4>& sines, double t) {
   return value;
 }
 
-RodCase rod(const std::string& name, double length, const PerFamily& stiffness) {
+RodCase rod(const std::string& name, double length, const rod::PerFamily& stiffness) {
   RodCase one;
   one.name = name;
   one.fork.length = length;
@@ -59,7 +59,7 @@ RodCase rod(const std::string& name, double length, const PerFamily& stiffness) 
   return one;
 }
 
-RodCase with_dofs(RodCase one, const std::string& name, const ForkDofs& dofs) {
+RodCase with_dofs(RodCase one, const std::string& name, const rod::ForkDofs& dofs) {
   one.name = name;
   one.fork.dofs = dofs;
   return one;
@@ -88,9 +88,9 @@ std::vector<RodCase> bodies_and_forks() {
           with_dofs(soft, "stretch_only", {true, false, false})};
 }
 
-std::vector<PoseSample> read_motion(const std::string& path) {
+std::vector<motion::PoseSample> read_motion(const std::string& path) {
   std::ifstream file(path);
-  std::vector<PoseSample> samples;
+  std::vector<motion::PoseSample> samples;
   for (std::string line; std::getline(file, line);) {
     std::istringstream in(line);
     double t, x, y, z, qx, qy, qz, qw;
@@ -103,22 +103,22 @@ std::vector<PoseSample> read_motion(const std::string& path) {
 
 }  // namespace
 
-std::vector<PoseSample> synthetic_hand(unsigned seed, double duration) {
+std::vector<motion::PoseSample> synthetic_hand(unsigned seed, double duration) {
   Random random(seed);
   std::array<std::array<Sine, 4>, 3> place, turn;
   for (auto& coordinate : place) coordinate = one_coordinate(0.1, 1e-4, random);
   for (auto& coordinate : turn) coordinate = one_coordinate(0.4, 2e-3, random);
-  const Matrix3d forward_and_up = exp_so3(Vector3d(0.0, 1.0, 0.0));
-  std::vector<PoseSample> samples;
+  const Matrix3d forward_and_up = math::exp_so3(Vector3d(0.0, 1.0, 0.0));
+  std::vector<motion::PoseSample> samples;
   for (int i = 0; i * kOutputInterval < duration + 0.5 * kOutputInterval; ++i) {
     const double t = i * kOutputInterval;
-    PoseSample sample{t, RigidTransform::Identity()};
+    motion::PoseSample sample{t, RigidTransform::Identity()};
     Vector3d angle;
     for (int axis = 0; axis < 3; ++axis) {
       sample.X.translation()[axis] = sum(place[static_cast<std::size_t>(axis)], t);
       angle[axis] = sum(turn[static_cast<std::size_t>(axis)], t);
     }
-    sample.X.linear() = exp_so3(angle) * forward_and_up;
+    sample.X.linear() = math::exp_so3(angle) * forward_and_up;
     samples.push_back(sample);
   }
   return samples;
@@ -131,7 +131,7 @@ std::vector<RodCase> synthetic_cases(bool quick) {
   for (RodCase& one : cases) {
     one.duration = quick ? 1.0 : 4.0;
     one.hand = synthetic_hand(seed++, one.duration + 0.5);
-    one.shapes = shape_model_names();
+    one.shapes = rod::shape_model_names();
   }
   return cases;
 }
@@ -154,33 +154,33 @@ std::vector<RodCase> recorded_cases(const std::string& folder) {
   return there;
 }
 
-HeldBody held_body(const RodCase& one, const std::string& shape) {
-  BodyInertia inertia;
+dynamics::HeldBody held_body(const RodCase& one, const std::string& shape) {
+  dynamics::BodyInertia inertia;
   inertia.mass = one.mass;
   inertia.inertia_O = one.inertia.asDiagonal();
   inertia.X_OE.translation() = one.p_OE;
-  HeldBody body(make_shape_model(shape, one.fork.length), inertia, 9.81);
+  dynamics::HeldBody body(rod::make_shape_model(shape, one.fork.length), inertia, 9.81);
   body.set_springs(one.fork);
   body.set_dofs(one.fork.dofs, 0.0, 1.0, body.zero_state());
   return body;
 }
 
-PoseTrack hand_track(const RodCase& one) {
-  PoseTrack track;
-  for (const PoseSample& sample : one.hand) track.push(sample);
+motion::PoseTrack hand_track(const RodCase& one) {
+  motion::PoseTrack track;
+  for (const motion::PoseSample& sample : one.hand) track.push(sample);
   return track;
 }
 
 double hand_amplitude(const RodCase& one) {
   Vector3d mean = Vector3d::Zero();
   double count = 0.0, amplitude = 0.0;
-  for (const PoseSample& sample : one.hand) {
+  for (const motion::PoseSample& sample : one.hand) {
     if (sample.t > one.duration) break;
     mean += sample.X.translation();
     count += 1.0;
   }
   mean /= count;
-  for (const PoseSample& sample : one.hand) {
+  for (const motion::PoseSample& sample : one.hand) {
     if (sample.t <= one.duration) amplitude = std::max(amplitude, (sample.X.translation() - mean).norm());
   }
   return amplitude;
@@ -195,7 +195,7 @@ std::vector<double> output_times(const RodCase& one) {
 std::vector<double> step_ends(const RodCase& one) {
   std::vector<double> ends = output_times(one);
   const double last = ends.back();
-  for (const PoseSample& sample : one.hand) {
+  for (const motion::PoseSample& sample : one.hand) {
     if (sample.t > 0.0 && sample.t < last) ends.push_back(sample.t);
   }
   std::sort(ends.begin(), ends.end());

@@ -14,16 +14,16 @@ struct RodCase {
   double mass = 1.0;                                 ///< [kg]
   Vector3d inertia = Vector3d(0.004, 0.006, 0.005);  ///< about the centre of mass, principal [kg·m²]
   Vector3d p_OE = Vector3d(0.03, 0.02, -0.05);       ///< the tip in the object [m]
-  ForkSettings fork;                                 ///< but for its shape
+  rod::ForkSettings fork;                            ///< but for its shape
   std::vector<std::string> shapes;                   ///< the shape models it is run with
-  std::vector<PoseSample> hand;                      ///< from t = 0 to beyond the end
+  std::vector<motion::PoseSample> hand;              ///< from t = 0 to beyond the end
   double duration = 4.0;                             ///< [s]
   std::string recorded;                              ///< file with the trajectory by another solver, or empty
 };
 
 /// A hand's motion at 50 Hz from t = 0 to `duration` [s], made from `seed`: sines of 0.2 to 2.5 Hz in position (some
 /// 0.15 m) and rotation (some 0.6 rad) with a tremor of 8 to 12 Hz (0.1 mm, 2 mrad). The fork points forward and up.
-std::vector<PoseSample> synthetic_hand(unsigned seed, double duration);
+std::vector<motion::PoseSample> synthetic_hand(unsigned seed, double duration);
 
 /// The cases of the package's own: soft, underdamped, stiff, heavy with large bends, and each family alone, each with
 /// every shape model; a few of them where `quick`.
@@ -33,10 +33,10 @@ std::vector<RodCase> synthetic_cases(bool quick);
 std::vector<RodCase> recorded_cases(const std::string& folder);
 
 /// The body on the fork, in the coordinates of `shape`.
-HeldBody held_body(const RodCase& one, const std::string& shape);
+dynamics::HeldBody held_body(const RodCase& one, const std::string& shape);
 
 /// The hand's motion through all samples.
-PoseTrack hand_track(const RodCase& one);
+motion::PoseTrack hand_track(const RodCase& one);
 
 /// Half the largest distance between two places of the hand, roughly: the largest distance from their mean [m].
 double hand_amplitude(const RodCase& one);

@@ -37,7 +37,7 @@ std::vector<RigidTransform> recorded_poses(const RodCase& one) {
 }
 
 double largest_deflection(const RodCase& one, const std::vector<RigidTransform>& X_WO) {
-  PoseTrack track = hand_track(one);
+  motion::PoseTrack track = hand_track(one);
   const Vector3d p_HO = one.fork.length * Vector3d::UnitZ() - one.p_OE;
   const std::vector<double> times = output_times(one);
   double largest = 0.0;
@@ -48,19 +48,19 @@ double largest_deflection(const RodCase& one, const std::vector<RigidTransform>&
   return largest;
 }
 
-StrainState unpacked(const double* y, int size) {
+dynamics::StrainState unpacked(const double* y, int size) {
   return {Eigen::Map<const Eigen::VectorXd>(y, size), Eigen::Map<const Eigen::VectorXd>(y + size, size)};
 }
 
 }  // namespace
 
 std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& shape, double tolerance) {
-  const HeldBody body = held_body(one, shape);
+  const dynamics::HeldBody body = held_body(one, shape);
   const int n = body.size();
-  PoseTrack track = hand_track(one);
-  const MotionSegment* segment = &track.segment(0.0);
+  motion::PoseTrack track = hand_track(one);
+  const motion::MotionSegment* segment = &track.segment(0.0);
   CvodeIntegrator cvode(2 * n, [&](double t, const double* y, double* rate) {
-    const StrainState state = unpacked(y, n);
+    const dynamics::StrainState state = unpacked(y, n);
     if (!body.shape().admissible(body.full_state(t, state).q)) return false;
     Eigen::Map<Eigen::VectorXd>(rate, n) = state.q_dot;
     Eigen::Map<Eigen::VectorXd>(rate + n, n) = body.acceleration(body.forcing(*segment, t), state.q, state.q_dot);
@@ -77,7 +77,7 @@ std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& s
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     segment = &track.segment(0.5 * (ends[i] + ends[i + 1]));
     cvode.restart(ends[i]);
-    const StrainState state = unpacked(cvode.advance(ends[i + 1], true), n);
+    const dynamics::StrainState state = unpacked(cvode.advance(ends[i + 1], true), n);
     if (ends[i + 1] > times[poses.size()] - kSameTime) {
       poses.push_back(body.object(body.forcing(*segment, ends[i + 1]), state).X);
     }
@@ -89,7 +89,7 @@ PoseDistance largest_distance(const std::vector<RigidTransform>& a, const std::v
   PoseDistance distance;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
     distance.position = std::max(distance.position, (a[i].translation() - b[i].translation()).norm());
-    distance.angle = std::max(distance.angle, log_so3(a[i].linear().transpose() * b[i].linear()).norm());
+    distance.angle = std::max(distance.angle, math::log_so3(a[i].linear().transpose() * b[i].linear()).norm());
   }
   return distance;
 }

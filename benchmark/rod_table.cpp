@@ -11,8 +11,8 @@
 #include "benchmark/parallel.h"
 #include "benchmark/rod_reference.h"
 #include "benchmark/simulated_rod.h"
-#include "spring_workbench/config/run_in_child.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/validation/run_in_child.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -57,10 +57,10 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
 }
 
 RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& integrator_name, double step) {
-  const HeldBody body = held_body(one, shape);
-  const std::unique_ptr<Integrator> integrator = make_integrator(integrator_name);
-  StrainState state = body.zero_state();
-  PoseTrack track = hand_track(one);
+  const dynamics::HeldBody body = held_body(one, shape);
+  const std::unique_ptr<dynamics::Integrator> integrator = dynamics::make_integrator(integrator_name);
+  dynamics::StrainState state = body.zero_state();
+  motion::PoseTrack track = hand_track(one);
   const std::vector<double> ends = step_ends(one), times = output_times(one);
   RodRun run;
   run.X_WO.reserve(times.size());
@@ -68,7 +68,7 @@ RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& 
   const Clock::time_point start = Clock::now();
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
     const double span = ends[i + 1] - ends[i];
-    const MotionSegment& segment = track.segment(ends[i] + 0.5 * span);
+    const motion::MotionSegment& segment = track.segment(ends[i] + 0.5 * span);
     const int count = static_cast<int>(std::ceil(span / step * (1.0 - 1e-9)));
     const double h = span / count;
     for (int j = 0; j < count; ++j) integrator->step(body, segment, ends[i] + j * h, h, state);
@@ -84,18 +84,18 @@ RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& 
 
 RodRun run_rod_to_tolerance(const RodCase& one, const std::string& shape, const std::string& integrator,
                             double tolerance) {
-  SimulationSettings settings = rod_settings(one, shape, integrator, kOutputInterval);
+  simulation::SimulationSettings settings = rod_settings(one, shape, integrator, kOutputInterval);
   YAML::Node values;
   values["tolerance"] = tolerance;
-  apply_settings(values, "report", settings);
-  Simulation simulation(rod_scene(one), settings);
-  for (const PoseSample& sample : one.hand) simulation.push_stylus(sample);
+  simulation::apply_settings(values, "report", settings);
+  simulation::Simulation simulation(rod_scene(one), settings);
+  for (const motion::PoseSample& sample : one.hand) simulation.push_stylus(sample);
   RodRun run;
   const std::vector<double> times = output_times(one);
   run.X_WO.reserve(times.size());
   const Clock::time_point start = Clock::now();
   for (const double t : times) {
-    const AdvanceReport report = simulation.advance(t);
+    const simulation::AdvanceReport report = simulation.advance(t);
     run.steps += report.steps;
     run.X_WO.push_back(simulation.objects()[0].X_WO);
     if (!is_bounded(run.X_WO.back()) || report.guards_tripped > 0) return run;
@@ -112,7 +112,7 @@ double error_as_length(const RodCase& one, double position, double angle) {
 std::size_t line_count(const RodTablePlan& plan) {
   std::size_t pairs = 0;
   for (const RodCase& one : plan.cases) pairs += one.shapes.size();
-  return pairs * (1 + integrator_names().size());
+  return pairs * (1 + dynamics::integrator_names().size());
 }
 
 namespace {
@@ -155,8 +155,8 @@ RodRun unpacked(const std::string& data) {
 /// In a child process, given up after `time_limit` [s].
 RodRun run_rod_to_tolerance_isolated(const RodCase& one, const std::string& shape, const std::string& integrator,
                                      double tolerance, double time_limit) {
-  const auto data =
-      run_in_child([&] { return packed(run_rod_to_tolerance(one, shape, integrator, tolerance)); }, {time_limit});
+  const auto data = validation::run_in_child(
+      [&] { return packed(run_rod_to_tolerance(one, shape, integrator, tolerance)); }, {time_limit});
   if (data) return unpacked(*data);
   RodRun run;
   run.given_up = true;
@@ -247,7 +247,7 @@ std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units) {
   std::vector<ErrorRow> all;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto& [one, shape] = pairs[i];
-    for (const std::string& integrator : integrator_names()) {
+    for (const std::string& integrator : dynamics::integrator_names()) {
       const Line line(plan, *one, shape, references[i], integrator);
       const std::vector<ErrorRow> rows =
           units.rows<ErrorRow>(i, one->name + ' ' + shape + ' ' + integrator, [&] { return line.rows(); });

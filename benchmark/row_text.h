@@ -7,7 +7,7 @@
 #include <string>
 #include <type_traits>
 
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::benchmark {
 
@@ -73,7 +73,7 @@ class FieldReader {
     if (text.empty() || *rest != '\0') wrong(text);
   }
   [[noreturn]] void wrong(const std::string& value) const {
-    refuse(where_, "row", value, "a row as report --shard writes it");
+    validation::refuse(where_, "row", value, "a row as report --shard writes it");
   }
 
   std::string line_, where_;

@@ -144,23 +144,23 @@ SPRING_WORKBENCH_INLINE HandleMotion<S> motion_of_handle(const Scenario& scene, 
   HandleMotion<S> m = tip_motion(scene, t);
   m.p_W = m.p_W - scene.length * m.R_WH.z;
   if (scene.kind != SceneKind::six_dof) return m;  // it turns about the fork's axis at most
-  const Three<S> p_TH{S{}, S{}, S{} - scene.length}, v = cross(m.w_H, p_TH);
+  const math::Three<S> p_TH{S{}, S{}, S{} - scene.length}, v = math::cross(m.w_H, p_TH);
   m.v_W += m.R_WH * v;
-  m.a_W += m.R_WH * (cross(m.alpha_H, p_TH) + cross(m.w_H, v));
+  m.a_W += m.R_WH * (math::cross(m.alpha_H, p_TH) + math::cross(m.w_H, v));
   return m;
 }
 
 SPRING_WORKBENCH_INLINE HandState state(const HandleMotion<double>& m) {
-  return {matrix(m.R_WH, 0), vector(m.p_W), vector(m.v_W), vector(m.w_H)};
+  return {math::matrix(m.R_WH, 0), math::vector(m.p_W), math::vector(m.v_W), math::vector(m.w_H)};
 }
 SPRING_WORKBENCH_INLINE HandAcceleration acceleration(const HandleMotion<double>& m) {
-  return {vector(m.a_W), vector(m.alpha_H)};
+  return {math::vector(m.a_W), math::vector(m.alpha_H)};
 }
 
 }  // namespace
 
 ScalarMotion scalar_hand(const Scenario& scene, double t) { return scalar_motion(scene, t); }
-SPRING_WORKBENCH_WIDE void scalar_hand(const Scenario& scene, const Pack& t, Pack& values) {
+SPRING_WORKBENCH_WIDE void scalar_hand(const Scenario& scene, const math::Pack& t, math::Pack& values) {
   values = scalar_motion(scene, t).value;
 }
 
@@ -171,7 +171,7 @@ HandAcceleration handle_acceleration(const Scenario& scene, double t) {
   return acceleration(motion_of_handle(scene, t));
 }
 HandleMotion<double> handle_motion(const Scenario& scene, double t) { return motion_of_handle(scene, t); }
-SPRING_WORKBENCH_WIDE void handle_motion(const Scenario& scene, const Pack& t, HandleMotion<Pack>& out) {
+SPRING_WORKBENCH_WIDE void handle_motion(const Scenario& scene, const math::Pack& t, HandleMotion<math::Pack>& out) {
   out = motion_of_handle(scene, t);
 }
 

@@ -86,12 +86,12 @@ HandAcceleration handle_acceleration(const Scenario& scene, double t);
 /// alpha in those of H.
 template <typename S>
 struct HandleMotion {
-  ThreeByThree<S> R_WH;
-  Three<S> p_W, v_W, a_W;  ///< [m], [m/s], [m/s²]
-  Three<S> w_H, alpha_H;   ///< [rad/s], [rad/s²]
+  math::ThreeByThree<S> R_WH;
+  math::Three<S> p_W, v_W, a_W;  ///< [m], [m/s], [m/s²]
+  math::Three<S> w_H, alpha_H;   ///< [rad/s], [rad/s²]
 };
 HandleMotion<double> handle_motion(const Scenario& scene, double t);
-void handle_motion(const Scenario& scene, const Pack& t, HandleMotion<Pack>& out);
+void handle_motion(const Scenario& scene, const math::Pack& t, HandleMotion<math::Pack>& out);
 
 /// The one moving coordinate of the hand in scenes A and B: height [m] or twist [rad], with two derivatives.
 template <typename S>
@@ -101,7 +101,7 @@ struct ScalarMotionOf {
 using ScalarMotion = ScalarMotionOf<double>;
 ScalarMotion scalar_hand(const Scenario& scene, double t);
 /// Its values at four times.
-void scalar_hand(const Scenario& scene, const Pack& t, Pack& values);
+void scalar_hand(const Scenario& scene, const math::Pack& t, math::Pack& values);
 
 /// Output times: 0, output_interval, …, duration.
 std::vector<double> output_times(const Scenario& scene);

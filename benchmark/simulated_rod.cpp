@@ -2,25 +2,25 @@
 
 namespace spring_workbench::benchmark {
 
-Scene rod_scene(const RodCase& one) {
-  Scene scene;
+scene::Scene rod_scene(const RodCase& one) {
+  scene::Scene scene;
   scene.name = scene.path = one.name;
-  scene.contact = ContactMode::none;
-  Body body;
+  scene.contact = scene::ContactMode::none;
+  scene::Body body;
   body.name = "object";
   body.movable = true;
   if (one.mass > 0.0) {
     body.mass_properties.mass = one.mass;
     body.mass_properties.inertia_O = one.inertia.asDiagonal();
   }
-  body.collision.push_back({Box{Vector3d(0.1, 0.1, 0.1)}});
+  body.collision.push_back({geometry::Box{Vector3d(0.1, 0.1, 0.1)}});
   scene.bodies.push_back(body);
   return scene;
 }
 
-SimulationSettings rod_settings(const RodCase& one, const std::string& shape, const std::string& integrator,
-                                double step) {
-  SimulationSettings settings;
+simulation::SimulationSettings rod_settings(const RodCase& one, const std::string& shape, const std::string& integrator,
+                                            double step) {
+  simulation::SimulationSettings settings;
   settings.contact = "none";
   settings.fork = one.fork;
   settings.fork.shape = shape;

@@ -37,8 +37,8 @@ class EnergyWatch {
  public:
   EnergyWatch(double weight, double length) : weight_(weight), largest_(weight * length) {}
 
-  void look(const Simulation& simulation) {
-    const ToolState fork = simulation.fork();
+  void look(const simulation::Simulation& simulation) {
+    const tools::ToolState fork = simulation.fork();
     const double moving = fork.elastic_energy + fork.kinetic_energy;
     const double energy = moving + weight_ * simulation.objects()[0].X_WO.translation().z();
     largest_ = std::max(largest_, moving);
@@ -57,9 +57,9 @@ class EnergyWatch {
 class CellRun {
  public:
   CellRun(const RodCase& one, const std::string& integrator, const std::string& shape, double step,
-          const std::vector<PoseSample>& hand)
+          const std::vector<motion::PoseSample>& hand)
       : simulation_(rod_scene(one), rod_settings(one, shape, integrator, step)) {
-    for (const PoseSample& sample : hand) simulation_.push_stylus(sample);
+    for (const motion::PoseSample& sample : hand) simulation_.push_stylus(sample);
   }
 
   /// False when there is no point in going on.
@@ -73,15 +73,15 @@ class CellRun {
     return outcome_.bounded;
   }
 
-  const Simulation& simulation() const { return simulation_; }
+  const simulation::Simulation& simulation() const { return simulation_; }
   StabilityOutcome& outcome() { return outcome_; }
 
  private:
-  Simulation simulation_;
+  simulation::Simulation simulation_;
   StabilityOutcome outcome_;
 };
 
-std::string families_name(const ForkDofs& dofs) {
+std::string families_name(const rod::ForkDofs& dofs) {
   std::string name;
   if (dofs.stretch) name += 's';
   if (dofs.bend) name += 'b';
@@ -145,7 +145,7 @@ bool worse(const StabilityOutcome& a, const StabilityOutcome& b) {
 
 StabilityPlan stability_plan(bool quick) {
   StabilityPlan plan;
-  plan.integrators = integrator_names();
+  plan.integrators = dynamics::integrator_names();
   plan.shapes = {"linear"};
   plan.stiffness_factors = decades(1e-6, 1e12, quick ? 1e6 : 1e2);
   plan.masses = quick ? std::vector<double>{0.0, 1e-6, 1.0, 1e6} : std::vector<double>{0.0, 1e-6, 1e-3, 1.0, 1e3, 1e6};

@@ -19,7 +19,7 @@ struct StabilityPlan {
   std::vector<double> steps;              ///< [s]
   std::vector<std::size_t> in_turn;       ///< by step: how many of families × hands are run with each of the rest
   std::vector<double> damping_ratios;
-  std::vector<ForkDofs> families;
+  std::vector<rod::ForkDofs> families;
   std::vector<MapHand> hands;
 };
 StabilityPlan stability_plan(bool quick);
@@ -30,7 +30,7 @@ struct StabilityCell {
   double mass = 1.0;
   double step = 0.02;
   double damping_ratio = 1.0;
-  ForkDofs families;
+  rod::ForkDofs families;
   MapHand hand = MapHand::lissajous;
 };
 

@@ -9,10 +9,10 @@ namespace {
 
 constexpr int calls = 200;
 
-MotionSegment hand_of(const Scenario& scene, double t) {
+motion::MotionSegment hand_of(const Scenario& scene, double t) {
   const auto sample = [&](double at) {
     const HandState hand = handle_state(scene, at);
-    PoseSample s;
+    motion::PoseSample s;
     s.t = at;
     s.X.linear() = hand.R_WT;
     s.X.translation() = hand.p_WT;
@@ -20,36 +20,36 @@ MotionSegment hand_of(const Scenario& scene, double t) {
   };
   const double end = t + scene.output_interval;
   const HandState a = handle_state(scene, t), b = handle_state(scene, end);
-  return MotionSegment(sample(t), a.v_WT_W, a.w_WT_T, sample(end), b.v_WT_W, b.w_WT_T);
+  return motion::MotionSegment(sample(t), a.v_WT_W, a.w_WT_T, sample(end), b.v_WT_W, b.w_WT_T);
 }
 
-HeldBody body_of(const Scenario& scene, const std::string& shape, const ForkDofs& dofs) {
-  BodyInertia inertia;
+dynamics::HeldBody body_of(const Scenario& scene, const std::string& shape, const rod::ForkDofs& dofs) {
+  dynamics::BodyInertia inertia;
   inertia.mass = scene.mass;
   inertia.inertia_O = scene.inertia.asDiagonal();
   inertia.X_OE.translation() = -scene.p_EO;
-  HeldBody body(make_shape_model(shape, scene.length), inertia, scene.gravity);
+  dynamics::HeldBody body(rod::make_shape_model(shape, scene.length), inertia, scene.gravity);
   body.set_springs({scene.stiffness[2], scene.stiffness[0], scene.stiffness[5]}, {1.0, 1.0, 1.0});
-  const StrainVector zero = StrainVector::Zero(body.shape().size());
+  const rod::StrainVector zero = rod::StrainVector::Zero(body.shape().size());
   body.set_dofs(dofs, 0.0, 1.0, {zero, zero});
   return body;
 }
 
-void add(const std::string& shape, const ForkDofs& dofs, std::vector<StepCost>& costs) {
+void add(const std::string& shape, const rod::ForkDofs& dofs, std::vector<StepCost>& costs) {
   const Scenario scene = six_dof_scene(100.0);
-  HeldBody body = body_of(scene, shape, dofs);
+  dynamics::HeldBody body = body_of(scene, shape, dofs);
   const double h = scene.output_interval;
-  std::vector<MotionSegment> hand;
+  std::vector<motion::MotionSegment> hand;
   for (int i = 0; i < calls; ++i) hand.push_back(hand_of(scene, i * h));
-  const auto integrator = make_integrator("exponential");
-  StrainState state = body.zero_state();
+  const auto integrator = dynamics::make_integrator("exponential");
+  dynamics::StrainState state = body.zero_state();
   integrator->step(body, hand[0], 0.0, h, state);
-  const StrainState moving = state;
-  const StrainState full = body.full_state(h, moving);
-  const HandleForcing forcing = body.forcing(hand[1], h);
+  const dynamics::StrainState moving = state;
+  const dynamics::StrainState full = body.full_state(h, moving);
+  const dynamics::HandleForcing forcing = body.forcing(hand[1], h);
 
   volatile double sink = 0.0;  // so that nothing is left out
-  TipKinematics tip;
+  rod::TipKinematics tip;
   const auto note = [&](const char* part, auto&& call) {
     costs.push_back({shape, body.size(), part, least_nanoseconds(calls, call)});
   };
@@ -80,7 +80,7 @@ std::vector<StepCost> step_costs() {
   const Scenario scene = six_dof_scene(100.0);
   std::vector<StepCost> costs;
   const HandState a = handle_state(scene, 0.0), b = handle_state(scene, scene.output_interval);
-  PoseSample from, to;
+  motion::PoseSample from, to;
   from.X.linear() = a.R_WT;
   from.X.translation() = a.p_WT;
   to.t = scene.output_interval;
@@ -88,9 +88,9 @@ std::vector<StepCost> step_costs() {
   to.X.translation() = b.p_WT;
   volatile double sink = 0.0;
   costs.push_back({"", 0, "hand between two samples", least_nanoseconds(calls, [&](int) {
-                     sink = MotionSegment(from, a.v_WT_W, a.w_WT_T, to, b.v_WT_W, b.w_WT_T).end();
+                     sink = motion::MotionSegment(from, a.v_WT_W, a.w_WT_T, to, b.v_WT_W, b.w_WT_T).end();
                    })});
-  for (const std::string& shape : shape_model_names()) {
+  for (const std::string& shape : rod::shape_model_names()) {
     add(shape, {true, true, true}, costs);
     add(shape, {true, false, false}, costs);
   }

@@ -32,7 +32,7 @@ Verdict judged(std::string claim, std::string target, std::string measured, bool
 }
 
 bool is_ours(const std::string& method) {
-  const std::vector<std::string>& names = integrator_names();
+  const std::vector<std::string>& names = dynamics::integrator_names();
   return std::find(names.begin(), names.end(), method) != names.end();
 }
 bool is_cvode(const std::string& method) { return method.rfind("cvode", 0) == 0; }
@@ -230,7 +230,7 @@ void tolerance(const Measurements& m, std::vector<Verdict>& out) {
 }
 
 void stability(const Measurements& m, std::vector<Verdict>& out) {
-  for (const std::string& name : integrator_names()) {
+  for (const std::string& name : dynamics::integrator_names()) {
     StabilityRow sum;
     for (const StabilityRow& row : m.map.rows) {
       if (row.integrator != name) continue;

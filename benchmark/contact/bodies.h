@@ -7,13 +7,14 @@
 
 namespace spring_workbench::benchmark {
 
-inline std::string name_of(ContactMode mode) {
-  if (mode == ContactMode::none) return "none";
-  return mode == ContactMode::stop ? "stop" : "dynamic";
+inline std::string name_of(scene::ContactMode mode) {
+  if (mode == scene::ContactMode::none) return "none";
+  return mode == scene::ContactMode::stop ? "stop" : "dynamic";
 }
 
-inline Body standing(const std::string& name, Geometry geometry, const RigidTransform& X_WO, double friction) {
-  Body body;
+inline scene::Body standing(const std::string& name, geometry::Geometry geometry, const RigidTransform& X_WO,
+                            double friction) {
+  scene::Body body;
   body.name = name;
   body.X_WO = X_WO;
   body.material.friction = friction;
@@ -22,9 +23,9 @@ inline Body standing(const std::string& name, Geometry geometry, const RigidTran
 }
 
 /// `principal`: moments of inertia about O [kg·m²].
-inline Body movable(const std::string& name, Geometry geometry, const RigidTransform& X_WO, double friction,
-                    double mass, const Vector3d& principal) {
-  Body body = standing(name, std::move(geometry), X_WO, friction);
+inline scene::Body movable(const std::string& name, geometry::Geometry geometry, const RigidTransform& X_WO,
+                           double friction, double mass, const Vector3d& principal) {
+  scene::Body body = standing(name, std::move(geometry), X_WO, friction);
   body.movable = true;
   body.mass_properties.mass = mass;
   body.mass_properties.inertia_O = principal.asDiagonal();
@@ -39,9 +40,9 @@ inline Vector3d box_inertia(double mass, const Vector3d& size) {
 inline RigidTransform at(const Vector3d& p_WO) { return RigidTransform(Eigen::Translation3d(p_WO)); }
 
 /// A movable one, along the axes of W.
-inline Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO,
-                double friction = 0.5) {
-  return movable(name, Box{size}, at(p_WO), friction, mass, box_inertia(mass, size));
+inline scene::Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO,
+                       double friction = 0.5) {
+  return movable(name, geometry::Box{size}, at(p_WO), friction, mass, box_inertia(mass, size));
 }
 
 }  // namespace spring_workbench::benchmark

@@ -5,9 +5,9 @@
 #include <limits>
 
 #include "benchmark/least_time.h"
-#include "spring_workbench/config/input_error.h"
-#include "spring_workbench/engines/contact_engines.h"
+#include "spring_workbench/contact/contact_engines.h"
 #include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -15,19 +15,19 @@ namespace {
 constexpr double sample_time = 0.02, edge = 0.1;  // s, m
 constexpr int warm = 20, counted = 40, windows = 4;
 
-Body box(const std::string& name, const Vector3d& p_WO) {
-  Body body;
+scene::Body box(const std::string& name, const Vector3d& p_WO) {
+  scene::Body body;
   body.name = name;
   body.movable = true;
   body.X_WO.translation() = p_WO;
   body.mass_properties.mass = 1.0;
   body.mass_properties.inertia_O = edge * edge / 6.0 * Matrix3d::Identity();
-  body.collision.push_back({Box{Vector3d::Constant(edge)}});
+  body.collision.push_back({geometry::Box{Vector3d::Constant(edge)}});
   return body;
 }
 
-Scene scene_of(ContactMode contact) {
-  Scene scene;
+scene::Scene scene_of(scene::ContactMode contact) {
+  scene::Scene scene;
   scene.name = scene.path = "costs";
   scene.contact = contact;
   scene.bodies = {box("held", Vector3d(0, 0, 0.5 * edge)), box("other", Vector3d(0.3, 0, 0.5 * edge))};
@@ -42,10 +42,10 @@ struct Carry {
   double ahead;   ///< where it begins along x [m]
 };
 
-double step_cost(ContactMode contact, const Carry& carry) {
-  SimulationSettings set;
+double step_cost(scene::ContactMode contact, const Carry& carry) {
+  simulation::SimulationSettings set;
   set.grasp.object = "held";
-  Simulation simulation(scene_of(contact), set);
+  simulation::Simulation simulation(scene_of(contact), set);
   const auto x = [&](double t) {
     const double moved = std::max(0.0, t - warm * sample_time);
     return carry.ahead * std::min(1.0, t / (warm * sample_time)) + carry.speed * moved;
@@ -67,7 +67,8 @@ double step_cost(ContactMode contact, const Carry& carry) {
 }
 
 void add_queries(std::vector<ContactCost>& costs) {
-  const std::unique_ptr<CollisionWorld> world = open_collision_world(scene_of(ContactMode::stop));
+  const std::unique_ptr<collision::CollisionWorld> world =
+      contact::open_collision_world(scene_of(scene::ContactMode::stop));
   RigidTransform high = RigidTransform::Identity(), low = high, on = high, in = high;
   high.translation().z() = 1.0;
   low.translation() = Vector3d(0.1, 0.0, 0.5 * edge + 5e-3);
@@ -82,7 +83,7 @@ void add_queries(std::vector<ContactCost>& costs) {
   note("query: is anything near the way, nothing is", [&](int) { sink = world->may_touch(0, high, high_on, 1e-4); });
   note("query: is anything near the way, something is", [&](int) { sink = world->may_touch(0, on, low, 1e-4); });
   note("query: contact points of a flush box", [&](int) {
-    std::vector<ContactPoint> points;
+    std::vector<collision::ContactPoint> points;
     world->find_contacts(0, on, -1e-4, points);
     sink = static_cast<double>(points.size());
   });
@@ -95,13 +96,13 @@ void add_queries(std::vector<ContactCost>& costs) {
 }
 
 void add_world(std::vector<ContactCost>& costs) {
-  std::unique_ptr<RigidWorld> world;
+  std::unique_ptr<rigid_bodies::RigidWorld> world;
   try {
-    world = open_rigid_world(scene_of(ContactMode::dynamic));
-  } catch (const InputError&) {
+    world = contact::open_rigid_world(scene_of(scene::ContactMode::dynamic));
+  } catch (const validation::InputError&) {
     return;  // built without it
   }
-  std::vector<DrivenBody> none;
+  std::vector<rigid_bodies::DrivenBody> none;
   const auto note = [&](const char* part, auto&& call) {
     costs.push_back({"dynamic", part, least_nanoseconds(200, call)});
   };
@@ -123,9 +124,10 @@ std::vector<ContactCost> measure_contact_costs() {
   add_queries(costs);
   add_world(costs);
   const bool with_world = std::any_of(costs.begin(), costs.end(), [](const auto& c) { return c.contact == "dynamic"; });
-  for (const auto& [name, mode] : {std::pair{"none", ContactMode::none}, std::pair{"stop", ContactMode::stop},
-                                   std::pair{"dynamic", ContactMode::dynamic}}) {
-    if (mode == ContactMode::dynamic && !with_world) continue;
+  for (const auto& [name, mode] :
+       {std::pair{"none", scene::ContactMode::none}, std::pair{"stop", scene::ContactMode::stop},
+        std::pair{"dynamic", scene::ContactMode::dynamic}}) {
+    if (mode == scene::ContactMode::dynamic && !with_world) continue;
     for (const Carry& carry : {Carry{"step of 20 ms: carried freely", 0.5, 0.1, 0.0},
                                Carry{"step of 20 ms: carried 10 mm over the bench", 0.015, 0.1, 0.0},
                                Carry{"step of 20 ms: pressed flush and dragged", -0.01, 0.1, 0.0},

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <sstream>
 
-#include "spring_workbench/config/run_in_child.h"
+#include "spring_workbench/validation/run_in_child.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -43,7 +43,7 @@ DragRow isolated_drag(const DragMethod& method, const DragScene& scene, double s
   failed.turns = scene.turns;
   failed.step = step;
   constexpr std::size_t numbers = 6;
-  const auto data = run_in_child(
+  const auto data = validation::run_in_child(
       [&] {
         const DragRow row = run_drag(method, scene, step, runs);
         const double values[numbers] = {

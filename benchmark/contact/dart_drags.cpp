@@ -59,8 +59,8 @@ class DartDrag final : public DragWorld {
     const Eigen::Isometry3d X_WO = box_->getWorldTransform();
     const Vector3d force = scene_.stiffness() * (hand.p_W - X_WO.translation()) +
                            scene_.damping() * (hand.v_W - box_->getCOMLinearVelocity());
-    const Vector3d moment =
-        -scene_.turning_stiffness() * log_so3(X_WO.linear()) - scene_.turning_damping() * box_->getAngularVelocity();
+    const Vector3d moment = -scene_.turning_stiffness() * math::log_so3(X_WO.linear()) -
+                            scene_.turning_damping() * box_->getAngularVelocity();
     box_->addExtForce(force, Vector3d::Zero(), false);
     box_->addExtTorque(moment, false);
     world_->step();

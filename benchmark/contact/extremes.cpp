@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "benchmark/contact/bodies.h"
-#include "spring_workbench/scene/outline.h"
+#include "spring_workbench/geometry/box_gap.h"
 #include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench::benchmark {
@@ -20,18 +20,18 @@ constexpr double sample_time = 0.02;                          // s
 
 /// The first body is the held one.
 struct Setting {
-  std::vector<Body> bodies;
+  std::vector<scene::Body> bodies;
   Vector3d pressed, shifted;  // the hand's two ways
 };
 
-Body cube(const std::string& name, double mass, const Vector3d& p_WO) {
+scene::Body cube(const std::string& name, double mass, const Vector3d& p_WO) {
   return box(name, Vector3d::Constant(edge), mass, p_WO);
 }
 
 /// Its face towards −x is at `x`.
-Body wall(double x) {
+scene::Body wall(double x) {
   const Vector3d size(0.02, 1.0, 1.0);
-  return standing("wall", Box{size}, at(Vector3d(x + 0.5 * size.x(), 0.0, 0.5)), 0.5);
+  return standing("wall", geometry::Box{size}, at(Vector3d(x + 0.5 * size.x(), 0.0, 0.5)), 0.5);
 }
 
 Setting one_on_other(double upper, double lower) {
@@ -86,8 +86,8 @@ Setting setting_of(ContactExtreme extreme) {
   throw std::logic_error("an extreme without a scene");
 }
 
-Scene scene_of(const ExtremeCell& cell, const Setting& setting) {
-  Scene scene;
+scene::Scene scene_of(const ExtremeCell& cell, const Setting& setting) {
+  scene::Scene scene;
   scene.name = scene.path = name_of(cell.extreme);
   scene.contact = cell.contact;
   scene.gravity = g;
@@ -96,8 +96,8 @@ Scene scene_of(const ExtremeCell& cell, const Setting& setting) {
   return scene;
 }
 
-SimulationSettings settings_of(const ExtremeCell& cell) {
-  SimulationSettings settings;
+simulation::SimulationSettings settings_of(const ExtremeCell& cell) {
+  simulation::SimulationSettings settings;
   settings.fork.stiffness = {cell.stiffness, cell.stiffness, 0.01 * cell.stiffness};
   settings.dynamics.step = cell.step;
   settings.grasp.object = "held";
@@ -120,7 +120,7 @@ class Hand {
     for (Vector3d* way : {&pressed_, &shifted_}) *way += 0.0025 * Vector3d(unit(random), unit(random), unit(random));
     turn_ = 0.05 * unit(random);
   }
-  PoseSample at(double t) const {
+  motion::PoseSample at(double t) const {
     const double in = minimum_jerk(t / pressing), along = minimum_jerk((t - pressing) / shifting);
     const Quaterniond down(0.0, 1.0, 0.0, 0.0);
     return {t, make_transform(Quaterniond(Eigen::AngleAxisd(along * turn_, Vector3d::UnitZ())) * down,
@@ -134,8 +134,8 @@ class Hand {
 
 class Watch {
  public:
-  Watch(const Simulation& simulation) : simulation_(simulation), start_(simulation.objects()) {
-    for (const Body& body : simulation.scene().bodies) weight_ += body.mass_properties.mass * g;
+  Watch(const simulation::Simulation& simulation) : simulation_(simulation), start_(simulation.objects()) {
+    for (const scene::Body& body : simulation.scene().bodies) weight_ += body.mass_properties.mass * g;
     hardest_ = weight_;
   }
 
@@ -152,7 +152,7 @@ class Watch {
     if (!outcome.bounded) return false;
     outcome.penetration = std::max(outcome.penetration, depth());
     double force = 0.0;
-    for (const ContactState& contact : simulation_.contacts()) force += contact.force;
+    for (const contact::ContactState& contact : simulation_.contacts()) force += contact.force;
     hardest_ = std::max(hardest_, weight_ + force);
     if (!at_rest) return true;
     const double now = energy();
@@ -168,19 +168,19 @@ class Watch {
 
  private:
   double depth() const {
-    std::vector<OutlineBox> boxes;
-    const Scene& scene = simulation_.scene();
+    std::vector<geometry::OutlineBox> boxes;
+    const scene::Scene& scene = simulation_.scene();
     std::size_t object = 0;
-    for (const Body& body : scene.bodies) {
+    for (const scene::Body& body : scene.bodies) {
       const RigidTransform& X_WO = body.movable ? simulation_.objects()[object++].X_WO : body.X_WO;
-      OutlineBox box = outline(body).front();
+      geometry::OutlineBox box = geometry::outline(body.collision).front();
       box.X = X_WO * box.X;
       boxes.push_back(box);
     }
     double gap = 0.0;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      if (scene.bodies[i].movable) gap = std::min(gap, gap_above(boxes[i], scene.bench_height).gap);
-      for (std::size_t j = 0; j < i; ++j) gap = std::min(gap, gap_between(boxes[i], boxes[j]).gap);
+      if (scene.bodies[i].movable) gap = std::min(gap, geometry::gap_above(boxes[i], scene.bench_height).gap);
+      for (std::size_t j = 0; j < i; ++j) gap = std::min(gap, geometry::gap_between(boxes[i], boxes[j]).gap);
     }
     return -gap;
   }
@@ -188,18 +188,18 @@ class Watch {
   double energy() const {
     double sum = simulation_.fork().elastic_energy;
     std::size_t object = 0;
-    for (const Body& body : simulation_.scene().bodies) {
+    for (const scene::Body& body : simulation_.scene().bodies) {
       if (!body.movable) continue;
       const BodyState& o = simulation_.objects()[object++];
       const Vector3d w_O = o.X_WO.linear().transpose() * o.V_WO_W.angular;
-      const MassProperties& m = body.mass_properties;
+      const scene::MassProperties& m = body.mass_properties;
       sum += m.mass * (0.5 * o.V_WO_W.linear.squaredNorm() + g * o.X_WO.translation().z()) +
              0.5 * w_O.dot(m.inertia_O * w_O);
     }
     return sum;
   }
 
-  const Simulation& simulation_;
+  const simulation::Simulation& simulation_;
   std::vector<BodyState> start_;
   double weight_ = 0.0, hardest_ = 0.0;
   Vector3d handle_ = Vector3d::Zero();  ///< that the held one saw at the last look
@@ -240,8 +240,8 @@ std::string name_of(ContactExtreme extreme) {
 
 ExtremeOutcome run(const ExtremeCell& cell) {
   const Setting setting = setting_of(cell.extreme);
-  const SimulationSettings settings = settings_of(cell);
-  Simulation simulation(scene_of(cell, setting), settings);
+  const simulation::SimulationSettings settings = settings_of(cell);
+  simulation::Simulation simulation(scene_of(cell, setting), settings);
   const Hand hand(cell, setting, settings.fork.length);
   const double interval = std::max(cell.step, sample_time), end = pressing + shifting + rest;
   const int samples = static_cast<int>(std::lround(end / interval));
@@ -249,7 +249,7 @@ ExtremeOutcome run(const ExtremeCell& cell) {
   Watch watch(simulation);
   ExtremeOutcome outcome;
   for (int i = 1; i <= samples; ++i) {
-    const AdvanceReport report = simulation.advance(interval * i);
+    const simulation::AdvanceReport report = simulation.advance(interval * i);
     outcome.refused += report.guards_tripped;
     outcome.held_back += report.held_back;
     if (!watch.look(interval * i > pressing + shifting + 1.5 * interval, outcome)) break;

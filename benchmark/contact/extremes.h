@@ -25,7 +25,7 @@ std::string name_of(ContactExtreme extreme);
 /// One run, through Simulation, as a user would: samples in, poses out.
 struct ExtremeCell {
   ContactExtreme extreme = ContactExtreme::stack_of_ten;
-  ContactMode contact = ContactMode::stop;
+  scene::ContactMode contact = scene::ContactMode::stop;
   double stiffness = 1e3;  ///< of stretch and bend [N/m]; of torsion a hundredth of it [N·m/rad]
   double step = 0.02;      ///< [s]; the hand is sampled at 50 Hz, or at the step where that is longer
   unsigned seed = 0;       ///< up to 5 mm and 0.05 rad of where the hand goes

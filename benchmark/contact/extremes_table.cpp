@@ -5,16 +5,16 @@
 
 #include "benchmark/contact/bodies.h"
 #include "benchmark/parallel.h"
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr ContactMode modes[] = {ContactMode::stop, ContactMode::dynamic};
+constexpr scene::ContactMode modes[] = {scene::ContactMode::stop, scene::ContactMode::dynamic};
 
 /// Of the pairs of stiffness and step one in four is run, of the stack, which costs most, fewer, or none to be quick;
 /// each with another seed.
-std::vector<ExtremeCell> cells_of(ContactExtreme extreme, ContactMode mode, bool quick) {
+std::vector<ExtremeCell> cells_of(ContactExtreme extreme, scene::ContactMode mode, bool quick) {
   const std::vector<double> stiffnesses = quick ? std::vector<double>{1e3} : std::vector<double>{1.0, 1e3, 1e6, 1e9};
   const std::vector<double> steps = quick ? std::vector<double>{0.02} : std::vector<double>{0.05, 0.02, 0.005, 0.001};
   const std::size_t one_in = quick ? 1 : extreme == ContactExtreme::stack_of_ten ? 6 : 4;
@@ -29,7 +29,7 @@ std::vector<ExtremeCell> cells_of(ContactExtreme extreme, ContactMode mode, bool
   return cells;
 }
 
-std::vector<ExtremeRow> rows_of(ContactExtreme extreme, ContactMode mode, bool quick) {
+std::vector<ExtremeRow> rows_of(ContactExtreme extreme, scene::ContactMode mode, bool quick) {
   const std::vector<ExtremeCell> cells = cells_of(extreme, mode, quick);
   std::vector<ExtremeRow> rows(cells.size());
   try {
@@ -37,7 +37,7 @@ std::vector<ExtremeRow> rows_of(ContactExtreme extreme, ContactMode mode, bool q
       const ExtremeCell& cell = cells[i];
       rows[i] = {name_of(extreme), name_of(mode), cell.stiffness, cell.step, static_cast<int>(cell.seed), run(cell)};
     });
-  } catch (const InputError&) {  // no engine of this mode
+  } catch (const validation::InputError&) {  // no engine of this mode
     return {};
   }
   return rows;
@@ -50,7 +50,7 @@ std::size_t extreme_unit_count() { return contact_extremes().size() * std::size(
 std::vector<ExtremeRow> extremes_table(bool quick, Units& units) {
   std::vector<ExtremeRow> table;
   std::size_t number = 0;
-  for (const ContactMode mode : modes) {
+  for (const scene::ContactMode mode : modes) {
     for (const ContactExtreme extreme : contact_extremes()) {
       const auto rows =
           units.rows<ExtremeRow>(number++, "contact's extremes: " + name_of(mode) + ", " + name_of(extreme),

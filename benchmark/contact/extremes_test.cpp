@@ -8,7 +8,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-class Extremes : public ::testing::TestWithParam<ContactMode> {
+class Extremes : public ::testing::TestWithParam<scene::ContactMode> {
  protected:
   void run_and_check(ContactExtreme extreme, double stiffness, unsigned seed) {
     const ExtremeOutcome o = run({extreme, GetParam(), stiffness, 0.02, seed});
@@ -19,7 +19,7 @@ class Extremes : public ::testing::TestWithParam<ContactMode> {
                           << 1e6 * o.penetration << " µm deep, " << 1e6 * o.energy_gained << " µm gained, " << o.refused
                           << " refused";
     EXPECT_EQ(o.held_back, 0) << name_of(extreme) << ' ' << stiffness << ' ' << seed;
-    if (GetParam() == ContactMode::stop) {
+    if (GetParam() == scene::ContactMode::stop) {
       EXPECT_LT(o.penetration, 2.1e-5) << name_of(extreme) << ' ' << stiffness << ' ' << seed;
     }
   }
@@ -36,7 +36,7 @@ TEST_P(Extremes, AtAWallAreSoOnAnyFork) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, Extremes, ::testing::Values(ContactMode::stop, ContactMode::dynamic),
+INSTANTIATE_TEST_SUITE_P(Modes, Extremes, ::testing::Values(scene::ContactMode::stop, scene::ContactMode::dynamic),
                          [](const auto& tested) { return name_of(tested.param); });
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "benchmark/contact/processor_time.h"
-#include "spring_workbench/engines/contact_engines.h"
+#include "spring_workbench/contact/contact_engines.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::benchmark {
@@ -21,8 +21,8 @@ Vector3d corner(int i) {
   return 0.5 * size.cwiseProduct(Vector3d((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1));
 }
 
-MeshPtr box_mesh(const Vector3d& box) {
-  auto mesh = std::make_shared<TriangleMesh>();
+geometry::MeshPtr box_mesh(const Vector3d& box) {
+  auto mesh = std::make_shared<geometry::TriangleMesh>();
   for (int i = 0; i < 8; ++i) {
     mesh->vertices.push_back(0.5 * box.cwiseProduct(Vector3d((i & 1) ? 1 : -1, (i & 2) ? 1 : -1, (i & 4) ? 1 : -1)));
   }
@@ -35,8 +35,8 @@ MeshPtr box_mesh(const Vector3d& box) {
   return mesh;
 }
 
-Body body_of(const std::string& name, const Geometry& geometry, const Vector3d& p_WO, bool movable) {
-  Body body;
+scene::Body body_of(const std::string& name, const geometry::Geometry& geometry, const Vector3d& p_WO, bool movable) {
+  scene::Body body;
   body.name = name;
   body.movable = movable;
   body.X_WO.translation() = p_WO;
@@ -47,24 +47,25 @@ Body body_of(const std::string& name, const Geometry& geometry, const Vector3d& 
 
 struct Pair {
   std::string name;
-  std::unique_ptr<CollisionWorld> world;
+  std::unique_ptr<collision::CollisionWorld> world;
 };
 
 /// The same box and the same plane z = 0 as three kinds of shapes.
 std::vector<Pair> pairs() {
   const Vector3d floor(2.0, 2.0, 0.2), below(0.0, 0.0, -0.1), start(0.0, 0.0, 1.0);
-  const auto world_of = [](std::vector<Body> bodies, double bench) {
-    Scene scene;
+  const auto world_of = [](std::vector<scene::Body> bodies, double bench) {
+    scene::Scene scene;
     scene.name = scene.path = "impact";
-    scene.contact = ContactMode::stop;
+    scene.contact = scene::ContactMode::stop;
     scene.bench_height = bench;
     scene.bodies = std::move(bodies);
-    return open_collision_world(scene);
+    return contact::open_collision_world(scene);
   };
   std::vector<Pair> all;
-  all.push_back({"box on bench", world_of({body_of("box", Box{size}, start, true)}, 0.0)});
-  all.push_back({"box on box",
-                 world_of({body_of("box", Box{size}, start, true), body_of("floor", Box{floor}, below, false)}, -9.0)});
+  all.push_back({"box on bench", world_of({body_of("box", geometry::Box{size}, start, true)}, 0.0)});
+  all.push_back({"box on box", world_of({body_of("box", geometry::Box{size}, start, true),
+                                         body_of("floor", geometry::Box{floor}, below, false)},
+                                        -9.0)});
   all.push_back(
       {"mesh on mesh",
        world_of({body_of("box", box_mesh(size), start, true), body_of("floor", box_mesh(floor), below, false)}, -9.0)});
@@ -78,7 +79,7 @@ struct Way {
 
 RigidTransform at(const Way& way, double u) {
   RigidTransform X = way.X0;
-  X.linear() = way.X0.linear() * exp_so3(u * log_so3(way.X0.linear().transpose() * way.X1.linear()));
+  X.linear() = way.X0.linear() * math::exp_so3(u * math::log_so3(way.X0.linear().transpose() * way.X1.linear()));
   X.translation() += u * (way.X1.translation() - way.X0.translation());
   return X;
 }
@@ -92,8 +93,8 @@ std::vector<Way> make_ways(int count) {
   std::vector<Way> ways;
   while (static_cast<int>(ways.size()) < count) {
     Way way{RigidTransform::Identity(), RigidTransform::Identity(), 0.0};
-    way.X0.linear() = exp_so3(M_PI * any());
-    way.X1.linear() = way.X0.linear() * exp_so3(0.5 * any());
+    way.X0.linear() = math::exp_so3(M_PI * any());
+    way.X1.linear() = way.X0.linear() * math::exp_so3(0.5 * any());
     way.X0.translation() = Vector3d(0.0, 0.0, 0.5 * size.norm() + 0.01 * unit(random));
     way.X1.translation() = way.X0.translation() + way_length * (any() - 2.0 * Vector3d::UnitZ()).normalized();
     // The first moment, by fine steps and halving.
@@ -121,7 +122,7 @@ double largest_distance(const RigidTransform& A, const RigidTransform& B) {
 ImpactRow measure(const Pair& pair, const std::vector<Way>& ways, int levels) {
   ImpactRow row{pair.name, levels};
   for (const Way& way : ways) {
-    const SweepResult found = pair.world->sweep(0, way.X0, way.X1, tolerance, resolution, levels);
+    const collision::SweepResult found = pair.world->sweep(0, way.X0, way.X1, tolerance, resolution, levels);
     const RigidTransform X = at(way, found.free_fraction);
     const double error = largest_distance(X, at(way, way.exact));
     row.mean_error += error / static_cast<double>(ways.size());

@@ -61,7 +61,7 @@ class OdeDrag final : public DragWorld {
     dBodySetPosition(hand_, X_WO.translation().x(), X_WO.translation().y(), X_WO.translation().z());
     dBodySetLinearVel(hand_, v.x(), v.y(), v.z());
     set_rows(linear_, dJointSetLMotorParam, X_WO.translation() - here, scene_.stiffness(), scene_.damping(), h);
-    set_rows(angular_, dJointSetAMotorParam, log_so3(X_WO.linear()), scene_.turning_stiffness(),
+    set_rows(angular_, dJointSetAMotorParam, math::log_so3(X_WO.linear()), scene_.turning_stiffness(),
              scene_.turning_damping(), h);
     add_contacts();
     dWorldStep(world_, h);

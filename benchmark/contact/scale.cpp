@@ -28,31 +28,31 @@ double resident_bytes() {
 }
 
 /// Boxes on the bench in a square grid; the first one is held.
-Scene grid(ContactMode contact, int objects) {
-  Scene scene;
+scene::Scene grid(scene::ContactMode contact, int objects) {
+  scene::Scene scene;
   scene.name = scene.path = "grid";
   scene.contact = contact;
   const int side = static_cast<int>(std::ceil(std::sqrt(objects)));
   for (int i = 0; i < objects; ++i) {
-    Body body;
+    scene::Body body;
     body.name = "box" + std::to_string(i);
     body.movable = true;
     body.X_WO.translation() = Vector3d(spacing * (i % side), spacing * (i / side), 0.5 * edge);
     body.mass_properties.mass = 0.1;
     body.mass_properties.inertia_O = 0.1 / 6.0 * edge * edge * Matrix3d::Identity();
-    body.collision.push_back({Box{Vector3d::Constant(edge)}});
+    body.collision.push_back({geometry::Box{Vector3d::Constant(edge)}});
     scene.bodies.push_back(body);
   }
   return scene;
 }
 
-ScaleRow measure(ContactMode contact, int objects) {
+ScaleRow measure(scene::ContactMode contact, int objects) {
   ScaleRow row{contact, objects};
-  const Scene scene = grid(contact, objects);
-  SimulationSettings settings;
+  const scene::Scene scene = grid(contact, objects);
+  simulation::SimulationSettings settings;
   settings.grasp.object = "box0";
   const double before = resident_bytes(), begin = processor_time();
-  Simulation simulation(scene, settings);
+  simulation::Simulation simulation(scene, settings);
   row.start = processor_time() - begin;
   row.step = std::numeric_limits<double>::infinity();
   double used = 0.0;
@@ -77,7 +77,7 @@ ScaleRow measure(ContactMode contact, int objects) {
 
 }  // namespace
 
-ScaleRow measure_scale(ContactMode contact, int objects) {
+ScaleRow measure_scale(scene::ContactMode contact, int objects) {
   int ends[2];
   if (pipe(ends) != 0) throw std::runtime_error("no pipe");
   const pid_t child = fork();

@@ -10,7 +10,7 @@
 #include "benchmark/contact/bodies.h"
 #include "benchmark/contact/scale.h"
 #include "benchmark/contact/wild_motions.h"
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -22,15 +22,15 @@ int count_at(const std::vector<std::string>& arguments, std::size_t index, int o
   const std::string& text = arguments[index];
   const bool digits = !text.empty() && text.size() < 9 &&
                       std::all_of(text.begin(), text.end(), [](unsigned char c) { return c >= '0' && c <= '9'; });
-  if (!digits) refuse(where, "argument", text, "a whole number");
+  if (!digits) validation::refuse(where, "argument", text, "a whole number");
   return std::stoi(text);
 }
 
-void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes, const std::vector<ContactMode>& modes,
-              std::ostream& out) {
+void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes,
+              const std::vector<scene::ContactMode>& modes, std::ostream& out) {
   out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,held_back,refused,cpu_s_per_"
          "motion\n";
-  for (const ContactMode mode : modes) {
+  for (const scene::ContactMode mode : modes) {
     for (const WildScene scene : scenes) {
       WildResult sum;
       int passed = 0, over = 0, worst_seed = first_seed;
@@ -62,11 +62,13 @@ std::map<int, std::string> recorded(const std::string& path, const std::string& 
 }
 
 /// Runs those of the seeds that are not in the file yet, and adds a line for each as it is done.
-void record(const std::string& path, WildScene scene, ContactMode mode, int first, int last, std::ostream& out) {
+void record(const std::string& path, WildScene scene, scene::ContactMode mode, int first, int last, std::ostream& out) {
   const std::string run_name = std::string(name_of(mode)) + ',' + name_of(scene) + ',';
   const std::map<int, std::string> done = recorded(path, run_name);
   std::ofstream file(path, std::ios::app);
-  if (!file) refuse(where, "file", path, std::string("a file that can be written to (") + std::strerror(errno) + ')');
+  if (!file)
+    validation::refuse(where, "file", path,
+                       std::string("a file that can be written to (") + std::strerror(errno) + ')');
   file << '\n';  // after a line that was cut off
   for (int seed = first; seed <= last; ++seed) {
     if (done.count(seed) > 0) continue;
@@ -100,21 +102,22 @@ std::vector<WildScene> scenes_at(const std::vector<std::string>& arguments, std:
   for (const WildScene scene : wild_scenes()) {
     if (name_of(scene) == arguments[index]) return {scene};
   }
-  refuse(where, "scene", arguments[index], "rod_in_room or ring_on_rod");
+  validation::refuse(where, "scene", arguments[index], "rod_in_room or ring_on_rod");
 }
 
-std::vector<ContactMode> modes_at(const std::vector<std::string>& arguments, std::size_t index) {
-  const std::vector<ContactMode> both{ContactMode::stop, ContactMode::dynamic};
+std::vector<scene::ContactMode> modes_at(const std::vector<std::string>& arguments, std::size_t index) {
+  const std::vector<scene::ContactMode> both{scene::ContactMode::stop, scene::ContactMode::dynamic};
   if (index >= arguments.size()) return both;
-  for (const ContactMode mode : both) {
+  for (const scene::ContactMode mode : both) {
     if (name_of(mode) == arguments[index]) return {mode};
   }
-  refuse(where, "contact", arguments[index], "stop or dynamic");
+  validation::refuse(where, "contact", arguments[index], "stop or dynamic");
 }
 
 void run_scale(int most, std::ostream& out) {
   out << "contact,objects,start_ms,memory_MB,step_us\n";
-  for (const ContactMode mode : {ContactMode::none, ContactMode::stop, ContactMode::dynamic}) {
+  for (const scene::ContactMode mode :
+       {scene::ContactMode::none, scene::ContactMode::stop, scene::ContactMode::dynamic}) {
     for (int objects = 10; objects <= most; objects *= 10) {
       const ScaleRow row = measure_scale(mode, objects);
       out << name_of(mode) << ',' << objects << ',' << 1e3 * row.start << ',' << row.memory / 1e6 << ','
@@ -136,8 +139,9 @@ void run_contact_trials(const std::vector<std::string>& arguments, std::ostream&
   } else if (what == "scale" && arguments.size() <= 2) {
     run_scale(count_at(arguments, 1, 10000), out);
   } else {
-    refuse(where, "arguments", what,
-           "wild [N [FIRST_SEED [SCENE [CONTACT]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED, or scale [MOST]");
+    validation::refuse(
+        where, "arguments", what,
+        "wild [N [FIRST_SEED [SCENE [CONTACT]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED, or scale [MOST]");
   }
 }
 

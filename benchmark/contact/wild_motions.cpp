@@ -23,8 +23,8 @@ constexpr double ring_radius = 0.05, tube_radius = 0.01;  // m
 constexpr int ring_segments = 24, tube_segments = 12;
 constexpr double pin_radius = 0.005, pin_length = 4.0;  // m, of the rod through the ring
 
-Body fixed(const std::string& name, const Geometry& geometry, const RigidTransform& X_WO) {
-  Body body;
+scene::Body fixed(const std::string& name, const geometry::Geometry& geometry, const RigidTransform& X_WO) {
+  scene::Body body;
   body.name = name;
   body.X_WO = X_WO;
   body.material.friction = 0.3;
@@ -32,9 +32,9 @@ Body fixed(const std::string& name, const Geometry& geometry, const RigidTransfo
   return body;
 }
 
-Body movable(const std::string& name, const Geometry& geometry, const RigidTransform& X_WO, double mass,
-             const Vector3d& principal) {
-  Body body = fixed(name, geometry, X_WO);
+scene::Body movable(const std::string& name, const geometry::Geometry& geometry, const RigidTransform& X_WO,
+                    double mass, const Vector3d& principal) {
+  scene::Body body = fixed(name, geometry, X_WO);
   body.movable = true;
   body.mass_properties.mass = mass;
   body.mass_properties.inertia_O = principal.asDiagonal();
@@ -47,8 +47,8 @@ Vector3d ring_point(int around, int across) {
   return Vector3d(r * std::cos(u), r * std::sin(u), tube_radius * std::sin(v));
 }
 
-MeshPtr ring_mesh() {
-  auto mesh = std::make_shared<TriangleMesh>();
+geometry::MeshPtr ring_mesh() {
+  auto mesh = std::make_shared<geometry::TriangleMesh>();
   for (int i = 0; i < ring_segments; ++i) {
     for (int j = 0; j < tube_segments; ++j) mesh->vertices.push_back(ring_point(i, j));
   }
@@ -82,7 +82,7 @@ double distance_from_axis(const Vector3d& a, const Vector3d& b) {
 }
 
 /// How deep the pin (along z of A) is in the ring placed by X_AR; the ring's edges are what comes nearest to a line.
-double ring_depth(const TriangleMesh& ring, const RigidTransform& X_AR) {
+double ring_depth(const geometry::TriangleMesh& ring, const RigidTransform& X_AR) {
   double nearest = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3i& t : ring.triangles) {
     for (int k = 0; k < 3; ++k) {
@@ -102,8 +102,8 @@ bool linked(const RigidTransform& X_AR) {
 }
 
 struct Setting {
-  Scene scene;
-  MeshPtr ring = ring_mesh();
+  scene::Scene scene;
+  geometry::MeshPtr ring = ring_mesh();
   RigidTransform X_WF = at_middle();  // of the room or the pin
 };
 
@@ -114,19 +114,20 @@ Setting set_scene(const WildMotion& motion, const Matrix3d& R_scene, const Matri
   s.X_WF = at_middle(R_scene);
   const double mass = 0.3;
   if (motion.scene == WildScene::rod_in_room) {
-    s.scene.bodies.push_back(movable("held", Box{rod_size}, at_middle(R_held), mass, box_inertia(mass, rod_size)));
+    s.scene.bodies.push_back(
+        movable("held", geometry::Box{rod_size}, at_middle(R_held), mass, box_inertia(mass, rod_size)));
     for (int axis = 0; axis < 3; ++axis) {
       for (const double side : {-room, room}) {
         Vector3d size = Vector3d::Constant(2.0 * room + 0.1), p = Vector3d::Zero();
         size[axis] = wall;
         p[axis] = side;
-        s.scene.bodies.push_back(
-            fixed("wall" + std::to_string(s.scene.bodies.size()), Box{size}, s.X_WF * Eigen::Translation3d(p)));
+        s.scene.bodies.push_back(fixed("wall" + std::to_string(s.scene.bodies.size()), geometry::Box{size},
+                                       s.X_WF * Eigen::Translation3d(p)));
       }
     }
   } else {
     s.scene.bodies.push_back(movable("held", s.ring, s.X_WF, mass, mass * Vector3d(1.5e-3, 1.5e-3, 3e-3)));
-    s.scene.bodies.push_back(fixed("pin", Cylinder{pin_radius, pin_length}, s.X_WF));
+    s.scene.bodies.push_back(fixed("pin", geometry::Cylinder{pin_radius, pin_length}, s.X_WF));
     s.scene.bench_height = -10.0;
   }
   return s;
@@ -179,14 +180,14 @@ WildResult run(const WildMotion& motion) {
     } while (p.norm() > 1.0);
     return Vector3d(radius * p);
   };
-  const Matrix3d R_scene = exp_so3(in_ball(M_PI)), R_held = exp_so3(in_ball(M_PI));
+  const Matrix3d R_scene = math::exp_so3(in_ball(M_PI)), R_held = math::exp_so3(in_ball(M_PI));
   const Setting setting = set_scene(motion, R_scene, R_held);
-  SimulationSettings set;
+  simulation::SimulationSettings set;
   set.grasp.object = "held";
   set.fork.length = 0.05;
   const double k = 2000.0 * std::pow(10.0, unit(random));
   set.fork.stiffness = {k, k, 1e-3 * k};
-  Simulation simulation(setting.scene, set);
+  simulation::Simulation simulation(setting.scene, set);
 
   RigidTransform X_WH = at_middle(R_held);
   X_WH.translation() -= set.fork.length * R_held.col(2);
@@ -200,12 +201,12 @@ WildResult run(const WildMotion& motion) {
       if (std::abs(next[axis]) > hand_reach) v[axis] = -v[axis];
     }
     X_WH.translation() += sample_time * v;
-    X_WH.linear() = exp_so3(sample_time * w) * X_WH.linear();
+    X_WH.linear() = math::exp_so3(sample_time * w) * X_WH.linear();
   }
   WildResult result;
   const double begin = processor_time();
   for (double t = 0.0; t < duration + 1e-9; t += 0.002) {
-    const AdvanceReport report = simulation.advance(t);
+    const simulation::AdvanceReport report = simulation.advance(t);
     result.steps += report.steps;
     result.held_back += report.held_back;
     result.refused += report.guards_tripped;

@@ -18,7 +18,7 @@ std::string name_of(WildScene scene);
 /// One motion: 0.2 s of a hand sampled at 50 Hz, at up to 5 m/s and 50 rad/s, its velocities drawn anew after 0.1 s.
 struct WildMotion {
   WildScene scene = WildScene::rod_in_room;
-  ContactMode contact = ContactMode::dynamic;
+  scene::ContactMode contact = scene::ContactMode::dynamic;
   unsigned seed = 0;  ///< of the motion, of the pose at the start and of the fork's stiffness (200 … 20 000 N/m)
 };
 

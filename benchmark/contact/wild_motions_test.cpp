@@ -6,7 +6,7 @@ namespace spring_workbench::benchmark {
 namespace {
 
 // Some of the motions that `contact_trials record` runs.
-class RodInRoom : public ::testing::TestWithParam<ContactMode> {};
+class RodInRoom : public ::testing::TestWithParam<scene::ContactMode> {};
 
 TEST_P(RodInRoom, GoesThroughNoWall) {
   for (unsigned seed = 0; seed < 12; ++seed) {
@@ -20,15 +20,17 @@ TEST_P(RodInRoom, GoesThroughNoWall) {
 
 TEST(RingOnRod, StaysOnTheRod) {
   for (const unsigned seed : {0u, 3u, 10u}) {
-    const WildResult result = run({WildScene::ring_on_rod, ContactMode::stop, seed});
+    const WildResult result = run({WildScene::ring_on_rod, scene::ContactMode::stop, seed});
     EXPECT_FALSE(result.passed_through) << seed;
     EXPECT_LE(result.penetration, 1e-4) << seed;
     EXPECT_EQ(result.refused, 0) << seed;
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Modes, RodInRoom, ::testing::Values(ContactMode::stop, ContactMode::dynamic),
-                         [](const auto& tested) { return tested.param == ContactMode::stop ? "stop" : "dynamic"; });
+INSTANTIATE_TEST_SUITE_P(Modes, RodInRoom, ::testing::Values(scene::ContactMode::stop, scene::ContactMode::dynamic),
+                         [](const auto& tested) {
+                           return tested.param == scene::ContactMode::stop ? "stop" : "dynamic";
+                         });
 
 }  // namespace
 }  // namespace spring_workbench::benchmark

@@ -5,9 +5,9 @@
 #include <functional>
 
 #include "benchmark/contact/processor_time.h"
-#include "spring_workbench/config/input_error.h"
-#include "spring_workbench/engines/contact_engines.h"
+#include "spring_workbench/contact/contact_engines.h"
 #include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -15,9 +15,9 @@ namespace {
 constexpr double g = 9.81, mu = 0.4, restitution = 0.7, radius = 0.05;  // m/s², –, –, m
 constexpr double speed = 1.5, drop = 0.5;                               // m/s, m
 
-Body body_of(const std::string& name, const Geometry& geometry, double mass, const Vector3d& inertia,
-             const Vector3d& p_WO) {
-  Body body;
+scene::Body body_of(const std::string& name, const geometry::Geometry& geometry, double mass, const Vector3d& inertia,
+                    const Vector3d& p_WO) {
+  scene::Body body;
   body.name = name;
   body.movable = true;
   body.X_WO.translation() = p_WO;
@@ -28,30 +28,31 @@ Body body_of(const std::string& name, const Geometry& geometry, double mass, con
   return body;
 }
 
-Body ball(double height) {
-  Body body = body_of("ball", Sphere{radius}, 1.0, Vector3d::Constant(0.4 * radius * radius), Vector3d(0, 0, height));
+scene::Body ball(double height) {
+  scene::Body body =
+      body_of("ball", geometry::Sphere{radius}, 1.0, Vector3d::Constant(0.4 * radius * radius), Vector3d(0, 0, height));
   return body;
 }
 
-Body box(const std::string& name, double edge, const Vector3d& p_WO) {
-  return body_of(name, Box{Vector3d::Constant(edge)}, 1.0, Vector3d::Constant(edge * edge / 6.0), p_WO);
+scene::Body box(const std::string& name, double edge, const Vector3d& p_WO) {
+  return body_of(name, geometry::Box{Vector3d::Constant(edge)}, 1.0, Vector3d::Constant(edge * edge / 6.0), p_WO);
 }
 
-Scene scene_of(std::vector<Body> bodies, double bounce = 0.0) {
-  Scene scene;
+scene::Scene scene_of(std::vector<scene::Body> bodies, double bounce = 0.0) {
+  scene::Scene scene;
   scene.name = scene.path = "steps";
-  scene.contact = ContactMode::dynamic;
+  scene.contact = scene::ContactMode::dynamic;
   scene.bench_material.friction = mu;
   scene.bench_material.restitution = bounce;
   scene.bodies = std::move(bodies);
-  for (Body& body : scene.bodies) body.material.restitution = bounce;
+  for (scene::Body& body : scene.bodies) body.material.restitution = bounce;
   return scene;
 }
 
 /// A scene in the world alone.
 struct Alone {
   std::string name;
-  Scene scene;
+  scene::Scene scene;
   Vector3d v;                                 ///< at the start [m/s]
   double duration;                            ///< [s]
   std::function<Vector3d(double t)> p_exact;  ///< of the centre [m]
@@ -81,12 +82,12 @@ std::vector<Alone> scenes_alone() {
 
 WorldStepRow run_alone(const Alone& s, double step) {
   WorldStepRow row{s.name, "exact", step};
-  const std::unique_ptr<RigidWorld> world = open_rigid_world(s.scene);
+  const std::unique_ptr<rigid_bodies::RigidWorld> world = contact::open_rigid_world(s.scene);
   Twist start;
   start.linear = s.v;
   const RigidTransform X0 = world->pose(0);
   world->place(0, X0, start, true);
-  std::vector<DrivenBody> none;
+  std::vector<rigid_bodies::DrivenBody> none;
   double spent = 0.0, gone = 0.0;
   const int steps = static_cast<int>(std::lround(s.duration / step));
   for (int i = 1; i <= steps; ++i) {
@@ -112,10 +113,10 @@ constexpr double push_duration = 1.0, sample_time = 0.02;  // s
 
 Push push(double step) {
   const double edge = 0.1;
-  SimulationSettings set;
+  simulation::SimulationSettings set;
   set.grasp.object = "pusher";
   set.dynamics.step = step;
-  Simulation simulation(
+  simulation::Simulation simulation(
       scene_of({box("pusher", edge, Vector3d(0, 0, 0.06)), box("pushed", edge, Vector3d(0.15, 0, 0.05))}), set);
   const int samples = static_cast<int>(std::lround(push_duration / sample_time));
   Push run;
@@ -150,9 +151,9 @@ void add_pushes(const std::vector<double>& steps, double converged_step, std::ve
 
 bool has_dynamic_contact() {
   try {
-    open_rigid_world(scene_of({}));
+    contact::open_rigid_world(scene_of({}));
     return true;
-  } catch (const InputError&) {
+  } catch (const validation::InputError&) {
     return false;
   }
 }

@@ -24,14 +24,14 @@ constexpr double kSpeed = 0.02;  // [m/s]
 constexpr double kSettle = 3.0;  // [s] before and after the way
 
 /// Rests, goes `length` [s] along x, and rests.
-PlayedMotion way(double length) {
-  std::vector<StylusSample> samples(4);
+fastrak::PlayedMotion way(double length) {
+  std::vector<motion::StylusSample> samples(4);
   const double times[] = {0.0, kSettle, kSettle + length, kSettle + length + 1e5};
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].t = times[i];
     samples[i].X.translation() = Vector3d(0.3 + (i < 2 ? 0.0 : kSpeed * length), 0.0, 0.4);
   }
-  return PlayedMotion(samples);
+  return fastrak::PlayedMotion(samples);
 }
 
 /// When and where the object was seen.
@@ -70,8 +70,8 @@ int main(int argc, char** argv) {
   ros::AsyncSpinner spinner(1);
   spinner.start();
   const Observer observer(node);
-  const PlayedMotion motion = way(length);
-  FastrakSimulator simulator(FastrakDevice({motion}), LineFaults(), port);
+  const fastrak::PlayedMotion motion = way(length);
+  fastrak::FastrakSimulator simulator(fastrak::FastrakDevice({motion}), fastrak::LineFaults(), port);
   const auto held = [&] { return !ros::ok() || !observer.seen().empty(); };
   try {
     const std::vector<Moment> written =

@@ -17,8 +17,8 @@ constexpr double kTolerance = 1e-7;  // [m] of the floats on the line
 
 double steady_now() { return std::chrono::duration<double>(steady_clock::now().time_since_epoch()).count(); }
 
-std::vector<Moment> play(FastrakSimulator& simulator, const PlayedMotion& motion, const Playing& playing,
-                         const std::function<bool()>& ready) {
+std::vector<Moment> play(fastrak::FastrakSimulator& simulator, const fastrak::PlayedMotion& motion,
+                         const Playing& playing, const std::function<bool()>& ready) {
   while (!ready()) {  // the nodes start, the device is set up
     simulator.measure(0.0);
     simulator.serve(0.005);

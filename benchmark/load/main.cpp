@@ -32,10 +32,10 @@ constexpr double kAbove = 0.15, kPressed = 0.005;                      // [m]
 constexpr double kDown = 1.0, kGrasp = 1.5, kBegin = 2.5, kEnd = 2.0;  // [s]
 
 /// Down to an object, in which the tip then is; grasps, presses, goes evenly along x, and rests.
-PlayedMotion work_at(const Vector3d& object, double length) {
-  std::vector<StylusSample> samples;
+fastrak::PlayedMotion work_at(const Vector3d& object, double length) {
+  std::vector<motion::StylusSample> samples;
   const auto add = [&](double t, double x, double height, bool button) {
-    StylusSample sample;
+    motion::StylusSample sample;
     sample.t = t;
     sample.X = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), object + Vector3d(x, 0.0, kReach + height));
     sample.button = button;
@@ -48,7 +48,7 @@ PlayedMotion work_at(const Vector3d& object, double length) {
   add(kBegin, 0.0, -kPressed, true);
   add(kBegin + length, kSpeed * length, -kPressed, true);
   add(kBegin + length + 1e5, kSpeed * length, -kPressed, true);
-  return PlayedMotion(samples);
+  return fastrak::PlayedMotion(samples);
 }
 
 /// Of a process, from /proc.
@@ -133,9 +133,9 @@ std::string words(const std::set<std::string>& all, const std::set<std::string>&
 }
 
 /// Where the first `count` movable objects of the scene are.
-std::vector<Vector3d> objects_of(const Scene& scene, std::size_t count) {
+std::vector<Vector3d> objects_of(const scene::Scene& scene, std::size_t count) {
   std::vector<Vector3d> places;
-  for (const Body& body : scene.bodies) {
+  for (const scene::Body& body : scene.bodies) {
     if (body.movable && places.size() < count) places.push_back(body.X_WO.translation());
   }
   if (places.size() < count) throw std::runtime_error("the scene has too few objects");
@@ -170,11 +170,11 @@ int main(int argc, char** argv) {
   spinner.start();
   Observer observer(node, process);
   try {
-    const Scene scene = load_scene(parameters.param<std::string>("scene", ""));
-    std::vector<PlayedMotion> motions;
+    const scene::Scene scene = scene::load_scene(parameters.param<std::string>("scene", ""));
+    std::vector<fastrak::PlayedMotion> motions;
     for (const Vector3d& place : objects_of(scene, static_cast<std::size_t>(hands)))
       motions.push_back(work_at(place, length));
-    FastrakSimulator simulator(FastrakDevice(motions, {1, 2}), LineFaults(), port);
+    fastrak::FastrakSimulator simulator(fastrak::FastrakDevice(motions, {1, 2}), fastrak::LineFaults(), port);
     const Playing playing{rate, kBegin, kBegin + length, kBegin + length + kEnd};
     const std::vector<Moment> written =
         play(simulator, motions.front(), playing, [&] { return !ros::ok() || observer.sees_hand(); });

@@ -8,7 +8,7 @@
 #include "benchmark/report/options.h"
 #include "benchmark/report/report.h"
 #include "benchmark/report/run_facts.h"
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
 int main(int argc, char** argv) {
   using namespace spring_workbench;
@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     const benchmark::ReportOptions options = benchmark::parse_report_options(argc, argv);
     benchmark::make_report(options, benchmark::command_of(argc, argv), std::cout, std::cerr);
     return 0;
-  } catch (const InputError& error) {
+  } catch (const validation::InputError& error) {
     std::cerr << "report: " << error.what() << '\n';
     return 2;
   } catch (const std::exception& error) {

@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -19,7 +19,7 @@ Shard shard_of(const std::string& text) {
   const bool digits = text.find_first_not_of("0123456789/") == std::string::npos && text.size() < 12;
   if (!digits || std::sscanf(text.c_str(), "%zu%c%zu%c", &shard.index, &slash, &shard.count, &rest) != 3 ||
       slash != '/' || shard.index < 1 || shard.index > shard.count || shard.count > kMost) {
-    refuse(kWhere, "--shard", text, "I/N with 1 <= I <= N <= 10000");
+    validation::refuse(kWhere, "--shard", text, "I/N with 1 <= I <= N <= 10000");
   }
   return shard;
 }
@@ -35,22 +35,22 @@ ReportOptions parse_report_options(int argc, char** argv) {
     if (argument == "--quick") {
       options.quick = true;
     } else if (argument == "--out") {
-      if (!has_value) refuse(kWhere, "--out", "(nothing)", "a folder to write to");
+      if (!has_value) validation::refuse(kWhere, "--out", "(nothing)", "a folder to write to");
       options.out = argv[++i];
       has_out = true;
     } else if (argument == "--shard") {
       options.shard = shard_of(has_value ? argv[++i] : "(nothing)");
     } else if (argument == "--merge") {
-      if (!has_value) refuse(kWhere, "--merge", "(nothing)", "the files of all shards");
+      if (!has_value) validation::refuse(kWhere, "--merge", "(nothing)", "the files of all shards");
       while (i + 1 < argc && std::string(argv[i + 1]).rfind("--", 0) != 0) options.parts.emplace_back(argv[++i]);
     } else {
-      refuse(kWhere, "argument", argument, "one of --quick, --out DIR, --shard I/N, --merge PART...");
+      validation::refuse(kWhere, "argument", argument, "one of --quick, --out DIR, --shard I/N, --merge PART...");
     }
   }
   if (options.shard && has_out)
-    refuse(kWhere, "--shard, --out", "both", "one of both: a shard goes to the standard output");
+    validation::refuse(kWhere, "--shard, --out", "both", "one of both: a shard goes to the standard output");
   if (!options.parts.empty() && (options.shard || options.quick)) {
-    refuse(kWhere, "--merge", "together with --shard or --quick", "without: the files say what they are");
+    validation::refuse(kWhere, "--merge", "together with --shard or --quick", "without: the files say what they are");
   }
   return options;
 }
@@ -59,7 +59,7 @@ void make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (!std::filesystem::is_directory(folder, error) || access(folder.c_str(), W_OK | X_OK) != 0) {
-    refuse(kWhere, "--out", folder, "a folder that can be made and written to");
+    validation::refuse(kWhere, "--out", folder, "a folder that can be made and written to");
   }
 }
 

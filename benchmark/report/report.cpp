@@ -136,8 +136,8 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   Measurements measured = measure(plan, methods, peers.drags, quick, units);
   progress.finish();
   if (merging && !units.kept().empty()) {
-    refuse("shards", "unit", units.kept().begin()->first,
-           "one that this report has: same build, same peers, same recordings");
+    validation::refuse("shards", "unit", units.kept().begin()->first,
+                       "one that this report has: same build, same peers, same recordings");
   }
   if (!merging) part.seconds = progress.elapsed();
   if (options.shard) {

@@ -23,11 +23,12 @@ int main(int argc, char** argv) {
   using namespace spring_workbench;
   try {
     benchmark::SoakOptions options;
-    if (argc < 2 || argc > 4) refuse("command line", "arguments", std::to_string(argc - 1) + " of them", kUse);
+    if (argc < 2 || argc > 4)
+      validation::refuse("command line", "arguments", std::to_string(argc - 1) + " of them", kUse);
     options.scene = argv[1];
     if (argc > 2)
-      options.steps = read_integer(YAML::Node(std::string(argv[2])), "command line", "STEPS", 1, 2000000000);
-    if (argc > 3) apply_settings(load_yaml_file(argv[3]), argv[3], options.settings);
+      options.steps = config::read_integer(YAML::Node(std::string(argv[2])), "command line", "STEPS", 1, 2000000000);
+    if (argc > 3) simulation::apply_settings(config::load_yaml_file(argv[3]), argv[3], options.settings);
     const benchmark::SoakResult r = benchmark::run_soak(options, std::cout);
     std::cout << "placed " << r.placed << " of " << r.targets << " in " << r.assemblies << " assemblies, " << r.refused
               << " steps refused\nhash " << std::hex << std::setfill('0') << std::setw(16) << r.hash << std::dec
@@ -37,7 +38,7 @@ int main(int argc, char** argv) {
            judge(r.largest_energy <= kEnergyGrowth * r.energy_early,
                  "energy stays within twice the most of the first tenth") |
            judge(r.memory_late <= kMemoryGrowth * r.memory_early, "resident memory is flat within 1 %");
-  } catch (const InputError& error) {
+  } catch (const validation::InputError& error) {
     std::cerr << "soak: " << error.what() << '\n';
     return 2;
   }

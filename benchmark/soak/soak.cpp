@@ -7,7 +7,7 @@
 #include <cstring>
 #include <fstream>
 
-#include "spring_workbench/operator/trial.h"
+#include "spring_workbench/assembly/trial.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -46,7 +46,7 @@ class Hash {
 class Soak {
  public:
   Soak(const SoakOptions& options, std::ostream& out)
-      : options_(options), out_(out), simulation_(load_scene(options.scene), options.settings) {}
+      : options_(options), out_(out), simulation_(scene::load_scene(options.scene), options.settings) {}
 
   SoakResult run() {
     out_ << "steps,assemblies,simulated_s,resident_MB,largest_energy_J,drift_m\n";
@@ -68,13 +68,13 @@ class Soak {
   bool over() const { return result_.steps >= options_.steps; }
 
   void assemble(unsigned seed) {
-    TaskMonitor monitor(simulation_.scene());
-    OperatorSettings hand;
+    assembly::TaskMonitor monitor(simulation_.scene());
+    assembly::OperatorSettings hand;
     hand.seed = seed;
-    SimulatedOperator person(simulation_.scene(), hand, [this] { return look_at(simulation_); });
+    assembly::SimulatedOperator person(simulation_.scene(), hand, [this] { return assembly::look_at(simulation_); });
     bool pressed = false;
     double before = 0.0;
-    for (std::optional<StylusSample> sample; !over() && (sample = person.next()) && sample->t < kTimeLimit;) {
+    for (std::optional<motion::StylusSample> sample; !over() && (sample = person.next()) && sample->t < kTimeLimit;) {
       simulation_.push_stylus(*sample);
       if (sample->button != pressed) simulation_.push_button(sample->t, sample->button);
       pressed = sample->button;
@@ -82,7 +82,7 @@ class Soak {
       monitor.observe(simulation_);
       before = sample->t;
     }
-    const TaskScore score = monitor.score();
+    const assembly::TaskScore score = monitor.score();
     ++result_.assemblies;
     result_.placed += score.placed;
     result_.targets += score.targets;
@@ -101,11 +101,11 @@ class Soak {
   }
 
   void advance(double t) {
-    const AdvanceReport report = simulation_.advance(t);
+    const simulation::AdvanceReport report = simulation_.advance(t);
     result_.steps += report.steps;
     result_.simulated_time += report.simulated_time;
     result_.refused += report.guards_tripped;
-    const ToolState tool = simulation_.fork();
+    const tools::ToolState tool = simulation_.fork();
     for (const BodyState& object : simulation_.objects()) {
       result_.finite = result_.finite && object.X_WO.matrix().allFinite() && object.V_WO_W.linear.allFinite() &&
                        object.V_WO_W.angular.allFinite();
@@ -127,7 +127,7 @@ class Soak {
 
   const SoakOptions& options_;
   std::ostream& out_;
-  Simulation simulation_;
+  simulation::Simulation simulation_;
   SoakResult result_;
   Hash hash_;
   long next_line_ = 0;

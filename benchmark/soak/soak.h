@@ -10,7 +10,7 @@ namespace spring_workbench::benchmark {
 
 struct SoakOptions {
   std::string scene;  ///< URDF of a scene with targets
-  SimulationSettings settings;
+  simulation::SimulationSettings settings;
   long steps = 10000000;  ///< of the integrator
   unsigned seed = 1;      ///< of the first operator; each assembly has the next one
 };

@@ -10,8 +10,8 @@ namespace {
 SoakResult short_soak(unsigned seed) {
   SoakOptions options;
   options.scene = SPRING_WORKBENCH_SOURCE_DIR "/scenes/mini_world.urdf";
-  apply_settings(load_yaml_file(SPRING_WORKBENCH_SOURCE_DIR "/config/assembly.yaml"), "assembly.yaml",
-                 options.settings);
+  simulation::apply_settings(config::load_yaml_file(SPRING_WORKBENCH_SOURCE_DIR "/config/assembly.yaml"),
+                             "assembly.yaml", options.settings);
   options.steps = 1000;
   options.seed = seed;
   std::ostringstream lines;

@@ -25,7 +25,7 @@ TEST(DenseStrain, IsExactForPolynomialsOfDegreeElevenOnUnevenSteps) {
     DenseStrain dense;
     EXPECT_LT(dense.known_until(), -1e300);
     for (const double t : {0.0, 0.1, 0.25, 0.3, 0.5, 0.8, 0.95}) {
-      StrainState s{StrainVector(size), StrainVector(size)};
+      dynamics::StrainState s{rod::StrainVector(size), rod::StrainVector(size)};
       for (int c = 0; c < size; ++c) {
         s.q[c] = power(c, 11, t);
         s.q_dot[c] = -11.0 * 0.075 * (c + 1) * power(c, 10, t);
@@ -34,11 +34,11 @@ TEST(DenseStrain, IsExactForPolynomialsOfDegreeElevenOnUnevenSteps) {
     }
     EXPECT_EQ(dense.known_until(), 0.5);
     for (int i = 0; i < 25; ++i) {
-      const Pack t{0.02 * i, 0.02 * i + 0.005, 0.02 * i + 0.01, 0.02 * i + 0.015};
-      Pack q[max_strain_coordinates];
+      const math::Pack t{0.02 * i, 0.02 * i + 0.005, 0.02 * i + 0.01, 0.02 * i + 0.015};
+      math::Pack q[rod::max_strain_coordinates];
       dense.at(t, q);
       for (int c = 0; c < size; ++c) {
-        for (int lane = 0; lane < pack_size; ++lane) EXPECT_NEAR(q[c][lane], power(c, 11, t[lane]), 1e-14);
+        for (int lane = 0; lane < math::pack_size; ++lane) EXPECT_NEAR(q[c][lane], power(c, 11, t[lane]), 1e-14);
       }
     }
   }
@@ -46,8 +46,8 @@ TEST(DenseStrain, IsExactForPolynomialsOfDegreeElevenOnUnevenSteps) {
 
 TEST(OurMethods, EveryIntegratorIsThereWithBothHands) {
   const std::vector<MethodPtr> methods = our_methods();
-  EXPECT_EQ(methods.size(), 2 * integrator_names().size());
-  for (const std::string& name : integrator_names()) {
+  EXPECT_EQ(methods.size(), 2 * dynamics::integrator_names().size());
+  for (const std::string& name : dynamics::integrator_names()) {
     for (const char* hand : {"function", "samples"}) {
       EXPECT_EQ(std::count_if(methods.begin(), methods.end(),
                               [&](const auto& m) { return m->name() == name && m->hand() == hand; }),
@@ -60,7 +60,7 @@ TEST(OurMethods, EachConvergesToTheReferencesWithItsOrder) {
   for (const Scenario& scene : {stretch_scene(1e3), torsion_scene(10.0), six_dof_scene(1.0)}) {
     for (const MethodPtr& method : our_methods()) {
       if (!knows_function(*method)) continue;
-      const double order = make_integrator(method->name())->order();
+      const double order = dynamics::make_integrator(method->name())->order();
       const int steps = order < 2.0 ? 32 : (scene.kind == SceneKind::six_dof ? 8 : 4);
       const double coarse = error_at(*method, scene, steps), fine = error_at(*method, scene, 2 * steps);
       EXPECT_LT(coarse, 5e-3) << method->name() << " in " << scene.name;

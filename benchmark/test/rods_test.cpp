@@ -43,7 +43,7 @@ TEST(RodCases, ReferenceOfAStretchingForkOnAHandAtRestIsTheExactOscillator) {
   for (const double zeta : {0.0, 0.1, 1.0, 3.0}) {
     RodCase one = case_called("stretch_only", 1.0);
     one.fork.damping_ratio = {zeta, zeta, zeta};
-    for (PoseSample& sample : one.hand) sample.X = RigidTransform::Identity();
+    for (motion::PoseSample& sample : one.hand) sample.X = RigidTransform::Identity();
     const double k = one.fork.stiffness.stretch, m = one.mass, omega = std::sqrt(k / m), sag = m * 9.81 / k;
     const auto poses = cvode_poses(one, "linear", 1e-12);
     const auto times = output_times(one);
@@ -86,8 +86,8 @@ TEST(RodCases, ReferenceMeetsTheRecordedTrajectoriesOfAnotherSolver) {
 TEST(RodCases, SimulationRunsTheSameCase) {
   const RodCase one = case_called("soft_6dof", 0.4);
   const RodRun bare = run_rod(one, "linear", "rk4", 1e-3);
-  Simulation simulation(rod_scene(one), rod_settings(one, "linear", "rk4", 1e-3));
-  for (const PoseSample& sample : one.hand) simulation.push_stylus(sample);
+  simulation::Simulation simulation(rod_scene(one), rod_settings(one, "linear", "rk4", 1e-3));
+  for (const motion::PoseSample& sample : one.hand) simulation.push_stylus(sample);
   std::vector<RigidTransform> poses;
   for (const double t : output_times(one)) {
     simulation.advance(t);
@@ -129,7 +129,7 @@ TEST(Elastica, ExactSolutionIsTheReferenceTable) {
 }
 
 TEST(Elastica, RodsComeToTheExactSolutionForSmallLoadsAndMoreTermsAreNearer) {
-  for (const std::string& shape : shape_model_names()) {
+  for (const std::string& shape : rod::shape_model_names()) {
     EXPECT_NEAR(shape_deflection(shape, 1e-3).deflection, 1e-3 / 3.0, 1e-8) << shape;
   }
   const auto error = [](const std::string& shape) {
@@ -143,8 +143,8 @@ TEST(StabilityMap, HandsRestWhenTheySayAndComeInOrder) {
   for (const MapHand hand : {MapHand::lissajous, MapHand::jump, MapHand::flip, MapHand::dropout, MapHand::noise}) {
     for (const double step : {0.05, 0.001}) {
       const MapHandMotion motion = map_hand_motion(hand, std::max(step, 0.02), step);
-      PoseTrack track;
-      for (const PoseSample& sample : motion.samples) EXPECT_TRUE(track.push(sample)) << name_of(hand);
+      motion::PoseTrack track;
+      for (const motion::PoseSample& sample : motion.samples) EXPECT_TRUE(track.push(sample)) << name_of(hand);
       ASSERT_FALSE(motion.rests.empty()) << name_of(hand);
       double last = 0.0;
       for (const auto& [begin, end] : motion.rests) {
@@ -152,7 +152,7 @@ TEST(StabilityMap, HandsRestWhenTheySayAndComeInOrder) {
         last = end;
         const RigidTransform X = track.segment(begin).at(begin).X;
         for (double t = begin; t < end; t += 0.1 * (end - begin)) {
-          const MotionState state = track.segment(t).at(t);
+          const motion::MotionState state = track.segment(t).at(t);
           EXPECT_LT((state.X.matrix() - X.matrix()).norm(), 1e-12) << name_of(hand) << ' ' << t;
           EXPECT_LT(state.velocity.linear.norm() + state.velocity.angular.norm(), 1e-12) << name_of(hand) << ' ' << t;
         }
@@ -229,7 +229,7 @@ TEST(StabilityMap, EveryPairOfFamiliesAndHandHasItsTurnAtEachStiffnessAndStep) {
         for (const StabilityCell& cell : cells) {
           EXPECT_EQ(cell.stiffness_factor, factor);
           if (cell.step != step) continue;
-          const ForkDofs& on = cell.families;
+          const rod::ForkDofs& on = cell.families;
           ++turns[{(on.stretch ? 1 : 0) + (on.bend ? 2 : 0) + (on.torsion ? 4 : 0), cell.hand}];
           rest.insert({cell.mass, cell.damping_ratio});
         }

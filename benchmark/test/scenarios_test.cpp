@@ -79,7 +79,7 @@ TEST(Scenarios, HandVelocityAndAccelerationAreDerivativesOfThePose) {
         const Vector3d alpha = derivative([&](double s) { return state(scene, s).w_WT_T; }, t);
         const Matrix3d R_dot = derivative([&](double s) { return state(scene, s).R_WT; }, t);
         EXPECT_LT((v - now.v_WT_W).norm(), 1e-8) << scene.name;
-        EXPECT_LT((R_dot - now.R_WT * skew(now.w_WT_T)).norm(), 1e-7) << scene.name;
+        EXPECT_LT((R_dot - now.R_WT * math::skew(now.w_WT_T)).norm(), 1e-7) << scene.name;
         EXPECT_LT((a - acceleration(scene, t).a_WT_W).norm(), 1e-7) << scene.name;
         EXPECT_LT((alpha - acceleration(scene, t).alpha_WT_T).norm(), 1e-7) << scene.name;
       }
@@ -100,9 +100,9 @@ TEST(Scenarios, SinesOfFourAnglesAreTheLibrarys) {
   for (const double most : {1e-3, 1.0, 10.0, 1e5}) {
     std::uniform_real_distribution<double> angle(-most, most);
     for (int n = 0; n < 10000; ++n) {
-      const Pack x{angle(random), angle(random), angle(random), angle(random)};
-      const SineAndCosine<Pack> of = sine_and_cosine(x);
-      for (int i = 0; i < pack_size; ++i) {
+      const math::Pack x{angle(random), angle(random), angle(random), angle(random)};
+      const SineAndCosine<math::Pack> of = sine_and_cosine(x);
+      for (int i = 0; i < math::pack_size; ++i) {
         EXPECT_NEAR(of.sine[i], std::sin(x[i]), 3e-16 * std::min(1.0, most)) << x[i];
         EXPECT_NEAR(of.cosine[i], std::cos(x[i]), 3e-16) << x[i];
       }
@@ -111,17 +111,17 @@ TEST(Scenarios, SinesOfFourAnglesAreTheLibrarys) {
 }
 
 TEST(Scenarios, HandleAtFourTimesIsTheHandleAtEachOfThem) {
-  const auto expect_near = [](const Three<Pack>& packs, const Vector3d& one, int i, double tolerance) {
-    EXPECT_LT((vector(packs, i) - one).norm(), tolerance);
+  const auto expect_near = [](const math::Three<math::Pack>& packs, const Vector3d& one, int i, double tolerance) {
+    EXPECT_LT((math::vector(packs, i) - one).norm(), tolerance);
   };
   for (const Scenario& scene : all_scenes()) {
-    const Pack t{0.0, 0.3, 1.7, 3.9};
-    HandleMotion<Pack> at;
+    const math::Pack t{0.0, 0.3, 1.7, 3.9};
+    HandleMotion<math::Pack> at;
     handle_motion(scene, t, at);
-    for (int i = 0; i < pack_size; ++i) {
+    for (int i = 0; i < math::pack_size; ++i) {
       const HandState state = handle_state(scene, t[i]);
       const HandAcceleration acceleration = handle_acceleration(scene, t[i]);
-      EXPECT_LT((matrix(at.R_WH, i) - state.R_WT).norm(), 1e-14);
+      EXPECT_LT((math::matrix(at.R_WH, i) - state.R_WT).norm(), 1e-14);
       expect_near(at.p_W, state.p_WT, i, 1e-14);
       expect_near(at.v_W, state.v_WT_W, i, 1e-13);
       expect_near(at.w_H, state.w_WT_T, i, 1e-13);

@@ -143,16 +143,16 @@ TEST(Shards, WhatIsNotAllShardsOfOneReportIsRefused) {
       {one, written(folder, "other count", part(2, 3, true))},
       {one, written(folder, "not quick", part(2, 2, false))},
       {one, written(folder, "something else", "scene,stiffness_factor\nA,1\n")}};
-  for (const auto& paths : bad) EXPECT_THROW(read_parts(paths), InputError) << paths.back();
+  for (const auto& paths : bad) EXPECT_THROW(read_parts(paths), validation::InputError) << paths.back();
   for (std::size_t length = 0; length < text.size(); ++length) {
-    EXPECT_THROW(read_parts({one, written(folder, "cut", text.substr(0, length))}), InputError) << length;
+    EXPECT_THROW(read_parts({one, written(folder, "cut", text.substr(0, length))}), validation::InputError) << length;
   }
   std::ostringstream log;
   Progress progress(log, false, 1);
   Units units(progress, read_parts({one, two}).rows);
   const auto none = [] { return std::vector<StabilityCount>{}; };
-  EXPECT_THROW(units.rows<StabilityCount>(0, "another unit", none), InputError);
-  EXPECT_THROW(units.rows<ErrorRow>(0, "a unit", [] { return std::vector<ErrorRow>{}; }), InputError);
+  EXPECT_THROW(units.rows<StabilityCount>(0, "another unit", none), validation::InputError);
+  EXPECT_THROW(units.rows<ErrorRow>(0, "a unit", [] { return std::vector<ErrorRow>{}; }), validation::InputError);
 }
 
 }  // namespace

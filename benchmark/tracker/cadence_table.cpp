@@ -9,9 +9,9 @@
 #include <thread>
 
 #include "motions.h"
-#include "spring_workbench/simulated_device/fastrak_simulator.h"
-#include "spring_workbench/tracker/fastrak_source.h"
-#include "spring_workbench/tracker/station_stream.h"
+#include "spring_workbench/fastrak/fastrak_simulator.h"
+#include "spring_workbench/fastrak/fastrak_source.h"
+#include "spring_workbench/fastrak/station_stream.h"
 
 namespace spring_workbench {
 namespace {
@@ -41,13 +41,13 @@ class Spread {
 /// Jitter of a stream, by the moments of measuring where they are known, else by the times between neighbours.
 class Jitter {
  public:
-  explicit Jitter(bool truth_known) : truth_known_(truth_known), stream_(TruthSettings(), kDropout, true) {}
+  explicit Jitter(bool truth_known) : truth_known_(truth_known), stream_(hand_input::TruthSettings(), kDropout, true) {}
 
-  void take(const StationSample& sample, double measured) {
-    const TrueSample taken = stream_.take(sample);
+  void take(const motion::StationSample& sample, double measured) {
+    const hand_input::TrueSample taken = stream_.take(sample);
     if (begin_ < 0.0) begin_ = sample.received;
     const double stamp = taken.sample.t;
-    if (usable(taken.verdict) && sample.received - begin_ > kLearn) {
+    if (hand_input::usable(taken.verdict) && sample.received - begin_ > kLearn) {
       const double interval = sample.received - last_received_;
       if (truth_known_) {
         before_.add(sample.received - measured);
@@ -55,7 +55,7 @@ class Jitter {
       }
       intervals_.push_back({interval, stamp - last_stamp_});
     }
-    if (usable(taken.verdict)) last_received_ = sample.received, last_stamp_ = stamp;
+    if (hand_input::usable(taken.verdict)) last_received_ = sample.received, last_stamp_ = stamp;
   }
 
   void write(const std::string& stream, const std::string& line, std::ostream& out) {
@@ -79,21 +79,21 @@ class Jitter {
   };
 
   const bool truth_known_;
-  StationStream stream_;
+  fastrak::StationStream stream_;
   double begin_ = -1.0, last_received_ = -1.0, last_stamp_ = -1.0;
   Spread before_, after_;
   std::size_t breaks_ = 0;  ///< of the stamps: more than one and a half intervals from one to the next
   std::vector<Interval> intervals_;
 };
 
-StationSample received(const StylusSample& sample, double t) {
+motion::StationSample received(const motion::StylusSample& sample, double t) {
   return {1, t, sample.X.translation(), Quaterniond(sample.X.linear()), false, ' '};
 }
 
 /// Samples whose stamps go forwards: a line keeps the order of records.
-std::vector<StylusSample> in_order(const std::string& path) {
-  std::vector<StylusSample> samples;
-  for (const StylusSample& sample : read_samples(path)) {
+std::vector<motion::StylusSample> in_order(const std::string& path) {
+  std::vector<motion::StylusSample> samples;
+  for (const motion::StylusSample& sample : read_samples(path)) {
     if (samples.empty() || sample.t > samples.back().t) samples.push_back(sample);
   }
   return samples;
@@ -101,14 +101,14 @@ std::vector<StylusSample> in_order(const std::string& path) {
 
 void as_recorded(const std::string& path, std::ostream& out) {
   Jitter jitter(false);
-  for (const StylusSample& sample : in_order(path)) jitter.take(received(sample, sample.t), sample.t);
+  for (const motion::StylusSample& sample : in_order(path)) jitter.take(received(sample, sample.t), sample.t);
   jitter.write(file_name(path), "as recorded", out);
 }
 
 /// The samples of a motion, measured evenly at its mean rate, on a line that delays: `delay` [s] of an exponential
 /// distribution, and until the next poll [s] of an adapter, if there is one.
 void delayed(const std::string& path, double delay, double poll, const std::string& line, std::ostream& out) {
-  const std::vector<StylusSample> samples = in_order(path);
+  const std::vector<motion::StylusSample> samples = in_order(path);
   const double interval = (samples.back().t - samples.front().t) / static_cast<double>(samples.size() - 1);
   std::mt19937 random(1);
   std::exponential_distribution<double> delays(1.0 / delay);
@@ -128,18 +128,19 @@ void delayed(const std::string& path, double delay, double poll, const std::stri
 /// measured.
 void simulated(int stations, std::ostream& out) {
   constexpr double length = 40.0, rate = 120.0, speed = 0.02;  // [s], [Hz] of a station, [m/s]
-  std::vector<StylusSample> way(2);
+  std::vector<motion::StylusSample> way(2);
   way[1].t = length;
   way[0].X.translation() = Vector3d(0.3, 0.0, 0.4);
   way[1].X.translation() = Vector3d(0.3 + speed * length, 0.0, 0.4);
   const auto folder = std::filesystem::temp_directory_path() / ("cadence_" + std::to_string(std::random_device()()));
   std::filesystem::create_directory(folder);
-  FastrakSettings settings;
+  fastrak::FastrakSettings settings;
   settings.port = folder / "port";
   settings.stations.clear();
   for (int station = 1; station <= stations; ++station) settings.stations.push_back(station);
-  FastrakSimulator simulator(FastrakDevice(std::vector<PlayedMotion>(settings.stations.size(), PlayedMotion(way))),
-                             LineFaults(), settings.port);
+  fastrak::FastrakSimulator simulator(
+      fastrak::FastrakDevice(std::vector<fastrak::PlayedMotion>(settings.stations.size(), fastrak::PlayedMotion(way))),
+      fastrak::LineFaults(), settings.port);
   const auto start = steady_clock::now();
   std::atomic<bool> over{false};
   std::thread device([&] {
@@ -152,9 +153,9 @@ void simulated(int stations, std::ostream& out) {
   });
   std::vector<Jitter> jitter(settings.stations.size(), Jitter(true));
   {
-    FastrakSource source(settings);
+    fastrak::FastrakSource source(settings);
     while (steady_clock::now() - start < duration<double>(length - 1.0)) {
-      for (StationSample sample : source.read(0.1)) {
+      for (motion::StationSample sample : source.read(0.1)) {
         sample.received -= duration<double>(start.time_since_epoch()).count();
         jitter[static_cast<std::size_t>(sample.station - 1)].take(sample, (sample.p_TS.x() - 0.3) / speed);
       }

@@ -6,34 +6,34 @@
 #include <vector>
 
 #include "motions.h"
+#include "spring_workbench/hand_input/input_filter.h"
 #include "spring_workbench/motion/pose_track.h"
-#include "spring_workbench/tracker/truth_layer.h"
 
 namespace spring_workbench {
 namespace {
 
 constexpr double kDropout = 0.5;  // [s]
 
-std::vector<PoseSample> samples_of(const std::string& path) {
-  TruthLayer truth(TruthSettings(), kDropout);
+std::vector<motion::PoseSample> samples_of(const std::string& path) {
+  hand_input::TruthLayer truth(hand_input::TruthSettings(), kDropout);
   const bool synthetic = path.size() > 5 && path.substr(path.size() - 5) == ".yaml";
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0.0, 5e-4);  // [m] along each axis
-  std::vector<PoseSample> samples;
-  for (const StylusSample& sample : read_samples(path)) {
-    PoseSample noisy = sample;
+  std::vector<motion::PoseSample> samples;
+  for (const motion::StylusSample& sample : read_samples(path)) {
+    motion::PoseSample noisy = sample;
     if (synthetic) noisy.X.translation() += Vector3d(noise(random), noise(random), noise(random));
-    const TrueSample taken = truth.take(noisy);
-    if (usable(taken.verdict)) samples.push_back(taken.sample);
+    const hand_input::TrueSample taken = truth.take(noisy);
+    if (hand_input::usable(taken.verdict)) samples.push_back(taken.sample);
   }
   return samples;
 }
 
 /// RMS distance of `given` from the track `later` [s] after each sample; samples near its ends and gaps are left out.
-double distance(const std::vector<PoseSample>& given, PoseTrack& track, double later) {
+double distance(const std::vector<motion::PoseSample>& given, motion::PoseTrack& track, double later) {
   double sum = 0.0;
   int count = 0;
-  for (const PoseSample& sample : given) {
+  for (const motion::PoseSample& sample : given) {
     const double t = sample.t + later;
     if (t < track.begin() || t > track.end() - 1e-6) continue;
     sum += (track.segment(t).at(t).X.translation() - sample.X.translation()).squaredNorm();
@@ -42,7 +42,7 @@ double distance(const std::vector<PoseSample>& given, PoseTrack& track, double l
   return std::sqrt(sum / count);
 }
 
-double lag_of(const std::vector<PoseSample>& given, PoseTrack& track) {
+double lag_of(const std::vector<motion::PoseSample>& given, motion::PoseTrack& track) {
   double best = std::numeric_limits<double>::infinity(), lag = 0.0;
   for (double d = -0.08; d <= 0.16; d += 0.002) {
     const double off = distance(given, track, -d);
@@ -51,7 +51,7 @@ double lag_of(const std::vector<PoseSample>& given, PoseTrack& track) {
   return lag;
 }
 
-double jitter_of(const std::vector<PoseSample>& given) {
+double jitter_of(const std::vector<motion::PoseSample>& given) {
   double sum = 0.0;
   for (std::size_t i = 1; i + 1 < given.size(); ++i) {
     sum +=
@@ -62,20 +62,20 @@ double jitter_of(const std::vector<PoseSample>& given) {
 }
 
 void report(const std::string& path, std::ostream& out) {
-  const std::vector<PoseSample> measured = samples_of(path);
-  PoseTrack track(kDropout);
-  for (const PoseSample& sample : measured) track.push(sample);
+  const std::vector<motion::PoseSample> measured = samples_of(path);
+  motion::PoseTrack track(kDropout);
+  for (const motion::PoseSample& sample : measured) track.push(sample);
   const std::string name = file_name(path);
   for (const double min_cutoff : {0.0, 0.5, 1.0, 2.0, 5.0}) {
     for (const double beta : min_cutoff > 0.0 ? std::vector<double>{5.0, 20.0} : std::vector<double>{0.0}) {
       for (const double prediction : {0.0, 0.01, 0.02, 0.04}) {
-        TruthSettings settings;
+        hand_input::TruthSettings settings;
         settings.min_cutoff = min_cutoff;
         settings.beta = beta;
         settings.prediction = prediction;
-        PoseFilter filter(settings);
-        std::vector<PoseSample> given;
-        for (const PoseSample& sample : measured) given.push_back(filter.filter(sample));
+        hand_input::PoseFilter filter(settings);
+        std::vector<motion::PoseSample> given;
+        for (const motion::PoseSample& sample : measured) given.push_back(filter.filter(sample));
         out << name << ',' << min_cutoff << ',' << beta << ',' << 1e3 * prediction << ','
             << 1e3 * distance(given, track, prediction) << ',' << 1e3 * lag_of(given, track) << ','
             << 1e3 * jitter_of(given) << std::endl;

@@ -4,7 +4,7 @@
 
 #include "cadence_table.h"
 #include "filter_table.h"
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
 /// Tables of doc/tracker.md as CSV on standard output.
 int main(int argc, char** argv) {
@@ -17,10 +17,10 @@ int main(int argc, char** argv) {
     } else if (words.size() >= 2 && table == "cadence") {
       write_cadence_table({words.begin() + 1, words.end()}, std::cout);
     } else {
-      throw InputError("tracker_report: arguments: must be filter or cadence, and one motion or more");
+      throw validation::InputError("tracker_report: arguments: must be filter or cadence, and one motion or more");
     }
     return 0;
-  } catch (const InputError& e) {
+  } catch (const validation::InputError& e) {
     std::cerr << e.what() << std::endl;
     return 2;
   }

@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "spring_workbench/tracker/stylus_source.h"
+#include "spring_workbench/motion_files/open_motion.h"
 
 namespace spring_workbench {
 
 /// All samples of a motion file or script. Throws InputError where it cannot be read.
-inline std::vector<StylusSample> read_samples(const std::string& path) {
-  std::vector<StylusSample> samples;
-  const auto source = open_motion(path);
+inline std::vector<motion::StylusSample> read_samples(const std::string& path) {
+  std::vector<motion::StylusSample> samples;
+  const auto source = motion_files::open_motion(path);
   while (const auto sample = source->next()) samples.push_back(*sample);
   return samples;
 }

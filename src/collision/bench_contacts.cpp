@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 namespace {
 
 /// Collects the points below the plane.
@@ -22,7 +22,7 @@ class Below {
   std::vector<ContactPoint>& contacts_;
 };
 
-void add_corners(const Box& box, const RigidTransform& X_WS, Below& below) {
+void add_corners(const geometry::Box& box, const RigidTransform& X_WS, Below& below) {
   for (int i = 0; i < 8; ++i) {
     const Vector3d sign((i & 1) ? 0.5 : -0.5, (i & 2) ? 0.5 : -0.5, (i & 4) ? 0.5 : -0.5);
     below.add(X_WS * box.size.cwiseProduct(sign));
@@ -31,7 +31,7 @@ void add_corners(const Box& box, const RigidTransform& X_WS, Below& below) {
 
 /// Of each rim the lowest point, the highest and the two between: the lowest is exact, and a rim that lies flat has
 /// four.
-void add_rims(const Cylinder& cylinder, const RigidTransform& X_WS, Below& below) {
+void add_rims(const geometry::Cylinder& cylinder, const RigidTransform& X_WS, Below& below) {
   const Vector3d axis = X_WS.linear().col(2);
   Vector3d down = axis.z() * axis - Vector3d::UnitZ();
   if (down.norm() < 1e-9) down = X_WS.linear().col(0);
@@ -47,18 +47,18 @@ void add_rims(const Cylinder& cylinder, const RigidTransform& X_WS, Below& below
 
 }  // namespace
 
-void append_bench_contacts(const Geometry& geometry, const RigidTransform& X_WS, double height, double tolerance,
-                           std::vector<ContactPoint>& contacts) {
+void append_bench_contacts(const geometry::Geometry& geometry, const RigidTransform& X_WS, double height,
+                           double tolerance, std::vector<ContactPoint>& contacts) {
   Below below(height, tolerance, contacts);
-  if (const auto* box = std::get_if<Box>(&geometry)) {
+  if (const auto* box = std::get_if<geometry::Box>(&geometry)) {
     add_corners(*box, X_WS, below);
-  } else if (const auto* sphere = std::get_if<Sphere>(&geometry)) {
+  } else if (const auto* sphere = std::get_if<geometry::Sphere>(&geometry)) {
     below.add(X_WS.translation() - Vector3d(0.0, 0.0, sphere->radius));
-  } else if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
+  } else if (const auto* cylinder = std::get_if<geometry::Cylinder>(&geometry)) {
     add_rims(*cylinder, X_WS, below);
   } else {
-    for (const Vector3d& vertex : std::get<MeshPtr>(geometry)->vertices) below.add(X_WS * vertex);
+    for (const Vector3d& vertex : std::get<geometry::MeshPtr>(geometry)->vertices) below.add(X_WS * vertex);
   }
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

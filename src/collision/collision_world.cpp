@@ -10,13 +10,13 @@
 
 #include "bench_contacts.h"
 #include "narrow_phase.h"
+#include "spring_workbench/geometry/box_gap.h"
+#include "spring_workbench/geometry/conservative_advancement.h"
+#include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/math/so3.h"
-#include "spring_workbench/scene/clear_way.h"
-#include "spring_workbench/scene/geometry.h"
-#include "spring_workbench/scene/outline.h"
 #include "thin_out.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 namespace {
 
 constexpr double impact_precision =
@@ -49,7 +49,7 @@ class BoxObject {
 /// One shape of a body.
 struct Piece {
   std::size_t body;
-  Geometry geometry;
+  geometry::Geometry geometry;
   RigidTransform X_OS;
   RigidTransform X_WS;
   std::size_t solid;  // in the narrow phase
@@ -58,12 +58,13 @@ struct Piece {
 
   /// A box around the piece placed at `X`; for a mesh around its own box, so that its size does not matter.
   Eigen::AlignedBox3d box_at(const RigidTransform& X) const {
-    if (!std::holds_alternative<MeshPtr>(geometry)) return bounding_box(geometry, X);
-    return bounding_box(Box{extent.sizes()}, X * Eigen::Translation3d(extent.center()));
+    if (!std::holds_alternative<geometry::MeshPtr>(geometry)) return geometry::bounding_box(geometry, X);
+    return geometry::bounding_box(geometry::Box{extent.sizes()}, X * Eigen::Translation3d(extent.center()));
   }
   /// A box around it in its own axes.
-  OutlineBox outline(const RigidTransform& X) const {
-    return {X * Eigen::Translation3d(extent.center()), 0.5 * extent.sizes(), std::holds_alternative<Box>(geometry)};
+  geometry::OutlineBox outline(const RigidTransform& X) const {
+    return {X * Eigen::Translation3d(extent.center()), 0.5 * extent.sizes(),
+            std::holds_alternative<geometry::Box>(geometry)};
   }
 };
 
@@ -75,14 +76,14 @@ struct PieceRange {
 
 RigidTransform between(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& turn, double fraction) {
   RigidTransform X;
-  X.linear() = X0.linear() * exp_so3(fraction * turn);
+  X.linear() = X0.linear() * math::exp_so3(fraction * turn);
   X.translation() = X0.translation() + fraction * (X1.translation() - X0.translation());
   X.makeAffine();
   return X;
 }
 
 Vector3d turn_between(const RigidTransform& X0, const RigidTransform& X1) {
-  return log_so3(X0.linear().transpose() * X1.linear());
+  return math::log_so3(X0.linear().transpose() * X1.linear());
 }
 
 Eigen::AlignedBox3d grown(Eigen::AlignedBox3d box, double by) {
@@ -136,7 +137,7 @@ struct CollisionWorld::Impl {
   std::vector<std::size_t> near;
   std::vector<ContactPoint> found;
 
-  explicit Impl(const Scene& scene) : bench_height(scene.bench_height) {
+  explicit Impl(const scene::Scene& scene) : bench_height(scene.bench_height) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(i, scene.bodies[i]);
     std::vector<fcl::CollisionObjectd*> objects;
     for (const Piece& piece : pieces) objects.push_back(piece.in_broadphase.get());
@@ -144,14 +145,14 @@ struct CollisionWorld::Impl {
     broadphase.setup();
   }
 
-  void add(std::size_t index, const Body& body) {
+  void add(std::size_t index, const scene::Body& body) {
     const std::size_t begin = pieces.size();
-    for (const Shape& shape : body.collision) {
+    for (const geometry::Shape& shape : body.collision) {
       pieces.push_back({index, shape.geometry, shape.X_OS, body.X_WO * shape.X_OS, narrow.add(shape.geometry),
-                        BoxObject(pieces.size()), bounding_box(shape.geometry)});
+                        BoxObject(pieces.size()), geometry::bounding_box(shape.geometry)});
       pieces.back().in_broadphase.place(pieces.back().box_at(pieces.back().X_WS));
     }
-    bodies.push_back({begin, pieces.size(), bounding_radius(body)});
+    bodies.push_back({begin, pieces.size(), geometry::bounding_radius(body.collision)});
   }
 
   void place(std::size_t body, const RigidTransform& X_WO) {
@@ -207,21 +208,21 @@ struct CollisionWorld::Impl {
   /// overlap, it is the gap between the surfaces that is left.
   double clear_way(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
                    double tolerance, double longest) {
-    const Way way{X_WO.translation(), move_W, X_WO.linear() * turn_O};
+    const geometry::Way way{X_WO.translation(), move_W, X_WO.linear() * turn_O};
     const double fastest = move_W.norm() + bodies[body].radius * turn_O.norm();
     double clear = longest;
     for (std::size_t i = bodies[body].begin; i < bodies[body].end && clear > 0.0; ++i) {
       const RigidTransform X_WS = X_WO * pieces[i].X_OS;
-      const OutlineBox own = pieces[i].outline(X_WS);
+      const geometry::OutlineBox own = pieces[i].outline(X_WS);
       const Eigen::AlignedBox3d box = pieces[i].box_at(X_WS);
       const double by_corners =
-          clear_above(own, way, {Vector3d::UnitZ(), bench_height}, own.exact ? tolerance : 0.0, clear);
+          geometry::clear_above(own, way, {Vector3d::UnitZ(), bench_height}, own.exact ? tolerance : 0.0, clear);
       clear = std::max(by_corners, std::min(clear, (box.min().z() - bench_height) / fastest));
       find_near(body, grown(box, fastest * clear));
       for (const std::size_t other : near) {
-        const OutlineBox others = pieces[other].outline(pieces[other].X_WS);
+        const geometry::OutlineBox others = pieces[other].outline(pieces[other].X_WS);
         const bool exact = own.exact && others.exact;
-        const double boxes = clear_of(own, way, others, exact ? tolerance : 0.0, clear);
+        const double boxes = geometry::clear_of(own, way, others, exact ? tolerance : 0.0, clear);
         if (exact || boxes >= clear) {
           clear = boxes;
         } else {
@@ -246,7 +247,7 @@ struct CollisionWorld::Impl {
   }
 };
 
-CollisionWorld::CollisionWorld(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
+CollisionWorld::CollisionWorld(const scene::Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
 CollisionWorld::~CollisionWorld() = default;
 CollisionWorld::CollisionWorld(CollisionWorld&&) noexcept = default;
 CollisionWorld& CollisionWorld::operator=(CollisionWorld&&) noexcept = default;
@@ -307,4 +308,4 @@ SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO,
   return {true, free, touching};
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

@@ -6,7 +6,7 @@
 
 #include "triangle_contacts.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 namespace {
 
 /// Which patch each pair belongs to: pairs whose triangles are neighbours on one side and equal on the other go
@@ -80,4 +80,4 @@ void append_surface_contacts(const PlacedSurface& own, const PlacedSurface& othe
   }
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

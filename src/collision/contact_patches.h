@@ -6,7 +6,7 @@
 #include "placed_triangle.h"
 #include "spring_workbench/collision/collision_world.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 
 /// Appends the contacts of two surfaces of which `pairs` (own triangle, other triangle) cross, deeper than `tolerance`
 /// [m].
@@ -18,4 +18,4 @@ void append_surface_contacts(const PlacedSurface& own, const PlacedSurface& othe
                              const std::vector<std::pair<int, int>>& pairs, double tolerance,
                              std::vector<ContactPoint>& contacts);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

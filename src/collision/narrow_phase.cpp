@@ -18,12 +18,12 @@
 #include "swallowed.h"
 #include "thin_out.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 namespace {
 
 using Triangles = fcl::BVHModel<fcl::OBBRSSd>;
 
-std::unique_ptr<Triangles> make_triangles(const TriangleMesh& mesh) {
+std::unique_ptr<Triangles> make_triangles(const geometry::TriangleMesh& mesh) {
   std::vector<fcl::Triangle> triangles;
   for (const Eigen::Vector3i& t : mesh.triangles) {
     triangles.emplace_back(static_cast<std::size_t>(t[0]), static_cast<std::size_t>(t[1]),
@@ -42,7 +42,7 @@ fcl::CollisionRequestd which_triangles() {
 }
 
 /// How far from `q` along `n` the box ends, in the box's frame; 0 where `q` is outside already.
-double way_out(const Box& box, const Vector3d& q, const Vector3d& n) {
+double way_out(const geometry::Box& box, const Vector3d& q, const Vector3d& n) {
   double way = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     if (n[i] == 0.0) continue;
@@ -54,7 +54,7 @@ double way_out(const Box& box, const Vector3d& q, const Vector3d& n) {
 }  // namespace
 
 struct NarrowPhase::Solid {
-  Geometry geometry;
+  geometry::Geometry geometry;
   std::shared_ptr<const Surface> surface;  // none for a sphere
   std::unique_ptr<Triangles> triangles;
   std::unique_ptr<TriangleTree> tree;  // of a mesh beside a cylinder
@@ -63,7 +63,7 @@ struct NarrowPhase::Solid {
     surface = make_surface(geometry);
     if (surface) triangles = make_triangles(*surface->mesh);
   }
-  BesideCylinder beside(const Cylinder& cylinder, const RigidTransform& X_MC) {
+  BesideCylinder beside(const geometry::Cylinder& cylinder, const RigidTransform& X_MC) {
     if (!tree) tree = make_tree(*surface);
     return BesideCylinder(*surface, *tree, cylinder, X_MC);
   }
@@ -79,9 +79,9 @@ struct NarrowPhase::Fcl {
 NarrowPhase::NarrowPhase() : fcl_(std::make_unique<Fcl>()) {}
 NarrowPhase::~NarrowPhase() = default;
 
-std::size_t NarrowPhase::add(const Geometry& geometry) {
+std::size_t NarrowPhase::add(const geometry::Geometry& geometry) {
   solids_.push_back({geometry, nullptr, nullptr, nullptr});
-  if (std::holds_alternative<MeshPtr>(geometry)) solids_.back().make_surface_and_triangles();
+  if (std::holds_alternative<geometry::MeshPtr>(geometry)) solids_.back().make_surface_and_triangles();
   return solids_.size() - 1;
 }
 
@@ -90,16 +90,19 @@ void NarrowPhase::append_contacts(std::size_t own_index, const RigidTransform& X
   const Solid& own = solids_[own_index];
   const Solid& other = solids_[other_index];
   const std::size_t first = contacts.size();
-  if (std::holds_alternative<Sphere>(own.geometry)) {
+  if (std::holds_alternative<geometry::Sphere>(own.geometry)) {
     sphere_and(own, X_WA, other, X_WB, tolerance, contacts);
-  } else if (std::holds_alternative<Sphere>(other.geometry)) {
+  } else if (std::holds_alternative<geometry::Sphere>(other.geometry)) {
     sphere_and(other, X_WB, own, X_WA, tolerance, contacts);
     turn_round(first, contacts);
-  } else if (std::holds_alternative<Box>(own.geometry) && std::holds_alternative<Box>(other.geometry)) {
+  } else if (std::holds_alternative<geometry::Box>(own.geometry) &&
+             std::holds_alternative<geometry::Box>(other.geometry)) {
     boxes(own, X_WA, other, X_WB, tolerance, contacts);
-  } else if (std::holds_alternative<MeshPtr>(own.geometry) && std::holds_alternative<Cylinder>(other.geometry)) {
+  } else if (std::holds_alternative<geometry::MeshPtr>(own.geometry) &&
+             std::holds_alternative<geometry::Cylinder>(other.geometry)) {
     mesh_and_cylinder(own_index, X_WA, other_index, X_WB, tolerance, contacts);
-  } else if (std::holds_alternative<Cylinder>(own.geometry) && std::holds_alternative<MeshPtr>(other.geometry)) {
+  } else if (std::holds_alternative<geometry::Cylinder>(own.geometry) &&
+             std::holds_alternative<geometry::MeshPtr>(other.geometry)) {
     mesh_and_cylinder(other_index, X_WB, own_index, X_WA, tolerance, contacts);
     turn_round(first, contacts);
   } else {
@@ -118,16 +121,17 @@ double NarrowPhase::clear_way(std::size_t own, const RigidTransform& X_WA, std::
   const auto is_a = [&](auto kind, std::size_t solid) {
     return std::holds_alternative<decltype(kind)>(solids_[solid].geometry);
   };
-  if (is_a(Sphere(), own) || is_a(Sphere(), other)) {
-    if (is_a(MeshPtr(), own) || is_a(MeshPtr(), other)) return 0.0;
+  if (is_a(geometry::Sphere(), own) || is_a(geometry::Sphere(), other)) {
+    if (is_a(geometry::MeshPtr(), own) || is_a(geometry::MeshPtr(), other)) return 0.0;
     std::vector<ContactPoint> nearest;
     append_contacts(own, X_WA, other, X_WB, -std::numeric_limits<double>::max(), nearest);
     return std::max(0.0, tolerance - nearest.front().depth);
   }
   double rounded_off = 0.0, beside = 0.0;
-  if (is_a(Cylinder(), own) && is_a(MeshPtr(), other)) return clear_way(other, X_WB, own, X_WA, tolerance);
-  if (is_a(MeshPtr(), own) && is_a(Cylinder(), other)) {
-    const Cylinder& cylinder = std::get<Cylinder>(solids_[other].geometry);
+  if (is_a(geometry::Cylinder(), own) && is_a(geometry::MeshPtr(), other))
+    return clear_way(other, X_WB, own, X_WA, tolerance);
+  if (is_a(geometry::MeshPtr(), own) && is_a(geometry::Cylinder(), other)) {
+    const geometry::Cylinder& cylinder = std::get<geometry::Cylinder>(solids_[other].geometry);
     const BesideCylinder side = solids_[own].beside(cylinder, X_WA.inverse() * X_WB);
     beside = std::max(0.0, tolerance + side.gap());
     if (side.is_between_ends()) return beside;
@@ -142,8 +146,8 @@ double NarrowPhase::clear_way(std::size_t own, const RigidTransform& X_WA, std::
 void NarrowPhase::mesh_and_cylinder(std::size_t mesh, const RigidTransform& X_WM, std::size_t cylinder,
                                     const RigidTransform& X_WC, double tolerance, std::vector<ContactPoint>& contacts) {
   const std::size_t first = contacts.size();
-  const Geometry& round = solids_[cylinder].geometry;
-  const BesideCylinder side = solids_[mesh].beside(std::get<Cylinder>(round), X_WM.inverse() * X_WC);
+  const geometry::Geometry& round = solids_[cylinder].geometry;
+  const BesideCylinder side = solids_[mesh].beside(std::get<geometry::Cylinder>(round), X_WM.inverse() * X_WC);
   if (!side.append_contacts(std::max(0.0, tolerance), contacts)) {
     surfaces(with_triangles(mesh), X_WM, with_triangles(cylinder), X_WC, tolerance, contacts);
     return;
@@ -160,9 +164,9 @@ void NarrowPhase::mesh_and_cylinder(std::size_t mesh, const RigidTransform& X_WM
 
 void NarrowPhase::sphere_and(const Solid& sphere, const RigidTransform& X_WS, const Solid& other,
                              const RigidTransform& X_WB, double tolerance, std::vector<ContactPoint>& contacts) {
-  const double radius = std::get<Sphere>(sphere.geometry).radius;
+  const double radius = std::get<geometry::Sphere>(sphere.geometry).radius;
   const Vector3d centre_W = X_WS.translation();
-  if (!std::holds_alternative<MeshPtr>(other.geometry)) {
+  if (!std::holds_alternative<geometry::MeshPtr>(other.geometry)) {
     append_sphere_contact(radius, centre_W, other.geometry, X_WB, tolerance, contacts);
     return;
   }
@@ -183,8 +187,8 @@ void NarrowPhase::sphere_and(const Solid& sphere, const RigidTransform& X_WS, co
 void NarrowPhase::boxes(const Solid& own, const RigidTransform& X_WA, const Solid& other, const RigidTransform& X_WB,
                         double tolerance, std::vector<ContactPoint>& contacts) {
   const double grown = std::max(0.0, -tolerance);
-  const Box reached{std::get<Box>(other.geometry).size + Vector3d::Constant(2.0 * grown)};
-  const fcl::Boxd a(std::get<Box>(own.geometry).size), b(reached.size);
+  const geometry::Box reached{std::get<geometry::Box>(other.geometry).size + Vector3d::Constant(2.0 * grown)};
+  const fcl::Boxd a(std::get<geometry::Box>(own.geometry).size), b(reached.size);
   constexpr std::size_t most_points = 16;
   fcl_->result.clear();
   fcl::collide(&a, X_WA, &b, X_WB, fcl::CollisionRequestd(most_points, true), fcl_->result);
@@ -224,4 +228,4 @@ void NarrowPhase::surfaces(const Solid& own, const RigidTransform& X_WA, const S
   turn_round(first, contacts);
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

@@ -5,7 +5,7 @@
 
 #include "spring_workbench/collision/collision_world.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 
 /// Contact of two shapes. FCL says which shapes and which of their triangles meet. Where, how deep and in which
 /// direction is taken from it for two boxes only (held against the separating axis theorem in the tests); elsewhere its
@@ -20,7 +20,7 @@ class NarrowPhase {
   NarrowPhase& operator=(const NarrowPhase&) = delete;
 
   /// Prepares a shape; returns its index.
-  std::size_t add(const Geometry& geometry);
+  std::size_t add(const geometry::Geometry& geometry);
 
   /// Appends the contacts of shape `own` with shape `other` that are deeper than `tolerance` [m], without `other`'s
   /// index.
@@ -51,4 +51,4 @@ class NarrowPhase {
   std::unique_ptr<Fcl> fcl_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

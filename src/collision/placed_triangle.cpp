@@ -2,7 +2,7 @@
 
 #include <limits>
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 
 Triangle place(const PlacedSurface& placed, int index) {
   Triangle t;
@@ -78,4 +78,4 @@ Crossing crossing(const Triangle& own, const Triangle& other) {
   return {start + low * direction, start + high * direction};
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

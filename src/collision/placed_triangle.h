@@ -6,7 +6,7 @@
 
 #include "surface.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 
 /// A surface placed in the world.
 struct PlacedSurface {
@@ -50,4 +50,4 @@ struct Crossing {
 };
 Crossing crossing(const Triangle& own, const Triangle& other);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/geometry/shape_queries.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 namespace {
 
 using Eigen::Vector2d;
@@ -93,7 +93,7 @@ std::unique_ptr<TriangleTree> make_tree(const Surface& surface) {
   return std::make_unique<TriangleTree>(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
 }
 
-BesideCylinder::BesideCylinder(const Surface& surface, const TriangleTree& tree, const Cylinder& cylinder,
+BesideCylinder::BesideCylinder(const Surface& surface, const TriangleTree& tree, const geometry::Cylinder& cylinder,
                                const RigidTransform& X_MC)
     : surface_(surface), tree_(tree), cylinder_(cylinder), X_CM_(X_MC.inverse()) {}
 
@@ -145,4 +145,4 @@ bool BesideCylinder::append_contacts(double tolerance, std::vector<ContactPoint>
   return true;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

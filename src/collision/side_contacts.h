@@ -9,7 +9,7 @@
 #include "spring_workbench/collision/collision_world.h"
 #include "surface.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 
 /// The triangles of a surface, by their indices, in a tree of boxes in its frame.
 using TriangleTree = Eigen::KdBVH<double, 3, int>;
@@ -20,7 +20,7 @@ std::unique_ptr<TriangleTree> make_tree(const Surface& surface);
 class BesideCylinder {
  public:
   /// `X_MC`: the cylinder in the frame of the surface. All are kept by reference.
-  BesideCylinder(const Surface& surface, const TriangleTree& tree, const Cylinder& cylinder,
+  BesideCylinder(const Surface& surface, const TriangleTree& tree, const geometry::Cylinder& cylinder,
                  const RigidTransform& X_MC);
 
   /// The gap to the cylinder if it had no ends [m]; negative where an edge is in it, −radius where its axis goes
@@ -38,8 +38,8 @@ class BesideCylinder {
  private:
   const Surface& surface_;
   const TriangleTree& tree_;
-  const Cylinder& cylinder_;
+  const geometry::Cylinder& cylinder_;
   RigidTransform X_CM_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

@@ -5,13 +5,13 @@
 
 #include "nearest_point.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 namespace {
 
-NearestPoint nearest_on(const Geometry& geometry, const Vector3d& q) {
-  if (const auto* box = std::get_if<Box>(&geometry)) return nearest_point(*box, q);
-  if (const auto* sphere = std::get_if<Sphere>(&geometry)) return nearest_point(*sphere, q);
-  return nearest_point(std::get<Cylinder>(geometry), q);
+NearestPoint nearest_on(const geometry::Geometry& geometry, const Vector3d& q) {
+  if (const auto* box = std::get_if<geometry::Box>(&geometry)) return nearest_point(*box, q);
+  if (const auto* sphere = std::get_if<geometry::Sphere>(&geometry)) return nearest_point(*sphere, q);
+  return nearest_point(std::get<geometry::Cylinder>(geometry), q);
 }
 
 struct Candidate {
@@ -47,8 +47,8 @@ bool is_on_seam(const Surface& surface, const Candidate& candidate, const std::v
 
 }  // namespace
 
-void append_sphere_contact(double radius, const Vector3d& centre_W, const Geometry& other, const RigidTransform& X_WS,
-                           double tolerance, std::vector<ContactPoint>& contacts) {
+void append_sphere_contact(double radius, const Vector3d& centre_W, const geometry::Geometry& other,
+                           const RigidTransform& X_WS, double tolerance, std::vector<ContactPoint>& contacts) {
   const NearestPoint nearest = nearest_on(other, X_WS.inverse() * centre_W);
   const double depth = radius - nearest.distance;
   if (depth > tolerance) contacts.push_back({0, X_WS * nearest.p, X_WS.linear() * nearest.n, depth});
@@ -82,4 +82,4 @@ void turn_round(std::size_t first, std::vector<ContactPoint>& contacts) {
   }
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

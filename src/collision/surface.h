@@ -6,11 +6,11 @@
 
 #include "spring_workbench/scene/scene.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 
 /// Triangles of a shape with what contact between triangles needs: normals and neighbours.
 struct Surface {
-  MeshPtr mesh;
+  geometry::MeshPtr mesh;
   std::vector<Vector3d> normals;               ///< unit, outward; one per triangle
   std::vector<std::array<int, 3>> neighbours;  ///< triangle across the edge k → k+1, or −1
 
@@ -23,8 +23,8 @@ struct Surface {
 
 /// The surface of a box, a cylinder (as a prism of `cylinder_sides` sides through its rims' points) or a mesh.
 /// Nothing for a sphere.
-std::shared_ptr<const Surface> make_surface(const Geometry& geometry);
+std::shared_ptr<const Surface> make_surface(const geometry::Geometry& geometry);
 
 constexpr int cylinder_sides = 48;
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

@@ -3,23 +3,24 @@
 #include <limits>
 
 #include "nearest_point.h"
-#include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/geometry/shape_queries.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 namespace {
 
 /// A point of the shape's surface, in its frame.
-Vector3d point_of(const Geometry& geometry) {
-  if (const auto* box = std::get_if<Box>(&geometry)) return 0.5 * box->size;
-  if (const auto* sphere = std::get_if<Sphere>(&geometry)) return Vector3d(sphere->radius, 0.0, 0.0);
-  if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) return Vector3d(cylinder->radius, 0.0, 0.0);
-  return std::get<MeshPtr>(geometry)->vertices.front();
+Vector3d point_of(const geometry::Geometry& geometry) {
+  if (const auto* box = std::get_if<geometry::Box>(&geometry)) return 0.5 * box->size;
+  if (const auto* sphere = std::get_if<geometry::Sphere>(&geometry)) return Vector3d(sphere->radius, 0.0, 0.0);
+  if (const auto* cylinder = std::get_if<geometry::Cylinder>(&geometry)) return Vector3d(cylinder->radius, 0.0, 0.0);
+  return std::get<geometry::MeshPtr>(geometry)->vertices.front();
 }
 
 /// Whether a point of `inner`, of which no triangle meets the surface of `outer`, lies in `outer`.
-bool is_inside(const Geometry& inner, const RigidTransform& X_WI, const Geometry& outer, const RigidTransform& X_WO) {
+bool is_inside(const geometry::Geometry& inner, const RigidTransform& X_WI, const geometry::Geometry& outer,
+               const RigidTransform& X_WO) {
   const Vector3d p_O = X_WO.inverse() * (X_WI * point_of(inner));
-  return bounding_box(outer).contains(p_O) && contains(outer, p_O);
+  return geometry::bounding_box(outer).contains(p_O) && geometry::contains(outer, p_O);
 }
 
 struct NearestTriangle {
@@ -41,18 +42,18 @@ NearestTriangle nearest_triangle(const Surface& surface, const Vector3d& q) {
 }
 
 /// How far the shape reaches along −n, as a coordinate along n.
-double lowest_along(const Geometry& geometry, const RigidTransform& X_WS, const Vector3d& n) {
+double lowest_along(const geometry::Geometry& geometry, const RigidTransform& X_WS, const Vector3d& n) {
   const RigidTransform X_NW(Quaterniond::FromTwoVectors(n, Vector3d::UnitZ()));
-  return bounding_box(geometry, X_NW * X_WS).min().z();
+  return geometry::bounding_box(geometry, X_NW * X_WS).min().z();
 }
 
 }  // namespace
 
-void append_swallowed(const Geometry& inner, const RigidTransform& X_WI, const Geometry& outer,
+void append_swallowed(const geometry::Geometry& inner, const RigidTransform& X_WI, const geometry::Geometry& outer,
                       const PlacedSurface& outer_surface, double tolerance, std::vector<ContactPoint>& contacts) {
   const RigidTransform& X_WO = outer_surface.X_WS;
   if (!is_inside(inner, X_WI, outer, X_WO)) return;
-  const Vector3d middle_O = X_WO.inverse() * bounding_box(inner, X_WI).center();
+  const Vector3d middle_O = X_WO.inverse() * geometry::bounding_box(inner, X_WI).center();
   const NearestTriangle nearest = nearest_triangle(outer_surface.surface, middle_O);
   const Vector3d n_W = X_WO.linear() * outer_surface.surface.normal(nearest.triangle);
   const Vector3d p_W = X_WO * nearest.p;
@@ -60,4 +61,4 @@ void append_swallowed(const Geometry& inner, const RigidTransform& X_WI, const G
   if (depth > tolerance) contacts.push_back({0, p_W, n_W, depth});
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

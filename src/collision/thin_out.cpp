@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 namespace {
 
 /// Keeps a point of each group that lies furthest in a direction.
@@ -44,4 +44,4 @@ void thin_out(std::size_t first, std::vector<ContactPoint>& contacts) {
   for (const std::vector<ContactPoint>& group : groups) keep_extremes(group, contacts);
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

@@ -6,7 +6,7 @@
 #include <limits>
 #include <optional>
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 namespace {
 
 double deepest(const Polygon& polygon, const Triangle& face) {
@@ -120,4 +120,4 @@ bool append_triangle_contacts(const Triangle& own, const Triangle& other, const 
   return true;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

@@ -6,7 +6,7 @@
 #include "placed_triangle.h"
 #include "spring_workbench/collision/collision_world.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 
 /// Contact of a triangle of this body's surface with one of the other's that it crosses: along the normal of either one
 /// or of two crossing convex edges. Which of these it is cannot be told from two triangles alone: `n_W` is how the
@@ -17,4 +17,4 @@ namespace spring_workbench {
 bool append_triangle_contacts(const Triangle& own, const Triangle& other, const std::optional<Vector3d>& n_W,
                               double tolerance, std::vector<ContactPoint>& contacts);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

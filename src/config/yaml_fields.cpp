@@ -6,18 +6,10 @@
 #include <set>
 #include <sstream>
 
-#include "spring_workbench/config/one_line.h"
+#include "spring_workbench/validation/one_line.h"
 
-namespace spring_workbench {
+namespace spring_workbench::config {
 namespace {
-
-std::string number_text(double value) {
-  if (std::isnan(value)) return "nan";  // without a sign
-  std::ostringstream out;
-  out.precision(12);
-  out << value;
-  return out.str();
-}
 
 /// The node as the user wrote it, shortened to one line.
 std::string node_text(const YAML::Node& node) {
@@ -37,40 +29,13 @@ std::string place(const YAML::Node& node, const std::string& where) {
 
 [[noreturn]] void refuse_node(const YAML::Node& node, const std::string& where, const std::string& key,
                               const std::string& rule) {
-  refuse(place(node, where), key, node_text(node), rule);
+  validation::refuse(place(node, where), key, node_text(node), rule);
 }
 
 }  // namespace
 
-bool NumberRule::allows(double value) const {
-  if (std::isnan(value)) return false;
-  if (std::isinf(value)) return infinity_allowed && value > 0.0;
-  return (min_allowed ? value >= min : value > min) && value <= max;
-}
-
-std::string NumberRule::text() const {
-  constexpr double unbounded = std::numeric_limits<double>::max();
-  std::string text = "a finite number";
-  if (min > -unbounded && max < unbounded) {
-    text += std::string(" in ") + (min_allowed ? "[" : "(") + number_text(min) + ", " + number_text(max) + "]";
-  } else if (min > -unbounded) {
-    text += (min_allowed ? " >= " : " > ") + number_text(min);
-  } else if (max < unbounded) {
-    text += " <= " + number_text(max);
-  }
-  return infinity_allowed ? text + ", or .inf" : text;
-}
-
-void refuse(const std::string& where, const std::string& key, const std::string& value, const std::string& rule) {
-  const std::string given = value.empty() ? "(nothing)" : value;
-  throw InputError(one_line(where + ": " + key + ": " + given + " is not allowed: must be " + rule));
-}
-
-void check_number(const std::string& where, const std::string& key, double value, const NumberRule& rule) {
-  if (!rule.allows(value)) refuse(where, key, number_text(value), rule.text());
-}
-
-double read_number(const YAML::Node& node, const std::string& where, const std::string& key, const NumberRule& rule) {
+double read_number(const YAML::Node& node, const std::string& where, const std::string& key,
+                   const validation::NumberRule& rule) {
   double value = 0.0;
   if (!is_scalar(node) || !YAML::convert<double>::decode(node, value) || !rule.allows(value)) {
     refuse_node(node, where, key, rule.text());
@@ -100,7 +65,7 @@ std::string read_string(const YAML::Node& node, const std::string& where, const 
 std::string read_choice(const YAML::Node& node, const std::string& where, const std::string& key,
                         const std::vector<std::string>& choices) {
   if (!is_scalar(node) || std::find(choices.begin(), choices.end(), node.Scalar()) == choices.end()) {
-    refuse_node(node, where, key, "one of " + join(choices));
+    refuse_node(node, where, key, "one of " + validation::join(choices));
   }
   return node.Scalar();
 }
@@ -139,11 +104,12 @@ void check_keys(const YAML::Node& map, const std::string& where, const std::stri
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : YAML::Dump(entry.first);
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
-      throw InputError(
-          one_line(place(entry.first, where) + ": " + prefix + key + ": unknown key; known are " + join(allowed)));
+      throw validation::InputError(validation::one_line(place(entry.first, where) + ": " + prefix + key +
+                                                        ": unknown key; known are " + validation::join(allowed)));
     }
     if (!seen.insert(key).second)
-      throw InputError(one_line(place(entry.first, where) + ": " + prefix + key + ": given twice"));
+      throw validation::InputError(
+          validation::one_line(place(entry.first, where) + ": " + prefix + key + ": given twice"));
   }
 }
 
@@ -153,9 +119,10 @@ namespace {
 void check_extent(const YAML::Node& node, const std::string& path, int depth, long& values) {
   constexpr int most_deep = 100;
   constexpr long most_values = 1000000;
-  if (depth > most_deep) throw InputError(path + ": nesting: must be at most " + std::to_string(most_deep) + " deep");
+  if (depth > most_deep)
+    throw validation::InputError(path + ": nesting: must be at most " + std::to_string(most_deep) + " deep");
   if (++values > most_values)
-    throw InputError(path + ": size: must be at most " + std::to_string(most_values) + " values");
+    throw validation::InputError(path + ": size: must be at most " + std::to_string(most_values) + " values");
   if (node.IsSequence()) {
     for (const YAML::Node& entry : node) check_extent(entry, path, depth + 1, values);
   } else if (node.IsMap()) {
@@ -173,7 +140,7 @@ YAML::Node load_yaml_file(const std::string& path) {
   std::ostringstream text;
   if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();  // of an empty file nothing can be copied
   if (!file.is_open() || file.bad() || text.fail()) {
-    throw InputError(path + ": cannot be read: must be a readable YAML file");
+    throw validation::InputError(path + ": cannot be read: must be a readable YAML file");
   }
   try {
     const YAML::Node node = YAML::Load(text.str());
@@ -181,14 +148,9 @@ YAML::Node load_yaml_file(const std::string& path) {
     check_extent(node, path, 0, values);
     return node.IsNull() ? YAML::Node(YAML::NodeType::Map) : node;
   } catch (const YAML::Exception& e) {
-    throw InputError(path + ":" + std::to_string(e.mark.line + 1) + ": not YAML: " + one_line(e.msg));
+    throw validation::InputError(path + ":" + std::to_string(e.mark.line + 1) +
+                                 ": not YAML: " + validation::one_line(e.msg));
   }
 }
 
-std::string join(const std::vector<std::string>& words, const std::string& separator) {
-  std::string text;
-  for (const std::string& word : words) text += (text.empty() ? "" : separator) + word;
-  return text;
-}
-
-}  // namespace spring_workbench
+}  // namespace spring_workbench::config

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
 /// Of the energy that moves to and fro: what may come back above the lowest value since the handle rests.
@@ -17,7 +17,7 @@ struct Energy {
 
 /// With the weight's zero where the fork is straight.
 Energy energy_of(const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
-  const MotionState o = body.object(handle, state);
+  const motion::MotionState o = body.object(handle, state);
   const double height = o.X.translation().z() - body.object(handle, body.zero_state()).X.translation().z();
   return {body.kinetic_energy(o.velocity, o.X.linear()),
           body.elastic_energy(handle.t, state) + body.body().mass * body.gravity() * height};
@@ -35,7 +35,7 @@ bool applies(const HeldBody& body, const HandleForcing& begin, const HandleForci
 
 }  // namespace
 
-bool hold_energy(const HeldBody& body, const FrameMotion& handle, double t, double h, const StrainState& begin,
+bool hold_energy(const HeldBody& body, const motion::FrameMotion& handle, double t, double h, const StrainState& begin,
                  StrainState& end, StepControl::Memory& memory) {
   const HandleForcing from = body.forcing(handle, t), to = body.forcing(handle, t + h);
   if (!applies(body, from, to)) {
@@ -58,7 +58,7 @@ bool hold_energy(const HeldBody& body, const FrameMotion& handle, double t, doub
     if (e.potential > limit) {
       // The part of the way that the energy allows; none of it is always allowed.
       double shortest = 0.0, longest = 1.0;
-      const StrainVector way = end.q - begin.q;
+      const rod::StrainVector way = end.q - begin.q;
       for (int i = 0; i < halvings; ++i) {
         const double part = 0.5 * (shortest + longest);
         const bool allowed = energy_of(body, to, {begin.q + part * way, 0.0 * way}).potential <= limit;
@@ -75,4 +75,4 @@ bool hold_energy(const HeldBody& body, const FrameMotion& handle, double t, doub
   return too_much;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <limits>
 
-#include "collocation.h"
 #include "linear_part.h"
+#include "spring_workbench/math/collocation.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
-constexpr std::size_t nodes = Collocation::count;
+constexpr std::size_t nodes = math::Collocation::count;
 constexpr std::size_t last = nodes - 1;
 
 constexpr int most_sweeps = 12;
@@ -61,7 +61,7 @@ SPRING_WORKBENCH_INLINE Eigen::Matrix<double, rows, 1> times(const Eigen::Matrix
 class Exponential::Core {
  public:
   virtual ~Core() = default;
-  virtual StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h,
+  virtual StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                             StrainState& state) = 0;
   virtual bool response(const HeldBody& body, double h, Response& r) = 0;
 };
@@ -69,7 +69,8 @@ class Exponential::Core {
 template <int n>
 class Exponential::CoreOf final : public Core {
  public:
-  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override {
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    StrainState& state) override {
     State s{state.q, state.q_dot};
     const Estimate e = step(body, handle, t, h, s, 0);
     state.q = s.q;
@@ -84,7 +85,7 @@ class Exponential::CoreOf final : public Core {
     Eigen::Matrix<double, 2 * n, n> modes;
     for (int i = 0; i < n; ++i) {
       NodeModes constant, x;
-      for (int m = 0; m < 2 * n; ++m) constant[at(m)] = Pack{} + force_to_modes_(m, i);
+      for (int m = 0; m < 2 * n; ++m) constant[at(m)] = math::Pack{} + force_to_modes_(m, i);
       drive(NodeModes{}, constant, x);
       modes.col(i) = at_node(last, x);
     }
@@ -107,8 +108,8 @@ class Exponential::CoreOf final : public Core {
     bool converged = false;
   };
   /// Modes, strains or strain rates at the nodes: a pack each.
-  using NodeModes = std::array<Pack, 2 * n>;
-  using NodeStrains = std::array<Pack, n>;
+  using NodeModes = std::array<math::Pack, 2 * n>;
+  using NodeStrains = std::array<math::Pack, n>;
   /// A function of the linear part, in modes: x ↦ own x + other x with the members of each pair exchanged.
   template <typename S>
   struct Operator {
@@ -120,16 +121,16 @@ class Exponential::CoreOf final : public Core {
   };
   template <typename S>
   static void set(Operator<S>& o, std::size_t lane_of, int mode, double value) {
-    set_lane(o.own[at(mode)], static_cast<int>(lane_of), value);
-    set_lane(o.other[at(mode)], static_cast<int>(lane_of), 0.0);
+    math::set_lane(o.own[at(mode)], static_cast<int>(lane_of), value);
+    math::set_lane(o.other[at(mode)], static_cast<int>(lane_of), 0.0);
   }
   template <typename S>
   static void set(Operator<S>& o, std::size_t lane_of, int mode, std::complex<double> value) {  // z = x₀ − i x₁
     const int k = static_cast<int>(lane_of);
-    set_lane(o.own[at(mode)], k, value.real());
-    set_lane(o.own[at(mode + 1)], k, value.real());
-    set_lane(o.other[at(mode)], k, value.imag());
-    set_lane(o.other[at(mode + 1)], k, -value.imag());
+    math::set_lane(o.own[at(mode)], k, value.real());
+    math::set_lane(o.own[at(mode + 1)], k, value.real());
+    math::set_lane(o.other[at(mode)], k, value.imag());
+    math::set_lane(o.other[at(mode + 1)], k, -value.imag());
   }
   static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
   SPRING_WORKBENCH_INLINE static Modes at_node(std::size_t i, const NodeModes& x) {
@@ -172,8 +173,9 @@ class Exponential::CoreOf final : public Core {
       }
       set(error_, 0, m, h * w.error);
     };
-    for (int m = 0; m < 2 * linear_.pairs; m += 2) take(m, Collocation::weights(h * linear_.rates[at(m)]));
-    for (int m = 2 * linear_.pairs; m < 2 * n; ++m) take(m, Collocation::weights(h * linear_.rates[at(m)].real()));
+    for (int m = 0; m < 2 * linear_.pairs; m += 2) take(m, math::Collocation::weights(h * linear_.rates[at(m)]));
+    for (int m = 2 * linear_.pairs; m < 2 * n; ++m)
+      take(m, math::Collocation::weights(h * linear_.rates[at(m)].real()));
   }
 
   SPRING_WORKBENCH_INLINE Modes modes_of(const State& s) const {
@@ -216,8 +218,8 @@ class Exponential::CoreOf final : public Core {
   /// Modes `x` at the nodes under the cubic through these remainders; `start`: what they are without.
   SPRING_WORKBENCH_INLINE void drive(const NodeModes& start, const NodeModes& remainders, NodeModes& x) const {
     for (int m = 0; m < 2 * n; ++m) {
-      const Pack own = remainders[at(m)], other = remainders[at(m ^ 1)];
-      Pack sum = start[at(m)];
+      const math::Pack own = remainders[at(m)], other = remainders[at(m ^ 1)];
+      math::Pack sum = start[at(m)];
       for (std::size_t j = 0; j < nodes; ++j) {
         sum += node_[j].own[at(m)] * own[j] + node_[j].other[at(m)] * other[j];
       }
@@ -227,8 +229,8 @@ class Exponential::CoreOf final : public Core {
   /// Squared size of what is in modes [m² kg]: displacements as they are, velocities times what is left of them over a
   /// step.
   SPRING_WORKBENCH_INLINE double squared_size(const Modes& x) const { return squared_weight_.dot(x.cwiseAbs2()); }
-  SPRING_WORKBENCH_INLINE Pack squared_size(const NodeModes& x, const NodeModes& y) const {
-    Pack sum{};
+  SPRING_WORKBENCH_INLINE math::Pack squared_size(const NodeModes& x, const NodeModes& y) const {
+    math::Pack sum{};
     for (int m = 0; m < 2 * n; ++m) sum += squared_weight_[m] * x[at(m)] * y[at(m)];
     return sum;
   }
@@ -243,14 +245,14 @@ class Exponential::CoreOf final : public Core {
     const double ratio = last_h_ / h;
     if (ratio != continued_ratio_) {
       continued_ratio_ = ratio;
-      const auto rows = Collocation::continued(ratio);
+      const auto rows = math::Collocation::continued(ratio);
       for (std::size_t i = 0; i < nodes; ++i) {
         for (std::size_t j = 0; j < nodes; ++j) continued_[j][i] = i == 0 ? 0.0 : rows[i][j] - (j == last ? 1.0 : 0.0);
       }
     }
     for (int m = 0; m < 2 * n; ++m) {
-      const Pack before = remainder_[at(m)];
-      Pack x = Pack{} + start_remainder_[m];
+      const math::Pack before = remainder_[at(m)];
+      math::Pack x = math::Pack{} + start_remainder_[m];
       for (std::size_t j = 0; j < nodes; ++j) x += continued_[j] * before[j];
       remainder_[at(m)] = x;
     }
@@ -258,16 +260,16 @@ class Exponential::CoreOf final : public Core {
 
   /// Error of the cubic: its fourth difference, taken to follow on the second and third in a geometric series.
   SPRING_WORKBENCH_INLINE Modes cubic_error() const {
-    const auto difference = [this](const Collocation::Row& row) {
+    const auto difference = [this](const math::Collocation::Row& row) {
       Modes d;
       for (int m = 0; m < 2 * n; ++m) {
-        const Pack& x = remainder_[at(m)];
+        const math::Pack& x = remainder_[at(m)];
         d[m] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3] * x[3];
       }
       return d;
     };
-    const Modes third = difference(Collocation::third_difference());
-    const double second = difference(Collocation::second_difference()).squaredNorm();
+    const Modes third = difference(math::Collocation::third_difference());
+    const double second = difference(math::Collocation::second_difference()).squaredNorm();
     const double third_size = third.squaredNorm();
     const double ratio = third_size < second ? std::sqrt(third_size / second) : 1.0;
     Modes e;
@@ -275,9 +277,10 @@ class Exponential::CoreOf final : public Core {
     return e;
   }
 
-  Estimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, State& state, int halvings) {
-    constexpr auto& c = Collocation::nodes;
-    const HandleForcings forcing = body.forcing(handle, t + Pack{c[0], c[1], c[2], c[3]} * h);
+  Estimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h, State& state,
+                int halvings) {
+    constexpr auto& c = math::Collocation::nodes;
+    const HandleForcings forcing = body.forcing(handle, t + math::Pack{c[0], c[1], c[2], c[3]} * h);
     const State begin = state;
     if (version_ != body.version() || (slow_sweeps_ > worth_a_linear_part && state.q != q_reference_)) {
       linearise(body, forcing.at(0), state.q);
@@ -304,13 +307,13 @@ class Exponential::CoreOf final : public Core {
                                        const State& state) {
     const bool follows = goes_on(forcing.t[0], state);
     const bool known = follows && load_version_ == body.load_version() &&
-                       same(end_acceleration_, vector(forcing.of_H.a_B, 0)) &&
-                       same(end_angular_acceleration_, vector(forcing.of_H.alpha_B, 0));
+                       same(end_acceleration_, math::vector(forcing.of_H.a_B, 0)) &&
+                       same(end_angular_acceleration_, math::vector(forcing.of_H.alpha_B, 0));
     start_remainder_ = known ? at_node(last, remainder_) : remainder(body, forcing.at(0), state);
     if (follows && h < farthest_continued * last_h_) {
       continue_cubic(h);
     } else {
-      for (int m = 0; m < 2 * n; ++m) remainder_[at(m)] = Pack{} + start_remainder_[m];
+      for (int m = 0; m < 2 * n; ++m) remainder_[at(m)] = math::Pack{} + start_remainder_[m];
     }
   }
 
@@ -334,7 +337,7 @@ class Exponential::CoreOf final : public Core {
       remainder(body, forcing, x, remainder_);
       drive(start, remainder_, now.x);
       for (int m = 0; m < 2 * n; ++m) now.moved[at(m)] = now.x[at(m)] - x[at(m)];
-      const Pack squares = squared_size(now.moved, now.moved);
+      const math::Pack squares = squared_size(now.moved, now.moved);
       const double squared_change = squares[last], all = squares[1] + squares[2] + squares[3];
       if (!(all < 1e300)) break;
       const double squared_rounding =
@@ -372,8 +375,8 @@ class Exponential::CoreOf final : public Core {
     t_end_ = forcing.t[last];
     end_ = state;
     load_version_ = body.load_version();
-    end_acceleration_ = vector(forcing.of_H.a_B, static_cast<int>(last));
-    end_angular_acceleration_ = vector(forcing.of_H.alpha_B, static_cast<int>(last));
+    end_acceleration_ = math::vector(forcing.of_H.a_B, static_cast<int>(last));
+    end_angular_acceleration_ = math::vector(forcing.of_H.alpha_B, static_cast<int>(last));
     return e;
   }
 
@@ -384,18 +387,18 @@ class Exponential::CoreOf final : public Core {
   /// From three sweeps, or two where `first` is null, where the next one is to start.
   SPRING_WORKBENCH_INLINE void continue_sweeps(const Swept& now, const Swept& before, const Swept* first,
                                                NodeModes& x) const {
-    Pack dd{}, dn{}, de{}, ee{}, en{};  // of d = moved less the last, e = the last less the one before, n = moved
+    math::Pack dd{}, dn{}, de{}, ee{}, en{};  // of d = moved less the last, e = the last less the one before, n = moved
     for (int m = 0; m < 2 * n; ++m) {
-      const Pack w = squared_weight_[m] + Pack{}, moved = now.moved[at(m)], d = moved - before.moved[at(m)];
+      const math::Pack w = squared_weight_[m] + math::Pack{}, moved = now.moved[at(m)], d = moved - before.moved[at(m)];
       dd += w * d * d;
       dn += w * d * moved;
       if (first == nullptr) continue;
-      const Pack e = before.moved[at(m)] - first->moved[at(m)];
+      const math::Pack e = before.moved[at(m)] - first->moved[at(m)];
       de += w * d * e;
       ee += w * e * e;
       en += w * e * moved;
     }
-    const auto sum = [](const Pack& p) { return p[1] + p[2] + p[3]; };
+    const auto sum = [](const math::Pack& p) { return p[1] + p[2] + p[3]; };
     const double determinant = sum(dd) * sum(ee) - sum(de) * sum(de);
     const bool both = determinant > least_independence * sum(dd) * sum(ee);
     double last_share = sum(dn) / sum(dd), first_share = 0.0;
@@ -418,8 +421,8 @@ class Exponential::CoreOf final : public Core {
 
   double h_ = 0.0;  ///< what the operators are for
   Modes squared_weight_;
-  Operator<Pack> decay_;                      ///< to the nodes
-  std::array<Operator<Pack>, nodes> node_{};  ///< of the remainder at each node
+  Operator<math::Pack> decay_;                      ///< to the nodes
+  std::array<Operator<math::Pack>, nodes> node_{};  ///< of the remainder at each node
   Operator<double> error_;
 
   Swept swept_[3];       ///< the last sweeps, in turns
@@ -433,7 +436,7 @@ class Exponential::CoreOf final : public Core {
   long load_version_ = -1;
   Vector3d end_acceleration_, end_angular_acceleration_;
   double continued_ratio_ = 0.0;
-  std::array<Pack, nodes> continued_;
+  std::array<math::Pack, nodes> continued_;
 };
 
 Exponential::Exponential() = default;
@@ -466,9 +469,9 @@ Exponential::Core& Exponential::core(int n) {
   return *core_;
 }
 
-StepEstimate Exponential::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
+StepEstimate Exponential::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                StrainState& state) {
-  if (body.size() == 0) return {StrainVector::Zero(0), 0.0};
+  if (body.size() == 0) return {rod::StrainVector::Zero(0), 0.0};
   return core(body.size()).step(body, handle, t, h, state);
 }
 
@@ -478,4 +481,4 @@ Integrator::Response Exponential::response(const HeldBody& body, double t, doubl
   return Integrator::response(body, t, h, state);
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -4,7 +4,7 @@
 
 #include "spring_workbench/dynamics/integrator.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 
 /// Exponential collocation: the coupled linear part, frozen near a recent state, in closed form through its modes, with
 /// what it leaves over as the cubic through four Lobatto nodes of the step (collocation.h), found by sweeps that start
@@ -21,7 +21,8 @@ class Exponential final : public Integrator {
   int order() const override { return 5; }
   bool unlimited() const override { return true; }
   bool estimates_after_jumps() const override { return false; }  // the cubic's differences do not see what it misses
-  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    StrainState& state) override;
   Response response(const HeldBody& body, double t, double h, const StrainState& state) override;
 
  private:
@@ -34,4 +35,4 @@ class Exponential final : public Integrator {
   int n_ = 0;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -2,16 +2,17 @@
 
 #include <Eigen/LU>
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
 constexpr int most_iterations = 30, most_halvings = 20;
 constexpr double difference = 1e-6;  ///< of the strain, for the slope
 
-StrainMatrix slope(const std::function<StrainVector(const StrainVector&)>& force, const StrainVector& q) {
-  StrainMatrix slope(q.size(), q.size());
+rod::StrainMatrix slope(const std::function<rod::StrainVector(const rod::StrainVector&)>& force,
+                        const rod::StrainVector& q) {
+  rod::StrainMatrix slope(q.size(), q.size());
   for (Eigen::Index i = 0; i < q.size(); ++i) {
-    StrainVector ahead = q, behind = q;
+    rod::StrainVector ahead = q, behind = q;
     ahead[i] += difference;
     behind[i] -= difference;
     slope.col(i) = (force(ahead) - force(behind)) / (2.0 * difference);
@@ -21,20 +22,21 @@ StrainMatrix slope(const std::function<StrainVector(const StrainVector&)>& force
 
 }  // namespace
 
-StrainVector find_strain(const HeldBody& held, double t, const std::function<StrainVector(const StrainVector&)>& force,
-                         StrainVector q, double small) {
-  const auto admissible = [&](const StrainVector& tried) {
-    return held.shape().admissible(held.full_state(t, {tried, StrainVector::Zero(tried.size())}).q);
+rod::StrainVector find_strain(const HeldBody& held, double t,
+                              const std::function<rod::StrainVector(const rod::StrainVector&)>& force,
+                              rod::StrainVector q, double small) {
+  const auto admissible = [&](const rod::StrainVector& tried) {
+    return held.shape().admissible(held.full_state(t, {tried, rod::StrainVector::Zero(tried.size())}).q);
   };
-  StrainVector f = force(q);
+  rod::StrainVector f = force(q);
   for (int iteration = 0; iteration < most_iterations && f.norm() > small; ++iteration) {
-    StrainVector change = -slope(force, q).partialPivLu().solve(f);
+    rod::StrainVector change = -slope(force, q).partialPivLu().solve(f);
     if (!change.allFinite()) break;
     bool nearer = false;
     for (int halving = 0; halving < most_halvings && !nearer; ++halving, change *= 0.5) {
-      const StrainVector tried = q + change;
+      const rod::StrainVector tried = q + change;
       if (!admissible(tried)) continue;
-      const StrainVector f_tried = force(tried);
+      const rod::StrainVector f_tried = force(tried);
       if (!f_tried.allFinite() || f_tried.norm() >= f.norm()) continue;
       q = tried;
       f = f_tried;
@@ -45,4 +47,4 @@ StrainVector find_strain(const HeldBody& held, double t, const std::function<Str
   return q;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
 /// After this many time constants a critically damped return is over: exp(−45) is below the rounding of its start.
@@ -15,24 +15,24 @@ constexpr double return_is_over = 45.0;
 /// `2 ζ M^½ (M^-½ K M^-½)^½ M^½` for a diagonal `K`: of the stiff coordinates 2 ζ K^½ (K^½ M⁻¹ K^½)^-½ K^½, from the
 /// singular values of L⁻¹ K^½ with M = L Lᵀ. So soft coordinates keep their digits beside stiff ones; without stiffness
 /// no damping.
-StrainMatrix modal_damping(const StrainMatrix& M, const StrainVector& K, double ratio) {
+rod::StrainMatrix modal_damping(const rod::StrainMatrix& M, const rod::StrainVector& K, double ratio) {
   const Eigen::Index n = K.size();
-  StrainMatrix root = StrainMatrix::Zero(n, n);  // its first `stiff` columns
+  rod::StrainMatrix root = rod::StrainMatrix::Zero(n, n);  // its first `stiff` columns
   Eigen::Index stiff = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (K[i] > 0.0) root(i, stiff++) = std::sqrt(K[i]);
   }
   if (stiff == 0) return root;
   root.conservativeResize(n, stiff);
-  const StrainMatrix of_modes = M.llt().matrixL().solve(root);
-  const Eigen::JacobiSVD<StrainMatrix> modes(of_modes, Eigen::ComputeFullV);
+  const rod::StrainMatrix of_modes = M.llt().matrixL().solve(root);
+  const Eigen::JacobiSVD<rod::StrainMatrix> modes(of_modes, Eigen::ComputeFullV);
   return 2.0 * ratio * root * modes.matrixV() * modes.singularValues().cwiseInverse().asDiagonal() *
          modes.matrixV().transpose() * root.transpose();
 }
 
 }  // namespace
 
-HeldBody::HeldBody(std::shared_ptr<const ShapeModel> shape, const BodyInertia& body, double gravity)
+HeldBody::HeldBody(std::shared_ptr<const rod::ShapeModel> shape, const BodyInertia& body, double gravity)
     : shape_(std::move(shape)), body_(body), gravity_(gravity) {
   p_OE_ = body.X_OE.translation();
   p_EO_ = -(body.X_OE.linear().transpose() * p_OE_);
@@ -40,7 +40,7 @@ HeldBody::HeldBody(std::shared_ptr<const ShapeModel> shape, const BodyInertia& b
   inertia_E_ = R_EO_ * body.inertia_O * R_EO_.transpose();
   inverse_inertia_O_ = body.inertia_O.inverse();
   shape_size_ = shape_->size();
-  K_ = D_ = StrainVector::Zero(shape_size_);
+  K_ = D_ = rod::StrainVector::Zero(shape_size_);
   mode_.fill(Mode::active);
   changed();
 }
@@ -55,12 +55,12 @@ void HeldBody::changed() {
     if (mode_[c] == Mode::returning) ++returning_;
   }
   if (active_count_ == 1) {
-    const StrainVector one = StrainVector::Ones(shape_size_);
+    const rod::StrainVector one = rod::StrainVector::Ones(shape_size_);
     axial_unit_ = active_[0] == shape_->stretch().begin ? shape_->extension(one) : shape_->twist(one);
   }
   if (!modal_) return;
   Kinematics unstrained;
-  unstrained.q = unstrained.q_dot = StrainVector::Zero(shape_size_);
+  unstrained.q = unstrained.q_dot = rod::StrainVector::Zero(shape_size_);
   kinematics(unstrained);
   Matrix3d I_H;
   D_modal_ = modal_damping(mass_matrix(unstrained, I_H), stiffness(), modal_ratio_);
@@ -71,15 +71,15 @@ double HeldBody::axial_inertia() const {
   return axis.dot(body_.inertia_O * axis) + body_.mass * axis.cross(p_OE_).squaredNorm();
 }
 
-void HeldBody::set_springs(const PerFamily& stiffness, const PerFamily& damping_ratio) {
-  PerFamily c;
+void HeldBody::set_springs(const rod::PerFamily& stiffness, const rod::PerFamily& damping_ratio) {
+  rod::PerFamily c;
   c.stretch = 2.0 * damping_ratio.stretch * std::sqrt(body_.mass * stiffness.stretch);
   c.bend = 2.0 * damping_ratio.bend * std::sqrt(body_.mass * stiffness.bend);
   c.torsion = 2.0 * damping_ratio.torsion * std::sqrt(axial_inertia() * stiffness.torsion);
   set_springs_and_dampers(stiffness, c);
 }
 
-void HeldBody::set_springs_and_dampers(const PerFamily& stiffness, const PerFamily& damping) {
+void HeldBody::set_springs_and_dampers(const rod::PerFamily& stiffness, const rod::PerFamily& damping) {
   if (auto shape = shape_->for_stiffness(stiffness)) shape_ = std::move(shape);
   K_ = shape_->stiffness(stiffness);
   D_ = shape_->stiffness(damping);  // (c_f / k_f) K_f, without dividing by k_f
@@ -87,14 +87,14 @@ void HeldBody::set_springs_and_dampers(const PerFamily& stiffness, const PerFami
   changed();
 }
 
-void HeldBody::set_springs_with_modal_damping(const PerFamily& stiffness, double damping_ratio) {
-  set_springs_and_dampers(stiffness, PerFamily());
+void HeldBody::set_springs_with_modal_damping(const rod::PerFamily& stiffness, double damping_ratio) {
+  set_springs_and_dampers(stiffness, rod::PerFamily());
   modal_ = true;
   modal_ratio_ = damping_ratio;
   changed();
 }
 
-void HeldBody::set_springs(const ForkSettings& fork) {
+void HeldBody::set_springs(const rod::ForkSettings& fork) {
   if (fork.damping_law == "modal") {
     set_springs_with_modal_damping(fork.stiffness, fork.damping_ratio.stretch);
   } else {
@@ -102,23 +102,23 @@ void HeldBody::set_springs(const ForkSettings& fork) {
   }
 }
 
-StrainState HeldBody::zero_state() const { return {StrainVector::Zero(size()), StrainVector::Zero(size())}; }
+StrainState HeldBody::zero_state() const { return {rod::StrainVector::Zero(size()), rod::StrainVector::Zero(size())}; }
 
-StrainVector HeldBody::stiffness() const {
-  StrainVector K(size());
+rod::StrainVector HeldBody::stiffness() const {
+  rod::StrainVector K(size());
   for (int i = 0; i < size(); ++i) K[i] = K_[active_[static_cast<std::size_t>(i)]];
   return K;
 }
 
-StrainMatrix HeldBody::damping() const {
+rod::StrainMatrix HeldBody::damping() const {
   if (modal_) return D_modal_;
-  StrainMatrix D = StrainMatrix::Zero(size(), size());
+  rod::StrainMatrix D = rod::StrainMatrix::Zero(size(), size());
   for (int i = 0; i < size(); ++i) D(i, i) = D_[active_[static_cast<std::size_t>(i)]];
   return D;
 }
 
-StrainState HeldBody::set_dofs(const ForkDofs& dofs, double t, double return_time, const StrainState& full) {
-  const auto set_family = [&](const CoordinateRange& range, bool on) {
+StrainState HeldBody::set_dofs(const rod::ForkDofs& dofs, double t, double return_time, const StrainState& full) {
+  const auto set_family = [&](const rod::CoordinateRange& range, bool on) {
     for (int i = range.begin; i < range.begin + range.count; ++i) {
       const auto c = static_cast<std::size_t>(i);
       if (on) {
@@ -161,8 +161,8 @@ void HeldBody::set_external_wrench(const Wrench& wrench_W) {
   ++load_version_;
 }
 
-HandleForcing HeldBody::forcing(const FrameMotion& handle, double t) const {
-  const OwnAxesMotion m = handle.in_own_axes(t);
+HandleForcing HeldBody::forcing(const motion::FrameMotion& handle, double t) const {
+  const motion::OwnAxesMotion m = handle.in_own_axes(t);
   HandleForcing f;
   f.t = t;
   f.X_WH = m.X;
@@ -173,8 +173,8 @@ HandleForcing HeldBody::forcing(const FrameMotion& handle, double t) const {
   return f;
 }
 
-void HeldBody::expand(double t, const StrainVector& q, const StrainVector& q_dot, StrainVector& q_all,
-                      StrainVector& q_dot_all, StrainVector& q_ddot_all) const {
+void HeldBody::expand(double t, const rod::StrainVector& q, const rod::StrainVector& q_dot, rod::StrainVector& q_all,
+                      rod::StrainVector& q_dot_all, rod::StrainVector& q_ddot_all) const {
   q_all.setZero(shape_->size());
   q_dot_all.setZero(shape_->size());
   for (int i = 0; i < q.size(); ++i) {
@@ -187,22 +187,22 @@ void HeldBody::expand(double t, const StrainVector& q, const StrainVector& q_dot
   }
 }
 
-HandleForcings HeldBody::forcing(const FrameMotion& handle, const Pack& t) const {
+HandleForcings HeldBody::forcing(const motion::FrameMotion& handle, const math::Pack& t) const {
   return {t, handle.forcing(t, gravity_)};
 }
 
 HandleForcing HandleForcings::at(int i) const {
   HandleForcing f;
-  f.t = lane(t, i);
-  f.X_WH.linear() = matrix(of_H.R_WB, i);
-  f.angular_velocity = vector(of_H.w_B, i);
-  f.angular_acceleration = vector(of_H.alpha_B, i);
-  f.acceleration_less_gravity = vector(of_H.a_B, i);
+  f.t = math::lane(t, i);
+  f.X_WH.linear() = math::matrix(of_H.R_WB, i);
+  f.angular_velocity = math::vector(of_H.w_B, i);
+  f.angular_acceleration = math::vector(of_H.alpha_B, i);
+  f.acceleration_less_gravity = math::vector(of_H.a_B, i);
   return f;
 }
 
-void HeldBody::kinematics(double t, const StrainVector& q, const StrainVector& q_dot, Kinematics& k) const {
-  StrainVector q_ddot;
+void HeldBody::kinematics(double t, const rod::StrainVector& q, const rod::StrainVector& q_dot, Kinematics& k) const {
+  rod::StrainVector q_ddot;
   expand(t, q, q_dot, k.q, k.q_dot, q_ddot);
   kinematics(k);
 }
@@ -216,10 +216,10 @@ void HeldBody::kinematics(Kinematics& k) const {
   for (int i = 0; i < shape_->size(); ++i) k.linear.col(i) = k.tip.linear.col(i) + k.tip.angular.col(i).cross(k.r_EO);
 }
 
-StrainMatrix HeldBody::mass_matrix(const Kinematics& k, Matrix3d& I_H) const {
+rod::StrainMatrix HeldBody::mass_matrix(const Kinematics& k, Matrix3d& I_H) const {
   I_H = k.R_HO * body_.inertia_O * k.R_HO.transpose();
   const int n = size();
-  StrainMatrix M(n, n);
+  rod::StrainMatrix M(n, n);
   for (int j = 0; j < n; ++j) {
     const int cj = active_[static_cast<std::size_t>(j)];
     const Vector3d momentum = body_.mass * k.linear.col(cj);
@@ -232,21 +232,21 @@ StrainMatrix HeldBody::mass_matrix(const Kinematics& k, Matrix3d& I_H) const {
   return M;
 }
 
-StrainMatrix HeldBody::mass_matrix(double t, const StrainVector& q) const {
+rod::StrainMatrix HeldBody::mass_matrix(double t, const rod::StrainVector& q) const {
   Kinematics k;
-  kinematics(t, q, StrainVector::Zero(size()), k);
+  kinematics(t, q, rod::StrainVector::Zero(size()), k);
   Matrix3d I_H;
   return mass_matrix(k, I_H);
 }
 
 StrainState HeldBody::full_state(double t, const StrainState& state) const {
-  StrainState full{StrainVector::Zero(shape_->size()), StrainVector::Zero(shape_->size())};
+  StrainState full{rod::StrainVector::Zero(shape_->size()), rod::StrainVector::Zero(shape_->size())};
   for (int i = 0; i < size(); ++i) {
     full.q[active_[static_cast<std::size_t>(i)]] = state.q[i];
     full.q_dot[active_[static_cast<std::size_t>(i)]] = state.q_dot[i];
   }
   if (returning_ > 0) {
-    StrainVector q_ddot = StrainVector::Zero(shape_->size());
+    rod::StrainVector q_ddot = rod::StrainVector::Zero(shape_->size());
     prescribe(t, 0, full.q.data(), full.q_dot.data(), q_ddot.data());
   }
   return full;
@@ -264,11 +264,11 @@ bool HeldBody::rechart(StrainState& state) const {
   return true;
 }
 
-Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates> HeldBody::object_jacobian(
-    double t, const StrainVector& q) const {
+Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> HeldBody::object_jacobian(
+    double t, const rod::StrainVector& q) const {
   Kinematics k;
-  kinematics(t, q, StrainVector::Zero(size()), k);
-  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates> J(6, size());
+  kinematics(t, q, rod::StrainVector::Zero(size()), k);
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> J(6, size());
   for (int i = 0; i < size(); ++i) {
     const int c = active_[static_cast<std::size_t>(i)];
     J.col(i) << k.linear.col(c), k.tip.angular.col(c);
@@ -276,18 +276,19 @@ Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates> HeldBody:
   return J;
 }
 
-StrainVector HeldBody::project_twist(const HandleForcing& h, const StrainVector& q, const Twist& V_WO_W) const {
-  if (size() == 0) return StrainVector::Zero(0);
-  const StrainVector zero = StrainVector::Zero(size());
-  const MotionState carried = object(h, {q, zero});
+rod::StrainVector HeldBody::project_twist(const HandleForcing& h, const rod::StrainVector& q,
+                                          const Twist& V_WO_W) const {
+  if (size() == 0) return rod::StrainVector::Zero(0);
+  const rod::StrainVector zero = rod::StrainVector::Zero(size());
+  const motion::MotionState carried = object(h, {q, zero});
   Kinematics k;
   kinematics(h.t, q, zero, k);
   Matrix3d I_H;
-  const StrainMatrix M = mass_matrix(k, I_H);
+  const rod::StrainMatrix M = mass_matrix(k, I_H);
   const auto R_HW = h.X_WH.linear().transpose();
   const Vector3d momentum = body_.mass * (R_HW * (V_WO_W.linear - carried.velocity.linear));
   const Vector3d angular_momentum = I_H * (R_HW * (V_WO_W.angular - carried.velocity.angular));
-  StrainVector p(size());
+  rod::StrainVector p(size());
   for (int i = 0; i < size(); ++i) {
     const int c = active_[static_cast<std::size_t>(i)];
     p[i] = k.linear.col(c).dot(momentum) + k.tip.angular.col(c).dot(angular_momentum);
@@ -300,13 +301,13 @@ double HeldBody::elastic_energy(double t, const StrainState& state) const {
   return 0.5 * full.q.dot(K_.cwiseProduct(full.q)) + shape_->condensed_energy(full.q);
 }
 
-StrainVector HeldBody::elastic_force(double t, const StrainVector& q) const {
-  const StrainState full = full_state(t, {q, StrainVector::Zero(size())});
-  TipKinematics tip;
+rod::StrainVector HeldBody::elastic_force(double t, const rod::StrainVector& q) const {
+  const StrainState full = full_state(t, {q, rod::StrainVector::Zero(size())});
+  rod::TipKinematics tip;
   shape_->tip(full.q, full.q_dot, tip);
-  StrainVector all = K_.cwiseProduct(full.q);
+  rod::StrainVector all = K_.cwiseProduct(full.q);
   if (tip.condensed_force.size() > 0) all += tip.condensed_force;
-  StrainVector force(size());
+  rod::StrainVector force(size());
   for (int i = 0; i < size(); ++i) force[i] = all[active_[static_cast<std::size_t>(i)]];
   return force;
 }
@@ -316,4 +317,4 @@ double HeldBody::kinetic_energy(const Twist& V, const Matrix3d& R_WO) const {
   return 0.5 * body_.mass * V.linear.squaredNorm() + 0.5 * w_O.dot(body_.inertia_O * w_O);
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -6,7 +6,7 @@
 #include "spring_workbench/math/positive_definite.h"
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 
 template <typename S>
 void HeldBody::prescribe(double t, int k, S* q, S* q_dot, S* q_ddot) const {
@@ -20,9 +20,9 @@ void HeldBody::prescribe(double t, int k, S* q, S* q_dot, S* q_ddot) const {
     const double decay = std::exp(-rate * tau);
     const double A = r.rate0 + rate * r.q0;
     const double x = (r.q0 + A * tau) * decay, v = A * decay - rate * x;
-    set_lane(q[i], k, x);
-    set_lane(q_dot[i], k, v);
-    set_lane(q_ddot[i], k, -rate * A * decay - rate * v);
+    math::set_lane(q[i], k, x);
+    math::set_lane(q_dot[i], k, v);
+    math::set_lane(q_ddot[i], k, -rate * A * decay - rate * v);
   }
 }
 
@@ -30,21 +30,21 @@ template void HeldBody::prescribe(double t, int k, double* q, double* q_dot, dou
 
 template <typename S>
 struct HeldBody::Rigid {
-  Three<S> r_EO;  ///< from tip to centre of mass, axes of H
-  ThreeByThree<S> R_HO;
-  Three<S> force;     ///< mass times acceleration of O, less gravity and contact, axes of H
-  Three<S> moment_O;  ///< rate of the angular momentum about O, less the contact's moment, axes of O
+  math::Three<S> r_EO;  ///< from tip to centre of mass, axes of H
+  math::ThreeByThree<S> R_HO;
+  math::Three<S> force;     ///< mass times acceleration of O, less gravity and contact, axes of H
+  math::Three<S> moment_O;  ///< rate of the angular momentum about O, less the contact's moment, axes of O
 };
 
 namespace {
 
 /// What `size` rates (or accelerations) of the strain add to the tip's angular and linear one.
 template <typename S>
-SPRING_WORKBENCH_INLINE void add_tip_motion(const TipOf<S>& tip, int size, const S* rate, Three<S>& angular,
-                                            Three<S>& linear) {
+SPRING_WORKBENCH_INLINE void add_tip_motion(const rod::TipOf<S>& tip, int size, const S* rate, math::Three<S>& angular,
+                                            math::Three<S>& linear) {
   if (tip.separate) {
     angular += rate[2] * tip.angular[2] + rate[3] * tip.angular[3] + rate[4] * tip.angular[4];
-    linear += Three<S>{rate[0], rate[1], rate[5]};
+    linear += math::Three<S>{rate[0], rate[1], rate[5]};
     return;
   }
   for (int i = 0; i < size; ++i) {
@@ -56,39 +56,41 @@ SPRING_WORKBENCH_INLINE void add_tip_motion(const TipOf<S>& tip, int size, const
 }  // namespace
 
 template <typename S>
-SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration(const FrameForcing<S>& h,
-                                                                                 const TipOf<S>& tip, const S* q_dot,
+SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration(const motion::FrameForcing<S>& h,
+                                                                                 const rod::TipOf<S>& tip,
+                                                                                 const S* q_dot,
                                                                                  const S* q_ddot) const {
   Rigid<S> r;
-  r.r_EO = tip.R_HE * three(p_EO_);
-  r.R_HO = tip.R_HE * three_by_three(R_EO_);
-  const Three<S> p_HO = tip.p_HE + r.r_EO;
-  Three<S> w_rel = none<S>(), v_E = none<S>();  // of the tip, in the turning frame H
-  Three<S> alpha_rel = tip.angular_bias, a_E = tip.linear_bias;
+  r.r_EO = tip.R_HE * math::three(p_EO_);
+  r.R_HO = tip.R_HE * math::three_by_three(R_EO_);
+  const math::Three<S> p_HO = tip.p_HE + r.r_EO;
+  math::Three<S> w_rel = math::none<S>(), v_E = math::none<S>();  // of the tip, in the turning frame H
+  math::Three<S> alpha_rel = tip.angular_bias, a_E = tip.linear_bias;
   add_tip_motion(tip, shape_size_, q_dot, w_rel, v_E);
   if (returning_ > 0) add_tip_motion(tip, shape_size_, q_ddot, alpha_rel, a_E);
-  const Three<S> v_rel = v_E + cross(w_rel, r.r_EO);
-  const Three<S>& w_H = h.w_B;
-  const Three<S> a = h.a_B + a_E + cross(h.alpha_B, p_HO) + cross(w_H, cross(w_H, p_HO) + 2.0 * v_rel) +
-                     cross(alpha_rel, r.r_EO) + cross(w_rel, cross(w_rel, r.r_EO));
-  const Three<S> alpha_O = transposed(r.R_HO, h.alpha_B + cross(w_H, w_rel) + alpha_rel);
-  const Three<S> w_O = transposed(r.R_HO, w_H + w_rel);
-  const ThreeByThree<double> I = three_by_three(body_.inertia_O);
+  const math::Three<S> v_rel = v_E + math::cross(w_rel, r.r_EO);
+  const math::Three<S>& w_H = h.w_B;
+  const math::Three<S> a = h.a_B + a_E + math::cross(h.alpha_B, p_HO) +
+                           math::cross(w_H, math::cross(w_H, p_HO) + 2.0 * v_rel) + math::cross(alpha_rel, r.r_EO) +
+                           math::cross(w_rel, math::cross(w_rel, r.r_EO));
+  const math::Three<S> alpha_O = math::transposed(r.R_HO, h.alpha_B + math::cross(w_H, w_rel) + alpha_rel);
+  const math::Three<S> w_O = math::transposed(r.R_HO, w_H + w_rel);
+  const math::ThreeByThree<double> I = math::three_by_three(body_.inertia_O);
   r.force = body_.mass * a;
-  r.moment_O = I * alpha_O + cross(w_O, I * w_O);
+  r.moment_O = I * alpha_O + math::cross(w_O, I * w_O);
   if (loaded_) {
-    r.force = r.force - transposed(h.R_WB, three(external_W_.force));
-    r.moment_O = r.moment_O - transposed(r.R_HO, transposed(h.R_WB, three(external_W_.moment)));
+    r.force = r.force - math::transposed(h.R_WB, math::three(external_W_.force));
+    r.moment_O = r.moment_O - math::transposed(r.R_HO, math::transposed(h.R_WB, math::three(external_W_.moment)));
   }
   return r;
 }
 
 /// The body slides along the fork's axis: Newton's law along it.
 template <typename S>
-SPRING_WORKBENCH_INLINE S HeldBody::slide(const FrameForcing<S>& h, const S& extension, S force) const {
+SPRING_WORKBENCH_INLINE S HeldBody::slide(const motion::FrameForcing<S>& h, const S& extension, S force) const {
   const S zero{};
-  const Three<S> p_HO{zero + p_EO_.x(), zero + p_EO_.y(), extension + (shape_->length() + p_EO_.z())};
-  if (loaded_) force += transposed(h.R_WB, three(external_W_.force)).z;
+  const math::Three<S> p_HO{zero + p_EO_.x(), zero + p_EO_.y(), extension + (shape_->length() + p_EO_.z())};
+  if (loaded_) force += math::transposed(h.R_WB, math::three(external_W_.force)).z;
   const S a_z =
       h.a_B.z + h.alpha_B.x * p_HO.y - h.alpha_B.y * p_HO.x + h.w_B.z * dot(h.w_B, p_HO) - p_HO.z * dot(h.w_B, h.w_B);
   return force * (1.0 / body_.mass) - a_z;
@@ -96,32 +98,35 @@ SPRING_WORKBENCH_INLINE S HeldBody::slide(const FrameForcing<S>& h, const S& ext
 
 /// The body turns about the fork's axis: Euler's law about it, in the axes of the tip E, where the body is at rest.
 template <typename S>
-SPRING_WORKBENCH_INLINE S HeldBody::turn(const FrameForcing<S>& h, const S& twist, const S& rate, S moment) const {
-  const So3CoefficientsOf<S> k = so3_coefficients(S(twist * twist));
+SPRING_WORKBENCH_INLINE S HeldBody::turn(const motion::FrameForcing<S>& h, const S& twist, const S& rate,
+                                         S moment) const {
+  const math::So3CoefficientsOf<S> k = math::so3_coefficients(S(twist * twist));
   const S sine = twist * k.a, cosine = 1.0 - twist * twist * k.b;
-  const auto to_E = [&](const Three<S>& v) {
-    return Three<S>{cosine * v.x + sine * v.y, cosine * v.y - sine * v.x, v.z};
+  const auto to_E = [&](const math::Three<S>& v) {
+    return math::Three<S>{cosine * v.x + sine * v.y, cosine * v.y - sine * v.x, v.z};
   };
-  const Three<double> p_HO{p_EO_.x(), p_EO_.y(), p_EO_.z() + shape_->length()};
-  const Three<double> by_turn{-p_EO_.y(), p_EO_.x(), 0.0};  // velocity of O for the turn's rate 1
-  const ThreeByThree<double> I = three_by_three(inertia_E_);
-  const Three<S> w_H = to_E(h.w_B), alpha_H = to_E(h.alpha_B);
-  const Three<S> w{w_H.x, w_H.y, w_H.z + rate};
-  const Three<S> alpha{alpha_H.x + rate * w_H.y, alpha_H.y - rate * w_H.x, alpha_H.z};
-  const Three<S> a = to_E(h.a_B) + cross(alpha_H, p_HO) + cross(w_H, cross(w_H, p_HO) + (2.0 * rate) * by_turn);
-  const Three<S> Iw = I * w;
+  const math::Three<double> p_HO{p_EO_.x(), p_EO_.y(), p_EO_.z() + shape_->length()};
+  const math::Three<double> by_turn{-p_EO_.y(), p_EO_.x(), 0.0};  // velocity of O for the turn's rate 1
+  const math::ThreeByThree<double> I = math::three_by_three(inertia_E_);
+  const math::Three<S> w_H = to_E(h.w_B), alpha_H = to_E(h.alpha_B);
+  const math::Three<S> w{w_H.x, w_H.y, w_H.z + rate};
+  const math::Three<S> alpha{alpha_H.x + rate * w_H.y, alpha_H.y - rate * w_H.x, alpha_H.z};
+  const math::Three<S> a =
+      to_E(h.a_B) + math::cross(alpha_H, p_HO) + math::cross(w_H, math::cross(w_H, p_HO) + (2.0 * rate) * by_turn);
+  const math::Three<S> Iw = I * w;
   if (loaded_) {
-    moment += dot(to_E(transposed(h.R_WB, three(external_W_.force))), by_turn) +
-              transposed(h.R_WB, three(external_W_.moment)).z;
+    moment += dot(to_E(math::transposed(h.R_WB, math::three(external_W_.force))), by_turn) +
+              math::transposed(h.R_WB, math::three(external_W_.moment)).z;
   }
   moment -= body_.mass * dot(a, by_turn) + (I * alpha).z + w.x * Iw.y - w.y * Iw.x;
   return moment * (1.0 / (I.z.z + body_.mass * dot(by_turn, by_turn)));
 }
 
 template <int n, typename S>
-SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const FrameForcing<S>& h, const S* q, const S* q_dot,
-                                                  S* q_ddot) const {
-  S q_all[max_strain_coordinates]{}, q_dot_all[max_strain_coordinates]{}, q_ddot_all[max_strain_coordinates];
+SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const motion::FrameForcing<S>& h, const S* q,
+                                                  const S* q_dot, S* q_ddot) const {
+  S q_all[rod::max_strain_coordinates]{}, q_dot_all[rod::max_strain_coordinates]{},
+      q_ddot_all[rod::max_strain_coordinates];
   S springs[n];
   for (int i = 0; i < n; ++i) {
     const int c = active_[static_cast<std::size_t>(i)];
@@ -145,9 +150,9 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const FrameForcing
   }
   if (returning_ > 0) {
     for (S& x : q_ddot_all) x = S{};
-    for (int k = 0; k < lanes<S>; ++k) prescribe(lane(t, k), k, q_all, q_dot_all, q_ddot_all);
+    for (int k = 0; k < math::lanes<S>; ++k) prescribe(math::lane(t, k), k, q_all, q_dot_all, q_ddot_all);
   }
-  TipOf<S> tip;
+  rod::TipOf<S> tip;
   shape_->tip(q_all, q_dot_all, tip);
   if (tip.condensed) {
     for (int i = 0; i < n; ++i) springs[i] -= tip.condensed_force[active_[static_cast<std::size_t>(i)]];
@@ -157,13 +162,15 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const FrameForcing
   if constexpr (n == 6) {
     if (tip.separate) {
       // Newton and Euler for the body under the tip's wrench, then back to the coordinates: no mass matrix.
-      const Three<S> force{springs[0], springs[1], springs[5]};
-      const Three<S> moment_E = transposed(tip.inverse_angular, Three<S>{springs[2], springs[3], springs[4]});
-      const Three<S> a_O = (1.0 / body_.mass) * (force - rigid.force);
-      const Three<S> moment_O = transposed(rigid.R_HO, moment_E - cross(rigid.r_EO, force)) - rigid.moment_O;
-      const Three<S> alpha = rigid.R_HO * (three_by_three(inverse_inertia_O_) * moment_O);
-      const Three<S> a_E = a_O - cross(alpha, rigid.r_EO);
-      const Three<S> turn = tip.inverse_angular * alpha;
+      const math::Three<S> force{springs[0], springs[1], springs[5]};
+      const math::Three<S> moment_E =
+          math::transposed(tip.inverse_angular, math::Three<S>{springs[2], springs[3], springs[4]});
+      const math::Three<S> a_O = (1.0 / body_.mass) * (force - rigid.force);
+      const math::Three<S> moment_O =
+          math::transposed(rigid.R_HO, moment_E - math::cross(rigid.r_EO, force)) - rigid.moment_O;
+      const math::Three<S> alpha = rigid.R_HO * (math::three_by_three(inverse_inertia_O_) * moment_O);
+      const math::Three<S> a_E = a_O - math::cross(alpha, rigid.r_EO);
+      const math::Three<S> turn = tip.inverse_angular * alpha;
       q_ddot[0] = a_E.x;
       q_ddot[1] = a_E.y;
       q_ddot[2] = turn.x;
@@ -173,12 +180,12 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const FrameForcing
       return;
     }
   }
-  Three<S> linear[n], angular[n], momentum[n];  // of O: axes of H and of O
-  const ThreeByThree<double> I = three_by_three(body_.inertia_O);
+  math::Three<S> linear[n], angular[n], momentum[n];  // of O: axes of H and of O
+  const math::ThreeByThree<double> I = math::three_by_three(body_.inertia_O);
   for (int i = 0; i < n; ++i) {
     const int c = active_[static_cast<std::size_t>(i)];
-    linear[i] = tip.linear[c] + cross(tip.angular[c], rigid.r_EO);
-    angular[i] = transposed(rigid.R_HO, tip.angular[c]);
+    linear[i] = tip.linear[c] + math::cross(tip.angular[c], rigid.r_EO);
+    angular[i] = math::transposed(rigid.R_HO, tip.angular[c]);
     momentum[i] = I * angular[i];
   }
   S M[n * n];
@@ -186,46 +193,48 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const FrameForcing
     for (int i = j; i < n; ++i) M[i * n + j] = body_.mass * dot(linear[i], linear[j]) + dot(angular[i], momentum[j]);
     q_ddot[j] = springs[j] - dot(linear[j], rigid.force) - dot(angular[j], rigid.moment_O);
   }
-  solve_positive_definite<n>(M, q_ddot);
+  math::solve_positive_definite<n>(M, q_ddot);
 }
 
 template <int n>
 Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleForcing& h, const Eigen::Matrix<double, n, 1>& q,
                                                    const Eigen::Matrix<double, n, 1>& q_dot) const {
-  const FrameForcing<double> forcing{three_by_three(h.X_WH.linear()), three(h.angular_velocity),
-                                     three(h.angular_acceleration), three(h.acceleration_less_gravity)};
+  const motion::FrameForcing<double> forcing{math::three_by_three(h.X_WH.linear()), math::three(h.angular_velocity),
+                                             math::three(h.angular_acceleration),
+                                             math::three(h.acceleration_less_gravity)};
   Eigen::Matrix<double, n, 1> q_ddot;
   accelerate<n>(h.t, forcing, q.data(), q_dot.data(), q_ddot.data());
   return q_ddot;
 }
 
 template <int n>
-SPRING_WORKBENCH_WIDE void HeldBody::acceleration(const HandleForcings& h, const Pack* q, const Pack* q_dot,
-                                                  Pack* q_ddot) const {
+SPRING_WORKBENCH_WIDE void HeldBody::acceleration(const HandleForcings& h, const math::Pack* q, const math::Pack* q_dot,
+                                                  math::Pack* q_ddot) const {
   accelerate<n>(h.t, h.of_H, q, q_dot, q_ddot);
 }
 
 template Eigen::Matrix<double, 1, 1> HeldBody::acceleration<1>(const HandleForcing&, const Eigen::Matrix<double, 1, 1>&,
                                                                const Eigen::Matrix<double, 1, 1>&) const;
-template void HeldBody::acceleration<1>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
+template void HeldBody::acceleration<1>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
 template Eigen::Matrix<double, 2, 1> HeldBody::acceleration<2>(const HandleForcing&, const Eigen::Matrix<double, 2, 1>&,
                                                                const Eigen::Matrix<double, 2, 1>&) const;
-template void HeldBody::acceleration<2>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
+template void HeldBody::acceleration<2>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
 template Eigen::Matrix<double, 3, 1> HeldBody::acceleration<3>(const HandleForcing&, const Eigen::Matrix<double, 3, 1>&,
                                                                const Eigen::Matrix<double, 3, 1>&) const;
-template void HeldBody::acceleration<3>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
+template void HeldBody::acceleration<3>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
 template Eigen::Matrix<double, 4, 1> HeldBody::acceleration<4>(const HandleForcing&, const Eigen::Matrix<double, 4, 1>&,
                                                                const Eigen::Matrix<double, 4, 1>&) const;
-template void HeldBody::acceleration<4>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
+template void HeldBody::acceleration<4>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
 template Eigen::Matrix<double, 5, 1> HeldBody::acceleration<5>(const HandleForcing&, const Eigen::Matrix<double, 5, 1>&,
                                                                const Eigen::Matrix<double, 5, 1>&) const;
-template void HeldBody::acceleration<5>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
+template void HeldBody::acceleration<5>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
 template Eigen::Matrix<double, 6, 1> HeldBody::acceleration<6>(const HandleForcing&, const Eigen::Matrix<double, 6, 1>&,
                                                                const Eigen::Matrix<double, 6, 1>&) const;
-template void HeldBody::acceleration<6>(const HandleForcings&, const Pack*, const Pack*, Pack*) const;
+template void HeldBody::acceleration<6>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
 
-StrainVector HeldBody::acceleration(const HandleForcing& h, const StrainVector& q, const StrainVector& q_dot) const {
-  const auto of = [&](auto size) -> StrainVector {
+rod::StrainVector HeldBody::acceleration(const HandleForcing& h, const rod::StrainVector& q,
+                                         const rod::StrainVector& q_dot) const {
+  const auto of = [&](auto size) -> rod::StrainVector {
     constexpr int n = decltype(size)::value;
     return acceleration<n>(h, Eigen::Matrix<double, n, 1>(q), Eigen::Matrix<double, n, 1>(q_dot));
   };
@@ -243,12 +252,14 @@ StrainVector HeldBody::acceleration(const HandleForcing& h, const StrainVector& 
     case 6:
       return of(std::integral_constant<int, 6>());
     default:
-      return StrainVector::Zero(0);
+      return rod::StrainVector::Zero(0);
   }
 }
 
-MotionState HeldBody::object(const HandleForcing& h, const StrainState& state, const StrainVector* q_ddot) const {
-  double q[max_strain_coordinates]{}, rate[max_strain_coordinates]{}, acceleration[max_strain_coordinates]{};
+motion::MotionState HeldBody::object(const HandleForcing& h, const StrainState& state,
+                                     const rod::StrainVector* q_ddot) const {
+  double q[rod::max_strain_coordinates]{}, rate[rod::max_strain_coordinates]{},
+      acceleration[rod::max_strain_coordinates]{};
   for (int i = 0; i < size(); ++i) {
     const int c = active_[static_cast<std::size_t>(i)];
     q[c] = state.q[i];
@@ -256,28 +267,29 @@ MotionState HeldBody::object(const HandleForcing& h, const StrainState& state, c
     if (q_ddot != nullptr) acceleration[c] = (*q_ddot)[i];
   }
   if (returning_ > 0) prescribe(h.t, 0, q, rate, acceleration);
-  TipOf<double> tip;
+  rod::TipOf<double> tip;
   shape_->tip(q, rate, tip);
   // Of the tip, in the turning frame H.
-  Three<double> w = none<double>(), v = w, alpha = tip.angular_bias, a = tip.linear_bias;
+  math::Three<double> w = math::none<double>(), v = w, alpha = tip.angular_bias, a = tip.linear_bias;
   add_tip_motion(tip, shape_size_, rate, w, v);
   if (q_ddot != nullptr) add_tip_motion(tip, shape_size_, acceleration, alpha, a);
-  const Three<double> r_EO = tip.R_HE * three(p_EO_), p_HO = tip.p_HE + r_EO, v_rel = v + cross(w, r_EO);
-  const Three<double> w_H = three(h.angular_velocity), alpha_H = three(h.angular_acceleration);
-  const ThreeByThree<double> R_WH = three_by_three(h.X_WH.linear());
-  MotionState s;
-  s.X.linear() = matrix(R_WH * (tip.R_HE * three_by_three(R_EO_)), 0);
-  s.X.translation() = h.X_WH.translation() + vector(R_WH * p_HO);
-  s.velocity.linear = h.v_WH_W + vector(R_WH * (cross(w_H, p_HO) + v_rel));
-  s.velocity.angular = vector(R_WH * (w_H + w));
+  const math::Three<double> r_EO = tip.R_HE * math::three(p_EO_), p_HO = tip.p_HE + r_EO,
+                            v_rel = v + math::cross(w, r_EO);
+  const math::Three<double> w_H = math::three(h.angular_velocity), alpha_H = math::three(h.angular_acceleration);
+  const math::ThreeByThree<double> R_WH = math::three_by_three(h.X_WH.linear());
+  motion::MotionState s;
+  s.X.linear() = math::matrix(R_WH * (tip.R_HE * math::three_by_three(R_EO_)), 0);
+  s.X.translation() = h.X_WH.translation() + math::vector(R_WH * p_HO);
+  s.velocity.linear = h.v_WH_W + math::vector(R_WH * (math::cross(w_H, p_HO) + v_rel));
+  s.velocity.angular = math::vector(R_WH * (w_H + w));
   if (q_ddot != nullptr) {
-    const Three<double> of_O = a + cross(alpha, r_EO) + cross(w, cross(w, r_EO));
-    const Three<double> a_H =
-        three(h.acceleration_less_gravity) + of_O + cross(alpha_H, p_HO) + cross(w_H, cross(w_H, p_HO) + 2.0 * v_rel);
-    s.acceleration.linear = vector(R_WH * a_H) - gravity_ * Vector3d::UnitZ();
-    s.acceleration.angular = vector(R_WH * (alpha_H + cross(w_H, w) + alpha));
+    const math::Three<double> of_O = a + math::cross(alpha, r_EO) + math::cross(w, math::cross(w, r_EO));
+    const math::Three<double> a_H = math::three(h.acceleration_less_gravity) + of_O + math::cross(alpha_H, p_HO) +
+                                    math::cross(w_H, math::cross(w_H, p_HO) + 2.0 * v_rel);
+    s.acceleration.linear = math::vector(R_WH * a_H) - gravity_ * Vector3d::UnitZ();
+    s.acceleration.angular = math::vector(R_WH * (alpha_H + math::cross(w_H, w) + alpha));
   }
   return s;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
 constexpr double strain_difference = 1e-6;  ///< over the length: for derivatives
@@ -14,20 +14,20 @@ constexpr double newton_done = 1e-13;  ///< change of the strain against the ste
 
 }  // namespace
 
-LinearisedMotion::LinearisedMotion(const HeldBody& body, double t, const StrainVector& q)
+LinearisedMotion::LinearisedMotion(const HeldBody& body, double t, const rod::StrainVector& q)
     : M(body.mass_matrix(t, q)), K(body.stiffness().asDiagonal()), D(body.damping()) {}
 
 LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
-                                   const StrainVector& q_ddot)
+                                   const rod::StrainVector& q_ddot)
     : LinearisedMotion(body, handle.t, state.q) {
-  const StrainVector stiffness = body.stiffness();
-  const StrainMatrix damping = body.damping();
+  const rod::StrainVector stiffness = body.stiffness();
+  const rod::StrainMatrix damping = body.damping();
   const double dq = strain_difference / body.shape().length(), dv = rate_difference / body.shape().length();
   StrainState moved = state;
   for (int j = 0; j < body.size(); ++j) {
     moved.q[j] += dq;
     const double step_q = moved.q[j] - state.q[j];
-    StrainVector force = M * (body.acceleration(handle, moved.q, state.q_dot) - q_ddot);
+    rod::StrainVector force = M * (body.acceleration(handle, moved.q, state.q_dot) - q_ddot);
     force[j] += stiffness[j] * step_q;
     K.col(j) -= force / step_q;
     moved.q[j] = state.q[j];
@@ -42,30 +42,31 @@ LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& ha
 }
 
 ImplicitMatrix::ImplicitMatrix(const LinearisedMotion& motion, double d) {
-  const StrainMatrix A = motion.M + d * motion.D + d * d * motion.K;
+  const rod::StrainMatrix A = motion.M + d * motion.D + d * d * motion.K;
   scale_ = A.diagonal().cwiseAbs().cwiseMax(motion.M.diagonal()).cwiseSqrt().cwiseInverse();
   lu_.compute(scale_.asDiagonal() * A * scale_.asDiagonal());
 }
 
-StrainMatrix ImplicitMatrix::solve(const StrainMatrix& b) const {
-  return scale_.asDiagonal() * lu_.solve(StrainMatrix(scale_.asDiagonal() * b));
+rod::StrainMatrix ImplicitMatrix::solve(const rod::StrainMatrix& b) const {
+  return scale_.asDiagonal() * lu_.solve(rod::StrainMatrix(scale_.asDiagonal() * b));
 }
 
-StepEstimate ImplicitEuler::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
+StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                  StrainState& state) {
   const HandleForcing end = body.forcing(handle, t + h);
-  const StrainVector a_begin = body.acceleration(body.forcing(handle, t), state.q, state.q_dot);
+  const rod::StrainVector a_begin = body.acceleration(body.forcing(handle, t), state.q, state.q_dot);
   // From the state carried on with its own rate; where Newton does not come to rest its first, linearly implicit, step.
   StrainState next = state;
-  StrainVector a = body.acceleration(end, next.q, next.q_dot);
+  rod::StrainVector a = body.acceleration(end, next.q, next.q_dot);
   const LinearisedMotion motion(body, end, next, a);
   const ImplicitMatrix matrix(motion, h);
   double last_change = 0.0, first_change = 0.0;
   StrainState linear;
   for (int i = 0; i < most_newton_steps; ++i) {
     // q̇ is the unknown, q = q₀ + h q̇: residual q̇ − q̇₀ − h q̈.
-    const StrainVector off_q = state.q + h * next.q_dot - next.q;  // of the first iterate only
-    const StrainVector change = matrix.solve(motion.M * (state.q_dot - next.q_dot + h * a) - h * (motion.K * off_q));
+    const rod::StrainVector off_q = state.q + h * next.q_dot - next.q;  // of the first iterate only
+    const rod::StrainVector change =
+        matrix.solve(motion.M * (state.q_dot - next.q_dot + h * a) - h * (motion.K * off_q));
     next.q_dot += change;
     next.q = state.q + h * next.q_dot;
     const double size = change.norm();
@@ -82,9 +83,9 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const FrameMotion& handle
     if (size <= newton_done * (first_change + next.q_dot.norm())) break;
   }
   // What the exact motion, with an acceleration linear in time, leaves over in the two equations of the rule.
-  const StrainVector left_q = -h * h / 6.0 * (a_begin + 2.0 * a);
-  const StrainVector left_v = -0.5 * h * (a - a_begin);
-  const StrainVector error_v = matrix.solve(h * (motion.K * left_q) - motion.M * left_v);
+  const rod::StrainVector left_q = -h * h / 6.0 * (a_begin + 2.0 * a);
+  const rod::StrainVector left_v = -0.5 * h * (a - a_begin);
+  const rod::StrainVector error_v = matrix.solve(h * (motion.K * left_q) - motion.M * left_v);
   state = next;
   return {h * error_v - left_q, 0.0, error_v};
 }
@@ -142,24 +143,24 @@ void rodas_step(const LinearisedMotion& motion, double h, const Acceleration& ac
 /// What a step from one state to the next needs to know of the equations at its begin.
 struct StepStart {
   HandleForcing forcing;
-  StrainVector q_ddot;
+  rod::StrainVector q_ddot;
   LinearisedMotion motion;
 
-  StepStart(const HeldBody& body, const FrameMotion& handle, double t, const StrainState& state)
+  StepStart(const HeldBody& body, const motion::FrameMotion& handle, double t, const StrainState& state)
       : forcing(body.forcing(handle, t)),
         q_ddot(body.acceleration(forcing, state.q, state.q_dot)),
         motion(body, forcing, state, q_ddot) {}
 };
 
-StrainState rodas_step(const HeldBody& body, const FrameMotion& handle, double t, double h, const StrainState& from,
-                       const StepStart& start) {
-  const auto acceleration = [&](double c, const StrainVector& q, const StrainVector& v) {
+StrainState rodas_step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                       const StrainState& from, const StepStart& start) {
+  const auto acceleration = [&](double c, const rod::StrainVector& q, const rod::StrainVector& v) {
     return c == 0.0 ? start.q_ddot : body.acceleration(body.forcing(handle, t + c * h), q, v);
   };
   const double dt = time_difference * h;
-  const StrainVector by_time = (-3.0 * start.q_ddot + 4.0 * acceleration(time_difference, from.q, from.q_dot) -
-                                acceleration(2.0 * time_difference, from.q, from.q_dot)) /
-                               (2.0 * dt);
+  const rod::StrainVector by_time = (-3.0 * start.q_ddot + 4.0 * acceleration(time_difference, from.q, from.q_dot) -
+                                     acceleration(2.0 * time_difference, from.q, from.q_dot)) /
+                                    (2.0 * dt);
   StrainState to = from;
   rodas_step(start.motion, h, acceleration, by_time, to.q, to.q_dot);
   return to;
@@ -167,7 +168,8 @@ StrainState rodas_step(const HeldBody& body, const FrameMotion& handle, double t
 
 }  // namespace
 
-StepEstimate Rosenbrock::step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) {
+StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                              StrainState& state) {
   // Between 2⁴ − 1 of smooth motions and the 2 − 1 of the stiffest.
   constexpr double finer_by = 10.0;
   const StepStart begin(body, handle, t, state);
@@ -185,28 +187,28 @@ StepEstimate Rosenbrock::step(const HeldBody& body, const FrameMotion& handle, d
 namespace {
 
 /// Deviations under constant generalised forces, a column each.
-void carry_linear(const LinearisedMotion& motion, double h, const StrainMatrix& force, StrainMatrix& q,
-                  StrainMatrix& v) {
-  const Eigen::LLT<StrainMatrix> M(motion.M);
-  const auto acceleration = [&](double, const StrainMatrix& q_i, const StrainMatrix& v_i) {
-    return StrainMatrix(M.solve(force - motion.K * q_i - motion.D * v_i));
+void carry_linear(const LinearisedMotion& motion, double h, const rod::StrainMatrix& force, rod::StrainMatrix& q,
+                  rod::StrainMatrix& v) {
+  const Eigen::LLT<rod::StrainMatrix> M(motion.M);
+  const auto acceleration = [&](double, const rod::StrainMatrix& q_i, const rod::StrainMatrix& v_i) {
+    return rod::StrainMatrix(M.solve(force - motion.K * q_i - motion.D * v_i));
   };
-  rodas_step(motion, h, acceleration, StrainMatrix(StrainMatrix::Zero(q.rows(), q.cols())), q, v);
+  rodas_step(motion, h, acceleration, rod::StrainMatrix(rod::StrainMatrix::Zero(q.rows(), q.cols())), q, v);
 }
 
 }  // namespace
 
 Integrator::Response Rosenbrock::response(const HeldBody& body, double t, double h, const StrainState& state) {
   const int n = body.size();
-  Response r{StrainMatrix::Zero(n, n), StrainMatrix::Zero(n, n)};
-  carry_linear(LinearisedMotion(body, t, state.q), h, StrainMatrix::Identity(n, n), r.q, r.q_dot);
+  Response r{rod::StrainMatrix::Zero(n, n), rod::StrainMatrix::Zero(n, n)};
+  carry_linear(LinearisedMotion(body, t, state.q), h, rod::StrainMatrix::Identity(n, n), r.q, r.q_dot);
   return r;
 }
 
 void carry_deviation(const LinearisedMotion& motion, double h, StrainState& deviation) {
-  StrainMatrix q = deviation.q, v = deviation.q_dot;
-  carry_linear(motion, h, StrainMatrix::Zero(q.rows(), 1), q, v);
+  rod::StrainMatrix q = deviation.q, v = deviation.q_dot;
+  carry_linear(motion, h, rod::StrainMatrix::Zero(q.rows(), 1), q, v);
   deviation = {q, v};
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

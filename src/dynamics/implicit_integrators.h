@@ -4,28 +4,28 @@
 
 #include "spring_workbench/dynamics/integrator.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 
 /// The equation of motion about one state: `M δq̈ = −K δq − D δq̇`, geometric stiffness, loads and gyroscopic terms
 /// included. The springs' and dampers' own parts enter exactly, so that no stiffness costs digits; the rest is by
 /// differences.
 struct LinearisedMotion {
-  StrainMatrix M, K, D;
+  rod::StrainMatrix M, K, D;
   LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
-                   const StrainVector& q_ddot);
+                   const rod::StrainVector& q_ddot);
   /// Springs and dampers alone.
-  LinearisedMotion(const HeldBody& body, double t, const StrainVector& q);
+  LinearisedMotion(const HeldBody& body, double t, const rod::StrainVector& q);
 };
 
 /// Solves `(M + d D + d² K) x = b`, equilibrated, for light and heavy coordinates side by side.
 class ImplicitMatrix {
  public:
   ImplicitMatrix(const LinearisedMotion& motion, double d);
-  StrainMatrix solve(const StrainMatrix& b) const;
+  rod::StrainMatrix solve(const rod::StrainMatrix& b) const;
 
  private:
-  StrainVector scale_;
-  Eigen::PartialPivLU<StrainMatrix> lu_;
+  rod::StrainVector scale_;
+  Eigen::PartialPivLU<rod::StrainMatrix> lu_;
 };
 
 /// Implicit Euler: q₁ = q + h q̇₁, q̇₁ = q̇ + h q̈(t + h, q₁, q̇₁), by Newton's method. First order, L-stable.
@@ -34,7 +34,8 @@ class ImplicitEuler final : public Integrator {
   std::string name() const override { return "implicit_euler"; }
   int order() const override { return 1; }
   bool unlimited() const override { return true; }
-  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    StrainState& state) override;
 };
 
 /// Rosenbrock method of order four, stiffly accurate and L-stable, without loss of order in stiff forced systems:
@@ -45,11 +46,12 @@ class Rosenbrock final : public Integrator {
   std::string name() const override { return "rosenbrock"; }
   int order() const override { return 4; }
   bool unlimited() const override { return true; }
-  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    StrainState& state) override;
   Response response(const HeldBody& body, double t, double h, const StrainState& state) override;
 };
 
 /// Carries a small deviation from the state that `motion` is about over a step of `h` [s].
 void carry_deviation(const LinearisedMotion& motion, double h, StrainState& deviation);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -7,10 +7,10 @@
 #include "implicit_integrators.h"
 #include "integrators.h"
 #include "quintic.h"
-#include "spring_workbench/config/yaml_fields.h"
-#include "spring_workbench/dynamics/damped_oscillator.h"
+#include "spring_workbench/math/damped_oscillator.h"
+#include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 
 const std::vector<std::string>& integrator_names() {
   static const std::vector<std::string> names = {"exponential", "rosenbrock",          "implicit_euler",
@@ -25,20 +25,20 @@ std::unique_ptr<Integrator> make_integrator(const std::string& name) {
   if (name == "semi_implicit_euler") return std::make_unique<SemiImplicitEuler>();
   if (name == "implicit_euler") return std::make_unique<ImplicitEuler>();
   if (name == "rosenbrock") return std::make_unique<Rosenbrock>();
-  refuse("dynamics", "integrator", name, "one of " + join(integrator_names()));
+  validation::refuse("dynamics", "integrator", name, "one of " + validation::join(integrator_names()));
 }
 
 Integrator::Response Integrator::response(const HeldBody& body, double t, double h, const StrainState& state) {
-  StrainMatrix A = body.mass_matrix(t, state.q);
+  rod::StrainMatrix A = body.mass_matrix(t, state.q);
   A += h * body.damping();
   A.diagonal() += h * h * body.stiffness();
   Response r;
-  r.q_dot = h * A.llt().solve(StrainMatrix::Identity(body.size(), body.size()));
+  r.q_dot = h * A.llt().solve(rod::StrainMatrix::Identity(body.size(), body.size()));
   r.q = h * r.q_dot;
   return r;
 }
 
-StrainVector LastAcceleration::get(const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
+rod::StrainVector LastAcceleration::get(const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
   const bool same = version_ == body.version() && load_version_ == body.load_version() && t_ == handle.t &&
                     state_.q == state.q && state_.q_dot == state.q_dot &&
                     handle_acceleration_ == handle.acceleration_less_gravity &&
@@ -47,7 +47,7 @@ StrainVector LastAcceleration::get(const HeldBody& body, const HandleForcing& ha
 }
 
 void LastAcceleration::keep(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
-                            const StrainVector& q_ddot) {
+                            const rod::StrainVector& q_ddot) {
   version_ = body.version();
   load_version_ = body.load_version();
   t_ = handle.t;
@@ -57,13 +57,13 @@ void LastAcceleration::keep(const HeldBody& body, const HandleForcing& handle, c
   q_ddot_ = q_ddot;
 }
 
-StepEstimate SemiImplicitEuler::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
+StepEstimate SemiImplicitEuler::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                      StrainState& state) {
-  const StrainVector a = last_.get(body, body.forcing(handle, t), state);
+  const rod::StrainVector a = last_.get(body, body.forcing(handle, t), state);
   state.q_dot += h * a;
   state.q += h * state.q_dot;
   const HandleForcing end = body.forcing(handle, t + h);
-  const StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
+  const rod::StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
   last_.keep(body, end, state, a_end);
   // h² a against h² (2 a + a_end) / 6, and h a against h (a + a_end) / 2.
   return {h * h / 6.0 * (4.0 * a - a_end), 0.0, 0.5 * h * (a - a_end)};
@@ -73,53 +73,55 @@ namespace {
 
 struct StepEnd {
   const StrainState& state;
-  const StrainVector& q_ddot;
+  const rod::StrainVector& q_ddot;
 };
 
 /// The error at the end of a step of a method of order up to four, from how far the quintic through both ends is from
 /// obeying the equation of motion at a quarter and at three quarters of the step.
-StepEstimate end_error(const HeldBody& body, const FrameMotion& handle, double t, double h, const StepEnd& begin,
-                       const StepEnd& end) {
+StepEstimate end_error(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                       const StepEnd& begin, const StepEnd& end) {
   // The quintic's second derivative by an end that is off by (e, h ė = g): (H'' e + G'' g) / h², H and G its shapes.
   const auto defect = [&](double u) {
     const QuinticPoint p = quintic(begin.state, begin.q_ddot, end.state, end.q_ddot, h, u);
-    return StrainVector(h * h * (p.q_ddot - body.acceleration(body.forcing(handle, t + u * h), p.q, p.q_dot)));
+    return rod::StrainVector(h * h * (p.q_ddot - body.acceleration(body.forcing(handle, t + u * h), p.q, p.q_dot)));
   };
-  const StrainVector d1 = defect(0.25), d3 = defect(0.75);
-  const StrainVector g = (d1 + d3) / 2.25;  // H''(¼) = −H''(¾) = 5.625, G''(¼) = −1.6875, G''(¾) = 3.9375
+  const rod::StrainVector d1 = defect(0.25), d3 = defect(0.75);
+  const rod::StrainVector g = (d1 + d3) / 2.25;  // H''(¼) = −H''(¾) = 5.625, G''(¼) = −1.6875, G''(¾) = 3.9375
   return {(d1 + 1.6875 * g) / 5.625, 0.0, g / h};
 }
 
 }  // namespace
 
-StepEstimate RungeKutta4::step(const HeldBody& body, const FrameMotion& handle, double t, double h,
+StepEstimate RungeKutta4::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                StrainState& state) {
   const StrainState s0 = state;
-  const StrainVector a1 = last_.get(body, body.forcing(handle, t), s0);
+  const rod::StrainVector a1 = last_.get(body, body.forcing(handle, t), s0);
   const HandleForcing middle = body.forcing(handle, t + 0.5 * h);
   const HandleForcing end = body.forcing(handle, t + h);
-  const StrainVector v2 = s0.q_dot + 0.5 * h * a1;
-  const StrainVector a2 = body.acceleration(middle, s0.q + 0.5 * h * s0.q_dot, v2);
-  const StrainVector v3 = s0.q_dot + 0.5 * h * a2;
-  const StrainVector a3 = body.acceleration(middle, s0.q + 0.5 * h * v2, v3);
-  const StrainVector v4 = s0.q_dot + h * a3;
-  const StrainVector a4 = body.acceleration(end, s0.q + h * v3, v4);
+  const rod::StrainVector v2 = s0.q_dot + 0.5 * h * a1;
+  const rod::StrainVector a2 = body.acceleration(middle, s0.q + 0.5 * h * s0.q_dot, v2);
+  const rod::StrainVector v3 = s0.q_dot + 0.5 * h * a2;
+  const rod::StrainVector a3 = body.acceleration(middle, s0.q + 0.5 * h * v2, v3);
+  const rod::StrainVector v4 = s0.q_dot + h * a3;
+  const rod::StrainVector a4 = body.acceleration(end, s0.q + h * v3, v4);
   state.q = s0.q + h / 6.0 * (s0.q_dot + 2.0 * v2 + 2.0 * v3 + v4);
   state.q_dot = s0.q_dot + h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
-  const StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
+  const rod::StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
   last_.keep(body, end, state, a_end);
   return end_error(body, handle, t, h, {s0, a1}, {state, a_end});
 }
 
-StepEstimate ClosedForm::step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) {
-  const StrainVector a = last_.get(body, body.forcing(handle, t), state);
-  const StrainMatrix M = body.mass_matrix(t, state.q);
-  const StrainVector K = body.stiffness(), D = body.damping().diagonal();
-  StrainVector held(body.size());  // what is left of the acceleration beside the coordinate's own spring and damper
-  StrainVector per_force(body.size()), per_rate(body.size());
+StepEstimate ClosedForm::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                              StrainState& state) {
+  const rod::StrainVector a = last_.get(body, body.forcing(handle, t), state);
+  const rod::StrainMatrix M = body.mass_matrix(t, state.q);
+  const rod::StrainVector K = body.stiffness(), D = body.damping().diagonal();
+  rod::StrainVector held(
+      body.size());  // what is left of the acceleration beside the coordinate's own spring and damper
+  rod::StrainVector per_force(body.size()), per_rate(body.size());
   for (int i = 0; i < body.size(); ++i) {
     const double omega_squared = K[i] / M(i, i), two_alpha = D[i] / M(i, i);
-    const OscillatorStep s = damped_oscillator(0.5 * two_alpha, omega_squared, h);
+    const math::OscillatorStep s = math::damped_oscillator(0.5 * two_alpha, omega_squared, h);
     held[i] = a[i] + two_alpha * state.q_dot[i] + omega_squared * state.q[i];
     const double q = state.q[i], v = state.q_dot[i];
     state.q[i] = s.xx * q + s.xv * v + s.xg * held[i];
@@ -128,10 +130,10 @@ StepEstimate ClosedForm::step(const HeldBody& body, const FrameMotion& handle, d
     per_rate[i] = s.vg;
   }
   const HandleForcing end = body.forcing(handle, t + h);
-  const StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
+  const rod::StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
   last_.keep(body, end, state, a_end);
   StepEstimate estimate;
-  estimate.q_error = estimate.q_dot_error = StrainVector(body.size());
+  estimate.q_error = estimate.q_dot_error = rod::StrainVector(body.size());
   for (int i = 0; i < body.size(); ++i) {
     const double held_end = a_end[i] + D[i] / M(i, i) * state.q_dot[i] + K[i] / M(i, i) * state.q[i];
     estimate.q_error[i] = per_force[i] / 3.0 * (held[i] - held_end);  // a constant instead of a ramp
@@ -140,4 +142,4 @@ StepEstimate ClosedForm::step(const HeldBody& body, const FrameMotion& handle, d
   return estimate;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -2,20 +2,21 @@
 
 #include "spring_workbench/dynamics/integrator.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 
 /// Keeps the acceleration at the end of a step for the start of the next, where nothing has changed between.
 class LastAcceleration {
  public:
-  StrainVector get(const HeldBody& body, const HandleForcing& handle, const StrainState& state);
-  void keep(const HeldBody& body, const HandleForcing& handle, const StrainState& state, const StrainVector& q_ddot);
+  rod::StrainVector get(const HeldBody& body, const HandleForcing& handle, const StrainState& state);
+  void keep(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
+            const rod::StrainVector& q_ddot);
 
  private:
   long version_ = -1, load_version_ = -1;
   double t_ = 0.0;
   Vector3d handle_acceleration_ = Vector3d::Zero(), handle_angular_acceleration_ = Vector3d::Zero();
   StrainState state_;
-  StrainVector q_ddot_;
+  rod::StrainVector q_ddot_;
 };
 
 /// What simple simulators do: q̇ += h q̈(q, q̇), q += h q̇. First order; unstable for ω h > 2, with explicit damping
@@ -24,7 +25,8 @@ class SemiImplicitEuler final : public Integrator {
  public:
   std::string name() const override { return "semi_implicit_euler"; }
   int order() const override { return 1; }
-  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    StrainState& state) override;
 
  private:
   LastAcceleration last_;
@@ -35,7 +37,8 @@ class RungeKutta4 final : public Integrator {
  public:
   std::string name() const override { return "rk4"; }
   int order() const override { return 4; }
-  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    StrainState& state) override;
 
  private:
   LastAcceleration last_;
@@ -48,10 +51,11 @@ class ClosedForm final : public Integrator {
  public:
   std::string name() const override { return "closed_form"; }
   int order() const override { return 1; }
-  StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state) override;
+  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    StrainState& state) override;
 
  private:
   LastAcceleration last_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

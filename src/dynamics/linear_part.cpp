@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
 /// Eigenvectors may be worse conditioned than this only where the damping is critical to the last bit; then the linear
@@ -18,13 +18,13 @@ using ModeMatrix = LinearPart::ModeMatrix;
 
 /// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences, where the springs'
 /// own part is linear.
-StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& handle, const StrainVector& q) {
+rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
   const int n = body.size();
-  StrainMatrix stiffness(n, n);
-  const StrainVector rest = StrainVector::Zero(n);
+  rod::StrainMatrix stiffness(n, n);
+  const rod::StrainVector rest = rod::StrainVector::Zero(n);
   const double moved = 1e-5 / body.shape().length();
   for (int j = 0; j < n; ++j) {
-    StrainVector up = q, down = q;
+    rod::StrainVector up = q, down = q;
     up[j] += moved;
     down[j] -= moved;
     stiffness.col(j) = (body.acceleration(handle, down, rest) - body.acceleration(handle, up, rest)) / (2.0 * moved);
@@ -56,27 +56,28 @@ void sort_modes(const Eigen::EigenSolver<ModeMatrix>& solver, ModeMatrix& V, Lin
 
 }  // namespace
 
-LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const StrainVector& q) {
+LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
   const int n = body.size();
   LinearPart part;
   part.q_reference = q;
-  const StrainMatrix M = body.mass_matrix(handle.t, q);
+  const rod::StrainMatrix M = body.mass_matrix(handle.t, q);
   part.mass = M.diagonal();
-  part.inverse_mass = M.llt().solve(StrainMatrix::Identity(n, n));
+  part.inverse_mass = M.llt().solve(rod::StrainMatrix::Identity(n, n));
   part.stiffness = stiffness_at_rest(body, handle, q);
 
   // Undamped modes of the springs first: in them, with displacements scaled by their frequencies, stiff and soft
   // motions stand side by side without loss of digits.
-  const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> undamped(StrainMatrix(body.stiffness().asDiagonal()), M);
-  const StrainMatrix shapes = undamped.eigenvectors();
-  const StrainMatrix to_shapes = shapes.transpose() * M;
+  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> undamped(
+      rod::StrainMatrix(body.stiffness().asDiagonal()), M);
+  const rod::StrainMatrix shapes = undamped.eigenvectors();
+  const rod::StrainMatrix to_shapes = shapes.transpose() * M;
   // A free mode has no two eigenvectors, and free modes none of their own: the frozen part gets the stiffness of 1, 2,
   // … rad/s, and the rest takes it back.
-  const StrainVector least = StrainVector::LinSpaced(n, 1.0, n).cwiseAbs2();
-  const StrainVector scale = undamped.eigenvalues().cwiseMax(least).cwiseSqrt();
-  const StrainVector missing = (least - undamped.eigenvalues()).cwiseMax(0.0);
+  const rod::StrainVector least = rod::StrainVector::LinSpaced(n, 1.0, n).cwiseAbs2();
+  const rod::StrainVector scale = undamped.eigenvalues().cwiseMax(least).cwiseSqrt();
+  const rod::StrainVector missing = (least - undamped.eigenvalues()).cwiseMax(0.0);
   part.stiffness += shapes * missing.asDiagonal() * to_shapes;
-  const StrainMatrix modal_stiffness = to_shapes * part.stiffness * shapes;
+  const rod::StrainMatrix modal_stiffness = to_shapes * part.stiffness * shapes;
 
   Eigen::EigenSolver<ModeMatrix> solver(2 * n);
   ModeMatrix V(2 * n, 2 * n), V_inverse;
@@ -109,4 +110,4 @@ LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const 
   return part;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -5,19 +5,19 @@
 
 #include "spring_workbench/dynamics/held_body.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 
 /// The equation of motion linearised about a strain at rest, `q̈ = −stiffness (q − q_reference) − damping q̇ +
 /// remainder`, and its modes: in `x = to_modes · (q − q_reference, q̇)` it falls apart into single real modes, `ẋ = rate
 /// x`, and pairs.
 struct LinearPart {
-  static constexpr int most_modes = 2 * max_strain_coordinates;
+  static constexpr int most_modes = 2 * rod::max_strain_coordinates;
   using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
 
-  StrainVector q_reference;
-  StrainMatrix stiffness, damping;  ///< M⁻¹ K with the loads' own stiffness, and M⁻¹ D
-  StrainMatrix inverse_mass;
-  StrainVector mass;                ///< diagonal of M
+  rod::StrainVector q_reference;
+  rod::StrainMatrix stiffness, damping;  ///< M⁻¹ K with the loads' own stiffness, and M⁻¹ D
+  rod::StrainMatrix inverse_mass;
+  rod::StrainVector mass;           ///< diagonal of M
   ModeMatrix to_modes, from_modes;  ///< inverse of each other; not finite where the equation overflows and has no modes
   /// The first 2 `pairs` modes are pairs (x₀, x₁) of which z = x₀ − i x₁ follows ż = rate z; the rest has real rates.
   int pairs = 0;
@@ -26,6 +26,6 @@ struct LinearPart {
 };
 
 /// About `state.q`, under the handle's acceleration and the loads of the moment.
-LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const StrainVector& q);
+LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -9,7 +9,7 @@
 #include "implicit_integrators.h"
 #include "strain_limit.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
 /// A guarded step with a larger estimate of its error is taken again in halves.
@@ -33,23 +33,24 @@ struct Sizes {
 };
 
 /// An error of the strain as one of the object's pose.
-Sizes sizes(const HeldBody& body, double t, const StrainVector& q, const StrainVector& error) {
+Sizes sizes(const HeldBody& body, double t, const rod::StrainVector& q, const rod::StrainVector& error) {
   const auto J = body.object_jacobian(t, q);
   return {(J.topRows<3>() * error).norm(), (J.bottomRows<3>() * error).norm()};
 }
 
 /// From rates to the strain that they swing to, mode by mode.
-StrainMatrix swing_of(const LinearisedMotion& motion) {
-  const StrainMatrix K = 0.5 * (motion.K + motion.K.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> modes(K, motion.M);
-  const StrainVector period =
+rod::StrainMatrix swing_of(const LinearisedMotion& motion) {
+  const rod::StrainMatrix K = 0.5 * (motion.K + motion.K.transpose());
+  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> modes(K, motion.M);
+  const rod::StrainVector period =
       modes.eigenvalues().cwiseAbs().cwiseMax(1.0 / (longest_swing * longest_swing)).cwiseSqrt();
   return modes.eigenvectors() * period.cwiseInverse().asDiagonal() * modes.eigenvectors().transpose() * motion.M;
 }
 
-double stiffest_omega(const HeldBody& body, double t, const StrainVector& q) {
-  const StrainMatrix K = body.stiffness().asDiagonal();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> modes(K, body.mass_matrix(t, q), Eigen::EigenvaluesOnly);
+double stiffest_omega(const HeldBody& body, double t, const rod::StrainVector& q) {
+  const rod::StrainMatrix K = body.stiffness().asDiagonal();
+  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> modes(K, body.mass_matrix(t, q),
+                                                                          Eigen::EigenvaluesOnly);
   return std::sqrt(std::max(0.0, modes.eigenvalues().maxCoeff()));
 }
 
@@ -59,13 +60,13 @@ double radius_of_gyration(const BodyInertia& body) { return std::sqrt(0.5 * body
 
 struct StepControl::Span {
   const HeldBody& body;
-  const FrameMotion& handle;
+  const motion::FrameMotion& handle;
   Memory& memory;
   ControlledStep report;
   double longest_to_stop;  ///< [s]; a step up to this may end at the end of the fork's way
 
   /// An error of the strain as one length.
-  double length(double t, const StrainVector& q, const StrainVector& error) const {
+  double length(double t, const rod::StrainVector& q, const rod::StrainVector& error) const {
     const Sizes s = sizes(body, t, q, error);
     return std::hypot(s.position, radius_of_gyration(body.body()) * s.angle);
   }
@@ -74,7 +75,7 @@ struct StepControl::Span {
 StepControl::StepControl(std::unique_ptr<Integrator> integrator, double tolerance)
     : integrator_(std::move(integrator)), tolerance_(tolerance) {}
 
-ControlledStep StepControl::advance(const HeldBody& body, const FrameMotion& handle, double t, double h,
+ControlledStep StepControl::advance(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                     StrainState& state, Memory& memory) const {
   Span span{body, handle, memory, {}, (1.0 + 1e-9) * std::ldexp(h, -halvings_to_stop)};
   const Memory before = memory;
@@ -172,7 +173,7 @@ bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
   int rejected = 0;
   const HandleForcing begin = span.body.forcing(span.handle, t);
   const LinearisedMotion motion(span.body, begin, state, span.body.acceleration(begin, state.q, state.q_dot));
-  const StrainMatrix swing = swing_of(motion);
+  const rod::StrainMatrix swing = swing_of(motion);
   while (end - t > 1e-9 * h) {
     const double left = end - t;
     const double dt = memory.next_h > 0.95 * left ? left : memory.next_h;
@@ -189,7 +190,7 @@ bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
     bool good = false;
     if (fine) {
       carry_deviation(motion, dt, error);
-      const auto amplitude = [&](const StrainVector& q, const StrainVector& q_dot) {
+      const auto amplitude = [&](const rod::StrainVector& q, const rod::StrainVector& q_dot) {
         return std::hypot(span.length(t + dt, next.q, q), span.length(t + dt, next.q, swing * q_dot));
       };
       const double left_over = tolerance_ - amplitude(error.q, error.q_dot);
@@ -228,4 +229,4 @@ bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
   return true;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
 constexpr int halvings = 40;  ///< of the way to the limit
@@ -28,11 +28,11 @@ bool stop_at_limit(const HeldBody& body, double t, const StrainState& begin, Str
   }
   end.q[i] = begin.q[i] + shortest * way;
   if (end.q_dot[i] * way > 0.0) {
-    const StrainVector answer = body.mass_matrix(t, end.q).llt().solve(StrainVector::Unit(end.q.size(), i));
+    const rod::StrainVector answer = body.mass_matrix(t, end.q).llt().solve(rod::StrainVector::Unit(end.q.size(), i));
     end.q_dot -= end.q_dot[i] / answer[i] * answer;
     end.q_dot[i] = 0.0;
   }
   return end.q_dot.allFinite();
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -7,14 +7,14 @@
 #include "spring_workbench/math/so3.h"
 #include "stations.h"
 
-namespace spring_workbench {
+namespace spring_workbench::fork_mesh {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr int pieces = 8;  ///< of the curve's parameter, for its arc length
 
-const GaussLegendre<8>& rule() {
-  static const GaussLegendre<8> gauss;
+const math::GaussLegendre<8>& rule() {
+  static const math::GaussLegendre<8> gauss;
   return gauss;
 }
 
@@ -106,7 +106,7 @@ std::vector<double> even_parameters(const Bezier& curve) {
 
 /// Turns each frame about its z by its share of what is missing at the tip; the ends are the given poses.
 void spread_twist(const RigidTransform& X_WE, double twist, std::vector<RigidTransform>& stations) {
-  const double missing = log_so3(stations.back().linear().transpose() * X_WE.linear()).z();
+  const double missing = math::log_so3(stations.back().linear().transpose() * X_WE.linear()).z();
   const double whole = missing + 2.0 * pi * std::round((twist - missing) / (2.0 * pi));
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(stations.size() - 1);
@@ -132,4 +132,4 @@ ForkCurve bezier_curve(const RigidTransform& X_WH, const RigidTransform& X_WE, d
   return ForkCurve(std::move(stations));
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::fork_mesh

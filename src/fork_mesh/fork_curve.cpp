@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/validation/number_rule.h"
 #include "stations.h"
 
-namespace spring_workbench {
+namespace spring_workbench::fork_mesh {
 namespace {
 
 /// Derivative over one interval at station `i`: differences of fourth order.
@@ -26,11 +26,12 @@ Vector3d rate_at(const std::vector<RigidTransform>& stations, std::size_t i) {
 }  // namespace
 
 ForkCurve::ForkCurve(std::vector<RigidTransform> stations) : stations_(std::move(stations)) {
-  check_number("fork curve", "stations", static_cast<double>(stations_.size()), between(5.0, 1e6));
+  validation::check_number("fork curve", "stations", static_cast<double>(stations_.size()),
+                           validation::between(5.0, 1e6));
   for (std::size_t i = 0; i < stations_.size(); ++i) {
     p_rates_.push_back(rate_at(stations_, i));
     if (i == 0) continue;
-    turn_rates_.push_back(log_so3(stations_[i - 1].linear().transpose() * stations_[i].linear()));
+    turn_rates_.push_back(math::log_so3(stations_[i - 1].linear().transpose() * stations_[i].linear()));
   }
 }
 
@@ -46,12 +47,12 @@ CurvePoint ForkCurve::at(double u) const {
   point.p = a.translation() + v * v * (3.0 - 2.0 * v) * step + v * w * (w * p_rates_[i] - v * p_rates_[i + 1]);
   point.p_rate =
       intervals * (6.0 * v * w * step + w * (1.0 - 3.0 * v) * p_rates_[i] + v * (3.0 * v - 2.0) * p_rates_[i + 1]);
-  point.R = a.linear() * exp_so3(v * turn_rates_[i]);
+  point.R = a.linear() * math::exp_so3(v * turn_rates_[i]);
   point.turn_rate = intervals * turn_rates_[i];
   return point;
 }
 
-ForkCurve rod_curve(const ShapeModel& shape, const StrainVector& q, const RigidTransform& X_WH) {
+ForkCurve rod_curve(const rod::ShapeModel& shape, const rod::StrainVector& q, const RigidTransform& X_WH) {
   std::vector<RigidTransform> stations;
   stations.reserve(fork_curve_stations);
   for (int i = 0; i < fork_curve_stations; ++i) {
@@ -65,14 +66,14 @@ const std::vector<std::string>& fork_curve_names() {
   return names;
 }
 
-ForkCurve make_fork_curve(const std::string& name, const ShapeModel& shape, const StrainVector& q,
+ForkCurve make_fork_curve(const std::string& name, const rod::ShapeModel& shape, const rod::StrainVector& q,
                           const RigidTransform& X_WH) {
   if (name == "rod") return rod_curve(shape, q, X_WH);
   if (name == "bezier") {
     const RigidTransform X_WE = X_WH * shape.section(q, shape.length());
     return bezier_curve(X_WH, X_WE, shape.length() + shape.extension(q), shape.twist(q));
   }
-  refuse("fork", "curve", name, "one of " + join(fork_curve_names()));
+  validation::refuse("fork", "curve", name, "one of " + validation::join(fork_curve_names()));
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::fork_mesh

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench {
+namespace spring_workbench::fork_mesh {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -13,16 +13,16 @@ constexpr double flange = 0.2;       ///< thickness of the discs that hold the w
 
 void check(const ForkLook& look) {
   const char* const where = "fork look";
-  check_number(where, "turns", look.turns, between(1, 1000));
-  check_number(where, "points_per_turn", look.points_per_turn, between(3, 1000));
-  check_number(where, "wire_sides", look.wire_sides, between(3, 1000));
-  check_number(where, "round_sides", look.round_sides, between(3, 1000));
-  check_number(where, "wire_radius", look.wire_radius, positive());
-  check_number(where, "shaft_radius", look.shaft_radius, positive());
-  check_number(where, "shaft_length", look.shaft_length, positive());
-  check_number(where, "prong_radius", look.prong_radius, positive());
-  check_number(where, "prong_gap", look.prong_gap, positive());
-  check_number(where, "prong_length", look.prong_length, positive());
+  validation::check_number(where, "turns", look.turns, validation::between(1, 1000));
+  validation::check_number(where, "points_per_turn", look.points_per_turn, validation::between(3, 1000));
+  validation::check_number(where, "wire_sides", look.wire_sides, validation::between(3, 1000));
+  validation::check_number(where, "round_sides", look.round_sides, validation::between(3, 1000));
+  validation::check_number(where, "wire_radius", look.wire_radius, validation::positive());
+  validation::check_number(where, "shaft_radius", look.shaft_radius, validation::positive());
+  validation::check_number(where, "shaft_length", look.shaft_length, validation::positive());
+  validation::check_number(where, "prong_radius", look.prong_radius, validation::positive());
+  validation::check_number(where, "prong_gap", look.prong_gap, validation::positive());
+  validation::check_number(where, "prong_length", look.prong_length, validation::positive());
 }
 
 /// Two triangles a, b, c and a, c, d.
@@ -146,4 +146,4 @@ void ForkModel::deform(const ForkCurve& curve, double diameter, ForkMesh& mesh) 
   for (const WireRing& ring : wire_) add_ring(ring, curve, diameter, mesh);
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::fork_mesh

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace spring_workbench {
+namespace spring_workbench::math {
 namespace {
 
 using Eigen::Index;
@@ -181,4 +181,4 @@ bool solve_in_cones(const MatrixXd& A, const VectorXd& b, const std::vector<doub
   return true;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::math

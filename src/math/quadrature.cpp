@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace spring_workbench {
+namespace spring_workbench::math {
 
 template <int N>
 GaussLegendre<N>::GaussLegendre() {
@@ -50,4 +50,4 @@ template struct GaussLegendre<5>;
 template struct GaussLegendre<6>;
 template struct GaussLegendre<8>;
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::math

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace spring_workbench {
+namespace spring_workbench::math {
 So3Coefficients so3_coefficients_of_angle(double t) {
   const double theta = std::sqrt(t);
   const double s = std::sin(theta);
@@ -56,4 +56,4 @@ Vector3d right_jacobian_rate_so3(const Vector3d& theta, const Vector3d& theta_do
          k.c * (theta_dot.cross(S_v) + theta.cross(S_dot_v));
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::math

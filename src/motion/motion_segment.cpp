@@ -1,7 +1,7 @@
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/motion/pose_track.h"
 
-namespace spring_workbench {
+namespace spring_workbench::motion {
 namespace {
 
 /// Whether a rotation from `a` to `b` with these rates at its ends is none.
@@ -25,8 +25,8 @@ MotionSegment::MotionSegment(const PoseSample& a, const Vector3d& v_a, const Vec
   const double h = b.t - a.t;
   position_ = Polynomial::cubic(b.X.translation() - a.X.translation(), h * v_a, h * v_b);
   if (!turning_) return;
-  const Vector3d theta_b = log_so3(a.X.linear().transpose() * b.X.linear());
-  rotation_ = Polynomial::cubic(theta_b, h * w_a_B, h * (right_jacobian_inverse_so3(theta_b) * w_b_B));
+  const Vector3d theta_b = math::log_so3(a.X.linear().transpose() * b.X.linear());
+  rotation_ = Polynomial::cubic(theta_b, h * w_a_B, h * (math::right_jacobian_inverse_so3(theta_b) * w_b_B));
 }
 
 double MotionSegment::begin() const { return begin_; }
@@ -34,18 +34,20 @@ double MotionSegment::end() const { return end_; }
 
 template <typename S>
 SPRING_WORKBENCH_INLINE MotionSegment::Turn<S> MotionSegment::turn(const S& u, double per_second) const {
-  const Three<S> theta = rotation_.value(u);
-  const Three<S> theta_dot = per_second * rotation_.first(u);
-  const Three<S> theta_ddot = (per_second * per_second) * rotation_.second(u);
-  const So3CoefficientsOf<S> k = so3_coefficients(dot(theta, theta));
+  const math::Three<S> theta = rotation_.value(u);
+  const math::Three<S> theta_dot = per_second * rotation_.first(u);
+  const math::Three<S> theta_ddot = (per_second * per_second) * rotation_.second(u);
+  const math::So3CoefficientsOf<S> k = math::so3_coefficients(dot(theta, theta));
   // J_r v = v − b θ×v + c θ×(θ×v), and its derivative along the motion with v = θ̇.
-  const Three<S> s = cross(theta, theta_dot), s_s = cross(theta, s), a = cross(theta, theta_ddot);
+  const math::Three<S> s = math::cross(theta, theta_dot), s_s = math::cross(theta, s),
+                       a = math::cross(theta, theta_ddot);
   const S t_dot = 2.0 * dot(theta, theta_dot);
   const S b_dot = k.b_slope * t_dot, c_dot = k.c_slope * t_dot;
   Turn<S> turn;
-  turn.R = exp_so3(theta, k);
+  turn.R = math::exp_so3(theta, k);
   turn.w_B = theta_dot - k.b * s + k.c * s_s;
-  turn.alpha_B = theta_ddot - k.b * a + k.c * (cross(theta, a) + cross(theta_dot, s)) - b_dot * s + c_dot * s_s;
+  turn.alpha_B =
+      theta_ddot - k.b * a + k.c * (math::cross(theta, a) + math::cross(theta_dot, s)) - b_dot * s + c_dot * s_s;
   return turn;
 }
 
@@ -56,11 +58,11 @@ MotionSegment MotionSegment::of_frame(const RigidTransform& X_BC) const {
   return moved;
 }
 
-FrameForcing<Pack> MotionSegment::at_frame(const FrameForcing<Pack>& f) const {
-  const ThreeByThree<double> R = three_by_three(X_BC_.linear());
-  const Three<double> p = three(X_BC_.translation());
-  const Three<Pack> a = f.a_B + cross(f.alpha_B, p) + cross(f.w_B, cross(f.w_B, p));
-  return {f.R_WB * R, transposed(R, f.w_B), transposed(R, f.alpha_B), transposed(R, a)};
+FrameForcing<math::Pack> MotionSegment::at_frame(const FrameForcing<math::Pack>& f) const {
+  const math::ThreeByThree<double> R = math::three_by_three(X_BC_.linear());
+  const math::Three<double> p = math::three(X_BC_.translation());
+  const math::Three<math::Pack> a = f.a_B + math::cross(f.alpha_B, p) + math::cross(f.w_B, math::cross(f.w_B, p));
+  return {f.R_WB * R, math::transposed(R, f.w_B), math::transposed(R, f.alpha_B), math::transposed(R, a)};
 }
 
 OwnAxesMotion MotionSegment::in_own_axes(double t) const {
@@ -78,8 +80,8 @@ OwnAxesMotion MotionSegment::in_own_axes(double t) const {
   return m;
 }
 
-FrameForcing<Pack> MotionSegment::forcing(const Pack& t, double gravity) const {
-  const FrameForcing<Pack> of_B = of_samples(t, gravity);
+FrameForcing<math::Pack> MotionSegment::forcing(const math::Pack& t, double gravity) const {
+  const FrameForcing<math::Pack> of_B = of_samples(t, gravity);
   return elsewhere_ ? at_frame(of_B) : of_B;
 }
 
@@ -90,32 +92,32 @@ OwnAxesMotion MotionSegment::of_samples(double t) const {
 
   const double per_second = 1.0 / (end_ - begin_);
   const double u = (t - begin_) * per_second;
-  m.X.translation() += vector(position_.value(u));
-  m.v_W = vector(per_second * position_.first(u));
-  m.a_W = vector((per_second * per_second) * position_.second(u));
+  m.X.translation() += math::vector(position_.value(u));
+  m.v_W = math::vector(per_second * position_.first(u));
+  m.a_W = math::vector((per_second * per_second) * position_.second(u));
   if (!turning_) return m;
   const Turn<double> by = turn(u, per_second);
   m.X.linear().noalias() = X_a_.linear() * matrix(by.R, 0);
-  m.w_B = vector(by.w_B);
-  m.alpha_B = vector(by.alpha_B);
+  m.w_B = math::vector(by.w_B);
+  m.alpha_B = math::vector(by.alpha_B);
   return m;
 }
 
-SPRING_WORKBENCH_WIDE FrameForcing<Pack> MotionSegment::of_samples(const Pack& t, double gravity) const {
-  const ThreeByThree<double> R_a = three_by_three(X_a_.linear());
-  const Three<double> up = gravity * Three<double>{R_a.x.z, R_a.y.z, R_a.z.z};
-  const Three<Pack> zero = none<Pack>();
-  FrameForcing<Pack> f{{zero + R_a.x, zero + R_a.y, zero + R_a.z}, zero, zero, zero + up};
+SPRING_WORKBENCH_WIDE FrameForcing<math::Pack> MotionSegment::of_samples(const math::Pack& t, double gravity) const {
+  const math::ThreeByThree<double> R_a = math::three_by_three(X_a_.linear());
+  const math::Three<double> up = gravity * math::Three<double>{R_a.x.z, R_a.y.z, R_a.z.z};
+  const math::Three<math::Pack> zero = math::none<math::Pack>();
+  FrameForcing<math::Pack> f{{zero + R_a.x, zero + R_a.y, zero + R_a.z}, zero, zero, zero + up};
   if (!moving_) return f;
   const double per_second = 1.0 / (end_ - begin_);
-  const Pack u = (t - begin_) * per_second;
-  f.a_B += transposed(R_a, (per_second * per_second) * position_.second(u));
+  const math::Pack u = (t - begin_) * per_second;
+  f.a_B += math::transposed(R_a, (per_second * per_second) * position_.second(u));
   if (!turning_) return f;
-  const Turn<Pack> by = turn(u, per_second);
+  const Turn<math::Pack> by = turn(u, per_second);
   f.R_WB = R_a * by.R;
   f.w_B = by.w_B;
   f.alpha_B = by.alpha_B;
-  f.a_B = transposed(by.R, f.a_B);
+  f.a_B = math::transposed(by.R, f.a_B);
   return f;
 }
 
@@ -130,4 +132,4 @@ MotionState MotionSegment::at(double t) const {
   return state;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::motion

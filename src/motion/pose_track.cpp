@@ -4,10 +4,10 @@
 #include <sstream>
 #include <stdexcept>
 
-#include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench {
+namespace spring_workbench::motion {
 namespace {
 
 constexpr double kShortestInterval = 0.5e-9;  // [s] half of what ROS time resolves
@@ -16,18 +16,19 @@ constexpr double kFarthestPosition = 1e9;     // [m]
 constexpr double kRotationTolerance = 1e-6;
 
 void check_sample(const PoseSample& sample) {
-  check_number("tracked pose", "t", sample.t, between(-kFarthestTime, kFarthestTime));
+  validation::check_number("tracked pose", "t", sample.t, validation::between(-kFarthestTime, kFarthestTime));
   const std::string where = "tracked pose at t = " + std::to_string(sample.t) + " s";
   const char* const axes[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) {
-    check_number(where, axes[i], sample.X.translation()[i], between(-kFarthestPosition, kFarthestPosition));
+    validation::check_number(where, axes[i], sample.X.translation()[i],
+                             validation::between(-kFarthestPosition, kFarthestPosition));
   }
   const Matrix3d R = sample.X.linear();
   const double defect = (R.transpose() * R - Matrix3d::Identity()).norm();
   if (!(defect < kRotationTolerance && R.determinant() > 0.0)) {  // also where it is not a number
     std::ostringstream text;
     text << R.format(Eigen::IOFormat(6, Eigen::DontAlignCols, " ", "; "));
-    refuse(where, "rotation", text.str(), "a right-handed orthonormal matrix");
+    validation::refuse(where, "rotation", text.str(), "a right-handed orthonormal matrix");
   }
 }
 
@@ -41,15 +42,15 @@ Vector3d displacement(const PoseSample& from, const PoseSample& to) {
 }
 
 Vector3d rotation_vector(const PoseSample& from, const PoseSample& to) {
-  return log_so3(from.X.linear().transpose() * to.X.linear());
+  return math::log_so3(from.X.linear().transpose() * to.X.linear());
 }
 
 }  // namespace
 
 PoseTrack::PoseTrack(double dropout_after) : dropout_after_(dropout_after), current_(RigidTransform::Identity()) {
-  NumberRule rule = positive();
+  validation::NumberRule rule = validation::positive();
   rule.infinity_allowed = true;
-  check_number("tracked pose", "dropout_after", dropout_after, rule);
+  validation::check_number("tracked pose", "dropout_after", dropout_after, rule);
 }
 
 bool PoseTrack::push(const PoseSample& sample) {
@@ -121,4 +122,4 @@ const PoseTrack::Node& PoseTrack::with_velocity(std::size_t k) {
   return node;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::motion

@@ -1,18 +1,18 @@
-#include "spring_workbench/ros_interface/contact_sound.h"
+#include "spring_workbench/ros/contact_sound/contact_sound.h"
 
 #include <ros/ros.h>
 
 #include <iostream>
 
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
 /// Contacts as sound. Exit status 2: bad parameters, or nowhere to play.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "contact_sound");
   try {
-    const spring_workbench::ContactSound sound(ros::NodeHandle(), ros::NodeHandle("~"));
+    const spring_workbench::contact_sound::ContactSound sound(ros::NodeHandle(), ros::NodeHandle("~"));
     ros::spin();
-  } catch (const spring_workbench::InputError& error) {
+  } catch (const spring_workbench::validation::InputError& error) {
     std::cerr << error.what() << std::endl;
     return 2;
   }

@@ -6,8 +6,8 @@
 #include <csignal>
 #include <iostream>
 
-#include "spring_workbench/config/input_error.h"
-#include "spring_workbench/ros_interface/manipulation_node.h"
+#include "spring_workbench/ros/manipulation/manipulation_node.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace {
 
@@ -33,9 +33,9 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "manipulation", ros::init_options::NoSigintHandler);
   end_in_order();
   try {
-    const spring_workbench::ManipulationNode node(ros::NodeHandle(), ros::NodeHandle("~"));
+    const spring_workbench::manipulation::ManipulationNode node(ros::NodeHandle(), ros::NodeHandle("~"));
     while (ros::ok() && !end_asked) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
-  } catch (const spring_workbench::InputError& error) {
+  } catch (const spring_workbench::validation::InputError& error) {
     std::cerr << error.what() << std::endl;
     return 2;
   }

@@ -7,11 +7,11 @@
 #include <iostream>
 #include <sstream>
 
-#include "spring_workbench/config/input_error.h"
 #include "spring_workbench/config/yaml_fields.h"
-#include "spring_workbench/ros_interface/parameters.h"
-#include "spring_workbench/tracker/motion_file.h"
-#include "spring_workbench/tracker/touches.h"
+#include "spring_workbench/motion_files/motion_file.h"
+#include "spring_workbench/registration/touches.h"
+#include "spring_workbench/ros/common/parameters.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench {
 namespace {
@@ -73,18 +73,18 @@ Options parse_options(int argc, char** argv) {
         options.out = optarg;
         break;
       case 'r':
-        options.largest_residual =
-            1e-3 * read_number(YAML::Node(std::string(optarg)), kWhere, "--largest-residual", positive());
+        options.largest_residual = 1e-3 * config::read_number(YAML::Node(std::string(optarg)), kWhere,
+                                                              "--largest-residual", validation::positive());
         break;
       default:
-        refuse(kWhere, "option", argv[optind - 1], "one of those that --help lists");
+        validation::refuse(kWhere, "option", argv[optind - 1], "one of those that --help lists");
     }
   }
-  if (optind < argc) refuse(kWhere, "argument", argv[optind], "an option that --help lists");
-  if (options.out.empty()) refuse(kWhere, "--out", "(nothing)", "the path of the file to write");
+  if (optind < argc) validation::refuse(kWhere, "argument", argv[optind], "an option that --help lists");
+  if (options.out.empty()) validation::refuse(kWhere, "--out", "(nothing)", "the path of the file to write");
   if (options.pivot == !options.landmarks.empty()) {
-    refuse(kWhere, "--landmarks", options.pivot ? "given beside --pivot" : "(nothing)",
-           "one of --landmarks and --pivot");
+    validation::refuse(kWhere, "--landmarks", options.pivot ? "given beside --pivot" : "(nothing)",
+                       "one of --landmarks and --pivot");
   }
   return options;
 }
@@ -97,7 +97,7 @@ class Listener {
         joy_(node_.subscribe("stylus/joy", 1000, &Listener::on_buttons, this)) {}
 
   /// All samples until the button was let go for the `count`th time.
-  std::vector<StylusSample> collect(std::size_t count) {
+  std::vector<motion::StylusSample> collect(std::size_t count) {
     for (std::size_t seen = 0; seen < count && ros::ok();) {
       ros::spinOnce();
       ros::WallDuration(0.005).sleep();
@@ -115,7 +115,7 @@ class Listener {
       if (transform.child_frame_id != "stylus") continue;
       const auto& p = transform.transform.translation;
       const auto& q = transform.transform.rotation;
-      StylusSample sample;
+      motion::StylusSample sample;
       sample.t = transform.header.stamp.toSec();
       sample.X = make_transform(Quaterniond(q.w, q.x, q.y, q.z), Vector3d(p.x, p.y, p.z));
       sample.button = pressed_;
@@ -129,7 +129,7 @@ class Listener {
   }
 
   ros::NodeHandle node_;
-  std::vector<StylusSample> samples_;
+  std::vector<motion::StylusSample> samples_;
   bool pressed_ = false;
   std::size_t released_ = 0;
   ros::Subscriber tf_, joy_;
@@ -137,40 +137,43 @@ class Listener {
 
 /// Samples as the driver sends them, and the registration that it has.
 struct Take {
-  std::vector<StylusSample> samples;
-  StoredRegistration present;
+  std::vector<motion::StylusSample> samples;
+  registration::StoredRegistration present;
 };
 
 Take take(const Options& options, std::size_t touches, int argc, char** argv) {
   if (!options.motion.empty()) {
-    StoredRegistration present;
+    registration::StoredRegistration present;
     if (!options.registration.empty())
-      present = read_registration(load_yaml_file(options.registration), options.registration);
-    std::vector<StylusSample> samples = read_motion_file(options.motion);
-    for (StylusSample& sample : samples) sample.X = present.X_BT * sample.X * Eigen::Translation3d(present.p_ST);
+      present = registration::read_registration(config::load_yaml_file(options.registration), options.registration);
+    std::vector<motion::StylusSample> samples = motion_files::read_motion_file(options.motion);
+    for (motion::StylusSample& sample : samples)
+      sample.X = present.X_BT * sample.X * Eigen::Translation3d(present.p_ST);
     return {samples, present};
   }
   ros::init(argc, argv, "register_tracker");
   Listener listener;
-  const std::vector<StylusSample> samples = listener.collect(touches);
-  return {samples, read_registration(private_parameters(ros::NodeHandle("tracker_driver")), "tracker_driver")};
+  const std::vector<motion::StylusSample> samples = listener.collect(touches);
+  return {samples, registration::read_registration(ros_common::private_parameters(ros::NodeHandle("tracker_driver")),
+                                                   "tracker_driver")};
 }
 
 std::string pivot(const Options& options, Take& taken) {
   std::vector<RigidTransform> poses;
-  for (const auto& press : presses(taken.samples)) {
-    for (const StylusSample& sample : press) poses.push_back(sample.X);
+  for (const auto& press : registration::presses(taken.samples)) {
+    for (const motion::StylusSample& sample : press) poses.push_back(sample.X);
   }
-  const PivotCalibration found = calibrate_tip(poses, options.largest_residual);
+  const registration::PivotCalibration found = registration::calibrate_tip(poses, options.largest_residual);
   taken.present.p_ST += found.p_ST;
   std::ostringstream report;
   report << "# tip: rms " << 1e3 * found.rms << " mm over " << poses.size() << " poses\n";
   return report.str();
 }
 
-std::string locate(const Options& options, const std::vector<Landmark>& known, Take& taken) {
-  const std::vector<Landmark> landmarks = touched_landmarks(known, presses(taken.samples), options.largest_residual);
-  const Registration found = register_tracker(landmarks, options.largest_residual);
+std::string locate(const Options& options, const std::vector<registration::Landmark>& known, Take& taken) {
+  const std::vector<registration::Landmark> landmarks =
+      registration::touched_landmarks(known, registration::presses(taken.samples), options.largest_residual);
+  const registration::Registration found = registration::register_tracker(landmarks, options.largest_residual);
   taken.present.X_BT = found.X_BT * taken.present.X_BT;
   std::ostringstream report;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
@@ -184,10 +187,11 @@ std::string locate(const Options& options, const std::vector<Landmark>& known, T
 }
 
 void run(const Options& options, int argc, char** argv) {
-  const std::vector<Landmark> known = options.pivot ? std::vector<Landmark>() : read_landmarks(options.landmarks);
+  const std::vector<registration::Landmark> known =
+      options.pivot ? std::vector<registration::Landmark>() : registration::read_landmarks(options.landmarks);
   Take taken = take(options, options.pivot ? 1 : known.size(), argc, argv);
   const std::string report = options.pivot ? pivot(options, taken) : locate(options, known, taken);
-  const std::string text = write_registration(taken.present, report);
+  const std::string text = registration::write_registration(taken.present, report);
   std::cout << text;
   std::ofstream file(options.out);
   if (!(file << text) || !file.flush()) throw std::runtime_error(options.out + ": cannot be written");
@@ -207,7 +211,7 @@ int main(int argc, char** argv) {
     }
     run(options, argc, argv);
     return 0;
-  } catch (const InputError& e) {
+  } catch (const validation::InputError& e) {
     std::cerr << "register_tracker: " << e.what() << std::endl;
     return 2;
   } catch (const std::exception& e) {

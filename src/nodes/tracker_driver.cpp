@@ -1,17 +1,17 @@
-#include "spring_workbench/ros_interface/tracker_driver.h"
+#include "spring_workbench/ros/tracker_driver/tracker_driver.h"
 
 #include <ros/ros.h>
 
 #include <iostream>
 
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
 /// The tracker as tf frames and buttons. Exit status 2: bad parameters or motion file.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "tracker_driver");
   try {
-    spring_workbench::TrackerDriver(ros::NodeHandle(), ros::NodeHandle("~")).run();
-  } catch (const spring_workbench::InputError& error) {
+    spring_workbench::tracker_driver::TrackerDriver(ros::NodeHandle(), ros::NodeHandle("~")).run();
+  } catch (const spring_workbench::validation::InputError& error) {
     std::cerr << error.what() << std::endl;
     return 2;
   }

@@ -4,7 +4,7 @@
 
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 StrainVector Bushing::stiffness(const PerFamily& k) const {
   const double slope = k.bend * length() * length() / 3.0;
   StrainVector K(6);
@@ -14,13 +14,13 @@ StrainVector Bushing::stiffness(const PerFamily& k) const {
 
 template <typename S>
 SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S>& out) const {
-  const Three<S> phi{q[2], q[3], q[4]}, phi_dot{q_dot[2], q_dot[3], q_dot[4]}, zero = none<S>();
+  const math::Three<S> phi{q[2], q[3], q[4]}, phi_dot{q_dot[2], q_dot[3], q_dot[4]}, zero = math::none<S>();
   const S t = dot(phi, phi), one = S{} + 1.0;
-  const So3CoefficientsOf<S> k = so3_coefficients(t);
-  out.R_HE = exp_so3(phi, k);
+  const math::So3CoefficientsOf<S> k = math::so3_coefficients(t);
+  out.R_HE = math::exp_so3(phi, k);
   out.p_HE = {q[0], q[1], q[5] + length()};
   // The left Jacobian, for rates in the axes of H: (1 − c θ²) I + b [φ]× + c φ φᵀ.
-  const ThreeByThree<S> J = symmetric_and_skew(k.c, S(1.0 - k.c * t), k.b, phi);
+  const math::ThreeByThree<S> J = math::symmetric_and_skew(k.c, S(1.0 - k.c * t), k.b, phi);
   out.angular[0] = out.angular[1] = out.angular[5] = zero;
   out.angular[2] = J.x;
   out.angular[3] = J.y;
@@ -30,31 +30,31 @@ SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S
   out.linear[2] = out.linear[3] = out.linear[4] = zero;
   out.linear[5] = {S{}, S{}, one};
   // d/dt (left Jacobian) φ̇, where what is along φ̇ × φ̇ is none.
-  const Three<S> s = cross(phi, phi_dot);
+  const math::Three<S> s = cross(phi, phi_dot);
   const S t_dot = 2.0 * dot(phi, phi_dot);
   out.angular_bias = (k.b_slope * t_dot) * s + (k.c_slope * t_dot) * cross(phi, s) + k.c * cross(phi_dot, s);
   out.linear_bias = zero;
   out.separate = true;
   out.condensed = false;
-  out.inverse_angular = symmetric_and_skew(k.d, S(1.0 - k.d * t), S(S{} - 0.5), phi);
+  out.inverse_angular = math::symmetric_and_skew(k.d, S(1.0 - k.d * t), S(S{} - 0.5), phi);
 }
 
 void Bushing::tip(const double* q, const double* q_dot, TipOf<double>& out) const { tip_of(q, q_dot, out); }
-SPRING_WORKBENCH_WIDE void Bushing::tips(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const {
+SPRING_WORKBENCH_WIDE void Bushing::tips(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const {
   tip_of(q, q_dot, out);
 }
-void Bushing::tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const { tips(q, q_dot, out); }
+void Bushing::tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const { tips(q, q_dot, out); }
 
 RigidTransform Bushing::section(const StrainVector& q, double s) const {
   // No curve of its own: drawn as the cubic with the end positions and slopes, rotation spread evenly.
   const double u = s / length();
-  const Matrix3d R = exp_so3(q.segment<3>(2));
+  const Matrix3d R = math::exp_so3(q.segment<3>(2));
   const Vector3d tip(q[0], q[1], length() + q[5]);
   const Vector3d t0 = length() * Vector3d::UnitZ();
   const Vector3d t1 = length() * R.col(2);
   RigidTransform X = RigidTransform::Identity();
   X.translation() = u * u * (3.0 - 2.0 * u) * tip + u * (1.0 - u) * ((1.0 - u) * t0 - u * t1);
-  X.linear() = exp_so3(u * q.segment<3>(2));
+  X.linear() = math::exp_so3(u * q.segment<3>(2));
   return X;
 }
 
@@ -74,4 +74,4 @@ bool Bushing::admissible(const StrainVector& q) const {
   return q.allFinite() && q.segment<3>(2).norm() < largest_angle;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

@@ -2,7 +2,7 @@
 
 #include "spring_workbench/rod/shape_model.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 
 /// Six springs between handle and tip, without a curve (doc/model.md, `bushing`). q = (dx, dy, φx, φy, φz, dz) [m, rad]
 /// with tip position (0, 0, L) + d and tip rotation exp(φ).
@@ -16,7 +16,7 @@ class Bushing final : public ShapeModel {
   StrainVector stiffness(const PerFamily& k) const override;
   using ShapeModel::tip;
   void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
-  void tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const override;
+  void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const override;
   double extension(const StrainVector& q) const override { return q[5]; }
   double twist(const StrainVector& q) const override { return q[4]; }
   RigidTransform section(const StrainVector& q, double s) const override;
@@ -26,7 +26,7 @@ class Bushing final : public ShapeModel {
  private:
   template <typename S>
   void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
-  void tips(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const;
+  void tips(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

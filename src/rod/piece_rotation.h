@@ -5,17 +5,17 @@
 
 #include "spring_workbench/math/pack.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 
 /// A rotation, v + w with v the vector part, for one number or several.
 template <typename S>
 struct QuaternionOf {
-  Three<S> v;
+  math::Three<S> v;
   S w;
 };
 template <typename S>
 SPRING_WORKBENCH_INLINE QuaternionOf<S> operator*(const QuaternionOf<S>& a, const QuaternionOf<S>& b) {
-  return {a.w * b.v + b.w * a.v + cross(a.v, b.v), a.w * b.w - dot(a.v, b.v)};
+  return {a.w * b.v + b.w * a.v + math::cross(a.v, b.v), a.w * b.w - dot(a.v, b.v)};
 }
 template <typename S>
 SPRING_WORKBENCH_INLINE QuaternionOf<S> conjugate(const QuaternionOf<S>& q) {
@@ -28,8 +28,8 @@ SPRING_WORKBENCH_INLINE QuaternionOf<S> normalised(const QuaternionOf<S>& q) {
   return {f * q.v, f * q.w};
 }
 template <typename S>
-SPRING_WORKBENCH_INLINE ThreeByThree<S> rotation_matrix(const QuaternionOf<S>& q) {
-  return symmetric_and_skew(S(S{} + 2.0), S(1.0 - 2.0 * dot(q.v, q.v)), S(2.0 * q.w), q.v);
+SPRING_WORKBENCH_INLINE math::ThreeByThree<S> rotation_matrix(const QuaternionOf<S>& q) {
+  return math::symmetric_and_skew(S(S{} + 2.0), S(1.0 - 2.0 * dot(q.v, q.v)), S(2.0 * q.w), q.v);
 }
 
 /// The rotation along a piece of a rod whose strain is a polynomial of `degree`, as a power series of its quaternion
@@ -38,13 +38,13 @@ SPRING_WORKBENCH_INLINE ThreeByThree<S> rotation_matrix(const QuaternionOf<S>& q
 template <int degree, typename S>
 class PieceRotation {
  public:
-  using Strain = std::array<Three<S>, degree + 1>;
+  using Strain = std::array<math::Three<S>, degree + 1>;
 
   /// The strain over the piece of length h is (a[0] + a[1] u + …) / h for u = −½ … ½.
   /// `angle`: a bound of |a[0]| + |a[1]| / 2 + |a[2]| / 4 … [rad].
   SPRING_WORKBENCH_INLINE PieceRotation(const Strain& a, double angle) {
     pairs_ = angle < 0.5 ? 7 : angle < 1.2 ? 8 : most_pairs;
-    c_[0] = {none<S>(), S{} + 1.0};
+    c_[0] = {math::none<S>(), S{} + 1.0};
     c_[1] = {0.5 * a[0], S{}};
     for (int n = 1; n + 1 < 2 * pairs_; ++n) {
       QuaternionOf<S> sum = times(c_[n], a[0]);
@@ -78,18 +78,18 @@ class PieceRotation {
 
   static double bound(const Strain& a) {
     double angle = 0.0, power = 1.0;
-    for (const Three<S>& term : a) {
-      angle += power * std::sqrt(largest(dot(term, term)));
+    for (const math::Three<S>& term : a) {
+      angle += power * std::sqrt(math::largest(dot(term, term)));
       power *= 0.5;
     }
     return angle;
   }
-  SPRING_WORKBENCH_INLINE static QuaternionOf<S> times(const QuaternionOf<S>& q, const Three<S>& v) {
-    return {q.w * v + cross(q.v, v), S{} - dot(q.v, v)};
+  SPRING_WORKBENCH_INLINE static QuaternionOf<S> times(const QuaternionOf<S>& q, const math::Three<S>& v) {
+    return {q.w * v + math::cross(q.v, v), S{} - dot(q.v, v)};
   }
 
   int pairs_;
   QuaternionOf<S> c_[2 * most_pairs];
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

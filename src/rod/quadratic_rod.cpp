@@ -4,7 +4,7 @@
 #include <Eigen/QR>
 #include <cmath>
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 namespace {
 
 using Vector6 = ThreeTermRod::Vector6;
@@ -90,10 +90,10 @@ double QuadraticRod::condensed_energy(const StrainVector& q) const {
   return 0.5 * r.dot(K_.tail<2>().cwiseProduct(r));
 }
 
-void QuadraticRod::tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const {
+void QuadraticRod::tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const {
   out.separate = false;
   out.condensed = true;
-  for (int k = 0; k < pack_size; ++k) {
+  for (int k = 0; k < math::pack_size; ++k) {
     double q_k[6], q_dot_k[6];
     for (int i = 0; i < 6; ++i) {
       q_k[i] = q[i][k];
@@ -101,14 +101,14 @@ void QuadraticRod::tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const
     }
     TipOf<double> one;
     tip(q_k, q_dot_k, one);
-    set_lane(out.R_HE, k, one.R_HE);
-    set_lane(out.p_HE, k, one.p_HE);
-    set_lane(out.angular_bias, k, one.angular_bias);
-    set_lane(out.linear_bias, k, one.linear_bias);
+    math::set_lane(out.R_HE, k, one.R_HE);
+    math::set_lane(out.p_HE, k, one.p_HE);
+    math::set_lane(out.angular_bias, k, one.angular_bias);
+    math::set_lane(out.linear_bias, k, one.linear_bias);
     for (int i = 0; i < 6; ++i) {
-      set_lane(out.angular[i], k, one.angular[i]);
-      set_lane(out.linear[i], k, one.linear[i]);
-      set_lane(out.condensed_force[i], k, one.condensed_force[i]);
+      math::set_lane(out.angular[i], k, one.angular[i]);
+      math::set_lane(out.linear[i], k, one.linear[i]);
+      math::set_lane(out.condensed_force[i], k, one.condensed_force[i]);
     }
   }
 }
@@ -127,18 +127,18 @@ void QuadraticRod::tip(const double* q_begin, const double* q_dot_begin, TipOf<d
   };
   const Eigen::Matrix<double, 6, 2> J2 = rod.jacobian().rightCols<2>();
   const Matrix6 J = scaled(rod.jacobian().leftCols<6>() + J2 * c.slope);
-  out.R_HE = three_by_three(rod.rotation());
-  out.p_HE = three(L * rod.position());
+  out.R_HE = math::three_by_three(rod.rotation());
+  out.p_HE = math::three(L * rod.position());
   Vector condensed_force = c.slope.transpose() * K_.tail<2>().cwiseProduct(c.x.tail<2>());
   condensed_force.head<5>() *= L;
   out.separate = false;
   out.condensed = true;
   for (int i = 0; i < 6; ++i) {
-    out.linear[i] = three(J.block<3, 1>(0, i));
-    out.angular[i] = three(J.block<3, 1>(3, i));
+    out.linear[i] = math::three(J.block<3, 1>(0, i));
+    out.angular[i] = math::three(J.block<3, 1>(3, i));
     out.condensed_force[i] = condensed_force[i];
   }
-  out.linear_bias = out.angular_bias = none<double>();
+  out.linear_bias = out.angular_bias = math::none<double>();
 
   Strain x_dot;
   x_dot.head<6>() << L * q_dot.head<5>(), q_dot[5];
@@ -160,8 +160,8 @@ void QuadraticRod::tip(const double* q_begin, const double* q_dot_begin, TipOf<d
   }
   const Vector6 bias =
       speed * speed / difference * (velocity_change - J2 * (c.inverse * residual_curvature) / difference);
-  out.linear_bias = three(L * bias.head<3>());
-  out.angular_bias = three(bias.tail<3>());
+  out.linear_bias = math::three(L * bias.head<3>());
+  out.angular_bias = math::three(bias.tail<3>());
 }
 
 RigidTransform QuadraticRod::section(const StrainVector& q, double s) const {
@@ -179,4 +179,4 @@ bool QuadraticRod::admissible(const StrainVector& q) const {
   return c.found && ThreeTermRod::admissible(c.x);
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

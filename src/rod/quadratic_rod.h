@@ -3,7 +3,7 @@
 #include "spring_workbench/rod/shape_model.h"
 #include "three_term_rod.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 
 /// The rod with three Legendre terms of curvature in each plane (doc/model.md, `quadratic`). Coordinates are the six of
 /// `linear`; the third terms r are those of least elastic energy among all strains with the same tip pose:
@@ -22,7 +22,7 @@ class QuadraticRod final : public ShapeModel {
   double condensed_energy(const StrainVector& q) const override;
   using ShapeModel::tip;
   void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
-  void tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const override;
+  void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const override;
   double extension(const StrainVector& q) const override { return q[5] * length(); }
   double twist(const StrainVector& q) const override { return q[4] * length(); }
   RigidTransform section(const StrainVector& q, double s) const override;
@@ -43,4 +43,4 @@ class QuadraticRod final : public ShapeModel {
   Strain K_;  ///< stiffness [J] of a rod of length 1, κ and τ times the length
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

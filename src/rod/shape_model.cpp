@@ -2,10 +2,10 @@
 
 #include "bushing.h"
 #include "quadratic_rod.h"
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/validation/number_rule.h"
 #include "strain_rod.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 
 const std::vector<std::string>& shape_model_names() {
   static const std::vector<std::string> names = {"constant", "linear", "quadratic", "bushing"};
@@ -15,16 +15,16 @@ const std::vector<std::string>& shape_model_names() {
 void ShapeModel::tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const {
   TipOf<double> tip_of;
   tip(q.data(), q_dot.data(), tip_of);
-  out.R_HE = matrix(tip_of.R_HE, 0);
-  out.p_HE = vector(tip_of.p_HE);
+  out.R_HE = math::matrix(tip_of.R_HE, 0);
+  out.p_HE = math::vector(tip_of.p_HE);
   out.angular.resize(3, size());
   out.linear.resize(3, size());
   for (int i = 0; i < size(); ++i) {
-    out.angular.col(i) = vector(tip_of.angular[i]);
-    out.linear.col(i) = vector(tip_of.linear[i]);
+    out.angular.col(i) = math::vector(tip_of.angular[i]);
+    out.linear.col(i) = math::vector(tip_of.linear[i]);
   }
-  out.angular_bias = vector(tip_of.angular_bias);
-  out.linear_bias = vector(tip_of.linear_bias);
+  out.angular_bias = math::vector(tip_of.angular_bias);
+  out.linear_bias = math::vector(tip_of.linear_bias);
   out.condensed_force.setZero(size());
   if (tip_of.condensed) {
     for (int i = 0; i < size(); ++i) out.condensed_force[i] = tip_of.condensed_force[i];
@@ -38,12 +38,12 @@ double ShapeModel::condensed_energy(const StrainVector&) const { return 0.0; }
 bool ShapeModel::rechart(StrainVector&, StrainVector&) const { return false; }
 
 std::shared_ptr<const ShapeModel> make_shape_model(const std::string& name, double length) {
-  check_number("fork", "length", length, positive());
+  validation::check_number("fork", "length", length, validation::positive());
   if (name == "constant") return std::make_shared<StrainRod>(name, length, 1);
   if (name == "linear") return std::make_shared<StrainRod>(name, length, 2);
   if (name == "quadratic") return std::make_shared<QuadraticRod>(length, PerFamily());
   if (name == "bushing") return std::make_shared<Bushing>(length);
-  refuse("fork", "shape", name, "one of " + join(shape_model_names()));
+  validation::refuse("fork", "shape", name, "one of " + validation::join(shape_model_names()));
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

@@ -7,7 +7,7 @@
 #include "piece_rotation.h"
 #include "spring_workbench/math/quadrature.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 namespace {
 
 constexpr int most_nodes = 8;            ///< of the quadrature on a piece
@@ -18,8 +18,8 @@ constexpr double most_turned = 64.0;     ///< [rad]; a rod wound up further is r
 constexpr double least_stretch = 0.02;   ///< of the rest length; a rod compressed further is refused
 
 template <int nodes>
-const GaussLegendre<nodes>& rule() {
-  static const GaussLegendre<nodes> gauss;
+const math::GaussLegendre<nodes>& rule() {
+  static const math::GaussLegendre<nodes> gauss;
   return gauss;
 }
 
@@ -43,20 +43,20 @@ StrainVector StrainRod::stiffness(const PerFamily& k) const {
 
 template <typename S>
 SPRING_WORKBENCH_INLINE StrainRod::LinearStrain<S> StrainRod::curvature(const S* q) const {
-  if (bend_terms_ == 1) return {{q[0], q[1], q[2]}, none<S>()};
+  if (bend_terms_ == 1) return {{q[0], q[1], q[2]}, math::none<S>()};
   const double per_length = 2.0 / length();
   return {{q[0], q[2], q[4]}, {per_length * q[1], per_length * q[3], S{}}};
 }
 
 template <typename S>
 SPRING_WORKBENCH_INLINE double StrainRod::turned_angle(const LinearStrain<S>& k) const {
-  return length() *
-         (std::sqrt(largest(dot(k.value, k.value))) + 0.5 * length() * std::sqrt(largest(dot(k.slope, k.slope))));
+  return length() * (std::sqrt(math::largest(dot(k.value, k.value))) +
+                     0.5 * length() * std::sqrt(math::largest(dot(k.slope, k.slope))));
 }
 
 template <typename S>
 SPRING_WORKBENCH_INLINE double StrainRod::wave(const LinearStrain<S>& k, double angle) const {
-  return std::sqrt(angle * angle + 4.0 * length() * length() * std::sqrt(largest(dot(k.slope, k.slope))));
+  return std::sqrt(angle * angle + 4.0 * length() * length() * std::sqrt(math::largest(dot(k.slope, k.slope))));
 }
 
 int StrainRod::pieces(double angle) const {  // of NaN the most, as of what is too large
@@ -69,21 +69,21 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   const LinearStrain<S> k = curvature(q), k_dot = curvature(q_dot);
   const S stretched = 1.0 + q[stretch().begin], stretching = q_dot[stretch().begin];
   const double h = length() / count;
-  const GaussLegendre<nodes>& gauss = rule<nodes>();
-  const Three<S> zero = none<S>();
+  const math::GaussLegendre<nodes>& gauss = rule<nodes>();
+  const math::Three<S> zero = math::none<S>();
 
   // Integrals from the handle to the start of the piece, then to the tip. Velocities in the axes of H.
   QuaternionOf<S> turned{zero, S{} + 1.0};
-  Three<S> p = zero;  // ∫ d3 (position at unit stretch)
-  Three<S> w = zero;  // ∫ R k̇
+  math::Three<S> p = zero;  // ∫ d3 (position at unit stretch)
+  math::Three<S> w = zero;  // ∫ R k̇
   // Moments about the handle; they are shifted to the tip at the end: ∫ f × (p_tip − p) = (∫ f) × p_tip − ∫ f × p.
   // For d1 and d2, then the same times σ = −1 … 1 along the rod, then d3.
-  Three<S> f[5] = {zero, zero, zero, zero, zero};          // ∫ P_j R e
-  Three<S> f_cross_p[5] = {zero, zero, zero, zero, zero};  // ∫ P_j R e × p
-  Three<S> bias = zero;                                    // ∫ w × R k̇
-  Three<S> bias_cross_p = zero;                            // ∫ (w × R k̇) × p
-  Three<S> centripetal = zero;                             // ∫ w × (w × d3)
-  Three<S> coriolis = zero;                                // ∫ w × d3
+  math::Three<S> f[5] = {zero, zero, zero, zero, zero};          // ∫ P_j R e
+  math::Three<S> f_cross_p[5] = {zero, zero, zero, zero, zero};  // ∫ P_j R e × p
+  math::Three<S> bias = zero;                                    // ∫ w × R k̇
+  math::Three<S> bias_cross_p = zero;                            // ∫ (w × R k̇) × p
+  math::Three<S> centripetal = zero;                             // ∫ w × (w × d3)
+  math::Three<S> coriolis = zero;                                // ∫ w × d3
 
   for (int piece = 0; piece < count; ++piece) {
     const double s_begin = piece * h;
@@ -91,23 +91,23 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
         {h * (k.value + (s_begin + 0.5 * h - 0.5 * length()) * k.slope), (h * h) * k.slope}, angle / count);
     const auto ends = rotation.at(0.5);
     const QuaternionOf<S> to_middle = turned * conjugate(ends.before);
-    ThreeByThree<S> R[nodes];
+    math::ThreeByThree<S> R[nodes];
     for (int i = 0; i < (nodes + 1) / 2; ++i) {
       const auto both = rotation.at(0.5 - gauss.nodes[i]);
       R[i] = rotation_matrix(to_middle * both.before);
       R[nodes - 1 - i] = rotation_matrix(to_middle * both.after);
     }
     turned = to_middle * ends.after;
-    Three<S> rates[nodes];
+    math::Three<S> rates[nodes];
     for (int i = 0; i < nodes; ++i) {
       rates[i] = R[i] * (k_dot.value + (s_begin + gauss.nodes[i] * h - 0.5 * length()) * k_dot.slope);
     }
 
-    Three<S> p_rise = zero, w_rise = zero;
+    math::Three<S> p_rise = zero, w_rise = zero;
     for (int i = 0; i < nodes; ++i) {
       const double weight = h * gauss.weights[i];
       const double sigma = 2.0 * (s_begin + gauss.nodes[i] * h) / length() - 1.0;
-      Three<S> p_i = p, w_i = w;
+      math::Three<S> p_i = p, w_i = w;
       for (int j = 0; j < nodes; ++j) {
         const double part = h * gauss.cumulative(i, j);
         p_i += part * R[j].z;
@@ -115,8 +115,8 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
       }
       p_rise += weight * R[i].z;
       w_rise += weight * rates[i];
-      const Three<S> d1 = weight * R[i].x, d2 = weight * R[i].y, d3 = weight * R[i].z;
-      const Three<S> m1 = cross(d1, p_i), m2 = cross(d2, p_i);
+      const math::Three<S> d1 = weight * R[i].x, d2 = weight * R[i].y, d3 = weight * R[i].z;
+      const math::Three<S> m1 = cross(d1, p_i), m2 = cross(d2, p_i);
       f[0] += d1;
       f[1] += d2;
       f_cross_p[0] += m1;
@@ -129,10 +129,10 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
       }
       f[4] += d3;
       f_cross_p[4] += cross(d3, p_i);
-      const Three<S> turning = weight * cross(w_i, rates[i]);
+      const math::Three<S> turning = weight * cross(w_i, rates[i]);
       bias += turning;
       bias_cross_p += cross(turning, p_i);
-      const Three<S> w_cross_d3 = cross(w_i, d3);
+      const math::Three<S> w_cross_d3 = cross(w_i, d3);
       coriolis += w_cross_d3;
       centripetal += cross(w_i, w_cross_d3);
     }
@@ -168,10 +168,10 @@ SPRING_WORKBENCH_INLINE void StrainRod::tip_of(const S* q, const S* q_dot, TipOf
 }
 
 void StrainRod::tip(const double* q, const double* q_dot, TipOf<double>& out) const { tip_of(q, q_dot, out); }
-SPRING_WORKBENCH_WIDE void StrainRod::tips(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const {
+SPRING_WORKBENCH_WIDE void StrainRod::tips(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const {
   tip_of(q, q_dot, out);
 }
-void StrainRod::tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const { tips(q, q_dot, out); }
+void StrainRod::tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const { tips(q, q_dot, out); }
 
 double StrainRod::extension(const StrainVector& q) const { return q[stretch().begin] * length(); }
 
@@ -179,12 +179,12 @@ double StrainRod::twist(const StrainVector& q) const { return q[torsion().begin]
 
 RigidTransform StrainRod::section(const StrainVector& q, double s) const {
   const LinearStrain<double> k = curvature(q.data());
-  const GaussLegendre<most_nodes>& gauss = rule<most_nodes>();
+  const math::GaussLegendre<most_nodes>& gauss = rule<most_nodes>();
   const double angle = turned_angle(k) * s / length();
   const int count = pieces(angle);
   const double h = s / count;
-  QuaternionOf<double> turned{none<double>(), 1.0};
-  Three<double> p = none<double>();
+  QuaternionOf<double> turned{math::none<double>(), 1.0};
+  math::Three<double> p = math::none<double>();
   for (int piece = 0; piece < count; ++piece) {
     const PieceRotation<1, double> rotation(
         {h * (k.value + ((piece + 0.5) * h - 0.5 * length()) * k.slope), (h * h) * k.slope}, angle / count);
@@ -205,4 +205,4 @@ bool StrainRod::admissible(const StrainVector& q) const {
   return q.allFinite() && 1.0 + q[stretch().begin] > least_stretch && turned_angle(curvature(q.data())) < most_turned;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

@@ -2,7 +2,7 @@
 
 #include "spring_workbench/rod/shape_model.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 
 /// The rod of doc/model.md with curvatures of `bend_terms` shifted Legendre polynomials each (1: constant, 2: linear),
 /// constant twist rate and axial strain. q = (κx terms, κy terms, twist rate, axial strain) [1/m, 1/m, rad/m, –].
@@ -16,7 +16,7 @@ class StrainRod final : public ShapeModel {
   StrainVector stiffness(const PerFamily& k) const override;
   using ShapeModel::tip;
   void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
-  void tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const override;
+  void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const override;
   double extension(const StrainVector& q) const override;
   double twist(const StrainVector& q) const override;
   RigidTransform section(const StrainVector& q, double s) const override;
@@ -26,7 +26,7 @@ class StrainRod final : public ShapeModel {
   /// Strain of the rod along its length: `value + slope (s − L/2)`.
   template <typename S>
   struct LinearStrain {
-    Three<S> value, slope;
+    math::Three<S> value, slope;
   };
   template <typename S>
   LinearStrain<S> curvature(const S* q) const;
@@ -40,7 +40,7 @@ class StrainRod final : public ShapeModel {
   double wave(const LinearStrain<S>& k, double angle) const;
   template <typename S>
   void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
-  void tips(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const;
+  void tips(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const;
   /// The tip by `count` pieces of the rod with so many nodes each; `angle`: as turned_angle().
   template <int nodes, typename S>
   void integrate(const S* q, const S* q_dot, int count, double angle, TipOf<S>& out) const;
@@ -50,4 +50,4 @@ class StrainRod final : public ShapeModel {
   int bend_terms_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

@@ -5,7 +5,7 @@
 #include "piece_rotation.h"
 #include "spring_workbench/math/quadrature.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 namespace {
 
 constexpr double angle_per_piece = 2.5;  ///< [rad]; the quadrature is exact to 1e-10 there
@@ -17,8 +17,8 @@ using Columns = Eigen::Matrix<double, 3, ThreeTermRod::size>;
 
 constexpr int rule_nodes = 8;  ///< of the quadrature on a piece
 
-const GaussLegendre<rule_nodes>& rule() {
-  static const GaussLegendre<rule_nodes> gauss;
+const math::GaussLegendre<rule_nodes>& rule() {
+  static const math::GaussLegendre<rule_nodes> gauss;
   return gauss;
 }
 
@@ -37,9 +37,9 @@ double legendre2(double sigma) { return 1.5 * sigma * sigma - 0.5; }
 PieceRotation<2, double> piece_rotation(const Strain& x, double s, double h) {
   const Vector3d mean(x[0], x[2], x[4]), first(x[1], x[3], 0.0), second(x[6], x[7], 0.0);
   const double sigma = 2.0 * s - 1.0;
-  return PieceRotation<2, double>({three(h * (mean + sigma * first + legendre2(sigma) * second)),
-                                   three(2.0 * h * h * (first + 3.0 * sigma * second)),
-                                   three(6.0 * h * h * h * second)});
+  return PieceRotation<2, double>({math::three(h * (mean + sigma * first + legendre2(sigma) * second)),
+                                   math::three(2.0 * h * h * (first + 3.0 * sigma * second)),
+                                   math::three(6.0 * h * h * h * second)});
 }
 
 /// Attitude at the nodes and, returned, at the end of a piece that starts at `begin`.
@@ -49,8 +49,8 @@ QuaternionOf<double> turned_at_nodes(const PieceRotation<2, double>& rotation, c
   const QuaternionOf<double> to_middle = begin * conjugate(ends.before);
   for (int i = 0; i < rule_nodes / 2; ++i) {
     const auto both = rotation.at(0.5 - rule().nodes[i]);
-    R[i] = matrix(rotation_matrix(to_middle * both.before), 0);
-    R[rule_nodes - 1 - i] = matrix(rotation_matrix(to_middle * both.after), 0);
+    R[i] = math::matrix(rotation_matrix(to_middle * both.before), 0);
+    R[rule_nodes - 1 - i] = math::matrix(rotation_matrix(to_middle * both.after), 0);
   }
   return to_middle * ends.after;
 }
@@ -69,7 +69,7 @@ Columns turning(const Matrix3d& R, double s) {
 RigidTransform ThreeTermRod::section(const Strain& x, double s) {
   const int count = pieces(turned_angle(x) * s);
   const double h = s / count;
-  QuaternionOf<double> turned{none<double>(), 1.0};
+  QuaternionOf<double> turned{math::none<double>(), 1.0};
   Vector3d p = Vector3d::Zero();
   for (int piece = 0; piece < count; ++piece) {
     Matrix3d R[nodes_per_piece];
@@ -86,7 +86,7 @@ bool ThreeTermRod::admissible(const Strain& x) {
 
 ThreeTermRod::ThreeTermRod(const Strain& x) : stretched_(1.0 + x[stretch]), pieces_(pieces(turned_angle(x))) {
   const double h = 1.0 / pieces_;
-  QuaternionOf<double> turned{none<double>(), 1.0};
+  QuaternionOf<double> turned{math::none<double>(), 1.0};
   Vector3d p = Vector3d::Zero();
   // Moments about the origin, shifted to the tip at the end: ∫ c × (p_tip − p) = (∫ c) × p_tip − ∫ c × p.
   Columns c_sum = Columns::Zero(), c_cross_p = Columns::Zero();
@@ -106,7 +106,7 @@ ThreeTermRod::ThreeTermRod(const Strain& x) : stretched_(1.0 + x[stretch]), piec
     }
     p = p_end;
   }
-  R_ = matrix(rotation_matrix(normalised(turned)), 0);
+  R_ = math::matrix(rotation_matrix(normalised(turned)), 0);
   p_ = stretched_ * p;
   for (int v = 0; v < size; ++v) J_.col(v) << stretched_ * (c_sum.col(v).cross(p) - c_cross_p.col(v)), c_sum.col(v);
   J_.col(stretch) << p, Vector3d::Zero();
@@ -149,4 +149,4 @@ ThreeTermRod::Matrix ThreeTermRod::load_stiffness(const Vector6& wrench) const {
   return H;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

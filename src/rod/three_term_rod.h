@@ -2,7 +2,7 @@
 
 #include "spring_workbench/math/rigid_transform.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 
 /// A rod of length 1 with three Legendre terms of curvature in each plane, clamped at the origin along z; nothing
 /// condensed. Strain x = (κx₀, κx₁, κy₀, κy₁, τ, ε, κx₂, κy₂).
@@ -47,4 +47,4 @@ class ThreeTermRod {
   Jacobian J_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

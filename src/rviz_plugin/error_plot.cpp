@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 namespace {
 
 constexpr double kept_for = 10.0;  // [s]
@@ -71,4 +71,4 @@ void ErrorPlot::paintEvent(QPaintEvent*) {
   }
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin

@@ -3,7 +3,7 @@
 #include <QWidget>
 #include <deque>
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 
 /// Local error estimate [m] against wall time [s] of the cycles of the last seconds, both logarithmic; newer is
 /// brighter.
@@ -29,4 +29,4 @@ class ErrorPlot : public QWidget {
   double now_ = 0.0;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin

@@ -16,9 +16,9 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 namespace {
 
 using rviz::StatusProperty;
@@ -58,7 +58,7 @@ bool is_finite(const geometry_msgs::Pose& pose) {
 
 }  // namespace
 
-ForkDisplay::ForkDisplay() : model_(ForkLook()) {
+ForkDisplay::ForkDisplay() : model_(fork_mesh::ForkLook()) {
   topic_ = new rviz::RosTopicProperty("Topic", "/manipulation/fork",
                                       QString::fromStdString(ros::message_traits::datatype<ForkState>()),
                                       "The state of the fork, ~fork of manipulation.", this, SLOT(subscribe()), this);
@@ -142,19 +142,19 @@ bool ForkDisplay::place(const ForkState& fork) {
 
 bool ForkDisplay::deform(const ForkState& fork) {
   try {
-    const auto shape = make_shape_model(fork.shape, fork.length);
-    const StrainVector q = Eigen::Map<const Eigen::VectorXd>(
+    const auto shape = rod::make_shape_model(fork.shape, fork.length);
+    const rod::StrainVector q = Eigen::Map<const Eigen::VectorXd>(
         fork.strain.data(),
-        std::min<Eigen::Index>(static_cast<Eigen::Index>(fork.strain.size()), max_strain_coordinates));
+        std::min<Eigen::Index>(static_cast<Eigen::Index>(fork.strain.size()), rod::max_strain_coordinates));
     if (q.size() != shape->size() || !shape->admissible(q) || !is_finite(fork.handle_seen)) {
-      throw InputError("strain: must be what a rod of shape " + fork.shape + " can have");
+      throw validation::InputError("strain: must be what a rod of shape " + fork.shape + " can have");
     }
     const auto& p = fork.handle_seen.position;
     const auto& r = fork.handle_seen.orientation;
     const RigidTransform X_WH = make_transform(Quaterniond(r.w, r.x, r.y, r.z), Vector3d(p.x, p.y, p.z));
-    model_.deform(rod_curve(*shape, q, X_WH), coil_diameter(fork.length), mesh_);
+    model_.deform(fork_mesh::rod_curve(*shape, q, X_WH), fork_mesh::coil_diameter(fork.length), mesh_);
     return true;
-  } catch (const InputError& error) {
+  } catch (const validation::InputError& error) {
     setStatus(StatusProperty::Error, "Topic", error.what());
     return false;
   }
@@ -171,8 +171,8 @@ void ForkDisplay::draw(const ForkState& fork) {
   object_->setVisible(true);
 }
 
-void ForkDisplay::fill(unsigned int section, const ForkModel::Triangles& triangles, const Ogre::MaterialPtr& material,
-                       bool is_new) {
+void ForkDisplay::fill(unsigned int section, const fork_mesh::ForkModel::Triangles& triangles,
+                       const Ogre::MaterialPtr& material, bool is_new) {
   if (is_new) {
     object_->estimateVertexCount(mesh_.vertices.size());
     object_->estimateIndexCount(3 * triangles.size());
@@ -195,6 +195,6 @@ void ForkDisplay::hide() {
   if (object_) object_->setVisible(false);
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin
 
-PLUGINLIB_EXPORT_CLASS(spring_workbench::ForkDisplay, rviz::Display)
+PLUGINLIB_EXPORT_CLASS(spring_workbench::rviz_plugin::ForkDisplay, rviz::Display)

@@ -20,7 +20,7 @@ class FloatProperty;
 class RosTopicProperty;
 }  // namespace rviz
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 
 /// Draws the spring-fork from `ForkState` alone: the rod's curve from shape, length and strain, the mesh along it. At
 /// most once a frame of rviz; gone when no message has come for two seconds.
@@ -47,7 +47,7 @@ class ForkDisplay : public rviz::Display {
   bool place(const ForkState& fork);
   bool deform(const ForkState& fork);
   void draw(const ForkState& fork);
-  void fill(unsigned int section, const ForkModel::Triangles& triangles, const Ogre::MaterialPtr& material,
+  void fill(unsigned int section, const fork_mesh::ForkModel::Triangles& triangles, const Ogre::MaterialPtr& material,
             bool is_new);
   void hide();
 
@@ -57,10 +57,10 @@ class ForkDisplay : public rviz::Display {
   std::shared_ptr<MasterWatch> master_;
   ForkStateConstPtr newest_;  ///< not yet drawn
   double silence_ = 0.0;      ///< since the newest message [s]
-  ForkModel model_;
-  ForkMesh mesh_;
+  fork_mesh::ForkModel model_;
+  fork_mesh::ForkMesh mesh_;
   Ogre::ManualObject* object_ = nullptr;
   Ogre::MaterialPtr spring_material_, rigid_material_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin

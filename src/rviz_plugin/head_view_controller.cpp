@@ -9,7 +9,7 @@
 
 #include <pluginlib/class_list_macros.hpp>
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 
 HeadViewController::HeadViewController() {
   frame_ =
@@ -34,6 +34,6 @@ void HeadViewController::update(float, float) {
 #pragma GCC diagnostic pop
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin
 
-PLUGINLIB_EXPORT_CLASS(spring_workbench::HeadViewController, rviz::ViewController)
+PLUGINLIB_EXPORT_CLASS(spring_workbench::rviz_plugin::HeadViewController, rviz::ViewController)

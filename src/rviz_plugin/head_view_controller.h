@@ -8,7 +8,7 @@ namespace rviz {
 class TfFrameProperty;
 }
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 
 /// The view from the tracked head: the camera is in the frame `head`, looking along its x axis, z up. Stays where it is
 /// while the frame is not there.
@@ -27,4 +27,4 @@ class HeadViewController : public rviz::ViewController {
   rviz::TfFrameProperty* frame_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin

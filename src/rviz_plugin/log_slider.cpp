@@ -7,7 +7,7 @@
 #include <chrono>
 #include <cmath>
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 namespace {
 
 constexpr int positions = 1000;
@@ -53,4 +53,4 @@ void LogSlider::on_moved(int position) {
 
 void LogSlider::write() { label_->setText(QString::number(value_, 'g', 3) + " " + unit_); }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin

@@ -6,7 +6,7 @@
 class QLabel;
 class QSlider;
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 
 /// A slider with a logarithmic scale and its value beside it. Follows `show` but while a hand is on it, and for a
 /// moment after.
@@ -40,4 +40,4 @@ class LogSlider : public QWidget {
 /// Seconds on a clock that does not go back.
 double panel_time();
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin

@@ -9,7 +9,7 @@
 #include <chrono>
 #include <string>
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 namespace {
 
 using XmlRpc::XmlRpcValue;
@@ -92,4 +92,4 @@ void MasterWatch::run() {
   }
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin

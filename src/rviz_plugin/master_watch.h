@@ -4,7 +4,7 @@
 #include <memory>
 #include <thread>
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 
 /// Makes this process known to a ROS master that was restarted: roscpp registers topics once, with the master that is
 /// there then. Looks once a second, in a thread of its own.
@@ -22,4 +22,4 @@ class MasterWatch {
   std::thread thread_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin

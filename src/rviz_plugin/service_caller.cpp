@@ -1,6 +1,6 @@
 #include "service_caller.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 
 ServiceCaller::ServiceCaller(std::function<void(const std::string&)> tell)
     : tell_(std::move(tell)), thread_([this] { run(); }) {}
@@ -48,4 +48,4 @@ void ServiceCaller::run() {
   }
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin

@@ -12,7 +12,7 @@
 #include <thread>
 #include <utility>
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 
 /// Calls services in a thread of its own, so that nobody waits for a node that is gone or stopped. Of calls with the
 /// same key that wait, only the newest is made.
@@ -53,4 +53,4 @@ class ServiceCaller {
   std::thread thread_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin

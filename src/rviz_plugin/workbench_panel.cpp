@@ -27,7 +27,7 @@
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/tools/tool.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 namespace {
 
 const std::string node = "/manipulation/";
@@ -100,9 +100,9 @@ void WorkbenchPanel::make_families(QVBoxLayout* layout) {
 void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
   auto* grid = new QGridLayout;
   integrator_ = new QComboBox(this);
-  for (const std::string& name : integrator_names()) integrator_->addItem(QString::fromStdString(name));
+  for (const std::string& name : dynamics::integrator_names()) integrator_->addItem(QString::fromStdString(name));
   tool_ = new QComboBox(this);
-  for (const std::string& name : tool_names()) tool_->addItem(QString::fromStdString(name));
+  for (const std::string& name : tools::tool_names()) tool_->addItem(QString::fromStdString(name));
   held_ = new QLabel(this);
   held_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // the panel keeps its width whatever is held
   scene_ = new QLineEdit("package://spring_workbench/scenes/mini_world.urdf", this);
@@ -273,6 +273,6 @@ void WorkbenchPanel::trigger(const std::string& service) {
   services_.call<std_srvs::Trigger>(service, service, std_srvs::Trigger::Request());
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin
 
-PLUGINLIB_EXPORT_CLASS(spring_workbench::WorkbenchPanel, rviz::Panel)
+PLUGINLIB_EXPORT_CLASS(spring_workbench::rviz_plugin::WorkbenchPanel, rviz::Panel)

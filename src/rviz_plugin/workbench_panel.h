@@ -22,7 +22,7 @@ class QLineEdit;
 class QPushButton;
 class QVBoxLayout;
 
-namespace spring_workbench {
+namespace spring_workbench::rviz_plugin {
 
 class ErrorPlot;
 class LogSlider;
@@ -83,4 +83,4 @@ class WorkbenchPanel : public rviz::Panel {
   ServiceCaller services_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rviz_plugin

@@ -6,10 +6,10 @@
 #include <sstream>
 
 #include "mesh_file.h"
-#include "spring_workbench/config/yaml_fields.h"
-#include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 namespace {
 
 /// Inertia of a point of mass `mass` at `p`, about the origin.
@@ -17,12 +17,13 @@ Matrix3d point_inertia(double mass, const Vector3d& p) {
   return mass * (p.squaredNorm() * Matrix3d::Identity() - p * p.transpose());
 }
 
-RigidMass shape_mass(const Shape& shape, double density, const std::string& where, std::vector<std::string>& warnings) {
-  VolumeProperties volume = volume_properties(shape.geometry);
-  const MeshPtr* mesh = std::get_if<MeshPtr>(&shape.geometry);
+RigidMass shape_mass(const geometry::Shape& shape, double density, const std::string& where,
+                     std::vector<std::string>& warnings) {
+  geometry::VolumeProperties volume = geometry::volume_properties(shape.geometry);
+  const geometry::MeshPtr* mesh = std::get_if<geometry::MeshPtr>(&shape.geometry);
   if (mesh != nullptr && !is_closed(**mesh)) {
-    const Eigen::AlignedBox3d box = bounding_box(shape.geometry);
-    volume = volume_properties(Box{box.sizes()});
+    const Eigen::AlignedBox3d box = geometry::bounding_box(shape.geometry);
+    volume = geometry::volume_properties(geometry::Box{box.sizes()});
     volume.centre = box.center();
     warnings.push_back(where + ": mesh " + (*mesh)->uri + " is not closed: its bounding box's volume is taken");
   }
@@ -30,11 +31,10 @@ RigidMass shape_mass(const Shape& shape, double density, const std::string& wher
 }
 
 /// Largest distance of a point of the shapes from `centre`.
-double farthest_point(const std::vector<Shape>& shapes, const Vector3d& centre) {
-  Body body;
-  body.collision = shapes;
-  for (Shape& shape : body.collision) shape.X_OS.pretranslate(-centre);
-  return bounding_radius(body);
+double farthest_point(const std::vector<geometry::Shape>& shapes, const Vector3d& centre) {
+  std::vector<geometry::Shape> about_centre = shapes;
+  for (geometry::Shape& shape : about_centre) shape.X_OS.pretranslate(-centre);
+  return geometry::bounding_radius(about_centre);
 }
 
 std::string number(double value) {
@@ -58,14 +58,14 @@ RigidMass sum(const RigidMass& a, const RigidMass& b) {
           a.inertia + b.inertia + point_inertia(a.mass, a.centre - centre) + point_inertia(b.mass, b.centre - centre)};
 }
 
-RigidMass solid_mass(const std::vector<Shape>& shapes, double density, const std::string& where,
+RigidMass solid_mass(const std::vector<geometry::Shape>& shapes, double density, const std::string& where,
                      std::vector<std::string>& warnings) {
   RigidMass total;
-  for (const Shape& shape : shapes) total = sum(total, shape_mass(shape, density, where, warnings));
+  for (const geometry::Shape& shape : shapes) total = sum(total, shape_mass(shape, density, where, warnings));
   return total;
 }
 
-std::string inertia_defect(const RigidMass& mass, const std::vector<Shape>& shapes) {
+std::string inertia_defect(const RigidMass& mass, const std::vector<geometry::Shape>& shapes) {
   const Vector3d moments = Eigen::SelfAdjointEigenSolver<Matrix3d>(mass.inertia, Eigen::EigenvaluesOnly).eigenvalues();
   constexpr double rounding = 1e-6;  // of figures as people write them
   if (!(moments[0] > 1e-9 * moments[2])) return "is not positive definite";
@@ -78,19 +78,21 @@ std::string inertia_defect(const RigidMass& mass, const std::vector<Shape>& shap
   return "";
 }
 
-RigidMass mended_mass(const RigidMass& given, const std::vector<Shape>& shapes, double density,
+RigidMass mended_mass(const RigidMass& given, const std::vector<geometry::Shape>& shapes, double density,
                       const std::string& where, std::vector<std::string>& warnings) {
   if (!(given.mass > 0.0)) {
     const RigidMass solid = solid_mass(shapes, density, where, warnings);
-    if (!(solid.mass > 0.0)) refuse(where, "mass", "0", "> 0, or the movable body must have a shape with a volume");
+    if (!(solid.mass > 0.0))
+      validation::refuse(where, "mass", "0", "> 0, or the movable body must have a shape with a volume");
     return solid;
   }
   const std::string defect = inertia_defect(given, shapes);
   if (defect.empty()) return given;
   const RigidMass solid = solid_mass(shapes, density, where, warnings);
-  if (!(solid.mass > 0.0)) refuse(where, "inertia", "one that " + defect, "possible, or the body must have a shape");
+  if (!(solid.mass > 0.0))
+    validation::refuse(where, "inertia", "one that " + defect, "possible, or the body must have a shape");
   warnings.push_back(where + ": inertia " + defect + ": its shape's is taken");
   return {given.mass, given.centre, solid.inertia * (given.mass / solid.mass)};
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

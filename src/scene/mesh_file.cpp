@@ -7,10 +7,10 @@
 
 #include "mesh_reader.h"
 #include "package_path.h"
-#include "spring_workbench/config/yaml_fields.h"
-#include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,7 +23,7 @@ std::string package_file(const std::string& name, const std::string& where, cons
   const std::string rest = name.substr(std::string("package://").size());
   const std::string package = rest.substr(0, rest.find('/'));
   const std::string folder = find_package_in_ros_package_path(package);
-  if (folder.empty()) refuse(where, key, name, "in a package that can be found");
+  if (folder.empty()) validation::refuse(where, key, name, "in a package that can be found");
   return folder + rest.substr(package.size());
 }
 
@@ -51,7 +51,7 @@ struct LessByCoordinates {
 };
 
 /// Equal vertices become one; vertices of no triangle go.
-void merge_vertices(TriangleMesh& mesh) {
+void merge_vertices(geometry::TriangleMesh& mesh) {
   std::map<Vector3d, int, LessByCoordinates> index_of;
   std::vector<Vector3d> vertices;
   for (Eigen::Vector3i& t : mesh.triangles) {
@@ -65,21 +65,21 @@ void merge_vertices(TriangleMesh& mesh) {
   mesh.vertices = std::move(vertices);
 }
 
-void check_indices(const TriangleMesh& mesh, const std::string& where) {
+void check_indices(const geometry::TriangleMesh& mesh, const std::string& where) {
   const int count = static_cast<int>(mesh.vertices.size());
   for (const Eigen::Vector3i& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
       if (t[k] < 0 || t[k] >= count) {
-        refuse(where, "vertex index", std::to_string(t[k]), "below the number of vertices");
+        validation::refuse(where, "vertex index", std::to_string(t[k]), "below the number of vertices");
       }
       if (!mesh.vertices[static_cast<std::size_t>(t[k])].allFinite()) {
-        refuse(where, "vertex", "a number that is not finite", "finite");
+        validation::refuse(where, "vertex", "a number that is not finite", "finite");
       }
     }
   }
 }
 
-bool is_flat(const TriangleMesh& mesh, const Eigen::Vector3i& t) {
+bool is_flat(const geometry::TriangleMesh& mesh, const Eigen::Vector3i& t) {
   const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
   return (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() == 0.0;
 }
@@ -97,32 +97,33 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
     path = (fs::path(folder) / name).string();
   }
   std::error_code error;
-  if (!fs::is_regular_file(path, error)) refuse(where, key, name, "a file that is there (looked for " + path + ")");
+  if (!fs::is_regular_file(path, error))
+    validation::refuse(where, key, name, "a file that is there (looked for " + path + ")");
   if (!roots.empty() && !is_in_a_root(path, roots) && !is_in_a_package(path)) {
-    refuse(where, key, name, "in a ROS package or one of the folders " + join(roots));
+    validation::refuse(where, key, name, "in a ROS package or one of the folders " + validation::join(roots));
   }
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error || bytes > most_bytes) {
-    refuse(where, key, name, "a file of at most " + std::to_string(most_bytes >> 20) + " MiB");
+    validation::refuse(where, key, name, "a file of at most " + std::to_string(most_bytes >> 20) + " MiB");
   }
   return fs::absolute(path).lexically_normal().string();
 }
 
-TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& where) {
+geometry::TriangleMesh clean_mesh(geometry::TriangleMesh mesh, const std::string& where) {
   check_indices(mesh, where);
   mesh.triangles.erase(std::remove_if(mesh.triangles.begin(), mesh.triangles.end(),
                                       [&](const Eigen::Vector3i& t) { return is_flat(mesh, t); }),
                        mesh.triangles.end());
-  if (mesh.triangles.empty()) refuse(where, "triangles", "0", "at least one that is not flat");
+  if (mesh.triangles.empty()) validation::refuse(where, "triangles", "0", "at least one that is not flat");
   merge_vertices(mesh);
-  const MeshPtr view(&mesh, [](const TriangleMesh*) {});
-  if (volume_properties(view).volume < 0.0) {
+  const geometry::MeshPtr view(&mesh, [](const geometry::TriangleMesh*) {});
+  if (geometry::volume_properties(view).volume < 0.0) {
     for (Eigen::Vector3i& t : mesh.triangles) std::swap(t[1], t[2]);
   }
   return mesh;
 }
 
-bool is_closed(const TriangleMesh& mesh) {
+bool is_closed(const geometry::TriangleMesh& mesh) {
   std::multiset<std::pair<int, int>> open;  // directed edges that wait for their opposite
   for (const Eigen::Vector3i& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
@@ -138,24 +139,24 @@ bool is_closed(const TriangleMesh& mesh) {
   return open.empty();
 }
 
-MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale, const std::string& folder,
-                        const std::string& where) {
-  if (!scale.allFinite() || scale.prod() == 0.0) refuse(where, "mesh scale", name, "finite and not zero");
+geometry::MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale, const std::string& folder,
+                                  const std::string& where) {
+  if (!scale.allFinite() || scale.prod() == 0.0) validation::refuse(where, "mesh scale", name, "finite and not zero");
   const std::string path = resolve_file(name, folder, roots_, where, "mesh");
-  MeshPtr& mesh = meshes_[{path, scale.x(), scale.y(), scale.z()}];
+  geometry::MeshPtr& mesh = meshes_[{path, scale.x(), scale.y(), scale.z()}];
   if (mesh) return mesh;
   static const std::array<std::string, 3> formats = {".stl", ".obj", ".dae"};
   if (std::find(formats.begin(), formats.end(), lower_extension(path)) == formats.end()) {
-    refuse(where, "mesh", name, "an STL, OBJ or DAE file");
+    validation::refuse(where, "mesh", name, "an STL, OBJ or DAE file");
   }
   const std::string mesh_where = where + ": " + name;
-  TriangleMesh loaded = read_triangles(path, mesh_where);
+  geometry::TriangleMesh loaded = read_triangles(path, mesh_where);
   for (Vector3d& v : loaded.vertices) v = v.cwiseProduct(scale);
   loaded = clean_mesh(std::move(loaded), mesh_where);
   loaded.uri = starts_with(name, "package://") ? name : "file://" + path;
   loaded.scale = scale;
-  mesh = std::make_shared<const TriangleMesh>(std::move(loaded));
+  mesh = std::make_shared<const geometry::TriangleMesh>(std::move(loaded));
   return mesh;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

@@ -9,7 +9,7 @@
 
 #include "spring_workbench/scene/scene.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 
 /// The path that a file name in a scene means: `package://`, `file://`, absolute, or relative to `folder`.
 /// Throws InputError naming `where`, `key` and the name where there is no such file, it is neither in one of `roots`
@@ -22,10 +22,10 @@ constexpr std::uintmax_t most_bytes = 256u << 20;
 
 /// Makes a mesh fit for use: equal vertices become one, flat triangles go, a mesh that is inside out is turned.
 /// Throws InputError naming `where` for bad indices, values that are not finite, or no triangle left.
-TriangleMesh clean_mesh(TriangleMesh mesh, const std::string& where);
+geometry::TriangleMesh clean_mesh(geometry::TriangleMesh mesh, const std::string& where);
 
 /// Whether every edge has a triangle on both sides, in opposite directions: only then a mesh has a volume.
-bool is_closed(const TriangleMesh& mesh);
+bool is_closed(const geometry::TriangleMesh& mesh);
 
 /// Loads STL, OBJ and DAE files, each once.
 class MeshCache {
@@ -34,11 +34,12 @@ class MeshCache {
   explicit MeshCache(std::vector<std::string> roots) : roots_(std::move(roots)) {}
 
   /// The mesh called `name` in a URDF in `folder`, times `scale`. Throws InputError naming `where`.
-  MeshPtr load(const std::string& name, const Vector3d& scale, const std::string& folder, const std::string& where);
+  geometry::MeshPtr load(const std::string& name, const Vector3d& scale, const std::string& folder,
+                         const std::string& where);
 
  private:
   std::vector<std::string> roots_;
-  std::map<std::tuple<std::string, double, double, double>, MeshPtr> meshes_;
+  std::map<std::tuple<std::string, double, double, double>, geometry::MeshPtr> meshes_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

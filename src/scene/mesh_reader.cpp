@@ -8,13 +8,13 @@
 #include <assimp/Importer.hpp>
 #include <cstring>
 
-#include "spring_workbench/config/run_in_child.h"
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/validation/number_rule.h"
+#include "spring_workbench/validation/run_in_child.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 namespace {
 
-constexpr ChildLimits limits{30.0, std::uint64_t{2} << 30};
+constexpr validation::ChildLimits limits{30.0, std::uint64_t{2} << 30};
 constexpr char good = '+', bad = '-';
 
 /// Opens one file and nothing that it refers to, such as the materials of an OBJ file.
@@ -30,7 +30,7 @@ class OneFile : public Assimp::DefaultIOSystem {
   std::string path_;
 };
 
-void append(const aiMesh& part, const std::string& where, TriangleMesh& mesh) {
+void append(const aiMesh& part, const std::string& where, geometry::TriangleMesh& mesh) {
   const std::size_t first = mesh.vertices.size();
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     const aiVector3D& v = part.mVertices[i];
@@ -42,7 +42,7 @@ void append(const aiMesh& part, const std::string& where, TriangleMesh& mesh) {
     Eigen::Vector3i triangle;
     for (unsigned k = 0; k < 3; ++k) {
       if (face.mIndices[k] >= part.mNumVertices) {
-        refuse(where, "vertex index", std::to_string(face.mIndices[k]), "below the number of vertices");
+        validation::refuse(where, "vertex index", std::to_string(face.mIndices[k]), "below the number of vertices");
       }
       triangle[k] = static_cast<int>(first + face.mIndices[k]);
     }
@@ -50,18 +50,18 @@ void append(const aiMesh& part, const std::string& where, TriangleMesh& mesh) {
   }
 }
 
-TriangleMesh read(const std::string& path, const std::string& where) {
+geometry::TriangleMesh read(const std::string& path, const std::string& where) {
   Assimp::Importer importer;
   importer.SetIOHandler(new OneFile(path));  // which the importer then owns
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
-  if (scene == nullptr) refuse(where, "mesh", path, std::string("readable: ") + importer.GetErrorString());
+  if (scene == nullptr) validation::refuse(where, "mesh", path, std::string("readable: ") + importer.GetErrorString());
   std::size_t triangles = 0;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) triangles += scene->mMeshes[i]->mNumFaces;
   if (triangles > most_triangles) {
-    refuse(where, "triangles", std::to_string(triangles), "at most " + std::to_string(most_triangles));
+    validation::refuse(where, "triangles", std::to_string(triangles), "at most " + std::to_string(most_triangles));
   }
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) append(*scene->mMeshes[i], where, mesh);
   return mesh;
 }
@@ -86,25 +86,25 @@ const char* unpack(const char* data, std::vector<T>& rows) {
 /// What goes through the pipe: a mesh, or why there is none.
 std::string read_in_child(const std::string& path, const std::string& where) {
   try {
-    const TriangleMesh mesh = read(path, where);
+    const geometry::TriangleMesh mesh = read(path, where);
     std::string data(1, good);
     pack(mesh.vertices, data);
     pack(mesh.triangles, data);
     return data;
-  } catch (const InputError& refusal) {
+  } catch (const validation::InputError& refusal) {
     return bad + std::string(refusal.what());
   }
 }
 
 }  // namespace
 
-TriangleMesh read_triangles(const std::string& path, const std::string& where) {
-  const std::optional<std::string> data = run_in_child([&] { return read_in_child(path, where); }, limits);
-  if (!data) refuse(where, "mesh", path, "readable within 30 s and 2 GiB");
-  if (data->front() == bad) throw InputError(data->substr(1));
-  TriangleMesh mesh;
+geometry::TriangleMesh read_triangles(const std::string& path, const std::string& where) {
+  const std::optional<std::string> data = validation::run_in_child([&] { return read_in_child(path, where); }, limits);
+  if (!data) validation::refuse(where, "mesh", path, "readable within 30 s and 2 GiB");
+  if (data->front() == bad) throw validation::InputError(data->substr(1));
+  geometry::TriangleMesh mesh;
   unpack(unpack(data->data() + 1, mesh.vertices), mesh.triangles);
   return mesh;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

@@ -8,7 +8,7 @@
 
 #include "spring_workbench/scene/scene.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 namespace {
 
 namespace fs = std::filesystem;
@@ -66,4 +66,4 @@ bool is_in_a_package(const fs::path& path) {
   return false;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

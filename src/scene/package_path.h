@@ -2,9 +2,9 @@
 
 #include <filesystem>
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 
 /// Whether a file that is there lies, links followed, in a package that find_package_in_ros_package_path() finds.
 bool is_in_a_package(const std::filesystem::path& path);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

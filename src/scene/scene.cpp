@@ -6,11 +6,11 @@
 #include "mesh_file.h"
 #include "scene_file.h"
 #include "spring_workbench/config/yaml_fields.h"
-#include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/geometry/shape_queries.h"
 #include "urdf_bodies.h"
 #include "urdf_file.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 namespace {
 
 namespace fs = std::filesystem;
@@ -23,8 +23,8 @@ std::vector<std::string> body_names(const Scene& scene) {
 
 double lowest_point(const Body& body) {
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Shape& shape : body.collision.empty() ? body.visual : body.collision) {
-    lowest = std::min(lowest, bounding_box(shape.geometry, body.X_WO * shape.X_OS).min().z());
+  for (const geometry::Shape& shape : body.collision.empty() ? body.visual : body.collision) {
+    lowest = std::min(lowest, geometry::bounding_box(shape.geometry, body.X_WO * shape.X_OS).min().z());
   }
   return lowest;
 }
@@ -88,9 +88,11 @@ class SceneLoader {
     std::vector<Body> bodies =
         build_bodies(urdf, entry.X_WL.value_or(RigidTransform::Identity()), material, meshes_, scene_.warnings);
     if (bodies.size() != 1 || is_bench_scene(urdf)) {
-      refuse(entry.where, key, *entry.urdf, "the URDF of one object (one body, root not world or workbench)");
+      validation::refuse(entry.where, key, *entry.urdf,
+                         "the URDF of one object (one body, root not world or workbench)");
     }
-    if (find_body(scene_, name)) refuse(entry.where, "objects." + name, name, "a name that is not in the scene's URDF");
+    if (find_body(scene_, name))
+      validation::refuse(entry.where, "objects." + name, name, "a name that is not in the scene's URDF");
     if (!entry.X_WL) lay_on_bench(scene_.bench_height, bodies);
     bodies.front().name = name;
     scene_.bodies.push_back(std::move(bodies.front()));
@@ -98,13 +100,13 @@ class SceneLoader {
 
   /// What the YAML says of bodies must fit the bodies that there are.
   void check_names() const {
-    const std::string rule = "a body of the scene: " + join(body_names(scene_));
+    const std::string rule = "a body of the scene: " + validation::join(body_names(scene_));
     for (const auto& [name, entry] : file_.objects) {
-      if (!find_body(scene_, name)) refuse(entry.where, "objects", name, rule);
+      if (!find_body(scene_, name)) validation::refuse(entry.where, "objects", name, rule);
     }
     for (const auto& [name, where] : file_.targets) {
       const auto body = find_body(scene_, name);
-      if (!body || !scene_.bodies[*body].movable) refuse(where, "targets", name, "movable and " + rule);
+      if (!body || !scene_.bodies[*body].movable) validation::refuse(where, "targets", name, "movable and " + rule);
     }
   }
 
@@ -129,4 +131,4 @@ std::optional<std::size_t> find_body(const Scene& scene, const std::string& name
   return static_cast<std::size_t>(body - scene.bodies.begin());
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

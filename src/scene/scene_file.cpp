@@ -2,7 +2,7 @@
 
 #include "spring_workbench/config/yaml_fields.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 namespace {
 
 const std::vector<std::string> material_keys = {"friction", "restitution", "density", "material_stiffness"};
@@ -12,14 +12,14 @@ std::string line_of(const YAML::Node& node, const std::string& path) {
 }
 
 void read_material(const YAML::Node& map, const std::string& path, const std::string& prefix, Material& material) {
-  const auto number = [&](const std::string& key, const NumberRule& rule, double& value) {
-    if (map[key].IsDefined()) value = read_number(map[key], path, prefix + key, rule);
+  const auto number = [&](const std::string& key, const validation::NumberRule& rule, double& value) {
+    if (map[key].IsDefined()) value = config::read_number(map[key], path, prefix + key, rule);
   };
-  NumberRule stiffness = positive();
+  validation::NumberRule stiffness = validation::positive();
   stiffness.infinity_allowed = true;
-  number("friction", not_negative(), material.friction);
-  number("restitution", between(0.0, 1.0), material.restitution);
-  number("density", positive(), material.density);
+  number("friction", validation::not_negative(), material.friction);
+  number("restitution", validation::between(0.0, 1.0), material.restitution);
+  number("density", validation::positive(), material.density);
   number("material_stiffness", stiffness, material.stiffness);
 }
 
@@ -27,26 +27,27 @@ ObjectEntry read_object(const YAML::Node& map, const std::string& path, const st
                         const Material& defaults) {
   std::vector<std::string> keys = material_keys;
   keys.insert(keys.end(), {"urdf", "pose", "massless"});
-  check_keys(map, path, prefix, keys);
+  config::check_keys(map, path, prefix, keys);
   ObjectEntry entry;
   entry.where = line_of(map, path);
   entry.material = defaults;
   read_material(map, path, prefix, entry.material);
-  if (map["massless"].IsDefined()) entry.massless = read_bool(map["massless"], path, prefix + "massless");
-  if (map["urdf"].IsDefined()) entry.urdf = read_string(map["urdf"], path, prefix + "urdf");
+  if (map["massless"].IsDefined()) entry.massless = config::read_bool(map["massless"], path, prefix + "massless");
+  if (map["urdf"].IsDefined()) entry.urdf = config::read_string(map["urdf"], path, prefix + "urdf");
   if (map["pose"].IsDefined()) {
-    if (!entry.urdf) refuse(line_of(map["pose"], path), prefix + "pose", "without urdf", "given in the scene's URDF");
-    entry.X_WL = read_pose(map["pose"], path, prefix + "pose");
+    if (!entry.urdf)
+      validation::refuse(line_of(map["pose"], path), prefix + "pose", "without urdf", "given in the scene's URDF");
+    entry.X_WL = config::read_pose(map["pose"], path, prefix + "pose");
   }
   return entry;
 }
 
 Target read_target(const YAML::Node& map, const std::string& path, const std::string& prefix) {
-  check_keys(map, path, prefix, {"pose", "position_tolerance", "angle_tolerance"});
+  config::check_keys(map, path, prefix, {"pose", "position_tolerance", "angle_tolerance"});
   Target target;
-  target.X_WL = read_pose(map["pose"], path, prefix + "pose");
+  target.X_WL = config::read_pose(map["pose"], path, prefix + "pose");
   const auto number = [&](const std::string& key, double& value) {
-    if (map[key].IsDefined()) value = read_number(map[key], path, prefix + key, positive());
+    if (map[key].IsDefined()) value = config::read_number(map[key], path, prefix + key, validation::positive());
   };
   number("position_tolerance", target.position_tolerance);
   number("angle_tolerance", target.angle_tolerance);
@@ -56,27 +57,29 @@ Target read_target(const YAML::Node& map, const std::string& path, const std::st
 ContactMode read_contact(const YAML::Node& node, const std::string& path) {
   static const std::map<std::string, ContactMode> modes = {
       {"none", ContactMode::none}, {"stop", ContactMode::stop}, {"dynamic", ContactMode::dynamic}};
-  return modes.at(read_choice(node, path, "contact", {"none", "stop", "dynamic"}));
+  return modes.at(config::read_choice(node, path, "contact", {"none", "stop", "dynamic"}));
 }
 
 void read_settings(const YAML::Node& map, const std::string& path, Scene& scene) {
-  if (map["gravity"].IsDefined()) scene.gravity = read_number(map["gravity"], path, "gravity", not_negative());
+  if (map["gravity"].IsDefined())
+    scene.gravity = config::read_number(map["gravity"], path, "gravity", validation::not_negative());
   if (map["bench_height"].IsDefined()) {
-    scene.bench_height = read_number(map["bench_height"], path, "bench_height", any_number());
+    scene.bench_height = config::read_number(map["bench_height"], path, "bench_height", validation::any_number());
   }
   if (map["force_scale"].IsDefined()) {
-    scene.force_scale = read_number(map["force_scale"], path, "force_scale", positive());
+    scene.force_scale = config::read_number(map["force_scale"], path, "force_scale", validation::positive());
   }
   if (map["contact"].IsDefined()) scene.contact = read_contact(map["contact"], path);
   if (map["tool"].IsDefined()) {
-    scene.tool = read_choice(map["tool"], path, "tool", {"spring", "spring_fork", "spring_probe", "direct", "ray"});
+    scene.tool =
+        config::read_choice(map["tool"], path, "tool", {"spring", "spring_fork", "spring_probe", "direct", "ray"});
   }
   if (map["start"].IsDefined()) {
-    check_keys(map["start"], path, "start.", {"handle"});
-    scene.X_WH_start = read_pose(map["start"]["handle"], path, "start.handle");
+    config::check_keys(map["start"], path, "start.", {"handle"});
+    scene.X_WH_start = config::read_pose(map["start"]["handle"], path, "start.handle");
   }
   if (map["defaults"].IsDefined()) {
-    check_keys(map["defaults"], path, "defaults.", material_keys);
+    config::check_keys(map["defaults"], path, "defaults.", material_keys);
     read_material(map["defaults"], path, "defaults.", scene.bench_material);
   }
 }
@@ -85,16 +88,17 @@ void read_settings(const YAML::Node& map, const std::string& path, Scene& scene)
 template <class Read>
 void for_each_entry(const YAML::Node& map, const std::string& path, const std::string& key, const Read& read) {
   if (!map[key].IsDefined()) return;
-  if (!map[key].IsMap()) refuse(line_of(map[key], path), key, "not a map", "a map of names");
-  for (const auto& entry : map[key]) read(read_string(entry.first, path, key), entry.second);
+  if (!map[key].IsMap()) validation::refuse(line_of(map[key], path), key, "not a map", "a map of names");
+  for (const auto& entry : map[key]) read(config::read_string(entry.first, path, key), entry.second);
 }
 
 }  // namespace
 
 SceneFile read_scene_file(const std::string& path) {
-  const YAML::Node map = load_yaml_file(path);
-  check_keys(map, path, "",
-             {"gravity", "contact", "tool", "force_scale", "bench_height", "defaults", "objects", "targets", "start"});
+  const YAML::Node map = config::load_yaml_file(path);
+  config::check_keys(
+      map, path, "",
+      {"gravity", "contact", "tool", "force_scale", "bench_height", "defaults", "objects", "targets", "start"});
   SceneFile file;
   read_settings(map, path, file.settings);
   for_each_entry(map, path, "objects", [&](const std::string& name, const YAML::Node& node) {
@@ -107,4 +111,4 @@ SceneFile read_scene_file(const std::string& path) {
   return file;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

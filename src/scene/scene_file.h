@@ -7,7 +7,7 @@
 
 #include "spring_workbench/scene/scene.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 
 /// One entry of a scene file's `objects:`.
 struct ObjectEntry {
@@ -28,4 +28,4 @@ struct SceneFile {
 /// Reads it. Throws InputError with file:line, key, value and rule; unknown keys are refused.
 SceneFile read_scene_file(const std::string& path);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

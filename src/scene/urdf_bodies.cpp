@@ -4,9 +4,9 @@
 #include <filesystem>
 
 #include "mass.h"
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 namespace {
 
 constexpr double most_mass = 1e12;  // [kg]
@@ -16,7 +16,7 @@ RigidTransform to_transform(const urdf::Pose& pose, const std::string& where) {
   const Vector3d p(pose.position.x, pose.position.y, pose.position.z);
   const Quaterniond rotation(q.w, q.x, q.y, q.z);
   if (!p.allFinite() || !rotation.coeffs().allFinite() || !(rotation.norm() > 0.0)) {
-    refuse(where, "origin", "a number that is not finite", "finite");
+    validation::refuse(where, "origin", "a number that is not finite", "finite");
   }
   return make_transform(rotation, p);
 }
@@ -96,13 +96,13 @@ class BodyBuilder {
     body.material = material;
     RigidMass mass_L;
     for (const auto& [link, X_LK] : group.links) {
-      const std::vector<Shape> collision = collision_shapes(*link, X_LK);
-      const std::vector<Shape> visual = visual_shapes(*link, X_LK);
+      const std::vector<geometry::Shape> collision = collision_shapes(*link, X_LK);
+      const std::vector<geometry::Shape> visual = visual_shapes(*link, X_LK);
       if (group.movable) {
         mass_L = sum(mass_L, link_mass(*link, X_LK, collision.empty() ? visual : collision, material.density));
       }
       body.collision.insert(body.collision.end(), collision.begin(), collision.end());
-      const std::vector<Shape>& seen = visual.empty() ? collision : visual;
+      const std::vector<geometry::Shape>& seen = visual.empty() ? collision : visual;
       body.visual.insert(body.visual.end(), seen.begin(), seen.end());
     }
     body.X_WO = group.X_WL;
@@ -113,19 +113,19 @@ class BodyBuilder {
  private:
   void place_at_centre_of_mass(const RigidMass& given_L, Body& body) {
     const std::string where = file_.where(body.name);
-    const std::vector<Shape>& shapes = body.collision.empty() ? body.visual : body.collision;
+    const std::vector<geometry::Shape>& shapes = body.collision.empty() ? body.visual : body.collision;
     const RigidMass mass = mended_mass(given_L, shapes, body.material.density, where, warnings_);
     if (body.collision.empty()) warnings_.push_back(where + ": no collision shape: the body touches nothing");
-    check_number(where, "mass", mass.mass, between(0.0, most_mass));
+    validation::check_number(where, "mass", mass.mass, validation::between(0.0, most_mass));
     body.mass_properties = {mass.mass, mass.inertia};
     body.X_OL.translation() = -mass.centre;
     body.X_WO = body.X_WO * body.X_OL.inverse();
-    for (Shape& shape : body.collision) shape.X_OS = body.X_OL * shape.X_OS;
-    for (Shape& shape : body.visual) shape.X_OS = body.X_OL * shape.X_OS;
+    for (geometry::Shape& shape : body.collision) shape.X_OS = body.X_OL * shape.X_OS;
+    for (geometry::Shape& shape : body.visual) shape.X_OS = body.X_OL * shape.X_OS;
   }
 
   /// As the URDF says, in the frame of the group's first link. Zero where it says nothing.
-  RigidMass link_mass(const urdf::Link& link, const RigidTransform& X_LK, const std::vector<Shape>& shapes,
+  RigidMass link_mass(const urdf::Link& link, const RigidTransform& X_LK, const std::vector<geometry::Shape>& shapes,
                       double density) {
     const std::string where = file_.where(link.name);
     const auto unreadable = file_.unreadable_inertials.find(link.name);
@@ -146,16 +146,16 @@ class BodyBuilder {
     return transformed(X_LK * to_transform(i.origin, where), {i.mass, Vector3d::Zero(), inertia});
   }
 
-  std::vector<Shape> collision_shapes(const urdf::Link& link, const RigidTransform& X_LK) {
-    std::vector<Shape> shapes;
+  std::vector<geometry::Shape> collision_shapes(const urdf::Link& link, const RigidTransform& X_LK) {
+    std::vector<geometry::Shape> shapes;
     for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
       shapes.push_back(make_shape(link, *collision->geometry, X_LK, collision->origin));
     }
     return shapes;
   }
 
-  std::vector<Shape> visual_shapes(const urdf::Link& link, const RigidTransform& X_LK) {
-    std::vector<Shape> shapes;
+  std::vector<geometry::Shape> visual_shapes(const urdf::Link& link, const RigidTransform& X_LK) {
+    std::vector<geometry::Shape> shapes;
     for (const urdf::VisualSharedPtr& visual : link.visual_array) {
       shapes.push_back(make_shape(link, *visual->geometry, X_LK, visual->origin));
       if (visual->material && visual->material->texture_filename.empty()) {
@@ -166,32 +166,33 @@ class BodyBuilder {
     return shapes;
   }
 
-  Shape make_shape(const urdf::Link& link, const urdf::Geometry& geometry, const RigidTransform& X_LK,
-                   const urdf::Pose& origin) {
+  geometry::Shape make_shape(const urdf::Link& link, const urdf::Geometry& geometry, const RigidTransform& X_LK,
+                             const urdf::Pose& origin) {
     const std::string where = file_.where(link.name);
-    Shape shape;
+    geometry::Shape shape;
     shape.X_OS = X_LK * to_transform(origin, where);  // in the first link's frame as yet
     shape.geometry = make_geometry(geometry, where);
     return shape;
   }
 
-  Geometry make_geometry(const urdf::Geometry& geometry, const std::string& where) {
+  geometry::Geometry make_geometry(const urdf::Geometry& geometry, const std::string& where) {
     switch (geometry.type) {
       case urdf::Geometry::BOX: {
         const urdf::Vector3& d = static_cast<const urdf::Box&>(geometry).dim;
-        for (const double edge : {d.x, d.y, d.z}) check_number(where, "box size", edge, positive());
-        return Box{Vector3d(d.x, d.y, d.z)};
+        for (const double edge : {d.x, d.y, d.z})
+          validation::check_number(where, "box size", edge, validation::positive());
+        return geometry::Box{Vector3d(d.x, d.y, d.z)};
       }
       case urdf::Geometry::SPHERE: {
         const double radius = static_cast<const urdf::Sphere&>(geometry).radius;
-        check_number(where, "sphere radius", radius, positive());
-        return Sphere{radius};
+        validation::check_number(where, "sphere radius", radius, validation::positive());
+        return geometry::Sphere{radius};
       }
       case urdf::Geometry::CYLINDER: {
         const auto& c = static_cast<const urdf::Cylinder&>(geometry);
-        check_number(where, "cylinder radius", c.radius, positive());
-        check_number(where, "cylinder length", c.length, positive());
-        return Cylinder{c.radius, c.length};
+        validation::check_number(where, "cylinder radius", c.radius, validation::positive());
+        validation::check_number(where, "cylinder length", c.length, validation::positive());
+        return geometry::Cylinder{c.radius, c.length};
       }
       case urdf::Geometry::MESH:
         break;
@@ -229,4 +230,4 @@ std::vector<Body> build_bodies(const UrdfFile& file, const RigidTransform& X_WR,
   return bodies;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

@@ -8,7 +8,7 @@
 #include "spring_workbench/scene/scene.h"
 #include "urdf_file.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 
 /// The material of the body with this name.
 using MaterialOf = std::function<Material(const std::string& body)>;
@@ -22,4 +22,4 @@ bool is_bench_scene(const UrdfFile& file);
 std::vector<Body> build_bodies(const UrdfFile& file, const RigidTransform& X_WR, const MaterialOf& material_of,
                                MeshCache& meshes, std::vector<std::string>& warnings);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

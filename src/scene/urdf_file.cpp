@@ -11,12 +11,12 @@
 #include <mutex>
 #include <sstream>
 
-#include "spring_workbench/config/input_error.h"
-#include "spring_workbench/config/one_line.h"
-#include "spring_workbench/config/run_in_child.h"
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/validation/input_error.h"
+#include "spring_workbench/validation/number_rule.h"
+#include "spring_workbench/validation/one_line.h"
+#include "spring_workbench/validation/run_in_child.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 namespace {
 
 constexpr int most_nesting = 64;           ///< elements in each other; a URDF has six
@@ -40,7 +40,7 @@ class ConsoleCapture : private console_bridge::OutputHandler {
     return one;
   }
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_WARN) messages_.push_back(one_line(text));
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_WARN) messages_.push_back(validation::one_line(text));
   }
 
   std::lock_guard<std::mutex> lock_;
@@ -63,7 +63,7 @@ ParseResult parse(const TiXmlDocument& document) {
     result.complaints = console.messages();
   } catch (const std::exception& e) {
     result.model.reset();
-    result.complaints = {one_line(e.what())};
+    result.complaints = {validation::one_line(e.what())};
   }
   return result;
 }
@@ -110,14 +110,14 @@ std::optional<double> mass_of(const TiXmlElement& inertial) {
 /// Takes an element that urdfdom cannot read out of its link, with a warning; refuses a known shape with bad values.
 void take_out(TiXmlElement& link, TiXmlElement& element, const std::string& complaint, UrdfFile& file) {
   const std::string name = link.Attribute("name");
-  const std::string where = one_line(place(file.path, element.Row()) + ": link '" + name + "': ");
+  const std::string where = validation::one_line(place(file.path, element.Row()) + ": link '" + name + "': ");
   const std::string kind = element.ValueStr();
   if (kind == "inertial") {
     file.unreadable_inertials[name] = mass_of(element);
     file.warnings.push_back(where + "inertial cannot be read (" + complaint + "): its shape's is taken");
   } else {
     const TiXmlElement* shape = shape_of(element);
-    if (is_urdf_shape(shape)) throw InputError(where + kind + ": " + complaint);
+    if (is_urdf_shape(shape)) throw validation::InputError(where + kind + ": " + complaint);
     const std::string what = shape != nullptr ? "shape '" + shape->ValueStr() + "'" : "shape missing";
     file.warnings.push_back(where + kind + " left out: " + what + ", must be box, cylinder, mesh or sphere");
   }
@@ -152,25 +152,27 @@ bool can_be_parsed(const std::string& xml) {
     document.Parse(xml.c_str());
     return std::string();
   };
-  return std::count(xml.begin(), xml.end(), '<') < enough || run_in_child(parse, {5.0, std::uint64_t{1} << 30});
+  return std::count(xml.begin(), xml.end(), '<') < enough ||
+         validation::run_in_child(parse, {5.0, std::uint64_t{1} << 30});
 }
 
 TiXmlDocument load_xml(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream stream;
   if (!in || !(stream << in.rdbuf())) {
-    throw InputError(path + ": cannot be read: must be a URDF file");
+    throw validation::InputError(path + ": cannot be read: must be a URDF file");
   }
   const std::string text = stream.str();
   TiXmlDocument document;
   const bool parsed = can_be_parsed(text);
   if (parsed) document.Parse(text.c_str());
   if (!parsed || depth_below(document) > most_nesting) {
-    throw InputError(path + ": nesting: must be at most " + std::to_string(most_nesting) +
-                     " elements deep, and readable within 5 s and 1 GiB");
+    throw validation::InputError(path + ": nesting: must be at most " + std::to_string(most_nesting) +
+                                 " elements deep, and readable within 5 s and 1 GiB");
   }
   if (document.Error()) {
-    throw InputError(place(path, document.ErrorRow()) + ": not XML: " + one_line(document.ErrorDesc()));
+    throw validation::InputError(place(path, document.ErrorRow()) +
+                                 ": not XML: " + validation::one_line(document.ErrorDesc()));
   }
   return document;
 }
@@ -190,8 +192,9 @@ struct Hung {
 
 [[noreturn]] void refuse_joint(const TiXmlElement& joint, const std::string& path) {
   const char* name = joint.Attribute("name");
-  refuse(one_line(place(path, joint.Row()) + ": joint '" + (name != nullptr ? name : "") + "'"), "child",
-         one_line(end_of(joint, "child")), "on no other joint, and not above its parent");
+  validation::refuse(validation::one_line(place(path, joint.Row()) + ": joint '" + (name != nullptr ? name : "") + "'"),
+                     "child", validation::one_line(end_of(joint, "child")),
+                     "on no other joint, and not above its parent");
 }
 
 /// Links make a tree; urdfdom takes others, too, walks them without an end, and never lets go of them.
@@ -225,15 +228,17 @@ UrdfFile read_urdf_file(const std::string& path) {
     refuse_loops(*robot, path);
     std::size_t links = 0;
     for (TiXmlElement* link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
-      if (++links > most_links) throw InputError(path + ": links: must be at most " + std::to_string(most_links));
-      if (link->Attribute("name") == nullptr) throw InputError(place(path, link->Row()) + ": link: name is missing");
+      if (++links > most_links)
+        throw validation::InputError(path + ": links: must be at most " + std::to_string(most_links));
+      if (link->Attribute("name") == nullptr)
+        throw validation::InputError(place(path, link->Row()) + ": link: name is missing");
       file.link_lines[link->Attribute("name")] = link->Row();
       try_elements(*link, file);
     }
   }
   ParseResult result = parse(document);
   if (!result.model) {
-    throw InputError(
+    throw validation::InputError(
         path + ": not a URDF: " + (result.complaints.empty() ? "refused without a reason" : result.complaints.front()));
   }
   file.model = result.model;
@@ -241,4 +246,4 @@ UrdfFile read_urdf_file(const std::string& path) {
   return file;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

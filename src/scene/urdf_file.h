@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 
 /// A URDF file as urdfdom reads it, with what it would have dropped in silence.
 struct UrdfFile {
@@ -28,4 +28,4 @@ struct UrdfFile {
 /// is taken out with a warning. Throws InputError with urdfdom's reason for everything else that it refuses.
 UrdfFile read_urdf_file(const std::string& path);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

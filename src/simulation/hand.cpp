@@ -5,25 +5,25 @@
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/tools/calibration.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 constexpr double least_length = 1e-4;  ///< [m] of a rigid tool
 
 }  // namespace
 
-Hand::Hand(const Scene& scene, SimulationSettings& settings, Workbench& workbench, Tool tool)
+Hand::Hand(const scene::Scene& scene, SimulationSettings& settings, Workbench& workbench, tools::Tool tool)
     : scene_(scene),
       settings_(settings),
       workbench_(workbench),
-      maker_(scene, settings, workbench),
+      maker_(settings.fork, settings.dynamics, scene.gravity),
       tool_(tool),
       stylus_(settings.dropout_after, scene.X_WH_start),
       ray_length_(longest_ray) {}
 
 void Hand::reset() {
   stylus_.reset();
-  selection_ = GraspSelection();
+  selection_ = tools::GraspSelection();
   grasped_by_name_ = false;
   hold_.reset();
   probe_.reset();
@@ -31,21 +31,21 @@ void Hand::reset() {
 }
 
 double Hand::reach() const {
-  if (tool_ == Tool::direct) return least_length;
-  return tool_ == Tool::ray ? std::max(ray_length_, least_length) : settings_.fork.length;
+  if (tool_ == tools::Tool::direct) return least_length;
+  return tool_ == tools::Tool::ray ? std::max(ray_length_, least_length) : settings_.fork.length;
 }
 
 void Hand::apply_buttons(double now) {
   if (!settings_.grasp.object.empty() && !grasped_by_name_ && stylus_.known(now)) {
     const std::optional<std::size_t> object = workbench_.find(settings_.grasp.object);
-    if (object && !workbench_.states()[*object].held && can_hold(tool_)) {
+    if (object && !workbench_.states()[*object].held && tools::can_hold(tool_)) {
       grasp(*object, settings_.grasp.X_OE, settings_.grasp.start_follow, now);
     }
     grasped_by_name_ = true;
   }
   while (const auto press = stylus_.take_press(now)) {
     if (*press == Stylus::Press::next_tool) {
-      select_tool(next_tool(tool_, hold_ != nullptr), now);
+      select_tool(tools::next_tool(tool_, hold_ != nullptr), now);
     } else if (settings_.grasp.object.empty()) {
       apply_grasp_button(*press == Stylus::Press::grasp, now);
     }
@@ -54,40 +54,40 @@ void Hand::apply_buttons(double now) {
 
 void Hand::apply_grasp_button(bool pressed, double now) {
   switch (selection_.set_button(pressed, hold_ != nullptr)) {
-    case GraspEvent::grasp:
+    case tools::GraspEvent::grasp:
       grasp(*selection_.inserted(), std::nullopt, false, now);
       break;
-    case GraspEvent::release:
+    case tools::GraspEvent::release:
       let_go(settings_.grasp.release == "thrown", now);
       break;
-    case GraspEvent::none:
+    case tools::GraspEvent::none:
       break;
   }
 }
 
-Grasp Hand::grasp_of(std::size_t object) const {
+tools::Grasp Hand::grasp_of(std::size_t object) const {
   const RigidTransform X_WE = stylus_.X_WS() * Eigen::Translation3d(0.0, 0.0, reach());
   return {tool_, object, stylus_.X_WS(), workbench_.states()[object].X_WO.inverse() * X_WE, reach(), reach()};
 }
 
-void Hand::fit_size(Grasp& grasp) const {
-  if (tool_ != Tool::spring_fork || workbench_.massless(grasp.object)) return;
-  const MassProperties& mass = workbench_.body(grasp.object).mass_properties;
-  grasp.length = calibrated_length({mass.mass, mass.inertia_O, RigidTransform::Identity()});
+void Hand::fit_size(tools::Grasp& grasp) const {
+  if (tool_ != tools::Tool::spring_fork || workbench_.massless(grasp.object)) return;
+  const scene::MassProperties& mass = workbench_.body(grasp.object).mass_properties;
+  grasp.length = tools::calibrated_length({mass.mass, mass.inertia_O, RigidTransform::Identity()});
 }
 
 void Hand::make_hold(double now) {
-  hold_ = maker_.make(grasp_, now);
+  hold_ = maker_.make(grasp_, grasped_body(), now);
   hold_->set_hand(stylus_.motion(now), now);
 }
 
 bool Hand::calibrate_hold() {
-  if (!hold_ || tool_ == Tool::direct || tool_ == Tool::ray) return false;
+  if (!hold_ || tool_ == tools::Tool::direct || tool_ == tools::Tool::ray) return false;
   if (workbench_.massless(grasp_.object)) return true;
-  ForkSettings& fork = settings_.fork;
+  rod::ForkSettings& fork = settings_.fork;
   fork.stiffness = hold_->fitting_stiffness(fork, scene_.gravity);
   const double ratio = fork.damping_ratio.stretch;
-  if (fork.damping_ratio == PerFamily{ratio, ratio, ratio}) fork.damping_law = "modal";
+  if (fork.damping_ratio == rod::PerFamily{ratio, ratio, ratio}) fork.damping_law = "modal";
   hold_->set_springs(fork);
   return true;
 }
@@ -110,14 +110,14 @@ void Hand::keep_twist(const Twist& V_WO_W) {
   // With every family on, a fork can take any twist; what is off then comes to rest without a jump.
   hold_->set_dofs({true, true, true}, settings_.fork.switch_off_time);
   hold_->take_twist(V_WO_W);
-  hold_->set_dofs(maker_.possible_dofs(grasp_), settings_.fork.switch_off_time);
+  hold_->set_dofs(maker_.possible_dofs(grasp_, grasped_body()), settings_.fork.switch_off_time);
 }
 
-void Hand::select_tool(Tool tool, double now) {
+void Hand::select_tool(tools::Tool tool, double now) {
   if (tool == tool_) return;
   tool_ = tool;
   leave_with_probe(now);
-  if (!can_hold(tool)) let_go(true, now);
+  if (!tools::can_hold(tool)) let_go(true, now);
   if (!hold_) return;
   const Twist before = object().V_WO_W;
   ray_length_ = std::max((stylus_.X_WS().inverse() * object().X_WO.translation()).z(), least_length);
@@ -145,7 +145,7 @@ std::optional<std::size_t> Hand::carried() const {
   return hold_ || pushes_ ? std::optional<std::size_t>(grasp_.object) : std::nullopt;
 }
 
-CoupledTool* Hand::begin_shared_step(double now) {
+bodies::CoupledTool* Hand::begin_shared_step(double now) {
   moved_ = true;
   if (hold_) energy_added_before_ = hold_->energy_added();
   workbench_.state(grasp_.object).asleep = false;
@@ -157,10 +157,10 @@ CoupledTool* Hand::begin_shared_step(double now) {
   return hold_.get();
 }
 
-SteppedBody* Hand::begin_step(double now, double h) {
+bodies::SteppedBody* Hand::begin_step(double now, double h) {
   hold_->set_hand(stylus_.motion(now), now);
   energy_added_before_ = hold_->energy_added();
-  BodyState& o = workbench_.state(grasp_.object);
+  bodies::BodyState& o = workbench_.state(grasp_.object);
   const bool was_asleep = o.asleep;
   o.asleep = hold_->sleeps(h, workbench_.rests(grasp_.object));
   if (o.asleep) {
@@ -176,7 +176,7 @@ SteppedBody* Hand::begin_step(double now, double h) {
 void Hand::end_step(AdvanceReport& report) {
   if (!hold_) return;
   report.energy_added += hold_->energy_added() - energy_added_before_;
-  const StepEstimates e = hold_->take_estimates();
+  const tools::StepEstimates e = hold_->take_estimates();
   report.position_error = std::max(report.position_error, e.position);
   report.angle_error = std::max(report.angle_error, e.angle);
   report.stiffest_omega_dt = std::max(report.stiffest_omega_dt, e.omega_dt);
@@ -185,12 +185,12 @@ void Hand::end_step(AdvanceReport& report) {
   report.energy_held += e.energy_held;
 }
 
-ForkDofs Hand::families_run() const {
-  return hold_ && moved_ ? maker_.possible_dofs(grasp_) : ForkDofs{false, false, false};
+rod::ForkDofs Hand::families_run() const {
+  return hold_ && moved_ ? maker_.possible_dofs(grasp_, grasped_body()) : rod::ForkDofs{false, false, false};
 }
 
 bool Hand::overloaded(double now, double h) {
-  const ForkSettings& fork = settings_.fork;
+  const rod::ForkSettings& fork = settings_.fork;
   if (!dynamic() || workbench_.massless(grasp_.object)) return false;
   const auto too_much = [&] {
     const Wrench at_tip = state().tip_wrench_W;
@@ -205,8 +205,8 @@ bool Hand::overloaded(double now, double h) {
 }
 
 void Hand::change_dofs(ChangeReport& change) {
-  if (!hold_ || workbench_.massless(grasp_.object) || tool_ != Tool::spring_fork) return;
-  if (hold_->set_dofs(maker_.possible_dofs(grasp_), settings_.fork.switch_off_time)) {
+  if (!hold_ || workbench_.massless(grasp_.object) || tool_ != tools::Tool::spring_fork) return;
+  if (hold_->set_dofs(maker_.possible_dofs(grasp_, grasped_body()), settings_.fork.switch_off_time)) {
     change.message += "; the strain of what went off returns to zero with a time constant of " +
                       std::to_string(settings_.fork.switch_off_time) + " s and gives back its energy";
   }
@@ -223,9 +223,9 @@ void Hand::change_integrator() {
 
 bool Hand::calibrate(ChangeReport& change, double now) {
   if (!hold_) return false;
-  const BodyState before = object();
+  const bodies::BodyState before = object();
   const Wrench pull = hold_->spring_pull();
-  if (tool_ == Tool::spring_fork) {
+  if (tool_ == tools::Tool::spring_fork) {
     fit_size(grasp_);
     make_hold(now);
   }
@@ -241,15 +241,15 @@ double Hand::elastic_energy() const {
   return hold_ ? hold_->elastic_energy() : 0.0;
 }
 
-ToolState Hand::state() const {
-  ToolState f;
+tools::ToolState Hand::state() const {
+  tools::ToolState f;
   f.present = !stylus_.track().empty();
-  f.tool = name_of(tool_);
+  f.tool = tools::name_of(tool_);
   f.shape = settings_.fork.shape;
   f.integrator = settings_.dynamics.integrator;
   f.dofs = settings_.fork.dofs;
   f.length = hold_ ? hold_->length() : reach();
-  f.strain = StrainVector::Zero(make_shape_model(f.shape, f.length)->size());
+  f.strain = rod::StrainVector::Zero(rod::make_shape_model(f.shape, f.length)->size());
   f.stiffness = settings_.fork.stiffness;
   f.damping_ratio = settings_.fork.damping_ratio;
   f.X_WS = f.X_WH = f.X_WH_seen = stylus_.X_WS();
@@ -260,9 +260,9 @@ ToolState Hand::state() const {
   }
   if (probe_) probe_->describe(stylus_.X_WS(), f);
   f.force_scale = scene_.force_scale;
-  f.weight = f.tip_wrench_W.force.z() / weighing_gravity(scene_.gravity);
+  f.weight = f.tip_wrench_W.force.z() / tools::weighing_gravity(scene_.gravity);
   f.torque = f.tip_wrench_W.moment.dot(f.X_WE.linear().col(2));
   return f;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -4,13 +4,13 @@
 #include <optional>
 #include <vector>
 
-#include "hold_maker.h"
-#include "probe.h"
+#include "objects.h"
 #include "spring_workbench/tools/grasp_selection.h"
+#include "spring_workbench/tools/hold_maker.h"
+#include "spring_workbench/tools/probe.h"
 #include "stylus.h"
-#include "workbench.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 
 constexpr double longest_ray = 2.0;  ///< [m]
 
@@ -18,7 +18,7 @@ constexpr double longest_ray = 2.0;  ///< [m]
 class Hand {
  public:
   /// Keeps references to scene, settings (changed by calibration) and workbench.
-  Hand(const Scene& scene, SimulationSettings& settings, Workbench& workbench, Tool tool);
+  Hand(const scene::Scene& scene, SimulationSettings& settings, Workbench& workbench, tools::Tool tool);
 
   /// Forgets what the stylus told, holds nothing. The workbench is reset beside it.
   void reset();
@@ -36,14 +36,14 @@ class Hand {
   std::optional<std::size_t> carried() const;
   /// What is held by this tool alone, ready to be carried over the next `h` [s]; null where it rests and nothing has to
   /// be done.
-  SteppedBody* begin_step(double now, double h);
+  bodies::SteppedBody* begin_step(double now, double h);
   /// The tool as one of several on what it carries, or pushing it.
-  CoupledTool* begin_shared_step(double now);
+  bodies::CoupledTool* begin_shared_step(double now);
   /// After it has been carried.
   void end_step(AdvanceReport& report);
 
   /// Another tool, also while holding: the object goes on from its pose and twist, the new tool's strain is zero.
-  void select_tool(Tool tool, double now);
+  void select_tool(tools::Tool tool, double now);
   /// What the springs do to what is held, at its centre, world axes.
   Wrench spring_pull() const { return hold_->spring_pull(); }
   /// The only tool left on what is held does from now on what `pull_W` says; the object does not move.
@@ -58,51 +58,54 @@ class Hand {
 
   double elastic_energy() const;
   /// The families that ran since the last call of begin_call().
-  ForkDofs families_run() const;
+  rod::ForkDofs families_run() const;
   /// Whether what is held takes more of the tool's springs than their breakaway force or moment: now, or, where `h` > 0
   /// [s], at the end of that time if it touches nothing then.
   bool overloaded(double now, double h);
   void begin_call() { moved_ = false; }
-  ToolState state() const;
+  tools::ToolState state() const;
 
  private:
   void apply_grasp_button(bool pressed, double now);
   /// The nearest thing within `reach` [m] in front of the hand. `passes(body)`: not in the way.
   template <typename Passes>
-  InFront look_ahead(double reach, Passes&& passes) const;
+  tools::InFront look_ahead(double reach, Passes&& passes) const;
   void select_pierced();
   void touch_with_probe(double now);
   void leave_with_probe(double now);
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now);
   bool dynamic() const { return hold_ && hold_->coordinates() > 0; }  ///< there is something for an integrator to do
-  const BodyState& object() const { return workbench_.states()[grasp_.object]; }  ///< that is held, or pushed
+  const bodies::BodyState& object() const { return workbench_.states()[grasp_.object]; }  ///< that is held, or pushed
   /// How far the tip is in front of the hand, along z [m].
   double reach() const;
+  tools::GraspedBody grasped_body() const {
+    return {workbench_.scene_index(grasp_.object), workbench_.body(grasp_.object), object().X_WO};
+  }
   /// The grip on the object where it is, for a tool that has its usual size.
-  Grasp grasp_of(std::size_t object) const;
+  tools::Grasp grasp_of(std::size_t object) const;
   /// The length of the fork's spring part from the object's size, where it has mass.
-  void fit_size(Grasp& grasp) const;
+  void fit_size(tools::Grasp& grasp) const;
   void make_hold(double now);
   /// Springs and dampers for what is held; the settings tell the stiffness. False where the tool has no springs.
   bool calibrate_hold();
   /// The held object goes on with this twist, whatever families are off.
   void keep_twist(const Twist& V_WO_W);
 
-  const Scene& scene_;
+  const scene::Scene& scene_;
   SimulationSettings& settings_;
   Workbench& workbench_;
-  HoldMaker maker_;
-  Tool tool_;
+  tools::HoldMaker maker_;
+  tools::Tool tool_;
   Stylus stylus_;
   double ray_length_;  ///< to what the ray hits [m]
-  GraspSelection selection_;
+  tools::GraspSelection selection_;
   bool grasped_by_name_ = false;
-  std::unique_ptr<ToolHold> hold_;  ///< while something is held
-  std::unique_ptr<Probe> probe_;    ///< while the probe touches something
-  bool pushes_ = false;             ///< what the probe touches can move, and is the grip's object
-  Grasp grasp_{};                   ///< of what is held
-  bool moved_ = false;              ///< what is held, in this call of advance
+  std::unique_ptr<tools::ToolHold> hold_;  ///< while something is held
+  std::unique_ptr<tools::Probe> probe_;    ///< while the probe touches something
+  bool pushes_ = false;                    ///< what the probe touches can move, and is the grip's object
+  tools::Grasp grasp_{};                   ///< of what is held
+  bool moved_ = false;                     ///< what is held, in this call of advance
   double energy_added_before_ = 0.0;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -3,29 +3,30 @@
 #include <limits>
 
 #include "hand.h"
-#include "spring_workbench/scene/geometry.h"
-#include "spring_workbench/scene/ray.h"
+#include "spring_workbench/geometry/ray.h"
+#include "spring_workbench/geometry/shape_queries.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 
 template <typename Passes>
-InFront Hand::look_ahead(double reach, Passes&& passes) const {
-  InFront found{reach, nullptr, nullptr};
-  const auto look = [&](const Body& body, const RigidTransform& X_WO) {
+tools::InFront Hand::look_ahead(double reach, Passes&& passes) const {
+  tools::InFront found{reach, nullptr, nullptr};
+  const auto look = [&](const scene::Body& body, const RigidTransform& X_WO) {
     const RigidTransform X_OH = X_WO.inverse() * stylus_.X_WS();
-    const auto at = distance_along_ray(body, X_OH.translation(), X_OH.linear().col(2), found.distance);
+    const auto at =
+        geometry::distance_along_ray(body.collision, X_OH.translation(), X_OH.linear().col(2), found.distance);
     if (at && !passes(body, X_OH)) found = {*at, &body, &body.material};
   };
-  for (const Body& body : scene_.bodies) {
+  for (const scene::Body& body : scene_.bodies) {
     if (!body.movable) look(body, body.X_WO);
   }
-  const std::vector<BodyState>& objects = workbench_.states();
+  const std::vector<bodies::BodyState>& objects = workbench_.states();
   for (std::size_t i = 0; i < objects.size(); ++i) look(workbench_.body(i), objects[i].X_WO);
   return found;
 }
 
 void Hand::select(double now) {
-  if (tool_ == Tool::spring_probe) {
+  if (tool_ == tools::Tool::spring_probe) {
     selection_.set_inserted(std::nullopt);
     return touch_with_probe(now);
   }
@@ -37,18 +38,20 @@ void Hand::select_pierced() {
   constexpr double stays = 0.8;  // another object must be nearer than the present one by this factor
   const std::optional<std::size_t> before = selection_.inserted();
   selection_.set_inserted(std::nullopt);
-  const bool picks = tool_ == Tool::ray;
+  const bool picks = tool_ == tools::Tool::ray;
   // The nearest thing in the way of the hand, and the objects that the tip is in.
-  const InFront front = look_ahead(picks ? longest_ray : reach(), [&](const Body& body, const RigidTransform& X_OH) {
-    return !picks && contains(body, X_OH * Vector3d(0.0, 0.0, reach()));
-  });
+  const tools::InFront front =
+      look_ahead(picks ? longest_ray : reach(), [&](const scene::Body& body, const RigidTransform& X_OH) {
+        return !picks && geometry::contains(body.collision, X_OH * Vector3d(0.0, 0.0, reach()));
+      });
   ray_length_ = front.distance;
   const Vector3d tip = stylus_.X_WS() * Vector3d(0.0, 0.0, reach());
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < workbench_.states().size(); ++i) {
     const RigidTransform& X_WO = workbench_.states()[i].X_WO;
-    const bool pierced = picks ? front.body == &workbench_.body(i)
-                               : front.body == nullptr && contains(workbench_.body(i), X_WO.inverse() * tip);
+    const bool pierced =
+        picks ? front.body == &workbench_.body(i)
+              : front.body == nullptr && geometry::contains(workbench_.body(i).collision, X_WO.inverse() * tip);
     const double distance = (X_WO.translation() - tip).norm() * (before == i ? stays : 1.0);
     if (!pierced || distance >= nearest) continue;
     nearest = distance;
@@ -62,7 +65,7 @@ void Hand::select_pierced() {
 void Hand::touch_with_probe(double now) {
   if (!stylus_.known(now)) return leave_with_probe(now);
   const double length = settings_.fork.length;
-  InFront front = look_ahead(length, [](const Body&, const RigidTransform&) { return false; });
+  tools::InFront front = look_ahead(length, [](const scene::Body&, const RigidTransform&) { return false; });
   const double down = -stylus_.X_WS().linear()(2, 2), height = stylus_.X_WS().translation().z() - scene_.bench_height;
   if (height > 0.0 && down * front.distance > height) front = {height / down, nullptr, &scene_.bench_material};
   const bool touches = front.material != nullptr && front.distance > 0.0;  // at 0 the hand itself is inside
@@ -71,7 +74,7 @@ void Hand::touch_with_probe(double now) {
   if (probe_) {
     probe_->touch(front);
   } else {
-    probe_ = std::make_unique<Probe>(length, settings_.fork, front);
+    probe_ = std::make_unique<tools::Probe>(length, settings_.fork, front);
     const std::optional<std::size_t> object = front.body != nullptr ? workbench_.find(front.body->name) : std::nullopt;
     pushes_ = object && !workbench_.massless(*object);
     if (pushes_) workbench_.hold(grasp_.object = *object, Workbench::Grip::push, now);
@@ -85,4 +88,4 @@ void Hand::leave_with_probe(double now) {
   probe_.reset();
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -6,12 +6,12 @@
 #include <sstream>
 #include <utility>
 
-#include "spring_workbench/config/one_line.h"
 #include "spring_workbench/dynamics/step_control.h"
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/tools/tool.h"
+#include "spring_workbench/validation/one_line.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 using Choices = std::vector<std::string>;
@@ -32,12 +32,13 @@ std::string text_of(double value) {
   return out.str();
 }
 
-Field number(const std::string& key, const std::string& unit, const NumberRule& rule, const std::string& meaning,
-             Member<double> member) {
+Field number(const std::string& key, const std::string& unit, const validation::NumberRule& rule,
+             const std::string& meaning, Member<double> member) {
   S defaults;
-  return {
-      {key, "double", unit, rule.text(), text_of(member(defaults)), meaning},
-      [=](const YAML::Node& node, const std::string& where, S& s) { member(s) = read_number(node, where, key, rule); }};
+  return {{key, "double", unit, rule.text(), text_of(member(defaults)), meaning},
+          [=](const YAML::Node& node, const std::string& where, S& s) {
+            member(s) = config::read_number(node, where, key, rule);
+          }};
 }
 
 Field integer(const std::string& key, int min, int max, const std::string& meaning, Member<int> member) {
@@ -45,33 +46,37 @@ Field integer(const std::string& key, int min, int max, const std::string& meani
   const std::string allowed = "an integer in [" + std::to_string(min) + ", " + std::to_string(max) + "]";
   return {{key, "int", "–", allowed, std::to_string(member(defaults)), meaning},
           [=](const YAML::Node& node, const std::string& where, S& s) {
-            member(s) = read_integer(node, where, key, min, max);
+            member(s) = config::read_integer(node, where, key, min, max);
           }};
 }
 
 Field flag(const std::string& key, const std::string& meaning, Member<bool> member) {
   S defaults;
-  return {{key, "bool", "–", "true or false", member(defaults) ? "true" : "false", meaning},
-          [=](const YAML::Node& node, const std::string& where, S& s) { member(s) = read_bool(node, where, key); }};
+  return {
+      {key, "bool", "–", "true or false", member(defaults) ? "true" : "false", meaning},
+      [=](const YAML::Node& node, const std::string& where, S& s) { member(s) = config::read_bool(node, where, key); }};
 }
 
 Field choice(const std::string& key, const Choices& choices, const std::string& meaning, Member<std::string> member) {
   S defaults;
-  return {{key, "string", "–", "one of " + join(choices), member(defaults), meaning},
+  return {{key, "string", "–", "one of " + validation::join(choices), member(defaults), meaning},
           [=](const YAML::Node& node, const std::string& where, S& s) {
-            member(s) = read_choice(node, where, key, choices);
+            member(s) = config::read_choice(node, where, key, choices);
           }};
 }
 
 Field name(const std::string& key, const std::string& allowed, const std::string& meaning, Member<std::string> member) {
   S defaults;
   return {{key, "string", "–", allowed, member(defaults), meaning},
-          [=](const YAML::Node& node, const std::string& where, S& s) { member(s) = read_string(node, where, key); }};
+          [=](const YAML::Node& node, const std::string& where, S& s) {
+            member(s) = config::read_string(node, where, key);
+          }};
 }
 
 Field pose(const std::string& key, const std::string& meaning, Member<std::optional<RigidTransform>> member) {
-  return {{key, "double list", "m, –", "x y z qx qy qz qw, the quaternion not zero", "", meaning},
-          [=](const YAML::Node& node, const std::string& where, S& s) { member(s) = read_pose(node, where, key); }};
+  return {
+      {key, "double list", "m, –", "x y z qx qy qz qw, the quaternion not zero", "", meaning},
+      [=](const YAML::Node& node, const std::string& where, S& s) { member(s) = config::read_pose(node, where, key); }};
 }
 
 /// `field`, whose default is no value of its own but what `text` says.
@@ -80,8 +85,8 @@ Field by_default(const std::string& text, Field field) {
   return field;
 }
 
-NumberRule positive_or_infinite() {
-  NumberRule rule = positive();
+validation::NumberRule positive_or_infinite() {
+  validation::NumberRule rule = validation::positive();
   rule.infinity_allowed = true;
   return rule;
 }
@@ -89,25 +94,26 @@ NumberRule positive_or_infinite() {
 std::vector<Field> scene_fields() {
   const std::string as_scene = "as the scene says";
   return {
-      by_default(as_scene,
-                 choice("tool", tool_names(), "the tool in the hand", [](S& s) -> std::string& { return s.tool; })),
+      by_default(as_scene, choice("tool", tools::tool_names(), "the tool in the hand",
+                                  [](S& s) -> std::string& { return s.tool; })),
       by_default(as_scene,
                  choice("contact", {"none", "stop", "dynamic"},
                         "none: nothing is felt; stop: the held object stops at everything else and slides on; "
                         "dynamic: it pushes, lifts and carries what it touches",
                         [](S& s) -> std::string& { return s.contact; })),
-      by_default(as_scene, number("gravity", "m/s²", between(0.0, 1e3), "along −z of world",
+      by_default(as_scene, number("gravity", "m/s²", validation::between(0.0, 1e3), "along −z of world",
                                   [](S& s) -> double& { return s.gravity; })),
-      by_default(as_scene, number("force_scale", "–", between(1e-9, 1e9), "virtual per real unit of force",
+      by_default(as_scene, number("force_scale", "–", validation::between(1e-9, 1e9), "virtual per real unit of force",
                                   [](S& s) -> double& { return s.force_scale; })),
   };
 }
 
 std::vector<Field> dynamics_fields() {
   return {
-      choice("integrator", integrator_names(), "how the fork and the held object are stepped",
+      choice("integrator", dynamics::integrator_names(), "how the fork and the held object are stepped",
              [](S& s) -> std::string& { return s.dynamics.integrator; }),
-      number("step", "s", between(1e-6, 1.0), "the largest step; a step also ends at every sample of the motion",
+      number("step", "s", validation::between(1e-6, 1.0),
+             "the largest step; a step also ends at every sample of the motion",
              [](S& s) -> double& { return s.dynamics.step; }),
       number("tolerance", "m", allowed_tolerance(),
              "0: fixed steps; else steps are made short enough for the run's error to stay near this",
@@ -118,12 +124,13 @@ std::vector<Field> dynamics_fields() {
 }
 
 std::vector<Field> fork_fields() {
-  const NumberRule stiffness = between(0.0, 1e15);
-  const NumberRule ratio = between(0.0, 10.0);
+  const validation::NumberRule stiffness = validation::between(0.0, 1e15);
+  const validation::NumberRule ratio = validation::between(0.0, 10.0);
   return {
-      choice("shape", shape_model_names(), "the fork's shape model: how its curvature may vary along it",
+      choice("shape", rod::shape_model_names(), "the fork's shape model: how its curvature may vary along it",
              [](S& s) -> std::string& { return s.fork.shape; }),
-      number("fork.length", "m", between(1e-4, 1e3), "rest length", [](S& s) -> double& { return s.fork.length; }),
+      number("fork.length", "m", validation::between(1e-4, 1e3), "rest length",
+             [](S& s) -> double& { return s.fork.length; }),
       number("fork.stiffness.stretch", "N/m", stiffness, "axial force per extension",
              [](S& s) -> double& { return s.fork.stiffness.stretch; }),
       number("fork.stiffness.bend", "N/m", stiffness, "transverse tip force per tip deflection",
@@ -150,7 +157,7 @@ std::vector<Field> fork_fields() {
       by_default(".inf", number("fork.breakaway_moment", "N·m", positive_or_infinite(),
                                 "what would take a larger moment at the tip than this is let go",
                                 [](S& s) -> double& { return s.fork.breakaway_moment; })),
-      number("fork.switch_off_time", "s", between(1e-6, 1e3),
+      number("fork.switch_off_time", "s", validation::between(1e-6, 1e3),
              "time constant on which a family that is switched off while strained goes back to zero strain",
              [](S& s) -> double& { return s.fork.switch_off_time; }),
   };
@@ -205,7 +212,7 @@ using KeyAndValue = std::pair<std::string, YAML::Node>;
 void flatten(const YAML::Node& map, const std::string& where, const std::string& prefix,
              std::vector<KeyAndValue>& values) {
   for (const auto& entry : map) {
-    const std::string key = prefix + read_string(entry.first, where, prefix + "(key)");
+    const std::string key = prefix + config::read_string(entry.first, where, prefix + "(key)");
     if (entry.second.IsMap()) {
       flatten(entry.second, where, key + ".", values);
     } else {
@@ -220,22 +227,26 @@ const Field& find_field(const std::string& key, const std::string& where) {
   if (found != fields().end()) return *found;
   Choices known;
   for (const Field& field : fields()) known.push_back(field.description.key);
-  throw InputError(one_line(where + ": " + key + ": unknown key; known are " + join(known)));
+  throw validation::InputError(
+      validation::one_line(where + ": " + key + ": unknown key; known are " + validation::join(known)));
 }
 
 }  // namespace
 
-void check_damping(const std::string& where, const ForkSettings& fork) {
-  const PerFamily& ratio = fork.damping_ratio;
+void check_damping(const std::string& where, const rod::ForkSettings& fork) {
+  const rod::PerFamily& ratio = fork.damping_ratio;
   if (std::find(damping_laws.begin(), damping_laws.end(), fork.damping_law) == damping_laws.end()) {
-    refuse(where, "damping law", fork.damping_law, "one of " + join(damping_laws));
+    validation::refuse(where, "damping law", fork.damping_law, "one of " + validation::join(damping_laws));
   }
-  if (fork.damping_law != "modal" || ratio == PerFamily{ratio.stretch, ratio.stretch, ratio.stretch}) return;
-  refuse(where, "damping ratios", text_of(ratio.stretch) + ", " + text_of(ratio.bend) + ", " + text_of(ratio.torsion),
-         "the same for stretch, bend and torsion where the damping law is modal");
+  if (fork.damping_law != "modal" || ratio == rod::PerFamily{ratio.stretch, ratio.stretch, ratio.stretch}) return;
+  validation::refuse(where, "damping ratios",
+                     text_of(ratio.stretch) + ", " + text_of(ratio.bend) + ", " + text_of(ratio.torsion),
+                     "the same for stretch, bend and torsion where the damping law is modal");
 }
 
-NumberRule allowed_tolerance() { return between(0.0, StepControl::largest_tolerance); }
+validation::NumberRule allowed_tolerance() {
+  return validation::between(0.0, dynamics::StepControl::largest_tolerance);
+}
 
 std::vector<SettingDescription> setting_descriptions() {
   std::vector<SettingDescription> descriptions;
@@ -244,17 +255,17 @@ std::vector<SettingDescription> setting_descriptions() {
 }
 
 void apply_settings(const YAML::Node& values, const std::string& where, SimulationSettings& settings) {
-  if (!values.IsMap()) refuse(where, "(top level)", "what is given", "a map of settings");
+  if (!values.IsMap()) validation::refuse(where, "(top level)", "what is given", "a map of settings");
   std::vector<KeyAndValue> flat;
   flatten(values, where, "", flat);
   SimulationSettings changed = settings;
   std::set<std::string> seen;
   for (const auto& [key, node] : flat) {
     const std::string line = node.Mark().is_null() ? "" : ":" + std::to_string(node.Mark().line + 1);
-    if (!seen.insert(key).second) refuse(where + line, key, "a second value", "given once");
+    if (!seen.insert(key).second) validation::refuse(where + line, key, "a second value", "given once");
     find_field(key, where + line).read(node, where, changed);
   }
   settings = changed;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

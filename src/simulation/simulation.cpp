@@ -7,46 +7,47 @@
 #include <map>
 
 #include "hand.h"
-#include "shared_body.h"
-#include "spring_workbench/config/yaml_fields.h"
+#include "objects.h"
+#include "spring_workbench/bodies/shared_body.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/rod/shape_model.h"
-#include "workbench.h"
+#include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 /// The scene as the settings have it. Throws InputError when they do not fit.
-Scene set_up(Scene scene, const SimulationSettings& settings) {
+scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings) {
   if (settings.gravity >= 0.0) scene.gravity = settings.gravity;
   if (settings.force_scale > 0.0) scene.force_scale = settings.force_scale;
-  if (settings.contact == "none") scene.contact = ContactMode::none;
-  if (settings.contact == "stop") scene.contact = ContactMode::stop;
-  if (settings.contact == "dynamic") scene.contact = ContactMode::dynamic;
+  if (settings.contact == "none") scene.contact = scene::ContactMode::none;
+  if (settings.contact == "stop") scene.contact = scene::ContactMode::stop;
+  if (settings.contact == "dynamic") scene.contact = scene::ContactMode::dynamic;
   if (!settings.tool.empty()) scene.tool = settings.tool;
-  tool_called(scene.tool, scene.path);
+  tools::tool_called(scene.tool, scene.path);
   if (!settings.grasp.object.empty()) {
-    const std::optional<std::size_t> index = find_body(scene, settings.grasp.object);
+    const std::optional<std::size_t> index = scene::find_body(scene, settings.grasp.object);
     if (!index || !scene.bodies[*index].movable) {
       std::vector<std::string> names;
-      for (const Body& b : scene.bodies) {
+      for (const scene::Body& b : scene.bodies) {
         if (b.movable) names.push_back(b.name);
       }
-      refuse(scene.path, "grasp.object", settings.grasp.object, "a movable object of the scene: " + join(names));
+      validation::refuse(scene.path, "grasp.object", settings.grasp.object,
+                         "a movable object of the scene: " + validation::join(names));
     }
   }
   if (settings.grasp.X_OE && !settings.grasp.start_follow) {
-    refuse(scene.path, "grasp.tip_in_object", "(a pose)",
-           "used with start.follow: true, so that the object can move to it");
+    validation::refuse(scene.path, "grasp.tip_in_object", "(a pose)",
+                       "used with start.follow: true, so that the object can move to it");
   }
   check_damping(scene.path, settings.fork);
-  make_integrator(settings.dynamics.integrator);
-  make_shape_model(settings.fork.shape, settings.fork.length);
+  dynamics::make_integrator(settings.dynamics.integrator);
+  rod::make_shape_model(settings.fork.shape, settings.fork.length);
   return scene;
 }
 
-Body body_of_unit_mass() {
-  Body body;
+scene::Body body_of_unit_mass() {
+  scene::Body body;
   body.mass_properties = {1.0, Matrix3d::Identity()};
   return body;
 }
@@ -55,17 +56,17 @@ Body body_of_unit_mass() {
 
 struct Simulation::Impl {
   SimulationSettings settings;
-  const Scene scene;
+  const scene::Scene scene;
   Workbench workbench;
   std::vector<Hand> hands;
-  const Body unit_mass = body_of_unit_mass();
+  const scene::Body unit_mass = body_of_unit_mass();
   bool started = false;
   double now = 0.0;
 
-  Impl(const Scene& s, const SimulationSettings& set)
+  Impl(const scene::Scene& s, const SimulationSettings& set)
       : settings(set), scene(set_up(s, set)), workbench(scene, set.bisection_levels) {
     for (std::size_t i = 0; i < most_hands; ++i)
-      hands.emplace_back(scene, settings, workbench, tool_called(scene.tool, scene.path));
+      hands.emplace_back(scene, settings, workbench, tools::tool_called(scene.tool, scene.path));
   }
   Hand& hand(std::size_t index) { return hands.at(index); }
 
@@ -176,17 +177,17 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
     if (const auto object = hand.carried()) tools_on[*object].push_back(&hand);
   }
   std::vector<Carried> carried;
-  std::deque<SharedBody> shared;
+  std::deque<bodies::SharedBody> shared;
   for (const auto& [object, on_it] : tools_on) {
     if (on_it.size() == 1 && on_it.front()->holds()) {
-      if (SteppedBody* body = on_it.front()->begin_step(now, h)) carried.push_back({object, body});
+      if (bodies::SteppedBody* body = on_it.front()->begin_step(now, h)) carried.push_back({object, body});
       continue;
     }
-    std::vector<CoupledTool*> tools;
+    std::vector<bodies::CoupledTool*> tools;
     for (Hand* hand : on_it) tools.push_back(hand->begin_shared_step(now));
-    const BodyState& o = workbench.states()[object];
+    const bodies::BodyState& o = workbench.states()[object];
     const bool massless = workbench.massless(object);
-    const Body& body =
+    const scene::Body& body =
         massless ? unit_mass : workbench.body(object);  // which is of no effect where all tools are rigid
     shared.emplace_back(workbench.scene_index(object), body, massless ? 0.0 : scene.gravity, o.X_WO, o.V_WO_W, tools);
     carried.push_back({object, &shared.back()});
@@ -225,9 +226,9 @@ void Simulation::Impl::fill_parts(AdvanceReport& report) const {
   const auto part = [&](const std::string& name, bool runs) {
     (runs ? report.parts_run : report.parts_left_out).push_back(name);
   };
-  ForkDofs run{false, false, false};
+  rod::ForkDofs run{false, false, false};
   for (const Hand& hand : hands) {
-    const ForkDofs of_hand = hand.families_run();
+    const rod::ForkDofs of_hand = hand.families_run();
     run = {run.stretch || of_hand.stretch, run.bend || of_hand.bend, run.torsion || of_hand.torsion};
   }
   part("stretch", run.stretch);
@@ -239,13 +240,13 @@ void Simulation::Impl::fill_parts(AdvanceReport& report) const {
   part("movable_neighbours", report.steps_among_movable > 0);
 }
 
-Simulation::Simulation(const Scene& scene, const SimulationSettings& settings)
+Simulation::Simulation(const scene::Scene& scene, const SimulationSettings& settings)
     : impl_(std::make_unique<Impl>(scene, settings)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-const Scene& Simulation::scene() const { return impl_->scene; }
+const scene::Scene& Simulation::scene() const { return impl_->scene; }
 const SimulationSettings& Simulation::settings() const { return impl_->settings; }
 
 double Simulation::time() const {
@@ -253,7 +254,7 @@ double Simulation::time() const {
   return impl_->started || !std::isfinite(first) ? impl_->now : first;
 }
 
-bool Simulation::push_stylus(const PoseSample& sample, std::size_t hand) {
+bool Simulation::push_stylus(const motion::PoseSample& sample, std::size_t hand) {
   return impl_->hand(hand).stylus().push(sample);
 }
 
@@ -287,7 +288,7 @@ void Simulation::reset() {
 
 void Simulation::place(const std::map<std::string, RigidTransform>& X_WO) {
   for (const auto& [name, X] : X_WO) {
-    if (!X.matrix().allFinite()) refuse("place", name, "a pose that is not finite", "finite");
+    if (!X.matrix().allFinite()) validation::refuse("place", name, "a pose that is not finite", "finite");
   }
   release();
   for (const auto& [name, X] : X_WO) {
@@ -309,7 +310,7 @@ bool Simulation::release(std::size_t hand) {
 }
 
 ChangeReport Simulation::select_tool(const std::string& name, std::size_t hand) {
-  const Tool tool = tool_called(name, "select_tool");
+  const tools::Tool tool = tools::tool_called(name, "select_tool");
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
   const bool held = impl_->hand(hand).holds();
@@ -320,7 +321,7 @@ ChangeReport Simulation::select_tool(const std::string& name, std::size_t hand) 
   return change;
 }
 
-ChangeReport Simulation::set_dofs(const ForkDofs& dofs) {
+ChangeReport Simulation::set_dofs(const rod::ForkDofs& dofs) {
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
   impl_->settings.fork.dofs = dofs;
@@ -330,14 +331,14 @@ ChangeReport Simulation::set_dofs(const ForkDofs& dofs) {
   return change;
 }
 
-ChangeReport Simulation::set_stiffness(const PerFamily& stiffness) {
-  const NumberRule rule = not_negative();
-  check_number("set_stiffness", "stretch", stiffness.stretch, rule);
-  check_number("set_stiffness", "bend", stiffness.bend, rule);
-  check_number("set_stiffness", "torsion", stiffness.torsion, rule);
+ChangeReport Simulation::set_stiffness(const rod::PerFamily& stiffness) {
+  const validation::NumberRule rule = validation::not_negative();
+  validation::check_number("set_stiffness", "stretch", stiffness.stretch, rule);
+  validation::check_number("set_stiffness", "bend", stiffness.bend, rule);
+  validation::check_number("set_stiffness", "torsion", stiffness.torsion, rule);
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
-  PerFamily& k = impl_->settings.fork.stiffness;
+  rod::PerFamily& k = impl_->settings.fork.stiffness;
   if (stiffness.stretch > 0.0) k.stretch = stiffness.stretch;
   if (stiffness.bend > 0.0) k.bend = stiffness.bend;
   if (stiffness.torsion > 0.0) k.torsion = stiffness.torsion;
@@ -347,12 +348,12 @@ ChangeReport Simulation::set_stiffness(const PerFamily& stiffness) {
   return change;
 }
 
-ChangeReport Simulation::set_damping_ratio(const PerFamily& ratio, const std::string& law) {
-  const NumberRule rule = between(0.0, 10.0);
-  check_number("set_damping", "stretch", ratio.stretch, rule);
-  check_number("set_damping", "bend", ratio.bend, rule);
-  check_number("set_damping", "torsion", ratio.torsion, rule);
-  ForkSettings changed = impl_->settings.fork;
+ChangeReport Simulation::set_damping_ratio(const rod::PerFamily& ratio, const std::string& law) {
+  const validation::NumberRule rule = validation::between(0.0, 10.0);
+  validation::check_number("set_damping", "stretch", ratio.stretch, rule);
+  validation::check_number("set_damping", "bend", ratio.bend, rule);
+  validation::check_number("set_damping", "torsion", ratio.torsion, rule);
+  rod::ForkSettings changed = impl_->settings.fork;
   changed.damping_ratio = ratio;
   if (!law.empty()) changed.damping_law = law;
   check_damping("set_damping", changed);
@@ -367,23 +368,25 @@ ChangeReport Simulation::calibrate() {
   change.elastic_energy_before = impl_->elastic_energy();
   bool done = false;
   for (Hand& hand : impl_->hands) done = hand.calibrate(change, impl_->now) || done;
-  if (!done) throw InputError("calibrate: held object: none is not allowed: must be an object on a fork or a spring");
+  if (!done)
+    throw validation::InputError(
+        "calibrate: held object: none is not allowed: must be an object on a fork or a spring");
   change.elastic_energy_after = impl_->elastic_energy();
   return change;
 }
 
 void Simulation::set_integrator(const std::string& name, double step, double tolerance) {
-  make_integrator(name);
-  if (step != 0.0) check_number("set_integrator", "step", step, between(1e-6, 1.0));
-  check_number("set_integrator", "tolerance", tolerance, allowed_tolerance());
+  dynamics::make_integrator(name);
+  if (step != 0.0) validation::check_number("set_integrator", "step", step, validation::between(1e-6, 1.0));
+  validation::check_number("set_integrator", "tolerance", tolerance, allowed_tolerance());
   impl_->settings.dynamics.integrator = name;
   impl_->settings.dynamics.tolerance = tolerance;
   if (step != 0.0) impl_->settings.dynamics.step = step;
   for (Hand& hand : impl_->hands) hand.change_integrator();
 }
 
-const std::vector<BodyState>& Simulation::objects() const { return impl_->workbench.states(); }
-const std::vector<ContactState>& Simulation::contacts() const { return impl_->workbench.contacts().told(); }
-ToolState Simulation::fork(std::size_t hand) const { return impl_->hand(hand).state(); }
+const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->workbench.states(); }
+const std::vector<contact::ContactState>& Simulation::contacts() const { return impl_->workbench.contacts().told(); }
+tools::ToolState Simulation::fork(std::size_t hand) const { return impl_->hand(hand).state(); }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -6,7 +6,7 @@
 
 #include "spring_workbench/motion/pose_track.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 
 constexpr double same_time = 1e-9;  ///< [s]; stamps nearer to each other are one
 
@@ -26,13 +26,13 @@ class Stylus {
     X_WS_ = X_WS_start_;
   }
 
-  bool push(const PoseSample& sample) { return track_.push(sample); }
+  bool push(const motion::PoseSample& sample) { return track_.push(sample); }
   void push(double t, Press press) { presses_.push_back({t, press}); }
-  const PoseTrack& track() const { return track_; }
+  const motion::PoseTrack& track() const { return track_; }
   /// Whether a sample says where it is at time `now` [s].
   bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
   /// Its motion from `now` to the next sample.
-  const MotionSegment& motion(double now) { return track_.segment(now); }
+  const motion::MotionSegment& motion(double now) { return track_.segment(now); }
   /// The time after `now` at which the next piece of the motion begins; infinity where there is none.
   double next_sample(double now) {
     if (track_.empty()) return std::numeric_limits<double>::infinity();
@@ -66,9 +66,9 @@ class Stylus {
     double t;
     Press press;
   };
-  PoseTrack track_;
+  motion::PoseTrack track_;
   std::deque<Edge> presses_;
   RigidTransform X_WS_start_, X_WS_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench {
+namespace spring_workbench::sound {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -17,7 +17,7 @@ constexpr double fade_time = 0.01;    ///< of a change of speed [s]
 }  // namespace
 
 ContactSynthesizer::ContactSynthesizer(double volume) : volume_(volume) {
-  check_number("contact sound", "volume", volume, between(0.0, 1.0));
+  validation::check_number("contact sound", "volume", volume, validation::between(0.0, 1.0));
   // A small wooden block: frequency [Hz], time to 1/e [s], share.
   constexpr double ringing[4][3] = {
       {420.0, 0.060, 0.45}, {960.0, 0.035, 0.3}, {1730.0, 0.02, 0.15}, {3100.0, 0.01, 0.1}};
@@ -69,4 +69,4 @@ double ContactSynthesizer::scraping() {
   return scrape_gain * loudness * band_;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::sound

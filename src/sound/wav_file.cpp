@@ -2,18 +2,18 @@
 #include <cstdint>
 #include <fstream>
 
-#include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/sound/audio_output.h"
 #include "spring_workbench/sound/contact_synthesizer.h"
+#include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench {
+namespace spring_workbench::sound {
 namespace {
 
 /// RIFF WAVE with one channel of 16 bit, little endian.
 class WavFile final : public AudioOutput {
  public:
   explicit WavFile(const std::string& path) : file_(path, std::ios::binary) {
-    if (!file_) refuse("contact sound", "file", path, "a file that can be written");
+    if (!file_) validation::refuse("contact sound", "file", path, "a file that can be written");
     write_header();
   }
   ~WavFile() override {
@@ -54,4 +54,4 @@ class WavFile final : public AudioOutput {
 
 std::unique_ptr<AudioOutput> open_wav_file(const std::string& path) { return std::make_unique<WavFile>(path); }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::sound

@@ -6,41 +6,41 @@
 #include "spring_workbench/dynamics/find_strain.h"
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench {
+namespace spring_workbench::tools {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
 constexpr double earth = 9.81;  // [m/s²]
 
 /// The strain at rest on a handle at `X_WH`, looked for from `q` on.
-StrainVector equilibrium(const HeldBody& held, const RigidTransform& X_WH, const StrainVector& q) {
-  const HandleForcing handle = held.forcing(MotionSegment(X_WH), 0.0);
-  const auto force = [&](const StrainVector& at) -> StrainVector {
-    return held.mass_matrix(0.0, at) * held.acceleration(handle, at, StrainVector::Zero(at.size()));
+rod::StrainVector equilibrium(const dynamics::HeldBody& held, const RigidTransform& X_WH, const rod::StrainVector& q) {
+  const dynamics::HandleForcing handle = held.forcing(motion::MotionSegment(X_WH), 0.0);
+  const auto force = [&](const rod::StrainVector& at) -> rod::StrainVector {
+    return held.mass_matrix(0.0, at) * held.acceleration(handle, at, rod::StrainVector::Zero(at.size()));
   };
-  return find_strain(held, 0.0, force, q, 1e-10 * held.gravity());
+  return dynamics::find_strain(held, 0.0, force, q, 1e-10 * held.gravity());
 }
 
 }  // namespace
 
 double weighing_gravity(double gravity) { return gravity > 0.0 ? gravity : earth; }
 
-PerFamily calibrated_stiffness(const std::string& shape, double length, const BodyInertia& body, double gravity,
-                               const CalibrationGoal& goal) {
+rod::PerFamily calibrated_stiffness(const std::string& shape, double length, const dynamics::BodyInertia& body,
+                                    double gravity, const CalibrationGoal& goal) {
   const double g = weighing_gravity(gravity);
   const double sag = goal.sag * length;
   const double omega = std::sqrt(g / sag);
   // Of a body of 1 kg: all forces are proportional to the mass.
-  const BodyInertia unit{1.0, body.inertia_O / body.mass, body.X_OE};
-  HeldBody held(make_shape_model(shape, length), unit, g);
+  const dynamics::BodyInertia unit{1.0, body.inertia_O / body.mass, body.X_OE};
+  dynamics::HeldBody held(rod::make_shape_model(shape, length), unit, g);
   const int size = held.shape().size();
-  const StrainState zero{StrainVector::Zero(size), StrainVector::Zero(size)};
+  const dynamics::StrainState zero{rod::StrainVector::Zero(size), rod::StrainVector::Zero(size)};
   held.set_dofs({true, true, true}, 0.0, 1.0, zero);
   RigidTransform hanging = RigidTransform::Identity(), level = RigidTransform::Identity();
-  hanging.linear() = exp_so3(Vector3d(pi, 0.0, 0.0));       // z of the handle is down
-  level.linear() = exp_so3(Vector3d(0.0, -0.5 * pi, 0.0));  // x of the handle is up
-  PerFamily k{g / sag, g / sag, held.axial_inertia() * omega * omega};
-  StrainVector q_hanging = zero.q, q_level = zero.q;
+  hanging.linear() = math::exp_so3(Vector3d(pi, 0.0, 0.0));       // z of the handle is down
+  level.linear() = math::exp_so3(Vector3d(0.0, -0.5 * pi, 0.0));  // x of the handle is up
+  rod::PerFamily k{g / sag, g / sag, held.axial_inertia() * omega * omega};
+  rod::StrainVector q_hanging = zero.q, q_level = zero.q;
   for (int iteration = 0; iteration < 40; ++iteration) {
     held.set_springs(k, {1.0, 1.0, 1.0});
     q_hanging = equilibrium(held, hanging, q_hanging);
@@ -58,9 +58,9 @@ double calibrated_spring(double mass, double length, double gravity, const Calib
   return mass * weighing_gravity(gravity) / (goal.sag * length);
 }
 
-double calibrated_length(const BodyInertia& body, const CalibrationGoal& goal) {
+double calibrated_length(const dynamics::BodyInertia& body, const CalibrationGoal& goal) {
   const double gyration = std::sqrt(body.inertia_O.trace() / (3.0 * body.mass));
   return std::clamp(2.0 * goal.twist * gyration / goal.sag, 1e-3, 100.0);
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::tools

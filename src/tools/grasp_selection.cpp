@@ -1,6 +1,6 @@
 #include "spring_workbench/tools/grasp_selection.h"
 
-namespace spring_workbench {
+namespace spring_workbench::tools {
 
 GraspEvent GraspSelection::set_button(bool pressed, bool holding) {
   const bool rising = pressed && !pressed_;
@@ -10,4 +10,4 @@ GraspEvent GraspSelection::set_button(bool pressed, bool holding) {
   return GraspEvent::none;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::tools

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench {
+namespace spring_workbench::tools {
 
 const std::vector<std::string>& tool_names() {
   static const std::vector<std::string> names = {"spring", "spring_fork", "spring_probe", "direct", "ray"};
@@ -15,7 +15,7 @@ std::string name_of(Tool tool) { return tool_names()[static_cast<std::size_t>(to
 
 Tool tool_called(const std::string& name, const std::string& where) {
   const auto found = std::find(tool_names().begin(), tool_names().end(), name);
-  if (found == tool_names().end()) refuse(where, "tool", name, "one of " + join(tool_names()));
+  if (found == tool_names().end()) validation::refuse(where, "tool", name, "one of " + validation::join(tool_names()));
   return static_cast<Tool>(found - tool_names().begin());
 }
 
@@ -28,4 +28,4 @@ Tool next_tool(Tool tool, bool holding) {
   return holding && !can_hold(next) ? next_tool(next, holding) : next;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::tools

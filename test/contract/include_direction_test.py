@@ -1,5 +1,6 @@
 #!/usr/bin/python3
-"""The rooms know each other in one direction: the one of the add_room lines. Reads the #include lines."""
+"""The modules depend on each other in one direction: that of the add_module lines. Reads the #include lines, and holds
+every file to the namespace of its module."""
 import pathlib
 import re
 import sys
@@ -8,81 +9,117 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OWN = "spring_workbench/"
-# What may use ROS; apps only where bags are read.
-ROS_ROOMS = {"ros_interface", "nodes", "rviz_plugin"}
-EXTERNAL = [  # headers, rooms that may use them, whether their public headers may as well
+ROS_MODULES = {"ros_common", "manipulation", "tracker_driver", "contact_sound", "nodes", "rviz_plugin"}
+EXTERNAL = [  # headers, modules that may use them, whether their public headers may as well
     (
         re.compile(
             r"^(ros|rosbag|tf2\w*|\w+_msgs|std_srvs|dynamic_reconfigure|pluginlib|rviz"
             r"|interactive_markers|XmlRpc\w*)(/|\.h|$)"
         ),
-        ROS_ROOMS,
+        ROS_MODULES,
         True,
     ),
-    (re.compile(r"^(bt|Bullet|LinearMath/)"), {"world"}, False),
+    (re.compile(r"^(bt|Bullet|LinearMath/)"), {"rigid_bodies"}, False),
     (re.compile(r"^fcl/"), {"collision"}, False),
     (re.compile(r"^SDL"), {"sound"}, False),
     (re.compile(r"^(urdf\w*|assimp)/"), {"scene"}, False),
 ]
-USERS = {
+YAML = re.compile(r"^yaml-cpp/")
+WITHOUT_YAML = set("math validation geometry motion rod fork_mesh dynamics bodies tools contact".split())
+EXECUTABLES = {  # folders of executables, which have no module of their own: what they may use
     "rviz_plugin": {"fork_mesh", "tools"},
-    "nodes": {"ros_interface"},
-    "apps": {"simulation", "tracker", "simulated_device", "operator"},
-}  # folders of executables, not rooms
+    "nodes": {"manipulation", "tracker_driver", "contact_sound"},
+    "apps": {"hand_input", "motion_files", "fastrak", "assembly"},
+}
+# The few names that every module has in common are in the namespace above the modules.
+COMMON_NAMES = {"include/spring_workbench/math/rigid_transform.h", "include/spring_workbench/math/spatial.h"}
 
 
-def rooms_of(cmake_text):
-    """Name -> rooms that it may use directly, from add_room(name DEPENDS a b LIBRARIES ...)."""
-    rooms = {}
-    for arguments in re.findall(r"^\s*add_room\(([^)]*)\)", cmake_text, re.MULTILINE):
+def modules_of(cmake_text):
+    """Name -> (folder, modules that it may use directly), from add_module(name FOLDER f DEPENDS a b LIBRARIES ...)."""
+    modules = {}
+    for arguments in re.findall(r"^\s*add_module\(([^)]*)\)", cmake_text, re.MULTILINE):
         name, *words = arguments.split()
-        depends = words[words.index("DEPENDS") + 1 :] if "DEPENDS" in words else []
-        rooms[name] = set(depends[: depends.index("LIBRARIES")] if "LIBRARIES" in depends else depends)
-    return rooms
+        depends = []
+        if "DEPENDS" in words:
+            for word in words[words.index("DEPENDS") + 1 :]:
+                if word.isupper():
+                    break
+                depends.append(word)
+        folder = words[words.index("FOLDER") + 1] if "FOLDER" in words else name
+        modules[name] = (folder, set(depends))
+    return modules
 
 
-def reach(rooms, room):
-    """The room and all that it may use, directly or not."""
-    found, to_do = set(), [room]
+def reach(uses, module):
+    """The module and all that it may use, directly or not."""
+    found, to_do = set(), [module]
     while to_do:
         name = to_do.pop()
         if name not in found:
             found.add(name)
-            to_do.extend(rooms.get(name, ()))
+            to_do.extend(uses.get(name, ()))
     return found
 
 
+class Layout:
+    """Which module a file is of, and what that may use."""
+
+    def __init__(self, root):
+        cmake = [root / "CMakeLists.txt", *sorted((root / "cmake").glob("*.cmake"))]
+        modules = modules_of("".join(path.read_text() for path in cmake))
+        self.folders = {folder: name for name, (folder, _) in modules.items()}
+        self.uses = {**{name: uses for name, (_, uses) in modules.items()}, **EXECUTABLES}
+
+    def module_of(self, path):
+        """Of a path below src or include/spring_workbench; None if no module claims it."""
+        for parent in path.parents:
+            if str(parent) in self.folders:
+                return self.folders[str(parent)]
+        return path.parts[0] if path.parts[0] in EXECUTABLES else None
+
+
 def find_faults(root):
-    cmake_text = "".join(
-        path.read_text() for path in [root / "CMakeLists.txt", *sorted((root / "cmake").glob("*.cmake"))]
-    )
-    rooms = {**rooms_of(cmake_text), **USERS}
+    layout = Layout(root)
     faults, files = [], 0
     for base in ["include/spring_workbench", "src"]:
         for path in sorted(p for p in (root / base).rglob("*") if p.suffix in {".h", ".cpp"}):
             files += 1
-            room = path.relative_to(root / base).parts[0]
-            if room not in rooms:
-                faults.append(f"{path.relative_to(root)}: {room} is no room: must stand in an add_room line")
+            name = path.relative_to(root)
+            module = layout.module_of(path.relative_to(root / base))
+            if module is None:
+                faults.append(f"{name}: in the folder of no module: an add_module line must name it")
                 continue
-            for number, line in enumerate(path.read_text().splitlines(), 1):
-                match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
-                reason = match and fault_of(match.group(1), room, path, base == "src", reach(rooms, room))
-                if reason:
-                    faults.append(f"{path.relative_to(root)}:{number}: {room} includes {match.group(1)}: {reason}")
+            text = path.read_text()
+            faults += [f"{name}:{n}: {reason}" for n, reason in include_faults(text, module, path, base, layout)]
+            if module not in EXECUTABLES and str(name) not in COMMON_NAMES:
+                opened = set(re.findall(r"^namespace (spring_workbench[\w:]*) \{", text, re.MULTILINE))
+                if opened - {f"spring_workbench::{module}"}:
+                    faults.append(f"{name}: opens {', '.join(sorted(opened))}: must be spring_workbench::{module}")
     return faults, files
 
 
-def fault_of(header, room, path, private, allowed):
+def include_faults(text, module, path, base, layout):
+    for number, line in enumerate(text.splitlines(), 1):
+        match = re.match(r'\s*#\s*include\s*[<"]([^>"]+)[>"]', line)
+        reason = match and fault_of(match.group(1), module, path, base == "src", layout)
+        if reason:
+            yield number, f"{module} includes {match.group(1)}: {reason}"
+
+
+def fault_of(header, module, path, private, layout):
     if header.startswith(OWN):
-        parts = header[len(OWN) :].split("/")
-        if len(parts) == 1:  # generated from a message or service
-            return None if room in ROS_ROOMS else "messages belong to the ROS side"
-        return None if parts[0] in allowed else f"must be one of {', '.join(sorted(allowed))}"
-    if room == "apps" and "bag" in path.stem and EXTERNAL[0][0].match(header):
+        inside = pathlib.Path(header[len(OWN) :])
+        if len(inside.parts) == 1:  # generated from a message or service
+            return None if module in ROS_MODULES else "messages belong to the ROS side"
+        allowed = reach(layout.uses, module)
+        return None if layout.module_of(inside) in allowed else f"must be one of {', '.join(sorted(allowed))}"
+    if module == "apps" and "bag" in path.stem and EXTERNAL[0][0].match(header):
         return None
+    if YAML.match(header) and module in WITHOUT_YAML:
+        return "knows no YAML"
     for pattern, users, in_public in EXTERNAL:
-        if pattern.match(header) and (room not in users or not (private or in_public)):
+        if pattern.match(header) and (module not in users or not (private or in_public)):
             return f"only in {', '.join(sorted(users))}" + ("" if in_public else ", in src/ alone")
     return None
 
@@ -93,34 +130,41 @@ class IncludeDirection(unittest.TestCase):
         self.assertGreater(files, 30)
         self.assertEqual(faults, [], "\n" + "\n".join(faults))
 
-    def test_rooms_have_no_circle(self):
-        rooms = rooms_of((ROOT / "CMakeLists.txt").read_text())
-        self.assertIn("simulation", rooms)
-        for room, uses in rooms.items():
-            for other in uses:
-                self.assertNotIn(room, reach(rooms, other), f"{room} -> {other} closes a circle")
+    def test_modules_have_no_circle(self):
+        uses = Layout(ROOT).uses
+        self.assertIn("simulation", uses)
+        for module, others in uses.items():
+            for other in others:
+                self.assertNotIn(module, reach(uses, other), f"{module} -> {other} closes a circle")
 
-    def test_arrows_the_wrong_way_are_found(self):
-        cases = [  # file, include line, whether it is a fault
+    def test_faults_are_found(self):
+        cases = [  # file, line, whether it is a fault
             ("src/low/a.cpp", '#include "spring_workbench/low/a.h"', False),
             ("src/high/a.cpp", '#include "spring_workbench/low/a.h"', False),
             ("src/low/a.cpp", '#include "spring_workbench/high/a.h"', True),
+            ("src/ros/top/a.cpp", '#include "spring_workbench/high/a.h"', False),
+            ("src/high/a.cpp", '#include "spring_workbench/ros/top/a.h"', True),
             ("include/spring_workbench/low/a.h", "#  include <ros/ros.h>", True),
             ("src/low/a.cpp", "#include <geometry_msgs/Pose.h>", True),
             ("src/low/a.cpp", '#include "spring_workbench/ForkState.h"', True),
             ("src/low/a.cpp", "#include <fcl/fcl.h>", True),
             ("src/collision/a.cpp", "#include <fcl/fcl.h>", False),
             ("include/spring_workbench/collision/a.h", "#include <fcl/fcl.h>", True),
+            ("src/rod/a.cpp", "#include <yaml-cpp/yaml.h>", True),
             ("src/nodes/a.cpp", "#include <ros/ros.h>", False),
             ("src/apps/bag_reader.cpp", "#include <rosbag/bag.h>", False),
             ("src/apps/main.cpp", "#include <rosbag/bag.h>", True),
             ("src/stray/a.cpp", "#include <vector>", True),
+            ("src/low/a.cpp", "namespace spring_workbench::low {", False),
+            ("src/low/a.cpp", "namespace spring_workbench::high {", True),
+            ("src/low/a.cpp", "namespace spring_workbench {", True),
         ]
         for file, line, wrong in cases:
             with self.subTest(file=file, line=line), tempfile.TemporaryDirectory() as folder:
                 root = pathlib.Path(folder)
                 (root / "CMakeLists.txt").write_text(
-                    "add_room(low)\nadd_room(collision DEPENDS low)\n" "add_room(high DEPENDS low LIBRARIES x)\n"
+                    "add_module(low)\nadd_module(rod)\nadd_module(collision DEPENDS low)\n"
+                    "add_module(high DEPENDS low LIBRARIES x)\nadd_module(top FOLDER ros/top DEPENDS high)\n"
                 )
                 (root / file).parent.mkdir(parents=True)
                 (root / file).write_text(line + "\n")

@@ -48,7 +48,7 @@ class Choices {
     const unsigned choice = byte();
     return choice < 0xf0 ? known[choice % known.size()] : std::string(choice - 0xef, static_cast<char>(byte()));
   }
-  PerFamily per_family() {
+  rod::PerFamily per_family() {
     const double stretch = number(), bend = number();
     return {stretch, bend, number()};
   }
@@ -59,7 +59,7 @@ class Choices {
 };
 
 /// One call, as the services make it, with numbers as they come.
-void call(Choices& next, Simulation& simulation, PoseSample& hand) {
+void call(Choices& next, simulation::Simulation& simulation, motion::PoseSample& hand) {
   switch (next.byte() % 11) {
     case 0:
       simulation.set_dofs({next.flag(), next.flag(), next.flag()});
@@ -71,7 +71,7 @@ void call(Choices& next, Simulation& simulation, PoseSample& hand) {
       simulation.set_damping_ratio(next.per_family());
       break;
     case 3: {
-      const std::string name = next.name(integrator_names());
+      const std::string name = next.name(dynamics::integrator_names());
       const double step = next.number();
       const bool to_tolerance = next.flag();
       // Not to wait for hours: a step that is allowed is no shorter than 2 ms, or 50 ms where it is made of as many as
@@ -81,7 +81,7 @@ void call(Choices& next, Simulation& simulation, PoseSample& hand) {
       break;
     }
     case 4:
-      simulation.select_tool(next.name(tool_names()), next.byte() % 2);
+      simulation.select_tool(next.name(tools::tool_names()), next.byte() % 2);
       break;
     case 5:
       simulation.calibrate();
@@ -99,7 +99,7 @@ void call(Choices& next, Simulation& simulation, PoseSample& hand) {
       simulation.push_next_tool(hand.t, next.byte() % 2);
       break;
     default: {
-      PoseSample sample = hand;
+      motion::PoseSample sample = hand;
       sample.t += 0.02 * (1.0 + next.byte() / 64.0);
       for (int i = 0; i < 3; ++i) sample.X.translation()[i] += 0.2 * next.hand_number();
       sample.X.rotate(Eigen::AngleAxisd(next.hand_number(), Vector3d::UnitX()));
@@ -111,14 +111,14 @@ void call(Choices& next, Simulation& simulation, PoseSample& hand) {
 }  // namespace
 
 void calls(std::string_view bytes) {
-  static const Scene scene = load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf");
+  static const scene::Scene scene = scene::load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf");
   constexpr int most_calls = 60;
   Choices next(bytes);
-  SimulationSettings settings;
+  simulation::SimulationSettings settings;
   settings.contact = std::array{"none", "stop", "dynamic"}[next.byte() % 3];
-  Simulation simulation(scene, settings);
+  simulation::Simulation simulation(scene, settings);
   run_a_hand(simulation);
-  PoseSample hand{simulation.newest_sample(), simulation.fork().X_WH};
+  motion::PoseSample hand{simulation.newest_sample(), simulation.fork().X_WH};
   for (int i = 0; i < most_calls && !next.over(); ++i) {
     const RigidTransform before = simulation.objects()[0].X_WO;
     const double energy = simulation.fork().elastic_energy;

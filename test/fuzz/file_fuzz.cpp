@@ -4,8 +4,8 @@
 
 #include "fuzz/running.h"
 #include "fuzz/targets.h"
-#include "spring_workbench/tracker/motion_file.h"
-#include "spring_workbench/tracker/scripted_source.h"
+#include "spring_workbench/motion_files/motion_file.h"
+#include "spring_workbench/motion_files/scripted_source.h"
 #include "support/temporary_folder.h"
 
 namespace spring_workbench::fuzz {
@@ -25,18 +25,18 @@ std::pair<std::string, std::string> parted(std::string_view text, std::string_vi
   return {std::string(text.substr(0, at)), std::string(text.substr(at + mark.size()))};
 }
 
-void check(const StylusSample& sample) {
+void check(const motion::StylusSample& sample) {
   require(std::isfinite(sample.t) && sample.X.matrix().allFinite(), "a sample is finite");
   require((sample.X.linear().transpose() * sample.X.linear() - Matrix3d::Identity()).norm() < 1e-9,
           "a sample's attitude is a rotation");
 }
 
-void check(const Scene& scene) {
+void check(const scene::Scene& scene) {
   std::set<std::string> names;
-  for (const Body& body : scene.bodies) {
+  for (const scene::Body& body : scene.bodies) {
     require(names.insert(body.name).second, "names of bodies are unique");
     require(body.X_WO.matrix().allFinite() && body.X_OL.matrix().allFinite(), "a body's place is finite");
-    const MassProperties& m = body.mass_properties;
+    const scene::MassProperties& m = body.mass_properties;
     require(m.mass >= 0.0 && m.mass <= 1e12 && m.inertia_O.allFinite(), "a mass is one");
   }
 }
@@ -48,9 +48,9 @@ void motion(std::string_view bytes) {
   if (bytes.substr(0, script.size()) == script) {
     folder().write("motion.yaml", std::string(bytes.substr(script.size())));
     accepted([] {
-      ScriptedSource source(folder().path("motion.yaml"));
+      motion_files::ScriptedSource source(folder().path("motion.yaml"));
       for (int i = 0; i < kSamplesAsked; ++i) {
-        const std::optional<StylusSample> sample = source.next();
+        const std::optional<motion::StylusSample> sample = source.next();
         if (!sample) break;
         check(*sample);
       }
@@ -59,19 +59,20 @@ void motion(std::string_view bytes) {
   }
   folder().write("motion.tum", std::string(bytes));
   accepted([] {
-    for (const StylusSample& sample : read_motion_file(folder().path("motion.tum"))) check(sample);
+    for (const motion::StylusSample& sample : motion_files::read_motion_file(folder().path("motion.tum")))
+      check(sample);
   });
 }
 
 void settings(std::string_view bytes) {
-  static const Scene scene = load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf");
+  static const scene::Scene scene = scene::load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf");
   folder().write("settings.yaml", std::string(bytes));
   accepted([] {
-    SimulationSettings chosen;
-    apply_settings(load_yaml_file(folder().path("settings.yaml")), "settings.yaml", chosen);
+    simulation::SimulationSettings chosen;
+    simulation::apply_settings(config::load_yaml_file(folder().path("settings.yaml")), "settings.yaml", chosen);
     chosen.dynamics.step = std::max(chosen.dynamics.step, 0.005);  // not to wait for hours
     if (chosen.dynamics.tolerance > 0.0) chosen.dynamics.tolerance = std::max(chosen.dynamics.tolerance, 1e-6);
-    Simulation simulation(scene, chosen);
+    simulation::Simulation simulation(scene, chosen);
     run_a_hand(simulation);
   });
 }
@@ -81,9 +82,9 @@ void scene(std::string_view bytes) {
   folder().write("scene.urdf", urdf);
   folder().write("scene.yaml", yaml);
   accepted([] {
-    const Scene loaded = load_scene(folder().path("scene.urdf"), {folder().path("")});
+    const scene::Scene loaded = scene::load_scene(folder().path("scene.urdf"), {folder().path("")});
     check(loaded);
-    Simulation simulation(loaded, {});
+    simulation::Simulation simulation(loaded, {});
     run_a_hand(simulation);
   });
 }

@@ -12,10 +12,10 @@ namespace spring_workbench::fuzz {
 bool accepted(const std::function<void()>& work);
 
 /// All that a simulation gives out is finite.
-void check_finite(const Simulation& simulation);
+void check_finite(const simulation::Simulation& simulation);
 
 /// A hand that goes down into the first movable body's place, grasps it and goes away with it, for a quarter of a
 /// second.
-void run_a_hand(Simulation& simulation);
+void run_a_hand(simulation::Simulation& simulation);
 
 }  // namespace spring_workbench::fuzz

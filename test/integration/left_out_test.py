@@ -16,8 +16,8 @@ from stack import DEADLINE, Listener
 
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
 LIBRARIES = os.environ["CMAKE_PREFIX_PATH"].split(":")[0] + "/lib/libspring_workbench_%s_engine.so"
-ENGINES = {"collision": "libfcl", "world": "libBullet"}  # room, and what does its work
-NEEDED = {"none": [], "stop": ["collision"], "dynamic": ["collision", "world"]}
+ENGINES = {"collision": "libfcl", "rigid_bodies": "libBullet"}  # module, and what does its work
+NEEDED = {"none": [], "stop": ["collision"], "dynamic": ["collision", "rigid_bodies"]}
 
 
 class LeftOut(unittest.TestCase):
@@ -33,7 +33,7 @@ class LeftOut(unittest.TestCase):
             stderr=subprocess.STDOUT,
         )
         try:
-            if not all(os.path.exists(LIBRARIES % room) for room in NEEDED[contact]):
+            if not all(os.path.exists(LIBRARIES % module) for module in NEEDED[contact]):
                 said = node.communicate(timeout=DEADLINE)[0].splitlines()
                 self.assertEqual((node.returncode, len(said)), (2, 1), said)
                 self.assertIn("contact: %s is not allowed" % contact, said[0])
@@ -42,9 +42,9 @@ class LeftOut(unittest.TestCase):
             with open("/proc/%d/maps" % node.pid) as file:
                 maps = file.read()
             self.assertIn("libassimp", maps)  # it is the node that is looked at, and what it is linked with can be seen
-            for room, library in ENGINES.items():
-                self.assertEqual(library in maps, room in NEEDED[contact], library)
-                self.assertEqual(LIBRARIES % room in maps, room in NEEDED[contact], room)
+            for module, library in ENGINES.items():
+                self.assertEqual(library in maps, module in NEEDED[contact], library)
+                self.assertEqual(LIBRARIES % module in maps, module in NEEDED[contact], module)
         finally:
             node.terminate()
             node.communicate(timeout=DEADLINE)

@@ -299,7 +299,7 @@ TEST_F(Replay, HelpNamesEveryKey) {
   const Outcome outcome = run("--help");
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.err, "");
-  for (const SettingDescription& d : setting_descriptions()) {
+  for (const simulation::SettingDescription& d : simulation::setting_descriptions()) {
     EXPECT_NE(outcome.out.find("\n  " + d.key + " ("), std::string::npos) << d.key;
   }
   for (const char* option : {"--scene", "--motion", "--bag", "--settings", "--set", "--out", "rate"}) {

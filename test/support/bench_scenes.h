@@ -14,7 +14,7 @@ inline RigidTransform pointing_down(const Vector3d& p, double turned = 0.0) {
 }
 
 /// Samples at 50 Hz of a handle that goes from `a` to `b` in minimum jerk and turns about the vertical.
-inline void push_move(Simulation& simulation, double t0, double t1, const Vector3d& a, const Vector3d& b,
+inline void push_move(simulation::Simulation& simulation, double t0, double t1, const Vector3d& a, const Vector3d& b,
                       double turn = 0.0, std::size_t hand = 0) {
   for (double t = t0; t < t1 + 1e-9; t += 0.02) {
     const double u = (t - t0) / (t1 - t0);
@@ -23,9 +23,9 @@ inline void push_move(Simulation& simulation, double t0, double t1, const Vector
   }
 }
 
-inline const BodyState& object(const Simulation& simulation, const std::string& name) {
+inline const bodies::BodyState& object(const simulation::Simulation& simulation, const std::string& name) {
   return *std::find_if(simulation.objects().begin(), simulation.objects().end(),
-                       [&](const BodyState& o) { return o.name == name; });
+                       [&](const bodies::BodyState& o) { return o.name == name; });
 }
 
 }  // namespace spring_workbench

@@ -4,31 +4,32 @@
 #include <string>
 #include <vector>
 
-#include "spring_workbench/tracker/fastrak_protocol.h"
+#include "spring_workbench/fastrak/fastrak_protocol.h"
 #include "support/random_poses.h"
 
 namespace spring_workbench::test_support {
 
 /// One way in which a device can be asked to report.
 struct FastrakMode {
-  FastrakFormat format;
-  FastrakUnits units;
+  fastrak::FastrakFormat format;
+  fastrak::FastrakUnits units;
   bool euler, redundant;
 
-  FastrakLayout layout(int station) const {
-    return FastrakLayout(fastrak_output_list(station, format, euler, redundant, station == 1), format, units);
+  fastrak::FastrakLayout layout(int station) const {
+    return fastrak::FastrakLayout(fastrak::fastrak_output_list(station, format, euler, redundant, station == 1), format,
+                                  units);
   }
-  std::map<int, FastrakLayout> layouts() const {
-    std::map<int, FastrakLayout> all;
-    for (int station = 1; station <= kFastrakStations; ++station) all.emplace(station, layout(station));
+  std::map<int, fastrak::FastrakLayout> layouts() const {
+    std::map<int, fastrak::FastrakLayout> all;
+    for (int station = 1; station <= fastrak::kFastrakStations; ++station) all.emplace(station, layout(station));
     return all;
   }
 };
 
 inline std::vector<FastrakMode> all_modes() {
   std::vector<FastrakMode> modes;
-  for (const auto format : {FastrakFormat::ascii, FastrakFormat::binary}) {
-    for (const auto units : {FastrakUnits::inches, FastrakUnits::centimetres}) {
+  for (const auto format : {fastrak::FastrakFormat::ascii, fastrak::FastrakFormat::binary}) {
+    for (const auto units : {fastrak::FastrakUnits::inches, fastrak::FastrakUnits::centimetres}) {
       for (const bool euler : {false, true}) {
         for (const bool redundant : {false, true}) modes.push_back({format, units, euler, redundant});
       }
@@ -37,8 +38,8 @@ inline std::vector<FastrakMode> all_modes() {
   return modes;
 }
 
-inline FastrakRecord random_record(Random& random, int station) {
-  FastrakRecord record;
+inline fastrak::FastrakRecord random_record(Random& random, int station) {
+  fastrak::FastrakRecord record;
   record.station = station;
   record.error = random.number(0.0, 1.0) < 0.1 ? 'k' : ' ';
   record.p_TS = random.vector(2.0);
@@ -47,7 +48,7 @@ inline FastrakRecord random_record(Random& random, int station) {
   return record;
 }
 
-inline bool same_pose(const FastrakRecord& a, const FastrakRecord& b) {
+inline bool same_pose(const fastrak::FastrakRecord& a, const fastrak::FastrakRecord& b) {
   return a.station == b.station && a.p_TS == b.p_TS && a.q_TS.coeffs() == b.q_TS.coeffs() && a.button == b.button;
 }
 

@@ -11,47 +11,48 @@
 namespace spring_workbench {
 
 /// A hand that moves on a cubic in position and in rotation vector.
-inline MotionSegment random_hand(double duration, std::mt19937& random) {
+inline motion::MotionSegment random_hand(double duration, std::mt19937& random) {
   std::normal_distribution<double> normal;
   const auto vector = [&](double size) {
     const double x = normal(random), y = normal(random), z = normal(random);
     return Vector3d(size * Vector3d(x, y, z));
   };
-  PoseSample a, b;
-  a.X = make_transform(Quaterniond(exp_so3(vector(1.0))), vector(0.1));
+  motion::PoseSample a, b;
+  a.X = make_transform(Quaterniond(math::exp_so3(vector(1.0))), vector(0.1));
   b.t = duration;
-  b.X = make_transform(Quaterniond(a.X.linear() * exp_so3(vector(2.0 * duration))),
+  b.X = make_transform(Quaterniond(a.X.linear() * math::exp_so3(vector(2.0 * duration))),
                        a.X.translation() + vector(0.5 * duration));
   const Vector3d v = vector(0.5), w = vector(2.0);
-  return MotionSegment(a, v, w, b, vector(0.5), vector(2.0));
+  return motion::MotionSegment(a, v, w, b, vector(0.5), vector(2.0));
 }
 
 /// A held body with what is random about it, gentle enough for the fork to stay far from its limits.
 struct Case {
-  HeldBody held;
-  MotionSegment hand;
+  dynamics::HeldBody held;
+  motion::MotionSegment hand;
   double omega;  ///< of the stiffest mode without damping [rad/s]
 };
 
 inline Case random_case(const std::string& shape, double damping_ratio, double duration, std::mt19937& random,
                         const std::string& damping_law = "per_family") {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  BodyInertia body;
+  dynamics::BodyInertia body;
   body.mass = std::pow(10.0, 3.0 * uniform(random));
   body.inertia_O = body.mass * Vector3d(0.0030, 0.0045, 0.0040 + 0.001 * uniform(random)).asDiagonal();
   const Vector3d turn(0.3 * uniform(random), 0.3 * uniform(random), uniform(random));
   const Vector3d grasp(0.03 * uniform(random), 0.03 * uniform(random), -0.05 + 0.02 * uniform(random));
-  body.X_OE = make_transform(Quaterniond(exp_so3(turn)), grasp);
-  HeldBody held(make_shape_model(shape, 0.2), body, 9.81);
+  body.X_OE = make_transform(Quaterniond(math::exp_so3(turn)), grasp);
+  dynamics::HeldBody held(rod::make_shape_model(shape, 0.2), body, 9.81);
   const auto factor = [&] { return std::pow(10.0, 0.5 * uniform(random)); };
-  ForkSettings fork;
+  rod::ForkSettings fork;
   fork.stiffness = {1500.0 * body.mass * factor(), 500.0 * body.mass * factor(), 5.0 * body.mass * factor()};
   fork.damping_ratio = {damping_ratio, damping_ratio, damping_ratio};
   fork.damping_law = damping_law;
   held.set_springs(fork);
-  const StrainVector rest = StrainVector::Zero(held.size());
-  const StrainMatrix M = held.mass_matrix(0.0, rest);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<StrainMatrix> modes(StrainMatrix(held.stiffness().asDiagonal()), M);
+  const rod::StrainVector rest = rod::StrainVector::Zero(held.size());
+  const rod::StrainMatrix M = held.mass_matrix(0.0, rest);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> modes(
+      rod::StrainMatrix(held.stiffness().asDiagonal()), M);
   return {held, random_hand(duration, random), std::sqrt(modes.eigenvalues().maxCoeff())};
 }
 
@@ -62,10 +63,10 @@ inline bool limited_by_stiffness(const std::string& integrator) {
 }
 
 /// Position error of the object [m], and angle times the body's radius of gyration.
-inline double distance(const Case& c, double t, const StrainState& a, const StrainState& b) {
-  const HandleForcing f = c.held.forcing(c.hand, t);
+inline double distance(const Case& c, double t, const dynamics::StrainState& a, const dynamics::StrainState& b) {
+  const dynamics::HandleForcing f = c.held.forcing(c.hand, t);
   const RigidTransform A = c.held.object(f, a).X, B = c.held.object(f, b).X;
-  return (A.translation() - B.translation()).norm() + 0.1 * log_so3(A.linear().transpose() * B.linear()).norm();
+  return (A.translation() - B.translation()).norm() + 0.1 * math::log_so3(A.linear().transpose() * B.linear()).norm();
 }
 
 }  // namespace spring_workbench

@@ -8,14 +8,14 @@
 namespace spring_workbench::test_support {
 
 /// Adds the triangles of a quadrilateral, counter-clockwise from outside.
-inline void add_quad(TriangleMesh& mesh, int a, int b, int c, int d) {
+inline void add_quad(geometry::TriangleMesh& mesh, int a, int b, int c, int d) {
   mesh.triangles.emplace_back(a, b, c);
   mesh.triangles.emplace_back(a, c, d);
 }
 
 /// The twelve triangles of a box of the given edge lengths, placed by `X`.
-inline MeshPtr box_mesh(const Vector3d& size, const RigidTransform& X = RigidTransform::Identity()) {
-  TriangleMesh mesh;
+inline geometry::MeshPtr box_mesh(const Vector3d& size, const RigidTransform& X = RigidTransform::Identity()) {
+  geometry::TriangleMesh mesh;
   for (int i = 0; i < 8; ++i) {
     const Vector3d corner((i & 1) ? 0.5 : -0.5, (i & 2) ? 0.5 : -0.5, (i & 4) ? 0.5 : -0.5);
     mesh.vertices.push_back(X * corner.cwiseProduct(size));
@@ -26,13 +26,13 @@ inline MeshPtr box_mesh(const Vector3d& size, const RigidTransform& X = RigidTra
   add_quad(mesh, 2, 6, 7, 3);
   add_quad(mesh, 0, 2, 3, 1);
   add_quad(mesh, 4, 5, 7, 6);
-  return std::make_shared<const TriangleMesh>(mesh);
+  return std::make_shared<const geometry::TriangleMesh>(mesh);
 }
 
 /// A sphere of `rings` rings between the poles and twice as many segments; its vertices lie on the sphere.
-inline MeshPtr sphere_mesh(double radius, int rings) {
+inline geometry::MeshPtr sphere_mesh(double radius, int rings) {
   constexpr double pi = 3.14159265358979323846;
-  TriangleMesh mesh;
+  geometry::TriangleMesh mesh;
   const int segments = 2 * rings;
   mesh.vertices = {Vector3d(0.0, 0.0, radius), Vector3d(0.0, 0.0, -radius)};
   for (int i = 1; i <= rings; ++i) {
@@ -51,7 +51,7 @@ inline MeshPtr sphere_mesh(double radius, int rings) {
       add_quad(mesh, index(i, j), index(i + 1, j), index(i + 1, j + 1), index(i, j + 1));
     }
   }
-  return std::make_shared<const TriangleMesh>(mesh);
+  return std::make_shared<const geometry::TriangleMesh>(mesh);
 }
 
 }  // namespace spring_workbench::test_support

@@ -25,7 +25,7 @@ class Random {
   }
   Matrix3d rotation() {
     const Vector3d axis = direction();
-    return exp_so3(number(-3.1, 3.1) * axis);
+    return math::exp_so3(number(-3.1, 3.1) * axis);
   }
   RigidTransform pose(double size) {
     RigidTransform X = RigidTransform::Identity();

@@ -6,7 +6,7 @@
 
 #include "spring_workbench/scene/scene.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 
 /// A point where a body touches or enters another.
 struct ContactPoint {
@@ -31,7 +31,7 @@ class CollisionWorld {
  public:
   static constexpr std::size_t bench = static_cast<std::size_t>(-1);
 
-  explicit CollisionWorld(const Scene& scene);
+  explicit CollisionWorld(const scene::Scene& scene);
   virtual ~CollisionWorld();
   CollisionWorld(CollisionWorld&&) noexcept;
   CollisionWorld& operator=(CollisionWorld&&) noexcept;
@@ -66,4 +66,4 @@ class CollisionWorld {
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

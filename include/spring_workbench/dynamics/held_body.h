@@ -7,7 +7,7 @@
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/rod/shape_model.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 
 /// The rigid body that hangs on the tip: object frame O (centre of mass) and tip frame E.
 struct BodyInertia {
@@ -28,15 +28,15 @@ struct HandleForcing {
 
 /// The same at several moments, for integrators.
 struct HandleForcings {
-  Pack t;
-  FrameForcing<Pack> of_H;
+  math::Pack t;
+  motion::FrameForcing<math::Pack> of_H;
   HandleForcing at(int i) const;  ///< without pose and velocity but for the rotation
 };
 
 /// State of the held body in the strain coordinates that are active.
 struct StrainState {
-  StrainVector q;      ///< strain
-  StrainVector q_dot;  ///< strain rate [1/s]
+  rod::StrainVector q;      ///< strain
+  rod::StrainVector q_dot;  ///< strain rate [1/s]
 };
 
 /// The equation of motion of doc/model.md for a rigid body on a rod on a moving handle, in the active coordinates:
@@ -45,9 +45,9 @@ struct StrainState {
 class HeldBody {
  public:
   /// `gravity` [m/s²] along −z of world.
-  HeldBody(std::shared_ptr<const ShapeModel> shape, const BodyInertia& body, double gravity);
+  HeldBody(std::shared_ptr<const rod::ShapeModel> shape, const BodyInertia& body, double gravity);
 
-  const ShapeModel& shape() const { return *shape_; }
+  const rod::ShapeModel& shape() const { return *shape_; }
   const BodyInertia& body() const { return body_; }
   double gravity() const { return gravity_; }  ///< [m/s²]
   /// Grows by every change of the equations: what an integrator has derived from them is good for one version.
@@ -56,21 +56,21 @@ class HeldBody {
   long load_version() const { return load_version_; }
 
   /// Stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio (Kelvin–Voigt; doc/model.md) per family.
-  void set_springs(const PerFamily& stiffness, const PerFamily& damping_ratio);
+  void set_springs(const rod::PerFamily& stiffness, const rod::PerFamily& damping_ratio);
   /// Damping coefficients outright, per family, the unit of its stiffness times s: `D = (c / k) K`.
-  void set_springs_and_dampers(const PerFamily& stiffness, const PerFamily& damping);
+  void set_springs_and_dampers(const rod::PerFamily& stiffness, const rod::PerFamily& damping);
   /// The same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, M that of
   /// the unstrained fork. Goes with set_dofs().
-  void set_springs_with_modal_damping(const PerFamily& stiffness, double damping_ratio);
+  void set_springs_with_modal_damping(const rod::PerFamily& stiffness, double damping_ratio);
   /// Stiffness, damping ratios and damping law of `fork`.
-  void set_springs(const ForkSettings& fork);
+  void set_springs(const rod::ForkSettings& fork);
   /// Moment of inertia about the fork's axis through the grasp [kg·m²].
   double axial_inertia() const;
 
   /// Switches families. One that goes off while strained follows, from time `t` [s] on, the critically damped return
   /// with the time constant `return_time` [s]; `full` is the state in all coordinates at `t`. Returns the new active
   /// state: pose and twist of the body do not change.
-  StrainState set_dofs(const ForkDofs& dofs, double t, double return_time, const StrainState& full);
+  StrainState set_dofs(const rod::ForkDofs& dofs, double t, double return_time, const StrainState& full);
   /// Drops prescribed motions that have come to zero by time `t`. True when one was dropped.
   bool drop_finished_returns(double t);
   /// Whether a family that was switched off is still on its way to zero strain.
@@ -82,38 +82,41 @@ class HeldBody {
 
   int size() const { return active_count_; }  ///< number of active coordinates
   StrainState zero_state() const;
-  StrainVector stiffness() const;  ///< diagonal of K, active coordinates
-  StrainMatrix damping() const;    ///< D, active coordinates
+  rod::StrainVector stiffness() const;  ///< diagonal of K, active coordinates
+  rod::StrainMatrix damping() const;    ///< D, active coordinates
 
-  HandleForcing forcing(const FrameMotion& handle, double t) const;
-  HandleForcings forcing(const FrameMotion& handle, const Pack& t) const;
+  HandleForcing forcing(const motion::FrameMotion& handle, double t) const;
+  HandleForcings forcing(const motion::FrameMotion& handle, const math::Pack& t) const;
   /// q̈ of the active coordinates.
-  StrainVector acceleration(const HandleForcing& handle, const StrainVector& q, const StrainVector& q_dot) const;
+  rod::StrainVector acceleration(const HandleForcing& handle, const rod::StrainVector& q,
+                                 const rod::StrainVector& q_dot) const;
   /// The same for `n` = size(), 1 … 6, known to the compiler: for integrators.
   template <int n>
   Eigen::Matrix<double, n, 1> acceleration(const HandleForcing& handle, const Eigen::Matrix<double, n, 1>& q,
                                            const Eigen::Matrix<double, n, 1>& q_dot) const;
   /// The same at several moments: `n` packs each.
   template <int n>
-  void acceleration(const HandleForcings& handle, const Pack* q, const Pack* q_dot, Pack* q_ddot) const;
+  void acceleration(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot,
+                    math::Pack* q_ddot) const;
   /// Mass matrix M(q) of the active coordinates at time `t` (which matters while a family returns).
-  StrainMatrix mass_matrix(double t, const StrainVector& q) const;
+  rod::StrainMatrix mass_matrix(double t, const rod::StrainVector& q) const;
   /// ShapeModel::rechart of the active coordinates; not while a family returns to zero strain.
   bool rechart(StrainState& state) const;
   /// Active state at time `t` in all coordinates of the shape model.
   StrainState full_state(double t, const StrainState& state) const;
 
   /// Pose, velocity and, where `q_ddot` is given, acceleration of the object frame O, in world axes.
-  MotionState object(const HandleForcing& handle, const StrainState& state, const StrainVector* q_ddot = nullptr) const;
+  motion::MotionState object(const HandleForcing& handle, const StrainState& state,
+                             const rod::StrainVector* q_ddot = nullptr) const;
   /// Jacobian of the object's velocity [linear; angular], axes of H, in the active coordinates: 6 × size().
-  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, max_strain_coordinates> object_jacobian(double t,
-                                                                                         const StrainVector& q) const;
+  Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> object_jacobian(
+      double t, const rod::StrainVector& q) const;
   /// The strain rate that comes nearest, in kinetic energy, to the object's twist (world axes) for the strain `q`.
-  StrainVector project_twist(const HandleForcing& handle, const StrainVector& q, const Twist& V_WO_W) const;
+  rod::StrainVector project_twist(const HandleForcing& handle, const rod::StrainVector& q, const Twist& V_WO_W) const;
 
   double elastic_energy(double t, const StrainState& state) const;  ///< [J]
   /// ∂U/∂q of the active coordinates at time `t`.
-  StrainVector elastic_force(double t, const StrainVector& q) const;
+  rod::StrainVector elastic_force(double t, const rod::StrainVector& q) const;
   double kinetic_energy(const Twist& V_WO_W, const Matrix3d& R_WO) const;  ///< [J]
 
  private:
@@ -122,38 +125,38 @@ class HeldBody {
     double t0 = 0.0, time_constant = 1.0, q0 = 0.0, rate0 = 0.0;
   };
   struct Kinematics {
-    TipKinematics tip;
+    rod::TipKinematics tip;
     Vector3d r_EO;  ///< from tip to centre of mass, axes of H
     Vector3d p_HO;  ///< axes of H
     Matrix3d R_HO;
-    StrainJacobian linear;  ///< of O
-    StrainVector q, q_dot;  ///< all coordinates
+    rod::StrainJacobian linear;  ///< of O
+    rod::StrainVector q, q_dot;  ///< all coordinates
   };
   /// All coordinates' strain and rate at time `t` from the active ones' and what is prescribed.
-  void expand(double t, const StrainVector& q, const StrainVector& q_dot, StrainVector& q_all, StrainVector& q_dot_all,
-              StrainVector& q_ddot_all) const;
+  void expand(double t, const rod::StrainVector& q, const rod::StrainVector& q_dot, rod::StrainVector& q_all,
+              rod::StrainVector& q_dot_all, rod::StrainVector& q_ddot_all) const;
   template <int n, typename S>
-  void accelerate(const S& t, const FrameForcing<S>& handle, const S* q, const S* q_dot, S* q_ddot) const;
+  void accelerate(const S& t, const motion::FrameForcing<S>& handle, const S* q, const S* q_dot, S* q_ddot) const;
   /// Acceleration of the extension where stretch alone is on, and of the twist where torsion alone is, under the force
   /// or moment of spring and damper.
   template <typename S>
-  S slide(const FrameForcing<S>& handle, const S& extension, S force) const;
+  S slide(const motion::FrameForcing<S>& handle, const S& extension, S force) const;
   template <typename S>
-  S turn(const FrameForcing<S>& handle, const S& twist, const S& rate, S moment) const;
+  S turn(const motion::FrameForcing<S>& handle, const S& twist, const S& rate, S moment) const;
   template <typename S>
   struct Rigid;  ///< the object's inertial and contact wrench for q̈ = 0
   template <typename S>
-  Rigid<S> without_strain_acceleration(const FrameForcing<S>& handle, const TipOf<S>& tip, const S* q_dot,
+  Rigid<S> without_strain_acceleration(const motion::FrameForcing<S>& handle, const rod::TipOf<S>& tip, const S* q_dot,
                                        const S* q_ddot) const;
-  void kinematics(double t, const StrainVector& q, const StrainVector& q_dot, Kinematics& k) const;
+  void kinematics(double t, const rod::StrainVector& q, const rod::StrainVector& q_dot, Kinematics& k) const;
   void kinematics(Kinematics& k) const;  ///< from strain and rate of all coordinates, without what is prescribed
   /// Sets lane `k` of the coordinates that follow a prescribed motion.
   template <typename S>
   void prescribe(double t, int k, S* q, S* q_dot, S* q_ddot) const;
-  StrainMatrix mass_matrix(const Kinematics& k, Matrix3d& I_H) const;
+  rod::StrainMatrix mass_matrix(const Kinematics& k, Matrix3d& I_H) const;
   void changed();
 
-  std::shared_ptr<const ShapeModel> shape_;
+  std::shared_ptr<const rod::ShapeModel> shape_;
   BodyInertia body_;
   Vector3d p_OE_, p_EO_;  ///< grasp in O; centre of mass in E
   Matrix3d R_EO_;
@@ -162,13 +165,13 @@ class HeldBody {
   double gravity_;
   long version_ = 0;
   long load_version_ = 0;
-  StrainVector K_, D_;  ///< all coordinates; with modal damping D_ is zero
+  rod::StrainVector K_, D_;  ///< all coordinates; with modal damping D_ is zero
   bool modal_ = false;
   double modal_ratio_ = 0.0;
-  StrainMatrix D_modal_;  ///< active coordinates; where modal_
-  std::array<Mode, max_strain_coordinates> mode_;
-  std::array<Return, max_strain_coordinates> return_;
-  std::array<int, max_strain_coordinates> active_;  ///< indices of the active coordinates
+  rod::StrainMatrix D_modal_;  ///< active coordinates; where modal_
+  std::array<Mode, rod::max_strain_coordinates> mode_;
+  std::array<Return, rod::max_strain_coordinates> return_;
+  std::array<int, rod::max_strain_coordinates> active_;  ///< indices of the active coordinates
   int active_count_ = 0;
   double axial_unit_ = 1.0;  ///< extension [m] or twist [rad] by strain 1, where that coordinate alone is active
   int shape_size_ = 0;
@@ -177,4 +180,4 @@ class HeldBody {
   bool loaded_ = false;  ///< the external wrench is not zero
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -6,15 +6,15 @@
 
 #include "spring_workbench/dynamics/held_body.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 
 /// What one step says of itself.
 struct StepEstimate {
-  StrainVector
+  rod::StrainVector
       q_error;  ///< estimate of the step's local error (what came out less the truth) in the active coordinates
   double omega_dt =
       0.0;  ///< frequency of the stiffest mode [rad/s] times the step; 0 where the method does not know it
-  StrainVector q_dot_error = StrainVector();  ///< the same of the strain rates [1/s]
+  rod::StrainVector q_dot_error = rod::StrainVector();  ///< the same of the strain rates [1/s]
 };
 
 /// One way to carry the held body's state over a step (doc/model.md, "Integrators"). An integrator may keep what it has
@@ -33,13 +33,13 @@ class Integrator {
   virtual bool estimates_after_jumps() const { return true; }
 
   /// Carries `state` from `t` to `t + h` [s], h > 0; `handle` must cover that time.
-  virtual StepEstimate step(const HeldBody& body, const FrameMotion& handle, double t, double h,
+  virtual StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                             StrainState& state) = 0;
 
   /// How the state at the end of the step depends on a constant generalised force Q over the step, to first order:
   /// Δq = response.q Q, Δq̇ = response.q_dot Q. For contact.
   struct Response {
-    StrainMatrix q, q_dot;
+    rod::StrainMatrix q, q_dot;
   };
   /// From the implicit Euler rule unless a method knows better.
   virtual Response response(const HeldBody& body, double t, double h, const StrainState& state);
@@ -51,4 +51,4 @@ const std::vector<std::string>& integrator_names();
 /// Throws InputError for a name that is not in integrator_names().
 std::unique_ptr<Integrator> make_integrator(const std::string& name);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 
 struct DynamicsSettings {
   std::string integrator = "exponential";  ///< key `integrator`: one of integrator_names()
@@ -11,4 +11,4 @@ struct DynamicsSettings {
   std::string inertia = "exact";  ///< key `inertia`: exact, or point_mass (the paper's I = r² m, section 3.1)
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -4,7 +4,7 @@
 
 #include "spring_workbench/dynamics/integrator.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 
 /// What a StepControl did over a span of time.
 struct ControlledStep {
@@ -54,8 +54,8 @@ class StepControl {
   double tolerance() const { return tolerance_; }  ///< [m]
 
   /// From `t` to `t + h` [s], h > 0; `handle` must cover that time.
-  ControlledStep advance(const HeldBody& body, const FrameMotion& handle, double t, double h, StrainState& state,
-                         Memory& memory) const;
+  ControlledStep advance(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                         StrainState& state, Memory& memory) const;
 
   static constexpr double undamped_horizon = 1.0;   ///< [s]
   static constexpr double largest_tolerance = 0.1;  ///< [m]
@@ -73,4 +73,4 @@ class StepControl {
   double tolerance_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -5,7 +5,7 @@
 
 #include "spring_workbench/rod/shape_model.h"
 
-namespace spring_workbench {
+namespace spring_workbench::fork_mesh {
 
 /// One place on the curve along which the fork's spring is drawn.
 struct CurvePoint {
@@ -36,7 +36,7 @@ class ForkCurve {
 
 /// The curve of the rod itself: the sections of `shape` with strain `q`, clamped at the pose `X_WH` of the handle; in
 /// W.
-ForkCurve rod_curve(const ShapeModel& shape, const StrainVector& q, const RigidTransform& X_WH);
+ForkCurve rod_curve(const rod::ShapeModel& shape, const rod::StrainVector& q, const RigidTransform& X_WH);
 
 /// The paper's arc-length parameterised Bézier curve with compensated length (section 4): from the handle along its z
 /// to the tip `X_WE` along the tip's z, both control arms equally long, such that the curve is `arc_length` [m] long.
@@ -48,7 +48,7 @@ ForkCurve bezier_curve(const RigidTransform& X_WH, const RigidTransform& X_WE, d
 const std::vector<std::string>& fork_curve_names();
 
 /// `name` one of fork_curve_names(), else throws InputError; for a rod of `shape` with strain `q`, clamped at `X_WH`.
-ForkCurve make_fork_curve(const std::string& name, const ShapeModel& shape, const StrainVector& q,
+ForkCurve make_fork_curve(const std::string& name, const rod::ShapeModel& shape, const rod::StrainVector& q,
                           const RigidTransform& X_WH);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::fork_mesh

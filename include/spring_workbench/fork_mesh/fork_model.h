@@ -4,7 +4,7 @@
 
 #include "spring_workbench/fork_mesh/fork_curve.h"
 
-namespace spring_workbench {
+namespace spring_workbench::fork_mesh {
 
 /// How the fork looks at rest. Lengths along the spring are in parts of the spring's length, all others in diameters of
 /// the coil (the paper's normalised space), so that one model serves forks of every size.
@@ -72,4 +72,4 @@ class ForkModel {
   Triangles spring_triangles_, rigid_triangles_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::fork_mesh

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-namespace spring_workbench {
+namespace spring_workbench::math {
 
 /// Impulses `x` of contacts, three for each [normal, across, across], that keep Coulomb's law with the rates `y = A x +
 /// b`: a contact that presses does not move along its normal, one that slides opposes its slip with `friction` times
@@ -16,4 +16,4 @@ namespace spring_workbench {
 bool solve_in_cones(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vector<double>& friction,
                     Eigen::VectorXd& x);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::math

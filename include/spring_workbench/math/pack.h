@@ -16,7 +16,7 @@
 #define SPRING_WORKBENCH_WIDE
 #endif
 
-namespace spring_workbench {
+namespace spring_workbench::math {
 
 /// Four numbers in one register, or in two.
 using Pack = double __attribute__((vector_size(32)));
@@ -139,4 +139,4 @@ SPRING_WORKBENCH_INLINE ThreeByThree<S> symmetric_and_skew(const S& p, const S& 
           {xz + rv.y, yz - rv.x, pv.z * v.z + q}};
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::math

@@ -3,7 +3,7 @@
 #include <array>
 #include <complex>
 
-namespace spring_workbench {
+namespace spring_workbench::math {
 
 /// The φ-functions of exponential integrators, φ₀ … φ₅: φ₀ = eᶻ, φ_{k+1} = (φ_k − 1/k!) / z, or
 /// φ_{k+1}(z) = ∫₀¹ e^{(1−c)z} cᵏ/k! dc. Exact to rounding also near z = 0. `Scalar` is double or std::complex<double>.
@@ -25,4 +25,4 @@ std::array<Scalar, 6> phi_functions(Scalar z) {
   return phi;
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::math

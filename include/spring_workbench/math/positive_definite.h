@@ -2,7 +2,7 @@
 
 #include "spring_workbench/math/pack.h"
 
-namespace spring_workbench {
+namespace spring_workbench::math {
 
 /// Replaces `b` by `x` with `M x = b` for a small symmetric positive definite `M`, of which the lower triangle is read,
 /// by rows, and lost: L D Lᵀ without roots or pivots. For one system or, with packs, several.
@@ -23,4 +23,4 @@ SPRING_WORKBENCH_INLINE void solve_positive_definite(S* M, S* b) {
   }
 }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::math

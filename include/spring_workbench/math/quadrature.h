@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-namespace spring_workbench {
+namespace spring_workbench::math {
 
 /// Gauss–Legendre quadrature on [0, 1] with `N` nodes: exact for polynomials of degree 2 N − 1.
 template <int N>
@@ -19,4 +19,4 @@ extern template struct GaussLegendre<5>;
 extern template struct GaussLegendre<6>;
 extern template struct GaussLegendre<8>;
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::math

@@ -5,7 +5,7 @@
 #include "spring_workbench/math/pack.h"
 #include "spring_workbench/math/rigid_transform.h"
 
-namespace spring_workbench {
+namespace spring_workbench::math {
 
 /// The functions of the angle θ in the exponential of SO(3), its Jacobians and their derivatives, from `t = θ²` ≥ 0,
 /// each exact to rounding, also near zero.
@@ -94,4 +94,4 @@ Matrix3d right_jacobian_inverse_so3(const Vector3d& theta);
 /// the rates when `v = theta_dot`.
 Vector3d right_jacobian_rate_so3(const Vector3d& theta, const Vector3d& theta_dot, const Vector3d& v);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::math

@@ -2,7 +2,7 @@
 
 #include "spring_workbench/math/pack.h"
 
-namespace spring_workbench {
+namespace spring_workbench::motion {
 
 /// A frame's motion at one moment, in world axes: pose, velocity [m/s, rad/s] and acceleration [m/s², rad/s²].
 struct MotionState {
@@ -23,10 +23,10 @@ struct OwnAxesMotion {
 /// What a moving frame B feels, in its own axes, at one moment or at several.
 template <typename S>
 struct FrameForcing {
-  ThreeByThree<S> R_WB;
-  Three<S> w_B;      ///< [rad/s]
-  Three<S> alpha_B;  ///< [rad/s²]
-  Three<S> a_B;      ///< of the origin, less gravity [m/s²]
+  math::ThreeByThree<S> R_WB;
+  math::Three<S> w_B;      ///< [rad/s]
+  math::Three<S> alpha_B;  ///< [rad/s²]
+  math::Three<S> a_B;      ///< of the origin, less gravity [m/s²]
 };
 
 /// How a frame moves: twice differentiable in time, over the times that are asked for.
@@ -34,10 +34,10 @@ class FrameMotion {
  public:
   virtual OwnAxesMotion in_own_axes(double t) const = 0;
   /// At the times `t` [s], with `gravity` [m/s²] along −z of world.
-  virtual FrameForcing<Pack> forcing(const Pack& t, double gravity) const = 0;
+  virtual FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const = 0;
 
  protected:
   ~FrameMotion() = default;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::motion

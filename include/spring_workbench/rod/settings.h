@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 
 /// One number per deformation family of the fork.
 struct PerFamily {
@@ -41,4 +41,4 @@ struct ForkSettings {
                                   ///< is switched off while strained goes back to zero strain
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

@@ -7,7 +7,7 @@
 #include "spring_workbench/math/pack.h"
 #include "spring_workbench/rod/settings.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 
 /// Most strain coordinates that a shape model has.
 constexpr int max_strain_coordinates = 6;
@@ -31,15 +31,15 @@ struct TipKinematics {
 /// The same for one strain (`S` double) or several.
 template <typename S>
 struct TipOf {
-  ThreeByThree<S> R_HE;
-  Three<S> p_HE;
-  Three<S> angular[max_strain_coordinates];
-  Three<S> linear[max_strain_coordinates];
-  Three<S> angular_bias, linear_bias;
+  math::ThreeByThree<S> R_HE;
+  math::Three<S> p_HE;
+  math::Three<S> angular[max_strain_coordinates];
+  math::Three<S> linear[max_strain_coordinates];
+  math::Three<S> angular_bias, linear_bias;
   /// Whether, of six coordinates, 0, 1 and 5 shift the tip along x, y and z of H and 2, 3 and 4 only turn it. Then
   /// (q̇₂, q̇₃, q̇₄) = inverse_angular · angular velocity.
   bool separate = false;
-  ThreeByThree<S> inverse_angular;
+  math::ThreeByThree<S> inverse_angular;
   /// ∂U/∂q beyond K q, from coordinates that are condensed, where there are some.
   bool condensed = false;
   S condensed_force[max_strain_coordinates];
@@ -77,7 +77,7 @@ class ShapeModel {
   void tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const;
   /// For size() coordinates each.
   virtual void tip(const double* q, const double* q_dot, TipOf<double>& out) const = 0;
-  virtual void tip(const Pack* q, const Pack* q_dot, TipOf<Pack>& out) const = 0;
+  virtual void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const = 0;
 
   /// Extension of the rod [m] and twist angle [rad].
   virtual double extension(const StrainVector& q) const = 0;
@@ -108,4 +108,4 @@ const std::vector<std::string>& shape_model_names();
 /// `name` one of shape_model_names(), `length` [m] > 0. Throws InputError otherwise.
 std::shared_ptr<const ShapeModel> make_shape_model(const std::string& name, double length);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

@@ -2,43 +2,13 @@
 
 #include <limits>
 #include <map>
-#include <memory>
 #include <optional>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "spring_workbench/math/rigid_transform.h"
+#include "spring_workbench/geometry/shapes.h"
 
-namespace spring_workbench {
-
-struct Box {
-  Vector3d size;  ///< full edge lengths [m]
-};
-struct Sphere {
-  double radius;  ///< [m]
-};
-/// Axis along z, centred at the origin.
-struct Cylinder {
-  double radius;  ///< [m]
-  double length;  ///< [m]
-};
-/// Triangles in the shape's frame; shared, never changed after loading.
-struct TriangleMesh {
-  std::vector<Vector3d> vertices;          ///< [m]
-  std::vector<Eigen::Vector3i> triangles;  ///< indices into `vertices`, counter-clockwise from outside
-  std::string uri;                         ///< where it came from, for markers
-  Vector3d scale = Vector3d::Ones();       ///< already applied to `vertices`
-};
-using MeshPtr = std::shared_ptr<const TriangleMesh>;
-using Geometry = std::variant<Box, Sphere, Cylinder, MeshPtr>;
-
-/// A piece of a body, placed in the body's object frame O (axes of the URDF link, origin at the centre of mass).
-struct Shape {
-  Geometry geometry;
-  RigidTransform X_OS = RigidTransform::Identity();
-  Eigen::Vector4d color = Eigen::Vector4d(0.7, 0.7, 0.7, 1.0);  ///< r, g, b, alpha in 0 … 1
-};
+namespace spring_workbench::scene {
 
 /// Mass [kg], and inertia tensor [kg·m²] about the centre of mass in the axes of O.
 struct MassProperties {
@@ -61,8 +31,8 @@ struct Body {
   RigidTransform X_OL = RigidTransform::Identity();  ///< the URDF link frame L in O (a translation: −centre of mass)
   MassProperties mass_properties;                    ///< zero for a body that is not movable or has no mass
   Material material;
-  std::vector<Shape> collision;
-  std::vector<Shape> visual;  ///< the collision shapes where the URDF gives no visual
+  std::vector<geometry::Shape> collision;
+  std::vector<geometry::Shape> visual;  ///< the collision shapes where the URDF gives no visual
 };
 
 enum class ContactMode { none, stop, dynamic };
@@ -101,4 +71,4 @@ Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>&
 /// Index of the body called `name`, or nothing.
 std::optional<std::size_t> find_body(const Scene& scene, const std::string& name);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

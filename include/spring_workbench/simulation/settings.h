@@ -13,28 +13,28 @@ namespace YAML {
 class Node;
 }
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 
 /// Everything that can be set from outside about a simulation. One field per key; the keys with unit, range and meaning
 /// are in `setting_descriptions()`, which the parameter server, `replay` and the reference in doc/ are all made from.
 struct SimulationSettings {
-  std::string tool = "";       ///< key `tool`; empty: as the scene says
-  std::string contact = "";    ///< key `contact`; none, stop, dynamic; empty: as the scene says
-  double gravity = -1.0;       ///< key `gravity` [m/s²]; negative: as the scene says
-  double force_scale = -1.0;   ///< key `force_scale`; negative: as the scene says
-  DynamicsSettings dynamics;   ///< keys `integrator`, `step`, `tolerance`, `inertia`
-  ForkSettings fork;           ///< keys `shape`, `fork.*`
-  GraspSettings grasp;         ///< keys `calibrate`, `grasp.*`, `start.follow`, `release`
-  double dropout_after = 0.5;  ///< key `dropout_after` [s]
-  int bisection_levels = 8;    ///< key `bisection_levels`; 0 … 30 (paper, section 5); 0: time of impact
+  std::string tool = "";                ///< key `tool`; empty: as the scene says
+  std::string contact = "";             ///< key `contact`; none, stop, dynamic; empty: as the scene says
+  double gravity = -1.0;                ///< key `gravity` [m/s²]; negative: as the scene says
+  double force_scale = -1.0;            ///< key `force_scale`; negative: as the scene says
+  dynamics::DynamicsSettings dynamics;  ///< keys `integrator`, `step`, `tolerance`, `inertia`
+  rod::ForkSettings fork;               ///< keys `shape`, `fork.*`
+  tools::GraspSettings grasp;           ///< keys `calibrate`, `grasp.*`, `start.follow`, `release`
+  double dropout_after = 0.5;           ///< key `dropout_after` [s]
+  int bisection_levels = 8;             ///< key `bisection_levels`; 0 … 30 (paper, section 5); 0: time of impact
 };
 
 /// Throws InputError for an unknown damping law, or one that the damping ratios do not go with (doc/model.md,
 /// "Damping").
-void check_damping(const std::string& where, const ForkSettings& fork);
+void check_damping(const std::string& where, const rod::ForkSettings& fork);
 
 /// Which tolerances `integrator` may be given [m]; 0: fixed steps.
-NumberRule allowed_tolerance();
+validation::NumberRule allowed_tolerance();
 
 /// What one key means.
 struct SettingDescription {
@@ -51,4 +51,4 @@ std::vector<SettingDescription> setting_descriptions();
 /// Throws InputError naming `where`, key, value and rule for an unknown key, a wrong type or a value out of range.
 void apply_settings(const YAML::Node& values, const std::string& where, SimulationSettings& settings);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

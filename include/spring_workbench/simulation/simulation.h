@@ -5,69 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "spring_workbench/bodies/body_state.h"
+#include "spring_workbench/contact/contact_state.h"
 #include "spring_workbench/motion/pose_track.h"
-#include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/simulation/settings.h"
+#include "spring_workbench/tools/tool_state.h"
 
-namespace spring_workbench {
-
-/// State of one movable object, at its object frame O (centre of mass), in world axes.
-struct BodyState {
-  std::string name;
-  RigidTransform X_WO = RigidTransform::Identity();
-  Twist V_WO_W;  ///< [m/s, rad/s]
-  bool held = false;
-  bool highlighted = false;  ///< the fork's tip is in it and the button is up
-  bool in_contact = false;
-  bool asleep = true;
-};
-
-/// State of the tool in a hand.
-struct ToolState {
-  bool present = false;  ///< a sample of this hand is known
-  std::string tool = "spring_fork";
-  std::string held_object;  ///< empty when nothing is held
-  std::string touched;      ///< what the probe is on, "workbench" for the bench; else empty
-  std::string shape;
-  std::string integrator;
-  ForkDofs dofs;                                     ///< families switched on
-  double length = 0.0;                               ///< rest length [m]
-  PerFamily stiffness;                               ///< [N/m, N/m, N·m/rad]
-  PerFamily damping_ratio;                           ///< –
-  StrainVector strain;                               ///< all coordinates of the shape model; zero when nothing is held
-  double stretch = 0.0;                              ///< extension along the rod [m]
-  Eigen::Vector2d bend = Eigen::Vector2d::Zero();    ///< tip deflection along x and y of the handle [m]
-  double torsion = 0.0;                              ///< twist angle [rad]
-  RigidTransform X_WS = RigidTransform::Identity();  ///< the stylus
-  RigidTransform X_WH = RigidTransform::Identity();  ///< the handle, as the hand has it: the stylus itself unless
-                                                     ///< the fork was given another size, or gripped anew
-  RigidTransform X_WH_seen = RigidTransform::Identity();  ///< the handle that the object sees (proxy of the hand)
-  RigidTransform X_WE = RigidTransform::Identity();       ///< the tip
-  Wrench tip_wrench_W;                                    ///< on the object at the tip, world axes [N, N·m]
-  Wrench handle_wrench_H;                                 ///< what the hand would feel, at and in the handle frame
-  double elastic_energy = 0.0;                            ///< [J]
-  double kinetic_energy = 0.0;                            ///< of the held object, in world [J]
-  double force_scale = 1.0;                               ///< virtual per real unit of force
-  double weight = 0.0;              ///< the tool as a scale: upward force on the object over g [vkg]
-  double torque = 0.0;              ///< the tool as a torque wrench: moment about its axis at the tip [N·m]
-  double material_stiffness = 0.0;  ///< that the probe reads [N/m]; infinite: rigid; 0: no reading
-  double material_stiffness_uncertainty = 0.0;  ///< one standard deviation [N/m]
-};
-
-enum class ContactPhase { started, persisting, ended };
-
-struct ContactState {
-  std::string object;
-  std::string other;                 ///< another object's name, or "workbench"
-  Vector3d p_W = Vector3d::Zero();   ///< [m]
-  Vector3d n_W = Vector3d::UnitZ();  ///< towards `object`
-  double depth = 0.0;                ///< penetration [m]
-  double impulse = 0.0;              ///< normal impulse in the last step [N·s]
-  double force = 0.0;                ///< the same as a mean force over that step [N]
-  double slip_speed = 0.0;           ///< [m/s]
-  ContactPhase phase = ContactPhase::started;
-};
+namespace spring_workbench::simulation {
 
 /// What a call of `advance` did.
 struct AdvanceReport {
@@ -103,12 +48,12 @@ class Simulation {
   static constexpr std::size_t most_hands = 2;
 
   /// Throws InputError when settings and scene do not fit (e.g. `grasp.object` is not in the scene).
-  Simulation(const Scene& scene, const SimulationSettings& settings);
+  Simulation(const scene::Scene& scene, const SimulationSettings& settings);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  const Scene& scene() const;
+  const scene::Scene& scene() const;
   const SimulationSettings& settings() const;
 
   /// Simulated time [s]: the first sample's stamp at first.
@@ -116,7 +61,7 @@ class Simulation {
 
   /// A new pose of the handle. Returns false when its stamp is not later than the newest one's (it is left out).
   /// Throws InputError when it is not finite.
-  bool push_stylus(const PoseSample& sample, std::size_t hand = 0);
+  bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
   /// The grasp button goes down or up at time `t` [s]; takes effect at the first step that begins at or after `t`.
   void push_button(double t, bool pressed, std::size_t hand = 0);
   /// The second button of the stylus is pressed at time `t` [s]: the next of tool_names(), or, while something is held,
@@ -143,24 +88,24 @@ class Simulation {
   /// One of tool_names(), for one hand. The object that it holds goes on; the new tool starts without strain. The probe
   /// cannot hold: with it the object is let go.
   ChangeReport select_tool(const std::string& name, std::size_t hand = 0);
-  ChangeReport set_dofs(const ForkDofs& dofs);
+  ChangeReport set_dofs(const rod::ForkDofs& dofs);
   /// A family with 0 keeps its stiffness.
-  ChangeReport set_stiffness(const PerFamily& stiffness);
+  ChangeReport set_stiffness(const rod::PerFamily& stiffness);
   /// `law`: one of damping_laws(); empty keeps the present one. `modal` takes one ratio for all families.
-  ChangeReport set_damping_ratio(const PerFamily& ratio, const std::string& law = "");
+  ChangeReport set_damping_ratio(const rod::PerFamily& ratio, const std::string& law = "");
   /// Stiffness from the mass and size of the held object, the first hand's where both hold one; the damping ratios
   /// stay. Throws InputError when nothing is held.
   ChangeReport calibrate();
   /// By name; `step` [s] 0 keeps the present one; `tolerance` [m] of the run, 0 takes fixed steps (see StepControl).
   void set_integrator(const std::string& name, double step, double tolerance = 0.0);
 
-  const std::vector<BodyState>& objects() const;
-  ToolState fork(std::size_t hand = 0) const;
-  const std::vector<ContactState>& contacts() const;
+  const std::vector<bodies::BodyState>& objects() const;
+  tools::ToolState fork(std::size_t hand = 0) const;
+  const std::vector<contact::ContactState>& contacts() const;
 
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace spring_workbench {
+namespace spring_workbench::sound {
 
 /// Where sound goes: mono samples in −1 … 1 at ContactSynthesizer::sample_rate.
 class AudioOutput {
@@ -20,4 +20,4 @@ std::unique_ptr<AudioOutput> open_wav_file(const std::string& path);
 /// without.
 std::unique_ptr<AudioOutput> open_audio_device();
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::sound

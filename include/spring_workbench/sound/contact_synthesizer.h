@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace spring_workbench {
+namespace spring_workbench::sound {
 
 /// Turns contacts into sound: an impact is struck on a small set of ringing modes, louder with its impulse; slipping is
 /// noise that grows louder and higher with the speed. Samples lie in −1 … 1; the same calls give the same samples.
@@ -40,4 +40,4 @@ class ContactSynthesizer {
   std::uint32_t noise_ = 1;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::sound

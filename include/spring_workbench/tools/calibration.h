@@ -4,7 +4,7 @@
 
 #include "spring_workbench/dynamics/held_body.h"
 
-namespace spring_workbench {
+namespace spring_workbench::tools {
 
 /// What a calibrated fork does under the weight of the object that it holds (paper, sections 3.1 and 4).
 struct CalibrationGoal {
@@ -20,8 +20,8 @@ double weighing_gravity(double gravity);
 /// along −x of the handle, it deflects the tip by as much: both in the full nonlinear equilibrium. Then every
 /// direction, twisting too, has near to the natural frequency `ω = sqrt(g / (sag · length))`, whatever the mass.
 /// Without gravity as on Earth.
-PerFamily calibrated_stiffness(const std::string& shape, double length, const BodyInertia& body, double gravity,
-                               const CalibrationGoal& goal = {});
+rod::PerFamily calibrated_stiffness(const std::string& shape, double length, const dynamics::BodyInertia& body,
+                                    double gravity, const CalibrationGoal& goal = {});
 
 /// Stiffness [N/m] of the tool `spring` that the weight of `mass` [kg] extends by `goal.sag` of `length` [m]. Without
 /// gravity as on Earth.
@@ -29,6 +29,6 @@ double calibrated_spring(double mass, double length, double gravity, const Calib
 
 /// Length [m] of a fork for a body, from its size: the one with which the weight at a lever of the body's radius of
 /// gyration ρ twists the fork by `goal.twist`, `2 twist ρ / sag`. Limited to 1 mm … 100 m.
-double calibrated_length(const BodyInertia& body, const CalibrationGoal& goal = {});
+double calibrated_length(const dynamics::BodyInertia& body, const CalibrationGoal& goal = {});
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::tools

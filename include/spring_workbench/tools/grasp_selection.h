@@ -5,7 +5,7 @@
 
 #include "spring_workbench/math/rigid_transform.h"
 
-namespace spring_workbench {
+namespace spring_workbench::tools {
 
 /// What the hand does with the grasp button (paper, section 5): insert the fork, adjust it, press and hold, let go.
 enum class GraspEvent { none, grasp, release };
@@ -27,4 +27,4 @@ class GraspSelection {
   bool pressed_ = false;
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::tools

@@ -5,7 +5,7 @@
 
 #include "spring_workbench/math/rigid_transform.h"
 
-namespace spring_workbench {
+namespace spring_workbench::tools {
 
 struct GraspSettings {
   bool calibrate = false;              ///< key `calibrate`: on every grasp, from the object's mass and size
@@ -15,4 +15,4 @@ struct GraspSettings {
   std::string release = "thrown";      ///< key `release`: thrown keeps the object's twist, dropped sets it to rest
 };
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::tools

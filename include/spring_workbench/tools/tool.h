@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace spring_workbench {
+namespace spring_workbench::tools {
 
 /// The tools of doc/model.md, in the order in which the stylus' second button goes through them.
 enum class Tool {
@@ -24,4 +24,4 @@ bool turns(Tool tool);
 /// The one after it; of those that can hold where `holding`.
 Tool next_tool(Tool tool, bool holding);
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::tools

@@ -2,8 +2,8 @@
 
 #include <getopt.h>
 
+#include "spring_workbench/assembly/task_score.h"
 #include "spring_workbench/config/yaml_fields.h"
-#include "spring_workbench/task/task_score.h"
 #include "tools.h"
 
 namespace spring_workbench::assembly_trials {
@@ -12,7 +12,7 @@ namespace {
 const char* const kWhere = "command line";
 
 int whole_number(const std::string& option, const char* text, int min, int max) {
-  return read_integer(YAML::Node(std::string(text)), kWhere, option, min, max);
+  return config::read_integer(YAML::Node(std::string(text)), kWhere, option, min, max);
 }
 
 }  // namespace
@@ -40,10 +40,10 @@ Options parse_options(int argc, char** argv) {
         options.scene = optarg;
         break;
       case settings:
-        apply_settings(load_yaml_file(optarg), optarg, options.settings);
+        simulation::apply_settings(config::load_yaml_file(optarg), optarg, options.settings);
         break;
       case tool:
-        options.tool = read_choice(YAML::Node(std::string(optarg)), kWhere, "--tool", tool_labels());
+        options.tool = config::read_choice(YAML::Node(std::string(optarg)), kWhere, "--tool", tool_labels());
         break;
       case trials:
         options.trials = whole_number("--trials", optarg, 1, 10000);
@@ -61,13 +61,13 @@ Options parse_options(int argc, char** argv) {
         options.record = optarg;
         break;
       case ':':
-        refuse(kWhere, argv[optind - 1], "(nothing)", "followed by a value");
+        validation::refuse(kWhere, argv[optind - 1], "(nothing)", "followed by a value");
       default:
-        refuse(kWhere, "option", argv[optind - 1], "one of those that --help lists");
+        validation::refuse(kWhere, "option", argv[optind - 1], "one of those that --help lists");
     }
   }
-  if (optind < argc) refuse(kWhere, "argument", argv[optind], "an option that --help lists");
-  if (options.scene.empty()) refuse(kWhere, "--scene", "(nothing)", "a URDF of a scene with targets");
+  if (optind < argc) validation::refuse(kWhere, "argument", argv[optind], "an option that --help lists");
+  if (options.scene.empty()) validation::refuse(kWhere, "--scene", "(nothing)", "a URDF of a scene with targets");
   return options;
 }
 
@@ -81,12 +81,12 @@ assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--tria
   --scene     a scene whose YAML file has targets: path or package:// URI of the URDF
   --settings  a YAML file of settings, as of replay; of all tools
   --tool      one tool alone: )" +
-         join(tool_labels()) + R"(; default: each of them
+         validation::join(tool_labels()) + R"(; default: each of them
   --trials    of each tool; default 20
   --seed      of the first trial; the others count up; default 1
   --out       a line of CSV per trial:
               tool,seed,)" +
-         score_csv_header() + R"(
+         assembly::score_csv_header() + R"(
   --table     a table in Markdown of each tool's mean and its 95 % confidence interval
   --record    the hand of the first trial as a motion file: replay and tracker_driver play it
 

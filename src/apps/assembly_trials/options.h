@@ -9,14 +9,14 @@ namespace spring_workbench::assembly_trials {
 /// What the command line asks for.
 struct Options {
   bool help = false;
-  std::string scene;            ///< path or package:// URI of a URDF with targets
-  SimulationSettings settings;  ///< of all tools
-  std::string tool;             ///< label of one tool; empty: all
-  int trials = 20;              ///< of each tool
-  int seed = 1;                 ///< of the first trial; the others count up
-  std::string out;              ///< path of the CSV file; empty: none
-  std::string table;            ///< path of the Markdown table; empty: none
-  std::string record;           ///< path of the motion file of the first trial; empty: none
+  std::string scene;                        ///< path or package:// URI of a URDF with targets
+  simulation::SimulationSettings settings;  ///< of all tools
+  std::string tool;                         ///< label of one tool; empty: all
+  int trials = 20;                          ///< of each tool
+  int seed = 1;                             ///< of the first trial; the others count up
+  std::string out;                          ///< path of the CSV file; empty: none
+  std::string table;                        ///< path of the Markdown table; empty: none
+  std::string record;                       ///< path of the motion file of the first trial; empty: none
 };
 
 /// Throws InputError for everything that cannot be used.

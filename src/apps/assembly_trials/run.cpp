@@ -5,8 +5,8 @@
 #include <iostream>
 #include <sstream>
 
-#include "spring_workbench/config/input_error.h"
-#include "spring_workbench/operator/trial.h"
+#include "spring_workbench/assembly/trial.h"
+#include "spring_workbench/validation/input_error.h"
 #include "table.h"
 #include "tools.h"
 
@@ -14,7 +14,7 @@ namespace spring_workbench::assembly_trials {
 namespace {
 
 void expect_written(bool written, const std::string& path) {
-  if (!written) throw InputError(path + ": cannot be written: must be a file that can");
+  if (!written) throw validation::InputError(path + ": cannot be written: must be a file that can");
 }
 
 void write_file(const std::string& path, const std::string& text) {
@@ -25,11 +25,11 @@ void write_file(const std::string& path, const std::string& text) {
 }
 
 /// The hand as a motion file (doc/reference.md): to 10 µm and 10 µrad, less than the tracker's noise.
-std::string motion_text(const std::vector<StylusSample>& motion) {
+std::string motion_text(const std::vector<motion::StylusSample>& motion) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << "# t x y z qx qy qz qw button\n" << std::fixed;
-  for (const StylusSample& sample : motion) {
+  for (const motion::StylusSample& sample : motion) {
     const Vector3d& p = sample.X.translation();
     const Quaterniond q(sample.X.linear());
     text << std::setprecision(3) << sample.t << std::setprecision(5) << ' ' << p.x() << ' ' << p.y() << ' ' << p.z()
@@ -41,23 +41,24 @@ std::string motion_text(const std::vector<StylusSample>& motion) {
 }  // namespace
 
 void run(const Options& options) {
-  const Scene scene = load_scene(options.scene);
-  if (scene.targets.empty()) throw InputError(scene.path + ": targets: none is not allowed: must be at least one");
+  const scene::Scene scene = scene::load_scene(options.scene);
+  if (scene.targets.empty())
+    throw validation::InputError(scene.path + ": targets: none is not allowed: must be at least one");
   for (const std::string& path : {options.out, options.table, options.record}) {  // before hours of trials
     if (!path.empty()) expect_written(std::ofstream(path, std::ios::app).good(), path);
   }
   for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
-  std::string csv = "tool,seed," + score_csv_header() + "\n";
+  std::string csv = "tool,seed," + assembly::score_csv_header() + "\n";
   std::vector<ToolTrials> all;
   for (const std::string& label : options.tool.empty() ? tool_labels() : std::vector<std::string>{options.tool}) {
     all.push_back({label, {}});
-    const SimulationSettings settings = with_tool(label, options.settings);
+    const simulation::SimulationSettings settings = with_tool(label, options.settings);
     for (int k = 0; k < options.trials; ++k) {
-      OperatorSettings hand;
+      assembly::OperatorSettings hand;
       hand.seed = static_cast<unsigned>(options.seed + k);
-      const Trial trial = run_trial(scene, settings, hand);
+      const assembly::Trial trial = assembly::run_trial(scene, settings, hand);
       all.back().scores.push_back(trial.score);
-      csv += label + "," + std::to_string(hand.seed) + "," + score_csv(trial.score) + "\n";
+      csv += label + "," + std::to_string(hand.seed) + "," + assembly::score_csv(trial.score) + "\n";
       if (!options.record.empty() && all.size() == 1 && k == 0) write_file(options.record, motion_text(trial.motion));
     }
   }

@@ -23,20 +23,20 @@ std::string text(const char* format, double a, double b, double c = 0.0) {
 }
 
 /// Mean and half width of its interval.
-std::string mean(const std::vector<TaskScore>& scores, double scale,
-                 const std::function<double(const TaskScore&)>& value) {
+std::string mean(const std::vector<assembly::TaskScore>& scores, double scale,
+                 const std::function<double(const assembly::TaskScore&)>& value) {
   const double n = static_cast<double>(scores.size());
   double sum = 0.0, squares = 0.0;
-  for (const TaskScore& s : scores) sum += scale * value(s);
-  for (const TaskScore& s : scores) squares += std::pow(scale * value(s) - sum / n, 2);
+  for (const assembly::TaskScore& s : scores) sum += scale * value(s);
+  for (const assembly::TaskScore& s : scores) squares += std::pow(scale * value(s) - sum / n, 2);
   if (n < 2.0) return text("%.3g", sum / n, 0.0);
   return text("%.3g ± %.2g", sum / n, student_quantile(n - 1.0) * std::sqrt(squares / (n - 1.0) / n));
 }
 
-std::string completed(const std::vector<TaskScore>& scores) {
+std::string completed(const std::vector<assembly::TaskScore>& scores) {
   const double n = static_cast<double>(scores.size()), zz = normal_quantile * normal_quantile;
   double done = 0.0;
-  for (const TaskScore& s : scores) done += s.complete() ? 1.0 : 0.0;
+  for (const assembly::TaskScore& s : scores) done += s.complete() ? 1.0 : 0.0;
   const double p = done / n;
   const double centre = (p + zz / (2.0 * n)) / (1.0 + zz / n);
   const double half = normal_quantile * std::sqrt(p * (1.0 - p) / n + zz / (4.0 * n * n)) / (1.0 + zz / n);
@@ -52,17 +52,17 @@ std::string markdown_table(const std::vector<ToolTrials>& tools) {
       "| largest force [N] | placement error [mm] |\n"
       "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
   for (const ToolTrials& tool : tools) {
-    const std::vector<TaskScore>& s = tool.scores;
+    const std::vector<assembly::TaskScore>& s = tool.scores;
     table += "| `" + tool.label + "` | " + std::to_string(s.size()) + " | " + completed(s);
-    table += " | " + mean(s, 1.0, [](const TaskScore& t) { return t.placed; });
-    table += " | " + mean(s, 1.0, [](const TaskScore& t) { return t.time; });
-    table += " | " + mean(s, 1.0, [](const TaskScore& t) { return t.hand_path; });
-    table += " | " + mean(s, 1.0, [](const TaskScore& t) { return t.object_path; });
-    table += " | " + mean(s, 1.0, [](const TaskScore& t) { return t.grasps; });
-    table += " | " + mean(s, 1.0, [](const TaskScore& t) { return t.collisions; });
-    table += " | " + mean(s, 1.0, [](const TaskScore& t) { return t.drops; });
-    table += " | " + mean(s, 1.0, [](const TaskScore& t) { return t.largest_force; });
-    table += " | " + mean(s, 1e3, [](const TaskScore& t) { return t.position_error; }) + " |\n";
+    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.placed; });
+    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.time; });
+    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.hand_path; });
+    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.object_path; });
+    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.grasps; });
+    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.collisions; });
+    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.drops; });
+    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.largest_force; });
+    table += " | " + mean(s, 1e3, [](const assembly::TaskScore& t) { return t.position_error; }) + " |\n";
   }
   return table;
 }

@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "spring_workbench/task/task_score.h"
+#include "spring_workbench/assembly/task_score.h"
 
 namespace spring_workbench::assembly_trials {
 
 /// The trials of one tool.
 struct ToolTrials {
   std::string label;
-  std::vector<TaskScore> scores;
+  std::vector<assembly::TaskScore> scores;
 };
 
 /// A Markdown table, a line per tool: means with the half width of their 95 % confidence interval (Student's t), and

@@ -28,9 +28,9 @@ std::vector<std::string> tool_labels() {
   return labels;
 }
 
-SimulationSettings with_tool(const std::string& label, SimulationSettings base) {
+simulation::SimulationSettings with_tool(const std::string& label, simulation::SimulationSettings base) {
   for (const auto& [name, settings] : tools()) {
-    if (name == label) apply_settings(YAML::Load(settings), label, base);
+    if (name == label) simulation::apply_settings(YAML::Load(settings), label, base);
   }
   return base;
 }

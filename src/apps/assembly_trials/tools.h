@@ -11,6 +11,6 @@ namespace spring_workbench::assembly_trials {
 std::vector<std::string> tool_labels();
 
 /// `base` with the tool called `label` in the hand.
-SimulationSettings with_tool(const std::string& label, SimulationSettings base);
+simulation::SimulationSettings with_tool(const std::string& label, simulation::SimulationSettings base);
 
 }  // namespace spring_workbench::assembly_trials

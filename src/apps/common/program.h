@@ -5,7 +5,7 @@
 #include <iostream>
 #include <string>
 
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench {
 
@@ -21,7 +21,7 @@ int run_program(const std::string& name, Program&& program) {
   try {
     program();
     return 0;
-  } catch (const InputError& e) {
+  } catch (const validation::InputError& e) {
     return end(e.what(), 2);
   } catch (const std::exception& e) {
     return end(std::string("failed: ") + e.what(), 1);

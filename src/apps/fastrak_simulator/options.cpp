@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "spring_workbench/config/yaml_fields.h"
-#include "spring_workbench/tracker/fastrak_protocol.h"
+#include "spring_workbench/fastrak/fastrak_protocol.h"
 
 namespace spring_workbench::fastrak_simulator {
 namespace {
@@ -21,8 +21,8 @@ std::vector<char*> without_remappings(int argc, char** argv) {
   return words;
 }
 
-double number(const std::string& option, const NumberRule& rule) {
-  return read_number(YAML::Node(std::string(optarg)), kWhere, option, rule);
+double number(const std::string& option, const validation::NumberRule& rule) {
+  return config::read_number(YAML::Node(std::string(optarg)), kWhere, option, rule);
 }
 
 }  // namespace
@@ -56,34 +56,36 @@ Options parse_options(int argc, char** argv) {
         options.link = optarg;
         break;
       case rate:
-        options.rate = number("--rate", between(0.1, 1e4));
+        options.rate = number("--rate", validation::between(0.1, 1e4));
         break;
       case speed:
-        options.speed = number("--speed", between(0.01, 1e3));
+        options.speed = number("--speed", validation::between(0.01, 1e3));
         break;
       case duration:
-        options.duration = number("--duration", not_negative());
+        options.duration = number("--duration", validation::not_negative());
         break;
       case with_switch:
         options.switches.push_back(
-            read_integer(YAML::Node(std::string(optarg)), kWhere, "--switch", 2, kFastrakStations));
+            config::read_integer(YAML::Node(std::string(optarg)), kWhere, "--switch", 2, fastrak::kFastrakStations));
         break;
       case fault:
-        options.faults.push_back(parse_fault(optarg));
+        options.faults.push_back(fastrak::parse_fault(optarg));
         break;
       case seed:
-        options.seed = static_cast<unsigned>(
-            read_integer(YAML::Node(std::string(optarg)), kWhere, "--seed", 0, std::numeric_limits<int>::max()));
+        options.seed = static_cast<unsigned>(config::read_integer(YAML::Node(std::string(optarg)), kWhere, "--seed", 0,
+                                                                  std::numeric_limits<int>::max()));
         break;
       case ':':
-        refuse(kWhere, words[static_cast<std::size_t>(optind - 1)], "(nothing)", "followed by a value");
+        validation::refuse(kWhere, words[static_cast<std::size_t>(optind - 1)], "(nothing)", "followed by a value");
       default:
-        refuse(kWhere, "option", words[static_cast<std::size_t>(optind - 1)], "one of those that --help lists");
+        validation::refuse(kWhere, "option", words[static_cast<std::size_t>(optind - 1)],
+                           "one of those that --help lists");
     }
   }
   if (optind < count)
-    refuse(kWhere, "argument", words[static_cast<std::size_t>(optind)], "an option that --help lists");
-  if (options.motions.empty()) refuse(kWhere, "--motion", "(nothing)", "the path of a motion file or script");
+    validation::refuse(kWhere, "argument", words[static_cast<std::size_t>(optind)], "an option that --help lists");
+  if (options.motions.empty())
+    validation::refuse(kWhere, "--motion", "(nothing)", "the path of a motion file or script");
   return options;
 }
 

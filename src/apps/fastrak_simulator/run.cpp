@@ -5,7 +5,8 @@
 #include <iostream>
 #include <utility>
 
-#include "spring_workbench/simulated_device/fastrak_simulator.h"
+#include "spring_workbench/fastrak/fastrak_simulator.h"
+#include "spring_workbench/motion_files/open_motion.h"
 
 namespace spring_workbench::fastrak_simulator {
 namespace {
@@ -15,15 +16,16 @@ using std::chrono::steady_clock;
 
 constexpr double kLongestWait = 0.05;  // [s] between looks at `stop`
 
-PlayedMotion read_motion(const std::string& path) {
-  const auto source = open_motion(path);
-  std::vector<StylusSample> samples;
+fastrak::PlayedMotion read_motion(const std::string& path) {
+  const auto source = motion_files::open_motion(path);
+  std::vector<motion::StylusSample> samples;
   while (const auto sample = source->next()) samples.push_back(*sample);
-  return PlayedMotion(samples);
+  return fastrak::PlayedMotion(samples);
 }
 
 /// Serves the host up to a moment of the wall's clock.
-void serve_until(FastrakSimulator& simulator, steady_clock::time_point moment, const std::function<bool()>& stop) {
+void serve_until(fastrak::FastrakSimulator& simulator, steady_clock::time_point moment,
+                 const std::function<bool()>& stop) {
   while (!stop()) {
     const double left = duration<double>(moment - steady_clock::now()).count();
     if (left <= 0.0) break;
@@ -41,10 +43,10 @@ void serve_until(FastrakSimulator& simulator, steady_clock::time_point moment, c
 }  // namespace
 
 void run(const Options& options, const std::function<bool()>& stop) {
-  std::vector<PlayedMotion> motions;
+  std::vector<fastrak::PlayedMotion> motions;
   for (const std::string& path : options.motions) motions.push_back(read_motion(path));
-  FastrakSimulator simulator(FastrakDevice(std::move(motions), options.switches),
-                             LineFaults(options.faults, options.seed), options.link);
+  fastrak::FastrakSimulator simulator(fastrak::FastrakDevice(std::move(motions), options.switches),
+                                      fastrak::LineFaults(options.faults, options.seed), options.link);
   std::string path;
   const auto start = steady_clock::now();
   for (long cycle = 0; !stop(); ++cycle) {

@@ -11,8 +11,8 @@
 #include <utility>
 
 #include "motion.h"
-#include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::replay {
 namespace {
@@ -33,12 +33,12 @@ double seconds_between(const ros::Time& from, const ros::Time& to) {
 RigidTransform to_pose(const geometry_msgs::Transform& transform, const std::string& where) {
   const auto& p = transform.translation;
   const auto& q = transform.rotation;
-  const NumberRule position = between(-kFarthestPosition, kFarthestPosition);
-  check_number(where, "translation.x", p.x, position);
-  check_number(where, "translation.y", p.y, position);
-  check_number(where, "translation.z", p.z, position);
+  const validation::NumberRule position = validation::between(-kFarthestPosition, kFarthestPosition);
+  validation::check_number(where, "translation.x", p.x, position);
+  validation::check_number(where, "translation.y", p.y, position);
+  validation::check_number(where, "translation.z", p.z, position);
   const Quaterniond rotation(q.w, q.x, q.y, q.z);
-  check_number(where, "norm of rotation", rotation.norm(), between(0.5, 2.0));
+  validation::check_number(where, "norm of rotation", rotation.norm(), validation::between(0.5, 2.0));
   return make_transform(rotation, Vector3d(p.x, p.y, p.z));
 }
 
@@ -125,12 +125,12 @@ class BagReader {
 
   [[noreturn]] void refuse_missing() const {
     const std::vector<std::string> there(pairs_.begin(), pairs_.end());
-    refuse(path_, "transform", parent_ + " -> " + hands_.front().frame,
-           there.empty() ? "one of the bag's, which has none" : "one of " + join(there));
+    validation::refuse(path_, "transform", parent_ + " -> " + hands_.front().frame,
+                       there.empty() ? "one of the bag's, which has none" : "one of " + validation::join(there));
   }
 
   std::string path_, parent_;
-  std::array<Hand, Simulation::most_hands> hands_;
+  std::array<Hand, simulation::Simulation::most_hands> hands_;
   std::set<std::string> pairs_;  ///< all that are in the bag, for the message
 };
 
@@ -139,10 +139,10 @@ class BagReader {
 std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child) {
   try {
     return BagReader(path, parent, child).read();
-  } catch (const InputError&) {
+  } catch (const validation::InputError&) {
     throw;
   } catch (const std::exception& e) {  // rosbag, ros::serialization and the decompressors have a family each
-    throw InputError(path + ": cannot be read: " + e.what() + ": must be a bag");
+    throw validation::InputError(path + ": cannot be read: " + e.what() + ": must be a bag");
   }
 }
 

@@ -68,7 +68,7 @@ std::string object_header() {
   return row.end();
 }
 
-std::string object_rows(double t, const Simulation& simulation) {
+std::string object_rows(double t, const simulation::Simulation& simulation) {
   std::string rows;
   for (const auto& object : simulation.objects()) {
     Row row;
@@ -89,7 +89,7 @@ std::string fork_header() {
   return row.end();
 }
 
-std::string fork_row(double t, const Simulation& simulation, std::size_t hand) {
+std::string fork_row(double t, const simulation::Simulation& simulation, std::size_t hand) {
   const auto fork = simulation.fork(hand);
   Row row;
   row.add(t).add(hand == 0 ? "fork" : "fork_" + std::to_string(hand + 1)).add(fork.tool).add(fork.held_object);

@@ -10,8 +10,8 @@ namespace spring_workbench::replay {
 // point, whatever the locale; of the two quaternions of a rotation the one with qw ≥ 0 is written.
 
 std::string object_header();
-std::string object_rows(double t, const Simulation& simulation);  ///< a line per movable object
+std::string object_rows(double t, const simulation::Simulation& simulation);  ///< a line per movable object
 std::string fork_header();
-std::string fork_row(double t, const Simulation& simulation, std::size_t hand);
+std::string fork_row(double t, const simulation::Simulation& simulation, std::size_t hand);
 
 }  // namespace spring_workbench::replay

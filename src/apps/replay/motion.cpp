@@ -10,7 +10,7 @@ void add_button(double t, bool pressed, std::vector<ButtonEvent>& buttons) {
   buttons.push_back({buttons.empty() ? t : std::max(t, buttons.back().t), pressed});
 }
 
-Motion read_motion(StylusSource& source) {
+Motion read_motion(motion::StylusSource& source) {
   Motion motion;
   while (const auto sample = source.next()) {
     motion.samples.push_back(*sample);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "spring_workbench/tracker/stylus_source.h"
+#include "spring_workbench/motion/stylus_source.h"
 
 namespace spring_workbench::replay {
 
@@ -14,16 +14,16 @@ struct ButtonEvent {
 
 /// A recorded hand. Times in s from the first sample; stamps as recorded, also repeated and backward ones.
 struct Motion {
-  std::vector<PoseSample> samples;     ///< never empty
-  std::vector<ButtonEvent> buttons;    ///< changes of the grasp button, which starts up
-  std::vector<ButtonEvent> next_tool;  ///< the same of the button for the next tool
+  std::vector<motion::PoseSample> samples;  ///< never empty
+  std::vector<ButtonEvent> buttons;         ///< changes of the grasp button, which starts up
+  std::vector<ButtonEvent> next_tool;       ///< the same of the button for the next tool
 };
 
 /// Notes that the button is down or up from `t` on; what is no change, or lies before the last change, is put right.
 void add_button(double t, bool pressed, std::vector<ButtonEvent>& buttons);
 
 /// Everything that the source has.
-Motion read_motion(StylusSource& source);
+Motion read_motion(motion::StylusSource& source);
 
 /// The transforms `parent` → `child` of a bag with buttons 0 and 1 of stylus/joy, and where the bag has them those of
 /// further styluses (`child`_2, stylus_2/joy). Times from the first sample of all. Throws InputError.

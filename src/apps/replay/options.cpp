@@ -17,47 +17,49 @@ const char* const kWhere = "command line";
 
 /// Applies `values`: the key `rate` here, all others to the settings of the simulation.
 void apply(const YAML::Node& values, const std::string& where, Options& options) {
-  if (!values.IsMap()) refuse(where, "(top level)", "what is given", "a map of settings");
+  if (!values.IsMap()) validation::refuse(where, "(top level)", "what is given", "a map of settings");
   YAML::Node settings(YAML::NodeType::Map);
   for (const auto& entry : values) {
     if (entry.first.IsScalar() && entry.first.Scalar() == "rate") {
-      options.rate = read_number(entry.second, where, "rate", between(1e-3, 1e6));
+      options.rate = config::read_number(entry.second, where, "rate", validation::between(1e-3, 1e6));
     } else {
       settings.force_insert(entry.first, entry.second);
     }
   }
-  take_truth_settings(settings, where, options.truth);
-  apply_settings(settings, where, options.settings);
+  hand_input::take_truth_settings(settings, where, options.truth);
+  simulation::apply_settings(settings, where, options.settings);
 }
 
 void apply_assignment(const std::string& assignment, Options& options) {
   const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0) refuse(kWhere, "--set", assignment, "key=value");
+  if (equals == std::string::npos || equals == 0) validation::refuse(kWhere, "--set", assignment, "key=value");
   YAML::Node values(YAML::NodeType::Map);
   values[assignment.substr(0, equals)] = assignment.substr(equals + 1);
   apply(values, kWhere, options);
 }
 
 void set_once(const std::string& option, const char* value, std::string& field) {
-  if (!field.empty()) refuse(kWhere, option, value, "given once");
-  if (*value == '\0') refuse(kWhere, option, "(nothing)", "a path or a name");
+  if (!field.empty()) validation::refuse(kWhere, option, value, "given once");
+  if (*value == '\0') validation::refuse(kWhere, option, "(nothing)", "a path or a name");
   field = value;
 }
 
 void add_motion(const char* path, std::vector<std::string>& motions) {
-  if (*path == '\0') refuse(kWhere, "--motion", "(nothing)", "a path");
-  const std::string most = std::to_string(Simulation::most_hands);
-  if (motions.size() == Simulation::most_hands) refuse(kWhere, "--motion", path, "given " + most + " times at most");
+  if (*path == '\0') validation::refuse(kWhere, "--motion", "(nothing)", "a path");
+  const std::string most = std::to_string(simulation::Simulation::most_hands);
+  if (motions.size() == simulation::Simulation::most_hands)
+    validation::refuse(kWhere, "--motion", path, "given " + most + " times at most");
   motions.push_back(path);
 }
 
 void check_complete(const Options& options, bool frames_given) {
-  if (options.scene.empty()) refuse(kWhere, "--scene", "(nothing)", "the path of a scene's URDF");
+  if (options.scene.empty()) validation::refuse(kWhere, "--scene", "(nothing)", "the path of a scene's URDF");
   if (options.motions.empty() == options.bag.empty()) {
-    refuse(kWhere, "--motion, --bag", options.bag.empty() ? "none of both" : "both", "one of both");
+    validation::refuse(kWhere, "--motion, --bag", options.bag.empty() ? "none of both" : "both", "one of both");
   }
-  if (options.bag.empty() && frames_given) refuse(kWhere, "--parent, --child", "with --motion", "given with --bag");
-  if (options.out.empty()) refuse(kWhere, "--out", "(nothing)", "the path of the CSV file to write");
+  if (options.bag.empty() && frames_given)
+    validation::refuse(kWhere, "--parent, --child", "with --motion", "given with --bag");
+  if (options.out.empty()) validation::refuse(kWhere, "--out", "(nothing)", "the path of the CSV file to write");
 }
 
 /// The word on which getopt_long has just stopped.
@@ -113,16 +115,16 @@ Options parse_options(int argc, char** argv) {
         set_once("--out", optarg, options.out);
         break;
       case ':':
-        refuse(kWhere, stopped_at(argc, argv), "(nothing)", "followed by a value");
+        validation::refuse(kWhere, stopped_at(argc, argv), "(nothing)", "followed by a value");
       default:
-        refuse(kWhere, "option", stopped_at(argc, argv), "one of those that --help lists");
+        validation::refuse(kWhere, "option", stopped_at(argc, argv), "one of those that --help lists");
     }
   }
-  if (optind < argc) refuse(kWhere, "argument", argv[optind], "an option that --help lists");
+  if (optind < argc) validation::refuse(kWhere, "argument", argv[optind], "an option that --help lists");
   check_complete(options, !parent_frame.empty() || !child_frame.empty());
   if (!parent_frame.empty()) options.parent = parent_frame;
   if (!child_frame.empty()) options.child = child_frame;
-  if (!settings_path.empty()) apply(load_yaml_file(settings_path), settings_path, options);
+  if (!settings_path.empty()) apply(config::load_yaml_file(settings_path), settings_path, options);
   for (const std::string& assignment : assignments) apply_assignment(assignment, options);
   return options;
 }
@@ -173,8 +175,8 @@ Keys (unit; allowed; default): meaning
   const auto add = [&](const std::string& key, const auto& d) {
     text << "  " << key << " (" << d.unit << "; " << d.allowed << "; " << d.default_value << "): " << d.meaning << "\n";
   };
-  for (const SettingDescription& d : setting_descriptions()) add(d.key, d);
-  for (const TruthDescription& d : truth_descriptions()) add("truth." + d.key, d);
+  for (const simulation::SettingDescription& d : simulation::setting_descriptions()) add(d.key, d);
+  for (const hand_input::TruthDescription& d : hand_input::truth_descriptions()) add("truth." + d.key, d);
   return text.str();
 }
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "spring_workbench/hand_input/settings.h"
 #include "spring_workbench/simulation/settings.h"
-#include "spring_workbench/tracker/truth_settings.h"
 
 namespace spring_workbench::replay {
 
@@ -18,8 +18,8 @@ struct Options {
   std::string child = "stylus";
   std::string out;     ///< path of the CSV file of the objects
   double rate = 50.0;  ///< output times per second [Hz]
-  SimulationSettings settings;
-  TruthSettings truth;
+  simulation::SimulationSettings settings;
+  hand_input::TruthSettings truth;
 };
 
 /// Reads the command line, and the settings file that it names. Throws InputError for everything that cannot be used.

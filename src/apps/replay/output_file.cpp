@@ -7,13 +7,13 @@
 #include <cstring>
 #include <filesystem>
 
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::replay {
 namespace {
 
 [[noreturn]] void fail(const std::string& path) {
-  throw InputError(path + ": cannot be written: " + std::strerror(errno));
+  throw validation::InputError(path + ": cannot be written: " + std::strerror(errno));
 }
 
 }  // namespace
@@ -21,7 +21,7 @@ namespace {
 OutputFile::OutputFile(const std::string& path) : path_(path) {
   std::error_code none;
   const auto status = std::filesystem::status(path, none);
-  if (std::filesystem::is_directory(status)) throw InputError(path + ": cannot be written: is a folder");
+  if (std::filesystem::is_directory(status)) throw validation::InputError(path + ": cannot be written: is a folder");
   const bool in_place = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
   written_path_ = in_place ? path : path + ".part" + std::to_string(getpid());
   file_.open(written_path_, std::ios::binary | std::ios::trunc);

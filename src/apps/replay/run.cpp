@@ -7,9 +7,10 @@
 
 #include "csv_rows.h"
 #include "output_file.h"
+#include "spring_workbench/hand_input/input_filter.h"
+#include "spring_workbench/hand_input/reacquisition.h"
+#include "spring_workbench/motion_files/open_motion.h"
 #include "spring_workbench/scene/scene.h"
-#include "spring_workbench/tracker/reengagement.h"
-#include "spring_workbench/tracker/truth_layer.h"
 
 namespace spring_workbench::replay {
 namespace {
@@ -19,7 +20,7 @@ constexpr double kTimeTolerance = 1e-9;  // [s] an output time this much after t
 std::vector<Motion> load_motions(const Options& options) {
   if (!options.bag.empty()) return read_bag(options.bag, options.parent, options.child);
   std::vector<Motion> motions;
-  for (const std::string& path : options.motions) motions.push_back(read_motion(*open_motion(path)));
+  for (const std::string& path : options.motions) motions.push_back(read_motion(*motion_files::open_motion(path)));
   return motions;
 }
 
@@ -31,23 +32,23 @@ std::string fork_path(const std::string& path) {
   return (has_ending ? path.substr(0, path.size() - ending.size()) : path) + ".fork.csv";
 }
 
-Simulation make_simulation(const Options& options) {
-  const Scene scene = load_scene(options.scene);
+simulation::Simulation make_simulation(const Options& options) {
+  const scene::Scene scene = scene::load_scene(options.scene);
   for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
-  return Simulation(scene, options.settings);
+  return simulation::Simulation(scene, options.settings);
 }
 
 /// Gives the simulation the samples that the truth layer lets through, as `manipulation` does.
-void push_motion(const Motion& motion, std::size_t hand, const Options& options, Reengagement& follower,
-                 Simulation& simulation, Summary& summary) {
+void push_motion(const Motion& motion, std::size_t hand, const Options& options, hand_input::Reengagement& follower,
+                 simulation::Simulation& simulation, Summary& summary) {
   constexpr double nothing_simulated = -std::numeric_limits<double>::infinity();
-  TruthLayer truth(options.truth, options.settings.dropout_after);
-  for (const PoseSample& sample : motion.samples) {
+  hand_input::TruthLayer truth(options.truth, options.settings.dropout_after);
+  for (const motion::PoseSample& sample : motion.samples) {
     ++summary.samples;
-    const TrueSample taken = truth.take(sample);
-    if (!usable(taken.verdict)) continue;
-    const bool new_place = taken.verdict == Verdict::new_place;
-    for (const PoseSample& s : follower.follow(taken.sample, new_place, nothing_simulated)) {
+    const hand_input::TrueSample taken = truth.take(sample);
+    if (!hand_input::usable(taken.verdict)) continue;
+    const bool new_place = taken.verdict == hand_input::Verdict::new_place;
+    for (const motion::PoseSample& s : follower.follow(taken.sample, new_place, nothing_simulated)) {
       simulation.push_stylus(s, hand);
     }
   }
@@ -60,7 +61,8 @@ void push_motion(const Motion& motion, std::size_t hand, const Options& options,
 }
 
 /// Goes to t; lets go of what a hand holds where it is lost on the way.
-void advance(double t, std::vector<Reengagement>& hands, Simulation& simulation, Summary& summary) {
+void advance(double t, std::vector<hand_input::Reengagement>& hands, simulation::Simulation& simulation,
+             Summary& summary) {
   std::multimap<double, std::size_t> releases;
   for (std::size_t hand = 0; hand < hands.size(); ++hand) {
     while (const auto release = hands[hand].take_release(t)) releases.emplace(*release, hand);
@@ -76,14 +78,14 @@ void advance(double t, std::vector<Reengagement>& hands, Simulation& simulation,
 
 Summary run(const Options& options) {
   const std::vector<Motion> motions = load_motions(options);
-  Simulation simulation = make_simulation(options);
+  simulation::Simulation simulation = make_simulation(options);
   OutputFile objects(options.out);
   OutputFile fork(fork_path(options.out));
   objects.write(object_header());
   fork.write(fork_header());
 
   Summary summary;
-  std::vector<Reengagement> hands(motions.size(), Reengagement(options.truth));
+  std::vector<hand_input::Reengagement> hands(motions.size(), hand_input::Reengagement(options.truth));
   for (std::size_t hand = 0; hand < hands.size(); ++hand) {
     push_motion(motions[hand], hand, options, hands[hand], simulation, summary);
   }
@@ -96,7 +98,7 @@ Summary run(const Options& options) {
     for (std::size_t hand = 0; hand < hands.size(); ++hand) fork.write(fork_row(t, simulation, hand));
   }
   summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  for (const Reengagement& hand : hands) summary.add(hand.counts());
+  for (const hand_input::Reengagement& hand : hands) summary.add(hand.counts());
   fork.commit();
   objects.commit();
   return summary;

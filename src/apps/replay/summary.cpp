@@ -30,11 +30,11 @@ std::string list_of(const std::set<std::string>& words) {
 }
 
 /// {"reason": count, ...}, and their sum.
-std::pair<std::string, std::size_t> left_out_of(const GateCounts& gate) {
+std::pair<std::string, std::size_t> left_out_of(const hand_input::GateCounts& gate) {
   std::string json;
   std::size_t sum = 0;
   for (const auto& [verdict, count] : gate.left_out) {
-    json += (json.empty() ? "" : ", ") + quoted(to_string(verdict)) + ": " + std::to_string(count);
+    json += (json.empty() ? "" : ", ") + quoted(hand_input::to_string(verdict)) + ": " + std::to_string(count);
     sum += count;
   }
   return {"{" + json + "}", sum};
@@ -42,7 +42,7 @@ std::pair<std::string, std::size_t> left_out_of(const GateCounts& gate) {
 
 }  // namespace
 
-void Summary::add(const AdvanceReport& report) {
+void Summary::add(const simulation::AdvanceReport& report) {
   total_.steps += report.steps;
   total_.simulated_time += report.simulated_time;
   total_.position_error = std::max(total_.position_error, report.position_error);
@@ -58,21 +58,21 @@ void Summary::add(const AdvanceReport& report) {
   parts_left_out_.insert(report.parts_left_out.begin(), report.parts_left_out.end());
 }
 
-void Summary::add(const GateCounts& of_hand) {
+void Summary::add(const hand_input::GateCounts& of_hand) {
   gate.accepted += of_hand.accepted;
   gate.dropouts += of_hand.dropouts;
   for (const auto& [verdict, count] : of_hand.left_out) gate.left_out[verdict] += count;
 }
 
-void Summary::add(const ReengagementCounts& of_hand) {
+void Summary::add(const hand_input::ReengagementCounts& of_hand) {
   hand.reengagements += of_hand.reengagements;
   hand.losses += of_hand.losses;
 }
 
-void Summary::add_contacts(const std::vector<ContactState>& contacts) {
+void Summary::add_contacts(const std::vector<contact::ContactState>& contacts) {
   std::set<Pair> now;
-  for (const ContactState& contact : contacts) {
-    if (contact.phase != ContactPhase::ended) now.emplace(contact.object, contact.other);
+  for (const contact::ContactState& contact : contacts) {
+    if (contact.phase != contact::ContactPhase::ended) now.emplace(contact.object, contact.other);
   }
   for (const Pair& pair : now) contacts_ += touching_.count(pair) == 0 ? 1 : 0;
   touching_ = now;

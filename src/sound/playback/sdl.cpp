@@ -1,10 +1,10 @@
 #include <SDL.h>
 
-#include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/sound/audio_output.h"
 #include "spring_workbench/sound/contact_synthesizer.h"
+#include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench {
+namespace spring_workbench::sound {
 namespace {
 
 class SdlDevice final : public AudioOutput {
@@ -16,7 +16,8 @@ class SdlDevice final : public AudioOutput {
     wanted.channels = 1;
     wanted.samples = 512;
     if (SDL_InitSubSystem(SDL_INIT_AUDIO) == 0) device_ = SDL_OpenAudioDevice(nullptr, 0, &wanted, nullptr, 0);
-    if (device_ == 0) refuse("contact sound", "sound device", SDL_GetError(), "there; or give a file to write");
+    if (device_ == 0)
+      validation::refuse("contact sound", "sound device", SDL_GetError(), "there; or give a file to write");
     SDL_PauseAudioDevice(device_, 0);
   }
   ~SdlDevice() override {
@@ -40,4 +41,4 @@ class SdlDevice final : public AudioOutput {
 
 std::unique_ptr<AudioOutput> open_audio_device() { return std::make_unique<SdlDevice>(); }
 
-}  // namespace spring_workbench
+}  // namespace spring_workbench::sound

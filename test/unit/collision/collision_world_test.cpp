@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/geometry/shape_queries.h"
 #include "support/meshes.h"
 #include "support/random_poses.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 namespace {
 
 using test_support::box_mesh;
@@ -20,16 +20,16 @@ constexpr double far_below = -1e3;  // a bench that nothing meets
 
 RigidTransform at(const Vector3d& p) { return RigidTransform(Eigen::Translation3d(p)); }
 
-Body body_of(const Geometry& geometry, const RigidTransform& X_WO = RigidTransform::Identity()) {
-  Body body;
+scene::Body body_of(const geometry::Geometry& geometry, const RigidTransform& X_WO = RigidTransform::Identity()) {
+  scene::Body body;
   body.movable = true;
   body.X_WO = X_WO;
-  body.collision = {Shape{geometry}};
+  body.collision = {geometry::Shape{geometry}};
   return body;
 }
 
-Scene scene_of(const std::vector<Body>& bodies, double bench_height = far_below) {
-  Scene scene;
+scene::Scene scene_of(const std::vector<scene::Body>& bodies, double bench_height = far_below) {
+  scene::Scene scene;
   scene.bodies = bodies;
   scene.bench_height = bench_height;
   return scene;
@@ -46,25 +46,27 @@ const ContactPoint& deepest(const std::vector<ContactPoint>& found) {
   return *std::max_element(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; });
 }
 
-std::vector<Geometry> one_of_each(Random& random) {
+std::vector<geometry::Geometry> one_of_each(Random& random) {
   const double a = random.number(0.02, 0.1), b = random.number(0.02, 0.1), c = random.number(0.02, 0.1);
-  return {Box{Vector3d(a, b, c)}, Sphere{0.5 * a}, Cylinder{0.5 * b, c}, box_mesh(Vector3d(b, c, a)),
-          sphere_mesh(0.5 * c, 6)};
+  return {geometry::Box{Vector3d(a, b, c)}, geometry::Sphere{0.5 * a}, geometry::Cylinder{0.5 * b, c},
+          box_mesh(Vector3d(b, c, a)), sphere_mesh(0.5 * c, 6)};
 }
 
-Box random_box(Random& random) { return Box{random.vector(0.05).cwiseAbs() + Vector3d::Constant(0.01)}; }
+geometry::Box random_box(Random& random) {
+  return geometry::Box{random.vector(0.05).cwiseAbs() + Vector3d::Constant(0.01)};
+}
 
 // ---- the bench
 
 TEST(Bench, TheDeepestPointIsExactForEveryShape) {
   Random random(1);
   for (int i = 0; i < 200; ++i) {
-    for (const Geometry& shape : one_of_each(random)) {
+    for (const geometry::Geometry& shape : one_of_each(random)) {
       const double height = random.number(-1.0, 1.0);
       const CollisionWorld world(scene_of({body_of(shape)}, height));
       RigidTransform X = random.pose(0.1);
       X.translation().z() += height;
-      const double lowest = bounding_box(shape, X).min().z();
+      const double lowest = geometry::bounding_box(shape, X).min().z();
       const auto found = contacts(world, 0, X);
       EXPECT_EQ(found.empty(), lowest >= height);
       EXPECT_EQ(world.touches(0, X, 0.0), lowest < height);
@@ -76,7 +78,7 @@ TEST(Bench, TheDeepestPointIsExactForEveryShape) {
         EXPECT_NEAR(c.p_W.z(), height, 1e-12);
         EXPECT_GT(c.depth, 0.0);
         const Vector3d inside = c.p_W - c.depth * c.n_W;  // the body's own point
-        EXPECT_LT(bounding_box(shape, X).exteriorDistance(inside), 1e-12) << "is of the body";
+        EXPECT_LT(geometry::bounding_box(shape, X).exteriorDistance(inside), 1e-12) << "is of the body";
       }
     }
   }
@@ -84,8 +86,9 @@ TEST(Bench, TheDeepestPointIsExactForEveryShape) {
 
 TEST(Bench, FlushFacesGivePointsThatSpanThem) {
   const double h = 0.02;
-  for (const Geometry& shape : {Geometry(Box{Vector3d(0.1, 0.1, 0.04)}), Geometry(Cylinder{0.05, 0.04}),
-                                Geometry(box_mesh(Vector3d(0.1, 0.1, 0.04)))}) {
+  for (const geometry::Geometry& shape :
+       {geometry::Geometry(geometry::Box{Vector3d(0.1, 0.1, 0.04)}), geometry::Geometry(geometry::Cylinder{0.05, 0.04}),
+        geometry::Geometry(box_mesh(Vector3d(0.1, 0.1, 0.04)))}) {
     const CollisionWorld world(scene_of({body_of(shape)}, 0.0));
     for (const double depth : {1e-5, 1e-12, -1e-6}) {
       const auto found = contacts(world, 0, at(Vector3d(0.3, 0.2, h - depth)), std::min(0.0, 2.0 * depth));
@@ -101,7 +104,7 @@ TEST(Bench, FlushFacesGivePointsThatSpanThem) {
 }
 
 TEST(Bench, APointAboveItCountsAsFarAsTheToleranceIsNegative) {
-  const CollisionWorld world(scene_of({body_of(Sphere{0.1})}, 0.0));
+  const CollisionWorld world(scene_of({body_of(geometry::Sphere{0.1})}, 0.0));
   EXPECT_TRUE(contacts(world, 0, at(Vector3d(0, 0, 0.1001)), -0.0002).size() == 1);
   EXPECT_TRUE(contacts(world, 0, at(Vector3d(0, 0, 0.1001)), -0.00005).empty());
   EXPECT_TRUE(world.touches(0, at(Vector3d(0, 0, 0.099)), 0.0005));
@@ -109,7 +112,7 @@ TEST(Bench, APointAboveItCountsAsFarAsTheToleranceIsNegative) {
 }
 
 TEST(Bench, AFineMeshGivesFewPointsThatKeepItsExtent) {
-  const MeshPtr fine = sphere_mesh(0.1, 40);
+  const geometry::MeshPtr fine = sphere_mesh(0.1, 40);
   const CollisionWorld world(scene_of({body_of(fine)}, 0.0));
   const auto found = contacts(world, 0, at(Vector3d(0, 0, 0.05)));
   EXPECT_LE(found.size(), 9u);
@@ -134,9 +137,10 @@ TEST(Pairs, ASphereAndAPrimitiveAgreeWithTheLeastWayOut) {
   Random random(2);
   int touching = 0;
   for (int i = 0; i < 500; ++i) {
-    const Sphere sphere{random.number(0.01, 0.06)};
-    for (const Geometry& other : {Geometry(random_box(random)), Geometry(Sphere{random.number(0.01, 0.06)}),
-                                  Geometry(Cylinder{random.number(0.01, 0.05), random.number(0.02, 0.1)})}) {
+    const geometry::Sphere sphere{random.number(0.01, 0.06)};
+    for (const geometry::Geometry& other :
+         {geometry::Geometry(random_box(random)), geometry::Geometry(geometry::Sphere{random.number(0.01, 0.06)}),
+          geometry::Geometry(geometry::Cylinder{random.number(0.01, 0.05), random.number(0.02, 0.1)})}) {
       const CollisionWorld world(scene_of({body_of(sphere), body_of(other, random.pose(0.03))}));
       const RigidTransform X = random.pose(0.06);
       const auto found = contacts(world, 0, X);
@@ -154,9 +158,9 @@ TEST(Pairs, ASphereAndAPrimitiveAgreeWithTheLeastWayOut) {
 TEST(Pairs, ASphereAgreesWithTheDistanceToABox) {
   Random random(3);
   for (int i = 0; i < 2000; ++i) {
-    const Box box = random_box(random);
+    const geometry::Box box = random_box(random);
     const double radius = random.number(0.01, 0.05);
-    const CollisionWorld world(scene_of({body_of(Sphere{radius}), body_of(box)}));
+    const CollisionWorld world(scene_of({body_of(geometry::Sphere{radius}), body_of(box)}));
     const Vector3d centre = random.vector(0.1);
     const Vector3d gap = (centre.cwiseAbs() - 0.5 * box.size).cwiseMax(0.0);
     if (gap.norm() == 0.0) continue;  // the centre in the box
@@ -169,7 +173,7 @@ TEST(Pairs, ASphereAgreesWithTheDistanceToABox) {
 }
 
 /// Least overlap of two boxes over the fifteen axes of the separating axis theorem; negative when they are apart.
-double overlap(const Box& a, const RigidTransform& X_WA, const Box& b, const RigidTransform& X_WB) {
+double overlap(const geometry::Box& a, const RigidTransform& X_WA, const geometry::Box& b, const RigidTransform& X_WB) {
   std::vector<Vector3d> axes;
   for (int i = 0; i < 3; ++i) {
     axes.push_back(X_WA.linear().col(i));
@@ -191,7 +195,7 @@ TEST(Pairs, TwoBoxesAgreeWithTheSeparatingAxisTheorem) {
   Random random(4);
   int touching = 0;
   for (int i = 0; i < 5000; ++i) {
-    const Box a = random_box(random), b = random_box(random);
+    const geometry::Box a = random_box(random), b = random_box(random);
     RigidTransform X_WA = random.pose(0.06), X_WB = random.pose(0.06);
     if (i % 3 == 0) X_WA.linear() = X_WB.linear();  // parallel faces
     const CollisionWorld world(scene_of({body_of(a), body_of(b, X_WB)}));
@@ -216,8 +220,8 @@ TEST(Pairs, TwoBoxesAgreeWithTheSeparatingAxisTheorem) {
 
 /// Puts body 0 so that it is just in body 1 by `depth` [m] along the least way out. False where they are apart at
 /// first.
-bool put_just_in(const Box& a, RigidTransform& X_WA, const Box& b, const RigidTransform& X_WB, double depth,
-                 Vector3d& n) {
+bool put_just_in(const geometry::Box& a, RigidTransform& X_WA, const geometry::Box& b, const RigidTransform& X_WB,
+                 double depth, Vector3d& n) {
   const CollisionWorld world(scene_of({body_of(a), body_of(b, X_WB)}));
   auto found = contacts(world, 0, X_WA);
   if (found.empty()) return false;
@@ -232,7 +236,7 @@ TEST(Pairs, MeshesOfBoxesTouchAsTheBoxesDo) {
   Random random(5);
   int touching = 0;
   for (int i = 0; i < 600; ++i) {
-    const Box a = random_box(random), b = random_box(random);
+    const geometry::Box a = random_box(random), b = random_box(random);
     RigidTransform X_WA = random.pose(0.05);
     const RigidTransform X_WB = random.pose(0.05);
     if (i % 3 == 0) X_WA.linear() = X_WB.linear();
@@ -240,7 +244,7 @@ TEST(Pairs, MeshesOfBoxesTouchAsTheBoxesDo) {
     constexpr double depth = 1e-5;
     if (!put_just_in(a, X_WA, b, X_WB, depth, n)) continue;
     ++touching;
-    for (const auto& [own, other] : std::vector<std::pair<Geometry, Geometry>>{
+    for (const auto& [own, other] : std::vector<std::pair<geometry::Geometry, geometry::Geometry>>{
              {box_mesh(a.size), b}, {a, box_mesh(b.size)}, {box_mesh(a.size), box_mesh(b.size)}}) {
       const CollisionWorld world(scene_of({body_of(own), body_of(other, X_WB)}));
       const auto found = contacts(world, 0, X_WA);
@@ -265,9 +269,9 @@ TEST(Pairs, ASphereOnAFineOrCoarseMeshOfABoxTouchesAsOnTheBox) {
   Random random(6);
   int touching = 0;
   for (int i = 0; i < 1000; ++i) {
-    const Box box = random_box(random);
+    const geometry::Box box = random_box(random);
     const RigidTransform X_WB = random.pose(0.02);
-    const Sphere sphere{random.number(0.01, 0.04)};
+    const geometry::Sphere sphere{random.number(0.01, 0.04)};
     const RigidTransform X = random.pose(0.06);
     const CollisionWorld exact(scene_of({body_of(sphere), body_of(box, X_WB)}));
     const CollisionWorld meshed(scene_of({body_of(sphere), body_of(box_mesh(box.size), X_WB)}));
@@ -286,7 +290,7 @@ TEST(Pairs, ASphereOnAFineOrCoarseMeshOfABoxTouchesAsOnTheBox) {
 
 TEST(Pairs, ASphereOnTheSeamOfAFlatFaceHasOneNormal) {
   const Vector3d size(0.2, 0.2, 0.1);
-  const CollisionWorld world(scene_of({body_of(Sphere{0.03}), body_of(box_mesh(size))}));
+  const CollisionWorld world(scene_of({body_of(geometry::Sphere{0.03}), body_of(box_mesh(size))}));
   Random random(7);
   for (int i = 0; i < 200; ++i) {
     const Vector3d centre(random.number(-0.06, 0.06), random.number(-0.06, 0.06), 0.05 + 0.03 - 1e-4);
@@ -299,8 +303,8 @@ TEST(Pairs, ToldFromTheOtherSideAContactIsTheSame) {
   int touching = 0;
   for (int i = 0; i < 150; ++i) {
     const auto shapes = one_of_each(random);
-    for (const Geometry& a : shapes) {
-      for (const Geometry& b : shapes) {
+    for (const geometry::Geometry& a : shapes) {
+      for (const geometry::Geometry& b : shapes) {
         const RigidTransform X_WA = random.pose(0.03), X_WB = random.pose(0.03);
         const CollisionWorld world(scene_of({body_of(a, X_WA), body_of(b, X_WB)}));
         const auto here = contacts(world, 0, X_WA);
@@ -319,8 +323,8 @@ TEST(Pairs, ContactsMoveWithTheWorld) {
   Random random(9);
   for (int i = 0; i < 50; ++i) {
     const auto shapes = one_of_each(random);
-    for (const Geometry& a : shapes) {
-      for (const Geometry& b : shapes) {
+    for (const geometry::Geometry& a : shapes) {
+      for (const geometry::Geometry& b : shapes) {
         const RigidTransform X_WA = random.pose(0.03), X_WB = random.pose(0.03), X = random.pose(1.0);
         const CollisionWorld here(scene_of({body_of(a), body_of(b, X_WB)}));
         const CollisionWorld there(scene_of({body_of(a), body_of(b, X * X_WB)}));
@@ -337,13 +341,15 @@ TEST(Pairs, ContactsMoveWithTheWorld) {
 TEST(Pairs, FlushBoxesGivePointsThatSpanTheCommonFace) {
   const Vector3d base(0.3, 0.2, 0.1), top(0.1, 0.3, 0.04);
   constexpr double depth = 1e-6;
-  for (const auto& [own, other] : std::vector<std::pair<Geometry, Geometry>>{
-           {Box{top}, Box{base}}, {box_mesh(top), Box{base}}, {Box{top}, box_mesh(base)}}) {
+  for (const auto& [own, other] :
+       std::vector<std::pair<geometry::Geometry, geometry::Geometry>>{{geometry::Box{top}, geometry::Box{base}},
+                                                                      {box_mesh(top), geometry::Box{base}},
+                                                                      {geometry::Box{top}, box_mesh(base)}}) {
     const CollisionWorld world(scene_of({body_of(own), body_of(other)}));
     for (const double z : {0.07 - depth, 0.07 + depth}) {
       const bool apart = z > 0.07;
-      if (apart && !std::holds_alternative<Box>(own)) continue;    // negative tolerance is for flat neighbours:
-      if (apart && !std::holds_alternative<Box>(other)) continue;  // the bench, boxes, spheres
+      if (apart && !std::holds_alternative<geometry::Box>(own)) continue;  // negative tolerance is for flat neighbours:
+      if (apart && !std::holds_alternative<geometry::Box>(other)) continue;  // the bench, boxes, spheres
       const auto found = contacts(world, 0, at(Vector3d(0.02, 0.01, z)), apart ? -2.0 * depth : 0.0);
       Eigen::AlignedBox3d span;
       for (const ContactPoint& c : found) {
@@ -359,8 +365,9 @@ TEST(Pairs, FlushBoxesGivePointsThatSpanTheCommonFace) {
 }
 
 TEST(Pairs, AFlushCylinderStandsOnThePointsOfItsRim) {
-  for (const Geometry& base : {Geometry(Box{Vector3d(0.3, 0.2, 0.1)}), Geometry(box_mesh(Vector3d(0.3, 0.2, 0.1)))}) {
-    const CollisionWorld world(scene_of({body_of(Cylinder{0.04, 0.06}), body_of(base)}));
+  for (const geometry::Geometry& base : {geometry::Geometry(geometry::Box{Vector3d(0.3, 0.2, 0.1)}),
+                                         geometry::Geometry(box_mesh(Vector3d(0.3, 0.2, 0.1)))}) {
+    const CollisionWorld world(scene_of({body_of(geometry::Cylinder{0.04, 0.06}), body_of(base)}));
     const auto found = contacts(world, 0, at(Vector3d(0.01, 0.02, 0.08 - 1e-6)));
     ASSERT_GE(found.size(), 3u);
     EXPECT_LE(found.size(), 9u);
@@ -378,10 +385,12 @@ TEST(Pairs, AFlushCylinderStandsOnThePointsOfItsRim) {
 }
 
 TEST(Pairs, ABodyThatIsWhollyInsideAnotherTouchesIt) {
-  for (const Geometry& outer : {Geometry(Box{Vector3d::Constant(0.4)}), Geometry(box_mesh(Vector3d::Constant(0.4))),
-                                Geometry(sphere_mesh(0.3, 12)), Geometry(Sphere{0.3}), Geometry(Cylinder{0.3, 0.6})}) {
+  for (const geometry::Geometry& outer :
+       {geometry::Geometry(geometry::Box{Vector3d::Constant(0.4)}),
+        geometry::Geometry(box_mesh(Vector3d::Constant(0.4))), geometry::Geometry(sphere_mesh(0.3, 12)),
+        geometry::Geometry(geometry::Sphere{0.3}), geometry::Geometry(geometry::Cylinder{0.3, 0.6})}) {
     Random random(10);
-    for (const Geometry& inner : one_of_each(random)) {
+    for (const geometry::Geometry& inner : one_of_each(random)) {
       const CollisionWorld world(scene_of({body_of(inner), body_of(outer)}));
       for (std::size_t body : {0u, 1u}) {
         EXPECT_TRUE(world.touches(body, RigidTransform::Identity(), 0.0));
@@ -396,13 +405,13 @@ TEST(Pairs, ABodyThatIsWhollyInsideAnotherTouchesIt) {
 
 TEST(Pairs, InTheHollowOfABowlNothingIsTouched) {
   // A box with a box-shaped hollow: the outer surface and the inner one turned round.
-  TriangleMesh hollow = *box_mesh(Vector3d::Constant(0.4));
-  const TriangleMesh inner = *box_mesh(Vector3d::Constant(0.3));
+  geometry::TriangleMesh hollow = *box_mesh(Vector3d::Constant(0.4));
+  const geometry::TriangleMesh inner = *box_mesh(Vector3d::Constant(0.3));
   for (const Eigen::Vector3i& t : inner.triangles) hollow.triangles.emplace_back(t[0] + 8, t[2] + 8, t[1] + 8);
   hollow.vertices.insert(hollow.vertices.end(), inner.vertices.begin(), inner.vertices.end());
-  const Geometry bowl = std::make_shared<const TriangleMesh>(hollow);
+  const geometry::Geometry bowl = std::make_shared<const geometry::TriangleMesh>(hollow);
   Random random(11);
-  for (const Geometry& shape : one_of_each(random)) {
+  for (const geometry::Geometry& shape : one_of_each(random)) {
     const CollisionWorld world(scene_of({body_of(shape), body_of(bowl)}));
     EXPECT_FALSE(world.touches(0, at(Vector3d(0.02, 0.0, 0.0)), 0.0));
     const auto found = contacts(world, 0, at(Vector3d(0.0, 0.0, -0.15)));
@@ -413,22 +422,22 @@ TEST(Pairs, InTheHollowOfABowlNothingIsTouched) {
 
 TEST(Pairs, ARodThroughAPlateTouchesIt) {
   // No corner of one is in the other, and the two curves push in opposite directions.
-  for (const auto& [own, other] : std::vector<std::pair<Geometry, Geometry>>{
-           {box_mesh(Vector3d(0.02, 0.02, 1.0)), Box{Vector3d(0.4, 0.4, 0.01)}},
-           {Cylinder{0.01, 1.0}, Box{Vector3d(0.4, 0.4, 0.01)}},
-           {Box{Vector3d(0.02, 0.02, 1.0)}, box_mesh(Vector3d(0.4, 0.4, 0.01))}}) {
+  for (const auto& [own, other] : std::vector<std::pair<geometry::Geometry, geometry::Geometry>>{
+           {box_mesh(Vector3d(0.02, 0.02, 1.0)), geometry::Box{Vector3d(0.4, 0.4, 0.01)}},
+           {geometry::Cylinder{0.01, 1.0}, geometry::Box{Vector3d(0.4, 0.4, 0.01)}},
+           {geometry::Box{Vector3d(0.02, 0.02, 1.0)}, box_mesh(Vector3d(0.4, 0.4, 0.01))}}) {
     const CollisionWorld world(scene_of({body_of(own), body_of(other)}));
     EXPECT_TRUE(world.touches(0, at(Vector3d(0.03, 0.05, 0.0)), 1e-3));
   }
 }
 
 TEST(Pairs, ABodyWedgedBetweenTwoWallsOfOneMeshTouchesThem) {
-  TriangleMesh walls = *box_mesh(Vector3d(0.1, 0.4, 0.4), at(Vector3d(-0.1, 0.0, 0.0)));
-  const MeshPtr right = box_mesh(Vector3d(0.1, 0.4, 0.4), at(Vector3d(0.1, 0.0, 0.0)));
+  geometry::TriangleMesh walls = *box_mesh(Vector3d(0.1, 0.4, 0.4), at(Vector3d(-0.1, 0.0, 0.0)));
+  const geometry::MeshPtr right = box_mesh(Vector3d(0.1, 0.4, 0.4), at(Vector3d(0.1, 0.0, 0.0)));
   for (const Eigen::Vector3i& t : right->triangles) walls.triangles.emplace_back(t + Eigen::Vector3i::Constant(8));
   walls.vertices.insert(walls.vertices.end(), right->vertices.begin(), right->vertices.end());
-  const Geometry both = std::make_shared<const TriangleMesh>(walls);
-  const CollisionWorld world(scene_of({body_of(Box{Vector3d(0.1 + 2e-4, 0.1, 0.1)}), body_of(both)}));
+  const geometry::Geometry both = std::make_shared<const geometry::TriangleMesh>(walls);
+  const CollisionWorld world(scene_of({body_of(geometry::Box{Vector3d(0.1 + 2e-4, 0.1, 0.1)}), body_of(both)}));
   int left_points = 0, right_points = 0;
   for (const ContactPoint& c : contacts(world, 0, RigidTransform::Identity())) {
     EXPECT_NEAR(c.depth, 1e-4, 1e-9);
@@ -440,8 +449,8 @@ TEST(Pairs, ABodyWedgedBetweenTwoWallsOfOneMeshTouchesThem) {
 }
 
 /// A slab with its top face, z = 0, cut into n × n squares.
-MeshPtr cut_slab(double size, double thickness, int n) {
-  TriangleMesh mesh;
+geometry::MeshPtr cut_slab(double size, double thickness, int n) {
+  geometry::TriangleMesh mesh;
   const double step = size / n;
   for (const double z : {0.0, -thickness}) {
     for (int i = 0; i <= n; ++i) {
@@ -462,24 +471,25 @@ MeshPtr cut_slab(double size, double thickness, int n) {
     side(index(0, i + 1), index(0, i));
     side(index(n, i), index(n, i + 1));
   }
-  return std::make_shared<const TriangleMesh>(mesh);
+  return std::make_shared<const geometry::TriangleMesh>(mesh);
 }
 
 TEST(Pairs, HowFinelyAFloorIsCutDoesNotShow) {
   Random random(14);
   for (const int n : {1, 7, 25}) {
-    const MeshPtr floor = cut_slab(0.4, 0.05, n);
-    ASSERT_NEAR(volume_properties(floor).volume, 0.4 * 0.4 * 0.05, 1e-12);
+    const geometry::MeshPtr floor = cut_slab(0.4, 0.05, n);
+    ASSERT_NEAR(geometry::volume_properties(floor).volume, 0.4 * 0.4 * 0.05, 1e-12);
     for (int i = 0; i < 20; ++i) {
-      const Box box = random_box(random);
-      for (const Geometry& shape : {Geometry(box), Geometry(box_mesh(box.size)), Geometry(Cylinder{0.03, 0.05})}) {
+      const geometry::Box box = random_box(random);
+      for (const geometry::Geometry& shape : {geometry::Geometry(box), geometry::Geometry(box_mesh(box.size)),
+                                              geometry::Geometry(geometry::Cylinder{0.03, 0.05})}) {
         const bool upright = i % 2 == 0;
-        if (!upright && std::holds_alternative<Cylinder>(shape)) continue;  // its prism ends a little earlier
+        if (!upright && std::holds_alternative<geometry::Cylinder>(shape)) continue;  // its prism ends a little earlier
         const CollisionWorld world(scene_of({body_of(shape), body_of(floor)}));
         RigidTransform X = random.pose(0.05);
         if (upright) X.linear() = Eigen::AngleAxisd(random.number(-3, 3), Vector3d::UnitZ()).toRotationMatrix();
         const double depth = std::pow(10.0, random.number(-6.0, -3.3));
-        X.translation().z() += -depth - bounding_box(shape, X).min().z();
+        X.translation().z() += -depth - geometry::bounding_box(shape, X).min().z();
         const auto found = contacts(world, 0, X);
         ASSERT_FALSE(found.empty());
         EXPECT_LE(found.size(), 9u);
@@ -495,7 +505,7 @@ TEST(Pairs, HowFinelyAFloorIsCutDoesNotShow) {
 
 TEST(Pairs, TwoFineSpheresTouchAsSpheresDo) {
   Random random(15);
-  const MeshPtr ball = sphere_mesh(0.05, 30);
+  const geometry::MeshPtr ball = sphere_mesh(0.05, 30);
   const CollisionWorld world(scene_of({body_of(ball), body_of(ball)}));
   for (int i = 0; i < 40; ++i) {
     RigidTransform X = random.pose(0.0);
@@ -511,11 +521,11 @@ TEST(Pairs, TwoFineSpheresTouchAsSpheresDo) {
 }
 
 TEST(Pairs, EveryPieceOfABodyCountsAndItsOwnPiecesDoNot) {
-  Body two = body_of(Box{Vector3d::Constant(0.1)});
-  two.collision.push_back(Shape{Box{Vector3d::Constant(0.1)}});
+  scene::Body two = body_of(geometry::Box{Vector3d::Constant(0.1)});
+  two.collision.push_back(geometry::Shape{geometry::Box{Vector3d::Constant(0.1)}});
   two.collision[1].X_OS.translation() = Vector3d(0.5, 0, 0);
-  two.collision.push_back(Shape{Sphere{0.06}});  // overlaps the first
-  const CollisionWorld world(scene_of({two, body_of(Sphere{0.05}, at(Vector3d(0.5, 0, 0.09)))}));
+  two.collision.push_back(geometry::Shape{geometry::Sphere{0.06}});  // overlaps the first
+  const CollisionWorld world(scene_of({two, body_of(geometry::Sphere{0.05}, at(Vector3d(0.5, 0, 0.09)))}));
   const auto found = contacts(world, 0, RigidTransform::Identity());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].other, 1u);
@@ -523,7 +533,8 @@ TEST(Pairs, EveryPieceOfABodyCountsAndItsOwnPiecesDoNot) {
 }
 
 TEST(Pairs, BodiesAreWhereTheyWerePlacedLast) {
-  CollisionWorld world(scene_of({body_of(Sphere{0.1}), body_of(Sphere{0.1}, at(Vector3d(1, 0, 0)))}));
+  CollisionWorld world(
+      scene_of({body_of(geometry::Sphere{0.1}), body_of(geometry::Sphere{0.1}, at(Vector3d(1, 0, 0)))}));
   EXPECT_FALSE(world.touches(0, RigidTransform::Identity(), 0.0));
   world.set_pose(1, at(Vector3d(0.15, 0, 0)));
   EXPECT_TRUE(world.touches(0, RigidTransform::Identity(), 0.0));
@@ -534,7 +545,7 @@ TEST(Pairs, BodiesAreWhereTheyWerePlacedLast) {
 }
 
 TEST(Pairs, ABodyWithoutShapesOrAWorldWithoutBodiesTouchesNothing) {
-  CollisionWorld world(scene_of({Body(), body_of(Sphere{0.1})}, 0.0));
+  CollisionWorld world(scene_of({scene::Body(), body_of(geometry::Sphere{0.1})}, 0.0));
   EXPECT_FALSE(world.touches(0, at(Vector3d(0, 0, -1)), 0.0));
   EXPECT_FALSE(world.may_touch(0, at(Vector3d(0, 0, -1)), at(Vector3d(0, 0, -2)), 0.1));
   EXPECT_FALSE(world.touches(1, at(Vector3d(0, 0, 1)), 0.0));
@@ -548,7 +559,7 @@ TEST(MayTouch, NeverSaysNoWrongly) {
   int yes = 0, no = 0;
   for (int i = 0; i < 1500; ++i) {
     const auto shapes = one_of_each(random);
-    Body body = body_of(shapes[static_cast<std::size_t>(i) % shapes.size()]);
+    scene::Body body = body_of(shapes[static_cast<std::size_t>(i) % shapes.size()]);
     body.collision[0].X_OS = random.pose(0.1);
     const CollisionWorld world(scene_of({body, body_of(shapes[0], random.pose(0.2))}, -0.25));
     const RigidTransform X0 = random.pose(0.2), X1 = random.pose(0.2);
@@ -558,10 +569,10 @@ TEST(MayTouch, NeverSaysNoWrongly) {
       continue;
     }
     ++no;
-    const Vector3d turn = log_so3(X0.linear().transpose() * X1.linear());
+    const Vector3d turn = math::log_so3(X0.linear().transpose() * X1.linear());
     for (int k = 0; k <= 50; ++k) {
       RigidTransform X = RigidTransform::Identity();
-      X.linear() = X0.linear() * exp_so3(k / 50.0 * turn);
+      X.linear() = X0.linear() * math::exp_so3(k / 50.0 * turn);
       X.translation() = X0.translation() + k / 50.0 * (X1.translation() - X0.translation());
       EXPECT_FALSE(world.touches(0, X, 0.0));
     }
@@ -571,7 +582,7 @@ TEST(MayTouch, NeverSaysNoWrongly) {
 }
 
 TEST(Sweep, FindsTheFractionAtWhichASphereMeetsTheBench) {
-  const CollisionWorld world(scene_of({body_of(Sphere{0.1})}, 0.0));
+  const CollisionWorld world(scene_of({body_of(geometry::Sphere{0.1})}, 0.0));
   for (const int levels : {1, 8, 20}) {
     const SweepResult result = world.sweep(0, at(Vector3d(0, 0, 0.5)), at(Vector3d(0, 0, -0.5)), 0.0, 0.1, levels);
     ASSERT_TRUE(result.hit);
@@ -582,15 +593,16 @@ TEST(Sweep, FindsTheFractionAtWhichASphereMeetsTheBench) {
 }
 
 TEST(Sweep, SeesAThinWallAndATurn) {
-  const CollisionWorld wall(scene_of({body_of(Sphere{0.01}), body_of(Box{Vector3d(0.001, 1.0, 1.0)})}));
+  const CollisionWorld wall(
+      scene_of({body_of(geometry::Sphere{0.01}), body_of(geometry::Box{Vector3d(0.001, 1.0, 1.0)})}));
   const SweepResult through = wall.sweep(0, at(Vector3d(-1, 0, 0)), at(Vector3d(1, 0, 0)), 0.0, 0.005, 30);
   ASSERT_TRUE(through.hit);
   EXPECT_NEAR(through.free_fraction, 0.5 - 0.0105 / 2.0, 1e-9);
 
   // A rod turns about its middle by 90°; a ball stands in the way at 45°.
   const double s = std::sqrt(0.5);
-  const CollisionWorld rod(
-      scene_of({body_of(Box{Vector3d(1.0, 0.01, 0.01)}), body_of(Sphere{0.01}, at(Vector3d(0.45 * s, 0.45 * s, 0)))}));
+  const CollisionWorld rod(scene_of({body_of(geometry::Box{Vector3d(1.0, 0.01, 0.01)}),
+                                     body_of(geometry::Sphere{0.01}, at(Vector3d(0.45 * s, 0.45 * s, 0)))}));
   const RigidTransform quarter(Eigen::AngleAxisd(std::acos(0.0), Vector3d::UnitZ()));
   const SweepResult turn = rod.sweep(0, RigidTransform::Identity(), quarter, 0.0, 0.002, 30);
   ASSERT_TRUE(turn.hit);
@@ -608,10 +620,10 @@ TEST(Sweep, TheFreeEndIsFreeAndTheTouchingEndTouches) {
     const SweepResult result = world.sweep(0, X0, X1, 1e-6, 0.01, i % 2 ? 12 : 0);
     if (!result.hit || result.touching_fraction == 0.0) continue;
     ++hits;
-    const Vector3d turn = log_so3(X0.linear().transpose() * X1.linear());
+    const Vector3d turn = math::log_so3(X0.linear().transpose() * X1.linear());
     const auto pose = [&](double f) {
       RigidTransform X = RigidTransform::Identity();
-      X.linear() = X0.linear() * exp_so3(f * turn);
+      X.linear() = X0.linear() * math::exp_so3(f * turn);
       X.translation() = X0.translation() + f * (X1.translation() - X0.translation());
       return X;
     };
@@ -631,14 +643,14 @@ TEST(Sweep, TheTimeOfImpactIsExact) {
   // A box that flies and turns against the bench: its lowest corner is there where a bisection of the closed form says.
   Random random(31);
   for (int i = 0; i < 100; ++i) {
-    const Box shape{Vector3d(random.vector(0.1).cwiseAbs() + Vector3d::Constant(0.01))};
+    const geometry::Box shape{Vector3d(random.vector(0.1).cwiseAbs() + Vector3d::Constant(0.01))};
     const CollisionWorld world(scene_of({body_of(shape)}, 0.0));
     RigidTransform X0 = random.pose(0.1), X1 = random.pose(0.1);
     X0.translation().z() = 0.3;
     X1.translation().z() = -0.3;
-    const Vector3d turn = log_so3(X0.linear().transpose() * X1.linear());
+    const Vector3d turn = math::log_so3(X0.linear().transpose() * X1.linear());
     const auto lowest = [&](double f) {
-      const Matrix3d R = X0.linear() * exp_so3(f * turn);
+      const Matrix3d R = X0.linear() * math::exp_so3(f * turn);
       return 0.3 - 0.6 * f - 0.5 * R.row(2).cwiseAbs().dot(shape.size);
     };
     double above = 0.0, below = 1.0;
@@ -658,7 +670,7 @@ TEST(Sweep, TheTimeOfImpactIsExact) {
 }
 
 TEST(Sweep, AStartInContactIsTold) {
-  const CollisionWorld world(scene_of({body_of(Sphere{0.1})}, 0.0));
+  const CollisionWorld world(scene_of({body_of(geometry::Sphere{0.1})}, 0.0));
   const SweepResult result = world.sweep(0, at(Vector3d(0, 0, 0.05)), at(Vector3d(0, 0, 1)), 0.0, 0.01, 8);
   EXPECT_TRUE(result.hit);
   EXPECT_EQ(result.free_fraction, 0.0);
@@ -666,11 +678,11 @@ TEST(Sweep, AStartInContactIsTold) {
 }
 
 TEST(Sweep, AFreeWayIsFree) {
-  const CollisionWorld world(scene_of({body_of(Sphere{0.1})}, 0.0));
+  const CollisionWorld world(scene_of({body_of(geometry::Sphere{0.1})}, 0.0));
   const SweepResult result = world.sweep(0, at(Vector3d(0, 0, 0.5)), at(Vector3d(1, 0, 0.11)), 0.0, 0.01, 8);
   EXPECT_FALSE(result.hit);
   EXPECT_EQ(result.free_fraction, 1.0);
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

@@ -10,7 +10,7 @@
 #include "support/meshes.h"
 #include "support/random_poses.h"
 
-namespace spring_workbench {
+namespace spring_workbench::collision {
 namespace {
 
 using test_support::box_mesh;
@@ -19,19 +19,19 @@ using test_support::sphere_mesh;
 
 constexpr double radius = 0.008, rod_length = 2.0;
 
-Scene mesh_and_rod(const MeshPtr& mesh, const RigidTransform& X_WC) {
-  Scene scene;
+scene::Scene mesh_and_rod(const geometry::MeshPtr& mesh, const RigidTransform& X_WC) {
+  scene::Scene scene;
   scene.bench_height = -1e3;
   scene.bodies.resize(2);
   scene.bodies[0].movable = true;
-  scene.bodies[0].collision = {Shape{mesh}};
+  scene.bodies[0].collision = {geometry::Shape{mesh}};
   scene.bodies[1].X_WO = X_WC;
-  scene.bodies[1].collision = {Shape{Cylinder{radius, rod_length}}};
+  scene.bodies[1].collision = {geometry::Shape{geometry::Cylinder{radius, rod_length}}};
   return scene;
 }
 
 /// The point of the mesh's edges that is nearest to the z axis of C; along an edge the distance is convex.
-Vector3d nearest_to_axis(const TriangleMesh& mesh, const RigidTransform& X_CM) {
+Vector3d nearest_to_axis(const geometry::TriangleMesh& mesh, const RigidTransform& X_CM) {
   Vector3d nearest = Vector3d::Constant(std::numeric_limits<double>::max());
   for (const Eigen::Vector3i& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
@@ -57,8 +57,8 @@ Vector3d nearest_to_axis(const TriangleMesh& mesh, const RigidTransform& X_CM) {
 TEST(BesideCylinder, ItTouchesWhereAnEdgeComesNearestAndAsDeep) {
   Random random(71);
   for (int i = 0; i < 40; ++i) {
-    const MeshPtr mesh = i % 2 ? box_mesh(random.vector(0.05).cwiseAbs() + Vector3d::Constant(0.02))
-                               : sphere_mesh(random.number(0.02, 0.05), 5);
+    const geometry::MeshPtr mesh = i % 2 ? box_mesh(random.vector(0.05).cwiseAbs() + Vector3d::Constant(0.02))
+                                         : sphere_mesh(random.number(0.02, 0.05), 5);
     const RigidTransform X_WC = random.pose(0.1);
     RigidTransform X_CM = random.pose(0.02);
     X_CM.translation() += Vector3d(0.2, 0, 0);
@@ -87,7 +87,7 @@ TEST(BesideCylinder, ItTouchesWhereAnEdgeComesNearestAndAsDeep) {
 }
 
 TEST(BesideCylinder, TheWayToItIsFreeUpToTheTolerance) {
-  const MeshPtr mesh = sphere_mesh(0.03, 8);
+  const geometry::MeshPtr mesh = sphere_mesh(0.03, 8);
   const CollisionWorld world(mesh_and_rod(mesh, RigidTransform::Identity()));
   Random random(72);
   for (int i = 0; i < 40; ++i) {
@@ -98,8 +98,8 @@ TEST(BesideCylinder, TheWayToItIsFreeUpToTheTolerance) {
       const SweepResult result = world.sweep(0, X0, X1, tolerance, 2e-4, 0);
       ASSERT_TRUE(result.hit);
       RigidTransform X = X0;
-      const Vector3d turn = log_so3(X0.linear().transpose() * X1.linear());
-      X.linear() = X0.linear() * exp_so3(result.touching_fraction * turn);
+      const Vector3d turn = math::log_so3(X0.linear().transpose() * X1.linear());
+      X.linear() = X0.linear() * math::exp_so3(result.touching_fraction * turn);
       X.translation() += result.touching_fraction * (X1.translation() - X0.translation());
       EXPECT_NEAR(radius - nearest_to_axis(*mesh, X).head<2>().norm(), tolerance, 2e-8);
     }
@@ -108,7 +108,7 @@ TEST(BesideCylinder, TheWayToItIsFreeUpToTheTolerance) {
 
 TEST(BesideCylinder, NothingIsMissedAtItsEndsThroughFacesAndInside) {
   // A box of 40 mm: at the rod's end, pierced by it, around a short rod whole; and clear of it beyond its end.
-  const MeshPtr mesh = box_mesh(Vector3d::Constant(0.04));
+  const geometry::MeshPtr mesh = box_mesh(Vector3d::Constant(0.04));
   const CollisionWorld world(mesh_and_rod(mesh, RigidTransform::Identity()));
   const auto touches_at = [&](const Vector3d& p) {
     return world.touches(0, RigidTransform(Eigen::Translation3d(p)), 1e-6);
@@ -119,10 +119,10 @@ TEST(BesideCylinder, NothingIsMissedAtItsEndsThroughFacesAndInside) {
   EXPECT_TRUE(touches_at(Vector3d(0.001, 0.002, 0.3)));
   EXPECT_TRUE(touches_at(Vector3d(0.02 + radius - 1e-5, 0, end)));
   EXPECT_FALSE(touches_at(Vector3d(0.02 + radius + 1e-5, 0, end)));
-  Scene around = mesh_and_rod(mesh, RigidTransform::Identity());
-  around.bodies[1].collision = {Shape{Cylinder{radius, 0.02}}};
+  scene::Scene around = mesh_and_rod(mesh, RigidTransform::Identity());
+  around.bodies[1].collision = {geometry::Shape{geometry::Cylinder{radius, 0.02}}};
   EXPECT_TRUE(CollisionWorld(around).touches(0, RigidTransform::Identity(), 1e-6));
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::collision

@@ -8,7 +8,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace spring_workbench {
+namespace spring_workbench::config {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -16,7 +16,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 std::string message_of(const std::function<void()>& call) {
   try {
     call();
-  } catch (const InputError& e) {
+  } catch (const validation::InputError& e) {
     const std::string message = e.what();
     for (const char c : message) EXPECT_FALSE(std::iscntrl(static_cast<unsigned char>(c))) << "one line: " << message;
     return message;
@@ -35,20 +35,21 @@ testing::AssertionResult names(const std::string& message, const std::vector<std
 YAML::Node node(const std::string& text) { return YAML::Load(text); }
 
 TEST(NumberRule, AllowsWhatItSaysAndNeverNan) {
-  for (const NumberRule& rule : {any_number(), positive(), not_negative(), between(-1.0, 2.0)}) {
+  for (const validation::NumberRule& rule :
+       {validation::any_number(), validation::positive(), validation::not_negative(), validation::between(-1.0, 2.0)}) {
     EXPECT_FALSE(rule.allows(std::nan("")));
     EXPECT_FALSE(rule.allows(infinity));
     EXPECT_FALSE(rule.allows(-infinity));
   }
-  EXPECT_TRUE(any_number().allows(-1e300));
-  EXPECT_FALSE(positive().allows(0.0));
-  EXPECT_TRUE(positive().allows(std::numeric_limits<double>::denorm_min()));
-  EXPECT_TRUE(not_negative().allows(0.0));
-  EXPECT_FALSE(not_negative().allows(-1e-300));
-  EXPECT_TRUE(between(-1.0, 2.0).allows(-1.0));
-  EXPECT_TRUE(between(-1.0, 2.0).allows(2.0));
-  EXPECT_FALSE(between(-1.0, 2.0).allows(2.0000001));
-  NumberRule stiffness = positive();
+  EXPECT_TRUE(validation::any_number().allows(-1e300));
+  EXPECT_FALSE(validation::positive().allows(0.0));
+  EXPECT_TRUE(validation::positive().allows(std::numeric_limits<double>::denorm_min()));
+  EXPECT_TRUE(validation::not_negative().allows(0.0));
+  EXPECT_FALSE(validation::not_negative().allows(-1e-300));
+  EXPECT_TRUE(validation::between(-1.0, 2.0).allows(-1.0));
+  EXPECT_TRUE(validation::between(-1.0, 2.0).allows(2.0));
+  EXPECT_FALSE(validation::between(-1.0, 2.0).allows(2.0000001));
+  validation::NumberRule stiffness = validation::positive();
   stiffness.infinity_allowed = true;
   EXPECT_TRUE(stiffness.allows(infinity));
   EXPECT_FALSE(stiffness.allows(-infinity));
@@ -56,18 +57,18 @@ TEST(NumberRule, AllowsWhatItSaysAndNeverNan) {
 }
 
 TEST(NumberRule, SaysWhatItAllows) {
-  EXPECT_EQ(any_number().text(), "a finite number");
-  EXPECT_EQ(positive().text(), "a finite number > 0");
-  EXPECT_EQ(not_negative().text(), "a finite number >= 0");
-  EXPECT_EQ(between(1e-6, 1.0).text(), "a finite number in [1e-06, 1]");
+  EXPECT_EQ(validation::any_number().text(), "a finite number");
+  EXPECT_EQ(validation::positive().text(), "a finite number > 0");
+  EXPECT_EQ(validation::not_negative().text(), "a finite number >= 0");
+  EXPECT_EQ(validation::between(1e-6, 1.0).text(), "a finite number in [1e-06, 1]");
 }
 
 TEST(YamlFields, ReadNumbersOfEverySpelling) {
   for (const auto& [text, value] : std::vector<std::pair<std::string, double>>{
            {"1.5", 1.5}, {"-2", -2.0}, {"1e3", 1000.0}, {"2.0e+4", 20000.0}, {".5", 0.5}}) {
-    EXPECT_EQ(read_number(node(text), "file", "key", any_number()), value);
+    EXPECT_EQ(read_number(node(text), "file", "key", validation::any_number()), value);
   }
-  NumberRule rule = positive();
+  validation::NumberRule rule = validation::positive();
   rule.infinity_allowed = true;
   EXPECT_EQ(read_number(node(".inf"), "file", "key", rule), infinity);
 }
@@ -76,18 +77,20 @@ TEST(YamlFields, RefuseWithPlaceKeyValueAndRule) {
   for (const std::string text :
        {"-1", "0", ".nan", ".inf", "-.inf", "abc", "[1]", "{a: 1}", "1e999", "1 2", "''", "~"}) {
     const YAML::Node map = node("first: 1\nkey: " + text);
-    const std::string message = message_of([&] { read_number(map["key"], "file.yaml", "some.key", positive()); });
+    const std::string message =
+        message_of([&] { read_number(map["key"], "file.yaml", "some.key", validation::positive()); });
     EXPECT_TRUE(names(message, {"file.yaml:2: some.key: ", "is not allowed: must be a finite number > 0"})) << text;
   }
-  EXPECT_TRUE(names(message_of([] { check_number("command line", "step", std::nan(""), positive()); }),
-                    {"command line: step: nan", "> 0"}));
-  EXPECT_NO_THROW(check_number("command line", "step", 1.0, positive()));
+  EXPECT_TRUE(
+      names(message_of([] { validation::check_number("command line", "step", std::nan(""), validation::positive()); }),
+            {"command line: step: nan", "> 0"}));
+  EXPECT_NO_THROW(validation::check_number("command line", "step", 1.0, validation::positive()));
 }
 
 TEST(YamlFields, AFieldThatIsNotThereIsRefusedNotACrash) {
   const YAML::Node map = node("a: 1");
   const YAML::Node& constant = map;
-  EXPECT_NE(message_of([&] { read_number(constant["b"], "f", "b", any_number()); }), "");
+  EXPECT_NE(message_of([&] { read_number(constant["b"], "f", "b", validation::any_number()); }), "");
   EXPECT_NE(message_of([&] { read_integer(constant["b"], "f", "b", 0, 1); }), "");
   EXPECT_NE(message_of([&] { read_bool(constant["b"], "f", "b"); }), "");
   EXPECT_NE(message_of([&] { read_string(constant["b"], "f", "b"); }), "");
@@ -193,10 +196,10 @@ TEST(LoadYamlFile, RefusesWhatAliasesMakeEndlessOrImmense) {
 }
 
 TEST(Join, PutsSeparatorsBetween) {
-  EXPECT_EQ(join({}), "");
-  EXPECT_EQ(join({"a"}), "a");
-  EXPECT_EQ(join({"a", "b", "c"}, "/"), "a/b/c");
+  EXPECT_EQ(validation::join({}), "");
+  EXPECT_EQ(validation::join({"a"}), "a");
+  EXPECT_EQ(validation::join({"a", "b", "c"}, "/"), "a/b/c");
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::config

@@ -32,7 +32,7 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 #define COUNTS_ALLOCATIONS 0
 #endif
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
 class Stepping : public testing::TestWithParam<std::string> {};
@@ -47,12 +47,12 @@ TEST(Allocations, AreCounted) {
 TEST_P(Stepping, AllocatesNothing) {
   // Whole steps and steps to a tolerance, loads that come and go, a stiffness that changes, motions that need new
   // linear parts.
-  for (const std::string& shape : shape_model_names()) {
+  for (const std::string& shape : rod::shape_model_names()) {
     for (const bool all : {true, false}) {
       for (const double tolerance : {0.0, 1e-3}) {
         std::mt19937 random(3);
         Case c = random_case(shape, 0.3, 0.5, random);
-        const StrainVector zero = StrainVector::Zero(c.held.shape().size());
+        const rod::StrainVector zero = rod::StrainVector::Zero(c.held.shape().size());
         if (!all) c.held.set_dofs({true, false, false}, 0.0, 0.05, {zero, zero});
         const double m = c.held.body().mass;
         const double h = std::min(0.02, limited_by_stiffness(GetParam()) ? 0.2 / c.omega : 1.0);
@@ -77,4 +77,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Stepping, testing::ValuesIn(integrator_nam
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

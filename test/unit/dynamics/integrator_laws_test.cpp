@@ -7,7 +7,7 @@
 #include "spring_workbench/dynamics/integrator.h"
 #include "support/held_cases.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
 StrainState carried(Integrator& integrator, const Case& c, double t, double h, int steps, StrainState state) {
@@ -30,7 +30,7 @@ TEST_P(EveryIntegrator, HasItsOrderOfAccuracy) {
   // By step halving, every shape model and damping law; against the classical Runge–Kutta method at a fine step.
   const int order = make_integrator(GetParam())->order();
   std::vector<std::pair<std::string, std::string>> rods{{"linear", "modal"}};
-  for (const std::string& shape : shape_model_names()) {
+  for (const std::string& shape : rod::shape_model_names()) {
     if (shape == "quadratic" && GetParam() != "rosenbrock") continue;  // costly; one method will do
     rods.emplace_back(shape, "per_family");
   }
@@ -64,7 +64,8 @@ TEST_P(EveryIntegrator, EstimatesItsLocalErrorWithinAFactorOfTenInNineStepsOfTen
   int within = 0, all = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const double zeta = trial % 3 == 0 ? 0.1 : trial % 3 == 1 ? 1.0 : 3.0;
-    const std::string shape = shape_model_names()[static_cast<std::size_t>(trial) % shape_model_names().size()];
+    const std::string shape =
+        rod::shape_model_names()[static_cast<std::size_t>(trial) % rod::shape_model_names().size()];
     const Case c = random_case(shape, zeta, 1.0, random);
     // Steps from well resolved to, where the method can, stiff.
     const double omega_dt = limited_by_stiffness(GetParam()) ? 0.02 * std::pow(20.0, uniform(random)) / (1.0 + zeta)
@@ -95,4 +96,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator, testing::ValuesIn(integra
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -7,7 +7,7 @@
 #include "spring_workbench/dynamics/step_control.h"
 #include "support/held_cases.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
 // The cells of the stability map: stiffness × mass × step × damping × families × hand. Samples of the hand come with
@@ -25,18 +25,18 @@ RigidTransform pose(Hand hand, double t, std::mt19937& random) {
   std::normal_distribution<double> normal;
   switch (hand) {
     case Hand::lissajous:
-      return make_transform(Quaterniond(exp_so3(Vector3d(0.6 * std::sin(5.0 * t), 0.6 * std::sin(7.0 * t), 0.0))),
+      return make_transform(Quaterniond(math::exp_so3(Vector3d(0.6 * std::sin(5.0 * t), 0.6 * std::sin(7.0 * t), 0.0))),
                             on_sines);
     case Hand::jump:
       return make_transform(Quaterniond::Identity(), Vector3d(t > 0.2 ? 1.0 : 0.0, 0.0, 0.0));
     case Hand::flip:
-      return make_transform(Quaterniond(exp_so3(Vector3d(t > 0.2 ? M_PI : 0.0, 0.0, 0.0))), Vector3d::Zero());
+      return make_transform(Quaterniond(math::exp_so3(Vector3d(t > 0.2 ? M_PI : 0.0, 0.0, 0.0))), Vector3d::Zero());
     case Hand::dropout:
       return make_transform(Quaterniond::Identity(), t < 0.2 ? on_sines : Vector3d(0.1, 0.2, 0.3));
     case Hand::noise: {
       const Vector3d p(normal(random), normal(random), normal(random)),
           w(normal(random), normal(random), normal(random));
-      return make_transform(Quaterniond(exp_so3(M_PI / 180.0 * w)), 1e-3 * p);
+      return make_transform(Quaterniond(math::exp_so3(M_PI / 180.0 * w)), 1e-3 * p);
     }
   }
   return RigidTransform::Identity();
@@ -53,17 +53,17 @@ HeldBody body_of(const Cell& cell, const std::string& shape) {
   body.mass = cell.mass;
   body.inertia_O = cell.mass / 12.0 * Vector3d(0.0125, 0.0425, 0.05).asDiagonal().toDenseMatrix();
   body.X_OE.translation() << 0.08, 0.0, 0.0;
-  HeldBody held(make_shape_model(shape, 0.2), body, 9.81);
+  HeldBody held(rod::make_shape_model(shape, 0.2), body, 9.81);
   held.set_springs({5000.0 * cell.factor, 2000.0 * cell.factor, 20.0 * cell.factor}, {cell.zeta, cell.zeta, cell.zeta});
-  const StrainVector zero = StrainVector::Zero(held.shape().size());
+  const rod::StrainVector zero = rod::StrainVector::Zero(held.shape().size());
   held.set_dofs({(cell.families & 1) != 0, (cell.families & 2) != 0, (cell.families & 4) != 0}, 0.0, 0.05,
                 {zero, zero});
   return held;
 }
 
-double energy(const HeldBody& held, const MotionSegment& hand, double t, const StrainState& s) {
+double energy(const HeldBody& held, const motion::MotionSegment& hand, double t, const StrainState& s) {
   const HandleForcing f = held.forcing(hand, t);
-  const MotionState o = held.object(f, s);
+  const motion::MotionState o = held.object(f, s);
   const double height = o.X.translation().z() - held.object(f, held.zero_state()).X.translation().z();
   return held.elastic_energy(t, s) + held.kinetic_energy(o.velocity, o.X.linear()) + held.body().mass * 9.81 * height;
 }
@@ -74,7 +74,7 @@ std::string what_is_wrong(const Cell& cell, const std::string& shape, const std:
   const StepControl control(make_integrator(integrator));
   StepControl::Memory memory;
   std::mt19937 random(3);
-  PoseTrack track;
+  motion::PoseTrack track;
   const double interval = std::max(cell.step, 0.02);
   for (double t = 0.0; t < 0.5 + 0.5 * interval; t += interval) {
     if (cell.hand == Hand::dropout && t > 0.2 && t < 0.45) continue;
@@ -84,16 +84,16 @@ std::string what_is_wrong(const Cell& cell, const std::string& shape, const std:
   double lowest = 0.0, scale = 0.0;
   const double rest_from = track.end();
   for (double t = 0.0; t < 0.8;) {
-    const MotionSegment segment = track.segment(t + 1e-9);
+    const motion::MotionSegment segment = track.segment(t + 1e-9);
     const double h = std::min(cell.step, t < rest_from - 1e-9 ? segment.end() - t : 1.0);
     const ControlledStep step = control.advance(held, segment, t, h, state, memory);
     if (!step.fine) state.q_dot.setZero();  // as the simulation does: the body stays
     t += h;
     if (!state.q.allFinite() || !state.q_dot.allFinite()) return "not finite";
-    const MotionState o = held.object(held.forcing(segment, t), state);
+    const motion::MotionState o = held.object(held.forcing(segment, t), state);
     if (o.X.translation().norm() > 1e4) return "not bounded: " + std::to_string(o.X.translation().norm());
     if (t < rest_from + 1e-9) continue;
-    const MotionSegment rest = track.segment(rest_from + 1.0);
+    const motion::MotionSegment rest = track.segment(rest_from + 1.0);
     const double e = energy(held, rest, t, state);
     if (scale == 0.0) {
       lowest = e;
@@ -116,7 +116,7 @@ TEST_P(StableIntegrator, AnObjectThatFallsOntoItsHandleStopsThereAndTurnsOn) {
     HeldBody held = body_of(cell, "linear");
     const StepControl control(make_integrator(GetParam()));
     StepControl::Memory memory;
-    const MotionSegment rest(RigidTransform::Identity());
+    const motion::MotionSegment rest(RigidTransform::Identity());
     StrainState state = held.zero_state();
     state.q_dot[0] = 5.0;  // of the twist, over the length
     double fallen = 0.0, t = 0.0;
@@ -142,7 +142,8 @@ TEST_P(StableIntegrator, EveryCellStaysBoundedAndNoEnergyGrowsWithTheHandAtRest)
   const int trials = 28;
   for (int trial = 0; trial < trials; ++trial) {
     const Cell cell{any(stiffness_factors), any(masses), any(steps), any(damping_ratios), 1 + trial % 7, any(hands)};
-    const std::string shape = shape_model_names()[static_cast<std::size_t>(trial) % shape_model_names().size()];
+    const std::string shape =
+        rod::shape_model_names()[static_cast<std::size_t>(trial) % rod::shape_model_names().size()];
     const std::string complaint = what_is_wrong(cell, shape, GetParam());
     if (complaint.empty()) continue;
     ++wrong;
@@ -157,4 +158,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, StableIntegrator, testing::Values("exponen
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

@@ -9,13 +9,13 @@
 
 #include "support/held_cases.h"
 
-namespace spring_workbench {
+namespace spring_workbench::dynamics {
 namespace {
 
 constexpr double sample_interval = 0.02;
 
 /// A hand on sines of 1 to 2 Hz, as a tracker would see it.
-std::vector<MotionSegment> sampled_hand(double duration, std::mt19937& random) {
+std::vector<motion::MotionSegment> sampled_hand(double duration, std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   Vector3d rate, phase, width, turn;
   for (int i = 0; i < 3; ++i) {
@@ -24,12 +24,12 @@ std::vector<MotionSegment> sampled_hand(double duration, std::mt19937& random) {
     width[i] = 0.1 * uniform(random);
     turn[i] = 0.5 * uniform(random);
   }
-  PoseTrack track;
+  motion::PoseTrack track;
   for (double t = 0.0; t < duration + 0.5 * sample_interval; t += sample_interval) {
     const Vector3d s = (rate * t + phase).array().sin();
-    track.push({t, make_transform(Quaterniond(exp_so3(turn.cwiseProduct(s))), width.cwiseProduct(s))});
+    track.push({t, make_transform(Quaterniond(math::exp_so3(turn.cwiseProduct(s))), width.cwiseProduct(s))});
   }
-  std::vector<MotionSegment> segments;
+  std::vector<motion::MotionSegment> segments;
   for (double t = 0.0; t < duration - 0.5 * sample_interval; t += sample_interval) segments.push_back(track.segment(t));
   return segments;
 }
@@ -38,19 +38,19 @@ std::vector<MotionSegment> sampled_hand(double duration, std::mt19937& random) {
 struct ReferenceRun {
   double zeta;
   Case rod;
-  std::vector<MotionSegment> hand;
+  std::vector<motion::MotionSegment> hand;
   std::vector<StrainState> exact;
 };
 
 ReferenceRun make_run(int trial) {
   std::mt19937 random(static_cast<unsigned>(trial));
   const double zeta = trial % 4 == 0 ? 0.1 : trial % 4 == 1 ? 0.5 : 1.0;
-  const std::string shape = shape_model_names()[static_cast<std::size_t>(trial) % shape_model_names().size()];
+  const std::string shape = rod::shape_model_names()[static_cast<std::size_t>(trial) % rod::shape_model_names().size()];
   ReferenceRun run{zeta, random_case(shape, zeta, 1.0, random), {}, {}};
   run.hand = sampled_hand(0.5, random);
   const auto reference = make_integrator("rk4");
   StrainState state = run.rod.held.zero_state();
-  for (const MotionSegment& segment : run.hand) {
+  for (const motion::MotionSegment& segment : run.hand) {
     const double h = segment.end() - segment.begin();
     const int finer = 20 + static_cast<int>(run.rod.omega * h * 20.0);
     for (int i = 0; i < finer; ++i) {
@@ -105,7 +105,7 @@ TEST_P(SteppedWithATolerance, LandsWithinAFactorOfThreeOfItsTolerance) {
 TEST(StepControl, TakesNoStepFromAStrainFarOff) {
   std::mt19937 random(1);
   for (const std::string& integrator : integrator_names()) {
-    for (const std::string& shape : shape_model_names()) {
+    for (const std::string& shape : rod::shape_model_names()) {
       for (const bool stretch_alone : {false, true}) {
         Case c = random_case(shape, 1.0, 0.02, random);
         if (stretch_alone) c.held.set_dofs({true, false, false}, 0.0, 0.05, c.held.zero_state());
@@ -127,14 +127,14 @@ TEST(StepControl, TakesNoStepFromAStrainFarOff) {
 TEST_P(SteppedWithATolerance, EndsWhereNoStepKeepsIt) {
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
-  PoseTrack track;
+  motion::PoseTrack track;
   for (int i = 0; i < 12; ++i) {
     const Vector3d by(normal(random), normal(random), normal(random));
-    track.push({0.004 * i, make_transform(Quaterniond(exp_so3(0.05 * by)), 0.01 * by)});
+    track.push({0.004 * i, make_transform(Quaterniond(math::exp_so3(0.05 * by)), 0.01 * by)});
   }
   for (const double stiffness : {1e3, 1e9, 1e15}) {
-    Case c = random_case(shape_model_names().front(), 1.0, 1.0, random);
-    ForkSettings fork;
+    Case c = random_case(rod::shape_model_names().front(), 1.0, 1.0, random);
+    rod::ForkSettings fork;
     fork.stiffness = {stiffness, stiffness, stiffness};
     fork.damping_ratio = {1.0, 1.0, 1.0};
     c.held.set_springs(fork);
@@ -142,7 +142,7 @@ TEST_P(SteppedWithATolerance, EndsWhereNoStepKeepsIt) {
     StepControl::Memory memory;
     StrainState state = c.held.zero_state();
     for (double t = 0.0; t < 0.04;) {
-      const MotionSegment segment = track.segment(t);
+      const motion::MotionSegment segment = track.segment(t);
       for (const double h : {1e-4, segment.end() - t - 1e-4}) {
         const ControlledStep step = control.advance(c.held, segment, t, h, state, memory);
         const int most = static_cast<int>(h / 2e-6) + 1;
@@ -160,4 +160,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, SteppedWithATolerance, testing::ValuesIn(i
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::dynamics

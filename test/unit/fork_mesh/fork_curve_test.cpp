@@ -6,9 +6,9 @@
 #include <cmath>
 
 #include "random_strain.h"
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench {
+namespace spring_workbench::fork_mesh {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -27,8 +27,8 @@ double arc_length(const ForkCurve& curve, double to = 1.0) {
 }
 
 /// A rod with end moments alone, so that it is a circle's arc.
-StrainVector circle(const ShapeModel& shape, double angle) {
-  StrainVector q = StrainVector::Zero(shape.size());
+rod::StrainVector circle(const rod::ShapeModel& shape, double angle) {
+  rod::StrainVector q = rod::StrainVector::Zero(shape.size());
   q[0] = angle / shape.length();
   return q;
 }
@@ -36,12 +36,12 @@ StrainVector circle(const ShapeModel& shape, double angle) {
 TEST(ForkCurve, BothEndAtTheSimulatedTip) {
   test_support::Random random(3);
   for (const char* name : {"constant", "linear"}) {
-    const auto shape = make_shape_model(name, L);
+    const auto shape = rod::make_shape_model(name, L);
     for (int run = 0; run < 200; ++run) {
       const RigidTransform X_WH = random.pose(1.0);
-      const StrainVector q = random_strain(*shape, 0.8, random);
-      TipKinematics tip;
-      shape->tip(q, StrainVector::Zero(shape->size()), tip);
+      const rod::StrainVector q = random_strain(*shape, 0.8, random);
+      rod::TipKinematics tip;
+      shape->tip(q, rod::StrainVector::Zero(shape->size()), tip);
       for (const std::string& curve_name : fork_curve_names()) {
         const ForkCurve curve = make_fork_curve(curve_name, *shape, q, X_WH);
         EXPECT_LT((curve.at(1.0).p - X_WH * tip.p_HE).norm(), 1e-9);
@@ -55,9 +55,9 @@ TEST(ForkCurve, BothEndAtTheSimulatedTip) {
 
 TEST(ForkCurve, TheRodsKeepsItsLengthUnderBending) {
   for (const char* name : {"constant", "linear"}) {
-    const auto shape = make_shape_model(name, L);
+    const auto shape = rod::make_shape_model(name, L);
     for (const double angle : {0.0, 0.5, 2.0, pi, 2.0 * pi}) {
-      StrainVector q = circle(*shape, angle);
+      rod::StrainVector q = circle(*shape, angle);
       EXPECT_NEAR(arc_length(rod_curve(*shape, q, RigidTransform::Identity())), L, 1e-5 * L) << name << " " << angle;
       q[0] = 0.0;
       q[shape->bend().count - 1] = angle / L;  // S-shape of `linear`
@@ -70,9 +70,9 @@ TEST(ForkCurve, TheRodsKeepsItsLengthUnderBending) {
 
 TEST(ForkCurve, TheRodsIsTheRodBetweenItsStations) {
   test_support::Random random(4);
-  const auto shape = make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model("linear", L);
   for (int run = 0; run < 200; ++run) {
-    const StrainVector q = random_strain(*shape, 1.0, random);
+    const rod::StrainVector q = random_strain(*shape, 1.0, random);
     const ForkCurve curve = rod_curve(*shape, q, RigidTransform::Identity());
     const double u = random.number(0.0, 1.0);
     const RigidTransform exact = shape->section(q, u * L);
@@ -85,10 +85,10 @@ TEST(ForkCurve, TheRodsIsTheRodBetweenItsStations) {
 
 TEST(ForkCurve, RatesAreDerivatives) {
   test_support::Random random(5);
-  const auto shape = make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model("linear", L);
   constexpr double d = 1e-6;
   for (int run = 0; run < 100; ++run) {
-    const StrainVector q = random_strain(*shape, 0.6, random);
+    const rod::StrainVector q = random_strain(*shape, 0.6, random);
     for (const std::string& name : fork_curve_names()) {
       const ForkCurve curve = make_fork_curve(name, *shape, q, random.pose(1.0));
       const double u = (run % 64 + 0.4) / 64.0;  // between two stations
@@ -102,9 +102,9 @@ TEST(ForkCurve, RatesAreDerivatives) {
 
 TEST(ForkCurve, MovesWithTheHandle) {
   test_support::Random random(6);
-  const auto shape = make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model("linear", L);
   for (int run = 0; run < 50; ++run) {
-    const StrainVector q = random_strain(*shape, 0.6, random);
+    const rod::StrainVector q = random_strain(*shape, 0.6, random);
     const RigidTransform X = random.pose(1.0);
     for (const std::string& name : fork_curve_names()) {
       const ForkCurve at_home = make_fork_curve(name, *shape, q, RigidTransform::Identity());
@@ -119,9 +119,9 @@ TEST(ForkCurve, MovesWithTheHandle) {
 
 TEST(BezierCurve, HasTheRodsLengthAndItsStationsAreEvenlySpaced) {
   test_support::Random random(7);
-  const auto shape = make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model("linear", L);
   for (int run = 0; run < 20; ++run) {
-    const StrainVector q = random_strain(*shape, 0.4, random);
+    const rod::StrainVector q = random_strain(*shape, 0.4, random);
     const ForkCurve curve = make_fork_curve("bezier", *shape, q, RigidTransform::Identity());
     const double length = L + shape->extension(q);
     EXPECT_NEAR(arc_length(curve), length, 1e-5 * length);
@@ -131,9 +131,9 @@ TEST(BezierCurve, HasTheRodsLengthAndItsStationsAreEvenlySpaced) {
 
 TEST(BezierCurve, IsTheCantileverForSmallDeflections) {
   // Deflection P s² (3 L − s) / 6 EI: curvature falls evenly to nothing at the tip.
-  const auto shape = make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model("linear", L);
   for (const double slope : {1e-6, 1e-3, 0.03}) {
-    StrainVector q = StrainVector::Zero(6);
+    rod::StrainVector q = rod::StrainVector::Zero(6);
     q[0] = slope / L;
     q[1] = -slope / L;
     const ForkCurve bezier = make_fork_curve("bezier", *shape, q, RigidTransform::Identity());
@@ -145,9 +145,9 @@ TEST(BezierCurve, IsTheCantileverForSmallDeflections) {
 }
 
 TEST(BezierCurve, SpreadsTorsionEvenlyOverManyTurns) {
-  const auto shape = make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model("linear", L);
   for (const double twist : {-20.0, -3.0, 0.4, 9.0}) {
-    StrainVector q = StrainVector::Zero(6);
+    rod::StrainVector q = rod::StrainVector::Zero(6);
     q[shape->torsion().begin] = twist / L;
     const ForkCurve curve = make_fork_curve("bezier", *shape, q, RigidTransform::Identity());
     for (const double u : {0.2, 0.5, 0.9}) {
@@ -168,10 +168,11 @@ TEST(BezierCurve, IsFiniteWhereverTheTipIs) {
 }
 
 TEST(ForkCurve, RefusesWhatItDoesNotKnow) {
-  const auto shape = make_shape_model("linear", L);
-  EXPECT_THROW(make_fork_curve("spline", *shape, StrainVector::Zero(6), RigidTransform::Identity()), InputError);
-  EXPECT_THROW(ForkCurve(std::vector<RigidTransform>(4, RigidTransform::Identity())), InputError);
+  const auto shape = rod::make_shape_model("linear", L);
+  EXPECT_THROW(make_fork_curve("spline", *shape, rod::StrainVector::Zero(6), RigidTransform::Identity()),
+               validation::InputError);
+  EXPECT_THROW(ForkCurve(std::vector<RigidTransform>(4, RigidTransform::Identity())), validation::InputError);
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::fork_mesh

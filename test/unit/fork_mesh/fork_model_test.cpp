@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "random_strain.h"
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench {
+namespace spring_workbench::fork_mesh {
 namespace {
 
 constexpr double L = 0.2, diameter = 0.03;
@@ -49,9 +49,9 @@ class DeformedFork : public testing::Test {
   }
 
   test_support::Random random_{12};
-  const std::shared_ptr<const ShapeModel> shape_ = make_shape_model("linear", L);
+  const std::shared_ptr<const rod::ShapeModel> shape_ = rod::make_shape_model("linear", L);
   const ForkModel model_{fine()};
-  StrainVector q_;
+  rod::StrainVector q_;
   RigidTransform X_WH_;
   ForkMesh mesh_;
 };
@@ -92,11 +92,11 @@ TEST_F(DeformedFork, NormalsStandOnTheWire) {
 
 TEST_F(DeformedFork, WireKeepsItsThicknessAndShaftAndEndTheirShape) {
   ForkMesh rest;
-  model_.deform(rod_curve(*shape_, StrainVector::Zero(6), RigidTransform::Identity()), diameter, rest);
+  model_.deform(rod_curve(*shape_, rod::StrainVector::Zero(6), RigidTransform::Identity()), diameter, rest);
   const auto sides = static_cast<std::size_t>(fine().wire_sides);
   const std::size_t rings = sides * static_cast<std::size_t>(fine().turns * fine().points_per_turn + 3);
   const std::size_t first = model_.vertex_count() - rings;
-  const RigidTransform X_E_rest = shape_->section(StrainVector::Zero(6), L);
+  const RigidTransform X_E_rest = shape_->section(rod::StrainVector::Zero(6), L);
   for (int run = 0; run < 20; ++run) {
     deform();
     for (std::size_t i = first; i < mesh_.vertices.size(); i += sides) {
@@ -118,8 +118,8 @@ TEST_F(DeformedFork, WireKeepsItsThicknessAndShaftAndEndTheirShape) {
 TEST_F(DeformedFork, MiddleProngPointsWhereTheSimulatedTipPoints) {
   for (int run = 0; run < 20; ++run) {
     deform();
-    TipKinematics tip;
-    shape_->tip(q_, StrainVector::Zero(6), tip);
+    rod::TipKinematics tip;
+    shape_->tip(q_, rod::StrainVector::Zero(6), tip);
     const RigidTransform X_WE = X_WH_ * make_transform(Quaterniond(tip.R_HE), tip.p_HE);
     const Vector3d point = X_WE * Vector3d(0.0, 0.0, fine().prong_length * diameter);
     double nearest = 1.0;
@@ -130,7 +130,7 @@ TEST_F(DeformedFork, MiddleProngPointsWhereTheSimulatedTipPoints) {
 
 TEST_F(DeformedFork, TorsionTurnsEachPlaceByItsShare) {
   const auto twisted_by = [&](double twist) {
-    StrainVector q = StrainVector::Zero(6);
+    rod::StrainVector q = rod::StrainVector::Zero(6);
     q[shape_->torsion().begin] = twist / L;
     ForkMesh mesh;
     model_.deform(rod_curve(*shape_, q, RigidTransform::Identity()), diameter, mesh);
@@ -155,11 +155,11 @@ TEST_F(DeformedFork, TorsionTurnsEachPlaceByItsShare) {
 TEST(ForkModel, RefusesALookThatIsNoSurface) {
   ForkLook look;
   look.wire_sides = 2;
-  EXPECT_THROW(ForkModel{look}, InputError);
+  EXPECT_THROW(ForkModel{look}, validation::InputError);
   look = ForkLook();
   look.prong_length = 0.0;
-  EXPECT_THROW(ForkModel{look}, InputError);
+  EXPECT_THROW(ForkModel{look}, validation::InputError);
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::fork_mesh

@@ -6,7 +6,7 @@
 
 #include "support/random_poses.h"
 
-namespace spring_workbench {
+namespace spring_workbench::math {
 namespace {
 
 using test_support::Random;
@@ -181,4 +181,4 @@ TEST(So3, WhatHasNoAxisIsFinite) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::math

@@ -7,10 +7,10 @@
 #include <random>
 #include <vector>
 
-#include "spring_workbench/config/input_error.h"
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench {
+namespace spring_workbench::motion {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -38,7 +38,7 @@ std::vector<PoseSample> wandering_hand(unsigned seed, int count) {
     samples.push_back(sample);
     sample.t += random.number(0.005, 0.04);
     sample.X.translation() += random.vector(0.02);
-    sample.X.linear() = sample.X.linear() * exp_so3(random.vector(0.6));
+    sample.X.linear() = sample.X.linear() * math::exp_so3(random.vector(0.6));
   }
   return samples;
 }
@@ -128,7 +128,7 @@ TEST(MotionSegment, VelocityAndAccelerationAreDerivativesToSecondOrder) {
     const auto error = [&](double h) {
       const MotionState left = segment.at(t - h);
       const MotionState right = segment.at(t + h);
-      const Vector3d angle = log_so3(right.X.linear() * left.X.linear().transpose());
+      const Vector3d angle = math::log_so3(right.X.linear() * left.X.linear().transpose());
       return Vector3d(
           (angle / (2.0 * h) - state.velocity.angular).norm(),
           ((right.velocity.angular - left.velocity.angular) / (2.0 * h) - state.acceleration.angular).norm(),
@@ -149,7 +149,7 @@ TEST(MotionSegment, OfAnotherFrameIsTheMotionOfThatFrame) {
   Random random(8);
   for (int trial = 0; trial < 20; ++trial) {
     const PoseSample a{0.0, random.pose()};
-    const PoseSample b{0.02, a.X * make_transform(Quaterniond(exp_so3(random.vector(0.3))), random.vector(0.02))};
+    const PoseSample b{0.02, a.X * make_transform(Quaterniond(math::exp_so3(random.vector(0.3))), random.vector(0.02))};
     const MotionSegment of_B(a, random.vector(1.0), random.vector(5.0), b, random.vector(1.0), random.vector(5.0));
     const RigidTransform X_BC = random.pose(), X_CD = random.pose();
     const MotionSegment of_C = of_B.of_frame(X_BC);
@@ -162,17 +162,17 @@ TEST(MotionSegment, OfAnotherFrameIsTheMotionOfThatFrame) {
     EXPECT_LT(((after.translation() - before.translation()) / (2.0 * h) - m.velocity.linear).norm(), 1e-3);
     EXPECT_LT(((after.translation() - 2.0 * p + before.translation()) / (h * h) - m.acceleration.linear).norm(),
               1e-4 * (1.0 + m.acceleration.linear.norm()));
-    EXPECT_LT((log_so3(after.linear() * before.linear().transpose()) / (2.0 * h) - w).norm(), 1e-3);
+    EXPECT_LT((math::log_so3(after.linear() * before.linear().transpose()) / (2.0 * h) - w).norm(), 1e-3);
     const Vector3d change = of_C.at(t + h).velocity.angular - of_C.at(t - h).velocity.angular;
     EXPECT_LT((change / (2.0 * h) - m.acceleration.angular).norm(), 1e-4 * (1.0 + m.acceleration.angular.norm()));
     EXPECT_LT(distance(of_C.of_frame(X_CD).at(t).X, of_B.of_frame(X_BC * X_CD).at(t).X), 1e-14);
 
-    const Pack times = {0.0, 0.004, t, 0.02};
-    const FrameForcing<Pack> f = of_C.forcing(times, 9.81);
-    for (int i = 0; i < pack_size; ++i) {
+    const math::Pack times = {0.0, 0.004, t, 0.02};
+    const FrameForcing<math::Pack> f = of_C.forcing(times, 9.81);
+    for (int i = 0; i < math::pack_size; ++i) {
       const OwnAxesMotion own = of_C.in_own_axes(times[i]);
       const Vector3d a_C = own.X.linear().transpose() * (own.a_W + 9.81 * Vector3d::UnitZ());
-      EXPECT_LT((matrix(f.R_WB, i) - own.X.linear()).norm(), 1e-13);
+      EXPECT_LT((math::matrix(f.R_WB, i) - own.X.linear()).norm(), 1e-13);
       EXPECT_LT((vector(f.w_B, i) - own.w_B).norm(), 1e-12 * (1.0 + own.w_B.norm()));
       EXPECT_LT((vector(f.alpha_B, i) - own.alpha_B).norm(), 1e-12 * (1.0 + own.alpha_B.norm()));
       EXPECT_LT((vector(f.a_B, i) - a_C).norm(), 1e-12 * (1.0 + a_C.norm()));
@@ -210,7 +210,7 @@ TEST(PoseTrack, ParabolaAndConstantRateAreExact) {
     PoseSample sample;
     sample.t = t;
     sample.X.translation() = c0 + t * (c1 + t * c2);
-    sample.X.linear() = R_0 * exp_so3(t * w_B);
+    sample.X.linear() = R_0 * math::exp_so3(t * w_B);
     samples.push_back(sample);
   }
   PoseTrack track = track_of(samples);
@@ -220,7 +220,7 @@ TEST(PoseTrack, ParabolaAndConstantRateAreExact) {
       EXPECT_LT((state.X.translation() - (c0 + t * (c1 + t * c2))).norm(), 1e-13);
       EXPECT_LT((state.velocity.linear - (c1 + 2.0 * t * c2)).norm(), 1e-11);
     }
-    EXPECT_LT((state.X.linear() - R_0 * exp_so3(t * w_B)).norm(), 1e-12);
+    EXPECT_LT((state.X.linear() - R_0 * math::exp_so3(t * w_B)).norm(), 1e-12);
     EXPECT_LT((state.velocity.angular - R_0 * w_B).norm(), 1e-10);
     EXPECT_LT(state.acceleration.angular.norm(), 1e-7);
   }
@@ -231,7 +231,7 @@ TEST(PoseTrack, SmoothMotionConvergesWithOrderThree) {
   const auto pose = [](double t) {
     RigidTransform X = RigidTransform::Identity();
     X.translation() = Vector3d(std::sin(t), std::cos(2.0 * t), std::sin(3.0 * t));
-    X.linear() = exp_so3(Vector3d(std::sin(t), 0.0, 0.0)) * exp_so3(Vector3d(0.3 * t, std::cos(t), 0.0));
+    X.linear() = math::exp_so3(Vector3d(std::sin(t), 0.0, 0.0)) * math::exp_so3(Vector3d(0.3 * t, std::cos(t), 0.0));
     return X;
   };
   const auto error = [&](int per_second) {
@@ -282,7 +282,7 @@ TEST(PoseTrack, TwoSamplesGiveTheChord) {
   b.t = 0.5;
   PoseTrack track = track_of({a, b});
   const Vector3d v = (b.X.translation() - a.X.translation()) / 0.5;
-  const Vector3d w = a.X.linear() * log_so3(a.X.linear().transpose() * b.X.linear()) / 0.5;
+  const Vector3d w = a.X.linear() * math::log_so3(a.X.linear().transpose() * b.X.linear()) / 0.5;
   for (double t = 0.0; t < 0.5; t += 0.05) {
     const MotionState state = track.segment(t).at(t);
     EXPECT_LT((state.velocity.linear - v).norm(), 1e-13);
@@ -356,22 +356,22 @@ TEST(PoseTrack, RefusesWhatIsNotAPoseAndStaysAsItWas) {
   const double t_next = samples.back().t + 0.1;
   const double bad_numbers[] = {std::nan(""), kNever, -kNever, 1e300};
   for (const double bad : bad_numbers) {
-    EXPECT_THROW(track.push({bad, samples[0].X}), InputError) << bad;
+    EXPECT_THROW(track.push({bad, samples[0].X}), validation::InputError) << bad;
     for (int i = 0; i < 12; ++i) {
       PoseSample sample{t_next, samples[0].X};
       sample.X.matrix()(i % 3, i / 3) = bad;
-      EXPECT_THROW(track.push(sample), InputError) << bad << " at " << i;
+      EXPECT_THROW(track.push(sample), validation::InputError) << bad << " at " << i;
     }
   }
   PoseSample mirrored{t_next, samples[0].X};
   mirrored.X.linear() = -mirrored.X.linear();
-  EXPECT_THROW(track.push(mirrored), InputError);
+  EXPECT_THROW(track.push(mirrored), validation::InputError);
   PoseSample zero{t_next, samples[0].X};
   zero.X.linear().setZero();
-  EXPECT_THROW(track.push(zero), InputError);
+  EXPECT_THROW(track.push(zero), validation::InputError);
   EXPECT_EQ(track.end(), samples.back().t);
-  EXPECT_THROW(PoseTrack(std::nan("")), InputError);
-  EXPECT_THROW(PoseTrack(0.0), InputError);
+  EXPECT_THROW(PoseTrack(std::nan("")), validation::InputError);
+  EXPECT_THROW(PoseTrack(0.0), validation::InputError);
 }
 
 TEST(PoseTrack, AskingBeforeTheFirstSampleIsAnError) {
@@ -396,7 +396,7 @@ TEST(PoseTrack, NothingThatIsTakenGivesNaN) {
       const double half_turn = random.number(0.0, 1.0) < 0.3 ? M_PI : random.number(-M_PI, M_PI);
       PoseSample sample;
       sample.t = t;
-      sample.X.linear() = exp_so3(half_turn * random.vector(1.0).normalized());
+      sample.X.linear() = math::exp_so3(half_turn * random.vector(1.0).normalized());
       sample.X.translation() = random.vector(1.0) * std::pow(10.0, random.number(-12.0, 9.0));
       track.push(sample);
       t += std::pow(10.0, random.number(-9.0, 12.0));
@@ -413,4 +413,4 @@ TEST(PoseTrack, NothingThatIsTakenGivesNaN) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::motion

@@ -9,7 +9,7 @@
 
 #include "spring_workbench/motion/pose_track.h"
 
-namespace spring_workbench {
+namespace spring_workbench::motion {
 namespace {
 
 struct Reference {
@@ -84,4 +84,4 @@ TEST(ReferenceMotion, PassesThroughTheRecordedSamples) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::motion

@@ -5,7 +5,7 @@
 
 #include "spring_workbench/rod/shape_model.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 namespace {
 
 /// A cantilever's tip under a transverse dead load: slope [rad], deflection and shortening over the length.
@@ -80,4 +80,4 @@ TEST(Elastica, EveryRodAgreesForSmallLoads) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

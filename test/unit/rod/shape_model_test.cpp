@@ -6,10 +6,10 @@
 #include <cmath>
 #include <random>
 
-#include "spring_workbench/config/input_error.h"
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench {
+namespace spring_workbench::rod {
 namespace {
 
 constexpr double L = 0.3;
@@ -75,7 +75,7 @@ TEST_P(EveryShape, VelocityAndAccelerationAreDerivativesOfThePose) {
       const RigidTransform Xp = tip_pose(*shape, at(step)), Xm = tip_pose(*shape, at(-step));
       velocity = (Xp.translation() - Xm.translation()) / (2.0 * step);
       acceleration = (Xp.translation() - 2.0 * X0.translation() + Xm.translation()) / (step * step);
-      rate = log_so3(Xp.linear() * Xm.linear().transpose()) / (2.0 * step);
+      rate = math::log_so3(Xp.linear() * Xm.linear().transpose()) / (2.0 * step);
     };
     Vector3d v1, a1, w1, v2, a2, w2;
     difference(h, v1, a1, w1);
@@ -139,8 +139,8 @@ TEST_P(EveryShape, WhatIsNotFiniteIsRefusedAndDoesNotComeOutFinite) {
 }
 
 TEST_P(EveryShape, BadLengthIsRefused) {
-  EXPECT_THROW(make_shape_model(GetParam(), 0.0), InputError);
-  EXPECT_THROW(make_shape_model(GetParam(), std::nan("")), InputError);
+  EXPECT_THROW(make_shape_model(GetParam(), 0.0), validation::InputError);
+  EXPECT_THROW(make_shape_model(GetParam(), std::nan("")), validation::InputError);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::ValuesIn(shape_model_names()),
@@ -150,7 +150,7 @@ TEST(ShapeModel, UnknownNameIsRefusedWithTheKnownOnes) {
   try {
     make_shape_model("spaghetti", L);
     FAIL();
-  } catch (const InputError& e) {
+  } catch (const validation::InputError& e) {
     EXPECT_NE(std::string(e.what()).find("spaghetti"), std::string::npos);
     EXPECT_NE(std::string(e.what()).find("linear"), std::string::npos);
   }
@@ -191,7 +191,7 @@ TEST(StrainRod, TipMatchesManyHelices) {
       for (int i = 0; i < n; ++i) {
         const double sigma = 2.0 * (i + 0.5) / n - 1.0;
         const Vector3d k(q[0] + sigma * q[1], q[2] + sigma * q[3], q[4]);
-        const Matrix3d half = exp_so3(0.5 * h * k);
+        const Matrix3d half = math::exp_so3(0.5 * h * k);
         p += h / 6.0 * (1.0 + q[5]) * (R.col(2) + 4.0 * (R * half).col(2) + (R * half * half).col(2));
         R = R * half * half;
       }
@@ -269,7 +269,7 @@ TEST(QuadraticRod, OfAllRodsWithTheSameTipItStoresLess) {
       Eigen::Matrix<double, 6, 6> J;
       J << tip.linear, tip.angular;
       Eigen::Matrix<double, 6, 1> off;
-      off << goal.translation() - tip.p_HE, log_so3(goal.linear() * tip.R_HE.transpose());
+      off << goal.translation() - tip.p_HE, math::log_so3(goal.linear() * tip.R_HE.transpose());
       other += J.partialPivLu().solve(off);
     }
     ASSERT_LT((tip_pose(*linear, other).matrix() - goal.matrix()).norm(), 1e-9);
@@ -300,4 +300,4 @@ TEST(QuadraticRod, WithoutBendingStiffnessNothingIsCondensed) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::rod

@@ -10,12 +10,12 @@
 #include <sstream>
 #include <thread>
 
-#include "spring_workbench/config/input_error.h"
-#include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/scene/scene.h"
+#include "spring_workbench/validation/input_error.h"
 #include "support/temporary_folder.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 namespace {
 
 using test_support::TemporaryFolder;
@@ -47,7 +47,7 @@ class LoadScene : public testing::Test {
   std::string refusal(const std::string& robot_content, const std::string& yaml = "") {
     try {
       load(robot_content, yaml);
-    } catch (const InputError& e) {
+    } catch (const validation::InputError& e) {
       EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
       return e.what();
     }
@@ -163,8 +163,8 @@ TEST_F(LoadScene, AnObjectByItselfLiesOnTheBench) {
       load("<link name='mug'>" + inertial("1", "0.01 0.01 0.01") + tilted + "</link>", "bench_height: 0.25");
   ASSERT_EQ(scene.bodies.size(), 1u);
   EXPECT_TRUE(scene.bodies[0].movable);
-  const Shape& shape = scene.bodies[0].collision[0];
-  EXPECT_NEAR(bounding_box(shape.geometry, scene.bodies[0].X_WO * shape.X_OS).min().z(), 0.25, 1e-12);
+  const geometry::Shape& shape = scene.bodies[0].collision[0];
+  EXPECT_NEAR(geometry::bounding_box(shape.geometry, scene.bodies[0].X_WO * shape.X_OS).min().z(), 0.25, 1e-12);
   EXPECT_NEAR(scene.bodies[0].X_WO.translation().x(), 0.0, 1e-15);
 }
 
@@ -291,9 +291,9 @@ TEST_F(LoadScene, LinksMakeATreeOrAreRefused) {
 }
 
 TEST_F(LoadScene, AFileThatIsNotThereIsRefused) {
-  EXPECT_THROW(load_scene(folder_.path("nothing.urdf")), InputError);
-  EXPECT_THROW(load_scene(folder_.path("")), InputError);
-  EXPECT_THROW(load_scene("package://no_such_package/scene.urdf"), InputError);
+  EXPECT_THROW(load_scene(folder_.path("nothing.urdf")), validation::InputError);
+  EXPECT_THROW(load_scene(folder_.path("")), validation::InputError);
+  EXPECT_THROW(load_scene("package://no_such_package/scene.urdf"), validation::InputError);
 }
 
 // ---- meshes
@@ -305,7 +305,7 @@ TEST_F(LoadScene, AMeshIsScaledAndClosed) {
   const Scene scene =
       load_part("<collision><geometry><mesh filename='t.obj' scale='0.1 0.2 0.3'/></geometry></collision>");
   EXPECT_NEAR(scene.bodies[0].mass_properties.mass, 1000.0 * 0.006 / 6.0, 1e-6);
-  const MeshPtr mesh = std::get<MeshPtr>(scene.bodies[0].collision[0].geometry);
+  const geometry::MeshPtr mesh = std::get<geometry::MeshPtr>(scene.bodies[0].collision[0].geometry);
   EXPECT_EQ(mesh->vertices.size(), 4u);
   EXPECT_EQ(mesh->uri, "file://" + folder_.path("t.obj"));
   EXPECT_TRUE(scene.warnings.empty());
@@ -316,7 +316,7 @@ TEST_F(LoadScene, AMirroredOrInsideOutMeshStillHasItsVolume) {
   write_mesh("inside_out.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 1 3 4\nf 2 4 3\n");
   for (const std::string mesh : {"filename='t.obj' scale='-1 1 1'", "filename='inside_out.obj'"}) {
     const Scene scene = load_part("<collision><geometry><mesh " + mesh + "/></geometry></collision>");
-    EXPECT_NEAR(volume_properties(scene.bodies[0].collision[0].geometry).volume, 1.0 / 6.0, 1e-7);
+    EXPECT_NEAR(geometry::volume_properties(scene.bodies[0].collision[0].geometry).volume, 1.0 / 6.0, 1e-7);
   }
 }
 
@@ -394,9 +394,9 @@ TEST_F(LoadScene, AMillionTrianglesLoad) {
   const std::uint32_t n = 707;
   write_fine_sphere(folder_.path("fine.stl"), n);
   const Scene scene = load_part("<collision><geometry><mesh filename='fine.stl'/></geometry></collision>");
-  const MeshPtr mesh = std::get<MeshPtr>(scene.bodies[0].collision[0].geometry);
+  const geometry::MeshPtr mesh = std::get<geometry::MeshPtr>(scene.bodies[0].collision[0].geometry);
   EXPECT_EQ(mesh->triangles.size(), 2 * n * n - 2 * n) << "all but those that are flat at the poles";
-  EXPECT_NEAR(volume_properties(mesh).volume, 4.0 / 3.0 * M_PI, 1e-4);
+  EXPECT_NEAR(geometry::volume_properties(mesh).volume, 4.0 / 3.0 * M_PI, 1e-4);
   EXPECT_TRUE(scene.warnings.empty());
 }
 
@@ -420,7 +420,7 @@ TEST_F(LoadScene, PackagesAreFoundByTheFinderAndInRosPackagePath) {
   const char* before = std::getenv("ROS_PACKAGE_PATH");
   const std::string saved = before != nullptr ? before : "";
   setenv("ROS_PACKAGE_PATH", ("/nowhere:" + folder_.path("")).c_str(), 1);
-  EXPECT_EQ(std::get<MeshPtr>(load_part(mesh).bodies[0].collision[0].geometry)->uri,
+  EXPECT_EQ(std::get<geometry::MeshPtr>(load_part(mesh).bodies[0].collision[0].geometry)->uri,
             "package://some_package/meshes/t.obj");
   EXPECT_EQ(find_package_in_ros_package_path("other_package"), "");
   setenv("ROS_PACKAGE_PATH", folder_.path("some_package").c_str(), 1);
@@ -534,7 +534,7 @@ const std::string one_link = "<robot name='r'><link name='a'/></robot>";
 std::string refusal_from(const std::string& path, const std::vector<std::string>& roots) {
   try {
     load_scene(path, roots);
-  } catch (const InputError& e) {
+  } catch (const validation::InputError& e) {
     return e.what();
   }
   return "(loaded)";
@@ -670,4 +670,4 @@ TEST_F(LoadScene, RefusesHostileMeshes) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

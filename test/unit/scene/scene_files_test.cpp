@@ -9,11 +9,11 @@
 #include <set>
 #include <sstream>
 
-#include "spring_workbench/config/input_error.h"
-#include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/scene/scene.h"
+#include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench {
+namespace spring_workbench::scene {
 namespace {
 
 namespace fs = std::filesystem;
@@ -27,22 +27,24 @@ void expect_sound(const Scene& scene) {
     SCOPED_TRACE(body.name);
     EXPECT_TRUE(body.X_WO.matrix().allFinite());
     EXPECT_TRUE(body.X_OL.linear().isIdentity(1e-12));
-    for (const Shape& shape : body.collision) EXPECT_FALSE(bounding_box(shape.geometry, shape.X_OS).isEmpty());
+    for (const geometry::Shape& shape : body.collision)
+      EXPECT_FALSE(geometry::bounding_box(shape.geometry, shape.X_OS).isEmpty());
     if (!body.movable) continue;
     EXPECT_GT(body.mass_properties.mass, 0.0);
     const Vector3d moments = Eigen::SelfAdjointEigenSolver<Matrix3d>(body.mass_properties.inertia_O).eigenvalues();
     EXPECT_GT(moments[0], 0.0);
     EXPECT_LE(moments[2], (moments[0] + moments[1]) * (1.0 + 1e-5));
     if (!body.collision.empty()) {
-      EXPECT_LE(moments[2], body.mass_properties.mass * std::pow(bounding_radius(body), 2) * (1.0 + 1e-5));
+      EXPECT_LE(moments[2],
+                body.mass_properties.mass * std::pow(geometry::bounding_radius(body.collision), 2) * (1.0 + 1e-5));
     }
   }
 }
 
 double lowest_point(const Body& body) {
   double lowest = std::numeric_limits<double>::infinity();
-  for (const Shape& shape : body.collision) {
-    lowest = std::min(lowest, bounding_box(shape.geometry, body.X_WO * shape.X_OS).min().z());
+  for (const geometry::Shape& shape : body.collision) {
+    lowest = std::min(lowest, geometry::bounding_box(shape.geometry, body.X_WO * shape.X_OS).min().z());
   }
   return lowest;
 }
@@ -69,7 +71,7 @@ TEST(ShippedScenes, TheSingleBoxIsOneKilogramOfUniformDensity) {
   const Scene scene = load_scene((scenes / "single_box.urdf").string());
   const Body& box = scene.bodies[*find_body(scene, "box")];
   EXPECT_EQ(box.mass_properties.mass, 1.0);
-  const VolumeProperties solid = volume_properties(box.collision[0].geometry);
+  const geometry::VolumeProperties solid = geometry::volume_properties(box.collision[0].geometry);
   EXPECT_TRUE(box.mass_properties.inertia_O.isApprox(solid.inertia_per_density / solid.volume, 1e-9));
 }
 
@@ -77,7 +79,7 @@ TEST(ShippedScenes, TheMiniWorldFitsIntoTheBlueBox) {
   const Scene scene = load_scene((scenes / "mini_world.urdf").string());
   const Body& bin = scene.bodies[*find_body(scene, "blue_box")];
   EXPECT_FALSE(bin.movable);
-  Eigen::AlignedBox3d inside = bounding_box(bin);
+  Eigen::AlignedBox3d inside = geometry::bounding_box(bin.collision);
   inside.translate(bin.X_WO.translation());
   std::vector<Eigen::AlignedBox3d> places;
   int movable = 0;
@@ -88,10 +90,10 @@ TEST(ShippedScenes, TheMiniWorldFitsIntoTheBlueBox) {
     EXPECT_LE(body.mass_properties.mass, 2.0);
     ASSERT_TRUE(scene.targets.count(body.name)) << body.name;
     const RigidTransform X_WO = scene.targets.at(body.name).X_WL * body.X_OL.inverse();
-    const Eigen::AlignedBox3d place = bounding_box(body.collision[0].geometry, X_WO * body.collision[0].X_OS);
+    const Eigen::AlignedBox3d place = geometry::bounding_box(body.collision[0].geometry, X_WO * body.collision[0].X_OS);
     EXPECT_TRUE(inside.contains(place)) << body.name;
-    for (const Shape& wall : bin.collision) {
-      const Eigen::AlignedBox3d box = bounding_box(wall.geometry, bin.X_WO * wall.X_OS);
+    for (const geometry::Shape& wall : bin.collision) {
+      const Eigen::AlignedBox3d box = geometry::bounding_box(wall.geometry, bin.X_WO * wall.X_OS);
       EXPECT_LT(box.intersection(place).sizes().minCoeff(), 1e-12) << body.name;
     }
     for (const Eigen::AlignedBox3d& other : places) EXPECT_FALSE(other.intersects(place)) << body.name;
@@ -137,7 +139,7 @@ TEST_F(Collection, WhatUrdfdomTakesLoadsAndWhatItRejectsIsRefused) {
       try {
         load_scene(path);
         ADD_FAILURE() << "was loaded";
-      } catch (const InputError& e) {
+      } catch (const validation::InputError& e) {
         EXPECT_NE(std::string(e.what()).find(fs::path(file).filename().string()), std::string::npos) << e.what();
       }
     } else {
@@ -185,7 +187,7 @@ TEST_F(Collection, MalformedMeshesAreRefusedAndOddButValidOnesLoad) {
     if (valid.count(entry.path().filename().string())) {
       EXPECT_NO_THROW(expect_sound(load_scene(urdf.string())));
     } else {
-      EXPECT_THROW(load_scene(urdf.string()), InputError);
+      EXPECT_THROW(load_scene(urdf.string()), validation::InputError);
     }
     fs::remove(urdf);
   }
@@ -193,4 +195,4 @@ TEST_F(Collection, MalformedMeshesAreRefusedAndOddButValidOnesLoad) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::scene

@@ -3,13 +3,13 @@
 
 #include <cmath>
 
-#include "spring_workbench/engines/contact_engines.h"
+#include "spring_workbench/contact/contact_engines.h"
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 #include "support/meshes.h"
 #include "support/random_poses.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 using test_support::box_mesh;
@@ -18,18 +18,22 @@ using test_support::sphere_mesh;
 
 constexpr double edge = 0.06;  // m
 
-MeshPtr mesh_of(TriangleMesh mesh) { return std::make_shared<const TriangleMesh>(std::move(mesh)); }
+geometry::MeshPtr mesh_of(geometry::TriangleMesh mesh) {
+  return std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
+}
 
 struct Broken {
   std::string what;
-  MeshPtr mesh;
+  geometry::MeshPtr mesh;
 };
 
 std::vector<Broken> broken_meshes() {
-  const TriangleMesh good = *box_mesh(Vector3d::Constant(edge));
+  const geometry::TriangleMesh good = *box_mesh(Vector3d::Constant(edge));
   std::vector<Broken> all;
-  const auto add = [&](const std::string& what, TriangleMesh mesh) { all.push_back({what, mesh_of(std::move(mesh))}); };
-  TriangleMesh mesh = good;
+  const auto add = [&](const std::string& what, geometry::TriangleMesh mesh) {
+    all.push_back({what, mesh_of(std::move(mesh))});
+  };
+  geometry::TriangleMesh mesh = good;
   mesh.triangles.resize(1);
   add("one triangle", mesh);
   mesh.triangles = {good.triangles[0],
@@ -63,7 +67,7 @@ std::vector<Broken> broken_meshes() {
   mesh.vertices[0] = mesh.vertices[1] + Vector3d(1e-13, 0, 0);
   add("slivers", mesh);
   // A strip with a half turn has one side.
-  mesh = TriangleMesh();
+  mesh = geometry::TriangleMesh();
   constexpr int around = 16;
   for (int i = 0; i < around; ++i) {
     const double u = 2.0 * M_PI * i / around;
@@ -79,33 +83,34 @@ std::vector<Broken> broken_meshes() {
   return all;
 }
 
-std::vector<Geometry> others() {
-  return {Box{Vector3d::Constant(edge)}, Sphere{0.5 * edge}, Cylinder{0.4 * edge, 2.0 * edge},
-          Cylinder{0.4 * edge, 20.0 * edge}, sphere_mesh(0.5 * edge, 6)};
+std::vector<geometry::Geometry> others() {
+  return {geometry::Box{Vector3d::Constant(edge)}, geometry::Sphere{0.5 * edge},
+          geometry::Cylinder{0.4 * edge, 2.0 * edge}, geometry::Cylinder{0.4 * edge, 20.0 * edge},
+          sphere_mesh(0.5 * edge, 6)};
 }
 
 TEST(BrokenMeshes, ContactsAreFewAndFinite) {
   Random random(81);
   for (const Broken& broken : broken_meshes()) {
-    for (const Geometry& other : others()) {
-      Scene scene;
+    for (const geometry::Geometry& other : others()) {
+      scene::Scene scene;
       scene.bodies.resize(2);
       scene.bodies[0].movable = true;
-      scene.bodies[0].collision = {Shape{broken.mesh}};
-      scene.bodies[1].collision = {Shape{other}};
-      const auto opened = open_collision_world(scene);
-      const CollisionWorld& world = *opened;
+      scene.bodies[0].collision = {geometry::Shape{broken.mesh}};
+      scene.bodies[1].collision = {geometry::Shape{other}};
+      const auto opened = contact::open_collision_world(scene);
+      const collision::CollisionWorld& world = *opened;
       for (int i = 0; i < 60; ++i) {
         const RigidTransform X0 = random.pose(1.2 * edge), X1 = random.pose(1.2 * edge);
-        std::vector<ContactPoint> found;
+        std::vector<collision::ContactPoint> found;
         world.find_contacts(0, X0, 0.0, found);
         EXPECT_LT(found.size(), 500u) << broken.what;
-        for (const ContactPoint& c : found) {
+        for (const collision::ContactPoint& c : found) {
           ASSERT_TRUE(c.p_W.allFinite() && std::isfinite(c.depth)) << broken.what << " and " << other.index();
           EXPECT_NEAR(c.n_W.norm(), 1.0, 1e-9) << broken.what << " and " << other.index();
           EXPECT_LT(c.depth, 25.0 * edge) << broken.what;  // the longest shape has 20
         }
-        const SweepResult way = world.sweep(0, X0, X1, 1e-6, 1e-3, i % 9);
+        const collision::SweepResult way = world.sweep(0, X0, X1, 1e-6, 1e-3, i % 9);
         EXPECT_TRUE(way.free_fraction >= 0.0 && way.free_fraction <= way.touching_fraction &&
                     way.touching_fraction <= 1.0);
       }
@@ -116,21 +121,22 @@ TEST(BrokenMeshes, ContactsAreFewAndFinite) {
 /// Pushed down onto the bench and along a wall, and lifted again: whatever it touches with, it comes along in the end.
 TEST(BrokenMeshes, HeldAndPressedTheyStayBoundedAndComeFree) {
   for (const Broken& broken : broken_meshes()) {
-    for (const Geometry& wall : {Geometry(Box{Vector3d(0.1, 1.0, 1.0)}), Geometry(Cylinder{0.05, 2.0})}) {
-      Body body = box("held", Vector3d::Constant(edge), 0.2, Vector3d(0, 0, 0.1));
-      body.collision = {Shape{broken.mesh}};
-      Body other = box("wall", Vector3d::Ones(), 0.0, Vector3d(0.15, 0, 0.5));
-      other.collision = {Shape{wall}};
+    for (const geometry::Geometry& wall : {geometry::Geometry(geometry::Box{Vector3d(0.1, 1.0, 1.0)}),
+                                           geometry::Geometry(geometry::Cylinder{0.05, 2.0})}) {
+      scene::Body body = box("held", Vector3d::Constant(edge), 0.2, Vector3d(0, 0, 0.1));
+      body.collision = {geometry::Shape{broken.mesh}};
+      scene::Body other = box("wall", Vector3d::Ones(), 0.0, Vector3d(0.15, 0, 0.5));
+      other.collision = {geometry::Shape{wall}};
       SimulationSettings set;
       set.grasp.object = "held";
-      Simulation s(scene_of({body, other}, ContactMode::stop), set);
+      Simulation s(scene_of({body, other}, scene::ContactMode::stop), set);
       const Vector3d start(0, 0, 0.1 + set.fork.length);
       push_move(s, 0.0, 0.4, start, start + Vector3d(0.1, 0.02, -0.08), 0.5);
       push_move(s, 0.42, 0.8, start + Vector3d(0.1, 0.02, -0.08), start + Vector3d(0, 0, 0.1));
       push_move(s, 0.82, 2.0, start + Vector3d(0, 0, 0.1), start + Vector3d(0, 0, 0.1));
       for (int i = 1; i <= 100; ++i) {
         EXPECT_EQ(s.advance(0.02 * i).guards_tripped, 0) << broken.what;
-        const BodyState& o = s.objects()[0];
+        const bodies::BodyState& o = s.objects()[0];
         ASSERT_TRUE(o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite()) << broken.what;
         EXPECT_LT(o.X_WO.translation().norm(), 0.5) << broken.what;
       }
@@ -141,4 +147,4 @@ TEST(BrokenMeshes, HeldAndPressedTheyStayBoundedAndComeFree) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -9,13 +9,15 @@
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
+
+using spring_workbench::scene_of;  // beside the one below
 
 constexpr double g = 9.81;
 
-Scene scene_of(std::vector<Body> bodies, double friction = 0.5) {
-  return spring_workbench::scene_of(std::move(bodies), ContactMode::dynamic, friction);
+scene::Scene scene_of(std::vector<scene::Body> bodies, double friction = 0.5) {
+  return spring_workbench::scene_of(std::move(bodies), scene::ContactMode::dynamic, friction);
 }
 
 /// Samples at 50 Hz from `a` to `b` at constant speed.
@@ -25,7 +27,7 @@ void push_line(Simulation& simulation, double t0, double t1, const Vector3d& a, 
 }
 
 /// Poses of what is held, turned and pressed askew onto the bench and into a wall, at every sample.
-std::vector<RigidTransform> pressed_askew(Scene scene, ContactMode contact, AdvanceReport& sum) {
+std::vector<RigidTransform> pressed_askew(scene::Scene scene, scene::ContactMode contact, AdvanceReport& sum) {
   scene.contact = contact;
   SimulationSettings set;
   set.grasp.object = "held";
@@ -42,13 +44,13 @@ std::vector<RigidTransform> pressed_askew(Scene scene, ContactMode contact, Adva
 }
 
 TEST(DynamicContact, WhereNothingMovableIsNearItIsStop) {
-  const Body held = box("held", Vector3d(0.1, 0.06, 0.04), 1.0, Vector3d(0, 0, 0.05));
-  const Body wall = box("wall", Vector3d(0.02, 1.0, 1.0), 0.0, Vector3d(0.22, 0, 0.5));
-  const Scene far_away = scene_of({held, wall, box("far", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(-1, 0, 0.05))});
+  const scene::Body held = box("held", Vector3d(0.1, 0.06, 0.04), 1.0, Vector3d(0, 0, 0.05));
+  const scene::Body wall = box("wall", Vector3d(0.02, 1.0, 1.0), 0.0, Vector3d(0.22, 0, 0.5));
+  const scene::Scene far_away = scene_of({held, wall, box("far", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(-1, 0, 0.05))});
   AdvanceReport none, stop, dynamic;
-  const std::vector<RigidTransform> free = pressed_askew(far_away, ContactMode::none, none);
-  const std::vector<RigidTransform> swept = pressed_askew(far_away, ContactMode::stop, stop);
-  const std::vector<RigidTransform> looked_after = pressed_askew(far_away, ContactMode::dynamic, dynamic);
+  const std::vector<RigidTransform> free = pressed_askew(far_away, scene::ContactMode::none, none);
+  const std::vector<RigidTransform> swept = pressed_askew(far_away, scene::ContactMode::stop, stop);
+  const std::vector<RigidTransform> looked_after = pressed_askew(far_away, scene::ContactMode::dynamic, dynamic);
   EXPECT_GT((free.back().translation() - swept.back().translation()).norm(), 0.02);  // there was contact
   EXPECT_EQ(dynamic.steps_among_movable, 0);
   for (std::size_t i = 0; i < swept.size(); ++i) EXPECT_EQ(swept[i].matrix(), looked_after[i].matrix()) << i;
@@ -57,8 +59,8 @@ TEST(DynamicContact, WhereNothingMovableIsNearItIsStop) {
 // One that is near and not in the way changes the engine, and nothing else.
 TEST(DynamicContact, ANeighbourThatIsNotTouchedIsNotFelt) {
   const auto dragged_past = [](double gap) {
-    Scene scene = scene_of({box("held", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02)),
-                            box("beside", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0.15, 0.1 + gap, 0.02))});
+    scene::Scene scene = scene_of({box("held", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02)),
+                                   box("beside", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0.15, 0.1 + gap, 0.02))});
     SimulationSettings set;
     set.fork.shape = "bushing";
     set.fork.stiffness = {2000.0, 2000.0, 50.0};
@@ -85,7 +87,7 @@ TEST(DynamicContact, ANeighbourThatIsNotTouchedIsNotFelt) {
 // The drag scene: 5 kg pressed 0.1 m below the plane by the hand, dragged 0.5 m; with springs that do not bend into
 // each other the lag is μ k_stretch 0.1 m / k_bend, and the weight presses beside.
 struct DragOn {
-  ContactMode contact;
+  scene::ContactMode contact;
   double slab;  // height of a movable slab on the bench, on which the box is dragged [m]; 0: none
 };
 class Drag : public ::testing::TestWithParam<DragOn> {};
@@ -94,7 +96,7 @@ TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
   for (const double factor : {0.1, 1.0, 100.0, 1e6}) {
     for (const double mu : {0.0, 0.5, 1.0}) {
       const double floor = GetParam().slab;
-      Scene scene = scene_of({box("box", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, floor + 0.025), mu)}, mu);
+      scene::Scene scene = scene_of({box("box", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, floor + 0.025), mu)}, mu);
       scene.contact = GetParam().contact;
       if (floor > 0.0) {
         scene.bodies.push_back(box("slab", Vector3d(2.0, 1.0, floor), 1000.0, Vector3d(0, 0, 0.5 * floor), mu));
@@ -129,16 +131,17 @@ TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Modes, Drag,
-                         ::testing::Values(DragOn{ContactMode::stop, 0.0}, DragOn{ContactMode::dynamic, 0.0},
-                                           DragOn{ContactMode::dynamic, 0.1}),
+                         ::testing::Values(DragOn{scene::ContactMode::stop, 0.0},
+                                           DragOn{scene::ContactMode::dynamic, 0.0},
+                                           DragOn{scene::ContactMode::dynamic, 0.1}),
                          [](const auto& tested) {
                            if (tested.param.slab > 0.0) return "on_a_slab_dynamic";
-                           return tested.param.contact == ContactMode::stop ? "stop" : "dynamic";
+                           return tested.param.contact == scene::ContactMode::stop ? "stop" : "dynamic";
                          });
 
 TEST(DynamicContact, LiftsAStackAndPutsItDown) {
-  Scene scene = scene_of({box("lower", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02)),
-                          box("upper", Vector3d(0.06, 0.06, 0.04), 0.5, Vector3d(0.02, 0, 0.06))});
+  scene::Scene scene = scene_of({box("lower", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02)),
+                                 box("upper", Vector3d(0.06, 0.06, 0.04), 0.5, Vector3d(0.02, 0, 0.06))});
   SimulationSettings set;
   set.fork.stiffness = {5000.0, 5000.0, 50.0};
   set.grasp.object = "lower";
@@ -160,8 +163,8 @@ TEST(DynamicContact, LiftsAStackAndPutsItDown) {
 }
 
 TEST(DynamicContact, PushesANeighbourAlong) {
-  Scene scene = scene_of({box("pusher", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.03)),
-                          box("pushed", Vector3d(0.1, 0.1, 0.06), 1.0, Vector3d(0.2, 0, 0.03))});
+  scene::Scene scene = scene_of({box("pusher", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.03)),
+                                 box("pushed", Vector3d(0.1, 0.1, 0.06), 1.0, Vector3d(0.2, 0, 0.03))});
   SimulationSettings set;
   set.grasp.object = "pusher";
   Simulation s(scene, set);
@@ -176,8 +179,8 @@ TEST(DynamicContact, PushesANeighbourAlong) {
 TEST(DynamicContact, LightAndHeavyStiffAndSoftAgainstAWallStayBounded) {
   for (const double mass : {1e-6, 1e-3, 1.0, 1e6}) {
     for (const double k : {1e-2, 1e1, 1e3, 1e6, 1e9}) {
-      Scene scene = scene_of({box("box", Vector3d(0.1, 0.1, 0.1), mass, Vector3d(0, 0, 0.5)),
-                              box("wall", Vector3d(0.1, 1.0, 1.0), 0.0, Vector3d(0.3, 0, 0.5))});
+      scene::Scene scene = scene_of({box("box", Vector3d(0.1, 0.1, 0.1), mass, Vector3d(0, 0, 0.5)),
+                                     box("wall", Vector3d(0.1, 1.0, 1.0), 0.0, Vector3d(0.3, 0, 0.5))});
       scene.gravity = 0.0;
       SimulationSettings set;
       set.fork.stiffness = {k, k, k * 0.01};
@@ -188,7 +191,7 @@ TEST(DynamicContact, LightAndHeavyStiffAndSoftAgainstAWallStayBounded) {
       push_move(s, 0.52, 1.0, start + Vector3d(0.22, 0, 0), start + Vector3d(0.22, 0, 0));
       for (double t = 0.02; t < 1.0 + 1e-9; t += 0.02) {
         EXPECT_EQ(s.advance(t).guards_tripped, 0) << mass << " " << k;
-        const BodyState& box_state = s.objects()[0];
+        const bodies::BodyState& box_state = s.objects()[0];
         const RigidTransform& X = box_state.X_WO;
         ASSERT_TRUE(X.matrix().allFinite()) << mass << " " << k;
         const double reach = X.linear().row(0).cwiseAbs().sum() * 0.05;
@@ -201,4 +204,4 @@ TEST(DynamicContact, LightAndHeavyStiffAndSoftAgainstAWallStayBounded) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

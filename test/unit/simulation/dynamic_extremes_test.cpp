@@ -10,24 +10,24 @@
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 constexpr double g = 9.81;
 constexpr double moving = 0.2, resting = 0.2;  // s, of the hand
 
 struct Extreme {
-  std::vector<Body> bodies;
+  std::vector<scene::Body> bodies;
   std::string held;
   Vector3d way = Vector3d::Zero();  // of the hand
   double stiffness = 5000.0;        // N/m
 };
 
-double energy(const Scene& scene, const Simulation& s) {
+double energy(const scene::Scene& scene, const Simulation& s) {
   double sum = s.fork().elastic_energy;
-  for (const Body& body : scene.bodies) {
+  for (const scene::Body& body : scene.bodies) {
     if (!body.movable) continue;
-    const BodyState& state = object(s, body.name);
+    const bodies::BodyState& state = object(s, body.name);
     const auto& m = body.mass_properties;
     const Vector3d w_O = state.X_WO.linear().transpose() * state.V_WO_W.angular;
     sum += 0.5 * m.mass * state.V_WO_W.linear.squaredNorm() + 0.5 * w_O.dot(m.inertia_O * w_O) +
@@ -38,7 +38,7 @@ double energy(const Scene& scene, const Simulation& s) {
 
 /// The hand goes its way and rests; returns the simulation at the end.
 Simulation run(const Extreme& extreme, unsigned seed) {
-  const Scene scene = scene_of(extreme.bodies, ContactMode::dynamic);
+  const scene::Scene scene = scene_of(extreme.bodies, scene::ContactMode::dynamic);
   SimulationSettings set;
   set.fork.stiffness = {extreme.stiffness, extreme.stiffness, 0.01 * extreme.stiffness};
   set.grasp.object = extreme.held;
@@ -50,11 +50,11 @@ Simulation run(const Extreme& extreme, unsigned seed) {
   push_move(s, 0.0, moving, start, end, 10.0 * some(random));
   for (double t = moving + 0.02; t < moving + resting + 0.03; t += 0.02) s.push_stylus({t, pointing_down(end)});
   double weight = 0.0, lowest = std::numeric_limits<double>::infinity(), drift = 0.0;
-  for (const Body& body : extreme.bodies) weight += g * body.mass_properties.mass;
+  for (const scene::Body& body : extreme.bodies) weight += g * body.mass_properties.mass;
   for (double t = 0.02; t < moving + resting; t += 0.02) {
     const AdvanceReport report = s.advance(t);
     EXPECT_EQ(report.guards_tripped, 0) << t;
-    for (const BodyState& o : s.objects()) {
+    for (const bodies::BodyState& o : s.objects()) {
       EXPECT_TRUE(o.X_WO.matrix().allFinite()) << o.name << " " << t;
       EXPECT_LT(o.V_WO_W.linear.norm(), 3.0) << o.name << " " << t;
     }
@@ -67,7 +67,7 @@ Simulation run(const Extreme& extreme, unsigned seed) {
   return s;
 }
 
-Body cube(const std::string& name, double edge, double mass, const Vector3d& p_WO) {
+scene::Body cube(const std::string& name, double edge, double mass, const Vector3d& p_WO) {
   return box(name, Vector3d::Constant(edge), mass, p_WO);
 }
 
@@ -109,7 +109,7 @@ TEST_P(Seeded, LightOnHeavyAndHeavyOnLight) {
 TEST_P(Seeded, AMasslessOneStopsAtAWall) {
   Extreme e;
   e.bodies = {cube("held", 0.06, 1.0, {0, 0, 0.1}), box("wall", {0.02, 0.4, 0.4}, 0.0, {0.06, 0, 0.2})};
-  e.bodies[0].mass_properties = MassProperties();
+  e.bodies[0].mass_properties = scene::MassProperties();
   e.held = "held";
   e.way = {0.04, 0, 0};
   const Simulation s = run(e, GetParam());
@@ -133,4 +133,4 @@ TEST_P(Seeded, GraspedWhileItTouches) {
 INSTANTIATE_TEST_SUITE_P(Extremes, Seeded, ::testing::Range(0u, 2u));
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

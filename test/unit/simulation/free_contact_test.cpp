@@ -6,25 +6,25 @@
 
 #include "support/bench_scenes.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 constexpr double g = 9.81;
 
-std::string mode_name(const testing::TestParamInfo<ContactMode>& tested) {
-  return tested.param == ContactMode::stop ? "stop" : "dynamic";
+std::string mode_name(const testing::TestParamInfo<scene::ContactMode>& tested) {
+  return tested.param == scene::ContactMode::stop ? "stop" : "dynamic";
 }
 
-Body ball(double radius, const Vector3d& p_WO, double friction, double restitution = 0.0) {
-  Body b = box("held", Vector3d::Ones(), 1.0, p_WO, friction);
+scene::Body ball(double radius, const Vector3d& p_WO, double friction, double restitution = 0.0) {
+  scene::Body b = box("held", Vector3d::Ones(), 1.0, p_WO, friction);
   b.mass_properties.inertia_O = 0.4 * radius * radius * Matrix3d::Identity();
   b.material.restitution = restitution;
-  b.collision[0].geometry = Sphere{radius};
+  b.collision[0].geometry = geometry::Sphere{radius};
   return b;
 }
 
 /// Held by a rigid fork by the middle of "held", moved along x at `speed` for 0.2 s, and let go there.
-Simulation let_go(const Scene& scene, double speed, double until) {
+Simulation let_go(const scene::Scene& scene, double speed, double until) {
   SimulationSettings set;
   set.fork.dofs = {false, false, false};
   Simulation s(scene, set);
@@ -39,15 +39,16 @@ Simulation let_go(const Scene& scene, double speed, double until) {
   return s;
 }
 
-class LetGo : public testing::TestWithParam<ContactMode> {};
-INSTANTIATE_TEST_SUITE_P(Modes, LetGo, testing::Values(ContactMode::stop, ContactMode::dynamic), mode_name);
+class LetGo : public testing::TestWithParam<scene::ContactMode> {};
+INSTANTIATE_TEST_SUITE_P(Modes, LetGo, testing::Values(scene::ContactMode::stop, scene::ContactMode::dynamic),
+                         mode_name);
 
 TEST_P(LetGo, ABoxSlidesAsFarAsFrictionLetsIt) {
   for (const double mu : {0.2, 0.4}) {
     Simulation s =
         let_go(scene_of({box("held", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02 + 1e-6), mu)}, GetParam(), mu),
                1.0, 3.0);
-    const BodyState start = s.objects()[0];
+    const bodies::BodyState start = s.objects()[0];
     ASSERT_GT(start.V_WO_W.linear.x(), 0.5);
     s.advance(3.0);
     const double way = start.V_WO_W.linear.squaredNorm() / (2.0 * mu * g);
@@ -59,12 +60,12 @@ TEST_P(LetGo, ABoxSlidesAsFarAsFrictionLetsIt) {
 TEST_P(LetGo, ASphereSlipsAndThenRolls) {
   const double radius = 0.05, mu = 0.3;
   Simulation s = let_go(scene_of({ball(radius, Vector3d(0, 0, radius + 1e-6), mu)}, GetParam(), mu), 1.5, 1.2);
-  const BodyState start = s.objects()[0];
+  const bodies::BodyState start = s.objects()[0];
   const double v = start.V_WO_W.linear.x(), grip = 2.0 * v / (7.0 * mu * g);
   ASSERT_NEAR(v, 1.5, 1e-3);
   s.advance(1.2);
   const double t = s.time() - 0.18, rolling = 5.0 / 7.0 * v;
-  const BodyState& end = s.objects()[0];
+  const bodies::BodyState& end = s.objects()[0];
   const double way = v * grip - 0.5 * mu * g * grip * grip + rolling * (t - grip);
   EXPECT_NEAR(end.V_WO_W.linear.x(), rolling, 0.01 * rolling);
   EXPECT_NEAR(end.V_WO_W.angular.y() * radius, end.V_WO_W.linear.x(), 0.005 * rolling);
@@ -74,7 +75,7 @@ TEST_P(LetGo, ASphereSlipsAndThenRolls) {
 
 TEST_P(LetGo, ABallBouncesToTheSquareOfItsRestitution) {
   const double radius = 0.05, drop = 0.5, e = 0.7;
-  Scene scene = scene_of({ball(radius, Vector3d(0, 0, radius + drop), 0.3, e)}, GetParam(), 0.3);
+  scene::Scene scene = scene_of({ball(radius, Vector3d(0, 0, radius + drop), 0.3, e)}, GetParam(), 0.3);
   scene.bench_material.restitution = e;
   Simulation s = let_go(scene, 0.0, 3.0);
   double height = drop, top = 0.0, t = 0.18 + std::sqrt(2.0 * drop / g);
@@ -94,9 +95,9 @@ TEST_P(LetGo, OnAnInclineItStaysBelowTheAngleOfFrictionAndSlidesAbove) {
   for (const double off : {-0.1, 0.1}) {
     const double angle = std::atan(mu) + off * M_PI / 180.0;
     const Matrix3d R = Eigen::AngleAxisd(angle, Vector3d::UnitY()).toRotationMatrix();  // downhill is +x
-    Body ramp = box("ramp", Vector3d(40.0, 1.0, 0.2), 0.0, Vector3d(0, 0, 15.0), mu);
+    scene::Body ramp = box("ramp", Vector3d(40.0, 1.0, 0.2), 0.0, Vector3d(0, 0, 15.0), mu);
     ramp.X_WO.linear() = R;
-    Body b = box("held", Vector3d(0.1, 0.1, 0.05), 1.0, Vector3d::Zero(), mu);
+    scene::Body b = box("held", Vector3d(0.1, 0.1, 0.05), 1.0, Vector3d::Zero(), mu);
     b.X_WO.linear() = R;
     b.X_WO.translation() = ramp.X_WO * Vector3d(0, 0, 0.1 + 0.025 + 1e-6);
     SimulationSettings set;
@@ -135,4 +136,4 @@ TEST_P(LetGo, OnAnInclineItStaysBelowTheAngleOfFrictionAndSlidesAbove) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -6,11 +6,11 @@
 #include <fstream>
 #include <string>
 
-#include "spring_workbench/config/input_error.h"
-#include "spring_workbench/scene/geometry.h"
+#include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/validation/input_error.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 const fs::path collection = fs::path(SPRING_WORKBENCH_SHARED_DIR) / "data" / "urdf";
 
 /// Grasped at its centre by a calibrated fork, lifted 0.2 m, put down and let go.
-void lift_and_put_down(const Scene& scene, const Body& body) {
+void lift_and_put_down(const scene::Scene& scene, const scene::Body& body) {
   SimulationSettings set;
   set.grasp.object = body.name;
   set.grasp.calibrate = true;
@@ -29,11 +29,11 @@ void lift_and_put_down(const Scene& scene, const Body& body) {
   const Vector3d lift(0.0, 0.0, 0.2 + 0.1 * simulation.fork().length);  // and what it sags
   push_move(simulation, 0.02, 1.0, hand, hand + lift);
   push_move(simulation, 4.0, 5.0, hand + lift, hand);
-  const double size = bounding_radius(body);
+  const double size = geometry::bounding_radius(body.collision);
   const auto look = [&](double until) {
     for (double t = simulation.time() + 0.05; t < until; t += 0.05) {
       simulation.advance(t);
-      const BodyState& o = object(simulation, body.name);
+      const bodies::BodyState& o = object(simulation, body.name);
       ASSERT_TRUE(o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite() && o.V_WO_W.angular.allFinite());
       ASSERT_LT(o.V_WO_W.linear.norm(), 3.0);
       ASSERT_LT((o.X_WO.translation() - start).norm(), 0.5 + size);
@@ -54,13 +54,13 @@ TEST(RealUrdfs, EveryMovableLinkIsGraspedLiftedAndPutDown) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(collection)) {
     if (entry.path().extension() != ".urdf") continue;
     SCOPED_TRACE(entry.path().string());
-    Scene scene;
+    scene::Scene scene;
     try {
-      scene = load_scene(entry.path().string());
-    } catch (const InputError&) {
+      scene = scene::load_scene(entry.path().string());
+    } catch (const validation::InputError&) {
       continue;  // what has to be refused is test_scene's affair
     }
-    for (const Body& body : scene.bodies) {
+    for (const scene::Body& body : scene.bodies) {
       if (!body.movable || body.collision.empty()) continue;
       ++held;
       lift_and_put_down(scene, body);
@@ -70,4 +70,4 @@ TEST(RealUrdfs, EveryMovableLinkIsGraspedLiftedAndPutDown) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -6,7 +6,7 @@
 
 #include "spring_workbench/simulation/settings.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 const std::string begin_marker = "<!-- settings: begin -->\n";
@@ -51,4 +51,4 @@ TEST(ReferenceDoc, SettingsAreThoseOfTheCode) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -3,7 +3,7 @@
 
 #include "support/bench_scenes.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 constexpr double side = 0.1, apart = 0.04, reach = 0.2;
@@ -15,10 +15,10 @@ class Overlapping : public ::testing::Test {
   Overlapping()
       : simulation_(weightless(scene_of({box("left", Vector3d::Constant(side), 1.0, left),
                                          box("right", Vector3d::Constant(side), 1.0, right)},
-                                        ContactMode::none)),
+                                        scene::ContactMode::none)),
                     SimulationSettings()) {}
 
-  static Scene weightless(Scene scene) {
+  static scene::Scene weightless(scene::Scene scene) {
     scene.gravity = 0.0;
     return scene;
   }
@@ -29,7 +29,7 @@ class Overlapping : public ::testing::Test {
     simulation_.push_stylus({t_, pointing_down({x, 0.0, left.z() + reach})});
     simulation_.advance(t_);
     std::string lit;
-    for (const BodyState& o : simulation_.objects()) {
+    for (const bodies::BodyState& o : simulation_.objects()) {
       if (o.highlighted) lit += o.name;
     }
     return lit;
@@ -74,4 +74,4 @@ TEST_F(Overlapping, WhatIsLitIsHeldWhereTheTipIsWhileTheButtonIsDown) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

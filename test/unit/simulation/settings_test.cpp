@@ -6,15 +6,15 @@
 #include <set>
 #include <string>
 
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 std::string refusal(const std::string& yaml, SimulationSettings& settings) {
   try {
     apply_settings(YAML::Load(yaml), "some.yaml", settings);
-  } catch (const InputError& e) {
+  } catch (const validation::InputError& e) {
     return e.what();
   }
   return "";
@@ -40,7 +40,7 @@ std::string fingerprint(const SimulationSettings& s) {
   out << s.tool << '|' << s.contact << '|' << s.gravity << '|' << s.force_scale << '|' << s.dynamics.integrator << '|'
       << s.dynamics.step << '|' << s.dynamics.tolerance << '|' << s.dynamics.inertia << '|' << s.fork.shape << '|'
       << s.fork.length << '|';
-  for (const PerFamily& p : {s.fork.stiffness, s.fork.damping_ratio}) {
+  for (const rod::PerFamily& p : {s.fork.stiffness, s.fork.damping_ratio}) {
     out << p.stretch << '|' << p.bend << '|' << p.torsion << '|';
   }
   out << s.fork.damping_law << '|' << s.fork.dofs.stretch << s.fork.dofs.bend << s.fork.dofs.torsion << '|'
@@ -175,4 +175,4 @@ TEST(Settings, WhatIsNotAMapIsRefusedAndAnEmptyMapChangesNothing) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

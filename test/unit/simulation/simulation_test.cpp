@@ -7,16 +7,17 @@
 #include <cstring>
 #include <random>
 
-#include "spring_workbench/config/input_error.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/validation/input_error.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 /// One box, 0.1 × 0.06 × 0.04 m and 1 kg, with its centre at `centre`.
-Scene box_scene(const Vector3d& centre, ContactMode contact = ContactMode::stop, double friction = 0.5) {
+scene::Scene box_scene(const Vector3d& centre, scene::ContactMode contact = scene::ContactMode::stop,
+                       double friction = 0.5) {
   return scene_of({box("box", {0.1, 0.06, 0.04}, 1.0, centre, friction)}, contact, friction);
 }
 
@@ -30,30 +31,30 @@ TEST(Simulation, BoxThatIsDroppedComesToRestOnTheBench) {
   simulation.push_button(0.0, true);
   simulation.push_button(0.1, false);
   for (int i = 1; i <= 200; ++i) simulation.advance(0.02 * i);
-  const BodyState& box = simulation.objects()[0];
+  const bodies::BodyState& box = simulation.objects()[0];
   EXPECT_TRUE(box.asleep);
   EXPECT_NEAR(box.X_WO.translation().z(), 0.02, 2e-5);
-  EXPECT_LT(log_so3(box.X_WO.linear()).norm(), 0.05);
+  EXPECT_LT(math::log_so3(box.X_WO.linear()).norm(), 0.05);
 }
 
 TEST(Simulation, ThrownObjectFliesOnAParabolaAndKeepsItsAngularMomentum) {
   SimulationSettings set = settings();
-  Scene scene = box_scene({0.0, 0.0, 2.0}, ContactMode::none);
+  scene::Scene scene = box_scene({0.0, 0.0, 2.0}, scene::ContactMode::none);
   Simulation simulation(scene, set);
   simulation.push_stylus({0.0, pointing_down({0.0, 0.0, 2.2})});
   push_move(simulation, 0.02, 0.5, {0.0, 0.0, 2.2}, {0.4, 0.2, 2.5}, 1.5);
   simulation.push_button(0.0, true);
   simulation.push_button(0.3, false);
   simulation.advance(0.3);
-  const BodyState start = simulation.objects()[0];
+  const bodies::BodyState start = simulation.objects()[0];
   ASSERT_FALSE(start.held);
   ASSERT_GT(start.V_WO_W.linear.norm(), 0.3);
   const Matrix3d I = scene.bodies[0].mass_properties.inertia_O;
-  const auto momentum = [&](const BodyState& s) {
+  const auto momentum = [&](const bodies::BodyState& s) {
     return Vector3d(s.X_WO.linear() * I * s.X_WO.linear().transpose() * s.V_WO_W.angular);
   };
   simulation.advance(0.5);
-  const BodyState& end = simulation.objects()[0];
+  const bodies::BodyState& end = simulation.objects()[0];
   const double t = 0.2;
   const Vector3d expected = start.X_WO.translation() + t * start.V_WO_W.linear - 0.5 * 9.81 * t * t * Vector3d::UnitZ();
   EXPECT_LT((end.X_WO.translation() - expected).norm(), 1e-12);
@@ -63,7 +64,7 @@ TEST(Simulation, ThrownObjectFliesOnAParabolaAndKeepsItsAngularMomentum) {
 TEST(Simulation, DroppedObjectStartsFromRest) {
   SimulationSettings set = settings();
   set.grasp.release = "dropped";
-  Simulation simulation(box_scene({0.0, 0.0, 2.0}, ContactMode::none), set);
+  Simulation simulation(box_scene({0.0, 0.0, 2.0}, scene::ContactMode::none), set);
   push_move(simulation, 0.0, 0.5, {0.0, 0.0, 2.2}, {0.4, 0.2, 2.5}, 1.5);
   simulation.push_button(0.0, true);
   simulation.push_button(0.3, false);
@@ -90,7 +91,7 @@ TEST(Simulation, LiftedBoxHangsByItsWeight) {
   simulation.push_stylus({5.0, pointing_down(above + Vector3d(0.0, 0.0, 0.2))});
   simulation.push_button(0.0, true);
   simulation.advance(5.0);
-  const ToolState fork = simulation.fork();
+  const tools::ToolState fork = simulation.fork();
   EXPECT_EQ(fork.held_object, "box");
   EXPECT_NEAR(fork.stretch, 9.81 / 2000.0, 1e-6 * 9.81 / 2000.0);
   EXPECT_NEAR(fork.tip_wrench_W.force.z(), 9.81, 1e-6);
@@ -124,10 +125,10 @@ TEST(Simulation, ContactsStartPersistAndEndHoweverLongACallLasts) {
     for (double t = call; t < 2.0 + 1e-9; t += call) {
       simulation.advance(t);
       bool starts = false, ends = false, persists = false;
-      for (const ContactState& c : simulation.contacts()) {
-        starts = starts || c.phase == ContactPhase::started;
-        ends = ends || c.phase == ContactPhase::ended;
-        persists = persists || c.phase == ContactPhase::persisting;
+      for (const contact::ContactState& c : simulation.contacts()) {
+        starts = starts || c.phase == contact::ContactPhase::started;
+        ends = ends || c.phase == contact::ContactPhase::ended;
+        persists = persists || c.phase == contact::ContactPhase::persisting;
       }
       EXPECT_FALSE(starts && persists);
       EXPECT_EQ(persists || ends, touching) << t;
@@ -152,7 +153,7 @@ TEST(Simulation, RigidForkLeavesTheHandleBehindInsteadOfPushingThrough) {
     simulation.advance(0.02 * i);
     EXPECT_GT(simulation.objects()[0].X_WO.translation().z(), 0.02 - 1e-5);
   }
-  const ToolState fork = simulation.fork();
+  const tools::ToolState fork = simulation.fork();
   EXPECT_NEAR(fork.X_WH_seen.translation().z() - fork.X_WH.translation().z(), 0.05, 2e-3);
   // The way is free again: the gap closes.
   simulation.advance(3.0);
@@ -184,11 +185,11 @@ TEST(Simulation, ABoxPressedThroughAForkThatOnlyBendsComesAlongWhenItIsLifted) {
 }
 
 TEST(Simulation, WhatLiesOnAGraspedObjectWakes) {
-  Scene scene = box_scene({0.0, 0.0, 0.02});
-  Body upper = scene.bodies[0];
+  scene::Scene scene = box_scene({0.0, 0.0, 0.02});
+  scene::Body upper = scene.bodies[0];
   upper.name = "upper";
   upper.X_WO.translation() << 0.03, 0.0, 0.06;
-  Body beside = upper;
+  scene::Body beside = upper;
   beside.name = "beside";
   beside.X_WO.translation() << 0.2, 0.0, 0.02;
   scene.bodies.push_back(upper);
@@ -207,14 +208,14 @@ TEST(Simulation, SlidingBoxStopsByFriction) {
   // Let go on the bench at speed v it slides v² / (2 μ g).
   SimulationSettings set = settings();
   set.dynamics.step = 0.005;
-  Simulation simulation(box_scene({0.0, 0.0, 0.02}, ContactMode::stop, 0.4), set);
+  Simulation simulation(box_scene({0.0, 0.0, 0.02}, scene::ContactMode::stop, 0.4), set);
   for (double t = 0.0; t < 0.6; t += 0.02) {
     simulation.push_stylus({t, pointing_down(above + Vector3d(t * t, 0.0, 0.0))});  // 2 m/s² along x
   }
   simulation.push_button(0.0, true);
   simulation.push_button(0.5, false);
   simulation.advance(0.5);
-  const BodyState start = simulation.objects()[0];
+  const bodies::BodyState start = simulation.objects()[0];
   ASSERT_GT(start.V_WO_W.linear.x(), 0.3);
   const double v = start.V_WO_W.linear.head<2>().norm();
   const Vector3d p = start.X_WO.translation();
@@ -227,7 +228,7 @@ TEST(Simulation, SlidingBoxStopsByFriction) {
 
 class Switching : public testing::Test {
  protected:
-  Switching() : simulation(box_scene({0.0, 0.0, 0.5}, ContactMode::none), off_centre()) {
+  Switching() : simulation(box_scene({0.0, 0.0, 0.5}, scene::ContactMode::none), off_centre()) {
     push_move(simulation, 0.0, 2.0, {0.03, 0.02, 0.7}, {0.2, 0.1, 0.8}, 3.0);
     simulation.push_button(0.0, true);
     simulation.advance(0.7);
@@ -240,7 +241,7 @@ class Switching : public testing::Test {
   }
   void expect_no_jump() {
     simulation.advance(0.7);
-    const BodyState& after = simulation.objects()[0];
+    const bodies::BodyState& after = simulation.objects()[0];
     EXPECT_LT((after.X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-12);
     // Over a microsecond the object goes on by its velocity.
     simulation.advance(0.7 + 1e-6);
@@ -249,7 +250,7 @@ class Switching : public testing::Test {
     EXPECT_LT((simulation.objects()[0].V_WO_W.angular - before.V_WO_W.angular).norm(), 1e-3);
   }
   Simulation simulation;
-  BodyState before;
+  bodies::BodyState before;
 };
 
 TEST_F(Switching, TorsionOffAndOn) {
@@ -280,7 +281,7 @@ TEST_F(Switching, NewStiffnessReportsTheEnergyItAdds) {
 }
 
 TEST_F(Switching, EveryIntegratorTakesOver) {
-  for (const std::string& name : integrator_names()) {
+  for (const std::string& name : dynamics::integrator_names()) {
     simulation.set_integrator(name, 0.0);
     EXPECT_EQ(simulation.fork().integrator, name);
   }
@@ -293,26 +294,26 @@ TEST_F(Switching, DampingLaws) {
   expect_no_jump();
   simulation.set_damping_ratio({0.7, 0.7, 0.7});
   EXPECT_EQ(simulation.settings().fork.damping_law, "modal");
-  EXPECT_THROW(simulation.set_damping_ratio({0.7, 0.5, 0.7}), InputError);
+  EXPECT_THROW(simulation.set_damping_ratio({0.7, 0.5, 0.7}), validation::InputError);
   EXPECT_EQ(simulation.settings().fork.damping_ratio.bend, 0.7);
   simulation.set_damping_ratio({0.7, 0.5, 0.7}, "per_family");
   EXPECT_EQ(simulation.settings().fork.damping_ratio.bend, 0.5);
-  EXPECT_THROW(simulation.set_damping_ratio({0.5, 0.5, 0.5}, "rayleigh"), InputError);
+  EXPECT_THROW(simulation.set_damping_ratio({0.5, 0.5, 0.5}, "rayleigh"), validation::InputError);
   EXPECT_EQ(simulation.settings().fork.damping_law, "per_family");
   SimulationSettings settings = simulation.settings();
   settings.fork.damping_law = "modal";
-  EXPECT_THROW(Simulation(simulation.scene(), settings), InputError);
+  EXPECT_THROW(Simulation(simulation.scene(), settings), validation::InputError);
 }
 
 TEST_F(Switching, BadValuesChangeNothing) {
-  EXPECT_THROW(simulation.set_stiffness({std::nan(""), 0.0, 0.0}), InputError);
-  EXPECT_THROW(simulation.set_stiffness({-1.0, 0.0, 0.0}), InputError);
-  EXPECT_THROW(simulation.set_damping_ratio({0.0, 11.0, 0.0}), InputError);
-  EXPECT_THROW(simulation.set_integrator("magic", 0.0), InputError);
-  EXPECT_THROW(simulation.set_integrator("rk4", -1.0), InputError);
-  EXPECT_THROW(simulation.set_integrator("rk4", std::nan("")), InputError);
+  EXPECT_THROW(simulation.set_stiffness({std::nan(""), 0.0, 0.0}), validation::InputError);
+  EXPECT_THROW(simulation.set_stiffness({-1.0, 0.0, 0.0}), validation::InputError);
+  EXPECT_THROW(simulation.set_damping_ratio({0.0, 11.0, 0.0}), validation::InputError);
+  EXPECT_THROW(simulation.set_integrator("magic", 0.0), validation::InputError);
+  EXPECT_THROW(simulation.set_integrator("rk4", -1.0), validation::InputError);
+  EXPECT_THROW(simulation.set_integrator("rk4", std::nan("")), validation::InputError);
   for (double tolerance : {-1e-6, 0.2, std::nan("")}) {
-    EXPECT_THROW(simulation.set_integrator("rk4", 0.0, tolerance), InputError);
+    EXPECT_THROW(simulation.set_integrator("rk4", 0.0, tolerance), validation::InputError);
   }
   EXPECT_EQ(simulation.settings().fork.stiffness.stretch, 2000.0);
   EXPECT_EQ(simulation.settings().fork.damping_ratio.bend, 0.2);
@@ -322,13 +323,13 @@ TEST_F(Switching, BadValuesChangeNothing) {
 
 TEST(Simulation, EveryIntegratorTellsTheStiffestModeAndItsErrors) {
   // A pure stretch oscillator: ω = √(k/m).
-  for (const std::string& name : integrator_names()) {
+  for (const std::string& name : dynamics::integrator_names()) {
     SimulationSettings set = settings();
     set.dynamics.integrator = name;
     set.dynamics.step = 1e-3;
     set.fork.dofs = {true, false, false};
     set.fork.damping_ratio.stretch = 0.0;
-    Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), set);
+    Simulation simulation(box_scene({0.0, 0.0, 1.0}, scene::ContactMode::none), set);
     push_move(simulation, 0.0, 0.2, {0.0, 0.0, 1.2}, {0.0, 0.0, 1.3});
     simulation.push_button(0.0, true);
     const AdvanceReport report = simulation.advance(0.1);
@@ -344,7 +345,7 @@ TEST(Simulation, ToleranceTakesMoreStepsAndSaysSo) {
     SimulationSettings set = settings();
     set.dynamics.integrator = "rk4";
     set.dynamics.tolerance = tolerance;
-    Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), set);
+    Simulation simulation(box_scene({0.0, 0.0, 1.0}, scene::ContactMode::none), set);
     push_move(simulation, 0.0, 1.0, {0.0, 0.0, 1.2}, {0.3, 0.0, 1.3});
     simulation.push_button(0.0, true);
     const AdvanceReport report = simulation.advance(1.0);
@@ -385,7 +386,7 @@ TEST(Simulation, EnergyAddedIsTheIntegratorsErrorAndFallsWithTheStep) {
     set.dynamics.integrator = integrator;
     set.dynamics.step = step;
     set.fork.stiffness = {200.0, 60.0, 1.0};
-    Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), set);
+    Simulation simulation(box_scene({0.0, 0.0, 1.0}, scene::ContactMode::none), set);
     push_move(simulation, 0.0, 1.0, {0.02, 0.0, 1.2}, {0.3, 0.1, 1.4}, 1.0);
     simulation.push_button(0.0, true);
     return std::abs(simulation.advance(1.0).energy_added);
@@ -396,19 +397,19 @@ TEST(Simulation, EnergyAddedIsTheIntegratorsErrorAndFallsWithTheStep) {
 }
 
 TEST(Simulation, MasslessObjectFollowsTheTipExactly) {
-  Scene scene = box_scene({0.0, 0.0, 0.02}, ContactMode::none);
-  scene.bodies[0].mass_properties = MassProperties();
+  scene::Scene scene = box_scene({0.0, 0.0, 0.02}, scene::ContactMode::none);
+  scene.bodies[0].mass_properties = scene::MassProperties();
   Simulation simulation(scene, settings());
   push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.3, 0.1, 0.2), 2.0);
   simulation.push_button(0.0, true);
   simulation.advance(0.5);
-  const ToolState fork = simulation.fork();
+  const tools::ToolState fork = simulation.fork();
   EXPECT_LT((fork.X_WE.translation() - simulation.objects()[0].X_WO.translation()).norm(), 1e-12);
   EXPECT_EQ(fork.elastic_energy, 0.0);
 }
 
 TEST(Simulation, WithoutContactNoCollisionRuns) {
-  Simulation simulation(box_scene({0.0, 0.0, 0.02}, ContactMode::none), settings());
+  Simulation simulation(box_scene({0.0, 0.0, 0.02}, scene::ContactMode::none), settings());
   push_move(simulation, 0.0, 1.0, above, above - Vector3d(0.0, 0.0, 0.1));
   simulation.push_button(0.0, true);
   const AdvanceReport report = simulation.advance(1.0);
@@ -434,11 +435,11 @@ SimulationSettings spring_settings(double stiffness) {
 
 TEST(Tools, SpringExtendsByTheWeightAndExertsNoMoment) {
   for (const double k : {200.0, 2000.0, 2e6}) {
-    Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), spring_settings(k));
+    Simulation simulation(box_scene({0.0, 0.0, 1.0}, scene::ContactMode::none), spring_settings(k));
     simulation.push_stylus({0.0, pointing_down({0.0, 0.0, 1.2})});
     simulation.push_button(0.0, true);
     simulation.advance(10.0);
-    const ToolState tool = simulation.fork();
+    const tools::ToolState tool = simulation.fork();
     EXPECT_EQ(tool.tool, "spring");
     EXPECT_NEAR(tool.stretch, 9.81 / k, 1e-9 * 9.81 / k);
     EXPECT_NEAR(tool.weight, 1.0, 1e-9);
@@ -448,7 +449,7 @@ TEST(Tools, SpringExtendsByTheWeightAndExertsNoMoment) {
 }
 
 TEST(Tools, SpringSwingsWithThePeriodOfItsPendulum) {
-  Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), spring_settings(2e5));
+  Simulation simulation(box_scene({0.0, 0.0, 1.0}, scene::ContactMode::none), spring_settings(2e5));
   const double aside = 0.01;
   simulation.push_stylus({0.0, pointing_down({aside, 0.0, 1.2})});
   simulation.push_button(0.0, true);
@@ -474,7 +475,7 @@ TEST(Calibrated, NoWeightAndThreeHundredKilogramsAreBothEasyToMove) {
   for (const double mass : {0.0, 1e-3, 1.0, 300.0}) {
     SimulationSettings set;
     set.grasp.calibrate = true;
-    Scene scene = box_scene({0.0, 0.0, 0.5}, ContactMode::none);
+    scene::Scene scene = box_scene({0.0, 0.0, 0.5}, scene::ContactMode::none);
     scene.bodies[0].mass_properties.inertia_O *= mass;
     scene.bodies[0].mass_properties.mass = mass;
     Simulation simulation(scene, set);
@@ -509,7 +510,7 @@ TEST(Tools, DirectAndRayAreRigid) {
   for (const char* name : {"direct", "ray"}) {
     SimulationSettings set = settings();
     set.tool = name;
-    Simulation simulation(box_scene({0.0, 0.0, 1.0}, ContactMode::none), set);
+    Simulation simulation(box_scene({0.0, 0.0, 1.0}, scene::ContactMode::none), set);
     const Vector3d hand(0.01, 0.005, name == std::string("ray") ? 1.5 : 1.0);
     push_move(simulation, 0.0, 1.0, hand, hand + Vector3d(0.3, 0.1, 0.2), 2.0);
     simulation.push_button(0.0, true);
@@ -532,13 +533,13 @@ TEST_F(Switching, EveryToolTakesOverWithoutAJump) {
     EXPECT_LT((simulation.objects()[0].V_WO_W.linear - before.V_WO_W.linear).norm(), 1e-9) << name;
     EXPECT_LT((simulation.objects()[0].V_WO_W.angular - before.V_WO_W.angular).norm(), 1e-9) << name;
   }
-  EXPECT_THROW(simulation.select_tool("tongs"), InputError);
+  EXPECT_THROW(simulation.select_tool("tongs"), validation::InputError);
   expect_no_jump();
 }
 
 TEST(Tools, NothingIsGraspedThroughAWall) {
-  Scene scene = box_scene({0.0, 0.0, 0.02});
-  Body wall = scene.bodies[0];
+  scene::Scene scene = box_scene({0.0, 0.0, 0.02});
+  scene::Body wall = scene.bodies[0];
   wall.name = "wall";
   wall.movable = false;
   wall.X_WO.translation().z() = 0.12;
@@ -553,16 +554,16 @@ TEST(Tools, NothingIsGraspedThroughAWall) {
 TEST(Simulation, SettingsThatDoNotFitAreRefused) {
   SimulationSettings set = settings();
   set.grasp.object = "ghost";
-  EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}), set), InputError);
+  EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}), set), validation::InputError);
   set = settings();
   set.fork.shape = "spaghetti";
-  EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}), set), InputError);
+  EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}), set), validation::InputError);
 }
 
 /// The box held in the air by a hand at rest until it has come to rest itself.
 class HeldAtRest : public testing::Test {
  protected:
-  HeldAtRest() : simulation(box_scene({0.01, 0.0, 1.0}, ContactMode::none), settings()) {
+  HeldAtRest() : simulation(box_scene({0.01, 0.0, 1.0}, scene::ContactMode::none), settings()) {
     push_move(simulation, 0.0, 0.5, {0.0, 0.0, 1.2}, {0.1, 0.0, 1.2}, 0.5);
     for (double t = 0.52; t < 8.01; t += 0.02) simulation.push_stylus({t, pointing_down({0.1, 0.0, 1.2}, 0.5)});
     simulation.push_button(0.0, true);
@@ -646,8 +647,8 @@ TEST(Simulation, SleeperOnABenchWakesWhenTheHandPullsItUp) {
 }
 
 TEST(Simulation, MasslessObjectFollowsTheTipExactlyAndStopsAtTheBench) {
-  Scene scene = box_scene({0.0, 0.0, 0.1});
-  scene.bodies[0].mass_properties = MassProperties();
+  scene::Scene scene = box_scene({0.0, 0.0, 0.1});
+  scene.bodies[0].mass_properties = scene::MassProperties();
   Simulation simulation(scene, settings());
   push_move(simulation, 0.0, 1.0, {0.0, 0.0, 0.3}, {0.3, 0.1, 0.4}, 1.0);
   push_move(simulation, 1.02, 2.0, {0.3, 0.1, 0.4}, {0.3, 0.1, 0.15}, 0.0);
@@ -666,7 +667,7 @@ TEST(Simulation, PointMassOnTheAxisDoesNotTwistAndOffItDoes) {
   const auto twist = [](double off_axis) {
     SimulationSettings set = settings();
     set.dynamics.inertia = "point_mass";
-    Simulation simulation(box_scene({off_axis, 0.0, 1.0}, ContactMode::none), set);
+    Simulation simulation(box_scene({off_axis, 0.0, 1.0}, scene::ContactMode::none), set);
     push_move(simulation, 0.0, 1.0, {0.0, 0.0, 1.2}, {0.3, 0.2, 1.3}, 2.0);
     simulation.push_button(0.0, true);
     double largest = 0.0;
@@ -685,4 +686,4 @@ TEST(Simulation, PointMassOnTheAxisDoesNotTwistAndOffItDoes) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -10,13 +10,15 @@
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
+
+using spring_workbench::scene_of;  // beside the one below
 
 constexpr double length = 0.2;
 
-Scene scene_of(std::vector<Body> bodies, double friction = 0.5) {
-  return spring_workbench::scene_of(std::move(bodies), ContactMode::stop, friction);
+scene::Scene scene_of(std::vector<scene::Body> bodies, double friction = 0.5) {
+  return spring_workbench::scene_of(std::move(bodies), scene::ContactMode::stop, friction);
 }
 
 /// A rod clamped at both ends with its tip shifted sideways and guided: force [N], deflection and shortening [m].
@@ -27,20 +29,20 @@ struct SShape {
 /// The static answer of a shape model: K q = Jᵀ (P, M), with M such that the tip does not turn, by Newton with
 /// differences.
 SShape own_figure(const std::string& name, double bend, double force) {
-  const PerFamily k{1e10, bend, 1e10};  // neither extension nor twist
-  auto made = make_shape_model(name, length);
+  const rod::PerFamily k{1e10, bend, 1e10};  // neither extension nor twist
+  auto made = rod::make_shape_model(name, length);
   if (auto stiff = made->for_stiffness(k)) made = std::move(stiff);
-  const ShapeModel& shape = *made;
-  const StrainVector K = shape.stiffness(k), none = StrainVector::Zero(shape.size());
-  TipKinematics tip;
+  const rod::ShapeModel& shape = *made;
+  const rod::StrainVector K = shape.stiffness(k), none = rod::StrainVector::Zero(shape.size());
+  rod::TipKinematics tip;
   const int n = shape.size();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n + 1);  // strain, moment
   for (int stage = 1; stage <= 20; ++stage) {
     const auto residual = [&](const Eigen::VectorXd& at) {
-      const StrainVector q = at.head(n);
+      const rod::StrainVector q = at.head(n);
       shape.tip(q, none, tip);
-      StrainVector r = K.cwiseProduct(q) - tip.linear.transpose() * Vector3d(force * stage / 20.0, 0.0, 0.0) -
-                       tip.angular.transpose() * (tip.R_HE.transpose() * Vector3d(0.0, at[n], 0.0));
+      rod::StrainVector r = K.cwiseProduct(q) - tip.linear.transpose() * Vector3d(force * stage / 20.0, 0.0, 0.0) -
+                            tip.angular.transpose() * (tip.R_HE.transpose() * Vector3d(0.0, at[n], 0.0));
       r += tip.condensed_force;
       Eigen::VectorXd all(n + 1);
       all << r, tip.R_HE(0, 2);
@@ -58,7 +60,7 @@ SShape own_figure(const std::string& name, double bend, double force) {
       x -= slope.partialPivLu().solve(residual(x));
     }
   }
-  shape.tip(StrainVector(x.head(n)), none, tip);
+  shape.tip(rod::StrainVector(x.head(n)), none, tip);
   return {force, tip.p_HE.x(), length - tip.p_HE.z()};
 }
 
@@ -70,7 +72,7 @@ struct Shifted {
 };
 
 Shifted shift(double bend, double sideways, double lowered) {
-  Scene scene = scene_of({box("box", Vector3d(0.2, 0.2, 0.04), 5.0, Vector3d(0, 0, 0.02), 1.0)}, 1.0);
+  scene::Scene scene = scene_of({box("box", Vector3d(0.2, 0.2, 0.04), 5.0, Vector3d(0, 0, 0.02), 1.0)}, 1.0);
   SimulationSettings set;
   set.fork.length = length;
   set.fork.stiffness = {1e5, bend, 10.0};
@@ -127,9 +129,9 @@ TEST(StopContact, BetweenTwoSurfacesItSlidesAndStaysOutOfBoth) {
   for (const double room : {0.0, 1e-4, 2e-3}) {
     for (const double k : {500.0, 5e4}) {
       const double ceiling = size.z() + room;
-      Scene scene = scene_of({box("box", size, 1.0, Vector3d(0, 0, 0.05), 0.2),
-                              box("ceiling", Vector3d(2.0, 2.0, 0.1), 0.0, Vector3d(0, 0, ceiling + 0.05), 0.2)},
-                             0.2);
+      scene::Scene scene = scene_of({box("box", size, 1.0, Vector3d(0, 0, 0.05), 0.2),
+                                     box("ceiling", Vector3d(2.0, 2.0, 0.1), 0.0, Vector3d(0, 0, ceiling + 0.05), 0.2)},
+                                    0.2);
       SimulationSettings set;
       set.fork.length = length;
       set.fork.stiffness = {k, k, 0.01 * k};
@@ -155,8 +157,8 @@ TEST(StopContact, BetweenTwoSurfacesItSlidesAndStaysOutOfBoth) {
 /// A hand presses a box on the bench along what is rigid, and shifts it sideways by less than friction holds.
 TEST(StopContact, AForkThatCannotFollowPressesAsItsRuleSaysAndHoldsNothingBack) {
   constexpr double pressed = 2e-3, T = 5e-3;  // m, s: doc/model.md
-  for (const ForkDofs dofs :
-       {ForkDofs{false, false, false}, ForkDofs{false, true, false}, ForkDofs{false, true, true}}) {
+  for (const rod::ForkDofs dofs :
+       {rod::ForkDofs{false, false, false}, rod::ForkDofs{false, true, false}, rod::ForkDofs{false, true, true}}) {
     for (const double mass : {0.1, 5.0}) {
       for (const double step : {0.02, 0.004}) {
         SimulationSettings set;
@@ -173,7 +175,7 @@ TEST(StopContact, AForkThatCannotFollowPressesAsItsRuleSaysAndHoldsNothingBack) 
         push_move(s, 0.82, 3.0, aside, aside);
         EXPECT_EQ(s.advance(0.4).held_back, 0);
         double force = 0.0;
-        for (const ContactState& c : s.contacts()) force += c.force;
+        for (const contact::ContactState& c : s.contacts()) force += c.force;
         EXPECT_NEAR(force, mass * pressed / (T * T), 0.05 * force)
             << dofs.bend << dofs.torsion << " " << mass << " " << step;
         EXPECT_EQ(s.advance(1.0).held_back, 0);
@@ -190,7 +192,7 @@ TEST(StopContact, APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling) {
   // A peg of 20 mm in a square hole of 21 mm; the hand is off by 0.4 mm at first and by 3 mm when the peg is in.
   constexpr double hole = 0.021, depth = 0.04, wall = 0.05;
   const Vector3d peg(0.02, 0.02, 0.06);
-  std::vector<Body> bodies{box("peg", peg, 0.1, Vector3d(0.0004, 0, depth + 0.05), 0.2)};
+  std::vector<scene::Body> bodies{box("peg", peg, 0.1, Vector3d(0.0004, 0, depth + 0.05), 0.2)};
   for (const double side : {-1.0, 1.0}) {
     bodies.push_back(box("x" + std::to_string(side), Vector3d(wall, 0.2, depth), 0.0,
                          Vector3d(side * 0.5 * (hole + wall), 0, 0.5 * depth), 0.2));
@@ -213,7 +215,7 @@ TEST(StopContact, APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling) {
     EXPECT_EQ(s.advance(t).held_back, 0) << t;
     if (t < 2.3 || t > 3.7) continue;
     force.push_back(0.0);
-    for (const ContactState& c : s.contacts()) force.back() += std::abs(c.n_W.x()) * c.force;
+    for (const contact::ContactState& c : s.contacts()) force.back() += std::abs(c.n_W.x()) * c.force;
   }
   for (std::size_t i = 1; i + 1 < force.size(); ++i) {
     EXPECT_GT(force[i], 0.5) << i;
@@ -227,9 +229,9 @@ TEST(StopContact, APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling) {
 TEST(StopContact, ADroppedBoxBouncesByItsRestitution) {
   constexpr double edge = 0.1, height = 0.3;
   for (const double of_box : {0.9, 0.4}) {
-    Body dropped = box("dropped", Vector3d::Constant(edge), 1.0, Vector3d(0.0, 0.0, 0.5 * edge));
+    scene::Body dropped = box("dropped", Vector3d::Constant(edge), 1.0, Vector3d(0.0, 0.0, 0.5 * edge));
     dropped.material.restitution = of_box;
-    Scene scene = scene_of({dropped}, ContactMode::stop);
+    scene::Scene scene = scene_of({dropped}, scene::ContactMode::stop);
     scene.bench_material.restitution = 0.8;
     SimulationSettings settings;
     settings.dynamics.step = 1e-3;
@@ -248,4 +250,4 @@ TEST(StopContact, ADroppedBoxBouncesByItsRestitution) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -8,7 +8,7 @@
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 constexpr double edge = 0.1;  // m, of the held box
@@ -19,8 +19,8 @@ double depth_of(const RigidTransform& X, double wall_x) {
   return std::max(X.translation().x() + reach.x() - wall_x, reach.z() - X.translation().z());
 }
 
-double energy(const Simulation& s, const Scene& scene) {
-  const ToolState fork = s.fork();
+double energy(const Simulation& s, const scene::Scene& scene) {
+  const tools::ToolState fork = s.fork();
   return fork.elastic_energy + fork.kinetic_energy +
          scene.bodies[0].mass_properties.mass * scene.gravity * s.objects()[0].X_WO.translation().z();
 }
@@ -34,9 +34,9 @@ TEST(StopExtremes, LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded) {
       std::mt19937 random(seed);
       std::uniform_real_distribution<double> unit(-1.0, 1.0);
       const double height = on_bench ? 0.5 * edge : 0.5;
-      Scene scene = scene_of({box("box", Vector3d::Constant(edge), mass, Vector3d(0, 0, height)),
-                              box("wall", Vector3d(0.1, 1.0, 1.0), 0.0, Vector3d(wall_x + 0.05, 0, 0.5))},
-                             ContactMode::stop);
+      scene::Scene scene = scene_of({box("box", Vector3d::Constant(edge), mass, Vector3d(0, 0, height)),
+                                     box("wall", Vector3d(0.1, 1.0, 1.0), 0.0, Vector3d(wall_x + 0.05, 0, 0.5))},
+                                    scene::ContactMode::stop);
       scene.gravity = on_bench ? 9.81 : 0.0;
       SimulationSettings set;
       set.fork.stiffness = {k, k, 0.01 * k};
@@ -51,13 +51,13 @@ TEST(StopExtremes, LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded) {
       double hardest = mass * scene.gravity, least = 0.0;
       for (int i = 1; i <= 150; ++i) {
         EXPECT_EQ(s.advance(0.02 * i).guards_tripped, 0);
-        const BodyState& o = s.objects()[0];
+        const bodies::BodyState& o = s.objects()[0];
         ASSERT_TRUE(o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite()) << mass << " " << k;
         EXPECT_LT(depth_of(o.X_WO, wall_x), 2.1e-5) << mass << " " << k << " " << i;
         EXPECT_LT(o.V_WO_W.linear.norm(), 1.5) << mass << " " << k << " " << i;  // the hand's fastest is 0.83 m/s
         const double now = energy(s, scene);
         double force = 0.0;
-        for (const ContactState& c : s.contacts()) force += c.force;
+        for (const contact::ContactState& c : s.contacts()) force += c.force;
         hardest = std::max(hardest, force);
         if (i <= 52) {
           least = now;
@@ -76,13 +76,13 @@ TEST(StopExtremes, AThousandTimesHeavierOrLighterRestsOnTheOther) {
     const Vector3d size = Vector3d::Constant(edge);
     Simulation s(scene_of({box("lower", size, 1.0, Vector3d(0, 0, 0.05)),
                            box("upper", size, upper_mass, Vector3d(0.02, 0, 0.15))},
-                          ContactMode::stop),
+                          scene::ContactMode::stop),
                  SimulationSettings());
     s.advance(0.0);
     s.place({{"lower", RigidTransform(Eigen::Translation3d(0, 0, 0.06))},
              {"upper", RigidTransform(Eigen::Translation3d(0.02, 0, 0.2))}});
     for (int i = 1; i <= 100; ++i) EXPECT_EQ(s.advance(0.02 * i).guards_tripped, 0);
-    for (const BodyState& o : s.objects()) {
+    for (const bodies::BodyState& o : s.objects()) {
       EXPECT_TRUE(o.asleep) << o.name << " " << upper_mass;
       EXPECT_NEAR(o.X_WO.translation().z(), o.name == "lower" ? 0.05 : 0.15, 1e-5) << upper_mass;
     }
@@ -96,7 +96,7 @@ TEST(StopExtremes, GraspedWhileItTouchesOrOverlapsItComesAlong) {
     for (const double k : {100.0, 1e5}) {
       Simulation s(scene_of({box("box", Vector3d::Constant(edge), 1.0, Vector3d(0, 0, 0.05)),
                              box("block", Vector3d(0.1, 1.0, 1.0), 0.0, Vector3d(0.1 - overlap, 0, 0.5))},
-                            ContactMode::stop),
+                            scene::ContactMode::stop),
                    [&] {
                      SimulationSettings set;
                      set.fork.stiffness = {k, k, 0.01 * k};
@@ -110,7 +110,7 @@ TEST(StopExtremes, GraspedWhileItTouchesOrOverlapsItComesAlong) {
       push_move(s, 1.52, 4.0, end, end);
       for (int i = 1; i <= 200; ++i) {
         EXPECT_EQ(s.advance(0.02 * i).guards_tripped, 0);
-        const BodyState& o = s.objects()[0];
+        const bodies::BodyState& o = s.objects()[0];
         ASSERT_TRUE(o.X_WO.matrix().allFinite());
         EXPECT_LT(depth_of(o.X_WO, 0.05 - overlap), overlap + 2e-5) << overlap << " " << k << " " << i;
         EXPECT_LT(o.V_WO_W.linear.norm(), 1.5 + overlap / 5e-3) << overlap << " " << k << " " << i;
@@ -121,11 +121,11 @@ TEST(StopExtremes, GraspedWhileItTouchesOrOverlapsItComesAlong) {
 }
 
 TEST(StopExtremes, AMasslessOneFollowsTheHandAndStaysOutOfTheBench) {
-  Body light = box("light", Vector3d::Constant(edge), 1.0, Vector3d(0, 0, 0.05));
-  light.mass_properties = MassProperties();
+  scene::Body light = box("light", Vector3d::Constant(edge), 1.0, Vector3d(0, 0, 0.05));
+  light.mass_properties = scene::MassProperties();
   SimulationSettings set;
   set.grasp.object = "light";
-  Simulation s(scene_of({light}, ContactMode::stop), set);
+  Simulation s(scene_of({light}, scene::ContactMode::stop), set);
   const Vector3d start(0, 0, 0.05 + set.fork.length);
   push_move(s, 0.0, 0.5, start, start + Vector3d(0.1, 0, -0.03), 0.5);
   push_move(s, 0.52, 1.0, start + Vector3d(0.1, 0, -0.03), start + Vector3d(0.2, 0, 0.1));
@@ -139,4 +139,4 @@ TEST(StopExtremes, AMasslessOneFollowsTheHandAndStaysOutOfTheBench) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

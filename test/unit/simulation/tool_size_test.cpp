@@ -8,7 +8,7 @@
 #include "spring_workbench/tools/calibration.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 constexpr double g = 9.81, reach = 0.2;
@@ -20,17 +20,17 @@ SimulationSettings settings(bool calibrate) {
   return set;
 }
 
-Scene one_box(const Vector3d& size, double mass) {
-  return scene_of({box("box", size, mass, start)}, ContactMode::none);
+scene::Scene one_box(const Vector3d& size, double mass) {
+  return scene_of({box("box", size, mass, start)}, scene::ContactMode::none);
 }
 
-double fitting_length(const Scene& scene) {
-  const MassProperties& m = scene.bodies[0].mass_properties;
-  return calibrated_length({m.mass, m.inertia_O, RigidTransform::Identity()});
+double fitting_length(const scene::Scene& scene) {
+  const scene::MassProperties& m = scene.bodies[0].mass_properties;
+  return tools::calibrated_length({m.mass, m.inertia_O, RigidTransform::Identity()});
 }
 
 /// By button, with the tip at `tip_O` in the box.
-Simulation grasped(const Scene& scene, const SimulationSettings& set, const Vector3d& tip_O) {
+Simulation grasped(const scene::Scene& scene, const SimulationSettings& set, const Vector3d& tip_O) {
   Simulation simulation(scene, set);
   simulation.push_stylus({0.0, pointing_down(start + tip_O + Vector3d(0.0, 0.0, reach))});
   simulation.push_button(0.0, true);
@@ -42,10 +42,10 @@ TEST(ToolSize, AGraspByButtonFitsTheForkToTheObjectAndMovesNothing) {
     for (const double mass : {1e-6, 1.0, 300.0, 1e6}) {
       for (const Vector3d& grasp : {Vector3d(0, 0, 0), Vector3d(0.045, 0, 0), Vector3d(0.045, 0.025, 0.015)}) {
         const Vector3d size = scale * Vector3d(0.1, 0.06, 0.04), tip = scale * grasp;
-        const Scene scene = one_box(size, mass);
+        const scene::Scene scene = one_box(size, mass);
         Simulation simulation = grasped(scene, settings(true), tip);
         simulation.advance(0.0);
-        const ToolState fork = simulation.fork();
+        const tools::ToolState fork = simulation.fork();
         ASSERT_EQ(fork.held_object, "box");
         EXPECT_NEAR(fork.length, fitting_length(scene), 1e-12);
         EXPECT_LT((simulation.objects()[0].X_WO.translation() - start).norm(), 1e-12);
@@ -62,11 +62,11 @@ TEST(ToolSize, AGraspByButtonFitsTheForkToTheObjectAndMovesNothing) {
 }
 
 TEST(ToolSize, TheDrawnForkIsAsThickAsTheObjectAsks) {
-  const Scene small = one_box({0.05, 0.03, 0.02}, 1.0), large = one_box({0.1, 0.06, 0.04}, 7.0);
+  const scene::Scene small = one_box({0.05, 0.03, 0.02}, 1.0), large = one_box({0.1, 0.06, 0.04}, 7.0);
   Simulation a = grasped(small, settings(true), Vector3d::Zero()), b = grasped(large, settings(true), Vector3d::Zero());
   a.advance(0.0);
   b.advance(0.0);
-  EXPECT_NEAR(coil_diameter(b.fork().length), 2.0 * coil_diameter(a.fork().length), 1e-12);
+  EXPECT_NEAR(fork_mesh::coil_diameter(b.fork().length), 2.0 * fork_mesh::coil_diameter(a.fork().length), 1e-12);
 }
 
 TEST(ToolSize, WithoutCalibrationTheForkKeepsItsLength) {
@@ -87,7 +87,7 @@ TEST(ToolSize, AfterTheReleaseTheHandReachesAsFarAsBefore) {
 
 /// The object hangs at rest on a fork of any stiffness: calibration gives it another size and stiffness, and it stays.
 TEST(ToolSize, CalibratingWhileHoldingMovesNothingAtRest) {
-  for (const std::string& shape : shape_model_names()) {
+  for (const std::string& shape : rod::shape_model_names()) {
     for (const double soft : {0.7, 1.0, 100.0}) {
       for (const Vector3d& tip : {Vector3d(0, 0, 0), Vector3d(0.04, 0.02, 0)}) {
         SimulationSettings set = settings(false);
@@ -95,7 +95,7 @@ TEST(ToolSize, CalibratingWhileHoldingMovesNothingAtRest) {
         set.fork.stiffness = {soft * 500.0, soft * 500.0, soft * 5.0};
         Simulation simulation = grasped(one_box({0.1, 0.06, 0.04}, 1.0), set, tip);
         simulation.advance(10.0);
-        const BodyState before = simulation.objects()[0];
+        const bodies::BodyState before = simulation.objects()[0];
         const Vector3d force = simulation.fork().tip_wrench_W.force;
         simulation.calibrate();
         EXPECT_LT((simulation.objects()[0].X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-12);
@@ -112,8 +112,8 @@ TEST(ToolSize, CalibratingWhileHoldingMovesNothingAtRest) {
 }
 
 TEST(ToolSize, CalibratingOnTheWayJumpsNeitherInPoseNorInTwist) {
-  for (const ForkDofs& dofs :
-       {ForkDofs{true, true, true}, ForkDofs{false, true, false}, ForkDofs{false, false, false}}) {
+  for (const rod::ForkDofs& dofs :
+       {rod::ForkDofs{true, true, true}, rod::ForkDofs{false, true, false}, rod::ForkDofs{false, false, false}}) {
     SimulationSettings set = settings(false);
     set.fork.dofs = dofs;
     Simulation simulation(one_box({0.1, 0.06, 0.04}, 1.0), set);
@@ -121,11 +121,11 @@ TEST(ToolSize, CalibratingOnTheWayJumpsNeitherInPoseNorInTwist) {
     push_move(simulation, 0.0, 1.0, from, from + Vector3d(0.3, 0.1, 0.2), 1.0);
     simulation.push_button(0.0, true);
     simulation.advance(0.5);
-    const BodyState before = simulation.objects()[0];
+    const bodies::BodyState before = simulation.objects()[0];
     simulation.calibrate();
     constexpr double h = 1e-6;
     simulation.advance(0.5 + h);
-    const BodyState& after = simulation.objects()[0];
+    const bodies::BodyState& after = simulation.objects()[0];
     EXPECT_LT((after.X_WO.translation() - before.X_WO.translation() - h * before.V_WO_W.linear).norm(), 1e-9);
     EXPECT_LT((after.V_WO_W.linear - before.V_WO_W.linear).norm(), 1e-3);
     EXPECT_LT((after.V_WO_W.angular - before.V_WO_W.angular).norm(), 1e-2);
@@ -133,4 +133,4 @@ TEST(ToolSize, CalibratingOnTheWayJumpsNeitherInPoseNorInTwist) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

@@ -7,7 +7,7 @@
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench {
+namespace spring_workbench::simulation {
 namespace {
 
 constexpr double g = 9.81;
@@ -23,7 +23,8 @@ SimulationSettings with_stiffness(double stretch, double bend, double torsion, c
 
 /// A box that both hands grasp, one after the other, the hands at rest.
 struct BothHold {
-  explicit BothHold(const SimulationSettings& set, double mass = 2.0, ContactMode contact = ContactMode::none)
+  explicit BothHold(const SimulationSettings& set, double mass = 2.0,
+                    scene::ContactMode contact = scene::ContactMode::none)
       : simulation(scene_of({box("box", size, mass, Vector3d(0, 0, 0.5))}, contact), set) {
     rest(0, left);
     rest(1, right);
@@ -40,7 +41,7 @@ struct BothHold {
 };
 
 TEST(TwoHands, ObjectOfTwoKilogramsOnTwoForksSagsHalf) {
-  for (const std::string& shape : shape_model_names()) {
+  for (const std::string& shape : rod::shape_model_names()) {
     for (const double k : {2e2, 2e3, 2e5, 2e9}) {
       const SimulationSettings set = with_stiffness(k, 500.0, 5.0, shape);
       BothHold two(set);
@@ -48,14 +49,14 @@ TEST(TwoHands, ObjectOfTwoKilogramsOnTwoForksSagsHalf) {
       ASSERT_EQ(two.simulation.fork(1).held_object, "box");
       two.simulation.advance(6.0);
       // Each began without strain: the first one sagged before the other grasped, so each has its own share.
-      const ToolState a = two.simulation.fork(0), b = two.simulation.fork(1);
+      const tools::ToolState a = two.simulation.fork(0), b = two.simulation.fork(1);
       EXPECT_NEAR(a.tip_wrench_W.force.z() + b.tip_wrench_W.force.z(), 2.0 * g, 1e-5 * 2.0 * g) << shape << k;
       EXPECT_LT(two.simulation.objects()[0].V_WO_W.linear.norm(), 1e-6) << shape << k;
     }
   }
   // Both at once: half the weight, and half the sag of one fork, on each.
   const double k = 2000.0;
-  Simulation simulation(scene_of({box("box", size, 2.0, Vector3d(0, 0, 0.5))}, ContactMode::none),
+  Simulation simulation(scene_of({box("box", size, 2.0, Vector3d(0, 0, 0.5))}, scene::ContactMode::none),
                         with_stiffness(k, 500.0, 5.0));
   for (std::size_t hand = 0; hand < 2; ++hand) {
     simulation.push_stylus({0.0, pointing_down(hand == 0 ? left : right)}, hand);
@@ -81,17 +82,17 @@ TEST(TwoHands, OneSpringAndOneForkShareTheWeight) {
 
 TEST(TwoHands, NoStiffnessMakesItBlowUp) {
   for (const double k : {0.0, 1.0, 1e6, 1e12}) {
-    for (const std::string& shape : shape_model_names()) {
-      for (const ForkDofs& dofs :
-           {ForkDofs{true, true, true}, ForkDofs{false, true, false}, ForkDofs{false, false, false}}) {
+    for (const std::string& shape : rod::shape_model_names()) {
+      for (const rod::ForkDofs& dofs :
+           {rod::ForkDofs{true, true, true}, rod::ForkDofs{false, true, false}, rod::ForkDofs{false, false, false}}) {
         SimulationSettings set = with_stiffness(k, k, 1e-2 * k, shape);
         set.fork.dofs = dofs;
-        BothHold two(set, 0.5, ContactMode::stop);
+        BothHold two(set, 0.5, scene::ContactMode::stop);
         push_move(two.simulation, 0.22, 1.0, left, left + Vector3d(0.1, 0.05, 0.1), 0.4, 0);
         push_move(two.simulation, 0.22, 1.0, right, right + Vector3d(0.1, 0.05, 0.1), 0.4, 1);
         for (double t = 0.3; t < 2.0; t += 0.05) {
           two.simulation.advance(t);
-          const BodyState& o = two.simulation.objects()[0];
+          const bodies::BodyState& o = two.simulation.objects()[0];
           ASSERT_TRUE(o.X_WO.matrix().allFinite()) << k << shape;
           ASSERT_LT(o.V_WO_W.linear.norm(), 5.0) << k << shape;
           ASSERT_LT(o.X_WO.translation().norm(), 1.0) << k << shape;
@@ -103,12 +104,12 @@ TEST(TwoHands, NoStiffnessMakesItBlowUp) {
 
 /// Whatever the forks' stiffness: the second one takes over what the springs of both have done.
 TEST(TwoHands, HandoverMovesTheObjectLessThanAMillimetre) {
-  for (const std::string& shape : shape_model_names()) {
+  for (const std::string& shape : rod::shape_model_names()) {
     for (const double soft : {0.5, 1.0, 10.0, 100.0}) {  // 1: what calibration gives 2 kg on a fork of 0.2 m
       const double k = soft * 2.0 * g / 0.02;
       BothHold two(with_stiffness(k, k, 5.0 * soft, shape));
       two.simulation.advance(6.0);
-      const BodyState before = two.simulation.objects()[0];
+      const bodies::BodyState before = two.simulation.objects()[0];
       const double height = before.X_WO.translation().z();
       two.simulation.push_button(6.0, false, 0);
       two.simulation.advance(6.0 + 1e-6);
@@ -119,7 +120,7 @@ TEST(TwoHands, HandoverMovesTheObjectLessThanAMillimetre) {
       double farthest = 0.0, most_turned = 0.0, fastest = 0.0;
       for (double t = 6.01; t < 8.0; t += 0.01) {
         two.simulation.advance(t);
-        const BodyState& o = two.simulation.objects()[0];
+        const bodies::BodyState& o = two.simulation.objects()[0];
         farthest = std::max(farthest, (o.X_WO.translation() - before.X_WO.translation()).norm());
         most_turned = std::max(most_turned, (o.X_WO.linear() - before.X_WO.linear()).norm());
         fastest = std::max(fastest, o.V_WO_W.linear.norm());
@@ -178,7 +179,7 @@ TEST(TwoHands, HandoverFromAForkToASpringKeepsTheHeight) {
 TEST(TwoHands, HandoverBetweenRigidToolsMovesNothing) {
   SimulationSettings set;
   set.tool = "direct";
-  Simulation simulation(scene_of({box("box", size, 2.0, Vector3d(0, 0, 0.5))}, ContactMode::none), set);
+  Simulation simulation(scene_of({box("box", size, 2.0, Vector3d(0, 0, 0.5))}, scene::ContactMode::none), set);
   for (std::size_t hand = 0; hand < 2; ++hand) {
     simulation.push_stylus({0.0, pointing_down({hand == 0 ? -0.05 : 0.05, 0.0, 0.5})}, hand);
   }
@@ -197,7 +198,7 @@ TEST(TwoHands, TwoObjectsAreHeldIndependently) {
   const auto run = [](bool second) {
     Simulation simulation(scene_of({box("a", {0.06, 0.06, 0.04}, 1.0, Vector3d(-0.05, 0, 0.5)),
                                     box("b", {0.06, 0.06, 0.04}, 2.0, Vector3d(0.05, 0, 0.5))},
-                                   ContactMode::none),
+                                   scene::ContactMode::none),
                           SimulationSettings());
     push_move(simulation, 0.0, 1.0, left, left + Vector3d(0.1, 0.0, 0.1), 0.5, 0);
     simulation.push_button(0.0, true, 0);
@@ -227,8 +228,8 @@ TEST(TwoHands, LetGoByBothItFalls) {
 }
 
 TEST(TwoHands, AnObjectWithoutMassIsHeldByBothAndStays) {
-  Scene scene = scene_of({box("box", size, 1.0, Vector3d(0, 0, 0.5))}, ContactMode::none);
-  scene.bodies[0].mass_properties = MassProperties();
+  scene::Scene scene = scene_of({box("box", size, 1.0, Vector3d(0, 0, 0.5))}, scene::ContactMode::none);
+  scene.bodies[0].mass_properties = scene::MassProperties();
   Simulation simulation(scene, SimulationSettings());
   for (std::size_t hand = 0; hand < 2; ++hand) {
     push_move(simulation, 0.0, 1.0, hand == 0 ? left : right, (hand == 0 ? left : right) + Vector3d(0.1, 0.0, 0.1), 0.0,
@@ -240,7 +241,7 @@ TEST(TwoHands, AnObjectWithoutMassIsHeldByBothAndStays) {
 }
 
 TEST(NextTool, GoesThroughAllTools) {
-  Simulation simulation(scene_of({}, ContactMode::none), SimulationSettings());
+  Simulation simulation(scene_of({}, scene::ContactMode::none), SimulationSettings());
   simulation.push_stylus({0.0, pointing_down(left)});
   std::vector<std::string> seen;
   for (int press = 0; press < 5; ++press) {
@@ -252,7 +253,7 @@ TEST(NextTool, GoesThroughAllTools) {
 }
 
 TEST(NextTool, WhileHoldingGoesThroughThoseThatHoldWithoutAJump) {
-  Simulation simulation(scene_of({box("box", size, 1.0, Vector3d(0, 0, 0.5))}, ContactMode::none),
+  Simulation simulation(scene_of({box("box", size, 1.0, Vector3d(0, 0, 0.5))}, scene::ContactMode::none),
                         SimulationSettings());
   push_move(simulation, 0.0, 2.0, left, left + Vector3d(0.2, 0.0, 0.0), 1.0);
   std::vector<std::string> seen;
@@ -263,11 +264,11 @@ TEST(NextTool, WhileHoldingGoesThroughThoseThatHoldWithoutAJump) {
   for (int press = 0; press < 4; ++press) {
     const double t = 0.4 + 0.1 * press;
     simulation.advance(t);
-    const BodyState before = simulation.objects()[0];
+    const bodies::BodyState before = simulation.objects()[0];
     simulation.push_next_tool(t);
     simulation.advance(t);
     simulation.advance(t + 1e-6);
-    const BodyState& after = simulation.objects()[0];
+    const bodies::BodyState& after = simulation.objects()[0];
     EXPECT_LT((after.X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-5) << press;
     EXPECT_LT((after.V_WO_W.linear - before.V_WO_W.linear).norm(), 1e-3) << press;
     EXPECT_EQ(simulation.fork().held_object, "box");
@@ -277,4 +278,4 @@ TEST(NextTool, WhileHoldingGoesThroughThoseThatHoldWithoutAJump) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::simulation

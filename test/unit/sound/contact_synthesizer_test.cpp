@@ -5,9 +5,9 @@
 #include <cmath>
 #include <limits>
 
-#include "spring_workbench/config/input_error.h"
+#include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench {
+namespace spring_workbench::sound {
 namespace {
 
 constexpr std::size_t second = ContactSynthesizer::sample_rate;
@@ -95,9 +95,9 @@ TEST(ContactSynthesizer, VolumeScales) {
   const std::vector<float> a = loud.render(second), b = soft.render(second);
   for (std::size_t i = 0; i < a.size(); ++i) ASSERT_NEAR(a[i], 2.0f * b[i], 1e-6f);
   EXPECT_EQ(energy(mute.render(second)), 0.0);
-  EXPECT_THROW(ContactSynthesizer(1.1), InputError);
-  EXPECT_THROW(ContactSynthesizer(std::nan("")), InputError);
+  EXPECT_THROW(ContactSynthesizer(1.1), validation::InputError);
+  EXPECT_THROW(ContactSynthesizer(std::nan("")), validation::InputError);
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::sound

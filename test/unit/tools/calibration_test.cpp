@@ -8,7 +8,7 @@
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench {
+namespace spring_workbench::tools {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -16,10 +16,10 @@ constexpr double length = 0.2, gravity = 9.81;
 const Vector3d box_size(0.1, 0.06, 0.04);  // [m]
 
 /// A box, held by a fork along its −z axis with the tip at `p_OE`.
-BodyInertia box(double mass, const Vector3d& p_OE) {
+dynamics::BodyInertia box(double mass, const Vector3d& p_OE) {
   const Vector3d s = box_size.cwiseAbs2() * mass / 12.0;
-  BodyInertia body{mass, Vector3d(s.y() + s.z(), s.x() + s.z(), s.x() + s.y()).asDiagonal(),
-                   RigidTransform::Identity()};
+  dynamics::BodyInertia body{mass, Vector3d(s.y() + s.z(), s.x() + s.z(), s.x() + s.y()).asDiagonal(),
+                             RigidTransform::Identity()};
   body.X_OE.translation() = p_OE;
   return body;
 }
@@ -29,31 +29,32 @@ const std::vector<Vector3d> grasps = {Vector3d::Zero(), Vector3d(0.05, 0.0, 0.0)
 
 /// The body on the calibrated fork, where it comes to rest by itself: no solver of equilibria here.
 struct Held {
-  Held(const BodyInertia& body, const PerFamily& stiffness, const Vector3d& turn)
-      : held(make_shape_model("linear", length), body, gravity),
-        integrator(make_integrator("exponential")),
+  Held(const dynamics::BodyInertia& body, const rod::PerFamily& stiffness, const Vector3d& turn)
+      : held(rod::make_shape_model("linear", length), body, gravity),
+        integrator(dynamics::make_integrator("exponential")),
         hand(pose(turn)) {
     const int size = held.shape().size();
-    state = {StrainVector::Zero(size), StrainVector::Zero(size)};
+    state = {rod::StrainVector::Zero(size), rod::StrainVector::Zero(size)};
     held.set_springs_with_modal_damping(stiffness, 1.0);
     state = held.set_dofs({true, true, true}, 0.0, 1.0, state);
   }
   static RigidTransform pose(const Vector3d& turn) {
     RigidTransform X = RigidTransform::Identity();
-    X.linear() = exp_so3(turn);
+    X.linear() = math::exp_so3(turn);
     return X;
   }
   void run(double seconds) {
     constexpr double h = 0.005;
-    for (double end = t + seconds; t < end - 1e-9; t += h) integrator->step(held, MotionSegment(hand), t, h, state);
+    for (double end = t + seconds; t < end - 1e-9; t += h)
+      integrator->step(held, motion::MotionSegment(hand), t, h, state);
   }
   double extension() const { return held.shape().extension(state.q); }
   double deflection() const { return held.shape().section(state.q, length).translation().head<2>().norm(); }
 
-  HeldBody held;
-  std::unique_ptr<Integrator> integrator;
+  dynamics::HeldBody held;
+  std::unique_ptr<dynamics::Integrator> integrator;
   RigidTransform hand;
-  StrainState state;
+  dynamics::StrainState state;
   double t = 0.0;
 };
 
@@ -63,8 +64,8 @@ TEST(Calibration, StaticSagIsTheSetPartOfTheLengthOverTwelveDecadesOfMassWhereve
   const CalibrationGoal goal;
   for (double mass = 1e-6; mass < 2e6; mass *= 1e4) {
     for (const Vector3d& p_OE : grasps) {
-      const BodyInertia body = box(mass, p_OE);
-      const PerFamily fork = calibrated_stiffness("linear", length, body, gravity, goal);
+      const dynamics::BodyInertia body = box(mass, p_OE);
+      const rod::PerFamily fork = calibrated_stiffness("linear", length, body, gravity, goal);
       Held down(body, fork, hanging), across(body, fork, level);
       down.run(3.0);
       across.run(3.0);
@@ -75,10 +76,10 @@ TEST(Calibration, StaticSagIsTheSetPartOfTheLengthOverTwelveDecadesOfMassWhereve
 }
 
 /// A held body at rest without gravity, all families on, as calibration sets it up.
-HeldBody calibrated(const BodyInertia& body, double ratio) {
-  HeldBody held(make_shape_model("linear", length), body, 0.0);
+dynamics::HeldBody calibrated(const dynamics::BodyInertia& body, double ratio) {
+  dynamics::HeldBody held(rod::make_shape_model("linear", length), body, 0.0);
   held.set_springs_with_modal_damping(calibrated_stiffness("linear", length, body, gravity), ratio);
-  held.set_dofs({true, true, true}, 0.0, 1.0, {StrainVector::Zero(6), StrainVector::Zero(6)});
+  held.set_dofs({true, true, true}, 0.0, 1.0, {rod::StrainVector::Zero(6), rod::StrainVector::Zero(6)});
   return held;
 }
 
@@ -86,10 +87,10 @@ TEST(Calibration, EveryModeHasTheDampingRatioWhereverTheGraspIs) {
   for (const double ratio : {0.1, 1.0, 3.0}) {
     for (double mass = 1e-6; mass < 2e6; mass *= 1e4) {
       for (const Vector3d& p_OE : grasps) {
-        const HeldBody held = calibrated(box(mass, p_OE), ratio);
-        const StrainMatrix K = held.stiffness().asDiagonal();
+        const dynamics::HeldBody held = calibrated(box(mass, p_OE), ratio);
+        const rod::StrainMatrix K = held.stiffness().asDiagonal();
         const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> modes(
-            K, held.mass_matrix(0.0, StrainVector::Zero(6)));
+            K, held.mass_matrix(0.0, rod::StrainVector::Zero(6)));
         const Eigen::MatrixXd D = modes.eigenvectors().transpose() * held.damping() * modes.eigenvectors();
         const Eigen::VectorXd omega = modes.eigenvalues().cwiseSqrt();
         EXPECT_LT((D - Eigen::MatrixXd((2.0 * ratio * omega).asDiagonal())).norm(), 1e-6 * D.norm()) << mass;
@@ -100,18 +101,18 @@ TEST(Calibration, EveryModeHasTheDampingRatioWhereverTheGraspIs) {
 
 /// The object pushed aside by a small steady load along one direction, and let go: the time after which it stays within
 /// 2 %.
-double settling_time(const BodyInertia& body, int direction) {
-  const HeldBody held = calibrated(body, 1.0);
-  const auto integrator = make_integrator("exponential");
-  const MotionSegment hand{RigidTransform::Identity()};
-  const auto place = [&](const StrainState& state) {
+double settling_time(const dynamics::BodyInertia& body, int direction) {
+  const dynamics::HeldBody held = calibrated(body, 1.0);
+  const auto integrator = dynamics::make_integrator("exponential");
+  const motion::MotionSegment hand{RigidTransform::Identity()};
+  const auto place = [&](const dynamics::StrainState& state) {
     const RigidTransform X = held.object(held.forcing(hand, 0.0), state).X;
-    return direction < 3 ? X.translation()[direction] : log_so3(X.linear())[direction - 3];
+    return direction < 3 ? X.translation()[direction] : math::log_so3(X.linear())[direction - 3];
   };
-  const StrainState zero{StrainVector::Zero(6), StrainVector::Zero(6)};
+  const dynamics::StrainState zero{rod::StrainVector::Zero(6), rod::StrainVector::Zero(6)};
   Eigen::Matrix<double, 6, 1> load = Eigen::Matrix<double, 6, 1>::Zero();
   load[direction] = 1e-3 * body.mass * (direction < 3 ? 1.0 : box_size.norm());
-  StrainState state = zero;
+  dynamics::StrainState state = zero;
   state.q = (held.object_jacobian(0.0, zero.q).transpose() * load).cwiseQuotient(held.stiffness());
   const double start = place(state) - place(zero);
   constexpr double h = 0.002;
@@ -143,7 +144,7 @@ TEST(Calibration, EveryDirectionSettlesAlikeOverTwelveDecadesOfMass) {
 }
 
 TEST(Calibration, NoLoadNoGravityStaysPositive) {
-  const PerFamily fork = calibrated_stiffness("linear", length, box(1.0, Vector3d::Zero()), 0.0);
+  const rod::PerFamily fork = calibrated_stiffness("linear", length, box(1.0, Vector3d::Zero()), 0.0);
   EXPECT_GT(fork.stretch, 0.0);
   EXPECT_GT(fork.torsion, 0.0);
 }
@@ -151,10 +152,10 @@ TEST(Calibration, NoLoadNoGravityStaysPositive) {
 TEST(Calibration, LengthGrowsWithTheObjectAndNotWithItsMass) {
   const double one = calibrated_length(box(1.0, Vector3d::Zero()));
   EXPECT_NEAR(calibrated_length(box(1e6, Vector3d::Zero())), one, 1e-12);
-  BodyInertia large = box(1.0, Vector3d::Zero());
+  dynamics::BodyInertia large = box(1.0, Vector3d::Zero());
   large.inertia_O *= 4.0;
   EXPECT_NEAR(calibrated_length(large), 2.0 * one, 1e-12);
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::tools

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spring_workbench {
+namespace spring_workbench::tools {
 namespace {
 
 TEST(GraspSelection, PressingInsideGraspsAndLettingGoReleases) {
@@ -24,4 +24,4 @@ TEST(GraspSelection, PressingInTheAirGraspsNothingLater) {
 }
 
 }  // namespace
-}  // namespace spring_workbench
+}  // namespace spring_workbench::tools

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+
+#include "spring_workbench/scene/scene.h"
+
+namespace spring_workbench::assembly {
+
+/// How an object lies beside its target.
+struct Placement {
+  std::string object;
+  double position_error = 0.0;  ///< distance of the link frame's origin from the target's [m]
+  double angle_error = 0.0;     ///< angle of the rotation between them, 0 … π [rad]
+  bool in_place = false;        ///< both are within the target's tolerances, and nobody holds the object
+};
+
+/// Judges the body with its object frame at `X_WO`.
+Placement judge_placement(const scene::Body& body, const scene::Target& target, const RigidTransform& X_WO, bool held);
+
+/// Whether the target asks for an angle at all: a tolerance of half a turn or more allows every one.
+bool angle_matters(const scene::Target& target);
+
+}  // namespace spring_workbench::assembly

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "spring_workbench/math/rigid_transform.h"
+
+namespace spring_workbench::bodies {
+
+/// State of one movable object, at its object frame O (centre of mass), in world axes.
+struct BodyState {
+  std::string name;
+  RigidTransform X_WO = RigidTransform::Identity();
+  Twist V_WO_W;  ///< [m/s, rad/s]
+  bool held = false;
+  bool highlighted = false;  ///< the fork's tip is in it and the button is up
+  bool in_contact = false;
+  bool asleep = true;
+};
+
+}  // namespace spring_workbench::bodies

@@ -1,0 +1,47 @@
+#pragma once
+
+#include "spring_workbench/bodies/stepped_body.h"
+#include "spring_workbench/motion/pose_track.h"
+#include "spring_workbench/scene/scene.h"
+
+namespace spring_workbench::bodies {
+
+/// A body that nobody holds: its centre of mass on a parabola, its rotation free of torque but for contact.
+class FreeBody final : public SteppedBody {
+ public:
+  /// Keeps a reference to `body`. `gravity` [m/s²] along −z.
+  FreeBody(std::size_t index, const scene::Body& body, double gravity, const RigidTransform& X_WO, const Twist& V_WO_W);
+
+  std::size_t index() const override { return index_; }
+  motion::MotionState object() const override;
+  bool advance(double h, const Wrench& contact_W) override;
+  void remember() override { remembered_ = state_; }
+  void go_back() override { state_ = remembered_; }
+  Answer answer(double h) const override { return {0.5 * h * h * mobility(), h * mobility()}; }
+  Matrix6d mobility() const override;
+  void add_impulse(const Wrench& impulse_W) override;
+  bool turns_round() const override { return true; }
+  void stay(double h) override;
+
+  void set_twist(const Twist& V_WO_W);
+  /// Pose and velocity.
+  void set_motion(const motion::MotionState& object);
+  /// Position [m] and velocity [m/s] of the centre of mass, world axes; the rotation goes on as it is.
+  void set_motion_of_centre(const Vector3d& p_WO, const Vector3d& v_WO_W);
+
+ private:
+  struct State {
+    RigidTransform X_WO;
+    Vector3d velocity;          ///< world axes
+    Vector3d angular_momentum;  ///< about the centre of mass, world axes: constant without contact
+  };
+  Vector3d angular_velocity(const Matrix3d& R_WO, const Vector3d& angular_momentum) const;
+
+  std::size_t index_;
+  double mass_;
+  Matrix3d inertia_O_, inverse_inertia_O_;
+  double gravity_;
+  State state_, remembered_;
+};
+
+}  // namespace spring_workbench::bodies

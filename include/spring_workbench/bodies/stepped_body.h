@@ -1,0 +1,49 @@
+#pragma once
+
+#include "spring_workbench/math/spatial.h"
+#include "spring_workbench/motion/pose_track.h"
+
+namespace spring_workbench::bodies {
+
+inline bool is_finite(const motion::MotionState& s) {
+  return s.X.matrix().allFinite() && s.velocity.linear.allFinite() && s.velocity.angular.allFinite();
+}
+
+/// A body that contact can carry over a step again and again until its load fits: the held body on its fork, or a free
+/// one.
+class SteppedBody {
+ public:
+  virtual ~SteppedBody() = default;
+
+  virtual std::size_t index() const = 0;  ///< in the scene
+  /// Pose and velocity of the object frame at present, world axes.
+  virtual motion::MotionState object() const = 0;
+
+  /// Goes `h` [s] on under a constant wrench at the centre of mass, world axes; false where the result is not one to go
+  /// on from (not finite, or out of bounds), and then nothing has changed.
+  virtual bool advance(double h, const Wrench& contact_W) = 0;
+  /// The last advance() was not a trial: the body stays there.
+  virtual void accept() {}
+  /// The state to come back to, and coming back to it.
+  virtual void remember() = 0;
+  virtual void go_back() = 0;
+
+  /// How a constant wrench over a step changes the displacement and the velocity at its end; 6 × 6 [linear; angular].
+  struct Answer {
+    Matrix6d displacement, velocity;
+  };
+  virtual Answer answer(double h) const = 0;
+  /// How an impulse changes the velocity.
+  virtual Matrix6d mobility() const = 0;
+  virtual void add_impulse(const Wrench& impulse_W) = 0;
+  /// Whether its way over a step is the mean of the velocities at both ends, times the step: what holds it in its place
+  /// then leaves it with its velocity turned round.
+  virtual bool turns_round() const { return false; }
+  /// Lets `h` [s] pass at rest where it is: the way out when nothing else fits.
+  virtual void stay(double h) = 0;
+  /// Lets `h` [s] pass with its tool rigid, as one that has come to the end of its way: the way out where nothing can
+  /// be in the way. Adds no energy while the hand rests.
+  virtual void go_along(double h) { stay(h); }
+};
+
+}  // namespace spring_workbench::bodies

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+#include "spring_workbench/bodies/body_state.h"
+#include "spring_workbench/contact/contact_state.h"
+#include "spring_workbench/contact/contact_stepper.h"
+
+namespace spring_workbench::contact {
+
+/// Which objects touch what, and since when: what `Simulation::contacts` tells.
+class ContactLog {
+ public:
+  explicit ContactLog(const scene::Scene& scene) : scene_(scene) {}
+
+  /// Forgets all; from now on for so many objects.
+  void reset(std::size_t objects);
+  /// Contacts of one object after a step of `h` [s]. An object without a step keeps its contacts.
+  void note(std::size_t object, const bodies::BodyState& state, const std::vector<ContactRow>& rows, double h);
+  const std::vector<ContactState>& touching(std::size_t object) const { return touching_[object]; }
+
+  /// A call of `advance` begins and ends: `told` are then the contacts of that call with their phases.
+  void begin_call();
+  void end_call();
+  const std::vector<ContactState>& told() const { return told_; }
+
+ private:
+  std::vector<ContactState> all() const;
+
+  const scene::Scene& scene_;
+  std::vector<std::vector<ContactState>> touching_;  ///< by object: contacts after its last step
+  std::set<std::size_t> with_contacts_;              ///< objects that touch something
+  std::vector<ContactState> before_;                 ///< when the call began
+  std::vector<ContactState> ended_;                  ///< since they were told last
+  std::vector<ContactState> told_;
+};
+
+}  // namespace spring_workbench::contact

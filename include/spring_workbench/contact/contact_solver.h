@@ -1,0 +1,30 @@
+#pragma once
+
+#include <vector>
+
+#include "spring_workbench/collision/collision_world.h"
+#include "spring_workbench/math/spatial.h"
+
+namespace spring_workbench::contact {
+
+/// A contact as the solver sees it. The body's motion at its centre of mass is [displacement; rotation] or, for
+/// impulses, [velocity; angular velocity], in world axes.
+struct ContactRow {
+  collision::ContactPoint point;
+  Vector3d lever_W = Vector3d::Zero();  ///< from the body's centre of mass to the point
+  double friction = 0.0;                ///< of the pair
+  double gap = 0.0;                     ///< along the normal, for the load assumed so far: must not become negative
+  Vector3d slip_W = Vector3d::Zero();   ///< across the normal, for the load assumed so far: friction opposes it
+  Vector3d load_W = Vector3d::Zero();   ///< force (impulse) on the body; in: assumed, out: solved
+};
+
+/// Finds the loads that leave every gap ≥ 0, press only, and keep to Coulomb's friction: gap ≥ 0 ⊥ normal load ≥ 0, and
+/// the slip vanishes or the friction is μ times the normal load against it. `compliance` (6 × 6, symmetric, not
+/// negative) says how a wrench at the centre of mass changes the body's motion. Projected Gauss–Seidel, contact by
+/// contact.
+void solve_contacts(const Matrix6d& compliance, std::vector<ContactRow>& rows);
+
+/// Sum of the rows' loads as a wrench at the centre of mass, world axes.
+Wrench total_load(const std::vector<ContactRow>& rows);
+
+}  // namespace spring_workbench::contact

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "spring_workbench/math/rigid_transform.h"
+
+namespace spring_workbench::contact {
+
+/// Where a contact is in its life.
+enum class ContactPhase { started, persisting, ended };
+
+/// A contact of an object, in world axes.
+struct ContactState {
+  std::string object;
+  std::string other;                 ///< another object's name, or "workbench"
+  Vector3d p_W = Vector3d::Zero();   ///< [m]
+  Vector3d n_W = Vector3d::UnitZ();  ///< towards `object`
+  double depth = 0.0;                ///< penetration [m]
+  double impulse = 0.0;              ///< normal impulse in the last step [N·s]
+  double force = 0.0;                ///< the same as a mean force over that step [N]
+  double slip_speed = 0.0;           ///< [m/s]
+  ContactPhase phase = ContactPhase::started;
+};
+
+}  // namespace spring_workbench::contact

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "spring_workbench/bodies/stepped_body.h"
+#include "spring_workbench/rigid_bodies/rigid_world.h"
+
+namespace spring_workbench::contact {
+
+/// Contact mode `dynamic` (doc/model.md) where movable bodies are near: held bodies and all movable ones in one
+/// rigid-body world. A held body that nothing can touch is carried by its own integrator alone; near others, all go on
+/// together in short pieces, in which the held body answers to contact with the compliance of its fork.
+class DynamicStepper {
+ public:
+  explicit DynamicStepper(const scene::Scene& scene);
+
+  rigid_bodies::RigidWorld& world() { return *world_; }
+  const rigid_bodies::RigidWorld& world() const { return *world_; }
+
+  struct Outcome {
+    int pieces = 0;
+    bool held_back = false;  ///< contact left a held body no way, and it was stopped
+    bool refused = false;    ///< a piece without contact would not have been finite or bounded
+  };
+  /// Carries the held bodies and the world over `h` [s].
+  Outcome step(const std::vector<bodies::SteppedBody*>& held, double h);
+  /// Puts a body that nobody holds any more on its way.
+  void set_free(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W);
+  /// Whether a body that is not held moves.
+  bool others_awake() const;
+  /// The bodies of a contact are a movable one and another; a held one comes first. Contacts since the last call of
+  /// step began; impulses are sums over its pieces, places those of the last.
+  const std::vector<rigid_bodies::WorldContact>& contacts() const { return contacts_; }
+
+ private:
+  /// A held body's way over a piece under the contact load of the last one, at whose end the body then is.
+  struct Candidate {
+    motion::MotionState begin, end;
+    Wrench load_W;
+    Wrench impact_W;  ///< the impulse at its begin
+    bool possible = false;
+  };
+  Candidate try_piece(bodies::SteppedBody& body, double h) const;
+  /// Whether nothing is in the way of any of them, and nothing that is not held moves.
+  bool all_free(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates) const;
+  /// What goes into the world of a candidate: its way without the load, and how its end answers to one. The body is at
+  /// its begin.
+  static rigid_bodies::DrivenBody driven_body(const bodies::SteppedBody& body, const Candidate& candidate, double h);
+  /// The candidates are where the bodies go.
+  void go_freely(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates, double h,
+                 Outcome& outcome);
+  enum class Piece { gone, too_long, stuck };
+  /// Carries all over one piece with contact, unless that would bring a body too deep into something or through it;
+  /// then all are where they were, and `h` is a piece to try instead, or none is short enough.
+  Piece go_in_contact(const std::vector<bodies::SteppedBody*>& held, std::vector<Candidate> candidates, double& h);
+  /// The world goes on over a piece, and says what contact does to the held bodies, which are at their begin.
+  std::vector<rigid_bodies::DrivenBody> solve(const std::vector<bodies::SteppedBody*>& held,
+                                              const std::vector<Candidate>& candidates, double h);
+  /// The held bodies go over a piece under these loads; which part of their ways is sound.
+  double sound_part(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates,
+                    const std::vector<rigid_bodies::DrivenBody>& driven, double h) const;
+  /// The same of the ways that the solver foresaw for them.
+  double foreseen_sound_part(const std::vector<rigid_bodies::DrivenBody>& driven) const;
+  /// The held bodies stay where they are for one piece, while the others go on.
+  void hold_back(const std::vector<bodies::SteppedBody*>& held, double h, Outcome& outcome);
+  void take(bodies::SteppedBody& body, const Wrench& contact_W);
+  void add_contacts();
+  bool comes_first(std::size_t body, std::size_t other) const;
+
+  const scene::Scene& scene_;
+  std::unique_ptr<rigid_bodies::RigidWorld> world_;
+  std::vector<rigid_bodies::WorldContact> contacts_;
+  std::vector<std::size_t> held_;         ///< in the last step
+  std::map<std::size_t, Wrench> load_W_;  ///< of contact on held bodies in the last piece
+  double shortest_piece_ = 0.0;           ///< [s] of the present step
+};
+
+}  // namespace spring_workbench::contact

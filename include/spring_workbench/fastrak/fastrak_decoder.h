@@ -1,0 +1,46 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "spring_workbench/fastrak/fastrak_protocol.h"
+
+namespace spring_workbench::fastrak {
+
+/// Another record than data: the answer to a command (status, a list read back, an error), without its end of line.
+struct FastrakReply {
+  std::string text;
+};
+
+using FastrakMessage = std::variant<FastrakRecord, FastrakReply>;
+
+/// Finds records in a stream of bytes that may be cut, glued, mixed with garbage or of another mode. The same bytes
+/// give the same messages, however they are split over the calls.
+class FastrakDecoder {
+ public:
+  /// `layouts`: of the stations that may report. Without any, only replies are found.
+  explicit FastrakDecoder(const std::map<int, FastrakLayout>& layouts = {});
+
+  /// The records that are complete with these bytes, in order.
+  std::vector<FastrakMessage> decode(std::string_view bytes);
+
+  /// How many bytes were no part of any record, so far.
+  std::size_t bytes_left_out() const { return left_out_; }
+
+ private:
+  enum class Look { found, unfinished, nothing };
+  Look look_for_record(std::string_view bytes, std::vector<FastrakMessage>& found, std::size_t& length) const;
+  static Look look_for_reply(std::string_view bytes, std::vector<FastrakMessage>& found, std::size_t& length);
+
+  std::array<std::optional<FastrakLayout>, kFastrakStations> layouts_;
+  std::string pending_;  ///< bytes of which it is not clear yet what they are
+  std::size_t left_out_ = 0;
+};
+
+}  // namespace spring_workbench::fastrak

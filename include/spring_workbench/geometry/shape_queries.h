@@ -1,0 +1,31 @@
+#pragma once
+
+#include "spring_workbench/geometry/shapes.h"
+
+namespace spring_workbench::geometry {
+
+/// Volume [m³], centre and inertia of a closed shape of uniform density, in the shape's own frame; exact for every
+/// kind.
+struct VolumeProperties {
+  double volume = 0.0;
+  Vector3d centre = Vector3d::Zero();
+  Matrix3d inertia_per_density = Matrix3d::Zero();  ///< about the centre [m⁵]
+};
+VolumeProperties volume_properties(const Geometry& geometry);
+
+/// Whether the point `p_S` [m] (in the shape's frame) lies inside the closed shape. Meshes by winding number.
+bool contains(const Geometry& geometry, const Vector3d& p_S);
+
+/// Smallest axis-aligned box of a shape in the frame A that `X_AS` places it in; by default in its own frame.
+Eigen::AlignedBox3d bounding_box(const Geometry& geometry, const RigidTransform& X_AS = RigidTransform::Identity());
+
+/// Axis-aligned box of shapes in the frame O that they are placed in; empty without shapes.
+Eigen::AlignedBox3d bounding_box(const std::vector<Shape>& shapes);
+
+/// Whether the point `p_O` lies inside one of the shapes.
+bool contains(const std::vector<Shape>& shapes, const Vector3d& p_O);
+
+/// Largest distance of a point of the shapes from the origin of O [m]; 0 without shapes.
+double bounding_radius(const std::vector<Shape>& shapes);
+
+}  // namespace spring_workbench::geometry

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "spring_workbench/math/rigid_transform.h"
+
+namespace spring_workbench::geometry {
+
+struct Box {
+  Vector3d size;  ///< full edge lengths [m]
+};
+struct Sphere {
+  double radius;  ///< [m]
+};
+/// Axis along z, centred at the origin.
+struct Cylinder {
+  double radius;  ///< [m]
+  double length;  ///< [m]
+};
+/// Triangles in the shape's frame; shared, never changed after loading.
+struct TriangleMesh {
+  std::vector<Vector3d> vertices;          ///< [m]
+  std::vector<Eigen::Vector3i> triangles;  ///< indices into `vertices`, counter-clockwise from outside
+  std::string uri;                         ///< where it came from, for markers
+  Vector3d scale = Vector3d::Ones();       ///< already applied to `vertices`
+};
+using MeshPtr = std::shared_ptr<const TriangleMesh>;
+using Geometry = std::variant<Box, Sphere, Cylinder, MeshPtr>;
+
+/// A piece of a body, placed in the body's object frame O (axes of the URDF link, origin at the centre of mass).
+struct Shape {
+  Geometry geometry;
+  RigidTransform X_OS = RigidTransform::Identity();
+  Eigen::Vector4d color = Eigen::Vector4d(0.7, 0.7, 0.7, 1.0);  ///< r, g, b, alpha in 0 … 1
+};
+
+}  // namespace spring_workbench::geometry

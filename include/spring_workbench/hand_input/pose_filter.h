@@ -1,0 +1,32 @@
+#pragma once
+
+#include "spring_workbench/hand_input/settings.h"
+#include "spring_workbench/motion/pose_track.h"
+
+namespace spring_workbench::hand_input {
+
+/// Takes jitter out of a pose and foretells it, both only where the settings ask for it.
+/// The One Euro filter (Casiez, Roussel, Vogel, CHI 2012): a first-order low-pass whose cut-off grows with the speed,
+/// `f_c = min_cutoff + beta |v|`, so that a hand at rest does not tremble and a quick one does not lag. Position is
+/// filtered by components with the length of the velocity, rotation along the shortest arc with the turn rate. Then the
+/// pose is carried on for `prediction` at the (low-passed) velocity and turn rate.
+class PoseFilter {
+ public:
+  explicit PoseFilter(const TruthSettings& settings);
+
+  /// The next sample (later than the last one): its pose as filtered and foretold, its stamp as it is.
+  motion::PoseSample filter(const motion::PoseSample& sample);
+  /// The next sample starts anew.
+  void restart() { running_ = false; }
+
+ private:
+  bool running_ = false;
+  bool active_;
+  TruthSettings settings_;
+  motion::PoseSample raw_;           ///< the newest sample
+  RigidTransform X_;                 ///< filtered
+  Vector3d v_ = Vector3d::Zero();    ///< low-passed velocity [m/s]
+  Vector3d w_B_ = Vector3d::Zero();  ///< low-passed turn rate, body axes [rad/s]
+};
+
+}  // namespace spring_workbench::hand_input

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "spring_workbench/hand_input/settings.h"
+#include "spring_workbench/math/rigid_transform.h"
+
+namespace spring_workbench::hand_input {
+
+/// A sample as it came: nothing is known of it yet.
+struct RawSample {
+  double t = 0.0;                           ///< stamp [s]
+  Vector3d p = Vector3d::Zero();            ///< origin of the tracked frame, in the tracker's frame [m]
+  Quaterniond q = Quaterniond::Identity();  ///< its rotation; perhaps of another length than 1
+};
+
+/// What the gate says of a sample.
+enum class Verdict {
+  accepted,   ///< goes on from the sample before
+  new_place,  ///< accepted, but not from where the last one was: after a jump or a dropout, or the first of all
+  not_finite,
+  bad_quaternion,  ///< far from unit length
+  too_far,
+  not_later,  ///< repeated or backward stamp
+  too_close,  ///< a stamp right after the last one, as a burst has them: a step over that time says no velocity
+  too_fast,
+  turns_too_fast,
+  out_of_view,
+};
+/// Whether a sample with this verdict may be used.
+inline bool usable(Verdict verdict) { return verdict == Verdict::accepted || verdict == Verdict::new_place; }
+/// The verdict in words, as /diagnostics tells it.
+std::string to_string(Verdict verdict);
+/// What is wrong with a sample that was left out: field, value and rule.
+std::string complaint(Verdict verdict, const RawSample& sample, const TruthSettings& settings);
+
+/// What the gate met so far.
+struct GateCounts {
+  std::size_t accepted = 0;
+  std::size_t new_places = 0;  ///< jumps that were taken as true
+  std::size_t dropouts = 0;    ///< gaps between accepted samples longer than `dropout_after`
+  std::size_t sign_flips = 0;  ///< neighbours whose quaternions have opposite signs; harmless
+  std::map<Verdict, std::size_t> left_out;
+};
+
+/// Lets those samples of one station through that a hand can have made. A sample too far from the last accepted one for
+/// its time is left out, until `accept_after` samples in a row fit to each other: then the new place is true. The time
+/// between samples counts for no more than `dropout_after`, so that a long gap does not let everything through.
+class SampleGate {
+ public:
+  /// `dropout_after` [s], > 0: a longer gap is a dropout, and what comes after it is a new place.
+  SampleGate(const TruthSettings& settings, double dropout_after);
+
+  Verdict offer(const RawSample& sample);
+  const GateCounts& counts() const { return counts_; }
+  /// Forgets the samples, for a jump of time; keeps the counts.
+  void restart();
+
+ private:
+  Verdict judge(const RawSample& sample) const;
+  Verdict judge_move(const RawSample& from, const RawSample& to) const;
+  bool is_out_of_view(const RawSample& sample) const;
+  bool confirmed(const RawSample& sample);
+  /// A sample in reach at last, only because time has passed, of a place that was out of reach before.
+  bool is_from_candidate(const RawSample& sample) const;
+  Verdict accept(const RawSample& sample, bool jumped);
+
+  TruthSettings settings_;
+  double dropout_after_;
+  GateCounts counts_;
+  std::optional<RawSample> newest_;     ///< accepted
+  double interval_ = 0.0;               ///< between accepted samples, smoothed [s]
+  std::optional<RawSample> candidate_;  ///< the newest one that was too far off
+  int in_a_row_ = 0;                    ///< samples up to `candidate_` that fit to each other
+};
+
+}  // namespace spring_workbench::hand_input

@@ -1,0 +1,16 @@
+#pragma once
+
+namespace spring_workbench::math {
+
+/// The exact solution of `ẍ + 2 α ẋ + ω₀² x = g` over a time, g constant (paper, section 3.3; here for every damping):
+/// x(t) = xx x₀ + xv v₀ + xg g,  ẋ(t) = vx x₀ + vv v₀ + vg g.
+struct OscillatorStep {
+  double xx, xv, xg;
+  double vx, vv, vg;
+};
+
+/// `alpha` ≥ 0 [1/s] (damping ratio times ω₀), `omega_squared` ≥ 0 [1/s²], `t` ≥ 0 [s]. Without division at critical
+/// damping (alpha² = omega_squared), at omega_squared = 0 and at t = 0.
+OscillatorStep damped_oscillator(double alpha, double omega_squared, double t);
+
+}  // namespace spring_workbench::math

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+
+#include "spring_workbench/motion/pose_track.h"
+
+namespace spring_workbench::motion {
+
+/// A sample of a tracked stylus: `t` [s] since the source's first sample, the pose X of the stylus in the tracker's
+/// base frame, and whether the grasp button is down.
+struct StylusSample : PoseSample {
+  bool button = false;
+};
+
+/// Where a stylus comes from: a device, a recording, a script. Stamps are given as they come, repeated and backward
+/// ones too (PoseTrack leaves those out).
+class StylusSource {
+ public:
+  virtual ~StylusSource() = default;
+  /// The next sample, or nothing when there are no more.
+  virtual std::optional<StylusSample> next() = 0;
+};
+
+}  // namespace spring_workbench::motion

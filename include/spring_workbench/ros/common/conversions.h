@@ -1,0 +1,26 @@
+#pragma once
+
+#include <geometry_msgs/Point.h>
+#include <geometry_msgs/Pose.h>
+#include <geometry_msgs/TransformStamped.h>
+#include <geometry_msgs/Twist.h>
+#include <geometry_msgs/Vector3.h>
+#include <geometry_msgs/Wrench.h>
+#include <ros/time.h>
+
+#include <string>
+
+#include "spring_workbench/math/rigid_transform.h"
+
+namespace spring_workbench::ros_common {
+
+// Vectors, poses and wrenches as messages: same frames, same units.
+geometry_msgs::Point to_point(const Vector3d& p);
+geometry_msgs::Vector3 to_vector(const Vector3d& v);
+geometry_msgs::Quaternion to_quaternion(const Matrix3d& R);
+geometry_msgs::Pose to_pose(const RigidTransform& X);
+geometry_msgs::Wrench to_wrench(const Wrench& wrench);
+geometry_msgs::TransformStamped to_transform(const RigidTransform& X, const std::string& parent,
+                                             const std::string& child, const ros::Time& stamp);
+
+}  // namespace spring_workbench::ros_common

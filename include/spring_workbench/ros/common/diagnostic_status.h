@@ -1,0 +1,31 @@
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+
+#include <string>
+
+#include "spring_workbench/hand_input/sample_gate.h"
+#include "spring_workbench/hand_input/stream_monitor.h"
+
+namespace spring_workbench::ros_common {
+
+/// One status of /diagnostics, built field by field.
+class DiagnosticStatusBuilder {
+ public:
+  DiagnosticStatusBuilder(const std::string& name, const std::string& hardware);
+  DiagnosticStatusBuilder& add(const std::string& key, const std::string& value);
+  DiagnosticStatusBuilder& add(const std::string& key, double value);
+  DiagnosticStatusBuilder& add(const std::string& key, std::size_t value);
+  /// Raises the level (OK, WARN, ERROR, STALE) with a reason; a lower one than the present changes nothing.
+  DiagnosticStatusBuilder& raise(int8_t level, const std::string& reason);
+  const diagnostic_msgs::DiagnosticStatus& status() const { return status_; }
+
+ private:
+  diagnostic_msgs::DiagnosticStatus status_;
+};
+
+/// How evenly a station's samples come and what its gate met, as fields of a status.
+void add_stream(const hand_input::StreamFigures& stream, const hand_input::GateCounts& gate,
+                DiagnosticStatusBuilder& status);
+
+}  // namespace spring_workbench::ros_common

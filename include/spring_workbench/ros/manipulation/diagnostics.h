@@ -1,0 +1,57 @@
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+
+#include <string>
+#include <vector>
+
+#include "spring_workbench/hand_input/reacquisition.h"
+#include "spring_workbench/ros/common/diagnostic_status.h"
+#include "spring_workbench/ros/manipulation/stylus_input.h"
+
+namespace spring_workbench::manipulation {
+
+/// What the physics loop did so far.
+struct LoopStatistics {
+  std::size_t cycles = 0;
+  std::size_t deadlines_missed = 0;
+  std::size_t guards_tripped = 0;  ///< steps refused by the simulation
+  std::size_t leaps = 0;           ///< times the simulation was started anew because time leapt
+  double longest_cycle = 0.0;      ///< wall time in the simulation [s]
+};
+
+/// Why no sample of the stylus is used, and what to do about it: one line, empty where samples are used.
+/// `senders`: the nodes that the master says publish /tf, this one left out.
+std::string hint_for_silence(const InputStatistics& input, const std::vector<std::string>& senders,
+                             const std::string& stylus_frame);
+
+/// What came of one stylus, and what became of the hand.
+struct TrackerInput {
+  InputStatistics input;
+  hand_input::ReengagementCounts hand;
+  std::string hint;  ///< of `hint_for_silence`
+};
+
+/// Watches the counters and says once a second how tracker input and physics loop are doing: WARN when something went
+/// wrong since the last time, STALE when no sample came at all. A second stylus is told of once something came of it.
+class ManipulationDiagnostics {
+ public:
+  /// `name`: of the node. `dropout_after` [s]: silence of the tracker longer than this is told.
+  ManipulationDiagnostics(const std::string& name, double dropout_after) : name_(name), dropout_after_(dropout_after) {}
+
+  /// `now` [s]: local time.
+  std::vector<diagnostic_msgs::DiagnosticStatus> report(const TrackerInput& first, const TrackerInput& second,
+                                                        const LoopStatistics& loop, double now);
+
+ private:
+  diagnostic_msgs::DiagnosticStatus report_input(const std::string& what, const TrackerInput& tracker,
+                                                 const TrackerInput& last, double now) const;
+  diagnostic_msgs::DiagnosticStatus report_loop(const LoopStatistics& loop) const;
+
+  std::string name_;
+  double dropout_after_;
+  TrackerInput last_first_, last_second_;
+  LoopStatistics last_loop_;
+};
+
+}  // namespace spring_workbench::manipulation

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+
+#include <atomic>
+#include <mutex>
+#include <thread>
+
+#include "spring_workbench/ros/manipulation/checkpoint.h"
+#include "spring_workbench/ros/manipulation/diagnostics.h"
+#include "spring_workbench/ros/manipulation/live_tuning.h"
+#include "spring_workbench/ros/manipulation/manipulation_parameters.h"
+#include "spring_workbench/ros/manipulation/services.h"
+#include "spring_workbench/ros/manipulation/simulation_runner.h"
+#include "spring_workbench/ros/manipulation/state_publisher.h"
+#include "spring_workbench/ros/manipulation/stylus_input.h"
+
+namespace spring_workbench::manipulation {
+
+/// The node `manipulation`: tf and buttons in; physics in its own thread, on the steady clock or, under `use_sim_time`,
+/// on ROS time; states, markers and reports out. Call the callbacks of the global queue beside it. It ends in order
+/// when it is destroyed before ros::shutdown().
+class ManipulationNode {
+ public:
+  /// Reads parameters and scene. Throws InputError when one cannot be used.
+  ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  ~ManipulationNode();
+  ManipulationNode(const ManipulationNode&) = delete;
+  ManipulationNode& operator=(const ManipulationNode&) = delete;
+
+ private:
+  void run_physics();
+  void run_cycle(double due);
+  bool run_step(double due);
+  void count(const CycleReport& report, bool deadline_missed);
+  void on_every_second(const ros::WallTimerEvent&);
+  void place_workbench();
+  void end_with_its_master();
+
+  const ManipulationParameters parameters_;
+  SimulationRunner runner_;
+  StylusInput input_, second_input_;
+  StatePublisher publisher_;
+  Services services_;
+  std::unique_ptr<LiveTuning> live_tuning_;
+  Checkpoint checkpoint_;
+  ManipulationDiagnostics diagnostics_;
+  std::mutex loop_mutex_;
+  LoopStatistics loop_;
+  bool workbench_placed_ = false;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  ros::Publisher diagnostics_publisher_;
+  ros::WallTimer every_second_;
+  std::atomic<bool> stop_{false};
+  std::thread physics_;
+};
+
+}  // namespace spring_workbench::manipulation

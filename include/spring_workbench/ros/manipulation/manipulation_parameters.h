@@ -1,0 +1,33 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <string>
+#include <vector>
+
+#include "spring_workbench/hand_input/settings.h"
+#include "spring_workbench/simulation/settings.h"
+
+namespace spring_workbench::manipulation {
+
+/// Private parameters of the node `manipulation`: these, and every key of `setting_descriptions()`
+/// and `truth_descriptions()`.
+struct ManipulationParameters {
+  std::string scene;                     ///< `scene`, required: a URDF's path or package:// URI
+  std::vector<std::string> scene_roots;  ///< `scene_roots`: folders that `~load_scene` may read from, beside packages
+  double rate = 100.0;                ///< `rate` [Hz], 1 … 2000: of the physics loop and of all messages but markers
+  double markers_rate = 30.0;         ///< `markers_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with
+  std::string fork_curve = "rod";     ///< `fork_curve`: one of fork_curve_names(), the curve that `~markers` draws
+  double max_age = 1.0;               ///< `max_age` [s], > 0: samples stamped further from now are left out
+  std::string world_frame = "world";  ///< `world_frame`: frame of all that is published
+  std::string workbench_frame =
+      "workbench";                      ///< `workbench_frame`: put at the origin of world unless /tf_static says else
+  std::string stylus_frame = "stylus";  ///< `stylus_frame`: the child frame on /tf that is the handle of the tool
+  simulation::SimulationSettings simulation;
+  hand_input::TruthSettings truth;  ///< `truth`: how the stylus' samples are let through and followed
+};
+
+/// Reads the map of private parameters. Throws InputError with `where`, key, value and rule.
+ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters, const std::string& where);
+
+}  // namespace spring_workbench::manipulation

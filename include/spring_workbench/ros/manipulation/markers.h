@@ -1,0 +1,38 @@
+#pragma once
+
+#include <visualization_msgs/MarkerArray.h>
+
+#include <set>
+#include <string>
+#include <utility>
+
+#include "spring_workbench/fork_mesh/fork_model.h"
+#include "spring_workbench/simulation/simulation.h"
+
+namespace spring_workbench::manipulation {
+
+/// Draws the simulation for rviz: bodies, targets, shadows on the bench, the deformed fork in the colour of its load
+/// with a legend, force and moment at the tip as arrows and text, contact points with their normals. Every marker keeps
+/// its namespace and id while what it shows is there and is deleted by name when it is gone, so that nothing flickers;
+/// rviz drops by itself what is no longer sent.
+class MarkerBuilder {
+ public:
+  /// `fork_curve`: one of fork_curve_names(). `lifetime` [s] of a marker that is not sent again.
+  MarkerBuilder(std::string fork_curve, double lifetime);
+
+  visualization_msgs::MarkerArray build(const simulation::Simulation& simulation, const std_msgs::Header& header);
+
+ private:
+  using MarkerKey = std::pair<std::string, int>;
+
+  void deform(const tools::ToolState& tool);
+  void delete_what_is_gone(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers);
+
+  std::string fork_curve_;
+  double lifetime_;
+  fork_mesh::ForkModel fork_;
+  fork_mesh::ForkMesh fork_mesh_;
+  std::set<MarkerKey> shown_;
+};
+
+}  // namespace spring_workbench::manipulation

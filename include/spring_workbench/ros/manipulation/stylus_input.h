@@ -1,0 +1,117 @@
+#pragma once
+
+#include <ros/ros.h>
+#include <sensor_msgs/Joy.h>
+#include <tf2/buffer_core.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <deque>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "spring_workbench/hand_input/input_filter.h"
+#include "spring_workbench/hand_input/stream_monitor.h"
+#include "spring_workbench/motion/pose_track.h"
+#include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/ros/manipulation/manipulation_parameters.h"
+
+namespace spring_workbench::manipulation {
+
+/// The input starts anew: all times that follow count from `zero`.
+struct NewEpoch {
+  ros::Time zero;
+};
+/// A pose of the handle in world, and when it came.
+struct StylusPose {
+  motion::PoseSample sample;
+  hand_input::LocalTime arrival;
+  bool new_place = false;  ///< see Verdict
+};
+/// The grasp button went down or up at time `t` [s].
+struct StylusButton {
+  double t = 0.0;
+  bool pressed = false;
+};
+/// The buttons are known up to time `t` [s]: a message about them came, whether or not one of them changed.
+struct ButtonsKnown {
+  double t = 0.0;
+  hand_input::LocalTime arrival;
+};
+/// The button for the next tool went down at time `t` [s].
+struct NextTool {
+  double t = 0.0;
+};
+using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, NextTool, ButtonsKnown>;
+
+/// What came in so far.
+struct InputStatistics {
+  std::size_t messages = 0;          ///< on /tf, those of this node left out
+  std::set<std::string> frames;      ///< child frames in them
+  hand_input::StreamFigures stream;  ///< of the samples used
+  hand_input::GateCounts gate;
+  std::size_t restarts = 0;                     ///< times ROS time jumped back
+  std::map<std::string, std::size_t> left_out;  ///< by reason
+  double newest_offer_age = 0.0;                ///< age by its stamp of the newest sample, used or not [s]
+  double newest_arrival = 0.0;                  ///< local time [s]
+};
+
+/// One stylus: listens to /tf, /tf_static and its buttons, and keeps what came, in order, until it is taken. What
+/// cannot be used is left out, counted by reason and told in one throttled line.
+class StylusInput {
+ public:
+  /// Listens to the child frame `frame` and to `joy` (`stylus/joy`: button 0 grasps while it is down, 1 takes the next
+  /// tool).
+  StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame, std::string joy);
+
+  /// What came since the last call. The first event ever, and the first after a jump of time, is a NewEpoch.
+  std::vector<StylusEvent> take_events();
+  InputStatistics statistics() const;
+  /// Whether /tf_static said where the workbench is.
+  bool workbench_known() const;
+
+ private:
+  void on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event);
+  void on_static_transforms(const tf2_msgs::TFMessageConstPtr& message);
+  void on_joy(const sensor_msgs::JoyConstPtr& message);
+  void on_stylus(const geometry_msgs::TransformStamped& transform, const ros::Time& now);
+  void on_buttons(const sensor_msgs::Joy& message, const ros::Time& now);
+  struct Stream;
+  template <typename Message>
+  void go_on_to(const ros::Time& stamp, Stream& stream, std::deque<Message>& early);
+  std::optional<ros::Time> moment_of(const ros::Time& stamp, Stream& stream);
+  void start_anew_when_due();
+  void offer(const geometry_msgs::TransformStamped& transform, const RigidTransform& X_WP, double age);
+  double seconds(const ros::Time& stamp);
+  void leave_out(const std::string& reason, const std::string& line);
+
+  const ManipulationParameters parameters_;
+  const std::string frame_, joy_;
+  mutable std::mutex mutex_;
+  tf2::BufferCore static_frames_;
+  bool workbench_known_ = false;
+  std::vector<StylusEvent> events_;
+  InputStatistics statistics_;
+  hand_input::TruthLayer truth_;
+  hand_input::StreamMonitor monitor_;
+  /// What was stamped before the newest: it waits for the clock, or for the other stream, to jump back.
+  std::deque<geometry_msgs::TransformStamped> early_poses_;
+  std::deque<sensor_msgs::Joy> early_buttons_;
+  struct Stream {
+    ros::Time newest;  ///< stamp, of this epoch; zero before the first message
+  };
+  Stream poses_, buttons_;
+  std::map<std::string, ros::WallTime> told_;  ///< when a reason to leave a sample out was last logged
+  ros::Time zero_;                             ///< of the epoch; zero before the first input
+  ros::Time last_now_;
+  bool jumped_ = false;     ///< ROS time went back, and the streams have not both followed yet
+  double jumped_at_ = 0.0;  ///< when that was noticed, in attended time [s]
+  bool pressed_ = false, next_tool_ = false;
+  ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;
+};
+
+}  // namespace spring_workbench::manipulation

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "spring_workbench/fastrak/fastrak_source.h"
+#include "spring_workbench/hand_input/settings.h"
+#include "spring_workbench/ros/tracker_driver/joy_motion.h"
+
+namespace spring_workbench::tracker_driver {
+
+/// Before the bench and above it, the x axis towards 0.1 m above its middle, y to the left.
+inline RigidTransform head_before_the_bench() {
+  const Vector3d p(0.0, -0.85, 0.7), x = (Vector3d(0.0, 0.0, 0.1) - p).normalized(), y(-1.0, 0.0, 0.0);
+  Matrix3d R;
+  R << x, y, x.cross(y);
+  return make_transform(Quaterniond(R), p);
+}
+
+/// Private parameters of the node `tracker_driver`.
+struct TrackerParameters {
+  std::string source =
+      "motion_file";  ///< `source`: motion_file, scripted, fastrak, operator, interactive_marker or joy
+  std::string file;   ///< `file`, of motion_file and scripted, required: path or package:// URI of the motion or script
+  std::string scene;  ///< `scene`, required by operator: URDF of the scene to assemble
+  int seed = 1;       ///< `seed` of the operator, 0 … 1e9
+  double rate = 0.0;  ///< `rate` [Hz], >= 0: the most that is sent; 0: every sample
+  double speed = 1.0;                         ///< `speed`, 0.01 … 100: 2 plays twice as fast
+  bool loop = false;                          ///< `loop`: from the start again after the last sample
+  double pause = 1.0;                         ///< `pause` [s], >= 0: before each pass
+  std::string workbench_frame = "workbench";  ///< `workbench_frame`: parent of the frames
+  std::string stylus_frame = "stylus";        ///< `stylus_frame`
+  std::string head_frame = "head";            ///< `head_frame`
+  RigidTransform X_BT =
+      RigidTransform::Identity();  ///< `offset` (x y z qx qy qz qw): the recording's base frame in the workbench
+  std::optional<RigidTransform>
+      X_BS_first;        ///< `start` (x y z qx qy qz qw): where the first sample lies; of a motion, instead of `offset`
+  int head_station = 0;  ///< `head_station` of a FASTRAK: the one on the head, 2 … 4; 0: none
+  RigidTransform X_BHead = head_before_the_bench();  ///< `head` (pose); with head_station in the frame of its receiver
+  double grasp_from = std::numeric_limits<double>::infinity();  ///< `grasp_from` [s]: the button goes down …
+  double grasp_until = std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up, beside the file's own
+  Vector3d p_ST = Vector3d::Zero();  ///< `tip` (x y z) [m]: the handle's origin in the tracked frame of the stylus
+  double interpupillary_distance = 0.063;  ///< `interpupillary_distance` [m], 0 … 0.2: between eye_left and eye_right
+  double dropout_after = 0.5;              ///< `dropout_after` [s], > 0: a longer gap is a dropout
+  bool even_stamps = true;                 ///< `even_stamps`: stamp a device's samples by its cadence, not by receipt
+  hand_input::TruthSettings truth;         ///< `truth`: which samples are let through, and how they are filtered
+  fastrak::FastrakSettings fastrak;  ///< read_fastrak_settings; in place of file, speed, loop, pause, start and grasp_*
+  JoySettings joy;                   ///< read_joy_settings
+};
+
+/// Reads the map of private parameters. Throws InputError with `where`, key, value and rule.
+TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const std::string& where);
+
+}  // namespace spring_workbench::tracker_driver

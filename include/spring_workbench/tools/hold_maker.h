@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+
+#include "spring_workbench/dynamics/held_body.h"
+#include "spring_workbench/dynamics/settings.h"
+#include "spring_workbench/scene/scene.h"
+#include "spring_workbench/tools/tool.h"
+#include "spring_workbench/tools/tool_hold.h"
+
+namespace spring_workbench::tools {
+
+/// How a tool is about to hold an object.
+struct Grasp {
+  Tool tool;
+  std::size_t object;   ///< in the workbench
+  RigidTransform X_WS;  ///< the stylus
+  RigidTransform X_OE;  ///< the tip in the object
+  double reach;         ///< from the stylus to the tip, along z [m]
+  double length;        ///< of the spring part of a fork [m]; the rest of the reach is rigid
+};
+
+/// The object that it takes.
+struct GraspedBody {
+  std::size_t index;  ///< in the scene
+  const scene::Body& body;
+  RigidTransform X_WO;
+
+  bool massless() const { return !(body.mass_properties.mass > 0.0); }
+};
+
+/// Makes a tool's hold on an object.
+class HoldMaker {
+ public:
+  /// Keeps references. `gravity` [m/s²] along −z of world.
+  HoldMaker(const rod::ForkSettings& fork, const dynamics::DynamicsSettings& dynamics, double gravity)
+      : fork_(fork), dynamics_(dynamics), gravity_(gravity) {}
+
+  /// A hold free of strain, at time `now` [s]. It has to be told the hand's motion before it can be used.
+  std::unique_ptr<ToolHold> make(const Grasp& grasp, const GraspedBody& object, double now) const;
+  /// The families that the object can move: of those switched on, the ones in which it has an inertia.
+  rod::ForkDofs possible_dofs(const Grasp& grasp, const GraspedBody& object) const;
+
+ private:
+  std::unique_ptr<ToolHold> make_fork(const Grasp& grasp, const GraspedBody& object, double now) const;
+  dynamics::BodyInertia inertia(const Grasp& grasp, const GraspedBody& object) const;
+
+  const rod::ForkSettings& fork_;
+  const dynamics::DynamicsSettings& dynamics_;
+  double gravity_;
+};
+
+}  // namespace spring_workbench::tools

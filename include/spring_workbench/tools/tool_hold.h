@@ -1,0 +1,57 @@
+#pragma once
+
+#include <string>
+
+#include "spring_workbench/bodies/coupled_tool.h"
+#include "spring_workbench/dynamics/settings.h"
+#include "spring_workbench/tools/tool_state.h"
+
+namespace spring_workbench::tools {
+
+/// What the steps since the last call said of their errors.
+struct StepEstimates {
+  double position = 0.0;  ///< [m]
+  double angle = 0.0;     ///< [rad]
+  double omega_dt = 0.0;  ///< of the stiffest mode
+  int extra_steps = 0;    ///< beside one for each call of advance()
+  int rejected = 0;       ///< taken again shorter, for their error
+  int energy_held = 0;    ///< whose gain of energy was taken away
+};
+
+/// A tool's hold on an object: the object as the hand moves it through the tool.
+class ToolHold : public bodies::SteppedBody, public bodies::CoupledTool {
+ public:
+  // One state, whether the object is carried by this tool alone or shared.
+  void remember() override = 0;
+  void go_back() override = 0;
+  /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
+  virtual void set_hand(const motion::MotionSegment& hand, double t) = 0;
+  /// Whether nothing moves for the next `h` [s], and nothing need be done but let_pass(): the hand is at rest and the
+  /// object has come to rest on it. `may_fall_asleep`: false where something else may move it.
+  virtual bool sleeps(double h, bool may_fall_asleep) = 0;
+  virtual void let_pass(double h) = 0;
+  /// What the springs do to the object at its centre, world axes; its dampers left out.
+  virtual Wrench spring_pull() const = 0;
+  /// The tool is gripped anew, with the object at `X_WO`: what there was of strain is gone, and the springs do `pull_W`
+  /// to the object, at its centre, as far as the tool has springs for it (doc/model.md, "Gripped anew").
+  virtual void grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) = 0;
+  /// The object's twist comes as near as it can to this one.
+  virtual void take_twist(const Twist& V_WO_W) = 0;
+  /// New stiffness and damping ratios; the strain stays.
+  virtual void set_springs(const rod::ForkSettings& fork) = 0;
+  /// The stiffness that fits the object as it is held (doc/model.md, "Calibration"). The object's mass must be > 0.
+  virtual rod::PerFamily fitting_stiffness(const rod::ForkSettings& fork, double gravity) const = 0;
+  /// Switches families; true when one is on its way to zero strain. For the fork alone.
+  virtual bool set_dofs(const rod::ForkDofs& dofs, double switch_off_time) = 0;
+  virtual void set_step_control(const dynamics::DynamicsSettings& settings) = 0;
+
+  virtual int coordinates() const = 0;        ///< number of the strain coordinates; 0 is rigid
+  virtual double length() const = 0;          ///< rest length [m]
+  virtual double elastic_energy() const = 0;  ///< [J]
+  virtual double energy_added() const = 0;    ///< by integration since the grasp [J]
+  virtual StepEstimates take_estimates() = 0;
+  /// Fills in what the tool knows of its state. `massless`: the object has no mass, and forces mean nothing.
+  virtual void describe(bool massless, ToolState& state) const = 0;
+};
+
+}  // namespace spring_workbench::tools

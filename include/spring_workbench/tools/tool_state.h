@@ -1,0 +1,41 @@
+#pragma once
+
+#include <string>
+
+#include "spring_workbench/rod/shape_model.h"
+
+namespace spring_workbench::tools {
+
+/// State of the tool in a hand.
+struct ToolState {
+  bool present = false;  ///< a sample of this hand is known
+  std::string tool = "spring_fork";
+  std::string held_object;  ///< empty when nothing is held
+  std::string touched;      ///< what the probe is on, "workbench" for the bench; else empty
+  std::string shape;
+  std::string integrator;
+  rod::ForkDofs dofs;                                ///< families switched on
+  double length = 0.0;                               ///< rest length [m]
+  rod::PerFamily stiffness;                          ///< [N/m, N/m, N·m/rad]
+  rod::PerFamily damping_ratio;                      ///< –
+  rod::StrainVector strain;                          ///< all coordinates of the shape model; zero when nothing is held
+  double stretch = 0.0;                              ///< extension along the rod [m]
+  Eigen::Vector2d bend = Eigen::Vector2d::Zero();    ///< tip deflection along x and y of the handle [m]
+  double torsion = 0.0;                              ///< twist angle [rad]
+  RigidTransform X_WS = RigidTransform::Identity();  ///< the stylus
+  RigidTransform X_WH = RigidTransform::Identity();  ///< the handle, as the hand has it: the stylus itself unless
+                                                     ///< the fork was given another size, or gripped anew
+  RigidTransform X_WH_seen = RigidTransform::Identity();  ///< the handle that the object sees (proxy of the hand)
+  RigidTransform X_WE = RigidTransform::Identity();       ///< the tip
+  Wrench tip_wrench_W;                                    ///< on the object at the tip, world axes [N, N·m]
+  Wrench handle_wrench_H;                                 ///< what the hand would feel, at and in the handle frame
+  double elastic_energy = 0.0;                            ///< [J]
+  double kinetic_energy = 0.0;                            ///< of the held object, in world [J]
+  double force_scale = 1.0;                               ///< virtual per real unit of force
+  double weight = 0.0;              ///< the tool as a scale: upward force on the object over g [vkg]
+  double torque = 0.0;              ///< the tool as a torque wrench: moment about its axis at the tip [N·m]
+  double material_stiffness = 0.0;  ///< that the probe reads [N/m]; infinite: rigid; 0: no reading
+  double material_stiffness_uncertainty = 0.0;  ///< one standard deviation [N/m]
+};
+
+}  // namespace spring_workbench::tools

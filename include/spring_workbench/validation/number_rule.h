@@ -1,0 +1,36 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "spring_workbench/validation/input_error.h"
+
+namespace spring_workbench::validation {
+
+/// Which numbers a field allows. NaN is never allowed.
+struct NumberRule {
+  double min = -std::numeric_limits<double>::max();
+  double max = std::numeric_limits<double>::max();
+  bool min_allowed = true;        ///< false: must be greater than `min`
+  bool infinity_allowed = false;  ///< true: `.inf` is allowed although it is greater than `max`
+
+  bool allows(double value) const;
+  std::string text() const;  ///< e.g. "a number > 0", "a number in [0, 1]"
+};
+inline NumberRule any_number() { return {}; }
+inline NumberRule positive() { return {0.0, std::numeric_limits<double>::max(), false, false}; }
+inline NumberRule not_negative() { return {0.0, std::numeric_limits<double>::max(), true, false}; }
+inline NumberRule between(double min, double max) { return {min, max, true, false}; }
+
+/// Throws InputError("<where>: <key>: <value> is not allowed: must be <rule>").
+[[noreturn]] void refuse(const std::string& where, const std::string& key, const std::string& value,
+                         const std::string& rule);
+
+/// Throws (see `refuse`) unless the rule allows `value`.
+void check_number(const std::string& where, const std::string& key, double value, const NumberRule& rule);
+
+/// "a, b, c"
+std::string join(const std::vector<std::string>& words, const std::string& separator = ", ");
+
+}  // namespace spring_workbench::validation

@@ -1,0 +1,97 @@
+#include "spring_workbench/bodies/free_body.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::bodies {
+namespace {
+
+constexpr double most_turn_per_piece = 0.1;  ///< [rad]
+constexpr int most_pieces = 1000;
+
+}  // namespace
+
+FreeBody::FreeBody(std::size_t index, const scene::Body& body, double gravity, const RigidTransform& X_WO,
+                   const Twist& V_WO_W)
+    : index_(index),
+      mass_(body.mass_properties.mass),
+      inertia_O_(body.mass_properties.inertia_O),
+      inverse_inertia_O_(inertia_O_.inverse()),
+      gravity_(gravity) {
+  state_.X_WO = X_WO;
+  set_twist(V_WO_W);
+}
+
+void FreeBody::set_twist(const Twist& V_WO_W) {
+  const Matrix3d& R = state_.X_WO.linear();
+  state_.velocity = V_WO_W.linear;
+  state_.angular_momentum = R * inertia_O_ * R.transpose() * V_WO_W.angular;
+}
+
+void FreeBody::set_motion(const motion::MotionState& object) {
+  state_.X_WO = object.X;
+  set_twist(object.velocity);
+}
+
+void FreeBody::set_motion_of_centre(const Vector3d& p_WO, const Vector3d& v_WO_W) {
+  state_.X_WO.translation() = p_WO;
+  state_.velocity = v_WO_W;
+}
+
+Vector3d FreeBody::angular_velocity(const Matrix3d& R_WO, const Vector3d& angular_momentum) const {
+  return R_WO * (inverse_inertia_O_ * (R_WO.transpose() * angular_momentum));
+}
+
+motion::MotionState FreeBody::object() const {
+  motion::MotionState s;
+  s.X = state_.X_WO;
+  s.velocity.linear = state_.velocity;
+  s.velocity.angular = angular_velocity(state_.X_WO.linear(), state_.angular_momentum);
+  return s;
+}
+
+bool FreeBody::advance(double h, const Wrench& contact_W) {
+  State next = state_;
+  const Vector3d acceleration = contact_W.force / mass_ - gravity_ * Vector3d::UnitZ();
+  next.X_WO.translation() += h * state_.velocity + 0.5 * h * h * acceleration;
+  next.velocity += h * acceleration;
+  // Midpoint rule on the rotation, in pieces; the momentum itself is exact.
+  const double turn = h * angular_velocity(state_.X_WO.linear(), state_.angular_momentum).norm();
+  const int pieces = 1 + static_cast<int>(std::min(turn / most_turn_per_piece, static_cast<double>(most_pieces)));
+  const double dt = h / pieces;
+  Matrix3d R = state_.X_WO.linear();
+  for (int i = 0; i < pieces; ++i) {
+    const Vector3d L0 = state_.angular_momentum + i * dt * contact_W.moment;
+    const Vector3d L1 = L0 + 0.5 * dt * contact_W.moment;
+    const Vector3d w0 = angular_velocity(R, L0);
+    const Vector3d w1 = angular_velocity(math::exp_so3(0.5 * dt * w0) * R, L1);
+    R = math::exp_so3(dt * w1) * R;
+  }
+  next.X_WO.linear() = Quaterniond(R).normalized().toRotationMatrix();
+  next.angular_momentum += h * contact_W.moment;
+  if (!next.X_WO.matrix().allFinite() || !next.velocity.allFinite() || !next.angular_momentum.allFinite()) return false;
+  state_ = next;
+  return true;
+}
+
+Matrix6d FreeBody::mobility() const {
+  const Matrix3d& R = state_.X_WO.linear();
+  Matrix6d m = Matrix6d::Zero();
+  m.topLeftCorner<3, 3>().diagonal().setConstant(1.0 / mass_);
+  m.bottomRightCorner<3, 3>() = R * inverse_inertia_O_ * R.transpose();
+  return m;
+}
+
+void FreeBody::add_impulse(const Wrench& impulse_W) {
+  state_.velocity += impulse_W.force / mass_;
+  state_.angular_momentum += impulse_W.moment;
+}
+
+void FreeBody::stay(double) {
+  state_.velocity.setZero();
+  state_.angular_momentum.setZero();
+}
+
+}  // namespace spring_workbench::bodies

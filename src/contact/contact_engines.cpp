@@ -1,0 +1,51 @@
+#include "spring_workbench/contact/contact_engines.h"
+
+#include <dlfcn.h>
+
+#include <filesystem>
+#include <string>
+
+#include "spring_workbench/validation/number_rule.h"
+
+namespace spring_workbench::contact {
+namespace {
+
+/// The library that makes worlds of a kind, and its function that makes one.
+struct Engine {
+  const char* library;
+  const char* function;
+};
+
+constexpr Engine fcl = {"libspring_workbench_collision_engine.so", "spring_workbench_new_collision_world"};
+constexpr Engine bullet = {"libspring_workbench_rigid_bodies_engine.so", "spring_workbench_new_rigid_world"};
+
+/// Opens the library, which then stays open.
+void* find_function(const Engine& engine, const scene::Scene& scene) {
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
+  const std::filesystem::path path = program.parent_path().parent_path() / engine.library;
+  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* function = library == nullptr ? nullptr : dlsym(library, engine.function);
+  if (function == nullptr) {
+    const char* mode = scene.contact == scene::ContactMode::dynamic ? "dynamic" : "stop";
+    validation::refuse(scene.path, "contact", mode,
+                       std::string("a mode that this build has the engines for (") + dlerror() + ")");
+  }
+  return function;
+}
+
+template <typename World>
+std::unique_ptr<World> make(const Engine& engine, const scene::Scene& scene) {
+  static void* const function = find_function(engine, scene);
+  return std::unique_ptr<World>(reinterpret_cast<World* (*)(const scene::Scene&)>(function)(scene));
+}
+
+}  // namespace
+
+std::unique_ptr<collision::CollisionWorld> open_collision_world(const scene::Scene& scene) {
+  return make<collision::CollisionWorld>(fcl, scene);
+}
+std::unique_ptr<rigid_bodies::RigidWorld> open_rigid_world(const scene::Scene& scene) {
+  return make<rigid_bodies::RigidWorld>(bullet, scene);
+}
+
+}  // namespace spring_workbench::contact

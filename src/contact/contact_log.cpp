@@ -1,0 +1,78 @@
+#include "spring_workbench/contact/contact_log.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace spring_workbench::contact {
+namespace {
+
+/// Whether the list has a contact of the same two bodies.
+bool contains_pair(const std::vector<ContactState>& list, const ContactState& c) {
+  return std::any_of(list.begin(), list.end(),
+                     [&](const ContactState& other) { return other.object == c.object && other.other == c.other; });
+}
+
+}  // namespace
+
+void ContactLog::reset(std::size_t objects) {
+  touching_.assign(objects, {});
+  with_contacts_.clear();
+  before_.clear();
+  ended_.clear();
+  told_.clear();
+}
+
+void ContactLog::note(std::size_t object, const bodies::BodyState& state, const std::vector<ContactRow>& rows,
+                      double h) {
+  std::vector<ContactState> now_touching;
+  for (const ContactRow& row : rows) {
+    ContactState c;
+    c.object = state.name;
+    c.other = row.point.other == collision::CollisionWorld::bench ? "workbench" : scene_.bodies[row.point.other].name;
+    c.p_W = row.point.p_W;
+    c.n_W = row.point.n_W;
+    c.depth = std::max(0.0, -row.gap);
+    c.force = std::max(0.0, row.load_W.dot(row.point.n_W));
+    c.impulse = h * c.force;
+    const Vector3d v = state.V_WO_W.linear + state.V_WO_W.angular.cross(row.point.p_W - state.X_WO.translation());
+    c.slip_speed = (v - row.point.n_W * v.dot(row.point.n_W)).norm();
+    now_touching.push_back(c);
+  }
+  // What was touched and is no more, until it has been told.
+  for (ContactState& c : touching_[object]) {
+    if (contains_pair(now_touching, c)) continue;
+    c.impulse = c.force = 0.0;
+    ended_.push_back(c);
+  }
+  touching_[object] = std::move(now_touching);
+  if (touching_[object].empty()) {
+    with_contacts_.erase(object);
+  } else {
+    with_contacts_.insert(object);
+  }
+}
+
+std::vector<ContactState> ContactLog::all() const {
+  std::vector<ContactState> list;
+  for (const std::size_t object : with_contacts_) {
+    list.insert(list.end(), touching_[object].begin(), touching_[object].end());
+  }
+  return list;
+}
+
+void ContactLog::begin_call() { before_ = all(); }
+
+void ContactLog::end_call() {
+  told_ = all();
+  for (ContactState& c : told_) {
+    c.phase = contains_pair(before_, c) ? ContactPhase::persisting : ContactPhase::started;
+  }
+  for (ContactState& c : ended_) {
+    if (contains_pair(told_, c)) continue;
+    c.phase = ContactPhase::ended;
+    told_.push_back(c);
+  }
+  ended_.clear();
+}
+
+}  // namespace spring_workbench::contact

@@ -1,0 +1,86 @@
+#include "spring_workbench/contact/contact_solver.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::contact {
+namespace {
+
+constexpr int most_sweeps = 200;
+constexpr double small_change = 1e-10;  ///< of the largest load: the sweeps end
+
+/// Keeps the load inside its friction cone: presses only, and tangential ≤ μ normal.
+Vector3d into_cone(const Vector3d& load, const Vector3d& n, double friction) {
+  const double normal = load.dot(n);
+  if (normal <= 0.0) return Vector3d::Zero();
+  const Vector3d tangential = load - normal * n;
+  const double size = tangential.norm();
+  const double most = friction * normal;
+  return size <= most ? load : Vector3d(normal * n + tangential * (most / size));
+}
+
+}  // namespace
+
+void solve_contacts(const Matrix6d& compliance, std::vector<ContactRow>& rows) {
+  // How each row's point answers to a force there, and how the body does.
+  struct Answer {
+    Matrix3d point;
+    Eigen::Matrix<double, 6, 3> body;
+    double normal, tangential;
+    bool gives_way;
+  };
+  std::vector<Answer> answers;
+  for (const ContactRow& row : rows) {
+    Eigen::Matrix<double, 3, 6> to_point;
+    to_point << Matrix3d::Identity(), -math::skew(row.lever_W);
+    Answer a;
+    a.body = compliance * to_point.transpose();
+    a.point = to_point * a.body;
+    a.normal = row.point.n_W.dot(a.point * row.point.n_W);
+    const double scale = a.point.trace();
+    a.tangential = std::max(0.5 * (scale - a.normal), 1e-12 * scale);
+    a.gives_way = scale > 0.0 && a.normal > 1e-12 * scale;
+    answers.push_back(a);
+  }
+  // What the loads add to the body's motion beyond those assumed at the start.
+  Vector6d motion = Vector6d::Zero();
+  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+    double largest = 0.0, change = 0.0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      ContactRow& row = rows[i];
+      const Answer& a = answers[i];
+      if (!a.gives_way) continue;
+      const Vector3d& n = row.point.n_W;
+      const Vector3d at_point = motion.head<3>() + motion.tail<3>().cross(row.lever_W);
+      Vector3d load = row.load_W - (row.gap + n.dot(at_point)) / a.normal * n;
+      if (row.friction > 0.0) {
+        // One step against the slip that is left, then back into the cone.
+        const Vector3d slip = row.slip_W + at_point + a.point * (load - row.load_W);
+        load -= (slip - n * n.dot(slip)) / a.tangential;
+      } else {
+        load = n * n.dot(load);
+      }
+      load = into_cone(load, n, row.friction);
+      const Vector3d step = load - row.load_W;
+      motion += a.body * step;
+      row.load_W = load;
+      largest = std::max(largest, load.norm());
+      change = std::max(change, step.norm());
+    }
+    if (change <= small_change * largest) return;
+  }
+}
+
+Wrench total_load(const std::vector<ContactRow>& rows) {
+  Wrench sum;
+  for (const ContactRow& row : rows) {
+    sum.force += row.load_W;
+    sum.moment += row.lever_W.cross(row.load_W);
+  }
+  return sum;
+}
+
+}  // namespace spring_workbench::contact

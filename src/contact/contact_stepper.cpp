@@ -1,0 +1,362 @@
+#include "spring_workbench/contact/contact_stepper.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::contact {
+namespace {
+
+constexpr double touching = 1e-6;          ///< [m]; what is not deeper is free
+constexpr double slack = 0.5 * touching;   ///< [m] left to a body between two others that leave it no room
+constexpr double probe_depth = 1e-4;       ///< [m] by which the body is pushed to see what it touches
+constexpr double same_point = 2e-3;        ///< [m]; contacts nearer to each other are one
+constexpr double sweep_resolution = 2e-4;  ///< [m] between the poses that a sweep looks at, where boxes overlap
+constexpr double closed = 2e-5;            ///< [m]; on its way a body in contact may be so deep
+constexpr double same_face = 0.9998;       ///< cos 1°; normals nearer to each other are of one face
+constexpr double recovery_time = 5e-3;     ///< [s] on which a body that is in another comes out
+constexpr double solved_share = 0.01;      ///< of the way over a piece: a smaller change is none
+constexpr double most_bow = 5e-5;          ///< [m] between the way and each of the straight ones that are swept
+constexpr double hopeless_bow = 0.1;       ///< [m]; loads under which the body goes such a way will not be mended
+constexpr double slow_approach = 1e-6;     ///< [m/s]; a slower one is none
+constexpr double shortest_share = 1e-3;    ///< of a step: a shorter piece is not tried
+constexpr double stay_share = 0.1;         ///< of a step, for which a body stays where nothing fits
+constexpr double most_segments = 4.0;      ///< straight ones for which the way over a piece is swept
+constexpr double safety = 0.9;             ///< of the longest piece that is straight enough
+constexpr double longer = 2.0;             ///< than the last, at most, is a piece
+constexpr int most_tries = 100;            ///< pieces tried in a step
+constexpr int most_unsolved = 6;           ///< pieces of a step without a solution, before the body stays
+constexpr int most_solutions = 8;          ///< solutions of one piece of a step, each about the last
+
+/// Where a row's point of the body, fixed in the object frame at `X0`, is when the body is at `X1`.
+Vector3d moved(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& p_W) {
+  return X1 * (X0.inverse() * p_W);
+}
+
+/// Where the sweep from `X0` to `X1` is after a part of it.
+RigidTransform between(const RigidTransform& X0, const RigidTransform& X1, double fraction) {
+  RigidTransform X;
+  X.linear() = X0.linear() * math::exp_so3(fraction * math::log_so3(X0.linear().transpose() * X1.linear()));
+  X.translation() = X0.translation() + fraction * (X1.translation() - X0.translation());
+  X.makeAffine();
+  return X;
+}
+
+/// How far a point of a body goes between two poses, at most [m].
+double extent(const RigidTransform& X0, const RigidTransform& X1, double radius) {
+  return (X1.translation() - X0.translation()).norm() +
+         radius * math::log_so3(X0.linear().transpose() * X1.linear()).norm();
+}
+
+bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b) {
+  return a.other == b.other && a.n_W.dot(b.n_W) > 0.99 && (a.p_W - b.p_W).norm() < same_point;
+}
+
+double deepest(const std::vector<ContactRow>& rows) {
+  double depth = 0.0;
+  for (const ContactRow& row : rows) depth = std::max(depth, -row.gap);
+  return depth;
+}
+
+}  // namespace
+
+ContactStepper::ContactStepper(const scene::Scene& scene, collision::CollisionWorld& collision, int bisection_levels)
+    : scene_(scene), collision_(collision), levels_(bisection_levels) {
+  for (const scene::Body& body : scene.bodies) radius_.push_back(geometry::bounding_radius(body.collision));
+}
+
+double ContactStepper::friction(std::size_t body, std::size_t other) const {
+  const scene::Material& b =
+      other == collision::CollisionWorld::bench ? scene_.bench_material : scene_.bodies[other].material;
+  return std::sqrt(scene_.bodies[body].material.friction * b.friction);
+}
+
+void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance,
+                                  std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
+  std::vector<collision::ContactPoint> found;
+  collision_.find_contacts(body, X_WO, tolerance, found);
+  ++outcome.queries;
+  for (const collision::ContactPoint& point : found) {
+    const auto same =
+        std::find_if(rows.begin(), rows.end(), [&](const ContactRow& row) { return is_same(row.point, point); });
+    ContactRow& row = same == rows.end() ? rows.emplace_back() : *same;
+    row.point = point;
+    row.friction = friction(body, point.other);
+    row.gap = -point.depth;
+  }
+}
+
+void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<ContactRow>& rows,
+                             ContactOutcome& outcome) const {
+  if (rows.empty()) return;
+  const std::vector<ContactRow> before = std::move(rows);
+  rows.clear();
+  const RigidTransform X_WO = body.object().X;
+  std::vector<Vector3d> directions;
+  for (const ContactRow& row : before) {
+    const Vector3d& n = row.point.n_W;
+    const bool known =
+        std::any_of(directions.begin(), directions.end(), [&](const Vector3d& d) { return d.dot(n) > 0.99; });
+    if (known) continue;
+    directions.push_back(n);
+    RigidTransform pushed = X_WO;
+    pushed.translation() -= probe_depth * n;
+    std::vector<ContactRow> seen;
+    add_contacts(body.index(), pushed, touching, seen, outcome);
+    for (ContactRow& row_seen : seen) {
+      if (row_seen.point.n_W.dot(n) < 0.9) continue;
+      row_seen.gap += probe_depth * row_seen.point.n_W.dot(n);
+      row_seen.point.depth = -row_seen.gap;
+      rows.push_back(row_seen);
+    }
+  }
+  // Loads of the last step are where the search for the new ones starts.
+  for (ContactRow& row : rows) {
+    for (const ContactRow& old : before) {
+      if (old.point.other == row.point.other && old.point.n_W.dot(row.point.n_W) > 0.99 &&
+          (old.point.p_W - row.point.p_W).norm() < 5.0 * same_point) {
+        row.load_W = old.load_W;
+        break;
+      }
+    }
+  }
+}
+
+bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std::vector<ContactRow>& rows,
+                                        ContactOutcome& outcome) const {
+  const motion::MotionState begin = body.object();
+  const RigidTransform& X0 = begin.X;
+  body.remember();
+  std::vector<ContactRow> work = rows;
+  std::vector<Start> starts;
+  for (ContactRow& row : work) {
+    row.lever_W = row.point.p_W - X0.translation();
+    starts.push_back({row.gap, row.lever_W});
+  }
+  const Matrix6d C = body.answer(h).displacement;
+  for (int solution = 1; solution <= most_solutions; ++solution) {
+    if (!body.advance(h, total_load(work))) break;
+    look_at_end(body, X0, work, starts, outcome);
+    std::vector<ContactRow> assumed = work;
+    double worst = 0.0;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      // What is deeper than the slack at the start comes out of it slowly: at once it would be thrown out.
+      const double left = std::max(slack, -starts[i].gap * std::exp(-h / recovery_time));
+      work[i].gap += left;
+      worst = std::max(worst, -work[i].gap);
+    }
+    solve_contacts(C, work);
+    // Done when solving again would not move the body, however the contacts share what they carry.
+    const Wrench before = total_load(assumed), after = total_load(work);
+    Vector6d more;
+    more << after.force - before.force, after.moment - before.moment;
+    const Vector6d moves = C * more;
+    const double change = moves.head<3>().norm() + radius_[body.index()] * moves.tail<3>().norm();
+    const double way = extent(X0, body.object().X, radius_[body.index()]);
+    const bool solved = worst < std::clamp(solved_share * way, slack, 3.0 * touching) &&
+                        change < std::clamp(solved_share * way, 1e-3 * touching, 10.0 * touching);
+    if (solved || (solution == most_solutions && worst < 0.5 * closed && change < touching)) {
+      rows = std::move(assumed);
+      return true;
+    }
+    const bool runs_away = solution > 2 && bow(body.index(), begin, body.object(), h) > hopeless_bow;
+    body.go_back();
+    if (runs_away || change == 0.0) break;
+  }
+  return false;
+}
+
+void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTransform& X0,
+                                 std::vector<ContactRow>& work, std::vector<Start>& starts,
+                                 ContactOutcome& outcome) const {
+  const RigidTransform X1 = body.object().X;
+  const Vector3d moved_on = X1.translation() - X0.translation();
+  const Vector3d turned = X0.linear() * math::log_so3(X0.linear().transpose() * X1.linear());
+  // A point that stays on the surface slips by its way; one of a body that rolls comes or goes, and slips by what the
+  // contact, which stays under the body, does.
+  const auto set_slip = [&](ContactRow& row, const Vector3d& way) {
+    const bool rolls = std::abs(way.dot(row.point.n_W)) > touching;
+    const Vector3d slip = rolls ? Vector3d(moved_on + turned.cross(row.lever_W)) : way;
+    row.slip_W = slip - row.point.n_W * slip.dot(row.point.n_W);
+  };
+  for (std::size_t i = 0; i < work.size(); ++i) {
+    ContactRow& row = work[i];
+    const Vector3d start = X0.translation() + starts[i].lever_W;
+    const Vector3d way = moved(X0, X1, start) - start;
+    row.gap = starts[i].gap + way.dot(row.point.n_W);
+    row.point.p_W = start + way;
+    set_slip(row, way);
+  }
+  std::vector<ContactRow> seen;
+  add_contacts(body.index(), X1, touching, seen, outcome);
+  for (const ContactRow& row : seen) {
+    std::size_t at = work.size();
+    double nearest = 5.0 * same_point;
+    for (std::size_t i = 0; i < work.size(); ++i) {
+      const collision::ContactPoint& w = work[i].point;
+      const double distance = (w.p_W - row.point.p_W).norm();
+      if (w.other != row.point.other || w.n_W.dot(row.point.n_W) < same_face || distance >= nearest) continue;
+      nearest = distance;
+      at = i;
+    }
+    const bool known = at < work.size();
+    if (known && work[at].gap <= row.gap + 0.1 * touching) continue;
+    const Vector3d load = known ? work[at].load_W : Vector3d(Vector3d::Zero());
+    if (!known) {
+      work.emplace_back();
+      starts.emplace_back();
+    }
+    const Vector3d start = moved(X1, X0, row.point.p_W);
+    const Vector3d way = row.point.p_W - start;
+    work[at] = row;
+    work[at].load_W = load;
+    // It presses there when it has come: at its own point, which an unloaded piece carries deep into the other.
+    work[at].lever_W = row.point.p_W + row.gap * row.point.n_W - X1.translation();
+    set_slip(work[at], way);
+    starts[at] = {row.gap - way.dot(row.point.n_W), start - X0.translation()};
+  }
+}
+
+double ContactStepper::bow(std::size_t body, const motion::MotionState& begin, const motion::MotionState& end,
+                           double h) const {
+  return h / 8.0 *
+         ((end.velocity.linear - begin.velocity.linear).norm() +
+          radius_[body] * (end.velocity.angular - begin.velocity.angular).norm());
+}
+
+ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const motion::MotionState& begin,
+                                                  const motion::MotionState& end, double h, double tolerance) const {
+  const auto rates = [](const motion::MotionState& s) {
+    return Vector3d(s.X.linear().transpose() * s.velocity.angular);
+  };
+  const motion::MotionSegment way({0.0, begin.X}, begin.velocity.linear, rates(begin), {h, end.X}, end.velocity.linear,
+                                  rates(end));
+  const int count = static_cast<int>(std::ceil(std::sqrt(bow(body, begin, end, h) / most_bow)));
+  RigidTransform from = begin.X;
+  for (int i = 0; i < std::max(count, 1); ++i) {
+    const RigidTransform to = i + 1 < count ? way.at(h * (i + 1) / count).X : end.X;
+    const collision::SweepResult result = collision_.sweep(body, from, to, tolerance, sweep_resolution, levels_);
+    if (result.hit) {
+      return {true, (i + result.free_fraction) / std::max(count, 1), between(from, to, result.touching_fraction)};
+    }
+    from = to;
+  }
+  return {};
+}
+
+ContactStepper::Piece ContactStepper::try_piece(bodies::SteppedBody& body, double h, const MayGo& may_go,
+                                                std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
+  constexpr double smaller = 0.25;
+  const std::size_t index = body.index();
+  const motion::MotionState begin = body.object();
+  const bool in_contact = !rows.empty();
+  std::vector<ContactRow> solved = rows;
+  body.remember();
+  const bool possible = in_contact ? advance_in_contact(body, h, solved, outcome) : body.advance(h, Wrench());
+  if (!possible || !bodies::is_finite(body.object())) {
+    body.go_back();
+    outcome.refused = outcome.refused || !in_contact;
+    return {false, in_contact ? smaller : 0.0, {}, false};
+  }
+  const motion::MotionState end = body.object();
+  if (!may_go(begin.X, end.X)) {
+    body.go_back();
+    return {false, 0.0, {}, true, false};
+  }
+  const double bowed = bow(index, begin, end, h);
+  const double straight =
+      safety * std::sqrt(most_segments * most_segments * most_bow / std::max(bowed, 1e-3 * most_bow));
+  if (in_contact || collision_.may_touch(index, begin.X, end.X, std::max(bowed, most_bow))) {
+    if (straight < safety) {
+      body.go_back();
+      return {false, straight, {}};
+    }
+    // A start that is in something already may not go deeper.
+    const double tolerance = in_contact ? std::max(closed, deepest(rows) + touching) : touching;
+    const Obstruction found = sweep(index, begin, end, h, tolerance);
+    ++outcome.queries;
+    if (found.hit) {
+      Piece piece{false, found.free, {}};
+      body.go_back();
+      add_contacts(index, found.X_WO, touching, piece.touched, outcome);
+      for (ContactRow& row : piece.touched) {
+        const Vector3d here = moved(found.X_WO, begin.X, row.point.p_W);
+        row.gap = std::max(0.0, row.gap + (here - row.point.p_W).dot(row.point.n_W));
+        row.point.p_W = here;
+      }
+      return piece;
+    }
+  }
+  rows = std::move(solved);
+  body.accept();
+  if (body.turns_round()) settle(body, rows, h);
+  return {true, in_contact ? std::clamp(straight, 0.5, longer) : longer, {}};
+}
+
+bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
+                          ContactOutcome& outcome) {
+  const MayGo on_the_way = [](const RigidTransform&, const RigidTransform&) { return true; };
+  if (const RigidTransform here = body.object().X; !may_go(here, here)) return false;
+  double left = h, piece = h;
+  int unsolved = 0;
+  const auto stay = [&](double duration) {
+    body.stay(duration);
+    outcome.held_back = true;
+    for (ContactRow& row : rows) row.load_W.setZero();  // a search from these loads has failed
+    left -= duration;
+    piece = left;
+  };
+  refresh(body, rows, outcome);
+  collide(body, rows, Bounce::of_materials);
+  for (int i = 0; i < most_tries && left > 1e-9 * h; ++i) {
+    piece = std::min(piece, left);
+    Piece tried = try_piece(body, piece, left == h ? may_go : on_the_way, rows, outcome);
+    if (!tried.allowed) return false;
+    if (tried.done) {
+      left -= piece;
+      piece *= tried.next;
+      if (left > 1e-9 * h) {
+        refresh(body, rows, outcome);
+        collide(body, rows, Bounce::none);
+      }
+      continue;
+    }
+    if (!tried.solved) ++unsolved;
+    if (unsolved <= most_unsolved && tried.next * piece > shortest_share * h) {
+      piece *= tried.next;
+    } else if (tried.touched.empty() || !meet(body, tried.touched, rows)) {
+      stay(std::min(left, std::max(piece, stay_share * h)));
+    }
+  }
+  if (left > 1e-9 * h) stay(left);
+  rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap > probe_depth; }),
+             rows.end());
+  outcome.rows = rows;
+  return true;
+}
+
+bool ContactStepper::meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched,
+                          std::vector<ContactRow>& rows) const {
+  const motion::MotionState s = body.object();
+  bool met = false;
+  for (const ContactRow& row : touched) {
+    const auto known =
+        std::find_if(rows.begin(), rows.end(), [&](const ContactRow& r) { return is_same(r.point, row.point); });
+    if (known == rows.end()) {
+      rows.push_back(row);
+      met = true;
+      continue;
+    }
+    // One that the last solution has not kept open is taken as it is.
+    const Vector3d v = s.velocity.linear + s.velocity.angular.cross(row.point.p_W - s.X.translation());
+    met = met || v.dot(row.point.n_W) < -slow_approach;
+    known->point = row.point;
+    known->gap = std::min(known->gap, row.gap);
+  }
+  if (met) collide(body, rows, Bounce::of_materials);
+  return met;
+}
+
+}  // namespace spring_workbench::contact

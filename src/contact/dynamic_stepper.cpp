@@ -1,0 +1,274 @@
+#include "spring_workbench/contact/dynamic_stepper.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "spring_workbench/contact/contact_engines.h"
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::contact {
+namespace {
+
+constexpr double longest_piece = 2e-3;  ///< [s] where something is touched …
+constexpr double longest_with_free =
+    1e-3;  ///< [s] … and where a body moves that nobody holds: the world's error is of order one
+constexpr double shortest_step = 1e-9;             ///< [s]; of a step shorter than this contact takes no notice
+constexpr double stay_piece = 2e-4;                ///< [s] for which a held body stays where nothing else fits
+constexpr double growth = 2.0;                     ///< from one piece to the next, at most
+constexpr double as_sound = 0.9;                   ///< of the part of a piece that is sound: the next try
+constexpr double least_try = 0.1, most_try = 0.7;  ///< of a piece: the next try
+constexpr double shortest_piece = 1e-5;            ///< [s], or of a step that is shorter than the longest, as much less
+constexpr double margin_near = 5e-4;               ///< [m]
+constexpr int most_solutions = 4;                  ///< of one piece, each about the loads of the last
+constexpr double same_point = 2e-3;                ///< [m]
+
+/// A compliance as it has to be: symmetric, and nothing comes towards a load. Of a fork that is far from straight it
+/// may not be.
+Matrix6d positive(const Matrix6d& compliance) {
+  const Matrix6d C = 0.5 * (compliance + compliance.transpose());
+  if (C.llt().info() == Eigen::Success) return C;
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> modes(C);
+  return modes.eigenvectors() * modes.eigenvalues().cwiseMax(0.0).asDiagonal() * modes.eigenvectors().transpose();
+}
+
+}  // namespace
+
+DynamicStepper::DynamicStepper(const scene::Scene& scene) : scene_(scene), world_(open_rigid_world(scene)) {}
+
+DynamicStepper::Candidate DynamicStepper::try_piece(bodies::SteppedBody& body, double h) const {
+  Candidate c;
+  c.begin = body.object();
+  const auto load = load_W_.find(body.index());
+  if (load != load_W_.end()) c.load_W = load->second;
+  body.remember();
+  c.possible = body.advance(h, c.load_W) && bodies::is_finite(body.object());
+  c.end = c.possible ? body.object() : c.begin;
+  if (!c.possible) c.end.velocity = Twist();
+  return c;
+}
+
+bool DynamicStepper::all_free(const std::vector<bodies::SteppedBody*>& held,
+                              const std::vector<Candidate>& candidates) const {
+  if (others_awake()) return false;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const Candidate& c = candidates[i];
+    if (!c.load_W.force.isZero(0.0) || !c.load_W.moment.isZero(0.0)) return false;
+    if (!world_->may_touch(held[i]->index(), c.begin.X, c.end.X, margin_near)) continue;
+    if (world_->free_part(held[i]->index(), c.begin.X, c.end.X) < 1.0) return false;
+  }
+  return true;
+}
+
+void DynamicStepper::go_freely(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates,
+                               double h, Outcome& outcome) {
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    if (!candidates[i].possible) {
+      held[i]->go_back();
+      held[i]->stay(h);
+      outcome.refused = true;
+    }
+    held[i]->accept();
+    load_W_.erase(held[i]->index());
+    const motion::MotionState s = held[i]->object();
+    world_->place(held[i]->index(), s.X, s.velocity, false);
+  }
+}
+
+DynamicStepper::Outcome DynamicStepper::step(const std::vector<bodies::SteppedBody*>& held, double h) {
+  contacts_.clear();
+  held_.clear();
+  std::map<std::size_t, Wrench> loads;
+  for (const bodies::SteppedBody* body : held) {
+    held_.push_back(body->index());
+    loads[body->index()] = load_W_[body->index()];
+  }
+  load_W_ = std::move(loads);
+  shortest_piece_ = shortest_piece * std::min(1.0, h / longest_piece);
+  Outcome outcome;
+  double left = h, piece = h;
+  while (left > 1e-9 * h) {
+    piece = std::min(piece, left);
+    if (left < growth * piece && left > piece) piece = 0.5 * left;  // no small last one
+    std::vector<Candidate> candidates;
+    for (bodies::SteppedBody* body : held) candidates.push_back(try_piece(*body, piece));
+    ++outcome.pieces;
+    if (h <= shortest_step || all_free(held, candidates)) {
+      go_freely(held, candidates, piece, outcome);
+    } else {
+      const Piece result = go_in_contact(held, candidates, piece);
+      if (result == Piece::too_long) continue;
+      if (result == Piece::stuck) {
+        piece = std::min(stay_piece, left);
+        hold_back(held, piece, outcome);
+      }
+    }
+    left -= piece;
+    piece *= growth;
+  }
+  return outcome;
+}
+
+DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<bodies::SteppedBody*>& held,
+                                                    std::vector<Candidate> candidates, double& h) {
+  for (bodies::SteppedBody* body : held) body->go_back();
+  const double longest = others_awake() ? longest_with_free : longest_piece;
+  if (h > longest) {
+    h = longest;
+    return Piece::too_long;
+  }
+  std::vector<rigid_bodies::DrivenBody> driven = solve(held, candidates, h);
+  double sound = sound_part(held, candidates, driven, h);
+  double before = 0.0;
+  for (int solution = 1; sound < 1.0 && sound > before && solution < most_solutions; ++solution) {
+    if (foreseen_sound_part(driven) < 1.0) break;
+    before = sound;
+    // The fork gives way otherwise than to the load that was assumed: once more, about this one.
+    for (std::size_t i = 0; i < held.size(); ++i) {
+      candidates[i].end = held[i]->object();
+      candidates[i].load_W = driven[i].contact_W;
+      candidates[i].impact_W = driven[i].impact_W;
+      held[i]->go_back();
+    }
+    world_->go_back();
+    driven = solve(held, candidates, h);
+    sound = sound_part(held, candidates, driven, h);
+  }
+  if (sound < 1.0) {
+    world_->go_back();
+    for (bodies::SteppedBody* body : held) body->go_back();
+    if (h <= shortest_piece_) return Piece::stuck;
+    h = std::max(std::clamp(as_sound * sound, least_try, most_try) * h, shortest_piece_);
+    return Piece::too_long;
+  }
+  for (std::size_t i = 0; i < held.size(); ++i) take(*held[i], driven[i].contact_W);
+  add_contacts();
+  return Piece::gone;
+}
+
+std::vector<rigid_bodies::DrivenBody> DynamicStepper::solve(const std::vector<bodies::SteppedBody*>& held,
+                                                            const std::vector<Candidate>& candidates, double h) {
+  std::vector<rigid_bodies::DrivenBody> driven;
+  for (std::size_t i = 0; i < held.size(); ++i) driven.push_back(driven_body(*held[i], candidates[i], h));
+  world_->remember();
+  world_->step(h, driven);
+  return driven;
+}
+
+double DynamicStepper::sound_part(const std::vector<bodies::SteppedBody*>& held,
+                                  const std::vector<Candidate>& candidates,
+                                  const std::vector<rigid_bodies::DrivenBody>& driven, double h) const {
+  double sound = 1.0;
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    const Wrench& impact = driven[i].impact_W;
+    if (!impact.force.isZero(0.0) || !impact.moment.isZero(0.0)) held[i]->add_impulse(impact);
+    const bool possible = held[i]->advance(h, driven[i].contact_W) && bodies::is_finite(held[i]->object());
+    if (!possible) return 0.0;
+    sound = std::min(sound, world_->sound_part(held[i]->index(), candidates[i].begin.X, held[i]->object().X));
+  }
+  return sound;
+}
+
+double DynamicStepper::foreseen_sound_part(const std::vector<rigid_bodies::DrivenBody>& driven) const {
+  double sound = 1.0;
+  for (const rigid_bodies::DrivenBody& d : driven) {
+    Vector6d load, impact, way;
+    load << d.contact_W.force, d.contact_W.moment;
+    impact << d.impact_W.force, d.impact_W.moment;
+    way << d.displacement_W.linear, d.displacement_W.angular;
+    way += d.compliance * load + d.coasting * impact;
+    RigidTransform end = d.X_WO;
+    end.translation() += way.head<3>();
+    end.linear() = math::exp_so3(way.tail<3>()) * d.X_WO.linear();
+    sound = std::min(sound, world_->sound_part(d.body, d.X_WO, end));
+  }
+  return sound;
+}
+
+void DynamicStepper::hold_back(const std::vector<bodies::SteppedBody*>& held, double h, Outcome& outcome) {
+  std::vector<rigid_bodies::DrivenBody> driven(held.size());
+  for (std::size_t i = 0; i < held.size(); ++i) {
+    driven[i].body = held[i]->index();
+    driven[i].X_WO = held[i]->object().X;
+  }
+  world_->step(h, driven);
+  for (bodies::SteppedBody* body : held) {
+    body->stay(h);
+    take(*body, Wrench());
+  }
+  add_contacts();
+  outcome.held_back = true;
+}
+
+void DynamicStepper::take(bodies::SteppedBody& body, const Wrench& contact_W) {
+  body.accept();
+  load_W_[body.index()] = contact_W;
+  const motion::MotionState s = body.object();
+  world_->place(body.index(), s.X, s.velocity, true);
+}
+
+rigid_bodies::DrivenBody DynamicStepper::driven_body(const bodies::SteppedBody& body, const Candidate& c, double h) {
+  const bodies::SteppedBody::Answer answer = body.answer(h);
+  rigid_bodies::DrivenBody d;
+  d.body = body.index();
+  d.X_WO = c.begin.X;
+  d.V_WO_W = c.begin.velocity;
+  d.compliance = positive(answer.displacement);
+  d.mobility = body.mobility();
+  d.coasting = answer.velocity;  // an impulse does at once what a constant load does in the course of the step
+  Vector6d load;
+  load << c.load_W.force, c.load_W.moment;
+  Vector6d impact;
+  impact << c.impact_W.force, c.impact_W.moment;
+  const Vector6d by_load = d.compliance * load + d.coasting * impact;
+  d.displacement_W.linear = c.end.X.translation() - c.begin.X.translation() - by_load.head<3>();
+  d.displacement_W.angular =
+      c.begin.X.linear() * math::log_so3(c.begin.X.linear().transpose() * c.end.X.linear()) - by_load.tail<3>();
+  return d;
+}
+
+void DynamicStepper::set_free(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W) {
+  world_->place(body, X_WO, V_WO_W, true);
+  held_.erase(std::remove(held_.begin(), held_.end(), body), held_.end());
+}
+
+bool DynamicStepper::others_awake() const {
+  const std::vector<std::size_t>& near = world_->bodies_near();
+  return std::any_of(near.begin(), near.end(), [&](std::size_t body) {
+    return world_->awake(body) && std::find(held_.begin(), held_.end(), body) == held_.end();
+  });
+}
+
+bool DynamicStepper::comes_first(std::size_t body, std::size_t other) const {
+  const auto rank = [&](std::size_t b) {
+    if (b == rigid_bodies::RigidWorld::bench || !scene_.bodies[b].movable) return 2;
+    return std::find(held_.begin(), held_.end(), b) != held_.end() ? 0 : 1;
+  };
+  return rank(body) <= rank(other);
+}
+
+void DynamicStepper::add_contacts() {
+  for (rigid_bodies::WorldContact& known : contacts_) known.depth = 0.0;
+  for (rigid_bodies::WorldContact c : world_->contacts()) {
+    if (!comes_first(c.body, c.other)) {
+      std::swap(c.body, c.other);
+      c.n_W = -c.n_W;
+      c.impulse_W = -c.impulse_W;
+    }
+    const auto same = std::find_if(contacts_.begin(), contacts_.end(), [&](const rigid_bodies::WorldContact& known) {
+      return known.body == c.body && known.other == c.other && known.n_W.dot(c.n_W) > 0.99 &&
+             (known.p_W - c.p_W).norm() < same_point;
+    });
+    if (same == contacts_.end()) {
+      contacts_.push_back(c);
+      continue;
+    }
+    const Vector3d sum = same->impulse_W + c.impulse_W;
+    *same = c;
+    same->impulse_W = sum;
+  }
+}
+
+}  // namespace spring_workbench::contact

@@ -1,0 +1,104 @@
+#include "spring_workbench/fastrak/cadence_clock.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace spring_workbench::fastrak {
+namespace {
+
+constexpr double kBucket = 0.5;         // [s]
+constexpr std::size_t kBuckets = 20;    // ten seconds
+constexpr double kShortestFit = 2.0;    // [s] before this, drift is not known and taken as none
+constexpr double kLargestDrift = 5e-3;  // relative
+constexpr double kLateFor = 0.5;        // [s] and no less than kLateInARow receipts
+constexpr double kLateInARow = 16.0;
+constexpr double kSilence = 0.25;           // [s]
+constexpr double kDoubt = 2.0;              // [s] for which a count that went on may be taken back
+constexpr double kShortestInterval = 1e-6;  // [s] between stamps
+
+}  // namespace
+
+double CadenceClock::stamp(double receipt) {
+  if (k_ < 0.0) {
+    first_ = stamp_ = receipt;
+    k_ = 0.0;
+    add({0.0, 0.0});
+  } else {
+    k_ += 1.0;
+    recount(receipt);
+    add({k_, receipt - first_ - k_ * interval_});
+    fit();
+    const double on_line = first_ + k_ * interval_ + line(k_);
+    stamp_ = std::max(std::min(on_line, receipt), stamp_ + kShortestInterval);
+  }
+  receipt_ = receipt;
+  return stamp_;
+}
+
+bool CadenceClock::is_astray() const {
+  return quickest_.size() == kBuckets && std::abs(slope_) >= kLargestDrift * interval_;
+}
+
+void CadenceClock::recount(double receipt) {
+  const double lateness = receipt - first_ - k_ * interval_ - line(k_);
+  recent_.push_back({receipt, lateness});
+  const std::size_t many = static_cast<std::size_t>(std::max(kLateInARow, kLateFor / interval_));
+  if (recent_.size() > many) recent_.pop_front();
+  if (k_ - counted_on_at_ > kDoubt / interval_) counted_on_ = 0.0;
+  double samples = 0.0;
+  if (receipt - receipt_ > std::max(kSilence, 4.0 * interval_)) {
+    samples = std::round(lateness / interval_);
+  } else if (lateness < -0.5 * interval_) {  // too quick: what was counted on may not have been lost but held up
+    samples = -std::min(std::round(-lateness / interval_), counted_on_);
+  } else if (recent_.size() == many && is_even(recent_)) {
+    const auto quickest = std::min_element(recent_.begin(), recent_.end(),
+                                           [](const Receipt& a, const Receipt& b) { return a.late < b.late; });
+    samples = std::round(quickest->late / interval_);
+  }
+  if (samples == 0.0) return;
+  k_ += samples;
+  counted_on_ = std::max(0.0, counted_on_ + samples);
+  counted_on_at_ = k_;
+  recent_.clear();
+}
+
+/// Whether they come at about the device's rate, and are no burst.
+bool CadenceClock::is_even(const std::deque<Receipt>& receipts) const {
+  const double due = interval_ * static_cast<double>(receipts.size() - 1);
+  return receipts.back().t - receipts.front().t > 0.75 * due;
+}
+
+void CadenceClock::add(const Point& point) {
+  if (quickest_.empty() || point.k >= bucket_end_) {
+    quickest_.push_back(point);
+    bucket_end_ = point.k + kBucket / interval_;
+    if (quickest_.size() > kBuckets) quickest_.pop_front();
+  } else if (point.late < quickest_.back().late) {
+    quickest_.back() = point;
+  }
+}
+
+void CadenceClock::fit() {
+  std::vector<Point> hull;
+  double middle = 0.0;
+  for (const Point& p : quickest_) {
+    const auto above = [&](const Point& a, const Point& b) {  // b lies on or above the line from a to p
+      return (b.late - a.late) * (p.k - a.k) >= (p.late - a.late) * (b.k - a.k);
+    };
+    while (hull.size() >= 2 && above(hull[hull.size() - 2], hull.back())) hull.pop_back();
+    if (hull.empty() || p.k > hull.back().k) hull.push_back(p);
+    middle += p.k / static_cast<double>(quickest_.size());
+  }
+  slope_ = 0.0;
+  if ((hull.back().k - hull.front().k) * interval_ >= kShortestFit) {
+    const auto right =
+        std::upper_bound(hull.begin() + 1, hull.end() - 1, middle, [](double k, const Point& p) { return k < p.k; });
+    const Point a = *(right - 1), b = *right;
+    const double largest = kLargestDrift * interval_;
+    slope_ = std::clamp((b.late - a.late) / (b.k - a.k), -largest, largest);
+  }
+  level_ = hull.front().late - slope_ * hull.front().k;
+  for (const Point& p : quickest_) level_ = std::min(level_, p.late - slope_ * p.k);
+}
+
+}  // namespace spring_workbench::fastrak

@@ -1,0 +1,320 @@
+#include "spring_workbench/fastrak/fastrak_protocol.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <cstring>
+
+#include "spring_workbench/config/yaml_fields.h"
+
+namespace spring_workbench::fastrak {
+namespace {
+
+constexpr std::size_t kHeaderLength = 3;
+constexpr std::size_t kLongestRecord = 254;  // the manual, command O
+constexpr double kFarthestPosition = 10.0;   // [m] twice the reach of the largest transmitter
+constexpr double kNormTolerance = 0.01;      // of a quaternion
+constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr std::size_t kNumberLength = 7;      // Sxxx.xx, Sx.xxxx
+constexpr std::size_t kExtendedLength = 13;   // Sx.xxxxxESxx and a blank
+constexpr double kExtendedResolution = 1e-5;  // relative
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// Right-aligned digits with a point before the last `decimals`; the sign first or next to the digits.
+std::optional<double> read_fixed(std::string_view text, std::size_t decimals) {
+  const std::size_t point = text.size() - decimals - 1;
+  double sign = 1.0, digits = 0.0, scale = 1.0;
+  bool signed_already = false, in_number = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (i == point ? c == '.' : is_digit(c)) {
+      in_number = true;
+      if (i == point) continue;
+      digits = 10.0 * digits + (c - '0');
+      if (i > point) scale *= 10.0;
+    } else if (i < point && !in_number && (c == '-' || c == '+') && !signed_already) {
+      signed_already = true;
+      if (c == '-') sign = -1.0;
+    } else if (c != ' ' || in_number) {
+      return std::nullopt;
+    }
+  }
+  return sign * (digits / scale);
+}
+
+/// Sx.xxxxxESxx and a blank.
+std::optional<double> read_extended(std::string_view text) {
+  const auto mantissa = read_fixed(text.substr(0, 8), 5);
+  const char sign = text[9];
+  if (!mantissa || text[8] != 'E' || (sign != '-' && sign != '+' && sign != ' ') || !is_digit(text[10]) ||
+      !is_digit(text[11]) || text[12] != ' ') {
+    return std::nullopt;
+  }
+  const int exponent = 10 * (text[10] - '0') + (text[11] - '0');
+  return *mantissa * std::pow(10.0, sign == '-' ? -exponent : exponent);
+}
+
+/// IEEE 754, 32 bit, least significant byte first.
+double read_float(std::string_view bytes) {
+  std::uint32_t bits = 0;
+  for (int i = 3; i >= 0; --i) bits = (bits << 8U) | static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)]);
+  float value = 0.0F;
+  std::memcpy(&value, &bits, sizeof value);
+  return static_cast<double>(value);
+}
+
+void write_float(double value, std::string& bytes) {
+  const auto single = static_cast<float>(value);
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &single, sizeof bits);
+  for (unsigned i = 0; i < 4; ++i) bytes += static_cast<char>((bits >> (8 * i)) & 0xffU);
+}
+
+/// Azimuth, elevation, roll [deg] of R = Rz(azimuth) Ry(elevation) Rx(roll).
+std::array<double, 4> to_angles(const Quaterniond& q) {
+  const Matrix3d R = q.normalized().toRotationMatrix();
+  return {std::atan2(R(1, 0), R(0, 0)) / kDegree, std::asin(std::clamp(-R(2, 0), -1.0, 1.0)) / kDegree,
+          std::atan2(R(2, 1), R(2, 2)) / kDegree, 0.0};
+}
+
+Quaterniond from_angles(const std::array<double, 4>& angles) {
+  return Eigen::AngleAxisd(angles[0] * kDegree, Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(angles[1] * kDegree, Vector3d::UnitY()) *
+         Eigen::AngleAxisd(angles[2] * kDegree, Vector3d::UnitX());
+}
+
+bool all_within(const std::array<double, 4>& values, double limit) {
+  return std::all_of(values.begin(), values.end(), [&](double v) { return std::abs(v) <= limit; });
+}
+
+}  // namespace
+
+const FastrakLayout::Item* FastrakLayout::find_item(int number) {
+  static const Item items[] = {
+      {0, Kind::blank, 0, false},      {50, Kind::blank, 0, false},   {1, Kind::line_end, 0, false},
+      {51, Kind::line_end, 0, false},  {2, Kind::position, 2, false}, {52, Kind::position, 5, true},
+      {4, Kind::angles, 2, false},     {54, Kind::angles, 5, true},   {11, Kind::quaternion, 4, false},
+      {61, Kind::quaternion, 5, true}, {16, Kind::button, 0, false},  {66, Kind::button, 0, false}};
+  const auto* const found =
+      std::find_if(std::begin(items), std::end(items), [&](auto& i) { return i.number == number; });
+  return found == std::end(items) ? nullptr : found;
+}
+
+std::size_t FastrakLayout::count(Kind kind) { return kind == Kind::quaternion ? 4 : 3; }
+
+std::size_t FastrakLayout::number_length(const Item& item) const {
+  if (format_ == FastrakFormat::binary) return 4;
+  return item.extended ? kExtendedLength : kNumberLength;
+}
+
+std::size_t FastrakLayout::item_length(const Item& item) const {
+  switch (item.kind) {
+    case Kind::blank:
+      return 1;
+    case Kind::line_end:
+    case Kind::button:
+      return 2;
+    default:
+      return count(item.kind) * number_length(item);
+  }
+}
+
+FastrakLayout::FastrakLayout(const std::vector<int>& items, FastrakFormat format, FastrakUnits units)
+    : format_(format), unit_(units == FastrakUnits::inches ? 0.0254 : 0.01) {
+  bool has_position = false, has_orientation = false;
+  for (const int number : items) {
+    const Item* item = find_item(number);
+    if (item == nullptr)
+      validation::refuse("output list", "item", std::to_string(number), "0, 1, 2, 4, 11, 16, or these plus 50");
+    has_position |= item->kind == Kind::position;
+    has_orientation |= item->kind == Kind::angles || item->kind == Kind::quaternion;
+    items_.push_back(item);
+    length_ += item_length(*item);
+  }
+  if (!has_position || !has_orientation)
+    throw validation::InputError("output list: must have a position and an orientation");
+  if (length_ > kLongestRecord) throw validation::InputError("output list: must give records of at most 254 bytes");
+}
+
+std::optional<FastrakLayout::Numbers> FastrakLayout::read_numbers(const Item& item, std::string_view bytes) const {
+  Numbers numbers;
+  const std::size_t width = number_length(item);
+  for (std::size_t i = 0; i < count(item.kind); ++i) {
+    const std::string_view text = bytes.substr(i * width, width);
+    if (format_ == FastrakFormat::binary) {
+      numbers.value[i] = read_float(text);
+    } else {
+      const auto value =
+          item.extended ? read_extended(text) : read_fixed(text, static_cast<std::size_t>(item.decimals));
+      if (!value) return std::nullopt;
+      numbers.value[i] = *value;
+    }
+    if (!std::isfinite(numbers.value[i])) return std::nullopt;
+  }
+  if (format_ == FastrakFormat::ascii && !item.extended) numbers.resolution = std::pow(10.0, -item.decimals);
+  return numbers;
+}
+
+std::optional<FastrakRecord> FastrakLayout::decode(std::string_view bytes) const {
+  FastrakRecord record;
+  if (bytes.size() != length_ || bytes[0] != '0' || bytes[1] < '1' || bytes[1] > '0' + kFastrakStations ||
+      (bytes[2] != ' ' && !is_letter(bytes[2]))) {
+    return std::nullopt;
+  }
+  record.station = bytes[1] - '0';
+  record.error = bytes[2];
+  std::optional<Numbers> position, angles, quaternion;
+  std::optional<bool> button;
+  // The finer of two writings of the same, and whether they are the same.
+  const auto merge = [this](const std::optional<Numbers>& read, std::optional<Numbers>& known) {
+    if (!read) return false;
+    if (known) {
+      const double slack = format_ == FastrakFormat::binary ? 0.0 : kExtendedResolution;
+      const double coarser = 0.5 * std::max(read->resolution, known->resolution);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const double difference = std::abs(read->value[i] - known->value[i]);
+        if (!(difference <= coarser + slack * (1.0 + std::abs(known->value[i])))) return false;
+      }
+    }
+    if (!known || read->resolution < known->resolution) known = read;
+    return true;
+  };
+  std::size_t at = kHeaderLength;
+  for (const Item* item : items_) {
+    const std::string_view part = bytes.substr(at, item_length(*item));
+    at += part.size();
+    switch (item->kind) {
+      case Kind::blank:
+        if (part != " ") return std::nullopt;
+        break;
+      case Kind::line_end:
+        if (part != "\r\n") return std::nullopt;
+        break;
+      case Kind::button:
+        if (part != " 0" && part != " 1") return std::nullopt;
+        if (button && *button != (part[1] == '1')) return std::nullopt;
+        button = part[1] == '1';
+        break;
+      case Kind::position:
+        if (!merge(read_numbers(*item, part), position)) return std::nullopt;
+        break;
+      case Kind::angles:
+        if (!merge(read_numbers(*item, part), angles)) return std::nullopt;
+        break;
+      case Kind::quaternion:
+        if (!merge(read_numbers(*item, part), quaternion)) return std::nullopt;
+        break;
+    }
+  }
+  if (!all_within(position->value, kFarthestPosition / unit_)) return std::nullopt;
+  record.p_TS = unit_ * Vector3d(position->value[0], position->value[1], position->value[2]);
+  if (quaternion) {
+    const auto& q = quaternion->value;
+    record.q_TS = Quaterniond(q[0], q[1], q[2], q[3]);
+    if (!(std::abs(record.q_TS.norm() - 1.0) <= kNormTolerance)) return std::nullopt;
+  } else {
+    if (!all_within(angles->value, 180.0)) return std::nullopt;
+    record.q_TS = from_angles(angles->value);
+  }
+  record.button = button.value_or(false);
+  return record;
+}
+
+void FastrakLayout::write_number(const Item& item, double value, std::string& bytes) const {
+  if (format_ == FastrakFormat::binary) return write_float(value, bytes);
+  char text[64];
+  std::snprintf(text, sizeof text, item.extended ? "%12.*E " : "%7.*f", item.decimals, value);
+  bytes += text;
+}
+
+std::string FastrakLayout::encode(const FastrakRecord& record) const {
+  std::string bytes{'0', static_cast<char>('0' + record.station), record.error};
+  const auto write = [&](const Item& item, const std::array<double, 4>& values) {
+    for (std::size_t i = 0; i < count(item.kind); ++i) write_number(item, values[i], bytes);
+  };
+  const Vector3d p = record.p_TS / unit_;
+  const Quaterniond& q = record.q_TS;
+  for (const Item* item : items_) {
+    switch (item->kind) {
+      case Kind::blank:
+        bytes += ' ';
+        break;
+      case Kind::line_end:
+        bytes += "\r\n";
+        break;
+      case Kind::button:
+        bytes += record.button ? " 1" : " 0";
+        break;
+      case Kind::position:
+        write(*item, {p.x(), p.y(), p.z(), 0.0});
+        break;
+      case Kind::angles:
+        write(*item, to_angles(q));
+        break;
+      case Kind::quaternion:
+        write(*item, {q.w(), q.x(), q.y(), q.z()});
+        break;
+    }
+  }
+  return bytes;
+}
+
+std::vector<int> fastrak_output_list(int station, FastrakFormat format, bool euler, bool redundant, bool button) {
+  const int orientation = euler ? 4 : 11;
+  std::vector<int> items{2, orientation};
+  if (button) items.push_back(16);
+  if (redundant) {  // the second writing after the first one's end: two halves of different records do not agree
+    items.insert(items.end(), {52, orientation + 50});
+    if (button) items.push_back(66);
+    items.insert(items.begin() + station, 0);
+  }
+  if (format == FastrakFormat::ascii) {
+    items.push_back(1);
+  } else if (!redundant) {
+    items.push_back(0);
+  }
+  return items;
+}
+
+std::string fastrak_list_command(int station, const std::vector<int>& items) {
+  std::string command = "O" + std::to_string(station);
+  for (const int item : items) command += "," + std::to_string(item);
+  return command + "\r";
+}
+
+namespace {
+constexpr std::size_t kStatusLength = 53;  // without the end of line
+constexpr unsigned kBinaryFlag = 1, kCentimetresFlag = 2, kContinuousFlag = 8, kOtherFlags = 0x3F4;
+}  // namespace
+
+std::optional<FastrakStatus> read_fastrak_status(const std::string& reply) {
+  if (reply.size() != kStatusLength || reply[0] != '2' || reply[2] != 'S') return std::nullopt;
+  unsigned flags = 0;
+  for (std::size_t i = 3; i < 6; ++i) {
+    const char c = reply[i];
+    const int digit = is_digit(c) ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
+    if (digit < 0) return std::nullopt;
+    flags = 16 * flags + static_cast<unsigned>(digit);
+  }
+  FastrakStatus status;
+  status.binary = (flags & kBinaryFlag) != 0;
+  status.centimetres = (flags & kCentimetresFlag) != 0;
+  status.continuous = (flags & kContinuousFlag) != 0;
+  const std::string version = reply.substr(15, 6);
+  const std::size_t first = version.find_first_not_of(' ');
+  if (first != std::string::npos) status.firmware = version.substr(first, version.find_last_not_of(' ') - first + 1);
+  return status;
+}
+
+std::string write_fastrak_status(const FastrakStatus& status) {
+  const unsigned flags = kOtherFlags | (status.binary ? kBinaryFlag : 0) | (status.centimetres ? kCentimetresFlag : 0) |
+                         (status.continuous ? kContinuousFlag : 0);
+  char text[64];
+  std::snprintf(text, sizeof text, "21S%03X    F3F  %6.6s%-32.32s\r\n", flags, status.firmware.c_str(), "simulated");
+  return text;
+}
+
+}  // namespace spring_workbench::fastrak

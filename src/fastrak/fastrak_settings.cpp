@@ -1,0 +1,86 @@
+#include <algorithm>
+#include <set>
+
+#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/fastrak/fastrak_source.h"
+
+namespace spring_workbench::fastrak {
+
+const std::vector<int>& fastrak_baud_rates() {
+  static const std::vector<int> rates{2400, 4800, 9600, 19200, 38400, 57600, 115200};
+  return rates;
+}
+
+const std::vector<std::string>& fastrak_keys() {
+  static const std::vector<std::string> keys{"port",        "baud",      "format",     "stations",
+                                             "orientation", "redundant", "hemisphere", "stylus"};
+  return keys;
+}
+
+namespace {
+
+/// A list of integers, or one integer.
+std::vector<int> read_stations(const YAML::Node& node, const std::string& where) {
+  std::vector<int> stations;
+  if (node.IsScalar()) stations.push_back(config::read_integer(node, where, "stations", 1, kFastrakStations));
+  if (node.IsSequence()) {
+    for (const YAML::Node& entry : node) {
+      stations.push_back(config::read_integer(entry, where, "stations", 1, kFastrakStations));
+    }
+  }
+  const std::set<int> different(stations.begin(), stations.end());
+  if (stations.empty() || different.size() != stations.size()) {
+    throw validation::InputError(where + ": stations: must be a list of some of 1, 2, 3, 4, none twice");
+  }
+  return stations;
+}
+
+/// true: station 1, where it is in use; false: none; or a list of some of `stations`.
+std::vector<int> read_styluses(const YAML::Node& node, const std::string& where, const std::vector<int>& stations) {
+  if (node.IsScalar()) return config::read_bool(node, where, "stylus") ? std::vector<int>{1} : std::vector<int>();
+  std::vector<int> styluses;
+  for (const YAML::Node& entry : node) {
+    const int station = config::read_integer(entry, where, "stylus", 1, kFastrakStations);
+    const bool used = std::count(stations.begin(), stations.end(), station) > 0;
+    if (!used || std::count(styluses.begin(), styluses.end(), station) > 0) {
+      validation::refuse(where, "stylus", std::to_string(station), "one of stations, none twice");
+    }
+    styluses.push_back(station);
+  }
+  return styluses;
+}
+
+int read_baud(const YAML::Node& node, const std::string& where) {
+  std::vector<std::string> names;
+  for (const int rate : fastrak_baud_rates()) names.push_back(std::to_string(rate));
+  return std::stoi(config::read_choice(node, where, "baud", names));
+}
+
+}  // namespace
+
+FastrakSettings read_fastrak_settings(const YAML::Node& map, const std::string& where) {
+  FastrakSettings settings;
+  if (map["port"]) settings.port = config::read_string(map["port"], where, "port");
+  if (settings.port.empty()) validation::refuse(where, "port", "(nothing)", "a path");
+  if (map["baud"]) settings.baud = read_baud(map["baud"], where);
+  if (map["format"]) {
+    const bool binary = config::read_choice(map["format"], where, "format", {"binary", "ascii"}) == "binary";
+    settings.format = binary ? FastrakFormat::binary : FastrakFormat::ascii;
+  }
+  if (map["stations"]) settings.stations = read_stations(map["stations"], where);
+  if (map["orientation"]) {
+    settings.euler = config::read_choice(map["orientation"], where, "orientation", {"quaternion", "euler"}) == "euler";
+  }
+  if (map["redundant"]) settings.redundant = config::read_bool(map["redundant"], where, "redundant");
+  if (map["stylus"]) settings.styluses = read_styluses(map["stylus"], where, settings.stations);
+  if (map["hemisphere"]) {
+    const auto direction = config::read_numbers(map["hemisphere"], where, "hemisphere", 3);
+    for (std::size_t i = 0; i < 3; ++i) {
+      validation::check_number(where, "hemisphere", direction[i], validation::between(-1e3, 1e3));
+      settings.hemisphere[static_cast<Eigen::Index>(i)] = direction[i];
+    }
+  }
+  return settings;
+}
+
+}  // namespace spring_workbench::fastrak

@@ -1,0 +1,236 @@
+#include "spring_workbench/fastrak/fastrak_source.h"
+
+#include <algorithm>
+#include <sstream>
+#include <thread>
+
+#include "serial_port.h"
+
+namespace spring_workbench::fastrak {
+namespace {
+
+using std::chrono::duration;
+using std::chrono::duration_cast;
+using std::chrono::steady_clock;
+
+constexpr double kLookAgain = 0.1;    // [s] after a port could not be opened
+constexpr double kSilence = 0.25;     // [s] without a good record: set up anew, and
+constexpr double kAnswerTime = 0.15;  // [s] for the device to answer; both beside the time of the
+constexpr double kLineBytes = 200.0;  // that may be on the line meanwhile: a portion or a record, and a status
+constexpr double kChance = 0.05;      // [s]
+constexpr int kAttemptsPerOpening = 5;
+
+steady_clock::duration seconds(double s) { return duration_cast<steady_clock::duration>(duration<double>(s)); }
+
+std::string hemisphere_text(const Vector3d& direction) {
+  std::ostringstream text;
+  text << direction.x() << "," << direction.y() << "," << direction.z();
+  return text.str();
+}
+
+bool has(const std::vector<int>& stations, int station) {
+  return std::count(stations.begin(), stations.end(), station) > 0;
+}
+
+std::vector<int> list_of(const FastrakSettings& settings, int station) {
+  return fastrak_output_list(station, settings.format, settings.euler, settings.redundant,
+                             has(settings.styluses, station));
+}
+
+}  // namespace
+
+std::vector<std::string> fastrak_set_up(const FastrakSettings& settings) {
+  // Resume output if it was paused, end a command that was cut, stop the stream.
+  std::vector<std::string> portions{"\x11\rc"};
+  std::string on, off;  // the last active station cannot be switched off: first on, then off
+  for (int station = 1; station <= kFastrakStations; ++station) {
+    const bool wanted = has(settings.stations, station);
+    (wanted ? on : off) += "l" + std::to_string(station) + (wanted ? ",1\r" : ",0\r");
+  }
+  portions.push_back("u" + on + off);
+  for (const int station : settings.stations) {
+    const std::string s = std::to_string(station);
+    portions.push_back(fastrak_list_command(station, list_of(settings, station)) + "H" + s + "," +
+                       hemisphere_text(settings.hemisphere) + "\rI" + s + ",0\r");
+    portions.push_back("R" + s + "\rr" + s + ",0,0,0\r");  // the transmitter's own frame
+  }
+  std::string modes;  // 0: else the switch turns the stream off
+  for (const int station : settings.styluses) modes += "e" + std::to_string(station) + ",0\r";
+  portions.push_back(modes + (settings.format == FastrakFormat::binary ? "f" : "F"));
+  return portions;
+}
+
+FastrakSource::FastrakSource(const FastrakSettings& settings)
+    : settings_(settings), set_up_(fastrak_set_up(settings)), problem_(settings.port + ": not opened yet") {
+  for (const int station : settings_.stations) {
+    layouts_.emplace(station, FastrakLayout(list_of(settings_, station), settings_.format, FastrakUnits::centimetres));
+  }
+  for (const char* name : {"records", "records with a warning", "bytes left out", "set-ups",
+                           "errors told by the device", "times the port was lost", "times the stream was lost"}) {
+    counters_[name] = 0;
+  }
+}
+
+FastrakSource::~FastrakSource() {
+  try {
+    if (port_) port_->write("c");
+  } catch (const SerialError&) {
+    // The port is gone, and the stream with it.
+  }
+}
+
+std::vector<motion::StationSample> FastrakSource::read(double timeout) {
+  const Time end = steady_clock::now() + seconds(timeout);
+  do {
+    try {
+      if (state_ == State::closed) {
+        std::this_thread::sleep_until(std::min(end, deadline_));
+        if (steady_clock::now() >= deadline_) open();
+      } else {
+        listen(std::min(end, deadline_));
+      }
+    } catch (const SerialError& error) {
+      if (port_) ++counters_["times the port was lost"];
+      close(error.what());
+    }
+  } while (samples_.empty() && steady_clock::now() < end);
+  return std::exchange(samples_, {});
+}
+
+steady_clock::duration FastrakSource::patience(double s) const {
+  return seconds(s + kLineBytes * 10.0 / settings_.baud);
+}
+
+void FastrakSource::open() {
+  port_ = std::make_unique<SerialPort>(settings_.port, settings_.baud);
+  problem_ = settings_.port + ": opened, asking the device";
+  begin_set_up();
+}
+
+void FastrakSource::close(const std::string& why) {
+  port_.reset();
+  problem_ = why;
+  state_ = State::closed;
+  deadline_ = steady_clock::now() + seconds(kLookAgain);
+}
+
+void FastrakSource::begin_set_up() {
+  state_ = State::setting_up;
+  ++counters_["set-ups"];
+  answered_ = understood_ = false;
+  decoder_ = FastrakDecoder();
+  portion_ = 0;
+  send_portion();
+}
+
+void FastrakSource::send_portion() {
+  port_->write(set_up_[portion_] + "S");  // its answer says that the commands before it are done
+  deadline_ = steady_clock::now() + patience(kAnswerTime);
+}
+
+void FastrakSource::listen(Time until) {
+  const Time begin = steady_clock::now();
+  // Whoever comes late himself gives the line a chance before he calls it silent.
+  const double least = begin >= deadline_ ? kChance : 0.0;
+  const double wait = std::max(least, duration<double>(until - begin).count());
+  const std::string bytes = port_->read(wait);
+  const Time now = steady_clock::now();
+  if (bytes.empty()) {
+    if (now >= deadline_) give_up_waiting();
+    return;
+  }
+  answered_ = true;
+  const std::size_t left_out_before = decoder_.bytes_left_out();
+  const auto messages = decoder_.decode(bytes);
+  const std::size_t samples_before = samples_.size();
+  if (state_ == State::streaming) counters_["bytes left out"] += decoder_.bytes_left_out() - left_out_before;
+  for (const FastrakMessage& message : messages) {
+    std::visit([&](const auto& m) { take(m, now); }, message);
+  }
+  stamp(samples_before, now);
+  if (now >= deadline_) give_up_waiting();
+}
+
+/// Records that were read together came one after the other: evenly since the last reading, and no earlier than the
+/// line lets them.
+void FastrakSource::stamp(std::size_t first, Time now) {
+  const double end = duration<double>(now.time_since_epoch()).count();
+  const std::size_t count = samples_.size() - first;
+  double line_time = 0.0;  // of the records behind
+  for (std::size_t i = count; i-- > 0;) {
+    motion::StationSample& sample = samples_[first + i];
+    const double share = static_cast<double>(i + 1) / static_cast<double>(count);
+    sample.received = std::max(end - line_time, last_reading_ + (end - last_reading_) * share);
+    line_time += static_cast<double>(layouts_.at(sample.station).length()) * 10.0 / settings_.baud;
+  }
+  if (count > 0) last_reading_ = end;
+}
+
+void FastrakSource::take(const FastrakRecord& record, Time now) {
+  samples_.push_back({record.station, 0.0, record.p_TS, record.q_TS, record.button, record.error});
+  ++counters_["records"];
+  if (record.error != ' ') ++counters_["records with a warning"];
+  has_streamed_ = true;
+  attempts_ = 0;
+  deadline_ = now + patience(kSilence);
+}
+
+void FastrakSource::take(const FastrakReply& reply, Time) {
+  understood_ = true;
+  if (reply.text.find("*ERROR*") != std::string::npos) {
+    ++counters_["errors told by the device"];
+    refusal_ = reply.text;
+  }
+  const auto status = read_fastrak_status(reply.text);
+  if (!status || state_ != State::setting_up) return;
+  firmware_ = status->firmware;
+  ++portion_;
+  if (portion_ < set_up_.size()) return send_portion();
+  if (status->binary == (settings_.format == FastrakFormat::binary) && status->centimetres) return begin_stream();
+  problem_ = settings_.port + ": the device does not take its settings" +
+             (refusal_.empty() ? std::string() : ": it says " + refusal_);
+  begin_set_up();
+}
+
+void FastrakSource::begin_stream() {
+  port_->write("C");
+  state_ = State::streaming;
+  has_streamed_ = false;
+  decoder_ = FastrakDecoder(layouts_);
+  deadline_ = steady_clock::now() + patience(kSilence);
+}
+
+void FastrakSource::give_up_waiting() {
+  problem_ = why_silent();
+  if (state_ == State::streaming && has_streamed_) ++counters_["times the stream was lost"];
+  if (++attempts_ % kAttemptsPerOpening == 0) return close(problem_);
+  begin_set_up();
+}
+
+std::string FastrakSource::why_silent() const {
+  const std::string where = settings_.port + ": ";
+  const std::string at_baud = " at " + std::to_string(settings_.baud) + " baud";
+  if (state_ == State::streaming) {
+    if (has_streamed_) return where + "the stream broke off; setting the device up anew";
+    const std::string said = refusal_.empty() ? "" : "; it says " + refusal_;
+    return where + "the device answers but sends no data: is a receiver plugged into each socket of `stations`?" + said;
+  }
+  if (!answered_)
+    return where + "silent" + at_baud + ": is the device on, its cable plugged in, its baud rate the same?";
+  if (!understood_)
+    return where + "what comes" + at_baud + " is no FASTRAK's: is its baud rate the same, 8 bits, no parity?";
+  return where + "the device stopped answering while it was set up";
+}
+
+motion::SourceHealth FastrakSource::health() const {
+  motion::SourceHealth health;
+  health.streaming = state_ == State::streaming && has_streamed_;
+  health.counters = counters_;
+  health.text = problem_;
+  if (health.streaming) {
+    health.text = settings_.port + ": streaming" + (firmware_.empty() ? "" : ", firmware " + firmware_);
+  }
+  return health;
+}
+
+}  // namespace spring_workbench::fastrak

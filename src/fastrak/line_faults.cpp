@@ -1,0 +1,118 @@
+#include "spring_workbench/fastrak/line_faults.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "spring_workbench/config/yaml_fields.h"
+
+namespace spring_workbench::fastrak {
+namespace {
+
+const char* const kWhere = "command line";
+const char* const kLetters = "jklxy";  // of the device's own weak measurements
+constexpr std::size_t kLongestNoise = 80;
+
+}  // namespace
+
+const std::vector<std::string>& fault_kinds() {
+  static const std::vector<std::string> kinds{"garbage", "cut", "silence", "error", "wrong_mode", "unplug"};
+  return kinds;
+}
+
+Fault parse_fault(const std::string& text) {
+  Fault fault;
+  std::size_t end = std::min(text.find(','), text.size());
+  const auto& kinds = fault_kinds();
+  const auto kind = std::find(kinds.begin(), kinds.end(), text.substr(0, end));
+  if (kind == kinds.end())
+    validation::refuse(kWhere, "--fault", text, "one of " + validation::join(kinds) + ", with ,rate= ,from= ,until=");
+  fault.kind = static_cast<Fault::Kind>(kind - kinds.begin());
+  while (end < text.size()) {
+    const std::size_t begin = end + 1;
+    end = std::min(text.find(',', begin), text.size());
+    const std::string field = text.substr(begin, end - begin);
+    const std::size_t equals = std::min(field.find('='), field.size());
+    const std::string key = field.substr(0, equals);
+    const YAML::Node value(field.substr(std::min(equals + 1, field.size())));
+    const std::string name = "--fault " + key;
+    if (key == "rate") {
+      fault.rate = config::read_number(value, kWhere, name, validation::between(0.0, 1.0));
+    } else if (key == "from") {
+      fault.from = config::read_number(value, kWhere, name, validation::not_negative());
+    } else if (key == "until") {
+      fault.until = config::read_number(value, kWhere, name, validation::not_negative());
+    } else {
+      validation::refuse(kWhere, "--fault", field, "rate=, from= or until=");
+    }
+  }
+  return fault;
+}
+
+LineFaults::LineFaults(std::vector<Fault> faults, unsigned seed) : faults_(std::move(faults)), random_(seed) {}
+
+bool LineFaults::active(Fault::Kind kind, double t) const {
+  return std::any_of(faults_.begin(), faults_.end(),
+                     [&](const Fault& f) { return f.kind == kind && t >= f.from && t < f.until; });
+}
+
+bool LineFaults::mode_changes(double before, double t) const {
+  return std::any_of(faults_.begin(), faults_.end(), [&](const Fault& f) {
+    return f.kind == Fault::Kind::wrong_mode && f.from > before && f.from <= t;
+  });
+}
+
+bool LineFaults::hits(double rate) { return std::uniform_real_distribution<double>(0.0, 1.0)(random_) < rate; }
+
+std::size_t LineFaults::number(std::size_t least, std::size_t most) {
+  return std::uniform_int_distribution<std::size_t>(least, most)(random_);
+}
+
+std::string LineFaults::noise(std::size_t size) {
+  std::string bytes(size, ' ');
+  for (char& c : bytes) c = static_cast<char>(number(0, 255));
+  return bytes;
+}
+
+std::string LineFaults::pass(std::string record, double t) {
+  for (const Fault& fault : faults_) {
+    if (record.empty() || t < fault.from || t >= fault.until) continue;
+    if (fault.kind == Fault::Kind::silence || fault.kind == Fault::Kind::unplug) return "";
+    if (fault.kind == Fault::Kind::wrong_mode || !hits(fault.rate)) continue;
+    if (fault.kind == Fault::Kind::garbage) spoil(record);
+    if (fault.kind == Fault::Kind::cut) shorten(record);
+    if (fault.kind == Fault::Kind::error) report_error(record);
+  }
+  return record;
+}
+
+void LineFaults::spoil(std::string& record) {
+  const std::size_t at = number(0, record.size() - 1);
+  switch (number(0, 2)) {
+    case 0:  // added
+      record.insert(at, noise(number(1, kLongestNoise)));
+      break;
+    case 1: {  // instead of what was there
+      const std::size_t size = number(1, record.size() - at);
+      record.replace(at, size, noise(size));
+      break;
+    }
+    default:  // one bit
+      record[at] = static_cast<char>(static_cast<unsigned char>(record[at]) ^ (1U << number(0, 7)));
+  }
+}
+
+void LineFaults::shorten(std::string& record) {
+  const std::size_t at = number(0, record.size() - 1);
+  record.erase(at, number(1, record.size() - at));
+}
+
+void LineFaults::report_error(std::string& record) {
+  const char letter = kLetters[number(0, 4)];
+  if (hits(0.5)) {
+    if (record.size() > 2 && record[0] == '0') record[2] = letter;
+  } else {
+    record.insert(0, "2 E*ERROR*?*ERROR* EC-99*PS0*FL0*ST0\r\n");
+  }
+}
+
+}  // namespace spring_workbench::fastrak

@@ -1,0 +1,43 @@
+#include "spring_workbench/fastrak/station_stream.h"
+
+namespace spring_workbench::fastrak {
+namespace {
+
+/// Slope of the least-squares line through moments at even intervals [s]; its ends alone would carry their own delays.
+double mean_interval(const std::vector<double>& receipts) {
+  const double middle = 0.5 * static_cast<double>(receipts.size() - 1);
+  double products = 0.0, squares = 0.0;
+  for (std::size_t k = 0; k < receipts.size(); ++k) {
+    const double from_middle = static_cast<double>(k) - middle;
+    products += from_middle * (receipts[k] - receipts.front());
+    squares += from_middle * from_middle;
+  }
+  return products / squares;
+}
+
+}  // namespace
+
+double StationStream::stamp(double received) {
+  constexpr double measured_for = 3.0;  // [s]
+  constexpr double longest_gap = 0.25;  // [s]
+  if (!even_stamps_) return received;
+  if (cadence_ && cadence_->is_astray()) cadence_.reset();  // records were lost while it was measured
+  if (cadence_) return cadence_->stamp(received);
+  if (!receipts_.empty() && received - receipts_.back() > longest_gap) receipts_.clear();
+  receipts_.push_back(received);
+  if (received - receipts_.front() < measured_for) return received;
+  cadence_.emplace(mean_interval(receipts_));
+  double stamp = received;
+  for (const double receipt : receipts_) stamp = cadence_->stamp(receipt);
+  receipts_.clear();
+  return stamp;
+}
+
+hand_input::TrueSample StationStream::take(const motion::StationSample& sample) {
+  const double t = stamp(sample.received);
+  const hand_input::TrueSample taken = truth_.take(hand_input::RawSample{t, sample.p_TS, sample.q_TS});
+  if (hand_input::usable(taken.verdict)) monitor_.sample(t, sample.received);
+  return taken;
+}
+
+}  // namespace spring_workbench::fastrak

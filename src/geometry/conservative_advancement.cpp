@@ -1,0 +1,69 @@
+#include "spring_workbench/geometry/conservative_advancement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace spring_workbench::geometry {
+namespace {
+
+std::array<Vector3d, 8> corners(const OutlineBox& box) {
+  std::array<Vector3d, 8> all;
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d sign((i & 1) ? 1.0 : -1.0, (i & 2) ? 1.0 : -1.0, (i & 4) ? 1.0 : -1.0);
+    all[static_cast<std::size_t>(i)] = box.X * box.half.cwiseProduct(sign);
+  }
+  return all;
+}
+
+/// How far the box reaches from its middle along `n`.
+double reach(const OutlineBox& box, const Vector3d& n_W) {
+  return (box.X.linear().transpose() * n_W).cwiseAbs().dot(box.half);
+}
+
+/// Up to which f ≤ longest a + b f − ½ c f² is not negative; c ≥ 0.
+double positive_until(double a, double b, double c, double longest) {
+  if (a + longest * (b - 0.5 * c * longest) >= 0.0 && a >= 0.0) return longest;
+  if (a <= 0.0) return 0.0;
+  const double root = std::sqrt(b * b + 2.0 * c * a);
+  return b < 0.0 ? 2.0 * a / (root - b) : (b + root) / c;
+}
+
+/// The plane goes with the box, and the corners are those of the other.
+double clear_of_corners(const OutlineBox& own, const Way& way, const OutlineBox& other, const Vector3d& n_W,
+                        double tolerance, double longest) {
+  const double lowest = n_W.dot(own.X.translation() - way.p_WO) - reach(own, n_W);
+  const Vector3d n_rate = way.turn_W.cross(n_W);
+  double clear = longest;
+  for (const Vector3d& corner : corners(other)) {
+    const Vector3d above = way.p_WO - corner;
+    const double furthest = above.norm() + longest * way.move_W.norm();
+    const double bend = n_rate.norm() * (way.turn_W.norm() * furthest + 2.0 * way.move_W.norm());
+    clear = positive_until(n_W.dot(above) + lowest + tolerance, n_rate.dot(above) + n_W.dot(way.move_W), bend, clear);
+  }
+  return clear;
+}
+
+}  // namespace
+
+double clear_above(const OutlineBox& own, const Way& way, const HalfSpace& below, double tolerance, double longest) {
+  const double across = below.n_W.cross(way.turn_W).norm();
+  double clear = longest;
+  for (const Vector3d& corner : corners(own)) {
+    const Vector3d by_turning = way.turn_W.cross(corner - way.p_WO);
+    const double height = below.n_W.dot(corner) - below.height;
+    clear =
+        positive_until(height + tolerance, below.n_W.dot(way.move_W + by_turning), across * by_turning.norm(), clear);
+  }
+  return clear;
+}
+
+double clear_of(const OutlineBox& own, const Way& way, const OutlineBox& other, double tolerance, double longest) {
+  const Vector3d n_W = gap_between(own, other).n_W;
+  const double top = n_W.dot(other.X.translation()) + reach(other, n_W);
+  const double clear = clear_above(own, way, {n_W, top}, tolerance, longest);
+  if (clear >= longest) return clear;
+  return std::max(clear, clear_of_corners(own, way, other, n_W, tolerance, longest));
+}
+
+}  // namespace spring_workbench::geometry

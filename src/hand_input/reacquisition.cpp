@@ -1,0 +1,94 @@
+#include "spring_workbench/hand_input/reacquisition.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::hand_input {
+namespace {
+
+constexpr double kRamp = 0.2;         // [s] from rest to full speed
+constexpr double kTail = 0.1;         // [s] time constant of the arrival
+constexpr double kNear = 1e-5;        // [m] where the rest of the way is made in one step
+constexpr double kNearAngle = 1e-4;   // [rad]
+constexpr double kSameTime = 0.5e-9;  // [s]
+
+/// From 0 to 1 while u goes there, with level ends.
+double smooth_step(double u) { return u >= 1.0 ? 1.0 : u * u * (3.0 - 2.0 * u); }
+
+/// How much of a way that long is made in dt.
+double share(double way, double speed, double dt) {
+  return way > 0.0 ? std::min(1.0, dt * std::min(speed / way, 1.0 / kTail)) : 0.0;
+}
+
+}  // namespace
+
+std::vector<motion::PoseSample> Reengagement::follow(const motion::PoseSample& sample, bool new_place,
+                                                     double simulated_until) {
+  if (newest_ && sample.t <= simulated_until + kSameTime) {
+    ++counts_.late;
+    return {};
+  }
+  std::vector<motion::PoseSample> result;
+  if (newest_) {
+    if (sample.t > lost_at()) note_loss(lost_at());
+    const bool held = simulated_until > newest_->t + kSameTime;
+    if (held) result.push_back({simulated_until, newest_->X});
+    if (held || new_place) set_out(sample);
+  }
+  result.push_back({sample.t, catching_up_ ? catch_up(sample) : sample.X});
+  newest_ = result.back();
+  tracked_ = sample;
+  loss_noted_ = false;
+  return result;
+}
+
+void Reengagement::set_out(const motion::PoseSample& sample) {
+  catching_up_ = true;
+  set_out_at_ = sample.t;
+  tracked_ = sample;
+  ++counts_.reengagements;
+}
+
+RigidTransform Reengagement::catch_up(const motion::PoseSample& sample) {
+  const double dt = sample.t - tracked_.t;
+  const double ramp = smooth_step((sample.t - set_out_at_) / kRamp);
+  RigidTransform X = newest_->X;  // first with the tracked hand ...
+  X.translation() += ramp * (sample.X.translation() - tracked_.X.translation());
+  X.linear() = X.linear() * math::exp_so3(ramp * math::log_so3(tracked_.X.linear().transpose() * sample.X.linear()));
+  const Vector3d way = sample.X.translation() - X.translation();  // ... then towards it
+  const Vector3d turn = math::log_so3(X.linear().transpose() * sample.X.linear());
+  if (way.norm() < kNear && turn.norm() < kNearAngle) {
+    catching_up_ = false;
+    return sample.X;
+  }
+  X.translation() += ramp * share(way.norm(), settings_.reengage_speed, dt) * way;
+  const Matrix3d R = X.linear() * math::exp_so3(ramp * share(turn.norm(), settings_.reengage_turn_rate, dt) * turn);
+  X.linear() = Quaterniond(R).normalized().toRotationMatrix();  // rounding does not add up
+  return X;
+}
+
+void Reengagement::note_loss(double t) {
+  if (std::exchange(loss_noted_, true)) return;
+  ++counts_.losses;
+  if (settings_.lost == "release") releases_.push_back(t);
+}
+
+std::optional<double> Reengagement::take_release(double until) {
+  if (newest_ && lost_at() <= until) note_loss(lost_at());
+  if (releases_.empty() || releases_.front() > until) return std::nullopt;
+  const double t = releases_.front();
+  releases_.pop_front();
+  return t;
+}
+
+void Reengagement::restart() {
+  newest_.reset();
+  releases_.clear();
+  catching_up_ = false;
+  loss_noted_ = false;
+}
+
+}  // namespace spring_workbench::hand_input

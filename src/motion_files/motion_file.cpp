@@ -1,0 +1,107 @@
+#include "spring_workbench/motion_files/motion_file.h"
+
+#include <cmath>
+#include <fstream>
+#include <locale>
+#include <sstream>
+#include <utility>
+
+#include "spring_workbench/validation/number_rule.h"
+
+namespace spring_workbench::motion_files {
+namespace {
+
+const char* const kFields[] = {"t", "x", "y", "z", "qx", "qy", "qz", "qw", "button"};
+constexpr std::size_t kFieldsWithoutButton = 8;
+constexpr std::size_t kFieldsWithButton = 9;
+// The times of day and places that a PoseTrack takes.
+constexpr double kFarthestTime = 1e12;     // [s]
+constexpr double kFarthestPosition = 1e9;  // [m]
+
+std::vector<std::string> words_of(const std::string& line) {
+  std::istringstream in(line.substr(0, line.find('#')));
+  std::vector<std::string> words;
+  for (std::string word; in >> word;) words.push_back(word);
+  return words;
+}
+
+/// In long double, so that differences of stamps since 1970 keep their nanoseconds.
+long double read_word(const std::string& word, const std::string& where, const std::string& field,
+                      const validation::NumberRule& rule) {
+  std::istringstream in(word);
+  in.imbue(std::locale::classic());
+  long double value = 0.0L;
+  const bool is_number = static_cast<bool>(in >> value) && in.peek() == std::istringstream::traits_type::eof();
+  if (!is_number || !rule.allows(static_cast<double>(value)))
+    validation::refuse(where, field, word.substr(0, 40), rule.text());
+  return value;
+}
+
+/// To ROS time's resolution, correctly rounded: the same stamps give the same bits wherever time starts, and in a bag.
+double whole_nanoseconds(long double seconds) { return static_cast<double>(std::round(seconds * 1e9L)) / 1e9; }
+
+struct Line {
+  long double stamp;
+  motion::StylusSample sample;
+};
+
+Line read_line(const std::vector<std::string>& words, const std::string& where) {
+  const auto number = [&](std::size_t i, double largest) {
+    return static_cast<double>(read_word(words[i], where, kFields[i], validation::between(-largest, largest)));
+  };
+  Line line;
+  line.stamp = read_word(words[0], where, kFields[0], validation::between(-kFarthestTime, kFarthestTime));
+  Vector3d p;
+  for (std::size_t i = 0; i < 3; ++i) p[static_cast<Eigen::Index>(i)] = number(i + 1, kFarthestPosition);
+  const Quaterniond q(number(7, 2.0), number(4, 2.0), number(5, 2.0), number(6, 2.0));
+  validation::check_number(where, "norm of qx qy qz qw", q.norm(), validation::between(0.5, 2.0));
+  line.sample.X = make_transform(q, p);
+  if (words.size() == kFieldsWithButton) {
+    if (words[8] != "0" && words[8] != "1") validation::refuse(where, "button", words[8].substr(0, 40), "0 or 1");
+    line.sample.button = words[8] == "1";
+  }
+  return line;
+}
+
+}  // namespace
+
+std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) throw validation::InputError(path + ": cannot be read: must be a readable motion file");
+  std::vector<motion::StylusSample> samples;
+  std::size_t fields = 0;
+  long double first_stamp = 0.0L;
+  std::string text;
+  for (long number = 1; std::getline(file, text); ++number) {
+    const std::vector<std::string> words = words_of(text);
+    if (words.empty()) continue;
+    const std::string where = path + ":" + std::to_string(number);
+    if (words.size() != kFieldsWithoutButton && words.size() != kFieldsWithButton) {
+      validation::refuse(where, "line", std::to_string(words.size()) + " fields", "t x y z qx qy qz qw [button]");
+    }
+    if (fields != 0 && words.size() != fields) {
+      validation::refuse(where, "line", std::to_string(words.size()) + " fields",
+                         std::to_string(fields) + " as in the lines before");
+    }
+    const Line line = read_line(words, where);
+    if (samples.empty()) {
+      fields = words.size();
+      first_stamp = line.stamp;
+    }
+    samples.push_back(line.sample);
+    samples.back().t = whole_nanoseconds(line.stamp - first_stamp);
+  }
+  if (file.bad()) throw validation::InputError(path + ": cannot be read: must be a readable motion file");
+  if (samples.empty())
+    throw validation::InputError(path + ": no samples: must have a line of t x y z qx qy qz qw [button]");
+  return samples;
+}
+
+RecordedSource::RecordedSource(std::vector<motion::StylusSample> samples) : samples_(std::move(samples)) {}
+
+std::optional<motion::StylusSample> RecordedSource::next() {
+  if (next_ == samples_.size()) return std::nullopt;
+  return samples_[next_++];
+}
+
+}  // namespace spring_workbench::motion_files

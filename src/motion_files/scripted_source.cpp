@@ -1,0 +1,66 @@
+#include "spring_workbench/motion_files/scripted_source.h"
+
+#include <algorithm>
+
+#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/motion/minimum_jerk.h"
+
+namespace spring_workbench::motion_files {
+namespace {
+
+constexpr double kFarthestTime = 1e6;  // [s]
+constexpr double kClosest = 1e-9;      // [s] samples are not closer than ROS time resolves
+
+motion::StylusSample read_waypoint(const YAML::Node& node, const std::string& path, const std::string& name) {
+  config::check_keys(node, path, name + ".", {"t", "pose", "button"});
+  motion::StylusSample waypoint;
+  waypoint.t = config::read_number(node["t"], path, name + ".t", validation::between(-kFarthestTime, kFarthestTime));
+  waypoint.X = config::read_pose(node["pose"], path, name + ".pose");
+  if (node["button"]) waypoint.button = config::read_bool(node["button"], path, name + ".button");
+  return waypoint;
+}
+
+}  // namespace
+
+ScriptedSource::ScriptedSource(const std::string& path) {
+  const YAML::Node script = config::load_yaml_file(path);
+  config::check_keys(script, path, "", {"rate", "waypoints"});
+  rate_ = config::read_number(script["rate"], path, "rate", validation::between(0.1, 1e4));
+  const YAML::Node list = script["waypoints"];
+  if (!list.IsDefined() || !list.IsSequence() || list.size() == 0) {
+    throw validation::InputError(path + ": waypoints: must be a list of at least one {t, pose, button}");
+  }
+  double first = 0.0;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string name = "waypoints[" + std::to_string(i) + "]";
+    motion::StylusSample waypoint = read_waypoint(list[i], path, name);
+    if (i == 0) first = waypoint.t;
+    waypoint.t -= first;
+    if (i > 0 && !(waypoint.t - waypoints_.back().t > kClosest)) {
+      throw validation::InputError(path + ":" + std::to_string(list[i].Mark().line + 1) + ": " + name + ".t: " +
+                                   list[i]["t"].Scalar() + " is not allowed: must be later than the waypoint before");
+    }
+    waypoints_.push_back(waypoint);
+  }
+}
+
+std::optional<motion::StylusSample> ScriptedSource::next() {
+  if (over_) return std::nullopt;
+  const double last = waypoints_.back().t;
+  const double t = static_cast<double>(next_++) / rate_;
+  over_ = t > last - kClosest;
+  return at(over_ ? last : t);
+}
+
+motion::StylusSample ScriptedSource::at(double t) const {
+  const auto later = std::upper_bound(waypoints_.begin(), waypoints_.end(), t,
+                                      [](double time, const motion::StylusSample& w) { return time < w.t; });
+  const motion::StylusSample& a = *(later - 1);
+  motion::StylusSample sample = a;
+  sample.t = t;
+  if (later == waypoints_.end()) return sample;
+  sample.X = motion::minimum_jerk_pose(a.X, later->X, (t - a.t) / (later->t - a.t));
+  return sample;
+}
+
+}  // namespace spring_workbench::motion_files

@@ -1,0 +1,32 @@
+#pragma once
+
+#include "bullet_types.h"
+
+namespace spring_workbench::rigid_bodies {
+
+/// Boxes are seen by each other and by planes from so far [m], so that what comes near fast is stopped where it
+/// touches. Bullet's own boxes see each other where they overlap.
+constexpr double seen_from = 3e-3;
+
+/// A box that Bullet looks at before it overlaps anything.
+class SeenBox final : public btBoxShape {
+ public:
+  using btBoxShape::btBoxShape;
+  void getAabb(const btTransform& X_WS, btVector3& least, btVector3& most) const override;
+};
+
+/// Bullet's configuration, but for contacts of boxes with boxes and planes, which are those of `box_contacts`.
+class BoxesSeenEarly final : public btDefaultCollisionConfiguration {
+ public:
+  btCollisionAlgorithmCreateFunc* getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) override;
+
+ private:
+  struct Create final : btCollisionAlgorithmCreateFunc {
+    btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                   const btCollisionObjectWrapper* a,
+                                                   const btCollisionObjectWrapper* b) override;
+  };
+  Create create_;
+};
+
+}  // namespace spring_workbench::rigid_bodies

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <btBulletDynamicsCommon.h>
+
+#include "spring_workbench/math/rigid_transform.h"
+
+namespace spring_workbench::rigid_bodies {
+
+inline btVector3 to_bullet(const Vector3d& v) { return btVector3(v.x(), v.y(), v.z()); }
+
+inline Vector3d from_bullet(const btVector3& v) { return Vector3d(v.x(), v.y(), v.z()); }
+
+inline btTransform to_bullet(const RigidTransform& X) {
+  const Matrix3d& R = X.linear();
+  return btTransform(btMatrix3x3(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
+                     to_bullet(Vector3d(X.translation())));
+}
+
+inline RigidTransform from_bullet(const btTransform& X) {
+  RigidTransform out = RigidTransform::Identity();
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) out.linear()(row, column) = X.getBasis()[row][column];
+  }
+  out.translation() = from_bullet(X.getOrigin());
+  return out;
+}
+
+}  // namespace spring_workbench::rigid_bodies

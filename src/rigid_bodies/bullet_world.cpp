@@ -1,0 +1,416 @@
+#include "bullet_world.h"
+
+#include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <set>
+
+#include "spring_workbench/geometry/conservative_advancement.h"
+#include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::rigid_bodies {
+namespace {
+
+constexpr double margin_near = 2e-3;  ///< [m]; what comes nearer than this to an awake body enters Bullet's world
+constexpr int steps_until_left = 50;  ///< a sleeper leaves Bullet's world when nothing awake was near for so many steps
+constexpr double asleep_speed = 2e-3;      ///< [m/s] of every point of a body …
+constexpr double asleep_after = 0.5;       ///< [s] … for so long: it goes to sleep
+constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
+constexpr double penetration_share = 0.2;  ///< of a penetration that is undone in a step, where it pushes free bodies
+constexpr double blind_way = 2e-4;         ///< [m] towards what is near, where the shapes are not boxes
+constexpr double deepest_way = 5e-5;       ///< [m]; no deeper goes a box into another
+constexpr double closed_gap = 1e-5;        ///< [m]; a contact without impulse is told while its gap is smaller
+
+using Extent = Eigen::AlignedBox3d;
+
+/// Extent in world of a box in O placed at `X_WO`.
+Extent placed(const Extent& box_O, const RigidTransform& X_WO) {
+  const Vector3d centre = X_WO * box_O.center();
+  const Vector3d half = X_WO.linear().cwiseAbs() * (0.5 * box_O.sizes());
+  return Extent(centre - half, centre + half);
+}
+
+btDbvtVolume volume(const Extent& box) { return btDbvtVolume::FromMM(to_bullet(box.min()), to_bullet(box.max())); }
+
+}  // namespace
+
+BulletWorld::BulletWorld(const scene::Scene& scene)
+    : scene_(scene), bench_shape_(btVector3(0, 0, 1), scene.bench_height + contact_skin) {
+  static const double set_once = gDeactivationTime = asleep_after;  // worlds may be made in several threads
+  static_cast<void>(set_once);
+  btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
+  configuration_.setPlaneConvexMultipointIterations(4,
+                                                    4);  // a flush face touches with its corners from the first step on
+  configuration_.setConvexConvexMultipointIterations(4, 4);
+  world_.setGravity(btVector3(0.0, 0.0, -scene_.gravity));
+  btContactSolverInfo& info = world_.getSolverInfo();
+  info.m_splitImpulse = true;  // what is undone of a penetration becomes no speed
+  info.m_splitImpulsePenetrationThreshold = 0.0;
+  info.m_erp2 = penetration_share;
+  info.m_linearSlop = 2.0 * contact_skin;
+  info.m_restitutionVelocityThreshold = rest_speed;
+  info.m_solverMode = SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
+  world_.setForceUpdateAllAabbs(false);
+
+  bench_body_ = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(0.0, nullptr, &bench_shape_));
+  bench_body_->setFriction(std::sqrt(scene_.bench_material.friction));
+  bench_body_->setRestitution(std::sqrt(scene_.bench_material.restitution));
+  bench_body_->setUserIndex(-1);
+  world_.addRigidBody(bench_body_.get());
+
+  items_.resize(scene_.bodies.size());
+  for (std::size_t i = 0; i < items_.size(); ++i) {
+    Item& item = items_[i];
+    const scene::Body& body = scene_.bodies[i];
+    item.movable = body.movable;
+    item.massless = body.movable && !(body.mass_properties.mass > 0.0);
+    item.box_O = geometry::bounding_box(body.collision);
+    item.X_WO = body.X_WO;
+    if (item.box_O.isEmpty()) continue;  // nothing to touch
+    item.radius = geometry::bounding_radius(body.collision);
+    item.outline_O = geometry::outline(body.collision);
+    item.leaf = tree_.insert(volume(placed(item.box_O, item.X_WO)), nullptr);
+    item.leaf->dataAsInt = static_cast<int>(i);
+  }
+}
+
+BulletWorld::~BulletWorld() {
+  for (const std::size_t i : in_world_) world_.removeRigidBody(items_[i].bullet.get());
+  world_.removeRigidBody(bench_body_.get());
+}
+
+void BulletWorld::make_bullet(std::size_t index) {
+  Item& item = items_[index];
+  const scene::Body& body = scene_.bodies[index];
+  double mass = item.movable ? body.mass_properties.mass : 0.0;
+  btVector3 principal(0, 0, 0);
+  if (item.massless) {
+    mass = 1.0;  // of no effect: it moves only as it is driven
+    principal.setValue(1.0, 1.0, 1.0);
+  } else if (item.movable) {
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(body.mass_properties.inertia_O);
+    Matrix3d R = axes.eigenvectors();
+    if (R.determinant() < 0.0) R.col(0) = -R.col(0);
+    item.X_OB.linear() = R;
+    principal = to_bullet(Vector3d(axes.eigenvalues()));
+  }
+  item.shape = std::make_unique<BulletShape>(body, item.X_OB);
+  btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, item.shape->get(), principal);
+  info.m_linearSleepingThreshold = asleep_speed;
+  info.m_angularSleepingThreshold = asleep_speed / std::max(item.radius, 1e-9);
+  item.bullet = std::make_unique<btRigidBody>(info);
+  item.bullet->setFriction(std::sqrt(body.material.friction));
+  item.bullet->setRestitution(std::sqrt(body.material.restitution));
+  item.bullet->setUserIndex(static_cast<int>(index));
+  if (item.massless) {
+    let_move(item, false);
+    item.bullet->setFlags(item.bullet->getFlags() | BT_DISABLE_WORLD_GRAVITY);
+  }
+}
+
+void BulletWorld::let_move(Item& item, bool may_move) {
+  const double factor = may_move ? 1.0 : 0.0;
+  item.bullet->setLinearFactor(btVector3(factor, factor, factor));
+  item.bullet->setAngularFactor(factor);
+}
+
+void BulletWorld::update_box(Item& item) {
+  if (item.leaf == nullptr) return;
+  btDbvtVolume box = volume(placed(item.box_O, item.X_WO));
+  tree_.update(item.leaf, box);
+}
+
+void BulletWorld::put(std::size_t index, const RigidTransform& X_WO, const Twist& V_WO_W) {
+  Item& item = items_[index];
+  item.X_WO = X_WO;
+  item.V_WO_W = V_WO_W;
+  update_box(item);
+  if (!item.bullet) return;
+  const btTransform X_WB = to_bullet(RigidTransform(X_WO * item.X_OB));
+  item.bullet->setWorldTransform(X_WB);
+  item.bullet->setInterpolationWorldTransform(X_WB);
+  if (!item.movable) return;
+  item.bullet->setLinearVelocity(to_bullet(V_WO_W.linear));
+  item.bullet->setAngularVelocity(to_bullet(V_WO_W.angular));
+  item.bullet->setInterpolationLinearVelocity(to_bullet(V_WO_W.linear));
+  item.bullet->setInterpolationAngularVelocity(to_bullet(V_WO_W.angular));
+  item.bullet->updateInertiaTensor();
+  if (item.in_world) world_.updateSingleAabb(item.bullet.get());
+}
+
+void BulletWorld::enter(std::size_t index) {
+  Item& item = items_[index];
+  item.near_at = steps_;
+  if (item.in_world || item.leaf == nullptr) return;
+  if (!item.bullet) make_bullet(index);
+  put(index, item.X_WO, item.V_WO_W);
+  item.bullet->clearForces();
+  item.bullet->forceActivationState(item.movable ? ISLAND_SLEEPING : ACTIVE_TAG);
+  item.bullet->setDeactivationTime(0.0);
+  world_.addRigidBody(item.bullet.get());
+  item.in_world = true;
+  in_world_.push_back(index);
+  if (item.movable) remembered_.push_back({index, item.X_WO, item.V_WO_W, ISLAND_SLEEPING, 0.0});
+}
+
+void BulletWorld::leave(std::size_t index) {
+  Item& item = items_[index];
+  world_.removeRigidBody(item.bullet.get());
+  item.in_world = false;
+  item.V_WO_W = Twist();
+  in_world_.erase(std::find(in_world_.begin(), in_world_.end(), index));
+}
+
+Extent BulletWorld::way_of(std::size_t index, double h) const {
+  const Item& item = items_[index];
+  Extent box = placed(item.box_O, item.X_WO);
+  const double turned = std::min(h * item.V_WO_W.angular.norm() * item.radius, 2.0 * item.radius);
+  const Vector3d moved = h * item.V_WO_W.linear;
+  box.extend(Extent(box.min() + moved, box.max() + moved));
+  const Vector3d margin = Vector3d::Constant(turned + margin_near);
+  return Extent(box.min() - margin, box.max() + margin);
+}
+
+std::vector<std::size_t> BulletWorld::inside(const Extent& box_W) const {
+  struct Found : btDbvt::ICollide {
+    std::vector<std::size_t> items;
+    void Process(const btDbvtNode* leaf) override { items.push_back(static_cast<std::size_t>(leaf->dataAsInt)); }
+  } found;
+  tree_.collideTV(tree_.m_root, volume(box_W), found);
+  std::sort(found.items.begin(), found.items.end());  // the tree's order depends on its history
+  return found.items;
+}
+
+void BulletWorld::take_states() {
+  for (const std::size_t i : in_world_) {
+    Item& item = items_[i];
+    if (item.driven) continue;
+    if (!awake(item)) {
+      item.V_WO_W = Twist();
+      continue;
+    }
+    item.X_WO = from_bullet(item.bullet->getWorldTransform()) * item.X_OB.inverse();
+    item.V_WO_W.linear = from_bullet(item.bullet->getLinearVelocity());
+    item.V_WO_W.angular = from_bullet(item.bullet->getAngularVelocity());
+    update_box(item);
+  }
+}
+
+void BulletWorld::take_contacts() {
+  contacts_.clear();
+  for (int m = 0; m < dispatcher_.getNumManifolds(); ++m) {
+    const btPersistentManifold& manifold = *dispatcher_.getManifoldByIndexInternal(m);
+    const int a = manifold.getBody0()->getUserIndex(), b = manifold.getBody1()->getUserIndex();
+    for (int k = 0; k < manifold.getNumContacts(); ++k) {
+      const btManifoldPoint& point = manifold.getContactPoint(k);
+      const double gap = point.getDistance() + 2.0 * contact_skin;
+      if (!(point.m_appliedImpulse > 0.0) && gap > closed_gap) continue;
+      WorldContact c;
+      const bool first_is_body = a >= 0;
+      c.body = static_cast<std::size_t>(first_is_body ? a : b);
+      const int other = first_is_body ? b : a;
+      c.other = other >= 0 ? static_cast<std::size_t>(other) : bench;
+      const Vector3d n = from_bullet(point.m_normalWorldOnB);
+      Vector3d impulse = point.m_appliedImpulse * n +
+                         point.m_appliedImpulseLateral1 * from_bullet(point.m_lateralFrictionDir1) +
+                         point.m_appliedImpulseLateral2 * from_bullet(point.m_lateralFrictionDir2);
+      for (const DrivenSolver::Impact& impact : solver_.impacts()) {
+        if (impact.point == &point) impulse += impact.impulse_W;
+      }
+      c.n_W = first_is_body ? n : Vector3d(-n);
+      c.impulse_W = first_is_body ? impulse : Vector3d(-impulse);
+      c.p_W = 0.5 * from_bullet(point.getPositionWorldOnA() + point.getPositionWorldOnB());
+      c.depth = std::max(0.0, -gap);
+      contacts_.push_back(c);
+    }
+  }
+}
+
+void BulletWorld::begin_driving(std::vector<DrivenBody>& driven, double h) {
+  std::vector<DrivenSolver::Driven> for_solver;
+  for (DrivenBody& d : driven) {
+    d.contact_W = d.impact_W = Wrench();
+    Item& item = items_[d.body];
+    if (item.leaf == nullptr) continue;
+    enter(d.body);
+    item.driven = true;
+    put(d.body, d.X_WO, {d.displacement_W.linear / h, d.displacement_W.angular / h});
+    item.bullet->setGravity(btVector3(0, 0, 0));
+    item.bullet->forceActivationState(DISABLE_DEACTIVATION);
+    if (item.massless) let_move(item, true);
+    for_solver.push_back({item.bullet.get(), &d});
+  }
+  solver_.set_driven(std::move(for_solver), h);
+}
+
+void BulletWorld::end_driving(const std::vector<DrivenBody>& driven) {
+  for (const DrivenBody& d : driven) {
+    Item& item = items_[d.body];
+    if (!item.driven) continue;
+    item.driven = false;
+    if (item.massless) {
+      let_move(item, false);
+    } else {
+      item.bullet->setGravity(world_.getGravity());
+    }
+    item.bullet->forceActivationState(ACTIVE_TAG);
+    put(d.body, d.X_WO, Twist());
+  }
+}
+
+void BulletWorld::enter_what_is_near(double h) {
+  std::vector<std::size_t> reached;
+  std::copy_if(in_world_.begin(), in_world_.end(), std::back_inserter(reached),
+               [&](std::size_t i) { return awake(items_[i]); });
+  std::set<std::size_t> known(reached.begin(), reached.end());
+  for (std::size_t k = 0; k < reached.size(); ++k) {
+    for (const std::size_t other : inside(way_of(reached[k], h))) {
+      enter(other);
+      if (items_[other].movable && known.insert(other).second) reached.push_back(other);
+    }
+  }
+}
+
+void BulletWorld::step(double h, std::vector<DrivenBody>& driven) {
+  ++steps_;
+  begin_driving(driven, h);
+  enter_what_is_near(h);
+  world_.stepSimulation(h, 0);
+  take_states();
+  take_contacts();
+  end_driving(driven);
+  const std::vector<std::size_t> still_there = in_world_;
+  for (const std::size_t i : still_there) {
+    if (!awake(items_[i]) && steps_ - items_[i].near_at > steps_until_left) leave(i);
+  }
+}
+
+void BulletWorld::remember() {
+  remembered_.clear();
+  for (const std::size_t i : in_world_) {
+    const Item& item = items_[i];
+    if (!item.movable) continue;
+    remembered_.push_back(
+        {i, item.X_WO, item.V_WO_W, item.bullet->getActivationState(), item.bullet->getDeactivationTime()});
+  }
+}
+
+void BulletWorld::go_back() {
+  for (const Remembered& r : remembered_) {
+    put(r.body, r.X_WO, r.V_WO_W);
+    items_[r.body].bullet->forceActivationState(r.activation);
+    items_[r.body].bullet->setDeactivationTime(r.slow_for);
+  }
+}
+
+void BulletWorld::place(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W, bool awake) {
+  Item& item = items_[body];
+  if (!awake && item.in_world) leave(body);
+  put(body, X_WO, V_WO_W);
+  if (!awake) return;
+  enter(body);
+  if (!item.in_world) return;
+  item.bullet->forceActivationState(ACTIVE_TAG);
+  item.bullet->setDeactivationTime(0.0);
+}
+
+Extent BulletWorld::swept(const Item& item, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                          double margin) const {
+  Extent way = placed(item.box_O, X0_WO);
+  way.extend(placed(item.box_O, X1_WO));
+  const double turned = math::log_so3(X0_WO.linear().transpose() * X1_WO.linear()).norm();
+  const Vector3d grown = Vector3d::Constant(margin + item.radius * std::min(turned, 2.0));
+  return Extent(way.min() - grown, way.max() + grown);
+}
+
+bool BulletWorld::near_movable(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
+                               const std::vector<std::size_t>& carried) const {
+  if (items_[body].leaf == nullptr) return false;
+  const Extent way = swept(items_[body], X0_WO, X1_WO, margin_near);
+  const auto comes_near = [&](std::size_t i) {
+    return i != body && items_[i].leaf != nullptr && way_of(i, h).intersects(way);
+  };
+  const std::vector<std::size_t> found = inside(way);
+  return std::any_of(found.begin(), found.end(), [&](std::size_t i) { return i != body && items_[i].movable; }) ||
+         std::any_of(in_world_.begin(), in_world_.end(),
+                     [&](std::size_t i) { return awake(items_[i]) && comes_near(i); }) ||
+         std::any_of(carried.begin(), carried.end(), comes_near);
+}
+
+bool BulletWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                            double margin) const {
+  const Item& item = items_[body];
+  if (item.leaf == nullptr) return false;
+  const Extent way = swept(item, X0_WO, X1_WO, margin);
+  if (way.min().z() < scene_.bench_height) return true;
+  const std::vector<std::size_t> found = inside(way);
+  return std::any_of(found.begin(), found.end(), [&](std::size_t i) { return i != body; });
+}
+
+RigidTransform BulletWorld::remembered_pose(std::size_t body) const {
+  const auto found =
+      std::find_if(remembered_.begin(), remembered_.end(), [&](const auto& r) { return r.body == body; });
+  return found == remembered_.end() ? items_[body].X_WO : found->X_WO;
+}
+
+double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                                bool untouched) const {
+  const Item& item = items_[body];
+  if (item.leaf == nullptr) return 1.0;
+  double part = !untouched && solver_.missed_way() > DrivenSolver::small_miss ? 0.5 : 1.0;
+  // Of a pair whose shapes are not both boxes, only what the boxes around them say is known.
+  const auto by_extent = [&](const geometry::BoxGap& gap, const geometry::Way& way) {
+    const double left = gap.gap - 2.0 * contact_skin;
+    const bool near = left < blind_way;
+    const double turned = item.radius * (near ? way.turn_W : gap.n_W.cross(way.turn_W)).norm();
+    const double approach = (near ? way.move_W.norm() : -gap.n_W.dot(way.move_W)) + turned;
+    const double allowed = std::max(left, untouched ? 0.0 : blind_way);
+    if (allowed < part * approach) part = allowed / approach;
+  };
+  const auto tolerance = [&](const geometry::BoxGap& gap) {
+    return untouched ? 0.0 : std::max(deepest_way, -gap.gap * (1.0 + 1e-9) + 1e-12);
+  };
+  const auto way_between = [](const RigidTransform& X0, const RigidTransform& X1) {
+    return geometry::Way{X0.translation(), X1.translation() - X0.translation(),
+                         X0.linear() * math::log_so3(X0.linear().transpose() * X1.linear())};
+  };
+  const geometry::Way way = way_between(X0_WO, X1_WO);
+  const std::vector<std::size_t> near = inside(swept(item, X0_WO, X1_WO, 2.0 * contact_skin));
+  for (const geometry::OutlineBox& own : item.outline_O) {
+    const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
+    const geometry::BoxGap above = geometry::gap_above(here, scene_.bench_height);
+    if (own.exact) {
+      part = geometry::clear_above(here, way, {Vector3d::UnitZ(), scene_.bench_height}, tolerance(above), part);
+    } else {
+      by_extent(above, way);
+    }
+  }
+  for (const std::size_t i : near) {
+    if (i == body) continue;
+    const Item& other = items_[i];
+    const RigidTransform X_before = untouched ? other.X_WO : remembered_pose(i);
+    // As seen from the other, which stays where it was before.
+    const geometry::Way relative = untouched ? way : way_between(X0_WO, X_before * other.X_WO.inverse() * X1_WO);
+    for (const geometry::OutlineBox& own : item.outline_O) {
+      const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
+      for (const geometry::OutlineBox& box : other.outline_O) {
+        const geometry::OutlineBox there{X_before * box.X, box.half, box.exact};
+        const geometry::BoxGap gap = geometry::gap_between(here, there);
+        if (own.exact && box.exact) {
+          part = geometry::clear_of(here, relative, there, tolerance(gap), part);
+        } else {
+          by_extent(gap, relative);
+        }
+      }
+    }
+  }
+  return part;
+}
+
+std::unique_ptr<RigidWorld> make_rigid_world(const scene::Scene& scene) { return std::make_unique<BulletWorld>(scene); }
+
+}  // namespace spring_workbench::rigid_bodies

@@ -1,0 +1,118 @@
+#pragma once
+
+#include <BulletCollision/BroadphaseCollision/btDbvt.h>
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <vector>
+
+#include "bullet_boxes.h"
+#include "bullet_shape.h"
+#include "driven_solver.h"
+#include "spring_workbench/geometry/box_gap.h"
+#include "spring_workbench/rigid_bodies/rigid_world.h"
+
+namespace spring_workbench::rigid_bodies {
+
+/// Finds the contacts of sleeping bodies, too: or what is hit would be pushed into what it lies on before that is seen.
+class DispatcherForSleepers final : public btCollisionDispatcher {
+ public:
+  using btCollisionDispatcher::btCollisionDispatcher;
+  bool needsCollision(const btCollisionObject* a, const btCollisionObject* b) override {
+    return a->checkCollideWith(b) && b->checkCollideWith(a);
+  }
+};
+
+/// Bullet's world, with what rests taken out of it and driven bodies in its solver.
+class BulletWorld final : public RigidWorld {
+ public:
+  explicit BulletWorld(const scene::Scene& scene);
+  ~BulletWorld() override;
+  BulletWorld(const BulletWorld&) = delete;
+  BulletWorld& operator=(const BulletWorld&) = delete;
+
+  void step(double h, std::vector<DrivenBody>& driven) override;
+  void remember() override;
+  void go_back() override;
+  void place(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W, bool awake) override;
+  const RigidTransform& pose(std::size_t body) const override { return items_[body].X_WO; }
+  const Twist& velocity(std::size_t body) const override { return items_[body].V_WO_W; }
+  bool awake(std::size_t body) const override { return awake(items_[body]); }
+  bool near_movable(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
+                    const std::vector<std::size_t>& carried) const override;
+  bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                 double margin) const override;
+  double free_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const override {
+    return part_of_way(body, X0_WO, X1_WO, true);
+  }
+  double sound_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const override {
+    return part_of_way(body, X0_WO, X1_WO, false);
+  }
+  const std::vector<WorldContact>& contacts() const override { return contacts_; }
+  const std::vector<std::size_t>& bodies_near() const override { return in_world_; }
+
+ private:
+  struct Item {
+    bool movable = false;
+    bool massless = false;  ///< movable, but only by what drives it
+    Eigen::AlignedBox3d box_O;
+    double radius = 0.0;
+    std::vector<geometry::OutlineBox> outline_O;  ///< a box around each shape
+    RigidTransform X_WO = RigidTransform::Identity();
+    Twist V_WO_W;
+    RigidTransform X_OB = RigidTransform::Identity();  ///< principal axes, where Bullet's tensors are diagonal
+    btDbvtNode* leaf = nullptr;                        ///< null where there is nothing to touch
+    std::unique_ptr<BulletShape> shape;                ///< these two are made when something first comes near
+    std::unique_ptr<btRigidBody> bullet;
+    bool in_world = false;
+    bool driven = false;  ///< in the present step
+    long near_at = 0;     ///< step in which something awake was last near
+  };
+
+  struct Remembered {
+    std::size_t body;
+    RigidTransform X_WO;
+    Twist V_WO_W;
+    int activation;
+    double slow_for;  ///< [s]
+  };
+
+  void make_bullet(std::size_t index);
+  static void let_move(Item& item, bool may_move);  ///< one without mass: Bullet takes contacts of what cannot for none
+  void enter(std::size_t index);
+  void leave(std::size_t index);
+  /// What is near an awake body, and what is near that: what one pushes may push the next one in the same step.
+  void enter_what_is_near(double h);
+  void put(std::size_t index, const RigidTransform& X_WO, const Twist& V_WO_W);
+  void update_box(Item& item);
+  std::vector<std::size_t> inside(const Eigen::AlignedBox3d& box_W) const;
+  Eigen::AlignedBox3d way_of(std::size_t index, double h) const;
+  Eigen::AlignedBox3d swept(const Item& item, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                            double margin) const;
+  double part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, bool untouched) const;
+  RigidTransform remembered_pose(std::size_t body) const;
+  void begin_driving(std::vector<DrivenBody>& driven, double h);
+  void end_driving(const std::vector<DrivenBody>& driven);
+  void take_states();
+  void take_contacts();
+  bool awake(const Item& item) const {
+    return item.in_world && item.movable && (item.driven || (item.bullet->isActive() && !item.massless));
+  }
+
+  scene::Scene scene_;
+  std::vector<Item> items_;            ///< parallel to the scene's bodies
+  btDbvt tree_;                        ///< of all of them
+  std::vector<std::size_t> in_world_;  ///< those that Bullet has to look at
+  BoxesSeenEarly configuration_;
+  DispatcherForSleepers dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  DrivenSolver solver_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  btStaticPlaneShape bench_shape_;
+  std::unique_ptr<btRigidBody> bench_body_;
+  std::vector<WorldContact> contacts_;
+  std::vector<Remembered> remembered_;
+  long steps_ = 0;
+};
+
+}  // namespace spring_workbench::rigid_bodies

@@ -1,0 +1,55 @@
+#include "spring_workbench/ros/common/diagnostic_status.h"
+
+#include <sstream>
+
+namespace spring_workbench::ros_common {
+
+using diagnostic_msgs::DiagnosticStatus;
+
+DiagnosticStatusBuilder::DiagnosticStatusBuilder(const std::string& name, const std::string& hardware) {
+  status_.level = DiagnosticStatus::OK;
+  status_.name = name;
+  status_.message = "ok";
+  status_.hardware_id = hardware;
+}
+
+DiagnosticStatusBuilder& DiagnosticStatusBuilder::add(const std::string& key, const std::string& value) {
+  diagnostic_msgs::KeyValue entry;
+  entry.key = key;
+  entry.value = value;
+  status_.values.push_back(entry);
+  return *this;
+}
+
+DiagnosticStatusBuilder& DiagnosticStatusBuilder::add(const std::string& key, double value) {
+  std::ostringstream text;
+  text << value;
+  return add(key, text.str());
+}
+
+DiagnosticStatusBuilder& DiagnosticStatusBuilder::add(const std::string& key, std::size_t value) {
+  return add(key, std::to_string(value));
+}
+
+DiagnosticStatusBuilder& DiagnosticStatusBuilder::raise(int8_t level, const std::string& reason) {
+  if (level > status_.level) {
+    status_.level = level;
+    status_.message = reason;
+  }
+  return *this;
+}
+
+void add_stream(const hand_input::StreamFigures& stream, const hand_input::GateCounts& gate,
+                DiagnosticStatusBuilder& status) {
+  status.add("samples", stream.samples)
+      .add("rate [Hz]", stream.interval > 0.0 ? 1.0 / stream.interval : 0.0)
+      .add("jitter of stamps [s]", stream.stamp_jitter)
+      .add("jitter of receipt [s]", stream.receipt_jitter)
+      .add("age of newest sample when it came [s]", stream.age)
+      .add("longest gap [s]", stream.longest_gap)
+      .add("dropouts", gate.dropouts)
+      .add("jumps taken as true", gate.new_places)
+      .add("sign flips put right", gate.sign_flips);
+}
+
+}  // namespace spring_workbench::ros_common

@@ -1,0 +1,50 @@
+#include "spring_workbench/ros/common/loop_clock.h"
+
+#include <ros/init.h>
+
+#include <algorithm>
+#include <chrono>
+#include <mutex>
+#include <thread>
+
+namespace spring_workbench::ros_common {
+namespace {
+
+using std::chrono::duration;
+using std::chrono::steady_clock;
+
+void sleep_until_simulated(double t) {
+  constexpr std::chrono::milliseconds poll(1);
+  const auto give_up = steady_clock::now() + std::chrono::milliseconds(100);
+  const double begin = loop_time();
+  for (double now = begin; now >= begin && now < t && steady_clock::now() < give_up && ros::ok(); now = loop_time()) {
+    std::this_thread::sleep_for(poll);
+  }
+}
+
+double attended_time(double wall) {
+  constexpr double longest = 0.01;  // [s]
+  static std::mutex mutex;
+  static double last = wall, attended = 0.0;
+  const std::lock_guard<std::mutex> lock(mutex);
+  attended += std::clamp(wall - last, 0.0, longest);
+  last = std::max(last, wall);
+  return attended;
+}
+
+}  // namespace
+
+double loop_time() { return local_time().loop; }
+
+hand_input::LocalTime local_time() {
+  const double wall = duration<double>(steady_clock::now().time_since_epoch()).count();
+  return {ros::Time::isSimTime() ? ros::Time::now().toSec() : wall, attended_time(wall)};
+}
+
+void sleep_until_loop_time(double t) {
+  if (ros::Time::isSimTime()) return sleep_until_simulated(t);
+  std::this_thread::sleep_until(
+      steady_clock::time_point(std::chrono::duration_cast<steady_clock::duration>(duration<double>(t))));
+}
+
+}  // namespace spring_workbench::ros_common

@@ -1,0 +1,72 @@
+#include "fork_markers.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "spring_workbench/ros/common/conversions.h"
+
+namespace spring_workbench::manipulation {
+namespace {
+
+using visualization_msgs::Marker;
+
+const Color rigid_color(0.55, 0.58, 0.63, 1.0);
+const Color force_color(0.10, 0.85, 0.95, 1.0);
+const Color moment_color(0.75, 0.45, 1.0, 1.0);
+const Color gap_color(1.0, 0.3, 0.8, 1.0);
+const Color text_color(1.0, 1.0, 1.0, 1.0);
+
+void add_triangles(const std::string& ns, int id, const fork_mesh::ForkModel::Triangles& triangles,
+                   const fork_mesh::ForkMesh& mesh, const Color& color, MarkerList& markers) {
+  Marker& marker = markers.add(ns, id, Marker::TRIANGLE_LIST, RigidTransform::Identity(), color);
+  marker.points.reserve(3 * triangles.size());
+  for (const Eigen::Vector3i& t : triangles) {
+    for (const int corner : t)
+      marker.points.push_back(ros_common::to_point(mesh.vertices[static_cast<std::size_t>(corner)]));
+  }
+}
+
+/// From the tip; nothing where it would be too short to be seen.
+void draw_arrow(const std::string& ns, const tools::ToolState& tool, const Vector3d& arrow, const Color& color,
+                MarkerList& markers) {
+  constexpr double shortest = 1e-3, longest = 1.0;  // [m]
+  const double length = arrow.norm();
+  if (!(length > shortest)) return;
+  const Vector3d begin = tool.X_WE.translation();
+  markers.add_arrow(ns, 0, begin, begin + arrow * std::min(1.0, longest / length), 0.03 * tool.length, color);
+}
+
+void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, MarkerList& markers) {
+  const double force = tool.tip_wrench_W.force.norm();
+  char text[100];
+  std::snprintf(text, sizeof text, "%.2f vkg   %.2f N   %.3f N m", virtual_kilograms(force, scene),
+                force / scene.force_scale, tool.tip_wrench_W.moment.norm() / scene.force_scale);
+  const Vector3d place =
+      tool.X_WH_seen * Vector3d(0.0, 0.0, -0.5 * tool.length) + 0.35 * tool.length * Vector3d::UnitZ();
+  markers.add_text("readout", 0, place, 0.13 * tool.length, text, text_color);
+}
+
+}  // namespace
+
+void draw_fork(const fork_mesh::ForkModel& model, const fork_mesh::ForkMesh& mesh, const tools::ToolState& tool,
+               const Color& spring_color, const std::string& number, MarkerList& markers) {
+  constexpr double smallest_gap = 1e-5;  // [m]
+  add_triangles("fork" + number, 0, model.spring(), mesh, spring_color, markers);
+  add_triangles("fork" + number, 1, model.shaft_and_end(), mesh, rigid_color, markers);
+  const Vector3d hand = tool.X_WH.translation(), seen = tool.X_WH_seen.translation();
+  if ((hand - seen).norm() < smallest_gap) return;
+  markers.add_points("gap" + number, 0, Marker::LINE_LIST, {hand, seen}, gap_color).scale.x = 0.01 * tool.length;
+}
+
+void draw_load(const scene::Scene& scene, const tools::ToolState& tool, MarkerList& markers) {
+  const auto held = scene::find_body(scene, tool.held_object);
+  if (!held) return;
+  const double weight = scene.bodies[*held].mass_properties.mass * std::max(scene.gravity, 1.0);
+  if (weight > 0.0) {
+    draw_arrow("force", tool, 0.5 * tool.length / weight * tool.tip_wrench_W.force, force_color, markers);
+    draw_arrow("moment", tool, 2.5 / weight * tool.tip_wrench_W.moment, moment_color, markers);
+  }
+  draw_readout(scene, tool, markers);
+}
+
+}  // namespace spring_workbench::manipulation

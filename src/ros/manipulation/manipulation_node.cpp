@@ -1,0 +1,148 @@
+#include "spring_workbench/ros/manipulation/manipulation_node.h"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/ros/common/parameters.h"
+
+namespace spring_workbench::manipulation {
+namespace {
+
+/// The nodes that the master says publish /tf, this one left out.
+std::vector<std::string> senders_of_tf() {
+  XmlRpc::XmlRpcValue request, response, state;
+  request[0] = ros::this_node::getName();
+  std::vector<std::string> senders;
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return senders;
+  XmlRpc::XmlRpcValue& topics = state[0];
+  for (int i = 0; i < topics.size(); ++i) {
+    if (std::string(topics[i][0]) != "/tf") continue;
+    for (int k = 0; k < topics[i][1].size(); ++k) senders.push_back(topics[i][1][k]);
+  }
+  senders.erase(std::remove(senders.begin(), senders.end(), ros::this_node::getName()), senders.end());
+  return senders;
+}
+
+/// The folders that are given, and that of the scene at the start.
+std::vector<std::string> scene_roots(const ManipulationParameters& parameters, SimulationRunner& runner) {
+  std::vector<std::string> roots = parameters.scene_roots;
+  runner.locked([&](const simulation::Simulation& simulation) {
+    roots.push_back(std::filesystem::path(simulation.scene().path).parent_path().string());
+  });
+  return roots;
+}
+
+}  // namespace
+
+ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node)
+    : parameters_(
+          read_manipulation_parameters(ros_common::private_parameters(private_node), private_node.getNamespace())),
+      runner_(scene::load_scene(parameters_.scene), parameters_.simulation, parameters_.truth,
+              ros::Time::isSimTime() ? 1.0 / parameters_.rate : 0.0),
+      input_(node, parameters_, parameters_.stylus_frame, "stylus/joy"),
+      second_input_(node, parameters_, parameters_.stylus_frame + "_2", "stylus_2/joy"),
+      publisher_(private_node, parameters_),
+      services_(private_node, runner_, scene_roots(parameters_, runner_)),
+      live_tuning_(make_live_tuning(private_node, runner_)),
+      checkpoint_(private_node, runner_, scene_roots(parameters_, runner_)),
+      diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
+      diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
+      every_second_(node.createWallTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
+      physics_([this] { run_physics(); }) {
+  runner_.locked([](const simulation::Simulation& simulation) {
+    for (const std::string& warning : simulation.scene().warnings) ROS_WARN_STREAM(warning);
+    ROS_INFO("scene %s: %zu bodies", simulation.scene().name.c_str(), simulation.scene().bodies.size());
+  });
+}
+
+ManipulationNode::~ManipulationNode() {
+  stop_ = true;
+  physics_.join();
+}
+
+void ManipulationNode::run_physics() {
+  const double period = 1.0 / parameters_.rate;
+  double due = ros_common::loop_time();
+  while (!stop_ && ros::ok()) {
+    run_cycle(due);
+    const double now = ros_common::loop_time();
+    const bool on_time = due + period > now && due <= now + period;  // else the cycle was late, or the clock jumped
+    due = on_time ? due + period : now + period;
+    ros_common::sleep_until_loop_time(due);
+  }
+}
+
+void ManipulationNode::run_cycle(double due) {
+  for (bool more = true; more && !stop_;) more = run_step(due);
+}
+
+bool ManipulationNode::run_step(double due) {
+  const hand_input::LocalTime local = ros_common::local_time();
+  const double now = local.loop;
+  const CycleReport report = runner_.cycle({input_.take_events(), second_input_.take_events()}, local);
+  const ros::Time stamp = runner_.stamp(ros::Time::now());
+  runner_.locked([&](const simulation::Simulation& simulation) { publisher_.publish(simulation, stamp, now); });
+  // In simulated time the clock may have gone on by itself.
+  const double deadline = (ros::Time::isSimTime() ? std::max(due, now) : due) + 1.0 / parameters_.rate;
+  const bool deadline_missed = ros_common::loop_time() > deadline;
+  const std::string integrator =
+      runner_.locked([](const simulation::Simulation& s) { return s.settings().dynamics.integrator; });
+  publisher_.publish_task(runner_, stamp);
+  publisher_.publish_steps(report, integrator, stamp, deadline_missed);
+  count(report, deadline_missed);
+  return report.more;
+}
+
+void ManipulationNode::count(const CycleReport& report, bool deadline_missed) {
+  if (report.leapt) ROS_WARN("time leapt: starting anew");
+  const std::lock_guard<std::mutex> lock(loop_mutex_);
+  ++loop_.cycles;
+  loop_.deadlines_missed += deadline_missed ? 1 : 0;
+  loop_.guards_tripped += static_cast<std::size_t>(report.advance.guards_tripped);
+  loop_.leaps += report.leapt ? 1 : 0;
+  loop_.longest_cycle = std::max(loop_.longest_cycle, report.wall_time);
+}
+
+void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
+  place_workbench();
+  end_with_its_master();
+  LoopStatistics loop;
+  {
+    const std::lock_guard<std::mutex> lock(loop_mutex_);
+    loop = loop_;
+  }
+  diagnostic_msgs::DiagnosticArray message;
+  message.header.stamp = ros::Time::now();
+  const InputStatistics input = input_.statistics();
+  const std::string hint = hint_for_silence(input, input.messages == 0 ? senders_of_tf() : std::vector<std::string>(),
+                                            parameters_.stylus_frame);
+  constexpr double patience = 10.0;  // [s]
+  if (!hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(patience, "no sample of the stylus yet: " << hint);
+  const TrackerInput first{input, runner_.hand_counts(0), hint};
+  const TrackerInput second{second_input_.statistics(), runner_.hand_counts(1), ""};
+  message.status = diagnostics_.report(first, second, loop, ros_common::loop_time());
+  diagnostics_publisher_.publish(message);
+}
+
+/// A master that was started anew knows nothing of this node, and nothing brings it back but a new start.
+void ManipulationNode::end_with_its_master() {
+  XmlRpc::XmlRpcValue request, response, payload;
+  request[0] = request[1] = ros::this_node::getName();
+  if (!ros::master::check() || ros::master::execute("lookupNode", request, response, payload, false)) return;
+  ROS_FATAL(
+      "the ROS master was started anew and does not know this node: it ends; with respawn it comes back as it was");
+  checkpoint_.hand_over();
+  ros::shutdown();
+}
+
+void ManipulationNode::place_workbench() {
+  if (workbench_placed_ || parameters_.workbench_frame == parameters_.world_frame) return;
+  workbench_placed_ = true;
+  if (input_.workbench_known()) return;
+  static_transforms_.sendTransform(ros_common::to_transform(RigidTransform::Identity(), parameters_.world_frame,
+                                                            parameters_.workbench_frame, ros::Time::now()));
+}
+
+}  // namespace spring_workbench::manipulation

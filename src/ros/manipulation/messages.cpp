@@ -1,0 +1,122 @@
+#include "messages.h"
+
+#include "spring_workbench/ros/common/conversions.h"
+
+namespace spring_workbench::manipulation {
+
+ObjectStates to_message(const std::vector<bodies::BodyState>& objects) {
+  ObjectStates message;
+  for (const bodies::BodyState& object : objects) {
+    ObjectState state;
+    state.name = object.name;
+    state.pose = ros_common::to_pose(object.X_WO);
+    state.twist.linear = ros_common::to_vector(object.V_WO_W.linear);
+    state.twist.angular = ros_common::to_vector(object.V_WO_W.angular);
+    state.held = object.held;
+    state.highlighted = object.highlighted;
+    state.in_contact = object.in_contact;
+    state.asleep = object.asleep;
+    message.objects.push_back(state);
+  }
+  return message;
+}
+
+ForkState to_message(const tools::ToolState& tool) {
+  ForkState message;
+  message.tool = tool.tool;
+  message.held_object = tool.held_object;
+  message.touched = tool.touched;
+  message.shape = tool.shape;
+  message.integrator = tool.integrator;
+  message.stretch_on = tool.dofs.stretch;
+  message.bend_on = tool.dofs.bend;
+  message.torsion_on = tool.dofs.torsion;
+  message.length = tool.length;
+  message.stretch_stiffness = tool.stiffness.stretch;
+  message.bend_stiffness = tool.stiffness.bend;
+  message.torsion_stiffness = tool.stiffness.torsion;
+  message.stretch_damping_ratio = tool.damping_ratio.stretch;
+  message.bend_damping_ratio = tool.damping_ratio.bend;
+  message.torsion_damping_ratio = tool.damping_ratio.torsion;
+  message.strain.assign(tool.strain.data(), tool.strain.data() + tool.strain.size());
+  message.stretch = tool.stretch;
+  message.bend = {tool.bend.x(), tool.bend.y()};
+  message.torsion = tool.torsion;
+  message.handle = ros_common::to_pose(tool.X_WH);
+  message.handle_seen = ros_common::to_pose(tool.X_WH_seen);
+  message.tip = ros_common::to_pose(tool.X_WE);
+  message.tip_wrench = ros_common::to_wrench(tool.tip_wrench_W);
+  message.elastic_energy = tool.elastic_energy;
+  message.kinetic_energy = tool.kinetic_energy;
+  message.force_scale = tool.force_scale;
+  message.weight = tool.weight;
+  message.torque = tool.torque;
+  message.material_stiffness = tool.material_stiffness;
+  message.material_stiffness_uncertainty = tool.material_stiffness_uncertainty;
+  return message;
+}
+
+Contacts to_message(const std::vector<contact::ContactState>& contacts) {
+  Contacts message;
+  for (const contact::ContactState& state : contacts) {
+    Contact contact;
+    contact.object = state.object;
+    contact.other = state.other;
+    contact.point = ros_common::to_point(state.p_W);
+    contact.normal = ros_common::to_vector(state.n_W);
+    contact.depth = state.depth;
+    contact.impulse = state.impulse;
+    contact.slip_speed = state.slip_speed;
+    contact.phase = state.phase == contact::ContactPhase::started ? Contact::STARTED
+                    : state.phase == contact::ContactPhase::ended ? Contact::ENDED
+                                                                  : Contact::PERSISTING;
+    message.contacts.push_back(contact);
+  }
+  return message;
+}
+
+TaskState to_message(const std::vector<assembly::Placement>& placements, const assembly::TaskScore& score) {
+  TaskState message;
+  for (const assembly::Placement& placement : placements) {
+    PlacementState p;
+    p.object = placement.object;
+    p.position_error = placement.position_error;
+    p.angle_error = placement.angle_error;
+    p.in_place = placement.in_place;
+    message.placements.push_back(p);
+  }
+  message.targets = static_cast<uint32_t>(score.targets);
+  message.placed = static_cast<uint32_t>(score.placed);
+  message.complete = score.complete();
+  message.time = score.time;
+  message.hand_path = score.hand_path;
+  message.object_path = score.object_path;
+  message.grasps = static_cast<uint32_t>(score.grasps);
+  message.collisions = static_cast<uint32_t>(score.collisions);
+  message.drops = static_cast<uint32_t>(score.drops);
+  message.largest_force = score.largest_force;
+  message.position_error = score.position_error;
+  message.angle_error = score.angle_error;
+  message.csv = assembly::score_csv(score);
+  return message;
+}
+
+StepReport to_message(const simulation::AdvanceReport& report) {
+  StepReport message;
+  message.simulated_time = report.simulated_time;
+  message.steps = static_cast<uint32_t>(report.steps);
+  message.position_error = report.position_error;
+  message.angle_error = report.angle_error;
+  message.energy_added = report.energy_added;
+  message.omega_dt = report.stiffest_omega_dt;
+  message.collision_queries = static_cast<uint32_t>(report.collision_queries);
+  message.steps_rejected = static_cast<uint32_t>(report.steps_rejected);
+  message.energy_held = static_cast<uint32_t>(report.energy_held);
+  message.held_back = static_cast<uint32_t>(report.held_back);
+  message.guards_tripped = static_cast<uint32_t>(report.guards_tripped);
+  message.parts_run = report.parts_run;
+  message.parts_left_out = report.parts_left_out;
+  return message;
+}
+
+}  // namespace spring_workbench::manipulation

@@ -1,0 +1,138 @@
+#include "spring_workbench/ros/manipulation/services.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "spring_workbench/validation/number_rule.h"
+
+namespace spring_workbench::manipulation {
+namespace {
+
+/// Runs the change and turns bad input into an answer.
+template <typename Response, typename Change>
+bool answer(Response& response, Change&& change) {
+  try {
+    change();
+    response.success = true;
+  } catch (const validation::InputError& error) {
+    response.success = false;
+    response.message = error.what();
+    ROS_WARN_STREAM(error.what());
+  }
+  return true;
+}
+
+template <typename Response>
+void fill(const simulation::ChangeReport& report, Response& response) {
+  response.message = report.message;
+  response.elastic_energy_before = report.elastic_energy_before;
+  response.elastic_energy_after = report.elastic_energy_after;
+}
+
+std::string energies(const simulation::ChangeReport& report) {
+  char text[80];
+  std::snprintf(text, sizeof text, "; elastic energy %.6g J -> %.6g J", report.elastic_energy_before,
+                report.elastic_energy_after);
+  return text;
+}
+
+std::string describe(const dynamics::DynamicsSettings& settings) {
+  char text[120];
+  std::snprintf(text, sizeof text, "%s, steps of at most %g s, tolerance %g m%s", settings.integrator.c_str(),
+                settings.step, settings.tolerance, settings.tolerance > 0.0 ? "" : " (fixed steps)");
+  return text;
+}
+
+}  // namespace
+
+Services::Services(ros::NodeHandle private_node, SimulationRunner& runner, std::vector<std::string> scene_roots)
+    : runner_(runner), scene_roots_(std::move(scene_roots)) {
+  servers_ = {private_node.advertiseService("select_tool", &Services::select_tool, this),
+              private_node.advertiseService("set_dofs", &Services::set_dofs, this),
+              private_node.advertiseService("set_stiffness", &Services::set_stiffness, this),
+              private_node.advertiseService("set_damping", &Services::set_damping, this),
+              private_node.advertiseService("set_integrator", &Services::set_integrator, this),
+              private_node.advertiseService("load_scene", &Services::load_scene, this),
+              private_node.advertiseService("calibrate", &Services::calibrate, this),
+              private_node.advertiseService("reset", &Services::reset, this),
+              private_node.advertiseService("release", &Services::release, this)};
+}
+
+bool Services::select_tool(SelectTool::Request& request, SelectTool::Response& response) {
+  return answer(response, [&] {
+    validation::check_number("select_tool", "stylus", request.stylus,
+                             validation::between(0.0, simulation::Simulation::most_hands));
+    const std::size_t hand = request.stylus > 0 ? request.stylus - 1 : 0;
+    fill(runner_.locked([&](simulation::Simulation& s) { return s.select_tool(request.tool, hand); }), response);
+  });
+}
+
+bool Services::set_dofs(SetForkDofs::Request& request, SetForkDofs::Response& response) {
+  const rod::ForkDofs dofs{request.stretch != 0, request.bend != 0, request.torsion != 0};
+  return answer(response,
+                [&] { fill(runner_.locked([&](simulation::Simulation& s) { return s.set_dofs(dofs); }), response); });
+}
+
+bool Services::set_stiffness(SetForkStiffness::Request& request, SetForkStiffness::Response& response) {
+  const rod::PerFamily stiffness{request.stretch, request.bend, request.torsion};
+  return answer(response, [&] {
+    fill(runner_.locked([&](simulation::Simulation& s) { return s.set_stiffness(stiffness); }), response);
+  });
+}
+
+bool Services::set_damping(SetForkDamping::Request& request, SetForkDamping::Response& response) {
+  const rod::PerFamily ratio{request.stretch, request.bend, request.torsion};
+  return answer(response, [&] {
+    fill(runner_.locked([&](simulation::Simulation& s) { return s.set_damping_ratio(ratio, request.law); }), response);
+  });
+}
+
+bool Services::set_integrator(SetIntegrator::Request& request, SetIntegrator::Response& response) {
+  return answer(response, [&] {
+    runner_.locked([&](simulation::Simulation& s) {
+      s.set_integrator(request.name, request.step, request.tolerance);
+      response.message = describe(s.settings().dynamics);
+    });
+  });
+}
+
+bool Services::load_scene(LoadScene::Request& request, LoadScene::Response& response) {
+  return answer(response, [&] {
+    const scene::Scene scene = spring_workbench::scene::load_scene(request.scene, scene_roots_);
+    runner_.load(scene);
+    response.message = scene.name + ": " + std::to_string(scene.bodies.size()) + " bodies";
+    if (!scene.warnings.empty()) response.message += "; " + validation::join(scene.warnings, "; ");
+  });
+}
+
+bool Services::calibrate(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [&] {
+    const simulation::ChangeReport report = runner_.locked([](simulation::Simulation& s) { return s.calibrate(); });
+    response.message = report.message + energies(report);
+  });
+}
+
+bool Services::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [&] {
+    runner_.restart();
+    response.message = "all objects are back at their start";
+  });
+}
+
+bool Services::release(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
+  return answer(response, [&] {
+    const std::string held = runner_.locked([](simulation::Simulation& s) {
+      std::vector<std::string> names;
+      for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+        const std::string name = s.fork(hand).held_object;
+        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      }
+      s.release();
+      return validation::join(names);
+    });
+    if (held.empty()) throw validation::InputError("release: nothing is held: must be called while an object is held");
+    response.message = "released " + held;
+  });
+}
+
+}  // namespace spring_workbench::manipulation

@@ -1,0 +1,46 @@
+#include "spring_workbench/ros/tracker_driver/operator_eyes.h"
+
+#include "spring_workbench/tools/tool.h"
+
+namespace spring_workbench::tracker_driver {
+
+OperatorEyes::OperatorEyes(ros::NodeHandle node)
+    : objects_subscriber_(node.subscribe("manipulation/objects", 1, &OperatorEyes::on_objects, this)),
+      fork_subscriber_(node.subscribe("manipulation/fork", 1, &OperatorEyes::on_fork, this)) {}
+
+void OperatorEyes::wait() {
+  while (ros::ok() && (view_.objects.empty() || view_.X_HE.translation().isZero())) {
+    ros::spinOnce();
+    ros::WallDuration(0.02).sleep();
+  }
+}
+
+assembly::OperatorView OperatorEyes::look() {
+  ros::spinOnce();
+  return view_;
+}
+
+void OperatorEyes::on_objects(const ObjectStates& message) {
+  view_.objects.clear();
+  for (const ObjectState& object : message.objects) {
+    const auto& q = object.pose.orientation;
+    const auto& p = object.pose.position;
+    const auto& v = object.twist.linear;
+    bodies::BodyState state;
+    state.name = object.name;
+    state.X_WO = make_transform(Quaterniond(q.w, q.x, q.y, q.z), Vector3d(p.x, p.y, p.z));
+    state.V_WO_W.linear = Vector3d(v.x, v.y, v.z);
+    state.held = object.held != 0;
+    state.highlighted = object.highlighted != 0;
+    state.in_contact = object.in_contact != 0;
+    state.asleep = object.asleep != 0;
+    view_.objects.push_back(state);
+  }
+}
+
+void OperatorEyes::on_fork(const ForkState& message) {
+  view_.X_HE.translation().z() = message.length;
+  view_.turns = tools::turns(tools::tool_called(message.tool, "fork"));
+}
+
+}  // namespace spring_workbench::tracker_driver

@@ -1,0 +1,281 @@
+#include "spring_workbench/ros/tracker_driver/tracker_driver.h"
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <sensor_msgs/Joy.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "interactive_marker_source.h"
+#include "joy_source.h"
+#include "spring_workbench/motion_files/motion_file.h"
+#include "spring_workbench/motion_files/scripted_source.h"
+#include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/ros/common/diagnostic_status.h"
+#include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/ros/common/parameters.h"
+#include "spring_workbench/scene/scene.h"
+#include "spring_workbench/validation/number_rule.h"
+
+namespace spring_workbench::tracker_driver {
+namespace {
+
+/// A path or package:// URI as a path.
+std::string resolve(const std::string& path_or_uri) {
+  const std::string scheme = "package://";
+  if (path_or_uri.rfind(scheme, 0) != 0) return path_or_uri;
+  const std::string rest = path_or_uri.substr(scheme.size());
+  const std::string package = rest.substr(0, rest.find('/'));
+  const std::string folder = scene::find_package_in_ros_package_path(package);
+  if (folder.empty()) validation::refuse("file", "package", package, "a package on ROS_PACKAGE_PATH");
+  return folder + rest.substr(package.size());
+}
+
+/// ROS's time at which the steady clock showed `t` [s]. The two are read beside each other, once more where the process
+/// was interrupted in between.
+ros::Time ros_time(double t) {
+  constexpr double interrupted = 50e-6;  // [s]
+  const auto steady = [] {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  };
+  ros::Time now;
+  double before = 0.0;
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    before = steady();
+    now = ros::Time::now();
+    if (steady() - before < interrupted) break;
+  }
+  return now - ros::Duration(before - t);
+}
+
+}  // namespace
+
+TrackerDriver::TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
+    : parameters_(read_tracker_parameters(ros_common::private_parameters(private_node), private_node.getNamespace())),
+      name_(private_node.getNamespace()),
+      X_BT_(parameters_.X_BT),
+      played_(parameters_.truth, parameters_.dropout_after),
+      diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
+  joy_publishers_[1] = node.advertise<sensor_msgs::Joy>("stylus/joy", 100);
+  for (const int station : parameters_.fastrak.styluses) {
+    if (station == 1) continue;
+    joy_publishers_[station] = node.advertise<sensor_msgs::Joy>("stylus_" + std::to_string(station) + "/joy", 100);
+  }
+  if (parameters_.source == "operator") {
+    eyes_ = std::make_unique<OperatorEyes>(node);
+    return;
+  }
+  device_ = open_device(node, private_node);
+  if (device_) return;
+  const auto first = open()->next();
+  if (!first) throw validation::InputError(parameters_.file + ": no samples: must be at least one");
+  if (parameters_.X_BS_first) X_BT_ = *parameters_.X_BS_first * first->X.inverse();
+}
+
+std::unique_ptr<motion::StylusSource> TrackerDriver::open() {
+  if (eyes_) {
+    assembly::OperatorSettings settings;
+    settings.seed = static_cast<unsigned>(parameters_.seed);
+    eyes_->wait();
+    return std::make_unique<assembly::SimulatedOperator>(scene::load_scene(parameters_.scene), settings,
+                                                         [this] { return eyes_->look(); });
+  }
+  const std::string path = resolve(parameters_.file);
+  if (parameters_.source == "scripted") return std::make_unique<motion_files::ScriptedSource>(path);
+  return std::make_unique<motion_files::RecordedSource>(motion_files::read_motion_file(path));
+}
+
+/// Nothing where the source is a motion.
+std::unique_ptr<motion::LiveSource> TrackerDriver::open_device(ros::NodeHandle node,
+                                                               ros::NodeHandle private_node) const {
+  const RigidTransform above = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.4));
+  const RigidTransform X_WB = parameters_.X_BS_first.value_or(above);
+  if (parameters_.source == "fastrak") return std::make_unique<fastrak::FastrakSource>(parameters_.fastrak);
+  if (parameters_.source == "joy") return std::make_unique<JoySource>(node, parameters_.joy, X_WB);
+  if (parameters_.source == "interactive_marker") {
+    return std::make_unique<InteractiveMarkerSource>(private_node, parameters_.workbench_frame, X_WB);
+  }
+  return nullptr;
+}
+
+/// Eyes beside each other in the head's axes: x forward, y left (REP 103).
+void TrackerDriver::send_eyes() {
+  const auto eye = [&](const std::string& name, double side) {
+    const Vector3d p(0.0, 0.5 * side * parameters_.interpupillary_distance, 0.0);
+    return ros_common::to_transform(make_transform(Quaterniond::Identity(), p), parameters_.head_frame, name,
+                                    ros::Time::now());
+  };
+  static_transforms_.sendTransform({eye("eye_left", 1.0), eye("eye_right", -1.0)});
+}
+
+void TrackerDriver::run() {
+  send_eyes();
+  if (device_) return stream();
+  do {
+    play();
+  } while (parameters_.loop && ros::ok());
+  over_ = true;
+  while (ros::ok()) wait_until(ros_common::loop_time() + 1.0);
+}
+
+void TrackerDriver::play() {
+  const std::unique_ptr<motion::StylusSource> source = open();
+  ros::Time::waitForValid();
+  const double start = ros_common::loop_time() + parameters_.pause;
+  ++passes_;
+  played_.restart();
+  double last = -std::numeric_limits<double>::infinity();  // time of the newest sample sent [s]
+  const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
+  constexpr double slack = 1e-6;  // [s] rounding of stamps
+  while (ros::ok()) {
+    auto sample = source->next();
+    if (!sample) return;
+    const double t = sample->t / parameters_.speed;
+    if (t <= last || t < last + shortest - slack) {
+      ++left_out_;
+      continue;
+    }
+    const hand_input::TrueSample taken = played_.take(motion::PoseSample{sample->t, sample->X});
+    if (!hand_input::usable(taken.verdict)) {
+      ++left_out_;
+      continue;
+    }
+    sample->X = taken.sample.X;
+    wait_until(start + t);
+    interval_ = t - last;
+    last = t;
+    send(*sample, ros::Time::now() - ros::Duration(ros_common::loop_time() - (start + t)));
+  }
+}
+
+void TrackerDriver::send(const motion::StylusSample& sample, const ros::Time& stamp) {
+  transforms_.sendTransform(
+      {ros_common::to_transform(X_BT_ * sample.X * Eigen::Translation3d(parameters_.p_ST), parameters_.workbench_frame,
+                                parameters_.stylus_frame, stamp),
+       ros_common::to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp)});
+  send_buttons(1, sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), false,
+               stamp);
+  ++sent_;
+}
+
+void TrackerDriver::send_buttons(int station, bool grasp, bool next_tool, const ros::Time& stamp) {
+  sensor_msgs::Joy joy;
+  joy.header.stamp = stamp;
+  joy.header.frame_id = frame_of(station);
+  joy.buttons = {grasp ? 1 : 0, next_tool ? 1 : 0};
+  joy_publishers_.at(station).publish(joy);
+}
+
+void TrackerDriver::stream() {
+  constexpr double slice = 0.1;  // [s] between looks at what else is due
+  ros::Time::waitForValid();
+  while (ros::ok()) {
+    for (const motion::StationSample& sample : device_->read(slice)) send(sample);
+    if (ros_common::loop_time() >= next_diagnostics_) {
+      publish_diagnostics();
+      next_diagnostics_ = ros_common::loop_time() + 1.0;
+    }
+  }
+}
+
+fastrak::StationStream& TrackerDriver::stream_of(int station) {
+  const auto stream = streams_.find(station);
+  if (stream != streams_.end()) return stream->second;
+  return streams_
+      .emplace(station, fastrak::StationStream(parameters_.truth, parameters_.dropout_after, parameters_.even_stamps))
+      .first->second;
+}
+
+void TrackerDriver::send(const motion::StationSample& sample) {
+  const hand_input::TrueSample taken = stream_of(sample.station).take(sample);
+  if (joy_publishers_.count(sample.station) > 0) {
+    send_buttons(sample.station, sample.button, sample.next_tool, ros_time(sample.received));
+  }
+  if (!hand_input::usable(taken.verdict)) {
+    ++left_out_;
+    return;
+  }
+  const ros::Time stamp = ros_time(taken.sample.t);
+  ros::Time& newest = newest_[sample.station];
+  const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
+  if (stamp <= newest || (stamp - newest).toSec() < shortest) {
+    ++left_out_;
+    return;
+  }
+  std::vector<geometry_msgs::TransformStamped> transforms{transform_of(sample.station, taken.sample.X, stamp)};
+  if (sample.station == parameters_.fastrak.stations.front()) {
+    if (parameters_.head_station == 0) {
+      transforms.push_back(
+          ros_common::to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
+    }
+    if (!newest.isZero()) interval_ = (stamp - newest).toSec();
+  }
+  transforms_.sendTransform(transforms);
+  newest = stamp;
+  ++sent_;
+}
+
+std::string TrackerDriver::frame_of(int station) const {
+  if (station == 1) return parameters_.stylus_frame;
+  if (station == parameters_.head_station) return parameters_.head_frame;
+  return parameters_.stylus_frame + "_" + std::to_string(station);
+}
+
+geometry_msgs::TransformStamped TrackerDriver::transform_of(int station, const RigidTransform& X_TS,
+                                                            const ros::Time& stamp) const {
+  RigidTransform X_BF = X_BT_ * X_TS;
+  if (station == 1) {
+    X_BF = X_BF * Eigen::Translation3d(parameters_.p_ST);
+  } else if (station == parameters_.head_station) {
+    X_BF = X_BF * parameters_.X_BHead;
+  }
+  return ros_common::to_transform(X_BF, parameters_.workbench_frame, frame_of(station), stamp);
+}
+
+void TrackerDriver::wait_until(double t) {
+  constexpr double slice = 0.1;  // [s] between looks at what else is due
+  for (double now = ros_common::loop_time(); now < t && ros::ok(); now = ros_common::loop_time()) {
+    if (now >= next_diagnostics_ || now < next_diagnostics_ - 1.0) {
+      publish_diagnostics();
+      next_diagnostics_ = now + 1.0;
+    }
+    ros_common::sleep_until_loop_time(std::min(t, now + slice));
+  }
+}
+
+void TrackerDriver::add_health(ros_common::DiagnosticStatusBuilder& status) const {
+  const motion::SourceHealth health = device_->health();
+  for (const auto& [name, count] : health.counters) status.add(name, count);
+  status.add("state", health.text);
+  if (health.streaming) return;
+  status.raise(diagnostic_msgs::DiagnosticStatus::ERROR, health.text);
+  ROS_WARN_STREAM_THROTTLE(5.0, health.text);
+}
+
+void TrackerDriver::publish_diagnostics() {
+  ros_common::DiagnosticStatusBuilder status(name_ + ": source", parameters_.source);
+  status.add("samples sent", sent_)
+      .add("samples left out", left_out_)
+      .add("rate [Hz]", interval_ > 0.0 ? 1.0 / interval_ : 0.0);
+  if (device_) {
+    add_health(status);
+  } else {
+    status.add("file", parameters_.file).add("passes", passes_);
+  }
+  if (over_) status.add("state", "over");
+  diagnostic_msgs::DiagnosticArray message;
+  message.header.stamp = ros::Time::now();
+  message.status = {status.status()};
+  for (const auto& [station, stream] : streams_) {
+    ros_common::DiagnosticStatusBuilder of_station(name_ + ": station " + std::to_string(station), parameters_.source);
+    ros_common::add_stream(stream.figures(), stream.counts(), of_station);
+    for (const auto& [verdict, count] : stream.counts().left_out)
+      of_station.add("left out: " + hand_input::to_string(verdict), count);
+    message.status.push_back(of_station.status());
+  }
+  diagnostics_publisher_.publish(message);
+}
+
+}  // namespace spring_workbench::tracker_driver

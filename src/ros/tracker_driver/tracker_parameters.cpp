@@ -1,0 +1,99 @@
+#include "spring_workbench/ros/tracker_driver/tracker_parameters.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "spring_workbench/config/yaml_fields.h"
+
+namespace spring_workbench::tracker_driver {
+namespace {
+
+/// The parameters that go with a source.
+std::vector<std::string> keys_of(const std::string& source) {
+  std::vector<std::string> keys{"source",     "rate", "workbench_frame",         "stylus_frame",
+                                "head_frame", "head", "interpupillary_distance", "dropout_after"};
+  const auto add = [&](const std::vector<std::string>& more) { keys.insert(keys.end(), more.begin(), more.end()); };
+  if (source == "fastrak") {
+    add({"offset", "tip", "even_stamps", "head_station"});
+    add(fastrak::fastrak_keys());
+  } else if (source == "interactive_marker" || source == "joy") {
+    add({"start"});
+    if (source == "joy") add(joy_keys());
+  } else if (source == "operator") {
+    add({"offset", "tip", "scene", "seed", "speed", "loop", "pause"});
+  } else {
+    add({"offset", "tip", "file", "speed", "loop", "pause", "start", "grasp_from", "grasp_until"});
+  }
+  return keys;
+}
+
+int read_head_station(const YAML::Node& value, const std::string& where, const std::vector<int>& stations) {
+  const int station = config::read_integer(value, where, "head_station", 0, fastrak::kFastrakStations);
+  if (station == 1 || (station > 0 && std::count(stations.begin(), stations.end(), station) == 0)) {
+    validation::refuse(where, "head_station", std::to_string(station),
+                       "0, or one of stations but 1, which is the stylus");
+  }
+  return station;
+}
+
+}  // namespace
+
+TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::string& where) {
+  YAML::Node parameters = YAML::Clone(given);
+  TrackerParameters result;
+  hand_input::take_truth_settings(parameters, where, result.truth);
+  if (parameters["source"]) {
+    result.source =
+        config::read_choice(parameters["source"], where, "source",
+                            {"motion_file", "scripted", "operator", "fastrak", "interactive_marker", "joy"});
+  }
+  config::check_keys(parameters, where, "", keys_of(result.source));
+  const bool is_motion = result.source == "motion_file" || result.source == "scripted";
+  result.even_stamps = result.source == "fastrak";
+  if (result.source == "fastrak") result.fastrak = fastrak::read_fastrak_settings(parameters, where);
+  if (parameters["head_station"]) {
+    result.head_station = read_head_station(parameters["head_station"], where, result.fastrak.stations);
+    if (result.head_station > 0) result.X_BHead = RigidTransform::Identity();
+  }
+  if (result.source == "joy") result.joy = read_joy_settings(parameters, where);
+  constexpr double unbounded = std::numeric_limits<double>::max();
+  const auto number = [&](const char* key, const validation::NumberRule& rule, double& value) {
+    if (parameters[key]) value = config::read_number(parameters[key], where, key, rule);
+  };
+  const auto text = [&](const char* key, std::string& value) {
+    if (parameters[key]) value = config::read_string(parameters[key], where, key);
+    if (value.empty()) validation::refuse(where, key, "(nothing)", "a string that is not empty");
+  };
+  if (is_motion) text("file", result.file);
+  if (result.source == "operator") {
+    text("scene", result.scene);
+    if (parameters["seed"]) result.seed = config::read_integer(parameters["seed"], where, "seed", 0, 1000000000);
+  }
+  text("workbench_frame", result.workbench_frame);
+  text("stylus_frame", result.stylus_frame);
+  text("head_frame", result.head_frame);
+  number("rate", validation::not_negative(), result.rate);
+  number("speed", validation::between(0.01, 100.0), result.speed);
+  number("pause", validation::not_negative(), result.pause);
+  number("grasp_from", validation::not_negative(), result.grasp_from);
+  number("grasp_until", {result.grasp_from, unbounded, false, true}, result.grasp_until);
+  if (parameters["loop"]) result.loop = config::read_bool(parameters["loop"], where, "loop");
+  if (parameters["head"]) result.X_BHead = config::read_pose(parameters["head"], where, "head");
+  if (parameters["tip"]) {
+    const std::vector<double> tip = config::read_numbers(parameters["tip"], where, "tip", 3);
+    result.p_ST = Vector3d(tip[0], tip[1], tip[2]);
+  }
+  number("interpupillary_distance", validation::between(0.0, 0.2), result.interpupillary_distance);
+  number("dropout_after", validation::positive(), result.dropout_after);
+  if (parameters["even_stamps"])
+    result.even_stamps = config::read_bool(parameters["even_stamps"], where, "even_stamps");
+  if (parameters["offset"]) result.X_BT = config::read_pose(parameters["offset"], where, "offset");
+  if (parameters["start"]) {
+    if (parameters["offset"])
+      throw validation::InputError(where + ": start: is not allowed beside offset: must be one of the two");
+    result.X_BS_first = config::read_pose(parameters["start"], where, "start");
+  }
+  return result;
+}
+
+}  // namespace spring_workbench::tracker_driver

@@ -1,7 +1,0 @@
-#include "spring_workbench/ros_interface/live_tuning.h"
-
-namespace spring_workbench {
-
-std::unique_ptr<LiveTuning> make_live_tuning(const ros::NodeHandle&, SimulationRunner&) { return nullptr; }
-
-}  // namespace spring_workbench

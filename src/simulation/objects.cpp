@@ -1,0 +1,278 @@
+#include "objects.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include "spring_workbench/contact/contact_engines.h"
+#include "spring_workbench/geometry/shape_queries.h"
+
+namespace spring_workbench::simulation {
+namespace {
+
+constexpr double asleep_speed = 2e-3;  ///< [m/s]; a body in contact that stays slower …
+constexpr double asleep_after = 0.2;   ///< [s] … this long goes to sleep
+constexpr double support_gap = 1e-4;   ///< [m]; what is nearer below carries
+constexpr double world_limit = 100.0;  ///< [m] from the origin; a body that flies further stops there
+
+}  // namespace
+
+Workbench::Workbench(const scene::Scene& scene, int bisection_levels) : scene_(scene), contacts_(scene) {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    object_of_.push_back(movable_.size());
+    if (scene.bodies[i].movable) movable_.push_back(i);
+  }
+  if (with_contact()) {
+    collision_ = contact::open_collision_world(scene);
+    contact_stepper_ = std::make_unique<contact::ContactStepper>(scene, *collision_, bisection_levels);
+  }
+  reset();
+}
+
+void Workbench::reset() {
+  contacts_.reset(movable_.size());
+  if (scene_.contact == scene::ContactMode::dynamic)
+    dynamic_stepper_ = std::make_unique<contact::DynamicStepper>(scene_);
+  states_.assign(movable_.size(), bodies::BodyState());
+  rows_.assign(movable_.size(), {});
+  slow_since_.assign(movable_.size(), 0.0);
+  tools_.assign(movable_.size(), Tools());
+  highlighted_.clear();
+  free_.clear();
+  in_contact_.clear();
+  free_bodies_.clear();
+  free_bodies_.resize(movable_.size());
+  for (std::size_t i = 0; i < movable_.size(); ++i) {
+    states_[i].name = body(i).name;
+    states_[i].X_WO = body(i).X_WO;
+    if (collision_) collision_->set_pose(movable_[i], body(i).X_WO);
+  }
+}
+
+void Workbench::clear_highlights() {
+  for (const std::size_t object : highlighted_) states_[object].highlighted = false;
+  highlighted_.clear();
+}
+
+void Workbench::highlight(std::size_t object) {
+  states_[object].highlighted = true;
+  highlighted_.push_back(object);
+}
+
+std::optional<std::size_t> Workbench::find(const std::string& name) const {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (states_[i].name == name) return i;
+  }
+  return std::nullopt;
+}
+
+bool Workbench::any_free() const {
+  if (dynamic_stepper_) return dynamic_stepper_->others_awake();
+  return !free_.empty();
+}
+
+void Workbench::take_state(std::size_t object, const motion::MotionState& s) {
+  states_[object].X_WO = s.X;
+  states_[object].V_WO_W = s.velocity;
+  if (collision_) collision_->set_pose(movable_[object], s.X);
+}
+
+void Workbench::hold(std::size_t object, Grip grip, double now) {
+  ++(grip == Grip::grasp ? tools_[object].grasping : tools_[object].pushing);
+  free_bodies_[object].reset();
+  free_.erase(object);
+  bodies::BodyState& o = states_[object];
+  o.held = tools_[object].grasping > 0;
+  if (o.held) o.highlighted = false;
+  o.asleep = false;
+  wake_what_lies_on(object, now);
+}
+
+void Workbench::let_go(std::size_t object, Grip grip, bool thrown, double now) {
+  Tools& tools = tools_[object];
+  --(grip == Grip::grasp ? tools.grasping : tools.pushing);
+  bodies::BodyState& o = states_[object];
+  o.held = tools.grasping > 0;
+  if (tools.grasping + tools.pushing > 0) return;
+  if (!thrown || massless(object)) o.V_WO_W = Twist();
+  let_fly(object, now);
+}
+
+void Workbench::place(std::size_t object, const RigidTransform& X_WO, double now) {
+  motion::MotionState at_rest;
+  at_rest.X = X_WO;
+  take_state(object, at_rest);
+  let_fly(object, now);
+}
+
+void Workbench::let_fly(std::size_t object, double now) {
+  bodies::BodyState& o = states_[object];
+  if (massless(object)) {
+    o.asleep = true;
+    if (dynamic_stepper_) dynamic_stepper_->world().place(movable_[object], o.X_WO, Twist(), false);
+  } else {
+    set_free(object, o.V_WO_W, now);
+  }
+}
+
+void Workbench::set_free(std::size_t object, const Twist& V_WO_W, double now) {
+  states_[object].asleep = false;
+  if (dynamic_stepper_) {
+    dynamic_stepper_->set_free(movable_[object], states_[object].X_WO, V_WO_W);
+    return;
+  }
+  free_bodies_[object] =
+      std::make_unique<bodies::FreeBody>(movable_[object], body(object), scene_.gravity, states_[object].X_WO, V_WO_W);
+  free_.insert(object);
+  slow_since_[object] = now;
+}
+
+void Workbench::wake_what_lies_on(std::size_t object, double now) {
+  if (scene_.contact != scene::ContactMode::stop) return;  // Bullet's sleepers wake by themselves
+  std::vector<collision::ContactPoint> found;
+  RigidTransform lifted = states_[object].X_WO;
+  lifted.translation().z() += support_gap;
+  collision_->find_contacts(movable_[object], lifted, 0.0, found);
+  for (const collision::ContactPoint& c : found) {
+    const bool carries_it =
+        c.other != collision::CollisionWorld::bench && scene_.bodies[c.other].movable && c.n_W.z() < -0.1;
+    if (!carries_it) continue;
+    const std::size_t other = object_of_[c.other];
+    if (!states_[other].asleep || states_[other].held || massless(other)) continue;
+    set_free(other, Twist(), now);
+    wake_what_lies_on(other, now);
+  }
+}
+
+bool Workbench::carry(bodies::SteppedBody& stepped, std::size_t object, double h,
+                      const contact::ContactStepper::MayGo& may_go, AdvanceReport& report) {
+  contact::ContactOutcome outcome;
+  if (contact_stepper_) {
+    if (!contact_stepper_->step(stepped, h, may_go, rows_[object], outcome)) return false;
+  } else {
+    stepped.remember();
+    if (stepped.advance(h, Wrench())) {
+      stepped.accept();
+    } else {
+      stepped.go_back();
+      stepped.go_along(h);
+      outcome.refused = true;
+    }
+  }
+  ++report.steps;
+  take_state(object, stepped.object());
+  report.collision_queries += outcome.queries;
+  if (outcome.held_back) ++report.held_back;
+  if (outcome.refused) ++report.guards_tripped;
+  states_[object].in_contact = !outcome.rows.empty();
+  contacts_.note(object, states_[object], outcome.rows, h);
+  return true;
+}
+
+void Workbench::step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report) {
+  if (dynamic_stepper_) {
+    step_among_movable(held, h, report);
+    return;
+  }
+  const auto anywhere = [](const RigidTransform&, const RigidTransform&) { return true; };
+  for (const Carried& c : held) carry(*c.body, c.object, h, anywhere, report);
+  const std::set<std::size_t> free = free_;
+  for (const std::size_t i : free) {
+    carry(*free_bodies_[i], i, h, anywhere, report);
+    put_to_sleep_if_slow(i, now + h);
+  }
+}
+
+void Workbench::step_among_movable(const std::vector<Carried>& held, double h, AdvanceReport& report) {
+  std::vector<std::size_t> bodies;
+  for (const Carried& c : held) bodies.push_back(movable_[c.object]);
+  rigid_bodies::RigidWorld& world = dynamic_stepper_->world();
+  std::vector<Carried> among_others, alone;
+  for (const Carried& c : held) {
+    const std::size_t body = movable_[c.object];
+    const auto among_fixed = [&](const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
+      return !world.near_movable(body, X0_WO, X1_WO, h, bodies);
+    };
+    if (!carry(*c.body, c.object, h, among_fixed, report)) {
+      rows_[c.object].clear();
+      among_others.push_back(c);
+      continue;
+    }
+    in_contact_.erase(c.object);  // its contacts are noted already
+    world.place(body, states_[c.object].X_WO, states_[c.object].V_WO_W, false);
+    alone.push_back(c);
+  }
+  if (!among_others.empty() || dynamic_stepper_->others_awake()) step_together(among_others, h, report);
+  for (const Carried& c : alone) {
+    if (states_[c.object].in_contact) in_contact_.insert(c.object);
+  }
+}
+
+void Workbench::step_together(const std::vector<Carried>& held, double h, AdvanceReport& report) {
+  std::vector<bodies::SteppedBody*> bodies;
+  for (const Carried& c : held) bodies.push_back(c.body);
+  const contact::DynamicStepper::Outcome outcome = dynamic_stepper_->step(bodies, h);
+  report.steps += outcome.pieces;
+  report.steps_among_movable += outcome.pieces;
+  report.collision_queries += outcome.pieces;
+  if (outcome.held_back) ++report.held_back;
+  if (outcome.refused) ++report.guards_tripped;
+  for (const Carried& c : held) take_state(c.object, c.body->object());
+  const rigid_bodies::RigidWorld& world = dynamic_stepper_->world();
+  for (const std::size_t near : world.bodies_near()) {
+    const std::size_t object = object_of_[near];
+    if (!scene_.bodies[near].movable || tools_[object].grasping + tools_[object].pushing > 0) continue;
+    take_state(object, {world.pose(near), world.velocity(near), {}});
+    states_[object].asleep = !world.awake(near);
+  }
+  note_world_contacts(h);
+}
+
+void Workbench::note_world_contacts(double h) {
+  std::map<std::size_t, std::vector<contact::ContactRow>> rows;
+  for (const std::size_t object : in_contact_) rows[object];
+  for (const rigid_bodies::WorldContact& c : dynamic_stepper_->contacts()) {
+    contact::ContactRow row;
+    row.point = {c.other, c.p_W, c.n_W, c.depth};
+    row.gap = -c.depth;
+    row.load_W = c.impulse_W / h;
+    rows[object_of_[c.body]].push_back(row);
+  }
+  for (auto& [object, of_object] : rows) {
+    if (of_object.empty() && states_[object].asleep) continue;
+    states_[object].in_contact = !of_object.empty();
+    contacts_.note(object, states_[object], of_object, h);
+    if (of_object.empty()) {
+      in_contact_.erase(object);
+    } else {
+      in_contact_.insert(object);
+    }
+    rows_[object] = std::move(of_object);
+  }
+}
+
+bool Workbench::rests(std::size_t object) const {
+  if (dynamic_stepper_) return !dynamic_stepper_->others_awake();
+  const std::vector<contact::ContactState>& touching = contacts_.touching(object);
+  return std::none_of(touching.begin(), touching.end(), [&](const contact::ContactState& c) {
+    const std::optional<std::size_t> other = find(c.other);
+    return other && !states_[*other].asleep;
+  });
+}
+
+void Workbench::put_to_sleep_if_slow(std::size_t object, double now) {
+  bodies::BodyState& o = states_[object];
+  o.asleep = false;
+  const double speed =
+      o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * geometry::bounding_radius(body(object).collision);
+  if (!o.in_contact || !rests(object) || speed > asleep_speed) slow_since_[object] = now;
+  const bool away = o.X_WO.translation().norm() > world_limit;
+  if (away || now - slow_since_[object] > asleep_after) {
+    free_bodies_[object].reset();
+    free_.erase(object);
+    o.V_WO_W = Twist();
+    o.asleep = true;
+  }
+}
+
+}  // namespace spring_workbench::simulation

@@ -1,0 +1,275 @@
+#include "fork_body.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::tools {
+namespace {
+
+constexpr double return_time = 0.05;  ///< [s] on which the proxy comes back to the hand
+constexpr double give_time = 5e-3;    ///< [s]; squared over the object's mass, how the proxy gives way at rest
+// Below these an object on a hand at rest stops (the paper's threshold, section 3.3).
+constexpr double rest_speed = 1e-7;         ///< [m/s], and of a turning times the fork's length
+constexpr double rest_acceleration = 1e-6;  ///< [m/s²], likewise
+constexpr double largest_distance = 1e6;    ///< [m]; an object further away is not one to go on with
+
+RigidTransform shrunk(const RigidTransform& offset, double factor) {
+  RigidTransform X;
+  X.linear() = math::exp_so3(factor * math::log_so3(offset.linear()));
+  X.translation() = factor * offset.translation();
+  X.makeAffine();
+  return X;
+}
+
+}  // namespace
+
+ForkBody::ForkBody(std::size_t index, dynamics::HeldBody held, dynamics::StepControl control, double t,
+                   const RigidTransform& X_SH)
+    : index_(index),
+      held_(std::move(held)),
+      control_(std::move(control)),
+      X_SH_(X_SH),
+      hand_(RigidTransform::Identity()) {
+  state_.t = t;
+  state_.strain = held_.zero_state();
+}
+
+void ForkBody::set_hand(const motion::MotionSegment& hand, double t) {
+  const bool as_stylus = X_SH_.matrix() == RigidTransform::Identity().matrix();
+  hand_ = as_stylus ? hand : hand.of_frame(X_SH_);
+  state_.t = t;
+}
+
+RigidTransform ForkBody::hand_pose() const { return hand_.at(state_.t).X; }
+
+dynamics::HandleForcing ForkBody::handle() const {
+  if (!state_.behind) return held_.forcing(hand_, state_.t);
+  return held_.forcing(motion::MotionSegment(state_.offset * hand_pose()), state_.t);
+}
+
+motion::MotionState ForkBody::object() const { return held_.object(handle(), state_.strain); }
+
+motion::MotionState ForkBody::object_with_acceleration() const {
+  const dynamics::HandleForcing h = handle();
+  if (held_.size() == 0) {
+    const rod::StrainVector none(0);
+    return held_.object(h, state_.strain, &none);
+  }
+  const rod::StrainVector a = held_.acceleration(h, state_.strain.q, state_.strain.q_dot);
+  return held_.object(h, state_.strain, &a);
+}
+
+Matrix6d ForkBody::proxy_compliance(double h) const {
+  Matrix6d P = Matrix6d::Zero();
+  if (held_.size() == rod::max_strain_coordinates) return P;
+  const Matrix3d R = object().X.linear();
+  P.topLeftCorner<3, 3>().diagonal().setConstant(1.0 / held_.body().mass);
+  P.bottomRightCorner<3, 3>() = R * held_.body().inertia_O.inverse() * R.transpose();
+  return give_time * give_time * (1.0 - std::exp(-h / return_time)) * (P - mobility());
+}
+
+RigidTransform ForkBody::returned_offset(double h) const {
+  return state_.behind ? shrunk(state_.offset, std::exp(-h / return_time)) : RigidTransform::Identity();
+}
+
+RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
+  const RigidTransform returned = returned_offset(h);
+  if (contact_W.force.isZero(0.0) && contact_W.moment.isZero(0.0)) return returned;
+  Vector6d wrench;
+  wrench << contact_W.force, contact_W.moment;
+  const Vector6d given_way = proxy_compliance(h) * wrench;
+  // A rotation about the object's centre of mass and a translation.
+  const Vector3d centre = object().X.translation();
+  RigidTransform X = RigidTransform::Identity();
+  X.linear() = math::exp_so3(given_way.tail<3>());
+  X.translation() = centre - X.linear() * centre + given_way.head<3>();
+  return X * returned;
+}
+
+motion::MotionSegment ForkBody::seen_motion(double h, const RigidTransform& offset_end) const {
+  const motion::PoseSample begin{state_.t, state_.offset * hand_pose()};
+  const motion::PoseSample end{state_.t + h, offset_end * hand_.at(state_.t + h).X};
+  const Vector3d v = (end.X.translation() - begin.X.translation()) / h;
+  const Vector3d w = math::log_so3(begin.X.linear().transpose() * end.X.linear()) / h;
+  return motion::MotionSegment(begin, v, w, end, v, w);
+}
+
+bool ForkBody::advance(double h, const Wrench& contact_W) {
+  const RigidTransform offset = next_offset(h, contact_W);
+  const bool behind = (offset.matrix() - RigidTransform::Identity().matrix()).cwiseAbs().maxCoeff() > no_offset;
+  const bool as_hand = !behind && !state_.behind;
+  const motion::MotionSegment motion = as_hand ? hand_ : seen_motion(h, offset);
+  dynamics::StrainState next = state_.strain;
+  if (held_.size() > 0) {
+    held_.set_external_wrench(contact_W);
+    const dynamics::ControlledStep step = control_.advance(held_, motion, state_.t, h, next, state_.stepping);
+    if (!step.fine) return false;
+    estimates_.position = std::max(estimates_.position, step.position_error);
+    estimates_.angle = std::max(estimates_.angle, step.angle_error);
+    estimates_.omega_dt = std::max(estimates_.omega_dt, step.omega_dt);
+    estimates_.extra_steps += step.steps - 1;
+    estimates_.rejected += step.rejected;
+    estimates_.energy_held += step.energy_held;
+  }
+  last_.reset();
+  if (held_.size() > 0 && !held_.returning()) last_ = Advance{motion, state_.t, h, state_.strain};
+  state_.t += h;
+  state_.strain = next;
+  state_.pull_W.reset();
+  state_.behind = behind;
+  state_.offset = behind ? offset : RigidTransform::Identity();
+  if (held_.returning() && held_.drop_finished_returns(state_.t) && held_.size() == 0)
+    state_.strain = held_.zero_state();
+  return hand_pose().translation().norm() < largest_distance;
+}
+
+void ForkBody::accept() {
+  if (last_) state_.energy_added += added_energy(*last_);
+  last_.reset();
+}
+
+double ForkBody::added_energy(const Advance& advance) const {
+  const motion::MotionSegment& motion = advance.motion;
+  const dynamics::StrainState& begin = advance.begin;
+  const double t = advance.t, h = advance.h;
+  const dynamics::StrainState& end = state_.strain;
+  const double m = held_.body().mass;
+  const rod::StrainMatrix D = held_.damping();
+  double energy = 0.0, power = 0.0;
+  const auto look = [&](double at, const dynamics::StrainState& s, const rod::StrainVector& q_ddot) {
+    const dynamics::HandleForcing handle = held_.forcing(motion, at);
+    const motion::MotionState o = held_.object(handle, s, &q_ddot);
+    const Wrench& contact = held_.external_wrench();
+    const Matrix3d I_W = o.X.linear() * held_.body().inertia_O * o.X.linear().transpose();
+    const Vector3d up(0.0, 0.0, held_.gravity());
+    const Vector3d& w = o.velocity.angular;
+    const Vector3d force = m * (o.acceleration.linear + up) - contact.force;  // of the rod on the object
+    const Vector3d moment = I_W * o.acceleration.angular + w.cross(I_W * w) - contact.moment;
+    const Vector3d arm = o.X.translation() - handle.X_WH.translation();
+    energy =
+        held_.elastic_energy(at, s) + held_.kinetic_energy(o.velocity, o.X.linear()) + m * up.dot(o.X.translation());
+    power = force.dot(handle.v_WH_W) + (moment + arm.cross(force)).dot(handle.X_WH.linear() * handle.angular_velocity) +
+            contact.force.dot(o.velocity.linear) + contact.moment.dot(w) - s.q_dot.dot(D * s.q_dot);
+  };
+  const rod::StrainVector a0 = held_.acceleration(held_.forcing(motion, t), begin.q, begin.q_dot);
+  const rod::StrainVector a1 = held_.acceleration(held_.forcing(motion, t + h), end.q, end.q_dot);
+  // The quintic through both ends, in the middle.
+  dynamics::StrainState middle;
+  middle.q = 0.5 * (begin.q + end.q) + 5.0 / 32.0 * h * (begin.q_dot - end.q_dot) + h * h / 64.0 * (a0 + a1);
+  middle.q_dot = 15.0 / 8.0 / h * (end.q - begin.q) - 7.0 / 16.0 * (begin.q_dot + end.q_dot) + h / 32.0 * (a1 - a0);
+  if (!held_.shape().admissible(
+          held_.full_state(t + 0.5 * h, middle).q)) {  // a jerk: no way of the fork; the straight one
+    middle = {0.5 * (begin.q + end.q), (end.q - begin.q) / h};
+  }
+  const rod::StrainVector a_middle = held_.acceleration(held_.forcing(motion, t + 0.5 * h), middle.q, middle.q_dot);
+  look(t, begin, a0);
+  const double energy_begin = energy;
+  double work = power;
+  look(t + 0.5 * h, middle, a_middle);
+  work += 4.0 * power;
+  look(t + h, end, a1);
+  work += power;
+  return energy - energy_begin - h / 6.0 * work;
+}
+
+void ForkBody::remember() { remembered_ = state_; }
+
+void ForkBody::go_back() {
+  state_ = remembered_;
+  last_.reset();
+}
+
+ForkBody::Jacobian ForkBody::jacobian_W(const Matrix3d& R_WH, double t) const {
+  Jacobian J = held_.object_jacobian(t, state_.strain.q);
+  for (int i = 0; i < J.cols(); ++i) {
+    J.col(i).head<3>() = (R_WH * J.col(i).head<3>()).eval();
+    J.col(i).tail<3>() = (R_WH * J.col(i).tail<3>()).eval();
+  }
+  return J;
+}
+
+rod::StrainMatrix ForkBody::inverse_mass() const {
+  return held_.mass_matrix(state_.t, state_.strain.q)
+      .llt()
+      .solve(rod::StrainMatrix::Identity(held_.size(), held_.size()));
+}
+
+bodies::SteppedBody::Answer ForkBody::answer(double h) const {
+  const Matrix6d proxy = proxy_compliance(h);
+  Answer a{proxy, proxy / h};
+  if (held_.size() > 0) {
+    const auto J = jacobian_W();
+    const dynamics::Integrator::Response r = control_.integrator().response(held_, state_.t, h, state_.strain);
+    a.displacement += J * r.q * J.transpose();
+    a.velocity += J * r.q_dot * J.transpose();
+  }
+  return a;
+}
+
+Matrix6d ForkBody::mobility() const {
+  if (held_.size() == 0) return Matrix6d::Zero();
+  const auto J = jacobian_W();
+  return J * inverse_mass() * J.transpose();
+}
+
+void ForkBody::add_impulse(const Wrench& impulse_W) {
+  if (held_.size() == 0) return;
+  Vector6d impulse;
+  impulse << impulse_W.force, impulse_W.moment;
+  sleep_ = Sleep();
+  state_.strain.q_dot += inverse_mass() * (jacobian_W().transpose() * impulse);
+}
+
+bool ForkBody::sleeps(double h, bool may_fall_asleep) {
+  const motion::MotionState begin = hand_.at(state_.t), end = hand_.at(state_.t + h);
+  const auto still = [](const motion::MotionState& s) {
+    return s.velocity.linear.isZero(0.0) && s.velocity.angular.isZero(0.0);
+  };
+  const bool hand_rests = still(begin) && still(end) && begin.X.matrix() == end.X.matrix();
+  const bool asleep = sleep_.version == held_.version() && sleep_.X_WH.matrix() == begin.X.matrix();
+  if (hand_rests && asleep) return true;
+  sleep_ = Sleep();
+  if (!hand_rests || !may_fall_asleep || state_.behind || held_.returning()) return false;
+  const motion::MotionState o = object_with_acceleration();
+  const double L = held_.shape().length();
+  const bool at_rest = std::max(o.velocity.linear.norm(), L * o.velocity.angular.norm()) < rest_speed &&
+                       (held_.size() == 0 ||
+                        std::max(o.acceleration.linear.norm(), L * o.acceleration.angular.norm()) < rest_acceleration);
+  if (!at_rest) return false;
+  state_.strain.q_dot.setZero();
+  sleep_ = {held_.version(), begin.X};
+  return true;
+}
+
+void ForkBody::take_twist(const Twist& V_WO_W) {
+  state_.strain.q_dot = held_.project_twist(handle(), state_.strain.q, V_WO_W);
+}
+
+void ForkBody::stay(double h) {
+  last_.reset();
+  // The seen handle stays where it is, whatever the hand does next, and the strain with it.
+  state_.strain.q_dot.setZero();
+  const RigidTransform seen = state_.offset * hand_pose();
+  state_.t += h;
+  state_.offset = seen * hand_pose().inverse();
+  state_.behind = true;
+}
+
+void ForkBody::go_along(double h) {
+  last_.reset();
+  state_.strain.q_dot.setZero();
+  state_.t += h;
+}
+
+StepEstimates ForkBody::take_estimates() {
+  const StepEstimates e = estimates_;
+  estimates_ = StepEstimates();
+  return e;
+}
+
+}  // namespace spring_workbench::tools

@@ -1,0 +1,131 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "spring_workbench/dynamics/step_control.h"
+#include "spring_workbench/tools/tool_hold.h"
+
+namespace spring_workbench::tools {
+
+/// The body on the fork: strain coordinates, the hand's motion, and, where the coordinates cannot follow what a contact
+/// asks, a handle that stays behind the hand as its proxy (doc/model.md, "When the coordinates cannot follow").
+class ForkBody final : public ToolHold {
+ public:
+  /// `X_SH`: the fork's fixed end in the hand's stylus.
+  ForkBody(std::size_t index, dynamics::HeldBody held, dynamics::StepControl control, double t,
+           const RigidTransform& X_SH);
+
+  std::size_t index() const override { return index_; }
+  motion::MotionState object() const override;
+  bool advance(double h, const Wrench& contact_W) override;
+  void remember() override;
+  void go_back() override;
+  void accept() override;
+  Answer answer(double h) const override;
+  Matrix6d mobility() const override;
+  void add_impulse(const Wrench& impulse_W) override;
+  void stay(double h) override;
+  void go_along(double h) override;
+  bodies::Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const override;
+  void follow(double h, const motion::MotionState& object, const Wrench& pull_W) override;
+
+  void set_hand(const motion::MotionSegment& hand, double t) override;
+  bool sleeps(double h, bool may_fall_asleep) override;
+  void let_pass(double h) override { state_.t += h; }
+
+  Wrench spring_pull() const override;
+  void grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) override;
+  /// Sets strain rates so that the object's twist comes as near as it can to this one.
+  void take_twist(const Twist& V_WO_W) override;
+  void set_springs(const rod::ForkSettings& fork) override;
+  rod::PerFamily fitting_stiffness(const rod::ForkSettings& fork, double gravity) const override;
+  bool set_dofs(const rod::ForkDofs& dofs, double switch_off_time) override;
+  void set_step_control(const dynamics::DynamicsSettings& settings) override { control_ = make_step_control(settings); }
+  static dynamics::StepControl make_step_control(const dynamics::DynamicsSettings& settings);
+  int coordinates() const override { return held_.size(); }
+  double length() const override { return held_.shape().length(); }
+  double elastic_energy() const override;
+
+  dynamics::HeldBody& held() { return held_; }
+  const dynamics::HeldBody& held() const { return held_; }
+  const dynamics::StrainState& state() const { return state_.strain; }
+  void set_state(const dynamics::StrainState& state) {
+    state_.strain = state;
+    sleep_ = Sleep();
+  }
+
+  double time() const { return state_.t; }
+  dynamics::HandleForcing handle() const;  ///< the handle that the object sees, at present
+  RigidTransform hand_pose() const;        ///< the handle as the hand has it
+  /// Acceleration of the object at present.
+  motion::MotionState object_with_acceleration() const;
+
+  /// Energy [J] that integration has added since the grasp: what the object and the fork have gained beyond the work of
+  /// hand, gravity, contact and damping. That work is a three-point quadrature over each step, so the figure means
+  /// something where the step resolves the motion (ω·dt below about 1). While a family returns to zero nothing is
+  /// added.
+  double energy_added() const override { return state_.energy_added; }
+
+  /// Fills in what the fork knows of its state. `massless`: the object has no mass, and forces mean nothing.
+  void describe(bool massless, ToolState& state) const override;
+
+  StepEstimates take_estimates() override;
+
+ private:
+  struct State {
+    double t = 0.0;
+    dynamics::StrainState strain;
+    bool behind = false;                                 ///< the seen handle is not where the hand is
+    RigidTransform offset = RigidTransform::Identity();  ///< seen handle = offset · hand, in world
+    double energy_added = 0.0;                           ///< [J]
+    dynamics::StepControl::Memory stepping;
+    std::optional<Wrench> pull_W;  ///< on the object at its centre, where it was shared last
+  };
+  static constexpr double no_offset = 1e-9;  ///< [m, rad]; the proxy has come back
+  /// How the proxy gives way to a wrench at the centre of mass over a step, in what the coordinates cannot follow: as a
+  /// spring and a damper in parallel (doc/model.md, "When the fork cannot follow").
+  Matrix6d proxy_compliance(double h) const;
+  /// The proxy's offset at the end of a step without a load.
+  RigidTransform returned_offset(double h) const;
+  /// The same under the wrench.
+  RigidTransform next_offset(double h, const Wrench& contact_W) const;
+  /// The seen handle's motion over a step that ends with this offset.
+  motion::MotionSegment seen_motion(double h, const RigidTransform& offset_end) const;
+  rod::StrainMatrix inverse_mass() const;
+  /// What the rod does to the object at its centre, world axes: its change of momentum less gravity and contact.
+  Wrench pull() const;
+  /// The strain with which the springs do `pull_W` to the object, turned as `R_WO`; the present one where none is
+  /// found.
+  rod::StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const;
+  /// The strain with the object at `X_WO`, `h` [s] after the last; `handle` the hand itself.
+  void fit(const dynamics::HandleForcing& handle, const RigidTransform& X_WO, double h);
+  /// What the last advance() went from, along the handle's `motion`.
+  struct Advance {
+    motion::MotionSegment motion;
+    double t, h;
+    dynamics::StrainState begin;
+  };
+  /// Energy added (see energy_added()) by an advance to the present state.
+  double added_energy(const Advance& advance) const;
+  using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates>;
+  Jacobian jacobian_W() const { return jacobian_W(handle().X_WH.linear(), state_.t); }
+  Jacobian jacobian_W(const Matrix3d& R_WH, double t) const;
+
+  std::size_t index_;
+  dynamics::HeldBody held_;
+  dynamics::StepControl control_;
+  RigidTransform X_SH_;         ///< from one grip to the next
+  motion::MotionSegment hand_;  ///< of the handle as the hand has it
+  State state_, remembered_;
+  std::optional<Advance> last_;  ///< while it may turn out to have been a trial
+  StepEstimates estimates_;
+  /// What a sleeper's rest rests on.
+  struct Sleep {
+    long version = -1;  ///< of the equations; −1: awake
+    RigidTransform X_WH = RigidTransform::Identity();
+  };
+  Sleep sleep_;
+};
+
+}  // namespace spring_workbench::tools

@@ -1,0 +1,66 @@
+// The fork as the hand grips it anew while it holds.
+#include <Eigen/QR>
+
+#include "fork_body.h"
+#include "spring_workbench/dynamics/find_strain.h"
+
+namespace spring_workbench::tools {
+namespace {
+
+constexpr double exact = 1e-12;  ///< of the generalised force that the springs are to do
+
+RigidTransform normalised(const RigidTransform& X) { return make_transform(Quaterniond(X.linear()), X.translation()); }
+
+Vector6d stacked(const Vector3d& force, const Vector3d& moment) {
+  Vector6d all;
+  all << force, moment;
+  return all;
+}
+
+}  // namespace
+
+Wrench ForkBody::spring_pull() const {
+  Wrench springs = pull();
+  if (held_.size() == 0) return springs;
+  // Of all wrenches that the dampers' generalised force may be the smallest: with six coordinates there is but one.
+  const rod::StrainVector dampers = held_.damping() * state_.strain.q_dot;
+  const Eigen::MatrixXd onto_coordinates = jacobian_W().transpose();
+  const Vector6d damping = onto_coordinates.completeOrthogonalDecomposition().solve(-dampers);
+  springs.force -= damping.head<3>();
+  springs.moment -= damping.tail<3>();
+  return springs;
+}
+
+rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const {
+  const rod::StrainVector present = state_.strain.q, K = held_.stiffness();
+  const Vector3d force_O = R_WO.transpose() * pull_W.force, moment_O = R_WO.transpose() * pull_W.moment;
+  const dynamics::HandleForcing at_origin = held_.forcing(motion::MotionSegment(RigidTransform::Identity()), state_.t);
+  const auto missing = [&](const rod::StrainVector& q) -> rod::StrainVector {
+    const Matrix3d R_HO = held_.object(at_origin, {q, rod::StrainVector::Zero(q.size())}).X.linear();
+    const Vector6d load = stacked(R_HO * force_O, R_HO * moment_O);
+    rod::StrainVector f = -(held_.object_jacobian(state_.t, q).transpose() * load) - held_.elastic_force(state_.t, q);
+    for (Eigen::Index i = 0; i < q.size(); ++i) {
+      if (!(K[i] > 0.0)) f[i] = present[i] - q[i];  // no spring there that could do anything
+    }
+    return f;
+  };
+  const double small = exact * (missing(rod::StrainVector::Zero(present.size())).norm() + 1e-300);
+  const rod::StrainVector q = dynamics::find_strain(held_, state_.t, missing, present, small);
+  return missing(q).norm() < 1e-6 * small / exact ? q : present;
+}
+
+void ForkBody::grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) {
+  state_.strain.q = strain_under(pull_W, X_WO.linear());
+  const dynamics::HandleForcing at_origin = held_.forcing(motion::MotionSegment(RigidTransform::Identity()), state_.t);
+  const RigidTransform X_HO = held_.object(at_origin, state_.strain).X;
+  const RigidTransform X_HH = hand_pose().inverse() * X_WO * X_HO.inverse();
+  hand_ = hand_.of_frame(normalised(X_HH));
+  X_SH_ = normalised(X_SH_ * X_HH);
+  state_.behind = false;
+  state_.offset = RigidTransform::Identity();
+  state_.pull_W.reset();
+  state_.stepping = dynamics::StepControl::Memory();
+  sleep_ = Sleep();
+}
+
+}  // namespace spring_workbench::tools

@@ -1,0 +1,59 @@
+// Changes of the fork while it holds, and what it tells of itself.
+#include "fork_body.h"
+#include "spring_workbench/tools/calibration.h"
+
+namespace spring_workbench::tools {
+
+void ForkBody::set_springs(const rod::ForkSettings& fork) { held_.set_springs(fork); }
+
+rod::PerFamily ForkBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity) const {
+  return calibrated_stiffness(fork.shape, length(), held_.body(), gravity);
+}
+
+bool ForkBody::set_dofs(const rod::ForkDofs& dofs, double switch_off_time) {
+  const dynamics::StrainState full = held_.full_state(state_.t, state_.strain);
+  set_state(held_.set_dofs(dofs, state_.t, switch_off_time, full));
+  return held_.returning();
+}
+
+dynamics::StepControl ForkBody::make_step_control(const dynamics::DynamicsSettings& settings) {
+  return dynamics::StepControl(dynamics::make_integrator(settings.integrator), settings.tolerance);
+}
+
+double ForkBody::elastic_energy() const { return held_.elastic_energy(state_.t, state_.strain); }
+
+Wrench ForkBody::pull() const {
+  if (state_.pull_W) return *state_.pull_W;
+  const motion::MotionState o = object_with_acceleration();
+  const Matrix3d I_W = o.X.linear() * held_.body().inertia_O * o.X.linear().transpose();
+  const Vector3d& w = o.velocity.angular;
+  const Wrench& contact = held_.external_wrench();
+  return {held_.body().mass * (o.acceleration.linear + held_.gravity() * Vector3d::UnitZ()) - contact.force,
+          I_W * o.acceleration.angular + w.cross(I_W * w) - contact.moment};
+}
+
+void ForkBody::describe(bool massless, ToolState& f) const {
+  const dynamics::StrainState full = held_.full_state(state_.t, state_.strain);
+  const rod::ShapeModel& shape = held_.shape();
+  f.strain = full.q;
+  f.X_WH = hand_pose();
+  f.X_WH_seen = handle().X_WH;
+  f.stretch = shape.extension(full.q);
+  f.torsion = shape.twist(full.q);
+  const RigidTransform X_HE_bent = shape.section(full.q, shape.length());
+  f.bend = X_HE_bent.translation().head<2>();
+  f.X_WE = f.X_WH_seen * X_HE_bent;
+  const motion::MotionState o = object();
+  f.elastic_energy = elastic_energy();
+  if (massless) return;
+  f.kinetic_energy = held_.kinetic_energy(o.velocity, o.X.linear());
+  const auto [force, moment] = pull();
+  f.tip_wrench_W.force = force;
+  f.tip_wrench_W.moment = moment + (o.X.translation() - f.X_WE.translation()).cross(force);
+  const Vector3d at_handle = moment + (o.X.translation() - f.X_WH_seen.translation()).cross(force);
+  const Matrix3d R_HW = f.X_WH_seen.linear().transpose();
+  f.handle_wrench_H.force = -(R_HW * force);
+  f.handle_wrench_H.moment = -(R_HW * at_handle);
+}
+
+}  // namespace spring_workbench::tools

@@ -1,0 +1,61 @@
+#include "spring_workbench/tools/hold_maker.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "fork_body.h"
+#include "spring_body.h"
+#include "spring_workbench/rod/shape_model.h"
+
+namespace spring_workbench::tools {
+namespace {
+
+constexpr double least_rest_length = 1e-4;  ///< [m] of the tool `spring`
+constexpr double point_mass_radius = 1e-2;  ///< of the fork's length: radius of gyration of a point mass
+constexpr double on_the_axis = 1e-3;  ///< of the fork's length; a point mass so near to the fork's axis cannot twist it
+
+}  // namespace
+
+rod::ForkDofs HoldMaker::possible_dofs(const Grasp& grasp, const GraspedBody& object) const {
+  if (object.massless() || grasp.tool != Tool::spring_fork) return {false, false, false};
+  rod::ForkDofs dofs = fork_.dofs;
+  const Vector3d lever = grasp.X_OE.linear().col(2).cross(grasp.X_OE.translation());
+  const bool point_mass = dynamics_.inertia == "point_mass";
+  if (point_mass && lever.norm() < on_the_axis * fork_.length) dofs.torsion = false;
+  return dofs;
+}
+
+dynamics::BodyInertia HoldMaker::inertia(const Grasp& grasp, const GraspedBody& object) const {
+  const scene::MassProperties& of_body = object.body.mass_properties;
+  if (object.massless()) {
+    return {1.0, Matrix3d::Identity(), grasp.X_OE};  // of no effect: nothing bends a fork that carries nothing
+  }
+  dynamics::BodyInertia inertia{of_body.mass, of_body.inertia_O, grasp.X_OE};
+  if (dynamics_.inertia == "point_mass") {
+    // The paper's I = r² m: all of the mass at its centre. A small radius keeps the rotation about that point defined.
+    const double radius = point_mass_radius * fork_.length;
+    inertia.inertia_O = inertia.mass * radius * radius * Matrix3d::Identity();
+  }
+  return inertia;
+}
+
+std::unique_ptr<ToolHold> HoldMaker::make_fork(const Grasp& grasp, const GraspedBody& object, double now) const {
+  // A rigid tool may be as short as can be: what its object still moves must not depend on a length.
+  const std::string shape = grasp.tool == Tool::spring_fork ? fork_.shape : "bushing";
+  dynamics::HeldBody held(rod::make_shape_model(shape, grasp.length), inertia(grasp, object), gravity_);
+  held.set_springs(fork_);
+  const dynamics::StrainState zero{rod::StrainVector::Zero(held.shape().size()),
+                                   rod::StrainVector::Zero(held.shape().size())};
+  held.set_dofs(possible_dofs(grasp, object), now, fork_.switch_off_time, zero);
+  RigidTransform X_SH = RigidTransform::Identity();
+  X_SH.translation().z() = grasp.reach - grasp.length;
+  return std::make_unique<ForkBody>(object.index, std::move(held), ForkBody::make_step_control(dynamics_), now, X_SH);
+}
+
+std::unique_ptr<ToolHold> HoldMaker::make(const Grasp& grasp, const GraspedBody& object, double now) const {
+  if (grasp.tool != Tool::spring || object.massless()) return make_fork(grasp, object, now);
+  const double rest_length = std::max((object.X_WO.translation() - grasp.X_WS.translation()).norm(), least_rest_length);
+  return std::make_unique<SpringBody>(object.index, object.body, gravity_, object.X_WO, rest_length, fork_);
+}
+
+}  // namespace spring_workbench::tools

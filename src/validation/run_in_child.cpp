@@ -1,0 +1,114 @@
+#include "spring_workbench/validation/run_in_child.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/time.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <csignal>
+#include <cstring>
+#include <exception>
+#include <fstream>
+
+#include "spring_workbench/validation/input_error.h"
+
+namespace spring_workbench::validation {
+namespace {
+
+/// Ends the process by a signal, whatever the caller did with it, when `seconds` of the timer are over.
+void end_after(double seconds, decltype(ITIMER_REAL) timer, int signal) {
+  std::signal(signal, SIG_DFL);
+  sigset_t mask;
+  sigemptyset(&mask);
+  sigaddset(&mask, signal);
+  sigprocmask(SIG_UNBLOCK, &mask, nullptr);
+  itimerval value{};
+  value.it_value.tv_sec = static_cast<time_t>(seconds);
+  value.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - std::floor(seconds)));
+  setitimer(timer, &value, nullptr);
+}
+
+/// Lets the address space grow by no more than `more` bytes, and leaves no core file.
+void limit_memory(std::uint64_t more) {
+  const rlimit none{};
+  setrlimit(RLIMIT_CORE, &none);
+  std::uint64_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const std::uint64_t now = pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
+  rlimit limit{};
+  getrlimit(RLIMIT_AS, &limit);
+  if (more < limit.rlim_max - now) limit.rlim_cur = now + more;
+  setrlimit(RLIMIT_AS, &limit);
+}
+
+bool write_all(int file, const std::string& data) {
+  for (std::size_t at = 0; at < data.size();) {
+    const ssize_t written = write(file, data.data() + at, data.size() - at);
+    if (written < 0 && errno == EINTR) continue;
+    if (written <= 0) return false;
+    at += static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+std::string read_all(int file) {
+  std::string data;
+  std::array<char, 65536> part;
+  for (;;) {
+    const ssize_t got = read(file, part.data(), part.size());
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0) return data;
+    data.append(part.data(), static_cast<std::size_t>(got));
+  }
+}
+
+[[noreturn]] void child(int pipe, const std::function<std::string()>& work, const ChildLimits& limits) {
+  const int nowhere = open("/dev/null", O_WRONLY);  // libraries print when they fail
+  dup2(nowhere, STDOUT_FILENO);
+  dup2(nowhere, STDERR_FILENO);
+  try {
+    end_after(limits.time, ITIMER_PROF, SIGPROF);
+    end_after(10.0 * limits.time, ITIMER_REAL, SIGALRM);  // what waits for ever takes no processor time
+    limit_memory(limits.memory);
+    _exit(write_all(pipe, work()) ? 0 : 1);
+  } catch (const std::exception&) {
+    _exit(1);
+  }
+}
+
+[[noreturn]] void refuse_without_child(int reason) {
+  throw InputError(std::string("child process: cannot be made: ") + std::strerror(reason) +
+                   ": must be possible, to read what may do harm");
+}
+
+}  // namespace
+
+std::optional<std::string> run_in_child(const std::function<std::string()>& work, const ChildLimits& limits) {
+  int ends[2];
+  if (pipe(ends) != 0) refuse_without_child(errno);
+  const pid_t process = fork();
+  if (process < 0) {
+    const int reason = errno;
+    close(ends[0]);
+    close(ends[1]);
+    refuse_without_child(reason);
+  }
+  if (process == 0) {
+    close(ends[0]);
+    child(ends[1], work, limits);
+  }
+  close(ends[1]);
+  std::string data = read_all(ends[0]);
+  close(ends[0]);
+  int status = 0;
+  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
+  return data;
+}
+
+}  // namespace spring_workbench::validation

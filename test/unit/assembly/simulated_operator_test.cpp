@@ -1,0 +1,142 @@
+#include "spring_workbench/assembly/simulated_operator.h"
+
+#include <gtest/gtest.h>
+
+#include "spring_workbench/assembly/trial.h"
+#include "spring_workbench/math/so3.h"
+#include "spring_workbench/validation/input_error.h"
+
+namespace spring_workbench::assembly {
+namespace {
+
+const std::string mini_world = SPRING_WORKBENCH_SOURCE_DIR "/scenes/mini_world.urdf";
+
+simulation::SimulationSettings assembly_settings() {
+  simulation::SimulationSettings settings;
+  settings.grasp.calibrate = true;
+  settings.grasp.release = "dropped";
+  return settings;
+}
+
+OperatorSettings still_hand() {
+  OperatorSettings settings;
+  settings.position_noise = settings.angle_noise = settings.aim_scatter = 0.0;
+  return settings;
+}
+
+/// A world that lies still: every object where the scene has it.
+OperatorView view_of(const scene::Scene& scene) {
+  OperatorView view;
+  for (const scene::Body& body : scene.bodies) {
+    if (!body.movable) continue;
+    bodies::BodyState state;
+    state.name = body.name;
+    state.X_WO = body.X_WO;
+    view.objects.push_back(state);
+  }
+  view.X_HE.translation().z() = 0.2;
+  return view;
+}
+
+bool same(const RigidTransform& a, const RigidTransform& b) { return a.matrix() == b.matrix(); }
+
+TEST(SimulatedOperator, AssemblesTheMiniWorldWithEveryFork) {
+  const scene::Scene scene = scene::load_scene(mini_world);
+  for (const rod::ForkDofs& dofs :
+       {rod::ForkDofs{true, true, true}, rod::ForkDofs{true, true, false}, rod::ForkDofs{false, true, false}}) {
+    simulation::SimulationSettings settings = assembly_settings();
+    settings.fork.dofs = dofs;
+    for (unsigned seed = 1; seed <= 2; ++seed) {
+      OperatorSettings hand;
+      hand.seed = seed;
+      const Trial trial = run_trial(scene, settings, hand);
+      EXPECT_EQ(trial.score.placed, static_cast<int>(scene.targets.size())) << dofs.stretch << dofs.torsion << seed;
+      EXPECT_EQ(trial.score.drops, 0);
+    }
+  }
+}
+
+TEST(SimulatedOperator, SameSeedSameBits) {
+  const scene::Scene scene = scene::load_scene(mini_world);
+  OperatorSettings hand;
+  const Trial a = run_trial(scene, assembly_settings(), hand, 20.0);
+  const Trial b = run_trial(scene, assembly_settings(), hand, 20.0);
+  hand.seed = 2;
+  const Trial c = run_trial(scene, assembly_settings(), hand, 20.0);
+  ASSERT_EQ(a.motion.size(), b.motion.size());
+  for (std::size_t i = 0; i < a.motion.size(); ++i) EXPECT_TRUE(same(a.motion[i].X, b.motion[i].X)) << i;
+  EXPECT_EQ(score_csv(a.score), score_csv(b.score));
+  EXPECT_NE(score_csv(a.score), score_csv(c.score));
+}
+
+TEST(SimulatedOperator, ActsOnWhatItSeesOneReactionLater) {
+  const scene::Scene scene = scene::load_scene(mini_world);
+  for (const double reaction : {0.0, 0.1, 0.3}) {
+    OperatorSettings settings = still_hand();
+    settings.reaction = reaction;
+    // The first object in the list goes away at `moved`, while the hand is on its way to it.
+    constexpr int moved = 60;
+    int looks = 0;
+    const OperatorView view = view_of(scene);
+    OperatorView later = view;
+    for (bodies::BodyState& o : later.objects) o.X_WO.translation().x() += 0.05;
+    SimulatedOperator still(scene, settings, [&] { return view; });
+    SimulatedOperator moving(scene, settings, [&] { return ++looks > moved ? later : view; });
+    int first_difference = -1;
+    for (int k = 0; k < 400 && first_difference < 0; ++k) {
+      const auto a = still.next(), b = moving.next();
+      ASSERT_TRUE(a && b);
+      if (!same(a->X, b->X)) first_difference = k;
+    }
+    EXPECT_GE(first_difference, moved + static_cast<int>(reaction * settings.rate)) << reaction;
+  }
+}
+
+TEST(SimulatedOperator, NoiseHasTheSetSize) {
+  const scene::Scene scene = scene::load_scene(mini_world);
+  OperatorSettings noisy = still_hand();
+  noisy.position_noise = 1e-3;
+  noisy.angle_noise = 2e-3;
+  const OperatorView view = view_of(scene);
+  SimulatedOperator still(scene, still_hand(), [&] { return view; });
+  SimulatedOperator shaking(scene, noisy, [&] { return view; });
+  double p2 = 0.0, a2 = 0.0;
+  constexpr int count = 1000;
+  for (int k = 0; k < count; ++k) {
+    const auto a = still.next(), b = shaking.next();
+    ASSERT_TRUE(a && b);
+    p2 += (a->X.translation() - b->X.translation()).squaredNorm() / (3 * count);
+    a2 += math::log_so3(a->X.linear().transpose() * b->X.linear()).squaredNorm() / (3 * count);
+  }
+  // The relative standard deviation of the estimates is 1 / sqrt(2 · 3000) = 1.3 %.
+  EXPECT_NEAR(std::sqrt(p2), 1e-3, 0.06e-3);
+  EXPECT_NEAR(std::sqrt(a2), 2e-3, 0.12e-3);
+}
+
+TEST(SimulatedOperator, LeavesAloneWhatIsInPlace) {
+  scene::Scene scene = scene::load_scene(mini_world);
+  for (scene::Body& body : scene.bodies) {
+    if (body.movable) body.X_WO = scene.targets.at(body.name).X_WL * body.X_OL.inverse();
+  }
+  const Trial trial = run_trial(scene, assembly_settings(), OperatorSettings());
+  EXPECT_TRUE(trial.score.complete());
+  EXPECT_EQ(trial.score.grasps, 0);
+  EXPECT_LT(trial.motion.back().t, 2.0);
+}
+
+TEST(SimulatedOperator, BadSettingsAreRefused) {
+  const scene::Scene scene = scene::load_scene(mini_world);
+  const auto refused = [&](const std::function<void(OperatorSettings&)>& spoil) {
+    OperatorSettings settings;
+    spoil(settings);
+    EXPECT_THROW(SimulatedOperator(scene, settings, [&] { return view_of(scene); }), validation::InputError);
+  };
+  refused([](OperatorSettings& s) { s.rate = 0.0; });
+  refused([](OperatorSettings& s) { s.reaction = -0.1; });
+  refused([](OperatorSettings& s) { s.position_noise = std::numeric_limits<double>::quiet_NaN(); });
+  refused([](OperatorSettings& s) { s.angle_noise = 2.0; });
+  refused([](OperatorSettings& s) { s.aim_scatter = 1.0; });
+}
+
+}  // namespace
+}  // namespace spring_workbench::assembly

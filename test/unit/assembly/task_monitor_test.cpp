@@ -1,0 +1,160 @@
+#include "spring_workbench/assembly/task_monitor.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/math/so3.h"
+#include "support/random_poses.h"
+
+namespace spring_workbench::assembly {
+namespace {
+
+constexpr double edge = 0.1;  // [m] of the box
+
+/// A box of 1 kg on the bench at the origin, wanted at x = 0.2, and a wall at x = 0.4.
+scene::Scene box_scene() {
+  scene::Scene scene;
+  scene::Body box;
+  box.name = "box";
+  box.movable = true;
+  box.X_WO.translation() = Vector3d(0.0, 0.0, 0.5 * edge);
+  box.mass_properties = {1.0, edge * edge / 6.0 * Matrix3d::Identity()};
+  box.collision = {{geometry::Box{Vector3d::Constant(edge)}}};
+  scene::Body wall;
+  wall.name = "wall";
+  wall.X_WO.translation() = Vector3d(0.4, 0.0, 0.5);
+  wall.collision = {{geometry::Box{Vector3d(0.02, 1.0, 1.0)}}};
+  scene.bodies = {box, wall};
+  scene.targets["box"].X_WL.translation() = Vector3d(0.2, 0.0, 0.5 * edge);
+  return scene;
+}
+
+/// A hand above the box that goes evenly from point to point; the monitor looks at every sample.
+class Assembly {
+ public:
+  explicit Assembly(const std::string& release = "dropped") : simulation_(scene_, settings(release)), monitor_(scene_) {
+    go(0.02, Vector3d::Zero());
+  }
+  static simulation::SimulationSettings settings(const std::string& release) {
+    simulation::SimulationSettings s;
+    s.grasp.release = release;
+    return s;
+  }
+  /// Moves the hand by `way` in `seconds`.
+  void go(double seconds, const Vector3d& way) {
+    const int samples = static_cast<int>(std::lround(seconds / 0.02));
+    for (int k = 0; k < samples; ++k) {
+      p_ += way / samples;
+      motion::PoseSample sample;
+      sample.t = t_;
+      sample.X = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), p_);
+      simulation_.push_stylus(sample);
+      simulation_.advance(t_);
+      monitor_.observe(simulation_);
+      t_ += 0.02;
+    }
+  }
+  void press(bool pressed) { simulation_.push_button(t_, pressed); }
+  const TaskScore& score() const { return monitor_.score(); }
+  TaskMonitor& monitor() { return monitor_; }
+
+ private:
+  const scene::Scene scene_ = box_scene();
+  simulation::Simulation simulation_;
+  TaskMonitor monitor_;
+  double t_ = 0.0;
+  Vector3d p_{0.0, 0.0, 0.25};
+};
+
+TEST(Placement, IsTheDistanceFromTheTargetWhereverTheCentreOfMassIs) {
+  test_support::Random random(3);
+  for (int i = 0; i < 200; ++i) {
+    scene::Body body;
+    body.name = "thing";
+    body.X_OL.translation() = random.vector(0.3);
+    scene::Target target;
+    target.X_WL = random.pose(1.0);
+    target.position_tolerance = 0.02;
+    target.angle_tolerance = 0.3;
+    const double distance = random.number(0.0, 0.04), angle = random.number(0.0, 0.6);
+    RigidTransform X_TL = RigidTransform::Identity();
+    X_TL.translation() = distance * random.direction();
+    X_TL.linear() = math::exp_so3(angle * random.direction());
+    const RigidTransform X_WO = target.X_WL * X_TL * body.X_OL.inverse();
+    const Placement p = judge_placement(body, target, X_WO, false);
+    EXPECT_NEAR(p.position_error, distance, 1e-12);
+    EXPECT_NEAR(p.angle_error, angle, 1e-7);
+    EXPECT_EQ(p.in_place, distance < 0.02 && angle < 0.3);
+    EXPECT_FALSE(judge_placement(body, target, X_WO, true).in_place);
+  }
+}
+
+TEST(TaskMonitor, CarryingTheBoxToItsTargetIsComplete) {
+  Assembly assembly;
+  EXPECT_EQ(assembly.score().targets, 1);
+  EXPECT_NEAR(assembly.monitor().placements()[0].position_error, 0.2, 1e-12);
+  assembly.press(true);
+  assembly.go(1.0, Vector3d(0.0, 0.0, 0.1));
+  assembly.go(1.0, Vector3d(0.2, 0.0, 0.0));
+  assembly.go(1.0, Vector3d::Zero());
+  EXPECT_FALSE(assembly.score().complete());
+  assembly.go(1.0, Vector3d(0.0, 0.0, -0.098));
+  assembly.press(false);
+  assembly.go(1.0, Vector3d::Zero());
+  const TaskScore done = assembly.score();
+  EXPECT_TRUE(done.complete());
+  EXPECT_EQ(done.grasps, 1);
+  EXPECT_EQ(done.drops, 0);
+  EXPECT_EQ(done.collisions, 0);
+  EXPECT_NEAR(done.hand_path, 0.398, 1e-9);
+  EXPECT_GT(done.object_path, 0.38);
+  EXPECT_LT(done.object_path, 0.45);
+  EXPECT_NEAR(done.time, 4.0, 0.1);
+  EXPECT_LT(done.position_error, 0.01);
+  // What comes after is not counted.
+  assembly.go(1.0, Vector3d(0.0, 0.0, 0.3));
+  EXPECT_EQ(assembly.score().hand_path, done.hand_path);
+  EXPECT_EQ(assembly.score().time, done.time);
+}
+
+TEST(TaskMonitor, LettingGoInTheAirIsADrop) {
+  for (const double height : {0.01, 0.1}) {
+    Assembly assembly;
+    assembly.press(true);
+    assembly.go(1.0, Vector3d(0.0, 0.0, height));
+    assembly.go(1.0, Vector3d::Zero());
+    assembly.press(false);
+    assembly.go(1.0, Vector3d::Zero());
+    EXPECT_EQ(assembly.score().drops, height > 0.02 ? 1 : 0) << height;
+  }
+}
+
+TEST(TaskMonitor, RunningAgainstTheWallIsOneCollision) {
+  Assembly assembly;
+  assembly.press(true);
+  assembly.go(1.0, Vector3d(0.0, 0.0, 0.1));
+  EXPECT_EQ(assembly.score().collisions, 0);
+  assembly.go(1.0, Vector3d(0.38, 0.0, 0.0));
+  assembly.go(1.0, Vector3d::Zero());
+  EXPECT_EQ(assembly.score().collisions, 1);
+  EXPECT_GT(assembly.score().largest_force, 1.0);
+  EXPECT_TRUE(std::isfinite(assembly.score().largest_force));
+}
+
+TEST(TaskMonitor, ResetForgetsAll) {
+  Assembly assembly;
+  assembly.press(true);
+  assembly.go(1.0, Vector3d(0.0, 0.0, 0.1));
+  assembly.monitor().reset();
+  EXPECT_EQ(score_csv(assembly.score()), score_csv(TaskMonitor(box_scene()).score()));
+}
+
+TEST(TaskScore, OneColumnPerValue) {
+  const auto commas = [](const std::string& s) { return std::count(s.begin(), s.end(), ','); };
+  EXPECT_EQ(commas(score_csv(TaskScore())), commas(score_csv_header()));
+}
+
+}  // namespace
+}  // namespace spring_workbench::assembly

@@ -1,0 +1,213 @@
+#include "spring_workbench/fastrak/cadence_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+#include <random>
+
+#include "spring_workbench/fastrak/station_stream.h"
+#include "spring_workbench/hand_input/stream_monitor.h"
+#include "spring_workbench/motion/pose_track.h"
+
+namespace spring_workbench::fastrak {
+namespace {
+
+constexpr double kInterval = 1.0 / 120.0;
+
+/// Standard deviation of x less its mean.
+struct Spread {
+  double sum = 0.0, squares = 0.0;
+  int count = 0;
+  void add(double x) {
+    sum += x;
+    squares += x * x;
+    ++count;
+  }
+  double deviation() const { return std::sqrt(std::max(0.0, squares / count - sum * sum / count / count)); }
+};
+
+struct Line {
+  double drift = 0.0;
+  double mean_delay = 0.0;  ///< exponentially distributed [s]
+  double poll = 0.0;        ///< receipts are at multiples of it, as behind a USB adapter [s]
+};
+
+/// Runs two minutes; the spread of receipts and of stamps about the device's own times, after ten seconds.
+std::pair<double, double> jitter(const Line& line, unsigned seed) {
+  std::mt19937 random(seed);
+  std::exponential_distribution<double> delay(1.0 / line.mean_delay);
+  CadenceClock clock(kInterval);
+  Spread before, after;
+  double receipt = 0.0, last = -1.0;
+  for (int k = 0; k < 120 * 120; ++k) {
+    const double measured = 1000.0 + k * kInterval * (1.0 + line.drift);
+    double came = measured + delay(random);
+    if (line.poll > 0.0) came = std::ceil(came / line.poll) * line.poll;
+    receipt = std::max(receipt, came);  // records stay in order
+    const double stamp = clock.stamp(receipt);
+    EXPECT_GT(stamp, last);
+    EXPECT_LE(stamp, receipt + 1e-4);
+    last = stamp;
+    if (k < 1200) continue;
+    before.add(receipt - measured);
+    after.add(stamp - measured);
+  }
+  EXPECT_NEAR(clock.drift(), line.drift, line.poll > 0.0 ? 3e-4 : 1e-4);
+  return {before.deviation(), after.deviation()};
+}
+
+TEST(CadenceClock, AnEvenStreamIsStampedAsItComes) {
+  CadenceClock clock(kInterval);
+  for (int k = 0; k < 5000; ++k) {
+    const double t = 50.0 + k * kInterval;
+    EXPECT_NEAR(clock.stamp(t), t, 1e-5);
+  }
+}
+
+TEST(CadenceClock, JitterIsAtLeastTenTimesLessWhateverTheDrift) {
+  unsigned seed = 1;
+  for (const double drift : {-1e-3, -1e-4, 0.0, 1e-4, 1e-3}) {
+    for (const double poll : {0.0, 0.016}) {
+      const auto [before, after] = jitter({drift, 0.003, poll}, seed++);
+      std::cout << "drift " << drift << ", poll " << poll << " s: jitter " << 1e3 * before << " ms -> " << 1e3 * after
+                << " ms\n";
+      EXPECT_GT(before, 0.002);
+      EXPECT_LT(after, before / 10.0);
+    }
+  }
+}
+
+TEST(CadenceClock, LostRecordsAndStallsAreGotOver) {
+  std::mt19937 random(9);
+  std::exponential_distribution<double> delay(1.0 / 0.001);
+  CadenceClock clock(kInterval);
+  double receipt = 0.0;
+  int wrong = 0, after_fault = 1000;
+  for (int k = 0; k < 120 * 60; ++k) {
+    const double measured = k * kInterval;
+    receipt = std::max(receipt, measured + delay(random));
+    const bool lost = k % 1000 >= 500 && k % 1000 < 507;
+    if (k % 1000 == 800) receipt += 0.2;  // a stall: the records after it come in one burst
+    if (lost || (k > 3000 && k < 3400)) {
+      after_fault = 0;
+      continue;
+    }
+    const double stamp = clock.stamp(receipt);
+    ++after_fault;
+    if (std::abs(stamp - measured) > 0.5 * kInterval) {
+      ++wrong;
+      EXPECT_LE(after_fault, 61) << k;
+    }
+  }
+  EXPECT_LE(wrong, 8 * 61);
+}
+
+TEST(StreamMonitor, SaysRateJitterGapsAndAge) {
+  std::mt19937 random(2);
+  std::normal_distribution<double> noise(0.0, 1e-3);
+  hand_input::StreamMonitor monitor(0.5);
+  double age = 0.0;
+  for (int k = 0; k < 5000; ++k) {
+    const double t = k * 0.01 + (k >= 2500 ? 2.0 : 0.0);
+    age = 0.02 + noise(random);
+    monitor.sample(t, t + age);
+  }
+  const hand_input::StreamFigures& figures = monitor.figures();
+  EXPECT_EQ(figures.samples, 5000u);
+  EXPECT_NEAR(figures.interval, 0.01, 1e-9);
+  EXPECT_LT(figures.stamp_jitter, 1e-9);
+  EXPECT_NEAR(figures.receipt_jitter, std::sqrt(2.0) * 1e-3, 0.4e-3);  // of some fifty samples
+  EXPECT_NEAR(figures.longest_gap, 2.01, 1e-9);
+  EXPECT_NEAR(figures.age, age, 1e-12);
+}
+
+/// The cadence that the stream finds by itself serves as well as one that is known.
+TEST(StationStream, StampsByTheCadenceThatItMeasures) {
+  for (const double rate : {15.0, 50.0, 100.0, 120.0}) {
+    for (const double poll : {0.0, 0.016}) {
+      for (const unsigned seed : {1u, 2u, 3u}) {
+        std::mt19937 random(seed);
+        std::exponential_distribution<double> delay(1.0 / 0.003);
+        StationStream stream(hand_input::TruthSettings(), 0.5, true);
+        Spread before, after;
+        double receipt = -1.0;
+        for (int k = 0; k < static_cast<int>(60.0 * rate); ++k) {
+          const double measured = k / rate;
+          double came = measured + delay(random);
+          if (poll > 0.0) came = std::ceil(came / poll) * poll;
+          receipt = std::max(receipt + 1e-6, came);
+          const motion::StationSample sample{1, receipt, Vector3d(0.3, 0.0, 0.4), Quaterniond::Identity(), false, ' '};
+          const hand_input::TrueSample taken = stream.take(sample);
+          if (measured < 10.0) continue;
+          EXPECT_TRUE(hand_input::usable(taken.verdict));
+          before.add(receipt - measured);
+          after.add(taken.sample.t - measured);
+        }
+        std::cout << rate << " Hz, poll " << poll << " s: jitter " << 1e3 * before.deviation() << " ms -> "
+                  << 1e3 * after.deviation() << " ms\n";
+        EXPECT_LT(after.deviation(), before.deviation() / (poll > 0.0 ? 5.0 : 20.0));
+      }
+    }
+  }
+}
+
+/// Records that are lost just while the cadence is measured make it wrong for some ten seconds, and not for good.
+TEST(StationStream, MeasuresAnewACadenceThatProvesWrong) {
+  std::mt19937 random(8);
+  std::exponential_distribution<double> delay(1.0 / 0.003);
+  StationStream stream(hand_input::TruthSettings(), 0.5, true);
+  Spread before, after;
+  double receipt = -1.0;
+  for (int k = 0; k < 120 * 60; ++k) {
+    const double measured = k * kInterval;
+    receipt = std::max(receipt + 1e-6, measured + delay(random));
+    if (k > 100 && k < 300 && k % 20 < 3) continue;
+    const motion::StationSample sample{1, receipt, Vector3d(0.3, 0.0, 0.4), Quaterniond::Identity(), false, ' '};
+    const hand_input::TrueSample taken = stream.take(sample);
+    if (measured < 30.0 || !hand_input::usable(taken.verdict)) continue;
+    before.add(receipt - measured);
+    after.add(taken.sample.t - measured);
+  }
+  EXPECT_EQ(after.count, 30 * 120);
+  EXPECT_LT(after.deviation(), before.deviation() / 20.0);
+}
+
+/// A hand that goes evenly along x at 1 m/s, read in bursts from the very start: what is played between the samples
+/// must stay on its way. Samples microseconds apart would make velocities of a thousand metres per second.
+TEST(StationStream, BurstsMakeNoJumpBetweenSamples) {
+  for (const double rate : {50.0, 120.0, 1000.0}) {
+    std::mt19937 random(4);
+    std::exponential_distribution<double> delay(1.0 / 0.5e-3), between_reads(1.0 / 4e-3);
+    StationStream stream(hand_input::TruthSettings(), 0.5, true);
+    motion::PoseTrack track(0.5);
+    double read_at = 0.0, last = 0.0, farthest = 0.0;
+    int used = 0, sent = 0;
+    for (int k = 0; k < static_cast<int>(10.0 * rate); ++k) {
+      const double measured = k / rate, due = measured + delay(random);
+      while (read_at < due) read_at += between_reads(random);
+      last = std::max(read_at, last + 1e-6);  // what is read at once is received a microsecond apart
+      const motion::StationSample sample{1, last, Vector3d(measured, 0.0, 0.0), Quaterniond::Identity(), false, ' '};
+      const hand_input::TrueSample taken = stream.take(sample);
+      ++sent;
+      if (!hand_input::usable(taken.verdict)) continue;
+      const double before = track.empty() ? taken.sample.t : track.end();
+      used += track.push(taken.sample);
+      if (track.begin() < before) {
+        for (int i = 0; i <= 20; ++i) {
+          const double t = before - 1e-9 + 0.05 * i * (taken.sample.t - before);
+          if (t < track.begin()) continue;
+          farthest = std::max(farthest, std::abs(track.segment(t).at(t).X.translation().x() - t));
+        }
+      }
+    }
+    std::cout << rate << " Hz: " << used << " of " << sent << " samples, way between them off by " << farthest
+              << " m\n";
+    EXPECT_GT(used, sent / 3);
+    EXPECT_LT(farthest, 0.05);  // the longest time between reads, at 1 m/s
+  }
+}
+
+}  // namespace
+}  // namespace spring_workbench::fastrak

@@ -1,0 +1,155 @@
+#include "spring_workbench/hand_input/reacquisition.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::hand_input {
+namespace {
+
+constexpr double kNever = -std::numeric_limits<double>::infinity();
+constexpr double kInterval = 1.0 / 120.0;
+
+double angle(const RigidTransform& a, const RigidTransform& b) {
+  return math::log_so3(a.linear().transpose() * b.linear()).norm();
+}
+double distance(const RigidTransform& a, const RigidTransform& b) { return (a.translation() - b.translation()).norm(); }
+
+TEST(Reengagement, AHandThatIsNeverLostIsFollowedToTheBit) {
+  srand(1);
+  Reengagement hand{TruthSettings()};
+  for (int k = 0; k < 100; ++k) {
+    const motion::PoseSample sample{kInterval * k, make_transform(Quaterniond::UnitRandom(), Vector3d::Random())};
+    const auto followed = hand.follow(sample, k == 0, kNever);
+    ASSERT_EQ(followed.size(), 1u);
+    EXPECT_EQ(followed[0].t, sample.t);
+    EXPECT_EQ(followed[0].X.matrix(), sample.X.matrix());
+  }
+  EXPECT_EQ(hand.counts().reengagements, 0u);
+}
+
+/// A hand that turns and moves evenly.
+struct EvenHand {
+  RigidTransform X_0;
+  Vector3d v, w;
+  motion::PoseSample at(double t) const {
+    motion::PoseSample sample{t, X_0};
+    sample.X.translation() += t * v;
+    sample.X.linear() = X_0.linear() * math::exp_so3(t * w);
+    return sample;
+  }
+};
+
+TEST(Reengagement, SetsOutWhereItWasHeldAtRestWithinTheSpeedsAndArrivesExactly) {
+  srand(1);
+  for (int run = 0; run < 100; ++run) {
+    TruthSettings settings;
+    settings.reengage_speed = 0.4;
+    settings.reengage_turn_rate = 1.5;
+    Reengagement hand(settings);
+    const motion::PoseSample held{0.0, make_transform(Quaterniond::UnitRandom(), Vector3d::Random())};
+    hand.follow(held, true, kNever);
+    const double v = 0.3, w = 2.0;  // of the hand that is back
+    EvenHand back{make_transform(Quaterniond::UnitRandom(), 2.0 * Vector3d::Random()),
+                  v * Vector3d::Random().normalized(), w * Vector3d::Random().normalized()};
+    RigidTransform before = held.X;
+    bool arrived = false;
+    for (int k = 0; k < 12000 && !arrived; ++k) {
+      const motion::PoseSample sample = back.at(1.0 + k * kInterval);
+      const auto followed = hand.follow(sample, k == 0, kNever);
+      ASSERT_EQ(followed.size(), 1u);
+      if (k == 0) {
+        EXPECT_LT(distance(followed[0].X, held.X) + angle(followed[0].X, held.X), 1e-9);
+      }
+      EXPECT_LT(distance(followed[0].X, before), kInterval * (settings.reengage_speed + v) * (1.0 + 1e-9));
+      EXPECT_LT(angle(followed[0].X, before), kInterval * (settings.reengage_turn_rate + w) * (1.0 + 1e-9));
+      before = followed[0].X;
+      arrived = followed[0].X.matrix() == sample.X.matrix();
+    }
+    EXPECT_TRUE(arrived);
+    EXPECT_EQ(hand.counts().reengagements, 1u);
+  }
+}
+
+TEST(Reengagement, TheFirstStepIsOfThirdOrder) {  // at rest, and without a kick
+  double last = 0.0;
+  for (const double h : {0.02, 0.01, 0.005}) {
+    Reengagement hand{TruthSettings()};
+    hand.follow({0.0, RigidTransform::Identity()}, true, kNever);
+    const motion::PoseSample elsewhere{1.0, make_transform(Quaterniond::Identity(), Vector3d(1, 0, 0))};
+    hand.follow(elsewhere, true, kNever);
+    const double moved = hand.follow({1.0 + h, elsewhere.X}, false, kNever)[0].X.translation().x();
+    if (last > 0.0) {
+      EXPECT_NEAR(last / moved, 8.0, 0.4);
+    }
+    last = moved;
+  }
+}
+
+TEST(Reengagement, SamplesWhoseTimeIsSimulatedComeTooLate) {
+  Reengagement hand{TruthSettings()};
+  const RigidTransform X = RigidTransform::Identity();
+  hand.follow({0.0, X}, true, kNever);
+  hand.follow({0.1, X}, false, 0.0);
+  for (const double t : {0.2, 0.5, 1.9, 2.0}) EXPECT_TRUE(hand.follow({t, X}, false, 2.0).empty());
+  const auto followed = hand.follow({2.1, make_transform(Quaterniond::Identity(), Vector3d(1, 2, 3))}, false, 2.0);
+  ASSERT_EQ(followed.size(), 2u);
+  EXPECT_EQ(followed[0].t, 2.0);
+  EXPECT_EQ(followed[1].t, 2.1);
+  for (const motion::PoseSample& s : followed) EXPECT_LT(distance(s.X, X), 1e-12);
+  EXPECT_EQ(hand.counts().late, 4u);
+  EXPECT_EQ(hand.counts().reengagements, 1u);
+}
+
+TEST(Reengagement, ALostHandLetsGoOnceOrNever) {
+  for (const std::string action : {"freeze", "release"}) {
+    TruthSettings settings;
+    settings.lost = action;
+    settings.lost_after = 1.5;
+    Reengagement hand(settings);
+    EXPECT_FALSE(hand.take_release(1e9));
+    const RigidTransform X = RigidTransform::Identity();
+    hand.follow({0.0, X}, true, kNever);
+    EXPECT_FALSE(hand.take_release(1.49));
+    EXPECT_EQ(hand.counts().losses, 0u);
+    const auto release = hand.take_release(10.0);  // live: the silence goes on
+    EXPECT_EQ(release.has_value(), action == "release");
+    if (release) {
+      EXPECT_EQ(*release, 1.5);
+    }
+    EXPECT_FALSE(hand.take_release(20.0));
+    hand.follow({30.0, X}, true, 20.0);
+    hand.follow({40.0, X}, true, kNever);  // a gap that is known before it is simulated
+    hand.follow({40.1, X}, false, kNever);
+    EXPECT_FALSE(hand.take_release(31.4));
+    const auto second = hand.take_release(40.0);
+    EXPECT_EQ(second.has_value(), action == "release");
+    if (second) {
+      EXPECT_EQ(*second, 31.5);
+    }
+    EXPECT_EQ(hand.counts().losses, 2u);
+  }
+}
+
+TEST(Reengagement, MoreThanOneTurnAwayIsCaughtUpWithoutAJump) {
+  TruthSettings settings;
+  Reengagement hand(settings);
+  hand.follow({0.0, RigidTransform::Identity()}, true, kNever);
+  EvenHand back{make_transform(Quaterniond::Identity(), Vector3d(3, 0, 0)), Vector3d::Zero(), Vector3d(0, 0, 3.0)};
+  RigidTransform before = RigidTransform::Identity();
+  int steps = 0;
+  do {
+    before = hand.follow(back.at(1.0 + steps * kInterval), steps == 0, kNever)[0].X;
+    const RigidTransform next = hand.follow(back.at(1.0 + (steps + 0.5) * kInterval), false, kNever)[0].X;
+    ASSERT_LT(angle(before, next), kInterval * (settings.reengage_turn_rate + 3.0));
+    ++steps;
+  } while (steps < 5000);
+  EXPECT_LT(angle(before, back.at(1.0 + (steps - 1) * kInterval).X), 1e-9);
+  EXPECT_EQ(hand.follow(back.at(100.0), false, kNever)[0].X.matrix(), back.at(100.0).X.matrix());
+}
+
+}  // namespace
+}  // namespace spring_workbench::hand_input

@@ -1,0 +1,42 @@
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "spring_workbench/ros/manipulation/diagnostics.h"
+
+namespace spring_workbench::manipulation {
+namespace {
+
+/// What may be wrong, and the words that the hint must have.
+TEST(HintForSilence, NamesWhatToLookAt) {
+  InputStatistics input;
+  const auto hint = [&](const std::vector<std::string>& senders = {}) {
+    return hint_for_silence(input, senders, "stylus");
+  };
+  const auto expect = [](const std::string& text, const std::string& word) {
+    EXPECT_NE(text.find(word), std::string::npos) << text;
+    EXPECT_EQ(text.find('\n'), std::string::npos);
+  };
+  expect(hint(), "is tracker_driver, or a bag, running?");
+  expect(hint({"/driver"}), "/driver should send /tf");
+  expect(hint({"/driver"}), "ROS_IP");
+  expect(hint({"/driver"}), "is the device on?");
+  input.messages = 100;
+  input.frames = {"wand"};
+  expect(hint(), "no frame stylus on /tf, but wand");
+  input.frames.insert("stylus");
+  EXPECT_EQ(hint(), "");  // the first ones are on their way
+  for (const char* reason : {"too old", "from the future"}) {
+    input.left_out = {{reason, 90}, {"too fast", 10}};
+    input.newest_offer_age = 37.0;
+    expect(hint(), reason);
+    expect(hint(), "by 37 s: are the clocks of two hosts apart");
+  }
+  input.left_out = {{"not finite", 90}, {"too old", 10}};
+  expect(hint(), "most for this: not finite");
+  input.stream.samples = 1;
+  EXPECT_EQ(hint(), "");
+}
+
+}  // namespace
+}  // namespace spring_workbench::manipulation

@@ -1,0 +1,191 @@
+#include "spring_workbench/ros/manipulation/markers.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "spring_workbench/scene/scene.h"
+#include "support/meshes.h"
+
+namespace spring_workbench::manipulation {
+namespace {
+
+using visualization_msgs::Marker;
+using visualization_msgs::MarkerArray;
+using Keys = std::set<std::pair<std::string, int>>;
+
+/// A hand over the middle of the box of the single-object scene: down, grasp, up.
+class MarkersOfALift : public testing::Test {
+ protected:
+  static double height(double t) {
+    return t < 1.0 ? 0.5 - 0.28 * t : t < 2.0 ? 0.22 : std::min(0.22 + 0.1 * (t - 2.0), 0.4);
+  }
+
+  void go_to(double t_end) {
+    for (; t_ <= t_end; t_ += 0.02) {
+      simulation_.push_stylus({t_, make_transform(Quaterniond(0, 1, 0, 0), Vector3d(0, 0, height(t_)))});
+      if (!pressed_ && t_ > 1.5) simulation_.push_button(t_, pressed_ = true);
+    }
+    simulation_.advance(simulation_.newest_sample());
+  }
+  MarkerArray build() {
+    std_msgs::Header header;
+    header.frame_id = "world";
+    return builder_.build(simulation_, header);
+  }
+
+  simulation::Simulation simulation_{scene::load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf"),
+                                     simulation::SimulationSettings()};
+  MarkerBuilder builder_{"rod", 2.0};
+  double t_ = 0.0;
+  bool pressed_ = false;
+};
+
+Keys keys(const MarkerArray& markers, int action) {
+  Keys result;
+  for (const Marker& marker : markers.markers) {
+    if (marker.action == action) result.emplace(marker.ns, marker.id);
+  }
+  return result;
+}
+
+TEST_F(MarkersOfALift, EveryMarkerIsFiniteAndHasAnIdOfItsOwn) {
+  for (const double t : {0.5, 1.2, 1.8, 2.5, 4.0}) {
+    go_to(t);
+    const MarkerArray markers = build();
+    Keys all;
+    for (const Marker& marker : markers.markers) {
+      EXPECT_TRUE(all.emplace(marker.ns, marker.id).second) << marker.ns << " " << marker.id;
+      EXPECT_NE(marker.action, Marker::DELETEALL);
+      if (marker.action != Marker::ADD) continue;
+      EXPECT_EQ(marker.header.frame_id, "world");
+      EXPECT_EQ(marker.lifetime.toSec(), 2.0);
+      EXPECT_GT(marker.type == Marker::TEXT_VIEW_FACING ? marker.scale.z : marker.scale.x, 0.0) << marker.ns;
+      const auto& q = marker.pose.orientation;
+      EXPECT_NEAR(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1.0, 1e-9);
+      for (const auto& p : marker.points) EXPECT_TRUE(std::isfinite(p.x + p.y + p.z));
+      if (marker.type == Marker::TRIANGLE_LIST) {
+        EXPECT_EQ(marker.points.size() % 3, 0u);
+      }
+    }
+  }
+}
+
+TEST_F(MarkersOfALift, WhatIsGoneIsDeletedOnceAndByName) {
+  Keys shown;
+  bool force_was_drawn = false;
+  for (double t = 0.5; t < 4.0; t += 0.1) {
+    go_to(t);
+    if (t > 3.5) simulation_.release();
+    const MarkerArray markers = build();
+    const Keys added = keys(markers, Marker::ADD), deleted = keys(markers, Marker::DELETE);
+    Keys gone;
+    for (const auto& key : shown) {
+      if (added.count(key) == 0) gone.insert(key);
+    }
+    EXPECT_EQ(deleted, gone);
+    force_was_drawn |= added.count({"force", 0}) != 0;
+    shown = added;
+  }
+  EXPECT_TRUE(force_was_drawn);
+  EXPECT_EQ(shown.count({"force", 0}), 0u);
+}
+
+/// Sum of the triangles' areas.
+double area(const Marker& marker) {
+  const auto corner = [&](std::size_t i) {
+    return Vector3d(marker.points[i].x, marker.points[i].y, marker.points[i].z);
+  };
+  double sum = 0.0;
+  for (std::size_t i = 0; i + 2 < marker.points.size(); i += 3) {
+    sum += 0.5 * (corner(i + 1) - corner(i)).cross(corner(i + 2) - corner(i)).norm();
+  }
+  return sum;
+}
+
+const Marker* find(const MarkerArray& markers, const std::string& ns, int id) {
+  for (const Marker& marker : markers.markers) {
+    if (marker.ns == ns && marker.id == id && marker.action == Marker::ADD) return &marker;
+  }
+  return nullptr;
+}
+
+TEST_F(MarkersOfALift, ARaisedBoxThrowsItsOwnOutlineOnTheBench) {
+  go_to(1.0);
+  EXPECT_EQ(find(build(), "shadow", 0), nullptr);
+  go_to(6.0);  // at rest, hanging upright
+  const MarkerArray markers = build();
+  const Marker* shadow = find(markers, "shadow", 0);
+  ASSERT_NE(shadow, nullptr);
+  EXPECT_NEAR(area(*shadow), 0.1 * 0.06, 1e-5);
+  for (const auto& p : shadow->points) EXPECT_NEAR(p.z, 0.0, 2e-3);
+}
+
+TEST_F(MarkersOfALift, LoadIsColouredAndToldInVirtualKilograms) {
+  go_to(1.0);
+  const auto unloaded = find(build(), "fork", 0)->color;
+  EXPECT_EQ(find(build(), "readout", 0), nullptr);
+  go_to(8.0);  // at rest: the scene's heaviest object, of 1 kg
+  const MarkerArray markers = build();
+  const auto loaded = find(markers, "fork", 0)->color;
+  EXPECT_GT(unloaded.b, unloaded.r);
+  EXPECT_GT(loaded.r, loaded.b + 0.5f);
+  const auto& full = find(markers, "legend", 0)->colors.back();
+  EXPECT_NEAR(full.g, loaded.g, 0.02);
+  EXPECT_EQ(find(markers, "readout", 0)->text.substr(0, 20), "1.00 vkg   9.81 N   ");
+}
+
+TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
+  for (const double t : {0.5, 2.2, 2.6, 4.0}) {
+    go_to(t);
+    const tools::ToolState tool = simulation_.fork();
+    const Vector3d point =
+        tool.X_WE * Vector3d(0.0, 0.0, fork_mesh::ForkLook().prong_length * fork_mesh::coil_diameter(tool.length));
+    double nearest = 1.0;
+    const MarkerArray markers = build();
+    for (const auto& p : find(markers, "fork", 1)->points) {
+      nearest = std::min(nearest, (Vector3d(p.x, p.y, p.z) - point).norm());
+    }
+    EXPECT_LT(nearest, 1e-9);
+  }
+}
+
+TEST(Markers, AMeshIsSentByItsFile) {
+  scene::Scene scene = scene::load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf");
+  geometry::TriangleMesh mesh = *test_support::box_mesh(Vector3d(0.2, 0.1, 0.1));
+  mesh.uri = "package://somewhere/meshes/box.stl";
+  mesh.scale = Vector3d(0.5, 1.0, 2.0);
+  scene::Body& box = scene.bodies[*scene::find_body(scene, "box")];
+  box.visual[0].geometry = std::make_shared<const geometry::TriangleMesh>(mesh);
+  const MarkerArray markers =
+      MarkerBuilder("rod", 2.0)
+          .build(simulation::Simulation(scene, simulation::SimulationSettings()), std_msgs::Header());
+  const Marker* marker = find(markers, "box", 0);
+  ASSERT_NE(marker, nullptr);
+  EXPECT_EQ(marker->type, Marker::MESH_RESOURCE);
+  EXPECT_EQ(marker->mesh_resource, mesh.uri);
+  EXPECT_EQ(marker->scale.z, 2.0);
+  EXPECT_TRUE(marker->points.empty());
+  EXPECT_NEAR(marker->color.r, box.visual[0].color[0], 1e-6);
+}
+
+TEST_F(MarkersOfALift, AnInsertedObjectIsHighlighted) {
+  const auto color = [this] {
+    for (const Marker& marker : build().markers) {
+      if (marker.ns == "box") return marker.color;
+    }
+    throw std::runtime_error("the box is not drawn");
+  };
+  go_to(0.5);
+  const auto before = color();
+  go_to(1.3);  // the tip is in, the button is up
+  const auto inserted = color();
+  go_to(2.5);
+  const auto held = color();
+  EXPECT_GT(inserted.g, before.g + 0.2);
+  EXPECT_EQ(held.g, before.g);
+}
+
+}  // namespace
+}  // namespace spring_workbench::manipulation

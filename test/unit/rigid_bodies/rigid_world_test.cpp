@@ -1,0 +1,215 @@
+#include "spring_workbench/rigid_bodies/rigid_world.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/bodies.h"
+
+namespace spring_workbench::rigid_bodies {
+namespace {
+
+constexpr double g = 9.81;
+
+scene::Body sphere(const std::string& name, double radius, double mass, const Vector3d& p_WO, double friction,
+                   double restitution) {
+  scene::Body b = box(name, Vector3d::Ones(), mass, p_WO, friction);
+  b.material.restitution = restitution;
+  b.mass_properties.inertia_O = 0.4 * mass * radius * radius * Matrix3d::Identity();
+  b.collision[0].geometry = geometry::Sphere{radius};
+  return b;
+}
+
+Twist moving(const Vector3d& v) {
+  Twist t;
+  t.linear = v;
+  return t;
+}
+
+void run(RigidWorld& world, double duration, double h = 1e-3) {
+  std::vector<DrivenBody> none;
+  const int steps = static_cast<int>(std::lround(duration / h));
+  for (int i = 0; i < steps; ++i) world.step(h, none);
+}
+
+bool any_awake(const RigidWorld& world) {
+  const std::vector<std::size_t>& near = world.bodies_near();
+  return std::any_of(near.begin(), near.end(), [&](std::size_t body) { return world.awake(body); });
+}
+
+/// The body on a spring without inertia: quasi-static, so that every answer is known.
+struct OnSpring {
+  double stiffness;  // N/m, all directions; it does not turn
+  Vector3d hand;
+  DrivenBody driven;
+
+  /// Moves the hand to `to` within `h` and carries the body along.
+  void step(RigidWorld& world, const Vector3d& to, double h) {
+    driven.displacement_W.linear = to - driven.X_WO.translation();
+    driven.displacement_W.angular.setZero();
+    driven.compliance.setZero();
+    driven.compliance.topLeftCorner<3, 3>().diagonal().setConstant(1.0 / stiffness);
+    std::vector<DrivenBody> all{driven};
+    world.step(h, all);
+    driven.contact_W = all[0].contact_W;
+    driven.X_WO.translation() = to + driven.contact_W.force / stiffness;
+    world.place(driven.body, driven.X_WO, Twist(), true);
+    hand = to;
+  }
+};
+
+TEST(RigidWorld, SleepersCostNothingAndStay) {
+  std::vector<scene::Body> bodies;
+  for (int i = 0; i < 1000; ++i) {
+    bodies.push_back(box("b" + std::to_string(i), Vector3d(0.04, 0.04, 0.04), 0.1, Vector3d(0.1 * i, 0.0, 0.02)));
+  }
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(bodies, scene::ContactMode::dynamic));
+  RigidWorld& world = *owner;
+  run(world, 0.1);
+  EXPECT_EQ(world.bodies_near().size(), 0u);
+  EXPECT_FALSE(any_awake(world));
+  world.place(500, world.pose(500), moving({0.0, 0.5, 0.0}), true);
+  run(world, 0.05);
+  EXPECT_LE(world.bodies_near().size(), 3u);
+  EXPECT_EQ(world.pose(0).translation(), bodies[0].X_WO.translation());
+  run(world, 3.0, 2e-3);
+  EXPECT_FALSE(any_awake(world));
+  EXPECT_EQ(world.bodies_near().size(), 0u);
+}
+
+TEST(RigidWorld, SlidingBoxStopsWhereItMust) {
+  for (const double mu : {0.2, 0.5, 1.0}) {
+    const std::unique_ptr<RigidWorld> owner = make_rigid_world(
+        scene_of({box("b", Vector3d(0.1, 0.1, 0.02), 2.0, Vector3d(0, 0, 0.01), mu)}, scene::ContactMode::dynamic, mu));
+    RigidWorld& world = *owner;
+    const double v = 1.0;
+    world.place(0, world.pose(0), moving({v, 0.0, 0.0}), true);
+    run(world, 1.0);
+    const double way = v * v / (2.0 * mu * g);
+    EXPECT_NEAR(world.pose(0).translation().x(), way, 0.01 * way) << mu;
+    EXPECT_NEAR(world.pose(0).translation().z(), 0.01, 1e-5);
+    EXPECT_NEAR(world.pose(0).translation().y(), 0.0, 1e-3 * way);
+  }
+}
+
+TEST(RigidWorld, InclineHoldsBelowTheAngleOfFriction) {
+  const double mu = 0.5;
+  for (const double off : {-0.1, 0.1}) {
+    const double angle = std::atan(mu) + off * M_PI / 180.0;
+    const Eigen::AngleAxisd tilt(angle, Vector3d::UnitY());  // downhill is +x
+    scene::Body ramp = box("ramp", Vector3d(4.0, 1.0, 0.2), 0.0, Vector3d(0, 0, 3.0), mu);
+    ramp.X_WO.linear() = tilt.toRotationMatrix();
+    scene::Body b = box("b", Vector3d(0.1, 0.1, 0.05), 1.0, Vector3d::Zero(), mu);
+    b.X_WO.linear() = tilt.toRotationMatrix();
+    b.X_WO.translation() = ramp.X_WO * Vector3d(0, 0, 0.1 + 0.025);
+    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({ramp, b}, scene::ContactMode::dynamic, mu));
+    RigidWorld& world = *owner;
+    world.place(1, b.X_WO, Twist(), true);
+    run(world, 10.0, 2e-3);
+    const double slid = (world.pose(1).translation() - b.X_WO.translation()).norm();
+    if (off < 0.0) {
+      EXPECT_LT(slid, 1e-4);
+    } else {
+      // a = g (sin − μ cos)
+      const double a = g * (std::sin(angle) - mu * std::cos(angle));
+      EXPECT_NEAR(slid, 0.5 * a * 100.0, 0.05 * 0.5 * a * 100.0);
+    }
+  }
+}
+
+TEST(RigidWorld, SphereRollsAtFiveSeventhsOfItsSpeed) {
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(
+      scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 0.05), 0.4, 0.0)}, scene::ContactMode::dynamic, 0.4));
+  RigidWorld& world = *owner;
+  world.place(0, world.pose(0), moving({2.0, 0.0, 0.0}), true);
+  run(world, 1.0);
+  EXPECT_NEAR(world.velocity(0).linear.x(), 2.0 * 5.0 / 7.0, 0.01 * 2.0);
+  EXPECT_NEAR(world.velocity(0).angular.y() * 0.05, world.velocity(0).linear.x(), 5e-3);  // contact_skin / radius
+}
+
+TEST(RigidWorld, BallBouncesToTheSquareOfItsRestitution) {
+  scene::Scene s = scene_of({sphere("s", 0.05, 1.0, Vector3d(0, 0, 1.05), 0.0, 0.8)}, scene::ContactMode::dynamic, 0.0);
+  s.bench_material.restitution = 0.8;
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(s);
+  RigidWorld& world = *owner;
+  world.place(0, world.pose(0), Twist(), true);
+  const double fall = std::sqrt(2.0 / g);
+  run(world, fall + 0.8 * fall, 5e-4);  // the highest point after the first bounce
+  EXPECT_NEAR(world.pose(0).translation().z() - 0.05, 0.64, 0.01);
+}
+
+TEST(RigidWorld, AWayEndsWhereItTouches) {
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(
+      {box("b", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(0, 0, 0.15)), box("wall", {0.001, 1, 1}, 0.0, {0.2505, 0, 0.5})},
+      scene::ContactMode::dynamic));
+  const RigidWorld& world = *owner;
+  const auto to = [&](double x, double z) {
+    RigidTransform X = world.pose(0);
+    X.translation() += Vector3d(x, 0, z);
+    return X;
+  };
+  EXPECT_NEAR(world.free_part(0, world.pose(0), to(0, -0.2)), 0.5, 1e-9);
+  EXPECT_NEAR(world.sound_part(0, world.pose(0), to(0, -0.2)), (0.1 + 5e-5) / 0.2, 1e-9);
+  EXPECT_NEAR(world.free_part(0, world.pose(0), to(0.8, 0)), 0.25, 1e-9);  // through a wall of 1 mm
+  EXPECT_EQ(world.free_part(0, world.pose(0), to(0.2, 0)), 1.0);
+  EXPECT_EQ(world.free_part(0, world.pose(0), to(-0.8, 0.5)), 1.0);
+}
+
+TEST(RigidWorld, StackOfTenStandsAndSleeps) {
+  for (const double ratio : {1.0, 1000.0}) {  // the heaviest on top
+    std::vector<scene::Body> bodies;
+    for (int i = 0; i < 10; ++i) {
+      const double mass = i == 9 ? ratio : 1.0;
+      bodies.push_back(box("b" + std::to_string(i), Vector3d(0.1, 0.1, 0.05), mass, Vector3d(0, 0, 0.025 + 0.05 * i)));
+    }
+    const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(bodies, scene::ContactMode::dynamic));
+    RigidWorld& world = *owner;
+    world.place(0, world.pose(0), Twist(), true);
+    run(world, 3.0, 2e-3);
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+      EXPECT_LT((world.pose(i).translation() - bodies[i].X_WO.translation()).norm(), 1e-4) << i << " " << ratio;
+    }
+    EXPECT_FALSE(any_awake(world));
+  }
+}
+
+TEST(RigidWorld, PressedAndDraggedLagsByFrictionOverStiffness) {
+  for (const double k : {2e1, 2e3, 2e9}) {
+    for (const double mu : {0.0, 0.5, 1.0}) {
+      const double h = 2e-3;
+      const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(
+          {box("b", Vector3d(0.2, 0.1, 0.05), 5.0, Vector3d(0, 0, 0.025), mu)}, scene::ContactMode::dynamic, mu));
+      RigidWorld& world = *owner;
+      OnSpring spring{k, Vector3d(0, 0, 0.025), {}};
+      spring.driven.X_WO.translation() = spring.hand;
+      for (int i = 1; i <= 50; ++i) spring.step(world, Vector3d(0, 0, 0.025 - 0.1 * i / 50), h);
+      for (int i = 1; i <= 500; ++i) spring.step(world, Vector3d(0.001 * i, 0, -0.075), h);
+      const double lag = spring.hand.x() - spring.driven.X_WO.translation().x();
+      EXPECT_NEAR(lag, mu * 0.1, 1e-3 * 0.1) << k << " " << mu;
+      EXPECT_NEAR(spring.driven.X_WO.translation().z(), 0.025, 1e-5) << k << " " << mu;
+    }
+  }
+}
+
+TEST(RigidWorld, DrivenBodyPushesANeighbourAndCarriesAnother) {
+  // A tray on a stiff spring is lifted with a cup on it; then it pushes a block along the bench.
+  scene::Body tray = box("tray", Vector3d(0.2, 0.2, 0.02), 1.0, Vector3d(0, 0, 0.01));
+  scene::Body cup = box("cup", Vector3d(0.05, 0.05, 0.05), 0.2, Vector3d(0, 0, 0.045));
+  scene::Body block = box("block", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(0.3, 0, 0.05));
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of({tray, cup, block}, scene::ContactMode::dynamic));
+  RigidWorld& world = *owner;
+  OnSpring spring{1e5, Vector3d(0, 0, 0.01), {}};
+  spring.driven.X_WO.translation() = spring.hand;
+  const double h = 2e-3;
+  for (int i = 1; i <= 500; ++i) spring.step(world, Vector3d(0, 0, 0.01 + 0.1 * i / 500), h);
+  for (int i = 1; i <= 250; ++i) spring.step(world, spring.hand, h);
+  EXPECT_NEAR(world.pose(1).translation().z(), 0.145 - 0.2 * g / 1e5, 1e-4);
+  EXPECT_NEAR(spring.driven.contact_W.force.z(), -0.2 * g, 0.02 * 0.2 * g);
+  for (int i = 1; i <= 500; ++i) spring.step(world, Vector3d(0, 0, 0.11 - 0.08 * i / 500), h);
+  for (int i = 1; i <= 500; ++i) spring.step(world, Vector3d(0.2 * i / 500, 0, 0.03), h);
+  EXPECT_NEAR(world.pose(2).translation().x(), spring.driven.X_WO.translation().x() + 0.15, 2e-3);
+}
+
+}  // namespace
+}  // namespace spring_workbench::rigid_bodies

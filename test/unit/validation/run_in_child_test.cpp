@@ -1,0 +1,101 @@
+#include "spring_workbench/validation/run_in_child.h"
+
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+#include <cstdlib>
+#include <memory>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "spring_workbench/validation/input_error.h"
+
+namespace spring_workbench::validation {
+namespace {
+
+constexpr std::uint64_t mebibyte = std::uint64_t{1} << 20;
+constexpr ChildLimits ample{60.0};
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
+TEST(RunInChild, BringsBackEveryByte) {
+  for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{65536}, std::size_t{10000001}}) {
+    std::string sent(size, '\0');
+    for (std::size_t i = 0; i < size; ++i) sent[i] = static_cast<char>(i * i % 251);
+    EXPECT_TRUE(run_in_child([&] { return sent; }, ample) == sent) << size;
+  }
+}
+
+TEST(RunInChild, LeavesTheCallerAsItWas) {
+  int touched = 0;
+  EXPECT_EQ(run_in_child([&] { return std::to_string(++touched); }, ample), "1");
+  EXPECT_EQ(touched, 0);
+}
+
+TEST(RunInChild, ComesBackWithNothingFromWhatDies) {
+  EXPECT_FALSE(run_in_child([]() -> std::string { std::abort(); }, ample));
+  EXPECT_FALSE(run_in_child([]() -> std::string { throw std::runtime_error("no"); }, ample));
+  EXPECT_FALSE(run_in_child([]() -> std::string { throw 1; }, ample));
+}
+
+TEST(RunInChild, ComesBackWithNothingFromWhatHangs) {
+  EXPECT_FALSE(run_in_child(
+      [] {
+        for (volatile bool always = true; always;) {
+        }
+        return std::string();
+      },
+      {0.2}));
+}
+
+TEST(RunInChild, ComesBackWithNothingFromWhatEatsMemory) {
+  if (sanitized) GTEST_SKIP() << "a sanitizer's own memory counts, and it does not come back from a limit";
+  const auto eat = [](std::size_t megabytes) {
+    return [megabytes] {
+      std::vector<std::unique_ptr<std::string>> eaten;
+      for (std::size_t i = 0; i < megabytes; ++i) eaten.push_back(std::make_unique<std::string>(mebibyte, 'x'));
+      return std::to_string(eaten.size());
+    };
+  };
+  EXPECT_EQ(run_in_child(eat(20), {60.0, 200 * mebibyte}), "20");
+  EXPECT_FALSE(run_in_child(eat(400), {60.0, 200 * mebibyte}));
+}
+
+/// As a node needs it: a scene is then refused, and the node goes on.
+TEST(RunInChild, RefusesWhereTheSystemGivesNoProcess) {
+  rlimit before{};
+  ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+  const rlimit none{0, before.rlim_max};
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+  std::string answer;
+  try {
+    run_in_child([] { return std::string(); }, ample);
+  } catch (const InputError& refusal) {
+    answer = refusal.what();
+  }
+  ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+  EXPECT_EQ(answer, "child process: cannot be made: Too many open files: must be possible, to read what may do harm");
+  EXPECT_EQ(run_in_child([] { return std::string("again"); }, ample), "again");
+}
+
+TEST(RunInChild, FromManyThreadsAtOnce) {
+  if (sanitized) GTEST_SKIP() << "a sanitizer's memory is not made for a fork while other threads take some";
+  std::vector<std::thread> threads;
+  std::vector<int> right(8, 0);
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    threads.emplace_back([&right, i] {
+      for (int k = 0; k < 10; ++k)
+        right[i] += run_in_child([i] { return std::string(100000, static_cast<char>(i)); }, ample) ==
+                    std::string(100000, static_cast<char>(i));
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(right, std::vector<int>(8, 10));
+}
+
+}  // namespace
+}  // namespace spring_workbench::validation
