@@ -21,7 +21,7 @@ Scenario with_length_of_its_slopes(Scenario scene) {
   return scene;
 }
 
-rod::PerFamily families(const Vector6d& coordinates) { return {coordinates[2], coordinates[0], coordinates[5]}; }
+rod::PerDof families(const Vector6d& coordinates) { return {coordinates[2], coordinates[0], coordinates[5]}; }
 
 dynamics::HeldBody held_body(const Scenario& scene) {
   dynamics::BodyInertia inertia;

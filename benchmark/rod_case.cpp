@@ -51,7 +51,7 @@ double sum(const std::array<Sine, 4>& sines, double t) {
   return value;
 }
 
-RodCase rod(const std::string& name, double length, const rod::PerFamily& stiffness) {
+RodCase rod(const std::string& name, double length, const rod::PerDof& stiffness) {
   RodCase one;
   one.name = name;
   one.fork.length = length;

@@ -98,7 +98,7 @@ RodRun run_rod_to_tolerance(const RodCase& one, const std::string& shape, const 
     const simulation::AdvanceReport report = simulation.advance(t);
     run.steps += report.steps;
     run.X_WO.push_back(simulation.objects()[0].X_WO);
-    if (!is_bounded(run.X_WO.back()) || report.guards_tripped > 0) return run;
+    if (!is_bounded(run.X_WO.back()) || report.steps_rejected > 0) return run;
   }
   run.wall_seconds = seconds_since(start);
   run.finite = true;

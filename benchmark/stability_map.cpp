@@ -64,7 +64,7 @@ class CellRun {
 
   /// False when there is no point in going on.
   bool advance(double t) {
-    outcome_.refused += simulation_.advance(t).guards_tripped;
+    outcome_.refused += simulation_.advance(t).steps_rejected;
     const BodyState& object = simulation_.objects()[0];
     const Twist& V = object.V_WO_W;
     outcome_.finite = object.X_WO.matrix().allFinite() && V.linear.allFinite() && V.angular.allFinite();

@@ -28,7 +28,7 @@ std::string text(double value, int digits = 3) {
 
 Verdict judged(std::string claim, std::string target, std::string measured, bool held) {
   return {std::move(claim), std::move(target), std::move(measured),
-          held ? Verdict::Result::held : Verdict::Result::not_held};
+          held ? Verdict::Result::pass : Verdict::Result::fail};
 }
 
 bool is_ours(const std::string& method) {
@@ -338,10 +338,10 @@ void contact_extremes(const Measurements& m, std::vector<Verdict>& out) {
 
 std::string name_of(Verdict::Result result) {
   switch (result) {
-    case Verdict::Result::held:
-      return "held";
-    case Verdict::Result::not_held:
-      return "NOT held";
+    case Verdict::Result::pass:
+      return "PASS";
+    case Verdict::Result::fail:
+      return "FAIL";
     case Verdict::Result::not_measured:
       break;
   }

@@ -34,7 +34,7 @@ struct Verdict {
   std::string claim;
   std::string target;
   std::string measured;
-  enum class Result { held, not_held, not_measured } result = Result::not_measured;
+  enum class Result { pass, fail, not_measured } result = Result::not_measured;
 };
 std::string name_of(Verdict::Result result);
 

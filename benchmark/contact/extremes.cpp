@@ -156,7 +156,7 @@ class Watch {
     hardest_ = std::max(hardest_, weight_ + force);
     if (!at_rest) return true;
     const double now = energy();
-    const Vector3d handle = simulation_.fork().X_WH_seen.translation();
+    const Vector3d handle = simulation_.fork().X_WH_proxy.translation();
     // One that was held back is drawn to the hand again: work of the hand.
     const double work = std::isfinite(lowest_) ? hardest_ * (handle - handle_).norm() : 0.0;
     lowest_ = std::min(lowest_ + work, now);
@@ -250,8 +250,8 @@ ExtremeOutcome run(const ExtremeCell& cell) {
   ExtremeOutcome outcome;
   for (int i = 1; i <= samples; ++i) {
     const simulation::AdvanceReport report = simulation.advance(interval * i);
-    outcome.refused += report.guards_tripped;
-    outcome.held_back += report.held_back;
+    outcome.refused += report.steps_rejected;
+    outcome.steps_blocked += report.steps_blocked;
     if (!watch.look(interval * i > pressing + shifting + 1.5 * interval, outcome)) break;
   }
   return outcome;

@@ -40,9 +40,9 @@ struct ExtremeOutcome {
   /// was held back and comes back to it, over the weights and the largest sum of contact forces: a depth that is worth
   /// as much [m].
   double energy_gained = 0.0;
-  double pushed = 0.0;  ///< the longest way of what is not held, from where it began [m]
-  int refused = 0;      ///< steps that would not have been finite or possible
-  int held_back = 0;    ///< steps in which contact left the held one no way
+  double pushed = 0.0;    ///< the longest way of what is not held, from where it began [m]
+  int refused = 0;        ///< steps that would not have been finite or possible
+  int steps_blocked = 0;  ///< steps in which contact left the held one no way
   bool stays_out() const { return penetration <= 1e-4; }
   bool gains_nothing() const { return energy_gained <= 3e-6; }
   bool held() const { return finite && bounded && stays_out() && gains_nothing() && refused == 0; }

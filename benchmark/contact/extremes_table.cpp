@@ -69,7 +69,7 @@ std::string extremes_csv(const std::vector<ExtremeRow>& rows) {
     const ExtremeOutcome& o = row.outcome;
     out << row.extreme << ',' << row.contact << ',' << row.stiffness << ',' << row.step << ',' << row.seed << ','
         << o.finite << ',' << o.bounded << ',' << 1e6 * o.penetration << ',' << 1e6 * o.energy_gained << ','
-        << o.refused << ',' << o.held_back << ',' << o.held() << '\n';
+        << o.refused << ',' << o.steps_blocked << ',' << o.held() << '\n';
   }
   return out.str();
 }

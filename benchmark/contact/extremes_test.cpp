@@ -18,7 +18,7 @@ class Extremes : public ::testing::TestWithParam<scene::ContactMode> {
     EXPECT_TRUE(o.held()) << name_of(extreme) << " on " << stiffness << " N/m, seed " << seed << ": "
                           << 1e6 * o.penetration << " µm deep, " << 1e6 * o.energy_gained << " µm gained, " << o.refused
                           << " refused";
-    EXPECT_EQ(o.held_back, 0) << name_of(extreme) << ' ' << stiffness << ' ' << seed;
+    EXPECT_EQ(o.steps_blocked, 0) << name_of(extreme) << ' ' << stiffness << ' ' << seed;
     if (GetParam() == scene::ContactMode::stop) {
       EXPECT_LT(o.penetration, 2.1e-5) << name_of(extreme) << ' ' << stiffness << ' ' << seed;
     }

@@ -28,7 +28,7 @@ int count_at(const std::vector<std::string>& arguments, std::size_t index, int o
 
 void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes,
               const std::vector<scene::ContactMode>& modes, std::ostream& out) {
-  out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,held_back,refused,cpu_s_per_"
+  out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,steps_blocked,refused,cpu_s_per_"
          "motion\n";
   for (const scene::ContactMode mode : modes) {
     for (const WildScene scene : scenes) {
@@ -40,12 +40,12 @@ void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes,
         sum.penetration = std::max(sum.penetration, r.penetration);
         passed += r.passed_through ? 1 : 0;
         over += r.penetration > 1e-4 ? 1 : 0;
-        sum.held_back += r.held_back;
+        sum.steps_blocked += r.steps_blocked;
         sum.refused += r.refused;
         sum.seconds += r.seconds;
       }
       out << name_of(mode) << ',' << name_of(scene) << ',' << motions << ',' << passed << ',' << over << ','
-          << 1e3 * sum.penetration << ',' << worst_seed << ',' << sum.held_back << ',' << sum.refused << ','
+          << 1e3 * sum.penetration << ',' << worst_seed << ',' << sum.steps_blocked << ',' << sum.refused << ','
           << sum.seconds / std::max(motions, 1) << std::endl;
     }
   }
@@ -73,7 +73,7 @@ void record(const std::string& path, WildScene scene, scene::ContactMode mode, i
   for (int seed = first; seed <= last; ++seed) {
     if (done.count(seed) > 0) continue;
     const WildResult r = run({scene, mode, static_cast<unsigned>(seed)});
-    file << run_name << seed << ',' << 1e3 * r.penetration << ',' << r.passed_through << ',' << r.held_back << ','
+    file << run_name << seed << ',' << 1e3 * r.penetration << ',' << r.passed_through << ',' << r.steps_blocked << ','
          << r.refused << ',' << r.seconds << std::endl;
   }
   int count = 0, passed = 0, over = 0, worst_seed = first;

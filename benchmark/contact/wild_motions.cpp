@@ -208,8 +208,8 @@ WildResult run(const WildMotion& motion) {
   for (double t = 0.0; t < duration + 1e-9; t += 0.002) {
     const simulation::AdvanceReport report = simulation.advance(t);
     result.steps += report.steps;
-    result.held_back += report.held_back;
-    result.refused += report.guards_tripped;
+    result.steps_blocked += report.steps_blocked;
+    result.refused += report.steps_rejected;
     look(motion, setting, simulation.objects()[0].X_WO, result);
   }
   result.seconds = processor_time() - begin;

@@ -27,8 +27,8 @@ struct WildResult {
   bool passed_through = false;  ///< outside at the end, or no longer linked
   double seconds = 0.0;         ///< processor time
   int steps = 0;
-  int held_back = 0;  ///< steps
-  int refused = 0;    ///< steps
+  int steps_blocked = 0;  ///< steps
+  int refused = 0;        ///< steps
 };
 
 WildResult run(const WildMotion& motion);

@@ -108,8 +108,8 @@ class Observer {
     if (!holds_ || message->steps == 0) return;
     step_times.push_back(message->wall_time);
     missed += message->deadline_missed;
-    run.insert(message->parts_run.begin(), message->parts_run.end());
-    named.insert(message->parts_left_out.begin(), message->parts_left_out.end());
+    run.insert(message->active.begin(), message->active.end());
+    named.insert(message->skipped.begin(), message->skipped.end());
   }
   void take_fork(const ForkState::ConstPtr& message) {
     const double t = steady_now();

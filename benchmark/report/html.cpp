@@ -27,8 +27,8 @@ std::vector<std::string> cells_of(const std::string& line) {
 }
 
 std::string opening(const std::string& tag, const std::string& text) {
-  if (text == "held") return '<' + tag + " class=\"held\">";
-  if (text == "NOT held") return '<' + tag + " class=\"failed\">";
+  if (text == "PASS") return '<' + tag + " class=\"held\">";
+  if (text == "FAIL") return '<' + tag + " class=\"failed\">";
   return '<' + tag + '>';
 }
 

@@ -11,7 +11,7 @@ std::string escaped(const std::string& text);
 /// RFC 4648.
 std::string base64(const std::string& bytes);
 
-/// A table from CSV, header line first; cells may be quoted. A cell "held" or "NOT held" is coloured.
+/// A table from CSV, header line first; cells may be quoted. A cell "PASS" or "FAIL" is coloured.
 void add_table(const std::string& csv, std::ostream& out);
 
 /// A table that opens on a click.

@@ -12,7 +12,7 @@ constexpr double kEnergyGrowth = 2.0;
 constexpr double kDrift = 1e-4;  // m
 
 int judge(bool law, const char* text) {
-  std::cout << (law ? "held      " : "NOT HELD  ") << text << '\n';
+  std::cout << (law ? "PASS  " : "FAIL  ") << text << '\n';
   return law ? 0 : 1;
 }
 

@@ -104,7 +104,7 @@ class Soak {
     const simulation::AdvanceReport report = simulation_.advance(t);
     result_.steps += report.steps;
     result_.simulated_time += report.simulated_time;
-    result_.refused += report.guards_tripped;
+    result_.refused += report.steps_rejected;
     const tools::ToolState tool = simulation_.fork();
     for (const BodyState& object : simulation_.objects()) {
       result_.finite = result_.finite && object.X_WO.matrix().allFinite() && object.V_WO_W.linear.allFinite() &&

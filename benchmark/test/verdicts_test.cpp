@@ -39,7 +39,7 @@ TEST(Verdicts, ARatioIsHeldFromItsTargetOnAndNotBelow) {
       add_line("exponential", factor, 10.0, measured.scenes);
       add_line("ode_erp_cfm", factor, 10.0 * target * share, measured.scenes);
       add_line("hand_rk4", factor, 1.0, measured.scenes);  // no engine
-      const auto wanted = share > 1.0 ? Verdict::Result::held : Verdict::Result::not_held;
+      const auto wanted = share > 1.0 ? Verdict::Result::pass : Verdict::Result::fail;
       EXPECT_EQ(result_of(measured, "best engine over ours"), wanted) << factor << ' ' << share;
     }
   }
@@ -50,7 +50,7 @@ TEST(Verdicts, ARunThatKnowsTheHandByPosesAloneIsNotHeldAgainstThePeers) {
   add_line("exponential", 100.0, 1.0, measured.scenes);
   for (ErrorRow& row : measured.scenes) row.hand = "samples";
   add_line("ode_erp_cfm", 100.0, 1e6, measured.scenes);
-  EXPECT_EQ(result_of(measured, "best engine over ours"), Verdict::Result::not_held);
+  EXPECT_EQ(result_of(measured, "best engine over ours"), Verdict::Result::fail);
 }
 
 TEST(Verdicts, OneCellThatFailsIsEnoughForTheMapNotToHold) {
@@ -58,20 +58,20 @@ TEST(Verdicts, OneCellThatFailsIsEnoughForTheMapNotToHold) {
   StabilityRow row{"exponential", "linear"};
   row.cells = row.finite = row.bounded = row.energy_kept = row.none_refused = row.held = 40;
   measured.map.rows = {row, row};
-  EXPECT_EQ(result_of(measured, "Stability map, exponential"), Verdict::Result::held);
+  EXPECT_EQ(result_of(measured, "Stability map, exponential"), Verdict::Result::pass);
   for (int StabilityRow::*count : {&StabilityRow::finite, &StabilityRow::bounded, &StabilityRow::energy_kept}) {
     measured.map.rows[1] = row;
     --(measured.map.rows[1].*count);
-    EXPECT_EQ(result_of(measured, "Stability map, exponential"), Verdict::Result::not_held);
+    EXPECT_EQ(result_of(measured, "Stability map, exponential"), Verdict::Result::fail);
   }
 }
 
 TEST(Verdicts, OneCellThatFailsIsEnoughForContactsExtremesNotToHold) {
   Measurements measured;
   measured.extremes.assign(2, {"stack", "stop", 1e3, 0.02, 0, {}});
-  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::held);
+  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::pass);
   measured.extremes[1].outcome.penetration = 1.01e-4;
-  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::not_held);
+  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::fail);
 }
 
 TEST(Verdicts, ErrorsOfTheRodAreJudgedInPositionAndAngle) {
@@ -87,7 +87,7 @@ TEST(Verdicts, ErrorsOfTheRodAreJudgedInPositionAndAngle) {
     row.error = error;
     row.angle_error = angle;
     measured.rods = {row};
-    EXPECT_EQ(result_of(measured, "Rod underdamped"), held ? Verdict::Result::held : Verdict::Result::not_held);
+    EXPECT_EQ(result_of(measured, "Rod underdamped"), held ? Verdict::Result::pass : Verdict::Result::fail);
   }
 }
 

@@ -12,6 +12,7 @@
 #include "spring_workbench/fastrak/fastrak_simulator.h"
 #include "spring_workbench/fastrak/fastrak_source.h"
 #include "spring_workbench/fastrak/station_stream.h"
+#include "spring_workbench/hand_input/sample_gate.h"
 
 namespace spring_workbench {
 namespace {
@@ -41,13 +42,13 @@ class Spread {
 /// Jitter of a stream, by the moments of measuring where they are known, else by the times between neighbours.
 class Jitter {
  public:
-  explicit Jitter(bool truth_known) : truth_known_(truth_known), stream_(hand_input::TruthSettings(), kDropout, true) {}
+  explicit Jitter(bool truth_known) : truth_known_(truth_known) {}
 
   void take(const motion::StationSample& sample, double measured) {
-    const hand_input::TrueSample taken = stream_.take(sample);
+    const double stamp = stream_.stamp(sample.received);
     if (begin_ < 0.0) begin_ = sample.received;
-    const double stamp = taken.sample.t;
-    if (hand_input::usable(taken.verdict) && sample.received - begin_ > kLearn) {
+    const bool used = hand_input::usable(gate_.offer({stamp, sample.p_TS, sample.q_TS}));
+    if (used && sample.received - begin_ > kLearn) {
       const double interval = sample.received - last_received_;
       if (truth_known_) {
         before_.add(sample.received - measured);
@@ -55,7 +56,7 @@ class Jitter {
       }
       intervals_.push_back({interval, stamp - last_stamp_});
     }
-    if (hand_input::usable(taken.verdict)) last_received_ = sample.received, last_stamp_ = stamp;
+    if (used) last_received_ = sample.received, last_stamp_ = stamp;
   }
 
   void write(const std::string& stream, const std::string& line, std::ostream& out) {
@@ -79,7 +80,8 @@ class Jitter {
   };
 
   const bool truth_known_;
-  fastrak::StationStream stream_;
+  fastrak::StationStream stream_{kDropout, true};
+  hand_input::SampleGate gate_{hand_input::InputSettings(), kDropout};
   double begin_ = -1.0, last_received_ = -1.0, last_stamp_ = -1.0;
   Spread before_, after_;
   std::size_t breaks_ = 0;  ///< of the stamps: more than one and a half intervals from one to the next

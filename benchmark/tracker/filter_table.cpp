@@ -6,7 +6,8 @@
 #include <vector>
 
 #include "motions.h"
-#include "spring_workbench/hand_input/input_filter.h"
+#include "spring_workbench/hand_input/pose_filter.h"
+#include "spring_workbench/hand_input/sample_gate.h"
 #include "spring_workbench/motion/pose_track.h"
 
 namespace spring_workbench {
@@ -15,7 +16,7 @@ namespace {
 constexpr double kDropout = 0.5;  // [s]
 
 std::vector<motion::PoseSample> samples_of(const std::string& path) {
-  hand_input::TruthLayer truth(hand_input::TruthSettings(), kDropout);
+  hand_input::SampleGate gate(hand_input::InputSettings(), kDropout);
   const bool synthetic = path.size() > 5 && path.substr(path.size() - 5) == ".yaml";
   std::mt19937 random(1);
   std::normal_distribution<double> noise(0.0, 5e-4);  // [m] along each axis
@@ -23,14 +24,15 @@ std::vector<motion::PoseSample> samples_of(const std::string& path) {
   for (const motion::StylusSample& sample : read_samples(path)) {
     motion::PoseSample noisy = sample;
     if (synthetic) noisy.X.translation() += Vector3d(noise(random), noise(random), noise(random));
-    const hand_input::TrueSample taken = truth.take(noisy);
-    if (hand_input::usable(taken.verdict)) samples.push_back(taken.sample);
+    const hand_input::RawSample raw{noisy.t, noisy.X.translation(), Quaterniond(noisy.X.linear())};
+    if (hand_input::usable(gate.offer(raw))) samples.push_back(noisy);
   }
   return samples;
 }
 
-/// RMS distance of `given` from the track `later` [s] after each sample; samples near its ends and gaps are left out.
-double distance(const std::vector<motion::PoseSample>& given, motion::PoseTrack& track, double later) {
+/// RMS distance of `given` from the track `later` [s] after each sample, by default at it; samples near its ends and
+/// gaps are left out.
+double distance(const std::vector<motion::PoseSample>& given, motion::PoseTrack& track, double later = 0.0) {
   double sum = 0.0;
   int count = 0;
   for (const motion::PoseSample& sample : given) {
@@ -68,18 +70,14 @@ void report(const std::string& path, std::ostream& out) {
   const std::string name = file_name(path);
   for (const double min_cutoff : {0.0, 0.5, 1.0, 2.0, 5.0}) {
     for (const double beta : min_cutoff > 0.0 ? std::vector<double>{5.0, 20.0} : std::vector<double>{0.0}) {
-      for (const double prediction : {0.0, 0.01, 0.02, 0.04}) {
-        hand_input::TruthSettings settings;
-        settings.min_cutoff = min_cutoff;
-        settings.beta = beta;
-        settings.prediction = prediction;
-        hand_input::PoseFilter filter(settings);
-        std::vector<motion::PoseSample> given;
-        for (const motion::PoseSample& sample : measured) given.push_back(filter.filter(sample));
-        out << name << ',' << min_cutoff << ',' << beta << ',' << 1e3 * prediction << ','
-            << 1e3 * distance(given, track, prediction) << ',' << 1e3 * lag_of(given, track) << ','
-            << 1e3 * jitter_of(given) << std::endl;
-      }
+      hand_input::InputSettings settings;
+      settings.min_cutoff = min_cutoff;
+      settings.beta = beta;
+      hand_input::PoseFilter filter(settings);
+      std::vector<motion::PoseSample> given;
+      for (const motion::PoseSample& sample : measured) given.push_back(filter.filter(sample));
+      out << name << ',' << min_cutoff << ',' << beta << ',' << 1e3 * distance(given, track) << ','
+          << 1e3 * lag_of(given, track) << ',' << 1e3 * jitter_of(given) << std::endl;
     }
   }
 }
@@ -87,7 +85,7 @@ void report(const std::string& path, std::ostream& out) {
 }  // namespace
 
 void write_filter_table(const std::vector<std::string>& motions, std::ostream& out) {
-  out << "motion,min_cutoff [Hz],beta [Hz/(m/s)],prediction [ms],error [mm],lag [ms],jitter [mm]\n";
+  out << "motion,min_cutoff [Hz],beta [Hz/(m/s)],error [mm],lag [ms],jitter [mm]\n";
   for (const std::string& path : motions) report(path, out);
 }
 

@@ -1,5 +1,6 @@
 #include "spring_workbench/assembly/trial.h"
 
+#include "spring_workbench/hand_input/feed.h"
 #include "spring_workbench/tools/tool.h"
 
 namespace spring_workbench::assembly {
@@ -16,17 +17,18 @@ OperatorView look_at(const simulation::Simulation& simulation) {
 Trial run_trial(const scene::Scene& scene, const simulation::SimulationSettings& simulation_settings,
                 const OperatorSettings& operator_settings, double time_limit) {
   simulation::Simulation simulation(scene, simulation_settings);
+  hand_input::Feed feed(simulation, hand_input::InputSettings());
   TaskMonitor monitor(simulation.scene());
   SimulatedOperator hand(simulation.scene(), operator_settings, [&] { return look_at(simulation); });
   Trial trial;
   bool pressed = false;
   while (const std::optional<motion::StylusSample> sample = hand.next()) {
     if (sample->t > time_limit) break;
-    simulation.push_stylus(*sample);
-    if (sample->button != pressed) simulation.push_button(sample->t, sample->button);
+    feed.push_stylus(*sample);
+    if (sample->button != pressed) feed.push_button(sample->t, sample->button);
     pressed = sample->button;
     if (!trial.motion.empty()) {
-      trial.guards_tripped += simulation.advance(trial.motion.back().t).guards_tripped;
+      trial.steps_rejected += feed.advance_to(trial.motion.back().t).steps_rejected;
       monitor.observe(simulation);
     }
     trial.motion.push_back(*sample);

@@ -9,7 +9,7 @@ namespace spring_workbench::bodies {
 namespace {
 
 constexpr double most_turn_per_piece = 0.1;  ///< [rad]
-constexpr int most_pieces = 1000;
+constexpr int most_substeps = 1000;
 
 }  // namespace
 
@@ -59,7 +59,7 @@ bool FreeBody::advance(double h, const Wrench& contact_W) {
   next.velocity += h * acceleration;
   // Midpoint rule on the rotation, in pieces; the momentum itself is exact.
   const double turn = h * angular_velocity(state_.X_WO.linear(), state_.angular_momentum).norm();
-  const int pieces = 1 + static_cast<int>(std::min(turn / most_turn_per_piece, static_cast<double>(most_pieces)));
+  const int pieces = 1 + static_cast<int>(std::min(turn / most_turn_per_piece, static_cast<double>(most_substeps)));
   const double dt = h / pieces;
   Matrix3d R = state_.X_WO.linear();
   for (int i = 0; i < pieces; ++i) {
@@ -89,7 +89,7 @@ void FreeBody::add_impulse(const Wrench& impulse_W) {
   state_.angular_momentum += impulse_W.moment;
 }
 
-void FreeBody::stay(double) {
+void FreeBody::block(double) {
   state_.velocity.setZero();
   state_.angular_momentum.setZero();
 }

@@ -115,7 +115,7 @@ void SharedBody::go_back() {
   for (CoupledTool* tool : tools_) tool->go_back();
 }
 
-SteppedBody::Answer SharedBody::answer(double h) const {
+SteppedBody::Response SharedBody::response(double h) const {
   const Pulls all = pulls(h);
   // What a tool that can only push does to a load is asked as if it stayed on the object.
   const Eigen::MatrixXd BP = all.B * all.P;
@@ -124,8 +124,8 @@ SteppedBody::Answer SharedBody::answer(double h) const {
   return {displacement, displacement / h};
 }
 
-void SharedBody::stay(double h) {
-  free_.stay(h);
+void SharedBody::block(double h) {
+  free_.block(h);
   const motion::MotionState here = free_.object();
   for (CoupledTool* tool : tools_) tool->follow(h, here, Wrench());
 }

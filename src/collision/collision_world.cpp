@@ -25,9 +25,9 @@ constexpr double impact_precision =
 /// An axis-aligned box as an object of FCL's broadphase.
 class BoxObject {
  public:
-  explicit BoxObject(std::size_t piece)
+  explicit BoxObject(std::size_t part)
       : box_(std::make_shared<fcl::Boxd>(1.0, 1.0, 1.0)), object_(std::make_unique<fcl::CollisionObjectd>(box_)) {
-    object_->setUserData(reinterpret_cast<void*>(piece));
+    object_->setUserData(reinterpret_cast<void*>(part));
   }
 
   void place(const Eigen::AlignedBox3d& around) {
@@ -37,7 +37,7 @@ class BoxObject {
     object_->computeAABB();
   }
   fcl::CollisionObjectd* get() const { return object_.get(); }
-  static std::size_t piece_of(const fcl::CollisionObjectd* object) {
+  static std::size_t part_of(const fcl::CollisionObjectd* object) {
     return reinterpret_cast<std::size_t>(object->getUserData());
   }
 
@@ -47,7 +47,7 @@ class BoxObject {
 };
 
 /// One shape of a body.
-struct Piece {
+struct Part {
   std::size_t body;
   geometry::Geometry geometry;
   RigidTransform X_OS;
@@ -110,7 +110,7 @@ void approach(const ClearFrom& clear_from, const TouchingAt& touching_at, double
 /// Memory of the broadphase's callback.
 struct Neighbours {
   std::size_t body;  // whose own pieces do not count
-  const std::vector<Piece>* pieces;
+  const std::vector<Part>* parts;
   std::vector<std::size_t>* found;
 };
 
@@ -118,8 +118,8 @@ bool note_neighbour(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* da
   const Neighbours& query = *static_cast<Neighbours*>(data);
   // One of the two is the query's own box, which has no piece; FCL does not say which.
   for (const fcl::CollisionObjectd* object : {a, b}) {
-    const std::size_t piece = BoxObject::piece_of(object);
-    if (piece < query.pieces->size() && (*query.pieces)[piece].body != query.body) query.found->push_back(piece);
+    const std::size_t part = BoxObject::part_of(object);
+    if (part < query.parts->size() && (*query.parts)[part].body != query.body) query.found->push_back(part);
   }
   return false;
 }
@@ -127,7 +127,7 @@ bool note_neighbour(fcl::CollisionObjectd* a, fcl::CollisionObjectd* b, void* da
 }  // namespace
 
 struct CollisionWorld::Impl {
-  std::vector<Piece> pieces;
+  std::vector<Part> parts;
   std::vector<PieceRange> bodies;
   double bench_height;
   NarrowPhase narrow;
@@ -140,28 +140,28 @@ struct CollisionWorld::Impl {
   explicit Impl(const scene::Scene& scene) : bench_height(scene.bench_height) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(i, scene.bodies[i]);
     std::vector<fcl::CollisionObjectd*> objects;
-    for (const Piece& piece : pieces) objects.push_back(piece.in_broadphase.get());
+    for (const Part& part : parts) objects.push_back(part.in_broadphase.get());
     broadphase.registerObjects(objects);  // all at once: a balanced tree
     broadphase.setup();
   }
 
   void add(std::size_t index, const scene::Body& body) {
-    const std::size_t begin = pieces.size();
+    const std::size_t begin = parts.size();
     for (const geometry::Shape& shape : body.collision) {
-      pieces.push_back({index, shape.geometry, shape.X_OS, body.X_WO * shape.X_OS, narrow.add(shape.geometry),
-                        BoxObject(pieces.size()), geometry::bounding_box(shape.geometry)});
-      pieces.back().in_broadphase.place(pieces.back().box_at(pieces.back().X_WS));
+      parts.push_back({index, shape.geometry, shape.X_OS, body.X_WO * shape.X_OS, narrow.add(shape.geometry),
+                       BoxObject(parts.size()), geometry::bounding_box(shape.geometry)});
+      parts.back().in_broadphase.place(parts.back().box_at(parts.back().X_WS));
     }
-    bodies.push_back({begin, pieces.size(), geometry::bounding_radius(body.collision)});
+    bodies.push_back({begin, parts.size(), geometry::bounding_radius(body.collision)});
   }
 
   void place(std::size_t body, const RigidTransform& X_WO) {
     for (std::size_t i = bodies[body].begin; i < bodies[body].end; ++i) {
-      pieces[i].X_WS = X_WO * pieces[i].X_OS;
+      parts[i].X_WS = X_WO * parts[i].X_OS;
       // Out and in again: update() would look at the whole tree.
-      broadphase.unregisterObject(pieces[i].in_broadphase.get());
-      pieces[i].in_broadphase.place(pieces[i].box_at(pieces[i].X_WS));
-      broadphase.registerObject(pieces[i].in_broadphase.get());
+      broadphase.unregisterObject(parts[i].in_broadphase.get());
+      parts[i].in_broadphase.place(parts[i].box_at(parts[i].X_WS));
+      broadphase.registerObject(parts[i].in_broadphase.get());
     }
   }
 
@@ -169,27 +169,27 @@ struct CollisionWorld::Impl {
   void find_near(std::size_t body, const Eigen::AlignedBox3d& box) {
     near.clear();
     probe.place(box);
-    Neighbours query{body, &pieces, &near};
+    Neighbours query{body, &parts, &near};
     broadphase.collide(probe.get(), &query, note_neighbour);
     std::sort(near.begin(), near.end());
   }
 
   /// Contacts of one piece placed at `X_WS`, appended to `found`. With `first_only` it ends with the first piece in
   /// contact.
-  void find(const Piece& piece, const RigidTransform& X_WS, double tolerance, bool first_only) {
-    const Eigen::AlignedBox3d box = piece.box_at(X_WS);
+  void find(const Part& part, const RigidTransform& X_WS, double tolerance, bool first_only) {
+    const Eigen::AlignedBox3d box = part.box_at(X_WS);
     if (bench_height - box.min().z() > tolerance) {
       const std::size_t first = found.size();
-      append_bench_contacts(piece.geometry, X_WS, bench_height, tolerance, found);
+      append_bench_contacts(part.geometry, X_WS, bench_height, tolerance, found);
       if (first_only && found.size() > first) return;
       constexpr std::size_t many = 8;
-      if (found.size() - first > many) thin_out(first, found);
+      if (found.size() - first > many) reduce_manifold(first, found);
     }
-    find_near(piece.body, grown(box, std::max(0.0, -tolerance)));
+    find_near(part.body, grown(box, std::max(0.0, -tolerance)));
     for (const std::size_t i : near) {
       const std::size_t first = found.size();
-      narrow.append_contacts(piece.solid, X_WS, pieces[i].solid, pieces[i].X_WS, tolerance, found);
-      for (std::size_t k = first; k < found.size(); ++k) found[k].other = pieces[i].body;
+      narrow.append_contacts(part.solid, X_WS, parts[i].solid, parts[i].X_WS, tolerance, found);
+      for (std::size_t k = first; k < found.size(); ++k) found[k].other = parts[i].body;
       if (first_only && found.size() > first) return;
     }
   }
@@ -197,7 +197,7 @@ struct CollisionWorld::Impl {
   void find_all(std::size_t body, const RigidTransform& X_WO, double tolerance, bool first_only) {
     found.clear();
     for (std::size_t i = bodies[body].begin; i < bodies[body].end; ++i) {
-      find(pieces[i], X_WO * pieces[i].X_OS, tolerance, first_only);
+      find(parts[i], X_WO * parts[i].X_OS, tolerance, first_only);
       if (first_only && !found.empty()) return;
     }
   }
@@ -208,26 +208,26 @@ struct CollisionWorld::Impl {
   /// overlap, it is the gap between the surfaces that is left.
   double clear_way(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
                    double tolerance, double longest) {
-    const geometry::Way way{X_WO.translation(), move_W, X_WO.linear() * turn_O};
+    const geometry::StraightMotion path{X_WO.translation(), move_W, X_WO.linear() * turn_O};
     const double fastest = move_W.norm() + bodies[body].radius * turn_O.norm();
     double clear = longest;
     for (std::size_t i = bodies[body].begin; i < bodies[body].end && clear > 0.0; ++i) {
-      const RigidTransform X_WS = X_WO * pieces[i].X_OS;
-      const geometry::OutlineBox own = pieces[i].outline(X_WS);
-      const Eigen::AlignedBox3d box = pieces[i].box_at(X_WS);
+      const RigidTransform X_WS = X_WO * parts[i].X_OS;
+      const geometry::OutlineBox own = parts[i].outline(X_WS);
+      const Eigen::AlignedBox3d box = parts[i].box_at(X_WS);
       const double by_corners =
-          geometry::clear_above(own, way, {Vector3d::UnitZ(), bench_height}, own.exact ? tolerance : 0.0, clear);
+          geometry::clear_above(own, path, {Vector3d::UnitZ(), bench_height}, own.exact ? tolerance : 0.0, clear);
       clear = std::max(by_corners, std::min(clear, (box.min().z() - bench_height) / fastest));
       find_near(body, grown(box, fastest * clear));
       for (const std::size_t other : near) {
-        const geometry::OutlineBox others = pieces[other].outline(pieces[other].X_WS);
+        const geometry::OutlineBox others = parts[other].outline(parts[other].X_WS);
         const bool exact = own.exact && others.exact;
-        const double boxes = geometry::clear_of(own, way, others, exact ? tolerance : 0.0, clear);
+        const double boxes = geometry::clear_of(own, path, others, exact ? tolerance : 0.0, clear);
         if (exact || boxes >= clear) {
           clear = boxes;
         } else {
           const double surfaces =
-              narrow.clear_way(pieces[i].solid, X_WS, pieces[other].solid, pieces[other].X_WS, tolerance) / fastest;
+              narrow.clear_way(parts[i].solid, X_WS, parts[other].solid, parts[other].X_WS, tolerance) / fastest;
           clear = std::max(boxes, std::min(clear, surfaces));
         }
       }
@@ -237,10 +237,10 @@ struct CollisionWorld::Impl {
 
   /// Around a piece on the whole way: the boxes at both ends, and what the arc between adds to them, which is at most
   /// r θ²/8 for a point at r (the error of linear interpolation); or the ball around the body, where that is less.
-  Eigen::AlignedBox3d swept_box(const Piece& piece, const RigidTransform& X0, const RigidTransform& X1) const {
-    const double radius = bodies[piece.body].radius;
+  Eigen::AlignedBox3d swept_box(const Part& part, const RigidTransform& X0, const RigidTransform& X1) const {
+    const double radius = bodies[part.body].radius;
     const double angle = turn_between(X0, X1).norm();
-    const Eigen::AlignedBox3d ends = piece.box_at(X0 * piece.X_OS).merged(piece.box_at(X1 * piece.X_OS));
+    const Eigen::AlignedBox3d ends = part.box_at(X0 * part.X_OS).merged(part.box_at(X1 * part.X_OS));
     Eigen::AlignedBox3d ball(X0.translation());
     ball.extend(Vector3d(X1.translation()));
     return grown(ends, radius * angle * angle / 8.0).intersection(grown(ball, radius));
@@ -258,7 +258,7 @@ bool CollisionWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, co
                                double margin) const {
   const PieceRange& range = impl_->bodies[body];
   for (std::size_t i = range.begin; i < range.end; ++i) {
-    const Eigen::AlignedBox3d box = grown(impl_->swept_box(impl_->pieces[i], X0_WO, X1_WO), margin);
+    const Eigen::AlignedBox3d box = grown(impl_->swept_box(impl_->parts[i], X0_WO, X1_WO), margin);
     if (box.min().z() < impl_->bench_height) return true;
     impl_->find_near(body, box);
     if (!impl_->near.empty()) return true;
@@ -281,8 +281,8 @@ SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO,
                                   double tolerance, double resolution, int levels) const {
   const Vector3d turn = turn_between(X0_WO, X1_WO);
   const Vector3d move = X1_WO.translation() - X0_WO.translation();
-  const double way = move.norm() + impl_->bodies[body].radius * turn.norm();
-  if (!(resolution > 0.0) || !std::isfinite(way)) throw std::invalid_argument("sweep: resolution or poses");
+  const double path = move.norm() + impl_->bodies[body].radius * turn.norm();
+  if (!(resolution > 0.0) || !std::isfinite(path)) throw std::invalid_argument("sweep: resolution or poses");
   if (!may_touch(body, X0_WO, X1_WO, std::max(0.0, -tolerance))) return {};
   const auto at = [&](double fraction) { return between(X0_WO, X1_WO, turn, fraction); };
   const auto touching_at = [&](double fraction) { return touches(body, at(fraction), tolerance); };
@@ -290,7 +290,7 @@ SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO,
     return tolerance < 0.0 ? 0.0 : impl_->clear_way(body, at(fraction), move, turn, tolerance, until - fraction);
   };
   if (touching_at(0.0)) return {true, 0.0, 0.0};
-  const double least = std::min(1.0, resolution / std::max(way, resolution));
+  const double least = std::min(1.0, resolution / std::max(path, resolution));
   double free = 0.0, touching = 2.0;
   while (free < 1.0 && touching > 1.0) {
     const double clear = clear_from(free, 1.0);
@@ -299,7 +299,7 @@ SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO,
   }
   if (touching > 1.0) return {};
   if (levels == 0) {
-    approach(clear_from, touching_at, impact_precision / std::max(way, impact_precision), free, touching);
+    approach(clear_from, touching_at, impact_precision / std::max(path, impact_precision), free, touching);
   }
   for (int level = 0; level < levels; ++level) {
     const double middle = 0.5 * (free + touching);

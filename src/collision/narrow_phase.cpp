@@ -43,12 +43,12 @@ fcl::CollisionRequestd which_triangles() {
 
 /// How far from `q` along `n` the box ends, in the box's frame; 0 where `q` is outside already.
 double way_out(const geometry::Box& box, const Vector3d& q, const Vector3d& n) {
-  double way = std::numeric_limits<double>::infinity();
+  double path = std::numeric_limits<double>::infinity();
   for (int i = 0; i < 3; ++i) {
     if (n[i] == 0.0) continue;
-    way = std::min(way, ((n[i] > 0.0 ? 0.5 : -0.5) * box.size[i] - q[i]) / n[i]);
+    path = std::min(path, ((n[i] > 0.0 ? 0.5 : -0.5) * box.size[i] - q[i]) / n[i]);
   }
-  return std::max(way, 0.0);
+  return std::max(path, 0.0);
 }
 
 }  // namespace
@@ -156,9 +156,9 @@ void NarrowPhase::mesh_and_cylinder(std::size_t mesh, const RigidTransform& X_WM
     contacts[i].p_W = X_WM * contacts[i].p_W;
     contacts[i].n_W = X_WM.linear() * contacts[i].n_W;
   }
-  thin_out(first, contacts);
+  reduce_manifold(first, contacts);
   if (contacts.size() > first) return;
-  append_swallowed(round, X_WC, solids_[mesh].geometry, {*solids_[mesh].surface, X_WM}, tolerance, contacts);
+  append_containment(round, X_WC, solids_[mesh].geometry, {*solids_[mesh].surface, X_WM}, tolerance, contacts);
   turn_round(first, contacts);
 }
 
@@ -179,7 +179,7 @@ void NarrowPhase::sphere_and(const Solid& sphere, const RigidTransform& X_WS, co
   }
   append_sphere_triangle_contacts(radius, centre_W, *other.surface, X_WB, fcl_->touched, tolerance, contacts);
   if (fcl_->touched.empty()) {
-    append_swallowed(sphere.geometry, X_WS, other.geometry, {*other.surface, X_WB}, tolerance, contacts);
+    append_containment(sphere.geometry, X_WS, other.geometry, {*other.surface, X_WB}, tolerance, contacts);
   }
 }
 
@@ -200,8 +200,8 @@ void NarrowPhase::boxes(const Solid& own, const RigidTransform& X_WA, const Soli
     // FCL's point is in between, and where two edges are nearly parallel it may lie off both.
     const Vector3d half = 0.5 * reached.size;
     const Vector3d p_B = (X_WB.inverse() * contact.pos).cwiseMin(half).cwiseMax(-half);
-    const double way = way_out(reached, p_B, X_WB.linear().transpose() * n_W);
-    contacts.push_back({0, X_WB * p_B + (way - grown) * n_W, n_W, depth});
+    const double path = way_out(reached, p_B, X_WB.linear().transpose() * n_W);
+    contacts.push_back({0, X_WB * p_B + (path - grown) * n_W, n_W, depth});
   }
 }
 
@@ -219,12 +219,12 @@ void NarrowPhase::surfaces(const Solid& own, const RigidTransform& X_WA, const S
       fcl_->pairs.emplace_back(static_cast<int>(pair.b1), static_cast<int>(pair.b2));
     }
     append_surface_contacts(own_surface, other_surface, fcl_->pairs, tolerance, contacts);
-    thin_out(first, contacts);
+    reduce_manifold(first, contacts);
     return;
   }
-  append_swallowed(own.geometry, X_WA, other.geometry, other_surface, tolerance, contacts);
+  append_containment(own.geometry, X_WA, other.geometry, other_surface, tolerance, contacts);
   if (contacts.size() > first) return;
-  append_swallowed(other.geometry, X_WB, own.geometry, own_surface, tolerance, contacts);
+  append_containment(other.geometry, X_WB, own.geometry, own_surface, tolerance, contacts);
   turn_round(first, contacts);
 }
 

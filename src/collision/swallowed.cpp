@@ -49,8 +49,8 @@ double lowest_along(const geometry::Geometry& geometry, const RigidTransform& X_
 
 }  // namespace
 
-void append_swallowed(const geometry::Geometry& inner, const RigidTransform& X_WI, const geometry::Geometry& outer,
-                      const PlacedSurface& outer_surface, double tolerance, std::vector<ContactPoint>& contacts) {
+void append_containment(const geometry::Geometry& inner, const RigidTransform& X_WI, const geometry::Geometry& outer,
+                        const PlacedSurface& outer_surface, double tolerance, std::vector<ContactPoint>& contacts) {
   const RigidTransform& X_WO = outer_surface.X_WS;
   if (!is_inside(inner, X_WI, outer, X_WO)) return;
   const Vector3d middle_O = X_WO.inverse() * geometry::bounding_box(inner, X_WI).center();

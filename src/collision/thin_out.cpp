@@ -28,7 +28,7 @@ void keep_extremes(const std::vector<ContactPoint>& group, std::vector<ContactPo
 
 }  // namespace
 
-void thin_out(std::size_t first, std::vector<ContactPoint>& contacts) {
+void reduce_manifold(std::size_t first, std::vector<ContactPoint>& contacts) {
   constexpr double same_normal = 0.9998;  // cos 1°
   std::vector<std::vector<ContactPoint>> groups;
   for (std::size_t i = first; i < contacts.size(); ++i) {

@@ -8,6 +8,6 @@ namespace spring_workbench::collision {
 
 /// Of the contacts from index `first` on, keeps of each group of nearly equal normals the deepest point and those that
 /// lie furthest out in eight directions: what a hundred points support, these do.
-void thin_out(std::size_t first, std::vector<ContactPoint>& contacts);
+void reduce_manifold(std::size_t first, std::vector<ContactPoint>& contacts);
 
 }  // namespace spring_workbench::collision

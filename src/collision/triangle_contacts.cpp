@@ -64,35 +64,35 @@ struct Ways {
   void add(const ContactPoint& contact) { deepest[count++] = contact; }
 };
 
-Ways find_ways(const Triangle& own, const Triangle& other) {
-  Ways ways{part_behind(own, other), part_behind(other, own)};
-  ways.add({0, other.corners[0], other.n, deepest(ways.own_part, other)});
-  ways.add({0, own.corners[0], -own.n, deepest(ways.other_part, own)});
+Ways find_paths(const Triangle& own, const Triangle& other) {
+  Ways paths{part_behind(own, other), part_behind(other, own)};
+  paths.add({0, other.corners[0], other.n, deepest(paths.own_part, other)});
+  paths.add({0, own.corners[0], -own.n, deepest(paths.other_part, own)});
   for (std::size_t i = 0; i < 3; ++i) {
     const Edge own_edge = edge_of(own, i);
     for (std::size_t j = 0; own_edge.convex && j < 3; ++j) {
       const Edge other_edge = edge_of(other, j);
       if (!other_edge.convex) continue;
       const std::optional<ContactPoint> contact = edge_contact(own_edge, other_edge);
-      if (contact) ways.add(*contact);
+      if (contact) paths.add(*contact);
     }
   }
-  return ways;
+  return paths;
 }
 
 /// Of the ways that go about as well along `n` as the best one, the least deep; nothing where all lie across.
-std::optional<std::size_t> choose_way(const Ways& ways, const std::optional<Vector3d>& n) {
+std::optional<std::size_t> choose_path(const Ways& paths, const std::optional<Vector3d>& n) {
   constexpr double across = 0.5, as_good = 0.1;
-  const auto goes_along = [&](const ContactPoint& way) { return n ? n->dot(way.n_W) : 1.0; };
+  const auto goes_along = [&](const ContactPoint& path) { return n ? n->dot(path.n_W) : 1.0; };
   double best = across;
-  for (std::size_t i = 0; i < ways.count; ++i) {
-    if (ways.deepest[i].depth > 0.0) best = std::max(best, goes_along(ways.deepest[i]));
+  for (std::size_t i = 0; i < paths.count; ++i) {
+    if (paths.deepest[i].depth > 0.0) best = std::max(best, goes_along(paths.deepest[i]));
   }
   std::optional<std::size_t> chosen;
-  for (std::size_t i = 0; i < ways.count; ++i) {
-    const ContactPoint& way = ways.deepest[i];
-    if (!(way.depth > 0.0) || goes_along(way) < std::max(across, best - as_good)) continue;
-    if (!chosen || way.depth < ways.deepest[*chosen].depth) chosen = i;
+  for (std::size_t i = 0; i < paths.count; ++i) {
+    const ContactPoint& path = paths.deepest[i];
+    if (!(path.depth > 0.0) || goes_along(path) < std::max(across, best - as_good)) continue;
+    if (!chosen || path.depth < paths.deepest[*chosen].depth) chosen = i;
   }
   return chosen;
 }
@@ -101,21 +101,21 @@ std::optional<std::size_t> choose_way(const Ways& ways, const std::optional<Vect
 
 bool append_triangle_contacts(const Triangle& own, const Triangle& other, const std::optional<Vector3d>& n_W,
                               double tolerance, std::vector<ContactPoint>& contacts) {
-  const Ways ways = find_ways(own, other);
-  const std::optional<std::size_t> chosen = choose_way(ways, n_W);
+  const Ways paths = find_paths(own, other);
+  const std::optional<std::size_t> chosen = choose_path(paths, n_W);
   if (!chosen) return false;
   const auto add = [&](const ContactPoint& contact) {
     if (contact.depth > tolerance) contacts.push_back(contact);
   };
   if (*chosen == 0) {
-    for (const Vector3d& p : ways.own_part) {
+    for (const Vector3d& p : paths.own_part) {
       const double depth = other.n.dot(other.corners[0] - p);
       add({0, p + depth * other.n, other.n, depth});
     }
   } else if (*chosen == 1) {
-    for (const Vector3d& p : ways.other_part) add({0, p, -own.n, own.n.dot(own.corners[0] - p)});
+    for (const Vector3d& p : paths.other_part) add({0, p, -own.n, own.n.dot(own.corners[0] - p)});
   } else {
-    add(ways.deepest[*chosen]);
+    add(paths.deepest[*chosen]);
   }
   return true;
 }

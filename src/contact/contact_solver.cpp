@@ -9,7 +9,7 @@
 namespace spring_workbench::contact {
 namespace {
 
-constexpr int most_sweeps = 200;
+constexpr int most_iterations = 200;
 constexpr double small_change = 1e-10;  ///< of the largest load: the sweeps end
 
 /// Keeps the load inside its friction cone: presses only, and tangential ≤ μ normal.
@@ -26,33 +26,33 @@ Vector3d into_cone(const Vector3d& load, const Vector3d& n, double friction) {
 
 void solve_contacts(const Matrix6d& compliance, std::vector<ContactRow>& rows) {
   // How each row's point answers to a force there, and how the body does.
-  struct Answer {
+  struct Response {
     Matrix3d point;
     Eigen::Matrix<double, 6, 3> body;
     double normal, tangential;
-    bool gives_way;
+    bool complies;
   };
-  std::vector<Answer> answers;
+  std::vector<Response> responses;
   for (const ContactRow& row : rows) {
     Eigen::Matrix<double, 3, 6> to_point;
     to_point << Matrix3d::Identity(), -math::skew(row.lever_W);
-    Answer a;
+    Response a;
     a.body = compliance * to_point.transpose();
     a.point = to_point * a.body;
     a.normal = row.point.n_W.dot(a.point * row.point.n_W);
     const double scale = a.point.trace();
     a.tangential = std::max(0.5 * (scale - a.normal), 1e-12 * scale);
-    a.gives_way = scale > 0.0 && a.normal > 1e-12 * scale;
-    answers.push_back(a);
+    a.complies = scale > 0.0 && a.normal > 1e-12 * scale;
+    responses.push_back(a);
   }
   // What the loads add to the body's motion beyond those assumed at the start.
   Vector6d motion = Vector6d::Zero();
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
     double largest = 0.0, change = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       ContactRow& row = rows[i];
-      const Answer& a = answers[i];
-      if (!a.gives_way) continue;
+      const Response& a = responses[i];
+      if (!a.complies) continue;
       const Vector3d& n = row.point.n_W;
       const Vector3d at_point = motion.head<3>() + motion.tail<3>().cross(row.lever_W);
       Vector3d load = row.load_W - (row.gap + n.dot(at_point)) / a.normal * n;

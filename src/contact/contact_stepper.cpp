@@ -9,26 +9,27 @@
 namespace spring_workbench::contact {
 namespace {
 
-constexpr double touching = 1e-6;          ///< [m]; what is not deeper is free
-constexpr double slack = 0.5 * touching;   ///< [m] left to a body between two others that leave it no room
-constexpr double probe_depth = 1e-4;       ///< [m] by which the body is pushed to see what it touches
-constexpr double same_point = 2e-3;        ///< [m]; contacts nearer to each other are one
-constexpr double sweep_resolution = 2e-4;  ///< [m] between the poses that a sweep looks at, where boxes overlap
-constexpr double closed = 2e-5;            ///< [m]; on its way a body in contact may be so deep
-constexpr double same_face = 0.9998;       ///< cos 1°; normals nearer to each other are of one face
-constexpr double recovery_time = 5e-3;     ///< [s] on which a body that is in another comes out
-constexpr double solved_share = 0.01;      ///< of the way over a piece: a smaller change is none
-constexpr double most_bow = 5e-5;          ///< [m] between the way and each of the straight ones that are swept
-constexpr double hopeless_bow = 0.1;       ///< [m]; loads under which the body goes such a way will not be mended
-constexpr double slow_approach = 1e-6;     ///< [m/s]; a slower one is none
-constexpr double shortest_share = 1e-3;    ///< of a step: a shorter piece is not tried
-constexpr double stay_share = 0.1;         ///< of a step, for which a body stays where nothing fits
-constexpr double most_segments = 4.0;      ///< straight ones for which the way over a piece is swept
-constexpr double safety = 0.9;             ///< of the longest piece that is straight enough
-constexpr double longer = 2.0;             ///< than the last, at most, is a piece
-constexpr int most_tries = 100;            ///< pieces tried in a step
-constexpr int most_unsolved = 6;           ///< pieces of a step without a solution, before the body stays
-constexpr int most_solutions = 8;          ///< solutions of one piece of a step, each about the last
+constexpr double touching = 1e-6;              ///< [m]; what is not deeper is free
+constexpr double slack = 0.5 * touching;       ///< [m] left to a body between two others that leave it no room
+constexpr double probe_depth = 1e-4;           ///< [m] by which the body is pushed to see what it touches
+constexpr double same_point = 2e-3;            ///< [m]; contacts nearer to each other are one
+constexpr double sweep_resolution = 2e-4;      ///< [m] between the poses that a sweep looks at, where boxes overlap
+constexpr double closed = 2e-5;                ///< [m]; on its way a body in contact may be so deep
+constexpr double same_face = 0.9998;           ///< cos 1°; normals nearer to each other are of one face
+constexpr double recovery_time = 5e-3;         ///< [s] on which a body that is in another comes out
+constexpr double solved_share = 0.01;          ///< of the way over a piece: a smaller change is none
+constexpr double most_chord_deviation = 5e-5;  ///< [m] between the way and each of the straight ones that are swept
+constexpr double hopeless_chord_deviation =
+    0.1;                                 ///< [m]; loads under which the body goes such a way will not be mended
+constexpr double slow_approach = 1e-6;   ///< [m/s]; a slower one is none
+constexpr double shortest_share = 1e-3;  ///< of a step: a shorter piece is not tried
+constexpr double blocked_share = 0.1;    ///< of a step, for which a body stays where nothing fits
+constexpr double most_segments = 4.0;    ///< straight ones for which the way over a piece is swept
+constexpr double safety = 0.9;           ///< of the longest piece that is straight enough
+constexpr double longer = 2.0;           ///< than the last, at most, is a piece
+constexpr int most_tries = 100;          ///< pieces tried in a step
+constexpr int most_unsolved = 6;         ///< pieces of a step without a solution, before the body stays
+constexpr int most_solutions = 8;        ///< solutions of one piece of a step, each about the last
 
 /// Where a row's point of the body, fixed in the object frame at `X0`, is when the body is at `X1`.
 Vector3d moved(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& p_W) {
@@ -135,7 +136,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
     row.lever_W = row.point.p_W - X0.translation();
     starts.push_back({row.gap, row.lever_W});
   }
-  const Matrix6d C = body.answer(h).displacement;
+  const Matrix6d C = body.response(h).displacement;
   for (int solution = 1; solution <= most_solutions; ++solution) {
     if (!body.advance(h, total_load(work))) break;
     look_at_end(body, X0, work, starts, outcome);
@@ -154,14 +155,15 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
     more << after.force - before.force, after.moment - before.moment;
     const Vector6d moves = C * more;
     const double change = moves.head<3>().norm() + radius_[body.index()] * moves.tail<3>().norm();
-    const double way = extent(X0, body.object().X, radius_[body.index()]);
-    const bool solved = worst < std::clamp(solved_share * way, slack, 3.0 * touching) &&
-                        change < std::clamp(solved_share * way, 1e-3 * touching, 10.0 * touching);
+    const double path = extent(X0, body.object().X, radius_[body.index()]);
+    const bool solved = worst < std::clamp(solved_share * path, slack, 3.0 * touching) &&
+                        change < std::clamp(solved_share * path, 1e-3 * touching, 10.0 * touching);
     if (solved || (solution == most_solutions && worst < 0.5 * closed && change < touching)) {
       rows = std::move(assumed);
       return true;
     }
-    const bool runs_away = solution > 2 && bow(body.index(), begin, body.object(), h) > hopeless_bow;
+    const bool runs_away =
+        solution > 2 && chord_deviation(body.index(), begin, body.object(), h) > hopeless_chord_deviation;
     body.go_back();
     if (runs_away || change == 0.0) break;
   }
@@ -176,18 +178,18 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
   const Vector3d turned = X0.linear() * math::log_so3(X0.linear().transpose() * X1.linear());
   // A point that stays on the surface slips by its way; one of a body that rolls comes or goes, and slips by what the
   // contact, which stays under the body, does.
-  const auto set_slip = [&](ContactRow& row, const Vector3d& way) {
-    const bool rolls = std::abs(way.dot(row.point.n_W)) > touching;
-    const Vector3d slip = rolls ? Vector3d(moved_on + turned.cross(row.lever_W)) : way;
+  const auto set_slip = [&](ContactRow& row, const Vector3d& path) {
+    const bool rolls = std::abs(path.dot(row.point.n_W)) > touching;
+    const Vector3d slip = rolls ? Vector3d(moved_on + turned.cross(row.lever_W)) : path;
     row.slip_W = slip - row.point.n_W * slip.dot(row.point.n_W);
   };
   for (std::size_t i = 0; i < work.size(); ++i) {
     ContactRow& row = work[i];
     const Vector3d start = X0.translation() + starts[i].lever_W;
-    const Vector3d way = moved(X0, X1, start) - start;
-    row.gap = starts[i].gap + way.dot(row.point.n_W);
-    row.point.p_W = start + way;
-    set_slip(row, way);
+    const Vector3d path = moved(X0, X1, start) - start;
+    row.gap = starts[i].gap + path.dot(row.point.n_W);
+    row.point.p_W = start + path;
+    set_slip(row, path);
   }
   std::vector<ContactRow> seen;
   add_contacts(body.index(), X1, touching, seen, outcome);
@@ -209,18 +211,18 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
       starts.emplace_back();
     }
     const Vector3d start = moved(X1, X0, row.point.p_W);
-    const Vector3d way = row.point.p_W - start;
+    const Vector3d path = row.point.p_W - start;
     work[at] = row;
     work[at].load_W = load;
     // It presses there when it has come: at its own point, which an unloaded piece carries deep into the other.
     work[at].lever_W = row.point.p_W + row.gap * row.point.n_W - X1.translation();
-    set_slip(work[at], way);
-    starts[at] = {row.gap - way.dot(row.point.n_W), start - X0.translation()};
+    set_slip(work[at], path);
+    starts[at] = {row.gap - path.dot(row.point.n_W), start - X0.translation()};
   }
 }
 
-double ContactStepper::bow(std::size_t body, const motion::MotionState& begin, const motion::MotionState& end,
-                           double h) const {
+double ContactStepper::chord_deviation(std::size_t body, const motion::MotionState& begin,
+                                       const motion::MotionState& end, double h) const {
   return h / 8.0 *
          ((end.velocity.linear - begin.velocity.linear).norm() +
           radius_[body] * (end.velocity.angular - begin.velocity.angular).norm());
@@ -231,12 +233,12 @@ ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const motion
   const auto rates = [](const motion::MotionState& s) {
     return Vector3d(s.X.linear().transpose() * s.velocity.angular);
   };
-  const motion::MotionSegment way({0.0, begin.X}, begin.velocity.linear, rates(begin), {h, end.X}, end.velocity.linear,
-                                  rates(end));
-  const int count = static_cast<int>(std::ceil(std::sqrt(bow(body, begin, end, h) / most_bow)));
+  const motion::MotionSegment path({0.0, begin.X}, begin.velocity.linear, rates(begin), {h, end.X}, end.velocity.linear,
+                                   rates(end));
+  const int count = static_cast<int>(std::ceil(std::sqrt(chord_deviation(body, begin, end, h) / most_chord_deviation)));
   RigidTransform from = begin.X;
   for (int i = 0; i < std::max(count, 1); ++i) {
-    const RigidTransform to = i + 1 < count ? way.at(h * (i + 1) / count).X : end.X;
+    const RigidTransform to = i + 1 < count ? path.at(h * (i + 1) / count).X : end.X;
     const collision::SweepResult result = collision_.sweep(body, from, to, tolerance, sweep_resolution, levels_);
     if (result.hit) {
       return {true, (i + result.free_fraction) / std::max(count, 1), between(from, to, result.touching_fraction)};
@@ -246,8 +248,8 @@ ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const motion
   return {};
 }
 
-ContactStepper::Piece ContactStepper::try_piece(bodies::SteppedBody& body, double h, const MayGo& may_go,
-                                                std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
+ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, double h, const MayGo& may_go,
+                                                  std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
   constexpr double smaller = 0.25;
   const std::size_t index = body.index();
   const motion::MotionState begin = body.object();
@@ -265,10 +267,10 @@ ContactStepper::Piece ContactStepper::try_piece(bodies::SteppedBody& body, doubl
     body.go_back();
     return {false, 0.0, {}, true, false};
   }
-  const double bowed = bow(index, begin, end, h);
-  const double straight =
-      safety * std::sqrt(most_segments * most_segments * most_bow / std::max(bowed, 1e-3 * most_bow));
-  if (in_contact || collision_.may_touch(index, begin.X, end.X, std::max(bowed, most_bow))) {
+  const double bowed = chord_deviation(index, begin, end, h);
+  const double straight = safety * std::sqrt(most_segments * most_segments * most_chord_deviation /
+                                             std::max(bowed, 1e-3 * most_chord_deviation));
+  if (in_contact || collision_.may_touch(index, begin.X, end.X, std::max(bowed, most_chord_deviation))) {
     if (straight < safety) {
       body.go_back();
       return {false, straight, {}};
@@ -278,20 +280,20 @@ ContactStepper::Piece ContactStepper::try_piece(bodies::SteppedBody& body, doubl
     const Obstruction found = sweep(index, begin, end, h, tolerance);
     ++outcome.queries;
     if (found.hit) {
-      Piece piece{false, found.free, {}};
+      Piece substep{false, found.free, {}};
       body.go_back();
-      add_contacts(index, found.X_WO, touching, piece.touched, outcome);
-      for (ContactRow& row : piece.touched) {
+      add_contacts(index, found.X_WO, touching, substep.touched, outcome);
+      for (ContactRow& row : substep.touched) {
         const Vector3d here = moved(found.X_WO, begin.X, row.point.p_W);
         row.gap = std::max(0.0, row.gap + (here - row.point.p_W).dot(row.point.n_W));
         row.point.p_W = here;
       }
-      return piece;
+      return substep;
     }
   }
   rows = std::move(solved);
   body.accept();
-  if (body.turns_round()) settle(body, rows, h);
+  if (body.reverses()) settle(body, rows, h);
   return {true, in_contact ? std::clamp(straight, 0.5, longer) : longer, {}};
 }
 
@@ -299,24 +301,24 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
                           ContactOutcome& outcome) {
   const MayGo on_the_way = [](const RigidTransform&, const RigidTransform&) { return true; };
   if (const RigidTransform here = body.object().X; !may_go(here, here)) return false;
-  double left = h, piece = h;
+  double left = h, substep = h;
   int unsolved = 0;
-  const auto stay = [&](double duration) {
-    body.stay(duration);
-    outcome.held_back = true;
+  const auto block = [&](double duration) {
+    body.block(duration);
+    outcome.steps_blocked = true;
     for (ContactRow& row : rows) row.load_W.setZero();  // a search from these loads has failed
     left -= duration;
-    piece = left;
+    substep = left;
   };
   refresh(body, rows, outcome);
   collide(body, rows, Bounce::of_materials);
   for (int i = 0; i < most_tries && left > 1e-9 * h; ++i) {
-    piece = std::min(piece, left);
-    Piece tried = try_piece(body, piece, left == h ? may_go : on_the_way, rows, outcome);
+    substep = std::min(substep, left);
+    Piece tried = try_substep(body, substep, left == h ? may_go : on_the_way, rows, outcome);
     if (!tried.allowed) return false;
     if (tried.done) {
-      left -= piece;
-      piece *= tried.next;
+      left -= substep;
+      substep *= tried.next;
       if (left > 1e-9 * h) {
         refresh(body, rows, outcome);
         collide(body, rows, Bounce::none);
@@ -324,13 +326,13 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
       continue;
     }
     if (!tried.solved) ++unsolved;
-    if (unsolved <= most_unsolved && tried.next * piece > shortest_share * h) {
-      piece *= tried.next;
+    if (unsolved <= most_unsolved && tried.next * substep > shortest_share * h) {
+      substep *= tried.next;
     } else if (tried.touched.empty() || !meet(body, tried.touched, rows)) {
-      stay(std::min(left, std::max(piece, stay_share * h)));
+      block(std::min(left, std::max(substep, blocked_share * h)));
     }
   }
-  if (left > 1e-9 * h) stay(left);
+  if (left > 1e-9 * h) block(left);
   rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap > probe_depth; }),
              rows.end());
   outcome.rows = rows;

@@ -16,7 +16,7 @@ constexpr double longest_piece = 2e-3;  ///< [s] where something is touched …
 constexpr double longest_with_free =
     1e-3;  ///< [s] … and where a body moves that nobody holds: the world's error is of order one
 constexpr double shortest_step = 1e-9;             ///< [s]; of a step shorter than this contact takes no notice
-constexpr double stay_piece = 2e-4;                ///< [s] for which a held body stays where nothing else fits
+constexpr double blocked_substep = 2e-4;           ///< [s] for which a held body stays where nothing else fits
 constexpr double growth = 2.0;                     ///< from one piece to the next, at most
 constexpr double as_sound = 0.9;                   ///< of the part of a piece that is sound: the next try
 constexpr double least_try = 0.1, most_try = 0.7;  ///< of a piece: the next try
@@ -38,7 +38,7 @@ Matrix6d positive(const Matrix6d& compliance) {
 
 DynamicStepper::DynamicStepper(const scene::Scene& scene) : scene_(scene), world_(open_rigid_world(scene)) {}
 
-DynamicStepper::Candidate DynamicStepper::try_piece(bodies::SteppedBody& body, double h) const {
+DynamicStepper::Candidate DynamicStepper::try_substep(bodies::SteppedBody& body, double h) const {
   Candidate c;
   c.begin = body.object();
   const auto load = load_W_.find(body.index());
@@ -57,7 +57,7 @@ bool DynamicStepper::all_free(const std::vector<bodies::SteppedBody*>& held,
     const Candidate& c = candidates[i];
     if (!c.load_W.force.isZero(0.0) || !c.load_W.moment.isZero(0.0)) return false;
     if (!world_->may_touch(held[i]->index(), c.begin.X, c.end.X, margin_near)) continue;
-    if (world_->free_part(held[i]->index(), c.begin.X, c.end.X) < 1.0) return false;
+    if (world_->collision_free_fraction(held[i]->index(), c.begin.X, c.end.X) < 1.0) return false;
   }
   return true;
 }
@@ -67,7 +67,7 @@ void DynamicStepper::go_freely(const std::vector<bodies::SteppedBody*>& held, co
   for (std::size_t i = 0; i < held.size(); ++i) {
     if (!candidates[i].possible) {
       held[i]->go_back();
-      held[i]->stay(h);
+      held[i]->block(h);
       outcome.refused = true;
     }
     held[i]->accept();
@@ -88,25 +88,25 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<bodies::SteppedBo
   load_W_ = std::move(loads);
   shortest_piece_ = shortest_piece * std::min(1.0, h / longest_piece);
   Outcome outcome;
-  double left = h, piece = h;
+  double left = h, substep = h;
   while (left > 1e-9 * h) {
-    piece = std::min(piece, left);
-    if (left < growth * piece && left > piece) piece = 0.5 * left;  // no small last one
+    substep = std::min(substep, left);
+    if (left < growth * substep && left > substep) substep = 0.5 * left;  // no small last one
     std::vector<Candidate> candidates;
-    for (bodies::SteppedBody* body : held) candidates.push_back(try_piece(*body, piece));
-    ++outcome.pieces;
+    for (bodies::SteppedBody* body : held) candidates.push_back(try_substep(*body, substep));
+    ++outcome.substeps;
     if (h <= shortest_step || all_free(held, candidates)) {
-      go_freely(held, candidates, piece, outcome);
+      go_freely(held, candidates, substep, outcome);
     } else {
-      const Piece result = go_in_contact(held, candidates, piece);
+      const Piece result = go_in_contact(held, candidates, substep);
       if (result == Piece::too_long) continue;
       if (result == Piece::stuck) {
-        piece = std::min(stay_piece, left);
-        hold_back(held, piece, outcome);
+        substep = std::min(blocked_substep, left);
+        hold_back(held, substep, outcome);
       }
     }
-    left -= piece;
-    piece *= growth;
+    left -= substep;
+    substep *= growth;
   }
   return outcome;
 }
@@ -120,7 +120,7 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<bodies::St
     return Piece::too_long;
   }
   std::vector<rigid_bodies::DrivenBody> driven = solve(held, candidates, h);
-  double sound = sound_part(held, candidates, driven, h);
+  double sound = admissible_fraction(held, candidates, driven, h);
   double before = 0.0;
   for (int solution = 1; sound < 1.0 && sound > before && solution < most_solutions; ++solution) {
     if (foreseen_sound_part(driven) < 1.0) break;
@@ -134,7 +134,7 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<bodies::St
     }
     world_->go_back();
     driven = solve(held, candidates, h);
-    sound = sound_part(held, candidates, driven, h);
+    sound = admissible_fraction(held, candidates, driven, h);
   }
   if (sound < 1.0) {
     world_->go_back();
@@ -157,16 +157,16 @@ std::vector<rigid_bodies::DrivenBody> DynamicStepper::solve(const std::vector<bo
   return driven;
 }
 
-double DynamicStepper::sound_part(const std::vector<bodies::SteppedBody*>& held,
-                                  const std::vector<Candidate>& candidates,
-                                  const std::vector<rigid_bodies::DrivenBody>& driven, double h) const {
+double DynamicStepper::admissible_fraction(const std::vector<bodies::SteppedBody*>& held,
+                                           const std::vector<Candidate>& candidates,
+                                           const std::vector<rigid_bodies::DrivenBody>& driven, double h) const {
   double sound = 1.0;
   for (std::size_t i = 0; i < held.size(); ++i) {
     const Wrench& impact = driven[i].impact_W;
     if (!impact.force.isZero(0.0) || !impact.moment.isZero(0.0)) held[i]->add_impulse(impact);
     const bool possible = held[i]->advance(h, driven[i].contact_W) && bodies::is_finite(held[i]->object());
     if (!possible) return 0.0;
-    sound = std::min(sound, world_->sound_part(held[i]->index(), candidates[i].begin.X, held[i]->object().X));
+    sound = std::min(sound, world_->admissible_fraction(held[i]->index(), candidates[i].begin.X, held[i]->object().X));
   }
   return sound;
 }
@@ -174,15 +174,15 @@ double DynamicStepper::sound_part(const std::vector<bodies::SteppedBody*>& held,
 double DynamicStepper::foreseen_sound_part(const std::vector<rigid_bodies::DrivenBody>& driven) const {
   double sound = 1.0;
   for (const rigid_bodies::DrivenBody& d : driven) {
-    Vector6d load, impact, way;
+    Vector6d load, impact, path;
     load << d.contact_W.force, d.contact_W.moment;
     impact << d.impact_W.force, d.impact_W.moment;
-    way << d.displacement_W.linear, d.displacement_W.angular;
-    way += d.compliance * load + d.coasting * impact;
+    path << d.displacement_W.linear, d.displacement_W.angular;
+    path += d.compliance * load + d.displacement_by_impulse * impact;
     RigidTransform end = d.X_WO;
-    end.translation() += way.head<3>();
-    end.linear() = math::exp_so3(way.tail<3>()) * d.X_WO.linear();
-    sound = std::min(sound, world_->sound_part(d.body, d.X_WO, end));
+    end.translation() += path.head<3>();
+    end.linear() = math::exp_so3(path.tail<3>()) * d.X_WO.linear();
+    sound = std::min(sound, world_->admissible_fraction(d.body, d.X_WO, end));
   }
   return sound;
 }
@@ -195,11 +195,11 @@ void DynamicStepper::hold_back(const std::vector<bodies::SteppedBody*>& held, do
   }
   world_->step(h, driven);
   for (bodies::SteppedBody* body : held) {
-    body->stay(h);
+    body->block(h);
     take(*body, Wrench());
   }
   add_contacts();
-  outcome.held_back = true;
+  outcome.steps_blocked = true;
 }
 
 void DynamicStepper::take(bodies::SteppedBody& body, const Wrench& contact_W) {
@@ -210,19 +210,20 @@ void DynamicStepper::take(bodies::SteppedBody& body, const Wrench& contact_W) {
 }
 
 rigid_bodies::DrivenBody DynamicStepper::driven_body(const bodies::SteppedBody& body, const Candidate& c, double h) {
-  const bodies::SteppedBody::Answer answer = body.answer(h);
+  const bodies::SteppedBody::Response response = body.response(h);
   rigid_bodies::DrivenBody d;
   d.body = body.index();
   d.X_WO = c.begin.X;
   d.V_WO_W = c.begin.velocity;
-  d.compliance = positive(answer.displacement);
+  d.compliance = positive(response.displacement);
   d.mobility = body.mobility();
-  d.coasting = answer.velocity;  // an impulse does at once what a constant load does in the course of the step
+  d.displacement_by_impulse =
+      response.velocity;  // an impulse does at once what a constant load does in the course of the step
   Vector6d load;
   load << c.load_W.force, c.load_W.moment;
   Vector6d impact;
   impact << c.impact_W.force, c.impact_W.moment;
-  const Vector6d by_load = d.compliance * load + d.coasting * impact;
+  const Vector6d by_load = d.compliance * load + d.displacement_by_impulse * impact;
   d.displacement_W.linear = c.end.X.translation() - c.begin.X.translation() - by_load.head<3>();
   d.displacement_W.angular =
       c.begin.X.linear() * math::log_so3(c.begin.X.linear().transpose() * c.end.X.linear()) - by_load.tail<3>();

@@ -13,12 +13,12 @@ namespace {
 constexpr std::size_t nodes = math::Collocation::count;
 constexpr std::size_t last = nodes - 1;
 
-constexpr int most_sweeps = 12;
+constexpr int most_iterations = 12;
 constexpr int most_halvings = 4;
 /// A step that takes no more sweeps than this is at its best. When the others' sweeps beyond it have cost what a linear
 /// part costs, it is taken anew.
-constexpr int few_sweeps = 3;
-constexpr int worth_a_linear_part = 150;
+constexpr int few_iterations = 3;
+constexpr int refactorisation_budget = 150;
 /// Sweeps stop when what they would still change is below this share of the error that the cubic itself makes, or below
 /// this share of the strain.
 constexpr double share_of_error = 0.5;
@@ -27,7 +27,7 @@ constexpr double share_of_strain = 1e-12;
 constexpr double far_from_done = 25.0;
 /// From the sixth sweep on, one that leaves more than this of the last one's change will not come to an end soon.
 constexpr double slow_contraction = 0.7;
-constexpr int sweeps_to_judge = 5;
+constexpr int iterations_to_judge = 5;
 /// The most that the sweeps' own way is continued by, of a sweep.
 constexpr double most_continued = 3.0;
 /// Of a determinant to what it is at most: below this the ways of two pairs of sweeps are one.
@@ -154,7 +154,7 @@ class Exponential::CoreOf final : public Core {
     h_ = 0.0;
     t_end_ = std::numeric_limits<double>::quiet_NaN();
     contraction_ = 1.0;
-    slow_sweeps_ = 0;
+    slow_iterations_ = 0;
     squared_cubic_ = std::numeric_limits<double>::infinity();
   }
 
@@ -188,14 +188,14 @@ class Exponential::CoreOf final : public Core {
     return {y.template head<n>() + q_reference_, y.template tail<n>()};
   }
   /// What the linear part leaves over of the acceleration, in modes.
-  Modes remainder(const HeldBody& body, const HandleForcing& handle, const State& s) const {
+  Modes nonlinear_residual(const HeldBody& body, const HandleForcing& handle, const State& s) const {
     const Strain r = body.template acceleration<n>(handle, s.q, s.q_dot) +
                      times(stiffness_, Strain(s.q - q_reference_)) + times(damping_, s.q_dot);
     return times(force_to_modes_, r);
   }
   /// The same at the nodes.
-  SPRING_WORKBENCH_INLINE void remainder(const HeldBody& body, const HandleForcings& handle, const NodeModes& x,
-                                         NodeModes& result) const {
+  SPRING_WORKBENCH_INLINE void nonlinear_residual(const HeldBody& body, const HandleForcings& handle,
+                                                  const NodeModes& x, NodeModes& result) const {
     NodeStrains moved, rate, q, r;
     for (int i = 0; i < n; ++i) {
       moved[at(i)] = from_modes_(i, 0) * x[0];
@@ -241,7 +241,7 @@ class Exponential::CoreOf final : public Core {
   }
 
   /// Remainders at the nodes from the cubic of the last step, moved to fit at the start.
-  SPRING_WORKBENCH_INLINE void continue_cubic(double h) {
+  SPRING_WORKBENCH_INLINE void extrapolate_polynomial(double h) {
     const double ratio = last_h_ / h;
     if (ratio != continued_ratio_) {
       continued_ratio_ = ratio;
@@ -251,10 +251,10 @@ class Exponential::CoreOf final : public Core {
       }
     }
     for (int m = 0; m < 2 * n; ++m) {
-      const math::Pack before = remainder_[at(m)];
-      math::Pack x = math::Pack{} + start_remainder_[m];
+      const math::Pack before = nonlinear_residual_[at(m)];
+      math::Pack x = math::Pack{} + start_residual_[m];
       for (std::size_t j = 0; j < nodes; ++j) x += continued_[j] * before[j];
-      remainder_[at(m)] = x;
+      nonlinear_residual_[at(m)] = x;
     }
   }
 
@@ -263,7 +263,7 @@ class Exponential::CoreOf final : public Core {
     const auto difference = [this](const math::Collocation::Row& row) {
       Modes d;
       for (int m = 0; m < 2 * n; ++m) {
-        const math::Pack& x = remainder_[at(m)];
+        const math::Pack& x = nonlinear_residual_[at(m)];
         d[m] = row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + row[3] * x[3];
       }
       return d;
@@ -282,15 +282,15 @@ class Exponential::CoreOf final : public Core {
     constexpr auto& c = math::Collocation::nodes;
     const HandleForcings forcing = body.forcing(handle, t + math::Pack{c[0], c[1], c[2], c[3]} * h);
     const State begin = state;
-    if (version_ != body.version() || (slow_sweeps_ > worth_a_linear_part && state.q != q_reference_)) {
+    if (version_ != body.version() || (slow_iterations_ > refactorisation_budget && state.q != q_reference_)) {
       linearise(body, forcing.at(0), state.q);
     }
-    Estimate e = sweep(body, forcing, h, state);
+    Estimate e = iterate(body, forcing, h, state);
     if (e.converged) return e;
     if (begin.q != q_reference_) {
       linearise(body, forcing.at(0), begin.q);
       state = begin;
-      e = sweep(body, forcing, h, state);
+      e = iterate(body, forcing, h, state);
     }
     if (e.converged || halvings == most_halvings) return e;
     state = begin;
@@ -309,16 +309,16 @@ class Exponential::CoreOf final : public Core {
     const bool known = follows && load_version_ == body.load_version() &&
                        same(end_acceleration_, math::vector(forcing.of_H.a_B, 0)) &&
                        same(end_angular_acceleration_, math::vector(forcing.of_H.alpha_B, 0));
-    start_remainder_ = known ? at_node(last, remainder_) : remainder(body, forcing.at(0), state);
+    start_residual_ = known ? at_node(last, nonlinear_residual_) : nonlinear_residual(body, forcing.at(0), state);
     if (follows && h < farthest_continued * last_h_) {
-      continue_cubic(h);
+      extrapolate_polynomial(h);
     } else {
-      for (int m = 0; m < 2 * n; ++m) remainder_[at(m)] = math::Pack{} + start_remainder_[m];
+      for (int m = 0; m < 2 * n; ++m) nonlinear_residual_[at(m)] = math::Pack{} + start_residual_[m];
     }
   }
 
   /// Sweeps, from the second on continued along the way that they take (Anderson's acceleration of depth two).
-  SPRING_WORKBENCH_WIDE Estimate sweep(const HeldBody& body, const HandleForcings& forcing, double h, State& state) {
+  SPRING_WORKBENCH_WIDE Estimate iterate(const HeldBody& body, const HandleForcings& forcing, double h, State& state) {
     prepare(h);
     const Modes x0 = modes_of(state);
     predict(body, forcing, h, state);
@@ -326,16 +326,16 @@ class Exponential::CoreOf final : public Core {
     for (int m = 0; m < 2 * n; ++m) start[at(m)] = decay_.of([&](int k) { return x0[k]; }, m);
 
     Estimate e;
-    drive(start, remainder_, x);
+    drive(start, nonlinear_residual_, x);
     const double squared_start = squared_size(x0);
     double all_before = 0.0;
-    int sweeps = 0;
-    while (sweeps < most_sweeps && !e.converged) {
-      ++sweeps;
-      Swept& now = swept_[sweeps % 3];
-      const Swept& before = swept_[(sweeps + 2) % 3];
-      remainder(body, forcing, x, remainder_);
-      drive(start, remainder_, now.x);
+    int iterations = 0;
+    while (iterations < most_iterations && !e.converged) {
+      ++iterations;
+      Swept& now = swept_[iterations % 3];
+      const Swept& before = swept_[(iterations + 2) % 3];
+      nonlinear_residual(body, forcing, x, nonlinear_residual_);
+      drive(start, nonlinear_residual_, now.x);
       for (int m = 0; m < 2 * n; ++m) now.moved[at(m)] = now.x[at(m)] - x[at(m)];
       const math::Pack squares = squared_size(now.moved, now.moved);
       const double squared_change = squares[last], all = squares[1] + squares[2] + squares[3];
@@ -343,32 +343,32 @@ class Exponential::CoreOf final : public Core {
       const double squared_rounding =
           share_of_strain * share_of_strain * std::max(squared_size(now.x, now.x)[last], squared_start);
       double contraction = std::min(1.0, contraction_ * forget_contraction);
-      if (sweeps > 1 && squared_change > squared_rounding) {
+      if (iterations > 1 && squared_change > squared_rounding) {
         contraction = std::sqrt(all / all_before);
-        if (sweeps == 2) contraction_ = contraction;
-        if (sweeps > sweeps_to_judge && contraction > slow_contraction) break;
-      } else if (sweeps == 2) {
+        if (iterations == 2) contraction_ = contraction;
+        if (iterations > iterations_to_judge && contraction > slow_contraction) break;
+      } else if (iterations == 2) {
         contraction_ = std::sqrt(std::max(all, squared_rounding) / all_before);  // no more than this
       }
       const double left = contraction < 1.0 ? contraction / (1.0 - contraction) : 1e3;  // of the change
       const double squared_left = left * left * squared_change;
       e.converged = squared_change <= squared_rounding || squared_left <= squared_rounding;
       // Where the last step's cubic tells that this is not the last sweep, this one's is not asked.
-      if (e.converged || sweeps == most_sweeps || squared_left < far_from_done * squared_cubic_) {
-        const Modes cubic = cubic_error();
-        squared_cubic_ = squared_size(cubic);
+      if (e.converged || iterations == most_iterations || squared_left < far_from_done * squared_cubic_) {
+        const Modes polynomial = cubic_error();
+        squared_cubic_ = squared_size(polynomial);
         e.converged = e.converged || squared_left <= share_of_error * share_of_error * squared_cubic_;
-        e.error = -(cubic + left * at_node(last, now.moved));
+        e.error = -(polynomial + left * at_node(last, now.moved));
       }
-      if (sweeps > 1) {
-        continue_sweeps(now, before, sweeps > 2 ? &swept_[(sweeps + 1) % 3] : nullptr, x);
+      if (iterations > 1) {
+        continue_sweeps(now, before, iterations > 2 ? &swept_[(iterations + 1) % 3] : nullptr, x);
       } else {
         x = now.x;
       }
       all_before = all;
     }
-    if (sweeps == 1) contraction_ = std::min(1.0, contraction_ * forget_contraction);
-    slow_sweeps_ += std::max(0, sweeps - few_sweeps);
+    if (iterations == 1) contraction_ = std::min(1.0, contraction_ * forget_contraction);
+    slow_iterations_ += std::max(0, iterations - few_iterations);
     e.error = times(from_modes_, e.error);
     state = state_of(at_node(last, x));
     last_h_ = h;
@@ -425,12 +425,12 @@ class Exponential::CoreOf final : public Core {
   std::array<Operator<math::Pack>, nodes> node_{};  ///< of the remainder at each node
   Operator<double> error_;
 
-  Swept swept_[3];       ///< the last sweeps, in turns
-  NodeModes remainder_;  ///< at the nodes of this step, or the last one
-  Modes start_remainder_;
+  Swept swept_[3];                ///< the last sweeps, in turns
+  NodeModes nonlinear_residual_;  ///< at the nodes of this step, or the last one
+  Modes start_residual_;
   double contraction_ = 1.0;    ///< of the first sweep's change by the second
   double squared_cubic_ = 0.0;  ///< size of the cubic's error in the last step
-  int slow_sweeps_ = 0;         ///< beyond few_sweeps, with this linear part
+  int slow_iterations_ = 0;     ///< beyond few_iterations, with this linear part
   double last_h_ = 0.0, t_end_ = 0.0;
   State end_;
   long load_version_ = -1;

@@ -19,7 +19,7 @@ class Exponential final : public Integrator {
 
   std::string name() const override { return "exponential"; }
   int order() const override { return 5; }
-  bool unlimited() const override { return true; }
+  bool stiffly_stable() const override { return true; }
   bool estimates_after_jumps() const override { return false; }  // the cubic's differences do not see what it misses
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;

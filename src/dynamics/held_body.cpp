@@ -71,15 +71,15 @@ double HeldBody::axial_inertia() const {
   return axis.dot(body_.inertia_O * axis) + body_.mass * axis.cross(p_OE_).squaredNorm();
 }
 
-void HeldBody::set_springs(const rod::PerFamily& stiffness, const rod::PerFamily& damping_ratio) {
-  rod::PerFamily c;
+void HeldBody::set_springs(const rod::PerDof& stiffness, const rod::PerDof& damping_ratio) {
+  rod::PerDof c;
   c.stretch = 2.0 * damping_ratio.stretch * std::sqrt(body_.mass * stiffness.stretch);
   c.bend = 2.0 * damping_ratio.bend * std::sqrt(body_.mass * stiffness.bend);
   c.torsion = 2.0 * damping_ratio.torsion * std::sqrt(axial_inertia() * stiffness.torsion);
   set_springs_and_dampers(stiffness, c);
 }
 
-void HeldBody::set_springs_and_dampers(const rod::PerFamily& stiffness, const rod::PerFamily& damping) {
+void HeldBody::set_springs_and_dampers(const rod::PerDof& stiffness, const rod::PerDof& damping) {
   if (auto shape = shape_->for_stiffness(stiffness)) shape_ = std::move(shape);
   K_ = shape_->stiffness(stiffness);
   D_ = shape_->stiffness(damping);  // (c_f / k_f) K_f, without dividing by k_f
@@ -87,8 +87,8 @@ void HeldBody::set_springs_and_dampers(const rod::PerFamily& stiffness, const ro
   changed();
 }
 
-void HeldBody::set_springs_with_modal_damping(const rod::PerFamily& stiffness, double damping_ratio) {
-  set_springs_and_dampers(stiffness, rod::PerFamily());
+void HeldBody::set_springs_with_modal_damping(const rod::PerDof& stiffness, double damping_ratio) {
+  set_springs_and_dampers(stiffness, rod::PerDof());
   modal_ = true;
   modal_ratio_ = damping_ratio;
   changed();

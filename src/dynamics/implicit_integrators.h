@@ -33,7 +33,7 @@ class ImplicitEuler final : public Integrator {
  public:
   std::string name() const override { return "implicit_euler"; }
   int order() const override { return 1; }
-  bool unlimited() const override { return true; }
+  bool stiffly_stable() const override { return true; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
 };
@@ -45,7 +45,7 @@ class Rosenbrock final : public Integrator {
  public:
   std::string name() const override { return "rosenbrock"; }
   int order() const override { return 4; }
-  bool unlimited() const override { return true; }
+  bool stiffly_stable() const override { return true; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
   Response response(const HeldBody& body, double t, double h, const StrainState& state) override;

@@ -80,13 +80,13 @@ ControlledStep StepControl::advance(const HeldBody& body, const motion::FrameMot
   Span span{body, handle, memory, {}, (1.0 + 1e-9) * std::ldexp(h, -halvings_to_stop)};
   const Memory before = memory;
   StrainState next = state;
-  span.report.fine = tolerance_ > 0.0           ? steps_to_tolerance(span, t, h, next)
-                     : integrator_->unlimited() ? step_in_halves(span, t, h, 0, next)
-                                                : [&] {
-                                                    StepEstimate estimate;
-                                                    return try_step(span, t, h, next, estimate);
-                                                  }();
-  if (span.report.fine) {
+  span.report.accepted = tolerance_ > 0.0                ? steps_to_tolerance(span, t, h, next)
+                         : integrator_->stiffly_stable() ? step_in_halves(span, t, h, 0, next)
+                                                         : [&] {
+                                                             StepEstimate estimate;
+                                                             return try_step(span, t, h, next, estimate);
+                                                           }();
+  if (span.report.accepted) {
     state = next;
   } else {
     memory = before;
@@ -115,14 +115,14 @@ bool StepControl::try_step(Span& span, double t, double h, StrainState& state, S
   if (!((state.q.norm() + state.q_dot.norm()) < most_strain)) return false;
   if (!body.shape().admissible(body.full_state(t + h, state).q)) {
     const bool stops =
-        integrator_->unlimited() && h <= span.longest_to_stop && stop_at_limit(body, t + h, begin, state);
+        integrator_->stiffly_stable() && h <= span.longest_to_stop && stop_at_limit(body, t + h, begin, state);
     if (!stops) return false;
   }
   // The estimate is in the coordinates of the step.
   const Sizes s = sizes(body, t + h, state.q, estimate.q_error);
   body.rechart(state);
   ++span.report.steps;
-  if (integrator_->unlimited() && hold_energy(body, span.handle, t, h, begin, state, span.memory)) {
+  if (integrator_->stiffly_stable() && hold_energy(body, span.handle, t, h, begin, state, span.memory)) {
     ++span.report.energy_held;
   }
   span.report.position_error = std::max(span.report.position_error, s.position);
@@ -146,15 +146,15 @@ bool StepControl::step_in_halves(Span& span, double t, double h, int level, Stra
   const ControlledStep report = span.report;
   StrainState whole = state;
   StepEstimate estimate;
-  const bool fine = try_step(span, t, h, whole, estimate);
-  bool good = fine;
-  if (fine) {
+  const bool accepted = try_step(span, t, h, whole, estimate);
+  bool good = accepted;
+  if (accepted) {
     const Sizes s = sizes(span.body, t + h, whole.q, estimate.q_error);
     good = s.position < large_error * span.body.shape().length() && s.angle < large_error;
   }
   if (good || level == most_halvings) {
-    if (fine) state = whole;
-    return fine;
+    if (accepted) state = whole;
+    return accepted;
   }
   span.memory = memory;
   span.report = report;
@@ -181,14 +181,14 @@ bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
     const ControlledStep report_before = span.report;
     StrainState next = state;
     StepEstimate estimate;
-    const bool fine =
+    const bool accepted =
         try_step(span, t, dt, next, estimate) && estimate.q_error.allFinite() && estimate.q_dot_error.allFinite();
     const bool smallest = dt < 2.0 * shortest;
-    if (smallest && !fine) return false;
+    if (smallest && !accepted) return false;
     StrainState error = memory.error;
     double growth = least_growth;
     bool good = false;
-    if (fine) {
+    if (accepted) {
       carry_deviation(motion, dt, error);
       const auto amplitude = [&](const rod::StrainVector& q, const rod::StrainVector& q_dot) {
         return std::hypot(span.length(t + dt, next.q, q), span.length(t + dt, next.q, swing * q_dot));

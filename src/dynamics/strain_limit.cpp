@@ -28,8 +28,8 @@ bool stop_at_limit(const HeldBody& body, double t, const StrainState& begin, Str
   }
   end.q[i] = begin.q[i] + shortest * way;
   if (end.q_dot[i] * way > 0.0) {
-    const rod::StrainVector answer = body.mass_matrix(t, end.q).llt().solve(rod::StrainVector::Unit(end.q.size(), i));
-    end.q_dot -= end.q_dot[i] / answer[i] * answer;
+    const rod::StrainVector response = body.mass_matrix(t, end.q).llt().solve(rod::StrainVector::Unit(end.q.size(), i));
+    end.q_dot -= end.q_dot[i] / response[i] * response;
     end.q_dot[i] = 0.0;
   }
   return end.q_dot.allFinite();

@@ -83,19 +83,19 @@ void FastrakDevice::leave_in_another_mode() {
 }
 
 std::string FastrakDevice::receive(std::string_view bytes) {
-  std::string answer;
+  std::string response;
   for (const char c : bytes) {
     if (c == kCtrlS || c == kCtrlQ) {
       paused_ = c == kCtrlS;
     } else if (c == '\r') {
-      if (!command_.empty()) answer += with_arguments(std::exchange(command_, {}));
+      if (!command_.empty()) response += with_arguments(std::exchange(command_, {}));
     } else if (!command_.empty() || std::string_view(kCommandsWithArguments).find(c) != std::string_view::npos) {
       if (command_.size() < 256) command_ += c;
     } else {
-      answer += immediate(c);
+      response += immediate(c);
     }
   }
-  return paused_ ? "" : answer;
+  return paused_ ? "" : response;
 }
 
 std::string FastrakDevice::immediate(char command) {

@@ -17,7 +17,7 @@ double mean_interval(const std::vector<double>& receipts) {
 
 }  // namespace
 
-double StationStream::stamp(double received) {
+double StationStream::by_cadence(double received) {
   constexpr double measured_for = 3.0;  // [s]
   constexpr double longest_gap = 0.25;  // [s]
   if (!even_stamps_) return received;
@@ -33,11 +33,10 @@ double StationStream::stamp(double received) {
   return stamp;
 }
 
-hand_input::TrueSample StationStream::take(const motion::StationSample& sample) {
-  const double t = stamp(sample.received);
-  const hand_input::TrueSample taken = truth_.take(hand_input::RawSample{t, sample.p_TS, sample.q_TS});
-  if (hand_input::usable(taken.verdict)) monitor_.sample(t, sample.received);
-  return taken;
+double StationStream::stamp(double received) {
+  const double t = by_cadence(received);
+  monitor_.sample(t, received);
+  return t;
 }
 
 }  // namespace spring_workbench::fastrak

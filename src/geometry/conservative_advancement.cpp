@@ -30,40 +30,43 @@ double positive_until(double a, double b, double c, double longest) {
 }
 
 /// The plane goes with the box, and the corners are those of the other.
-double clear_of_corners(const OutlineBox& own, const Way& way, const OutlineBox& other, const Vector3d& n_W,
-                        double tolerance, double longest) {
-  const double lowest = n_W.dot(own.X.translation() - way.p_WO) - reach(own, n_W);
-  const Vector3d n_rate = way.turn_W.cross(n_W);
+double clear_of_corners(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other,
+                        const Vector3d& n_W, double tolerance, double longest) {
+  const double lowest = n_W.dot(own.X.translation() - motion.p_WO) - reach(own, n_W);
+  const Vector3d n_rate = motion.turn_W.cross(n_W);
   double clear = longest;
   for (const Vector3d& corner : corners(other)) {
-    const Vector3d above = way.p_WO - corner;
-    const double furthest = above.norm() + longest * way.move_W.norm();
-    const double bend = n_rate.norm() * (way.turn_W.norm() * furthest + 2.0 * way.move_W.norm());
-    clear = positive_until(n_W.dot(above) + lowest + tolerance, n_rate.dot(above) + n_W.dot(way.move_W), bend, clear);
+    const Vector3d above = motion.p_WO - corner;
+    const double furthest = above.norm() + longest * motion.move_W.norm();
+    const double bend = n_rate.norm() * (motion.turn_W.norm() * furthest + 2.0 * motion.move_W.norm());
+    clear =
+        positive_until(n_W.dot(above) + lowest + tolerance, n_rate.dot(above) + n_W.dot(motion.move_W), bend, clear);
   }
   return clear;
 }
 
 }  // namespace
 
-double clear_above(const OutlineBox& own, const Way& way, const HalfSpace& below, double tolerance, double longest) {
-  const double across = below.n_W.cross(way.turn_W).norm();
+double clear_above(const OutlineBox& own, const StraightMotion& motion, const HalfSpace& below, double tolerance,
+                   double longest) {
+  const double across = below.n_W.cross(motion.turn_W).norm();
   double clear = longest;
   for (const Vector3d& corner : corners(own)) {
-    const Vector3d by_turning = way.turn_W.cross(corner - way.p_WO);
+    const Vector3d by_turning = motion.turn_W.cross(corner - motion.p_WO);
     const double height = below.n_W.dot(corner) - below.height;
-    clear =
-        positive_until(height + tolerance, below.n_W.dot(way.move_W + by_turning), across * by_turning.norm(), clear);
+    clear = positive_until(height + tolerance, below.n_W.dot(motion.move_W + by_turning), across * by_turning.norm(),
+                           clear);
   }
   return clear;
 }
 
-double clear_of(const OutlineBox& own, const Way& way, const OutlineBox& other, double tolerance, double longest) {
+double clear_of(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
+                double longest) {
   const Vector3d n_W = gap_between(own, other).n_W;
   const double top = n_W.dot(other.X.translation()) + reach(other, n_W);
-  const double clear = clear_above(own, way, {n_W, top}, tolerance, longest);
+  const double clear = clear_above(own, motion, {n_W, top}, tolerance, longest);
   if (clear >= longest) return clear;
-  return std::max(clear, clear_of_corners(own, way, other, n_W, tolerance, longest));
+  return std::max(clear, clear_of_corners(own, motion, other, n_W, tolerance, longest));
 }
 
 }  // namespace spring_workbench::geometry

@@ -12,7 +12,7 @@ namespace {
 constexpr double never = std::numeric_limits<double>::infinity();
 
 /// The part of a line that is in a convex shape, or that part of it which has been looked at so far.
-struct Piece {
+struct Interval {
   double begin = -never, end = never;
   /// Keeps what lies between `low` and `high` in a coordinate that is `p + s d` along the line.
   void cut(double p, double d, double low, double high) {
@@ -39,23 +39,23 @@ struct Piece {
 };
 
 double entry(const Box& box, const Vector3d& p, const Vector3d& d) {
-  Piece piece;
-  for (int i = 0; i < 3; ++i) piece.cut(p[i], d[i], -0.5 * box.size[i], 0.5 * box.size[i]);
-  return piece.entry();
+  Interval interval;
+  for (int i = 0; i < 3; ++i) interval.cut(p[i], d[i], -0.5 * box.size[i], 0.5 * box.size[i]);
+  return interval.entry();
 }
 
 double entry(const Sphere& sphere, const Vector3d& p, const Vector3d& d) {
-  Piece piece;
-  piece.cut_quadratic(d.squaredNorm(), p.dot(d), p.squaredNorm() - sphere.radius * sphere.radius);
-  return piece.entry();
+  Interval interval;
+  interval.cut_quadratic(d.squaredNorm(), p.dot(d), p.squaredNorm() - sphere.radius * sphere.radius);
+  return interval.entry();
 }
 
 double entry(const Cylinder& cylinder, const Vector3d& p, const Vector3d& d) {
-  Piece piece;
-  piece.cut(p.z(), d.z(), -0.5 * cylinder.length, 0.5 * cylinder.length);
-  piece.cut_quadratic(d.head<2>().squaredNorm(), p.head<2>().dot(d.head<2>()),
-                      p.head<2>().squaredNorm() - cylinder.radius * cylinder.radius);
-  return piece.entry();
+  Interval interval;
+  interval.cut(p.z(), d.z(), -0.5 * cylinder.length, 0.5 * cylinder.length);
+  interval.cut_quadratic(d.head<2>().squaredNorm(), p.head<2>().dot(d.head<2>()),
+                         p.head<2>().squaredNorm() - cylinder.radius * cylinder.radius);
+  return interval.entry();
 }
 
 /// The nearest triangle that the ray goes through (Möller and Trumbore, 1997).

@@ -16,11 +16,8 @@ double weight(double cutoff, double dt) {
 
 }  // namespace
 
-PoseFilter::PoseFilter(const TruthSettings& settings)
-    : active_(settings.min_cutoff > 0.0 || settings.prediction > 0.0), settings_(settings) {}
-
 motion::PoseSample PoseFilter::filter(const motion::PoseSample& sample) {
-  if (!active_) return sample;
+  if (!(settings_.min_cutoff > 0.0)) return sample;
   if (!running_) {
     running_ = true;
     raw_ = sample;
@@ -33,20 +30,12 @@ motion::PoseSample PoseFilter::filter(const motion::PoseSample& sample) {
   v_ += a * ((sample.X.translation() - raw_.X.translation()) / dt - v_);
   w_B_ += a * (math::log_so3(raw_.X.linear().transpose() * sample.X.linear()) / dt - w_B_);
   raw_ = sample;
-  if (settings_.min_cutoff > 0.0) {
-    const double p_share = weight(settings_.min_cutoff + settings_.beta * v_.norm(), dt);
-    const double R_share = weight(settings_.min_cutoff + settings_.beta_angle * w_B_.norm(), dt);
-    X_.translation() += p_share * (sample.X.translation() - X_.translation());
-    const Matrix3d R =
-        X_.linear() * math::exp_so3(R_share * math::log_so3(X_.linear().transpose() * sample.X.linear()));
-    X_.linear() = Quaterniond(R).normalized().toRotationMatrix();  // rounding does not add up
-  } else {
-    X_ = sample.X;
-  }
-  motion::PoseSample result{sample.t, X_};
-  result.X.translation() += settings_.prediction * v_;
-  result.X.linear() = X_.linear() * math::exp_so3(settings_.prediction * w_B_);
-  return result;
+  const double p_share = weight(settings_.min_cutoff + settings_.beta * v_.norm(), dt);
+  const double R_share = weight(settings_.min_cutoff + settings_.beta_angle * w_B_.norm(), dt);
+  X_.translation() += p_share * (sample.X.translation() - X_.translation());
+  const Matrix3d R = X_.linear() * math::exp_so3(R_share * math::log_so3(X_.linear().transpose() * sample.X.linear()));
+  X_.linear() = Quaterniond(R).normalized().toRotationMatrix();  // rounding does not add up
+  return {sample.t, X_};
 }
 
 }  // namespace spring_workbench::hand_input

@@ -25,8 +25,8 @@ double share(double way, double speed, double dt) {
 
 }  // namespace
 
-std::vector<motion::PoseSample> Reengagement::follow(const motion::PoseSample& sample, bool new_place,
-                                                     double simulated_until) {
+std::vector<motion::PoseSample> Reacquisition::follow(const motion::PoseSample& sample, bool relocation,
+                                                      double simulated_until) {
   if (newest_ && sample.t <= simulated_until + kSameTime) {
     ++counts_.late;
     return {};
@@ -36,7 +36,7 @@ std::vector<motion::PoseSample> Reengagement::follow(const motion::PoseSample& s
     if (sample.t > lost_at()) note_loss(lost_at());
     const bool held = simulated_until > newest_->t + kSameTime;
     if (held) result.push_back({simulated_until, newest_->X});
-    if (held || new_place) set_out(sample);
+    if (held || relocation) set_out(sample);
   }
   result.push_back({sample.t, catching_up_ ? catch_up(sample) : sample.X});
   newest_ = result.back();
@@ -45,14 +45,14 @@ std::vector<motion::PoseSample> Reengagement::follow(const motion::PoseSample& s
   return result;
 }
 
-void Reengagement::set_out(const motion::PoseSample& sample) {
+void Reacquisition::set_out(const motion::PoseSample& sample) {
   catching_up_ = true;
   set_out_at_ = sample.t;
   tracked_ = sample;
-  ++counts_.reengagements;
+  ++counts_.reacquisitions;
 }
 
-RigidTransform Reengagement::catch_up(const motion::PoseSample& sample) {
+RigidTransform Reacquisition::catch_up(const motion::PoseSample& sample) {
   const double dt = sample.t - tracked_.t;
   const double ramp = smooth_step((sample.t - set_out_at_) / kRamp);
   RigidTransform X = newest_->X;  // first with the tracked hand ...
@@ -64,19 +64,20 @@ RigidTransform Reengagement::catch_up(const motion::PoseSample& sample) {
     catching_up_ = false;
     return sample.X;
   }
-  X.translation() += ramp * share(way.norm(), settings_.reengage_speed, dt) * way;
-  const Matrix3d R = X.linear() * math::exp_so3(ramp * share(turn.norm(), settings_.reengage_turn_rate, dt) * turn);
+  X.translation() += ramp * share(way.norm(), settings_.reacquisition_speed, dt) * way;
+  const Matrix3d R =
+      X.linear() * math::exp_so3(ramp * share(turn.norm(), settings_.reacquisition_turn_rate, dt) * turn);
   X.linear() = Quaterniond(R).normalized().toRotationMatrix();  // rounding does not add up
   return X;
 }
 
-void Reengagement::note_loss(double t) {
+void Reacquisition::note_loss(double t) {
   if (std::exchange(loss_noted_, true)) return;
   ++counts_.losses;
-  if (settings_.lost == "release") releases_.push_back(t);
+  if (settings_.on_loss == OnLoss::release) releases_.push_back(t);
 }
 
-std::optional<double> Reengagement::take_release(double until) {
+std::optional<double> Reacquisition::take_release(double until) {
   if (newest_ && lost_at() <= until) note_loss(lost_at());
   if (releases_.empty() || releases_.front() > until) return std::nullopt;
   const double t = releases_.front();
@@ -84,7 +85,7 @@ std::optional<double> Reengagement::take_release(double until) {
   return t;
 }
 
-void Reengagement::restart() {
+void Reacquisition::restart() {
   newest_.reset();
   releases_.clear();
   catching_up_ = false;

@@ -22,76 +22,83 @@ double angle_between(const Quaterniond& a, const Quaterniond& b) {
 
 }  // namespace
 
-std::string to_string(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::accepted:
+std::string to_string(GateResult result) {
+  switch (result) {
+    case GateResult::accepted:
       return "accepted";
-    case Verdict::new_place:
+    case GateResult::relocation:
       return "new place";
-    case Verdict::not_finite:
+    case GateResult::not_finite:
       return "not finite";
-    case Verdict::bad_quaternion:
+    case GateResult::bad_quaternion:
       return "not a unit quaternion";
-    case Verdict::too_far:
+    case GateResult::too_far:
       return "too far";
-    case Verdict::not_later:
+    case GateResult::not_later:
       return "stamp not later";
-    case Verdict::too_close:
+    case GateResult::too_close:
       return "too close to the last";
-    case Verdict::too_fast:
+    case GateResult::too_fast:
       return "too fast";
-    case Verdict::turns_too_fast:
+    case GateResult::turns_too_fast:
       return "turns too fast";
-    case Verdict::out_of_view:
+    case GateResult::out_of_view:
       return "out of view";
   }
   return "";
 }
 
-std::string complaint(Verdict verdict, const RawSample& sample, const TruthSettings& settings) {
+std::string complaint(GateResult result, const RawSample& sample, const InputSettings& settings) {
   std::ostringstream out;
   const auto& p = sample.p;
   const auto& q = sample.q;
   std::ostringstream position, rotation;
   position << "position: (" << p.x() << ", " << p.y() << ", " << p.z() << ") is not allowed: must be ";
   rotation << "rotation: (" << q.x() << ", " << q.y() << ", " << q.z() << ", " << q.w() << ") is not allowed: must be ";
-  switch (verdict) {
-    case Verdict::accepted:
-    case Verdict::new_place:
+  switch (result) {
+    case GateResult::accepted:
+    case GateResult::relocation:
       break;
-    case Verdict::not_finite:
+    case GateResult::not_finite:
       if (!std::isfinite(sample.t)) {
         out << "stamp: " << sample.t << " is not allowed: must be a finite number";
       } else {
         out << (p.allFinite() ? rotation.str() : position.str()) << "finite numbers";
       }
       break;
-    case Verdict::bad_quaternion:
+    case GateResult::bad_quaternion:
       out << rotation.str() << "of length 1 within quaternion_tolerance = " << settings.quaternion_tolerance;
       break;
-    case Verdict::too_far:
+    case GateResult::too_far:
       out << position.str() << "within max_distance = " << settings.max_distance << " m";
       break;
-    case Verdict::not_later:
+    case GateResult::not_later:
       out << "stamp: " << sample.t << " s is not allowed: must be later than the last one";
       break;
-    case Verdict::too_close:
+    case GateResult::too_close:
       out << "stamp: " << sample.t << " s is not allowed: must be a quarter of the usual interval after the last one";
       break;
-    case Verdict::too_fast:
+    case GateResult::too_fast:
       out << position.str() << "reached at max_speed = " << settings.max_speed << " m/s or less";
       break;
-    case Verdict::turns_too_fast:
+    case GateResult::turns_too_fast:
       out << rotation.str() << "reached at max_turn_rate = " << settings.max_turn_rate << " rad/s or less";
       break;
-    case Verdict::out_of_view:
+    case GateResult::out_of_view:
       out << position.str() << "farther than origin_radius = " << settings.origin_radius << " m from the origin";
       break;
   }
   return out.str();
 }
 
-SampleGate::SampleGate(const TruthSettings& settings, double dropout_after)
+GateResult check_pose(const RawSample& sample, const InputSettings& settings) {
+  if (!std::isfinite(sample.t) || !sample.p.allFinite() || !sample.q.coeffs().allFinite())
+    return GateResult::not_finite;
+  if (!(std::abs(sample.q.norm() - 1.0) <= settings.quaternion_tolerance)) return GateResult::bad_quaternion;
+  return sample.p.norm() <= settings.max_distance ? GateResult::accepted : GateResult::too_far;
+}
+
+SampleGate::SampleGate(const InputSettings& settings, double dropout_after)
     : settings_(settings), dropout_after_(dropout_after) {}
 
 void SampleGate::restart() {
@@ -101,32 +108,30 @@ void SampleGate::restart() {
   interval_ = 0.0;
 }
 
-Verdict SampleGate::offer(const RawSample& sample) {
-  Verdict verdict = judge(sample);
-  const bool is_jump = verdict == Verdict::too_fast || verdict == Verdict::turns_too_fast;
-  if (is_jump && confirmed(sample)) verdict = Verdict::new_place;
-  if (verdict == Verdict::accepted && is_from_candidate(sample)) verdict = Verdict::new_place;
-  if (usable(verdict)) return accept(sample, verdict == Verdict::new_place);
-  ++counts_.left_out[verdict];
-  return verdict;
+GateResult SampleGate::offer(const RawSample& sample) {
+  GateResult result = judge(sample);
+  const bool is_jump = result == GateResult::too_fast || result == GateResult::turns_too_fast;
+  if (is_jump && confirmed(sample)) result = GateResult::relocation;
+  if (result == GateResult::accepted && is_from_candidate(sample)) result = GateResult::relocation;
+  if (usable(result)) return accept(sample, result == GateResult::relocation);
+  ++counts_.rejected[result];
+  return result;
 }
 
-Verdict SampleGate::judge(const RawSample& sample) const {
-  if (!std::isfinite(sample.t) || !sample.p.allFinite() || !sample.q.coeffs().allFinite()) return Verdict::not_finite;
-  if (!(std::abs(sample.q.norm() - 1.0) <= settings_.quaternion_tolerance)) return Verdict::bad_quaternion;
-  if (!(sample.p.norm() <= settings_.max_distance)) return Verdict::too_far;
-  if (!newest_) return Verdict::accepted;
-  if (!(sample.t - newest_->t >= kShortestInterval)) return Verdict::not_later;
-  if (sample.t - newest_->t < std::max(kClosest, kClosestShare * interval_)) return Verdict::too_close;
-  if (is_out_of_view(sample)) return Verdict::out_of_view;
+GateResult SampleGate::judge(const RawSample& sample) const {
+  const GateResult result = check_pose(sample, settings_);
+  if (!usable(result) || !newest_) return result;
+  if (!(sample.t - newest_->t >= kShortestInterval)) return GateResult::not_later;
+  if (sample.t - newest_->t < std::max(kClosest, kClosestShare * interval_)) return GateResult::too_close;
+  if (is_out_of_view(sample)) return GateResult::out_of_view;
   return judge_move(*newest_, sample);
 }
 
-Verdict SampleGate::judge_move(const RawSample& from, const RawSample& to) const {
+GateResult SampleGate::judge_move(const RawSample& from, const RawSample& to) const {
   const double dt = std::min(to.t - from.t, dropout_after_);
-  if ((to.p - from.p).norm() > kFreeDistance + settings_.max_speed * dt) return Verdict::too_fast;
-  if (angle_between(from.q, to.q) > kFreeAngle + settings_.max_turn_rate * dt) return Verdict::turns_too_fast;
-  return Verdict::accepted;
+  if ((to.p - from.p).norm() > kFreeDistance + settings_.max_speed * dt) return GateResult::too_fast;
+  if (angle_between(from.q, to.q) > kFreeAngle + settings_.max_turn_rate * dt) return GateResult::turns_too_fast;
+  return GateResult::accepted;
 }
 
 bool SampleGate::is_out_of_view(const RawSample& sample) const {
@@ -138,18 +143,18 @@ bool SampleGate::is_out_of_view(const RawSample& sample) const {
 bool SampleGate::confirmed(const RawSample& sample) {
   const bool later = !candidate_ || sample.t - candidate_->t >= kShortestInterval;
   if (!later) return false;
-  const bool fits = candidate_ && judge_move(*candidate_, sample) == Verdict::accepted;
+  const bool fits = candidate_ && judge_move(*candidate_, sample) == GateResult::accepted;
   in_a_row_ = fits ? in_a_row_ + 1 : 1;
   candidate_ = sample;
   return in_a_row_ >= settings_.accept_after;
 }
 
 bool SampleGate::is_from_candidate(const RawSample& sample) const {
-  return candidate_ && judge_move(*candidate_, sample) == Verdict::accepted &&
+  return candidate_ && judge_move(*candidate_, sample) == GateResult::accepted &&
          (sample.p - candidate_->p).norm() < (sample.p - newest_->p).norm();
 }
 
-Verdict SampleGate::accept(const RawSample& sample, bool jumped) {
+GateResult SampleGate::accept(const RawSample& sample, bool jumped) {
   const bool after_dropout = newest_ && sample.t - newest_->t > dropout_after_;
   const bool first = !newest_;
   if (!first && !after_dropout) {
@@ -158,14 +163,14 @@ Verdict SampleGate::accept(const RawSample& sample, bool jumped) {
     interval_ = interval_ > 0.0 ? interval_ + share_of_new * (dt - interval_) : dt;
   }
   counts_.dropouts += after_dropout ? 1 : 0;
-  counts_.new_places += jumped ? 1 : 0;
+  counts_.relocations += jumped ? 1 : 0;
   counts_.sign_flips += newest_ && newest_->q.dot(sample.q) < 0.0 ? 1 : 0;
   ++counts_.accepted;
   newest_ = sample;
   newest_->q.normalize();
   candidate_.reset();
   in_a_row_ = 0;
-  return first || after_dropout || jumped ? Verdict::new_place : Verdict::accepted;
+  return first || after_dropout || jumped ? GateResult::relocation : GateResult::accepted;
 }
 
 }  // namespace spring_workbench::hand_input

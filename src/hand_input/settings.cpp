@@ -8,7 +8,7 @@
 namespace spring_workbench::hand_input {
 namespace {
 
-const std::string kGroup = "truth";
+const std::string kGroup = "input";
 
 validation::NumberRule positive_or_infinite() {
   validation::NumberRule rule = validation::positive();
@@ -17,25 +17,27 @@ validation::NumberRule positive_or_infinite() {
 }
 
 struct NumberField {
-  double TruthSettings::*field;
+  double InputSettings::*field;
   validation::NumberRule rule;
 };
 struct CountField {
-  int TruthSettings::*field;
+  int InputSettings::*field;
   int min, max;
 };
-struct ChoiceField {
-  std::string TruthSettings::*field;
-  std::vector<std::string> choices;
+struct OnLossField {
+  OnLoss InputSettings::*field;
 };
+
+/// In the order of OnLoss.
+const std::vector<std::string> on_loss_names{"freeze", "release"};
 
 struct Entry {
   std::string key, unit, meaning;
-  std::variant<NumberField, CountField, ChoiceField> field;
+  std::variant<NumberField, CountField, OnLossField> field;
 };
 
 const std::vector<Entry>& entries() {
-  using T = TruthSettings;
+  using T = InputSettings;
   static const std::vector<Entry> table = {
       {"quaternion_tolerance", "–", "how far a quaternion's norm may be from 1; within, it is normalised",
        NumberField{&T::quaternion_tolerance, validation::between(0.0, 0.99)}},
@@ -51,22 +53,21 @@ const std::vector<Entry>& entries() {
        NumberField{&T::origin_radius, validation::between(0.0, 1.0)}},
       {"origin_angle", "rad", "and turned by no more than this",
        NumberField{&T::origin_angle, validation::between(0.0, 3.15)}},
-      {"filter.min_cutoff", "Hz", "cut-off of the One Euro filter at rest; 0: no filter",
+      {"smoothing.min_cutoff", "Hz", "cut-off of the One Euro filter at rest; 0: no filter",
        NumberField{&T::min_cutoff, validation::between(0.0, 1e4)}},
-      {"filter.beta", "Hz/(m/s)", "by which speed raises the cut-off of the position",
+      {"smoothing.beta", "Hz/(m/s)", "by which speed raises the cut-off of the position",
        NumberField{&T::beta, validation::between(0.0, 1e6)}},
-      {"filter.beta_angle", "Hz/(rad/s)", "by which turning raises the cut-off of the rotation",
+      {"smoothing.beta_angle", "Hz/(rad/s)", "by which turning raises the cut-off of the rotation",
        NumberField{&T::beta_angle, validation::between(0.0, 1e6)}},
-      {"prediction", "s", "how far ahead of its stamp a pose is foretold, at constant velocity; 0: off",
-       NumberField{&T::prediction, validation::between(0.0, 0.5)}},
-      {"lost", "–", "after `truth.lost_after`: freeze holds the object where the hand was last, release lets go of it",
-       ChoiceField{&T::lost, {"freeze", "release"}}},
-      {"lost_after", "s", "so long without a sample and the hand is lost",
-       NumberField{&T::lost_after, validation::positive()}},
-      {"reengage_speed", "m/s", "the most that catching up with a hand that is back adds to its speed",
-       NumberField{&T::reengage_speed, positive_or_infinite()}},
-      {"reengage_turn_rate", "rad/s", "likewise, of turning",
-       NumberField{&T::reengage_turn_rate, positive_or_infinite()}},
+      {"on_loss", "–",
+       "after `input.loss_timeout`: freeze holds the object where the hand was last, release lets go of it",
+       OnLossField{&T::on_loss}},
+      {"loss_timeout", "s", "so long without a sample and the hand is lost",
+       NumberField{&T::loss_timeout, validation::positive()}},
+      {"reacquisition_speed", "m/s", "the most that catching up with a hand that is back adds to its speed",
+       NumberField{&T::reacquisition_speed, positive_or_infinite()}},
+      {"reacquisition_turn_rate", "rad/s", "likewise, of turning",
+       NumberField{&T::reacquisition_turn_rate, positive_or_infinite()}},
   };
   return table;
 }
@@ -77,9 +78,9 @@ std::string text(double value) {
   return out.str();
 }
 
-TruthDescription describe(const Entry& entry) {
-  const TruthSettings defaults;
-  TruthDescription d{entry.key, entry.unit, "", "", entry.meaning};
+InputDescription describe(const Entry& entry) {
+  const InputSettings defaults;
+  InputDescription d{entry.key, entry.unit, "", "", entry.meaning};
   if (const auto* number = std::get_if<NumberField>(&entry.field)) {
     d.allowed = number->rule.text();
     d.default_value = text(defaults.*number->field);
@@ -87,14 +88,14 @@ TruthDescription describe(const Entry& entry) {
     d.allowed = "an integer in [" + std::to_string(count->min) + ", " + std::to_string(count->max) + "]";
     d.default_value = std::to_string(defaults.*count->field);
   } else {
-    const auto& choice = std::get<ChoiceField>(entry.field);
-    d.allowed = "one of " + validation::join(choice.choices);
-    d.default_value = defaults.*choice.field;
+    const auto& on_loss = std::get<OnLossField>(entry.field);
+    d.allowed = "one of " + validation::join(on_loss_names);
+    d.default_value = on_loss_names[static_cast<std::size_t>(defaults.*on_loss.field)];
   }
   return d;
 }
 
-void set(const std::string& key, const YAML::Node& value, const std::string& where, TruthSettings& settings) {
+void set(const std::string& key, const YAML::Node& value, const std::string& where, InputSettings& settings) {
   const std::string name = kGroup + "." + key;
   std::vector<std::string> known;
   for (const Entry& entry : entries()) {
@@ -105,8 +106,9 @@ void set(const std::string& key, const YAML::Node& value, const std::string& whe
     } else if (const auto* count = std::get_if<CountField>(&entry.field)) {
       settings.*count->field = config::read_integer(value, where, name, count->min, count->max);
     } else {
-      const auto& choice = std::get<ChoiceField>(entry.field);
-      settings.*choice.field = config::read_choice(value, where, name, choice.choices);
+      const auto& on_loss = std::get<OnLossField>(entry.field);
+      const std::string chosen = config::read_choice(value, where, name, on_loss_names);
+      settings.*on_loss.field = chosen == on_loss_names[0] ? OnLoss::freeze : OnLoss::release;
     }
     return;
   }
@@ -114,7 +116,7 @@ void set(const std::string& key, const YAML::Node& value, const std::string& whe
 }
 
 /// `value` under `key`: a map goes deeper, anything else is a value.
-void set_all(const std::string& key, const YAML::Node& value, const std::string& where, TruthSettings& settings) {
+void set_all(const std::string& key, const YAML::Node& value, const std::string& where, InputSettings& settings) {
   if (!value.IsMap()) return set(key, value, where, settings);
   for (const auto& entry : value) {
     set_all((key.empty() ? "" : key + ".") + entry.first.Scalar(), entry.second, where, settings);
@@ -123,14 +125,14 @@ void set_all(const std::string& key, const YAML::Node& value, const std::string&
 
 }  // namespace
 
-std::vector<TruthDescription> truth_descriptions() {
-  std::vector<TruthDescription> descriptions;
+std::vector<InputDescription> input_descriptions() {
+  std::vector<InputDescription> descriptions;
   for (const Entry& entry : entries()) descriptions.push_back(describe(entry));
   return descriptions;
 }
 
-void take_truth_settings(YAML::Node& map, const std::string& where, TruthSettings& settings) {
-  TruthSettings result = settings;
+void take_input_settings(YAML::Node& map, const std::string& where, InputSettings& settings) {
+  InputSettings result = settings;
   YAML::Node rest(YAML::NodeType::Map);
   for (const auto& entry : map) {
     const std::string name = entry.first.IsScalar() ? entry.first.Scalar() : "";

@@ -18,7 +18,7 @@ constexpr double solved = 1e-11;         ///< of the rates and impulses, both sc
 constexpr double acceptable = 1e-6;      ///< where no iteration comes nearer
 constexpr double slip_share = 0.1;       ///< of what is missing: the least distance from the cones that is aimed at
 constexpr double least_friction = 1e-6;  ///< a narrower cone is taken so wide
-constexpr double least_answer = 1e-6;    ///< of that of the contact that gives way most
+constexpr double least_response = 1e-6;  ///< of that of the contact that gives way most
 
 // Vectors [v0, v1, v2] of the cone v0 ≥ |(v1, v2)|, one after the other.
 
@@ -73,15 +73,15 @@ class ScaledProblem {
  public:
   ScaledProblem(const MatrixXd& A, const VectorXd& b, const std::vector<double>& friction)
       : count_(static_cast<Index>(friction.size())), by_(b.size()) {
-    VectorXd answer(count_);  // of a contact, to an impulse in its cone
+    VectorXd response(count_);  // of a contact, to an impulse in its cone
     for (Index i = 0; i < count_; ++i) {
       const double slope = std::max(friction[static_cast<std::size_t>(i)], least_friction);
       by_.segment<3>(3 * i) << slope, 1.0, 1.0;
-      answer[i] =
+      response[i] =
           std::sqrt(A.diagonal().segment<3>(3 * i).cwiseQuotient(by_.segment<3>(3 * i).cwiseAbs2()).sum() / 3.0);
     }
-    const double least = least_answer * answer.maxCoeff();
-    for (Index i = 0; i < count_; ++i) by_.segment<3>(3 * i) *= std::max(answer[i], least);
+    const double least = least_response * response.maxCoeff();
+    for (Index i = 0; i < count_; ++i) by_.segment<3>(3 * i) *= std::max(response[i], least);
     A_ = by_.cwiseInverse().asDiagonal() * A * by_.cwiseInverse().asDiagonal();
     b_ = b.cwiseQuotient(by_);
     largest_ = b_.cwiseAbs().maxCoeff();

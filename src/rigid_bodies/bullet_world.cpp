@@ -165,7 +165,7 @@ void BulletWorld::leave(std::size_t index) {
   in_world_.erase(std::find(in_world_.begin(), in_world_.end(), index));
 }
 
-Extent BulletWorld::way_of(std::size_t index, double h) const {
+Extent BulletWorld::path_of(std::size_t index, double h) const {
   const Item& item = items_[index];
   Extent box = placed(item.box_O, item.X_WO);
   const double turned = std::min(h * item.V_WO_W.angular.norm() * item.radius, 2.0 * item.radius);
@@ -268,7 +268,7 @@ void BulletWorld::enter_what_is_near(double h) {
                [&](std::size_t i) { return awake(items_[i]); });
   std::set<std::size_t> known(reached.begin(), reached.end());
   for (std::size_t k = 0; k < reached.size(); ++k) {
-    for (const std::size_t other : inside(way_of(reached[k], h))) {
+    for (const std::size_t other : inside(path_of(reached[k], h))) {
       enter(other);
       if (items_[other].movable && known.insert(other).second) reached.push_back(other);
     }
@@ -320,21 +320,21 @@ void BulletWorld::place(std::size_t body, const RigidTransform& X_WO, const Twis
 
 Extent BulletWorld::swept(const Item& item, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                           double margin) const {
-  Extent way = placed(item.box_O, X0_WO);
-  way.extend(placed(item.box_O, X1_WO));
+  Extent path = placed(item.box_O, X0_WO);
+  path.extend(placed(item.box_O, X1_WO));
   const double turned = math::log_so3(X0_WO.linear().transpose() * X1_WO.linear()).norm();
   const Vector3d grown = Vector3d::Constant(margin + item.radius * std::min(turned, 2.0));
-  return Extent(way.min() - grown, way.max() + grown);
+  return Extent(path.min() - grown, path.max() + grown);
 }
 
 bool BulletWorld::near_movable(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
                                const std::vector<std::size_t>& carried) const {
   if (items_[body].leaf == nullptr) return false;
-  const Extent way = swept(items_[body], X0_WO, X1_WO, margin_near);
+  const Extent path = swept(items_[body], X0_WO, X1_WO, margin_near);
   const auto comes_near = [&](std::size_t i) {
-    return i != body && items_[i].leaf != nullptr && way_of(i, h).intersects(way);
+    return i != body && items_[i].leaf != nullptr && path_of(i, h).intersects(path);
   };
-  const std::vector<std::size_t> found = inside(way);
+  const std::vector<std::size_t> found = inside(path);
   return std::any_of(found.begin(), found.end(), [&](std::size_t i) { return i != body && items_[i].movable; }) ||
          std::any_of(in_world_.begin(), in_world_.end(),
                      [&](std::size_t i) { return awake(items_[i]) && comes_near(i); }) ||
@@ -345,9 +345,9 @@ bool BulletWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const
                             double margin) const {
   const Item& item = items_[body];
   if (item.leaf == nullptr) return false;
-  const Extent way = swept(item, X0_WO, X1_WO, margin);
-  if (way.min().z() < scene_.bench_height) return true;
-  const std::vector<std::size_t> found = inside(way);
+  const Extent path = swept(item, X0_WO, X1_WO, margin);
+  if (path.min().z() < scene_.bench_height) return true;
+  const std::vector<std::size_t> found = inside(path);
   return std::any_of(found.begin(), found.end(), [&](std::size_t i) { return i != body; });
 }
 
@@ -361,32 +361,32 @@ double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, c
                                 bool untouched) const {
   const Item& item = items_[body];
   if (item.leaf == nullptr) return 1.0;
-  double part = !untouched && solver_.missed_way() > DrivenSolver::small_miss ? 0.5 : 1.0;
+  double part = !untouched && solver_.residual() > DrivenSolver::small_miss ? 0.5 : 1.0;
   // Of a pair whose shapes are not both boxes, only what the boxes around them say is known.
-  const auto by_extent = [&](const geometry::BoxGap& gap, const geometry::Way& way) {
+  const auto by_extent = [&](const geometry::BoxGap& gap, const geometry::StraightMotion& path) {
     const double left = gap.gap - 2.0 * contact_skin;
     const bool near = left < blind_way;
-    const double turned = item.radius * (near ? way.turn_W : gap.n_W.cross(way.turn_W)).norm();
-    const double approach = (near ? way.move_W.norm() : -gap.n_W.dot(way.move_W)) + turned;
+    const double turned = item.radius * (near ? path.turn_W : gap.n_W.cross(path.turn_W)).norm();
+    const double approach = (near ? path.move_W.norm() : -gap.n_W.dot(path.move_W)) + turned;
     const double allowed = std::max(left, untouched ? 0.0 : blind_way);
     if (allowed < part * approach) part = allowed / approach;
   };
   const auto tolerance = [&](const geometry::BoxGap& gap) {
     return untouched ? 0.0 : std::max(deepest_way, -gap.gap * (1.0 + 1e-9) + 1e-12);
   };
-  const auto way_between = [](const RigidTransform& X0, const RigidTransform& X1) {
-    return geometry::Way{X0.translation(), X1.translation() - X0.translation(),
-                         X0.linear() * math::log_so3(X0.linear().transpose() * X1.linear())};
+  const auto path_between = [](const RigidTransform& X0, const RigidTransform& X1) {
+    return geometry::StraightMotion{X0.translation(), X1.translation() - X0.translation(),
+                                    X0.linear() * math::log_so3(X0.linear().transpose() * X1.linear())};
   };
-  const geometry::Way way = way_between(X0_WO, X1_WO);
+  const geometry::StraightMotion path = path_between(X0_WO, X1_WO);
   const std::vector<std::size_t> near = inside(swept(item, X0_WO, X1_WO, 2.0 * contact_skin));
   for (const geometry::OutlineBox& own : item.outline_O) {
     const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
     const geometry::BoxGap above = geometry::gap_above(here, scene_.bench_height);
     if (own.exact) {
-      part = geometry::clear_above(here, way, {Vector3d::UnitZ(), scene_.bench_height}, tolerance(above), part);
+      part = geometry::clear_above(here, path, {Vector3d::UnitZ(), scene_.bench_height}, tolerance(above), part);
     } else {
-      by_extent(above, way);
+      by_extent(above, path);
     }
   }
   for (const std::size_t i : near) {
@@ -394,7 +394,8 @@ double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, c
     const Item& other = items_[i];
     const RigidTransform X_before = untouched ? other.X_WO : remembered_pose(i);
     // As seen from the other, which stays where it was before.
-    const geometry::Way relative = untouched ? way : way_between(X0_WO, X_before * other.X_WO.inverse() * X1_WO);
+    const geometry::StraightMotion relative =
+        untouched ? path : path_between(X0_WO, X_before * other.X_WO.inverse() * X1_WO);
     for (const geometry::OutlineBox& own : item.outline_O) {
       const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
       for (const geometry::OutlineBox& box : other.outline_O) {

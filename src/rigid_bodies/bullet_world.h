@@ -42,10 +42,12 @@ class BulletWorld final : public RigidWorld {
                     const std::vector<std::size_t>& carried) const override;
   bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                  double margin) const override;
-  double free_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const override {
+  double collision_free_fraction(std::size_t body, const RigidTransform& X0_WO,
+                                 const RigidTransform& X1_WO) const override {
     return part_of_way(body, X0_WO, X1_WO, true);
   }
-  double sound_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const override {
+  double admissible_fraction(std::size_t body, const RigidTransform& X0_WO,
+                             const RigidTransform& X1_WO) const override {
     return part_of_way(body, X0_WO, X1_WO, false);
   }
   const std::vector<WorldContact>& contacts() const override { return contacts_; }
@@ -86,7 +88,7 @@ class BulletWorld final : public RigidWorld {
   void put(std::size_t index, const RigidTransform& X_WO, const Twist& V_WO_W);
   void update_box(Item& item);
   std::vector<std::size_t> inside(const Eigen::AlignedBox3d& box_W) const;
-  Eigen::AlignedBox3d way_of(std::size_t index, double h) const;
+  Eigen::AlignedBox3d path_of(std::size_t index, double h) const;
   Eigen::AlignedBox3d swept(const Item& item, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                             double margin) const;
   double part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, bool untouched) const;

@@ -10,16 +10,16 @@
 namespace spring_workbench::rigid_bodies {
 namespace {
 
-constexpr int most_sweeps = 1000;
+constexpr int most_iterations = 1000;
 constexpr std::size_t most_at_once =
-    150;                                ///< contacts whose equations are solved at once, where the sweeps are not done
-constexpr double small_change = 1e-8;   ///< of the largest impulse: the sweeps end …
-constexpr int enough_sweeps = 30;       ///< … or, after so many, …
-constexpr double small_way = 1e-8;      ///< [m] … where one changes no way by more, and no contact is further off
-constexpr double closed = 5e-5;         ///< [m]; a contact with a smaller gap is stopped by an impulse
-constexpr double rest_speed = 0.02;     ///< [m/s]; a slower approach does not bounce
-constexpr double recovery_time = 2e-3;  ///< [s] in which a penetration is undone
-constexpr double slow = 1e-7;           ///< [m/s]; a slower approach is none
+    150;                               ///< contacts whose equations are solved at once, where the sweeps are not done
+constexpr double small_change = 1e-8;  ///< of the largest impulse: the sweeps end …
+constexpr int enough_sweeps = 30;      ///< … or, after so many, …
+constexpr double small_displacement = 1e-8;  ///< [m] … where one changes no way by more, and no contact is further off
+constexpr double closed = 5e-5;              ///< [m]; a contact with a smaller gap is stopped by an impulse
+constexpr double rest_speed = 0.02;          ///< [m/s]; a slower approach does not bounce
+constexpr double recovery_time = 2e-3;       ///< [s] in which a penetration is undone
+constexpr double slow = 1e-7;                ///< [m/s]; a slower approach is none
 
 /// [linear; angular].
 Eigen::Matrix<double, 6, 1> both(const btVector3& linear, const btVector3& angular) {
@@ -53,7 +53,7 @@ const DrivenSolver::Driven* DrivenSolver::driven_of(int solver_body) const {
   return bullet == nullptr || found == driven_.end() ? nullptr : &*found;
 }
 
-DrivenSolver::Vector6d DrivenSolver::answer(int solver_body, const Vector6d& J, const Vector6d& as_free) const {
+DrivenSolver::Vector6d DrivenSolver::response(int solver_body, const Vector6d& J, const Vector6d& as_free) const {
   // An impulse p spread over the step is a wrench p / h, which moves the body on by compliance · p / h in h.
   if (const Driven* driven = driven_of(solver_body)) return driven->body->compliance * J / (h_ * h_);
   return as_free;
@@ -67,15 +67,15 @@ DrivenSolver::Row DrivenSolver::make_row(btSolverConstraint& c) const {
   row.J_b = both(c.m_contactNormal2, c.m_relpos2CrossNormal);
   const btSolverBody& a = m_tmpSolverBodyPool[row.a];
   const btSolverBody& b = m_tmpSolverBodyPool[row.b];
-  row.answer_a = answer(row.a, row.J_a, both(c.m_contactNormal1 * a.internalGetInvMass(), c.m_angularComponentA));
-  row.answer_b = answer(row.b, row.J_b, both(c.m_contactNormal2 * b.internalGetInvMass(), c.m_angularComponentB));
+  row.answer_a = response(row.a, row.J_a, both(c.m_contactNormal1 * a.internalGetInvMass(), c.m_angularComponentA));
+  row.answer_b = response(row.b, row.J_b, both(c.m_contactNormal2 * b.internalGetInvMass(), c.m_angularComponentB));
   const double give = row.J_a.dot(row.answer_a) + row.J_b.dot(row.answer_b);
   row.inverse_effective_mass = give > 0.0 ? give : 0.0;
   row.target = c.m_jacDiagABInv > 0.0 ? c.m_rhs / c.m_jacDiagABInv : 0.0;
   return row;
 }
 
-DrivenSolver::Change DrivenSolver::sweep(Rows& rows) const {
+DrivenSolver::Change DrivenSolver::iteration(Rows& rows) const {
   Change largest;
   const auto step_of = [&](const Row& row) {
     return row.inverse_effective_mass > 0.0 ? (row.target - row.rate(rows.change)) / row.inverse_effective_mass : 0.0;
@@ -96,31 +96,31 @@ DrivenSolver::Change DrivenSolver::sweep(Rows& rows) const {
     u.apply(slid[0], rows.change);
     v.apply(slid[1], rows.change);
     largest.impulse = std::max({largest.impulse, std::abs(pressed), slid.norm()});
-    largest.way = std::max({largest.way, h_ * std::abs(pressed) * n.inverse_effective_mass,
-                            h_ * std::abs(slid[0]) * u.inverse_effective_mass,
-                            h_ * std::abs(slid[1]) * v.inverse_effective_mass});
+    largest.path = std::max({largest.path, h_ * std::abs(pressed) * n.inverse_effective_mass,
+                             h_ * std::abs(slid[0]) * u.inverse_effective_mass,
+                             h_ * std::abs(slid[1]) * v.inverse_effective_mass});
   }
   return largest;
 }
 
-bool DrivenSolver::sweep_until_done(Rows& rows) const {
+bool DrivenSolver::iterate_until_done(Rows& rows) const {
   // Nonsmooth nonlinear conjugate gradients (Silcowitz, Niebe and Erleben 2010): a sweep's change is the gradient.
   const std::size_t count = 3 * rows.normal.size();
   const auto size = static_cast<Eigen::Index>(count);
   Eigen::VectorXd before(size), change(size), direction = Eigen::VectorXd::Zero(size);
   double last_square = 0.0;
-  for (int i = 0; i < most_sweeps; ++i) {
+  for (int i = 0; i < most_iterations; ++i) {
     for (std::size_t k = 0; k < count; ++k) before[static_cast<Eigen::Index>(k)] = rows[k].impulse;
-    const Change of_sweep = sweep(rows);
+    const Change of_sweep = iteration(rows);
     double largest = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
       change[static_cast<Eigen::Index>(k)] = rows[k].impulse - before[static_cast<Eigen::Index>(k)];
       largest = std::max(largest, rows[k].impulse);
     }
     if (of_sweep.impulse <= small_change * largest) return true;
-    if (i >= enough_sweeps && of_sweep.way <= small_way && missed(rows) <= small_way) return true;
+    if (i >= enough_sweeps && of_sweep.path <= small_displacement && missed(rows) <= small_displacement) return true;
     const double square = change.squaredNorm();
-    if (last_square > 0.0 && square <= last_square && i + 1 < most_sweeps) {
+    if (last_square > 0.0 && square <= last_square && i + 1 < most_iterations) {
       const double share = square / last_square;
       for (std::size_t k = 0; k < count; ++k)
         rows[k].apply(share * direction[static_cast<Eigen::Index>(k)], rows.change);
@@ -158,7 +158,7 @@ void DrivenSolver::solve_at_once(Rows& rows) const {
   Rows found = rows;
   found.clear();
   for (Eigen::Index i = 0; i < size; ++i) found[giving[static_cast<std::size_t>(i)]].apply(impulse[i], found.change);
-  sweep(found);
+  iteration(found);
   if (missed(found) < missed(rows)) rows = std::move(found);
 }
 
@@ -174,7 +174,7 @@ double DrivenSolver::missed(const Rows& rows) const {
 }
 
 void DrivenSolver::solve(Rows& rows) {
-  if (!sweep_until_done(rows) && missed(rows) > small_miss && rows.normal.size() <= most_at_once) solve_at_once(rows);
+  if (!iterate_until_done(rows) && missed(rows) > small_miss && rows.normal.size() <= most_at_once) solve_at_once(rows);
   const double missed_now = missed(rows);
   if (!std::isfinite(missed_now)) rows.clear();
   missed_way_ = std::max(missed_way_, missed_now);
@@ -271,7 +271,7 @@ void DrivenSolver::stop_approaches(Rows& rows) {
     if (driven == nullptr) continue;
     Vector6d impact;
     impact << driven->body->impact_W.force, driven->body->impact_W.moment;
-    rows.change[i] += driven->body->coasting * impact / h_;
+    rows.change[i] += driven->body->displacement_by_impulse * impact / h_;
   }
 }
 

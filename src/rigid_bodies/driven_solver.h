@@ -28,7 +28,7 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   const std::vector<Impact>& impacts() const { return impacts_; }
   /// How far a contact that presses would still go in or out in the last step, or another one in [m]: what the sweeps
   /// left.
-  double missed_way() const { return missed_way_; }
+  double residual() const { return missed_way_; }
   static constexpr double small_miss = 1e-6;  ///< [m]; with less, a step is solved
 
  private:
@@ -54,7 +54,7 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   Vector6d velocity(int solver_body, bool at_start) const;
   double rate(const Row& row, bool at_start) const;
   bool drives(const Row& row) const { return driven_of(row.a) != nullptr || driven_of(row.b) != nullptr; }
-  Vector6d answer(int solver_body, const Vector6d& J, const Vector6d& as_free) const;
+  Vector6d response(int solver_body, const Vector6d& J, const Vector6d& as_free) const;
   const Driven* driven_of(int solver_body) const;
   struct Rows {
     std::vector<Row> normal;       ///< one per contact
@@ -70,13 +70,13 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   void hand_back_impacts(const Rows& rows, const std::vector<std::size_t>& contacts);
   /// The largest changes in a sweep: of an impulse [N·s], and of the way that its row alone would make of that [m].
   struct Change {
-    double impulse = 0.0, way = 0.0;
+    double impulse = 0.0, path = 0.0;
   };
   /// One projected Gauss–Seidel sweep.
-  Change sweep(Rows& rows) const;
-  bool sweep_until_done(Rows& rows) const;  ///< false: the sweeps were too many
-  void solve_at_once(Rows& rows) const;     ///< by solve_in_cones(), where that is nearer to the law
-  double missed(const Rows& rows) const;    ///< see missed_way()
+  Change iteration(Rows& rows) const;
+  bool iterate_until_done(Rows& rows) const;  ///< false: the sweeps were too many
+  void solve_at_once(Rows& rows) const;       ///< by solve_in_cones(), where that is nearer to the law
+  double missed(const Rows& rows) const;      ///< see residual()
   void solve(Rows& rows);
   void hand_back(const Rows& rows);
 

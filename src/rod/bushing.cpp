@@ -5,7 +5,7 @@
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::rod {
-StrainVector Bushing::stiffness(const PerFamily& k) const {
+StrainVector Bushing::stiffness(const PerDof& k) const {
   const double slope = k.bend * length() * length() / 3.0;
   StrainVector K(6);
   K << k.bend, k.bend, slope, slope, k.torsion, k.stretch;

@@ -13,7 +13,7 @@ class Bushing final : public ShapeModel {
   std::string name() const override { return "bushing"; }
   int size() const override { return 6; }
   CoordinateRange bend() const override { return {0, 4}; }
-  StrainVector stiffness(const PerFamily& k) const override;
+  StrainVector stiffness(const PerDof& k) const override;
   using ShapeModel::tip;
   void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
   void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const override;

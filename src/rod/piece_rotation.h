@@ -36,13 +36,13 @@ SPRING_WORKBENCH_INLINE math::ThreeByThree<S> rotation_matrix(const QuaternionOf
 /// about the middle. The series of q' = ½ q (a₀ + a₁ u + …) converges for every strain; pieces that turn by less
 /// than 2.5 rad leave 1e-13.
 template <int degree, typename S>
-class PieceRotation {
+class SegmentRotation {
  public:
   using Strain = std::array<math::Three<S>, degree + 1>;
 
   /// The strain over the piece of length h is (a[0] + a[1] u + …) / h for u = −½ … ½.
   /// `angle`: a bound of |a[0]| + |a[1]| / 2 + |a[2]| / 4 … [rad].
-  SPRING_WORKBENCH_INLINE PieceRotation(const Strain& a, double angle) {
+  SPRING_WORKBENCH_INLINE SegmentRotation(const Strain& a, double angle) {
     pairs_ = angle < 0.5 ? 7 : angle < 1.2 ? 8 : most_pairs;
     c_[0] = {math::none<S>(), S{} + 1.0};
     c_[1] = {0.5 * a[0], S{}};
@@ -57,7 +57,7 @@ class PieceRotation {
       c_[n + 1] = {f * sum.v, f * sum.w};
     }
   }
-  SPRING_WORKBENCH_INLINE explicit PieceRotation(const Strain& a) : PieceRotation(a, bound(a)) {}
+  SPRING_WORKBENCH_INLINE explicit SegmentRotation(const Strain& a) : SegmentRotation(a, bound(a)) {}
 
   struct Two {
     QuaternionOf<S> before, after;

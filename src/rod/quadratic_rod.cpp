@@ -45,12 +45,12 @@ struct QuadraticRod::Balance {
   Eigen::Vector2d residual;
 };
 
-QuadraticRod::QuadraticRod(double length, const PerFamily& k) : ShapeModel(length) {
+QuadraticRod::QuadraticRod(double length, const PerDof& k) : ShapeModel(length) {
   const double bend = k.bend * length * length / 3.0;
   K_ << bend, bend / 3.0, bend, bend / 3.0, k.torsion, k.stretch * length * length, bend / 5.0, bend / 5.0;
 }
 
-StrainVector QuadraticRod::stiffness(const PerFamily& k) const {
+StrainVector QuadraticRod::stiffness(const PerDof& k) const {
   const double L = length();
   const double bend = k.bend * L * L * L * L / 3.0;  // EI L
   StrainVector K(size());
@@ -58,7 +58,7 @@ StrainVector QuadraticRod::stiffness(const PerFamily& k) const {
   return K;
 }
 
-std::shared_ptr<const ShapeModel> QuadraticRod::for_stiffness(const PerFamily& k) const {
+std::shared_ptr<const ShapeModel> QuadraticRod::for_stiffness(const PerDof& k) const {
   return std::make_shared<QuadraticRod>(length(), k);
 }
 

@@ -12,13 +12,13 @@ namespace spring_workbench::rod {
 class QuadraticRod final : public ShapeModel {
  public:
   /// `stiffness` [N/m, N/m, N·m/rad] ≥ 0.
-  QuadraticRod(double length, const PerFamily& stiffness);
+  QuadraticRod(double length, const PerDof& stiffness);
 
   std::string name() const override { return "quadratic"; }
   int size() const override { return 6; }
   CoordinateRange bend() const override { return {0, 4}; }
-  StrainVector stiffness(const PerFamily& k) const override;
-  std::shared_ptr<const ShapeModel> for_stiffness(const PerFamily& k) const override;
+  StrainVector stiffness(const PerDof& k) const override;
+  std::shared_ptr<const ShapeModel> for_stiffness(const PerDof& k) const override;
   double condensed_energy(const StrainVector& q) const override;
   using ShapeModel::tip;
   void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;

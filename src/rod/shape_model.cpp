@@ -31,7 +31,7 @@ void ShapeModel::tip(const StrainVector& q, const StrainVector& q_dot, TipKinema
   }
 }
 
-std::shared_ptr<const ShapeModel> ShapeModel::for_stiffness(const PerFamily&) const { return nullptr; }
+std::shared_ptr<const ShapeModel> ShapeModel::for_stiffness(const PerDof&) const { return nullptr; }
 
 double ShapeModel::condensed_energy(const StrainVector&) const { return 0.0; }
 
@@ -41,7 +41,7 @@ std::shared_ptr<const ShapeModel> make_shape_model(const std::string& name, doub
   validation::check_number("fork", "length", length, validation::positive());
   if (name == "constant") return std::make_shared<StrainRod>(name, length, 1);
   if (name == "linear") return std::make_shared<StrainRod>(name, length, 2);
-  if (name == "quadratic") return std::make_shared<QuadraticRod>(length, PerFamily());
+  if (name == "quadratic") return std::make_shared<QuadraticRod>(length, PerDof());
   if (name == "bushing") return std::make_shared<Bushing>(length);
   validation::refuse("fork", "shape", name, "one of " + validation::join(shape_model_names()));
 }

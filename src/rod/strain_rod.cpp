@@ -28,7 +28,7 @@ const math::GaussLegendre<nodes>& rule() {
 StrainRod::StrainRod(std::string name, double length, int bend_terms)
     : ShapeModel(length), name_(std::move(name)), bend_terms_(bend_terms) {}
 
-StrainVector StrainRod::stiffness(const PerFamily& k) const {
+StrainVector StrainRod::stiffness(const PerDof& k) const {
   const double L = length();
   // One constant curvature cannot follow the cantilever's linear one: L³/4 makes small tip deflections agree.
   const double EI = k.bend * L * L * L / (bend_terms_ == 1 ? 4.0 : 3.0);
@@ -59,7 +59,7 @@ SPRING_WORKBENCH_INLINE double StrainRod::wave(const LinearStrain<S>& k, double 
   return std::sqrt(angle * angle + 4.0 * length() * length() * std::sqrt(math::largest(dot(k.slope, k.slope))));
 }
 
-int StrainRod::pieces(double angle) const {  // of NaN the most, as of what is too large
+int StrainRod::segments(double angle) const {  // of NaN the most, as of what is too large
   return 1 + static_cast<int>(std::min(most_turned, angle) / angle_per_piece);
 }
 
@@ -85,9 +85,9 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   math::Three<S> centripetal = zero;                             // ∫ w × (w × d3)
   math::Three<S> coriolis = zero;                                // ∫ w × d3
 
-  for (int piece = 0; piece < count; ++piece) {
-    const double s_begin = piece * h;
-    const PieceRotation<1, S> rotation(
+  for (int segment = 0; segment < count; ++segment) {
+    const double s_begin = segment * h;
+    const SegmentRotation<1, S> rotation(
         {h * (k.value + (s_begin + 0.5 * h - 0.5 * length()) * k.slope), (h * h) * k.slope}, angle / count);
     const auto ends = rotation.at(0.5);
     const QuaternionOf<S> to_middle = turned * conjugate(ends.before);
@@ -164,7 +164,7 @@ SPRING_WORKBENCH_INLINE void StrainRod::tip_of(const S* q, const S* q_dot, TipOf
   const double most = wave(k, angle);
   if (most < wave_of_five) return integrate<5>(q, q_dot, 1, angle, out);
   if (most < wave_of_six) return integrate<6>(q, q_dot, 1, angle, out);
-  return integrate<most_nodes>(q, q_dot, pieces(angle), angle, out);
+  return integrate<most_nodes>(q, q_dot, segments(angle), angle, out);
 }
 
 void StrainRod::tip(const double* q, const double* q_dot, TipOf<double>& out) const { tip_of(q, q_dot, out); }
@@ -181,13 +181,13 @@ RigidTransform StrainRod::section(const StrainVector& q, double s) const {
   const LinearStrain<double> k = curvature(q.data());
   const math::GaussLegendre<most_nodes>& gauss = rule<most_nodes>();
   const double angle = turned_angle(k) * s / length();
-  const int count = pieces(angle);
+  const int count = segments(angle);
   const double h = s / count;
   QuaternionOf<double> turned{math::none<double>(), 1.0};
   math::Three<double> p = math::none<double>();
-  for (int piece = 0; piece < count; ++piece) {
-    const PieceRotation<1, double> rotation(
-        {h * (k.value + ((piece + 0.5) * h - 0.5 * length()) * k.slope), (h * h) * k.slope}, angle / count);
+  for (int segment = 0; segment < count; ++segment) {
+    const SegmentRotation<1, double> rotation(
+        {h * (k.value + ((segment + 0.5) * h - 0.5 * length()) * k.slope), (h * h) * k.slope}, angle / count);
     const auto ends = rotation.at(0.5);
     const QuaternionOf<double> to_middle = turned * conjugate(ends.before);
     for (int i = 0; i < most_nodes / 2; ++i) {

@@ -13,7 +13,7 @@ class StrainRod final : public ShapeModel {
   std::string name() const override { return name_; }
   int size() const override { return 2 * bend_terms_ + 2; }
   CoordinateRange bend() const override { return {0, 2 * bend_terms_}; }
-  StrainVector stiffness(const PerFamily& k) const override;
+  StrainVector stiffness(const PerDof& k) const override;
   using ShapeModel::tip;
   void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
   void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const override;
@@ -44,7 +44,7 @@ class StrainRod final : public ShapeModel {
   /// The tip by `count` pieces of the rod with so many nodes each; `angle`: as turned_angle().
   template <int nodes, typename S>
   void integrate(const S* q, const S* q_dot, int count, double angle, TipOf<S>& out) const;
-  int pieces(double angle) const;
+  int segments(double angle) const;
 
   std::string name_;
   int bend_terms_;

@@ -32,16 +32,16 @@ class ThreeTermRod {
   Matrix load_stiffness(const Vector6& wrench) const;
 
  private:
-  static constexpr int nodes_per_piece = 8;
-  static constexpr int most_pieces = 26;
+  static constexpr int nodes_per_segment = 8;
+  static constexpr int most_substeps = 26;
   struct Node {
     Matrix3d R;
     Vector3d p;  ///< at unit stretch
   };
 
   double stretched_;
-  int pieces_;
-  Node nodes_[nodes_per_piece * most_pieces];
+  int segments_;
+  Node nodes_[nodes_per_segment * most_substeps];
   Matrix3d R_;
   Vector3d p_;
   Jacobian J_;

@@ -146,11 +146,11 @@ bool ForkDisplay::deform(const ForkState& fork) {
     const rod::StrainVector q = Eigen::Map<const Eigen::VectorXd>(
         fork.strain.data(),
         std::min<Eigen::Index>(static_cast<Eigen::Index>(fork.strain.size()), rod::max_strain_coordinates));
-    if (q.size() != shape->size() || !shape->admissible(q) || !is_finite(fork.handle_seen)) {
+    if (q.size() != shape->size() || !shape->admissible(q) || !is_finite(fork.proxy_handle)) {
       throw validation::InputError("strain: must be what a rod of shape " + fork.shape + " can have");
     }
-    const auto& p = fork.handle_seen.position;
-    const auto& r = fork.handle_seen.orientation;
+    const auto& p = fork.proxy_handle.position;
+    const auto& r = fork.proxy_handle.orientation;
     const RigidTransform X_WH = make_transform(Quaterniond(r.w, r.x, r.y, r.z), Vector3d(p.x, p.y, p.z));
     model_.deform(fork_mesh::rod_curve(*shape, q, X_WH), fork_mesh::coil_diameter(fork.length), mesh_);
     return true;

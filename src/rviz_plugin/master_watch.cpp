@@ -26,8 +26,8 @@ XmlRpcValue arguments(const std::string& caller, const std::string& first, const
 
 /// The master's process, 0 while there is none.
 int master_process() {
-  XmlRpcValue answer, payload;
-  if (!ros::master::execute("getPid", arguments(ros::this_node::getName(), ""), answer, payload, false)) return 0;
+  XmlRpcValue response, payload;
+  if (!ros::master::execute("getPid", arguments(ros::this_node::getName(), ""), response, payload, false)) return 0;
   return static_cast<int>(payload);
 }
 
@@ -38,24 +38,24 @@ void announce_publishers(const std::string& topic, const XmlRpcValue& publishers
   std::uint32_t port = 0;
   if (!ros::network::splitURI(uri, host, port)) return;
   XmlRpc::XmlRpcClient* client = ros::XMLRPCManager::instance()->getXMLRPCClient(host, static_cast<int>(port), uri);
-  XmlRpcValue values = arguments("/master", topic), answer;
+  XmlRpcValue values = arguments("/master", topic), response;
   values[2] = publishers;
-  client->execute("publisherUpdate", values, answer);
+  client->execute("publisherUpdate", values, response);
   ros::XMLRPCManager::instance()->releaseXMLRPCClient(client);
 }
 
 void register_topics() {
   const std::string node = ros::this_node::getName(), uri = ros::XMLRPCManager::instance()->getServerURI();
   ros::V_string topics;
-  XmlRpcValue answer, publishers;
+  XmlRpcValue response, publishers;
   ros::this_node::getAdvertisedTopics(topics);
   for (const std::string& topic : topics) {
-    ros::master::execute("registerPublisher", arguments(node, topic, "*", uri), answer, publishers, false);
+    ros::master::execute("registerPublisher", arguments(node, topic, "*", uri), response, publishers, false);
   }
   topics.clear();
   ros::this_node::getSubscribedTopics(topics);
   for (const std::string& topic : topics) {
-    if (ros::master::execute("registerSubscriber", arguments(node, topic, "*", uri), answer, publishers, false)) {
+    if (ros::master::execute("registerSubscriber", arguments(node, topic, "*", uri), response, publishers, false)) {
       announce_publishers(topic, publishers);
     }
   }

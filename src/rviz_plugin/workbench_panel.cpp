@@ -240,7 +240,7 @@ void WorkbenchPanel::show_steps() {
                         .arg(1e3 * steps_->wall_time, 0, 'f', 3)
                         .arg(steps_->position_error, 0, 'g', 2)
                         .arg(missed_));
-  left_out_->setText("left out: " + list(steps_->parts_left_out));
+  left_out_->setText("left out: " + list(steps_->skipped));
 }
 
 void WorkbenchPanel::set_dofs() {
@@ -265,7 +265,7 @@ void WorkbenchPanel::set_damping() {
   request.bend = families_[1].damping->value();
   request.torsion = families_[2].damping->value();
   const bool one_ratio = request.stretch == request.bend && request.bend == request.torsion;
-  request.law = one_ratio ? "" : "per_family";  // the modal law knows one ratio alone
+  request.law = one_ratio ? "" : "per_dof";  // the modal law knows one ratio alone
   services_.call<SetForkDamping>("damping", node + "set_damping", request);
 }
 

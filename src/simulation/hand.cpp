@@ -12,10 +12,10 @@ constexpr double least_length = 1e-4;  ///< [m] of a rigid tool
 
 }  // namespace
 
-Hand::Hand(const scene::Scene& scene, SimulationSettings& settings, Workbench& workbench, tools::Tool tool)
+Hand::Hand(const scene::Scene& scene, SimulationSettings& settings, Objects& objects, tools::Tool tool)
     : scene_(scene),
       settings_(settings),
-      workbench_(workbench),
+      objects_(objects),
       maker_(settings.fork, settings.dynamics, scene.gravity),
       tool_(tool),
       stylus_(settings.dropout_after, scene.X_WH_start),
@@ -37,8 +37,8 @@ double Hand::reach() const {
 
 void Hand::apply_buttons(double now) {
   if (!settings_.grasp.object.empty() && !grasped_by_name_ && stylus_.known(now)) {
-    const std::optional<std::size_t> object = workbench_.find(settings_.grasp.object);
-    if (object && !workbench_.states()[*object].held && tools::can_hold(tool_)) {
+    const std::optional<std::size_t> object = objects_.find(settings_.grasp.object);
+    if (object && !objects_.states()[*object].held && tools::can_hold(tool_)) {
       grasp(*object, settings_.grasp.X_OE, settings_.grasp.start_follow, now);
     }
     grasped_by_name_ = true;
@@ -67,12 +67,12 @@ void Hand::apply_grasp_button(bool pressed, double now) {
 
 tools::Grasp Hand::grasp_of(std::size_t object) const {
   const RigidTransform X_WE = stylus_.X_WS() * Eigen::Translation3d(0.0, 0.0, reach());
-  return {tool_, object, stylus_.X_WS(), workbench_.states()[object].X_WO.inverse() * X_WE, reach(), reach()};
+  return {tool_, object, stylus_.X_WS(), objects_.states()[object].X_WO.inverse() * X_WE, reach(), reach()};
 }
 
 void Hand::fit_size(tools::Grasp& grasp) const {
-  if (tool_ != tools::Tool::spring_fork || workbench_.massless(grasp.object)) return;
-  const scene::MassProperties& mass = workbench_.body(grasp.object).mass_properties;
+  if (tool_ != tools::Tool::spring_fork || objects_.massless(grasp.object)) return;
+  const scene::MassProperties& mass = objects_.body(grasp.object).mass_properties;
   grasp.length = tools::calibrated_length({mass.mass, mass.inertia_O, RigidTransform::Identity()});
 }
 
@@ -83,11 +83,11 @@ void Hand::make_hold(double now) {
 
 bool Hand::calibrate_hold() {
   if (!hold_ || tool_ == tools::Tool::direct || tool_ == tools::Tool::ray) return false;
-  if (workbench_.massless(grasp_.object)) return true;
+  if (objects_.massless(grasp_.object)) return true;
   rod::ForkSettings& fork = settings_.fork;
   fork.stiffness = hold_->fitting_stiffness(fork, scene_.gravity);
   const double ratio = fork.damping_ratio.stretch;
-  if (fork.damping_ratio == rod::PerFamily{ratio, ratio, ratio}) fork.damping_law = "modal";
+  if (fork.damping_ratio == rod::PerDof{ratio, ratio, ratio}) fork.damping_law = "modal";
   hold_->set_springs(fork);
   return true;
 }
@@ -100,13 +100,13 @@ void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, 
   if (settings_.grasp.calibrate) calibrate_hold();
   // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the
   // hand's.
-  if (!follow_hand && dynamic()) hold_->take_twist(workbench_.states()[object].V_WO_W);
-  workbench_.hold(object, Workbench::Grip::grasp, now);
-  workbench_.take_state(object, hold_->object());
+  if (!follow_hand && dynamic()) hold_->take_twist(objects_.states()[object].V_WO_W);
+  objects_.hold(object, Objects::Grip::grasp, now);
+  objects_.take_state(object, hold_->object());
 }
 
 void Hand::keep_twist(const Twist& V_WO_W) {
-  if (workbench_.massless(grasp_.object)) return;
+  if (objects_.massless(grasp_.object)) return;
   // With every family on, a fork can take any twist; what is off then comes to rest without a jump.
   hold_->set_dofs({true, true, true}, settings_.fork.switch_off_time);
   hold_->take_twist(V_WO_W);
@@ -126,18 +126,18 @@ void Hand::select_tool(tools::Tool tool, double now) {
   make_hold(now);
   if (settings_.grasp.calibrate) calibrate_hold();
   keep_twist(before);
-  workbench_.take_state(grasp_.object, hold_->object());
+  objects_.take_state(grasp_.object, hold_->object());
 }
 
 void Hand::take_over(const Wrench& pull_W, double now) {
   hold_->set_hand(stylus_.motion(now), now);
-  hold_->grip_anew(object().X_WO, pull_W);
+  hold_->regrasp(object().X_WO, pull_W);
   hold_->take_twist(object().V_WO_W);
 }
 
 void Hand::let_go(bool thrown, double now) {
   if (!hold_) return;
-  workbench_.let_go(grasp_.object, Workbench::Grip::grasp, thrown, now);
+  objects_.let_go(grasp_.object, Objects::Grip::grasp, thrown, now);
   hold_.reset();
 }
 
@@ -148,7 +148,7 @@ std::optional<std::size_t> Hand::carried() const {
 bodies::CoupledTool* Hand::begin_shared_step(double now) {
   moved_ = true;
   if (hold_) energy_added_before_ = hold_->energy_added();
-  workbench_.state(grasp_.object).asleep = false;
+  objects_.state(grasp_.object).asleep = false;
   if (probe_) {
     probe_->set_hand(stylus_.motion(now), now);
     return probe_.get();
@@ -160,15 +160,15 @@ bodies::CoupledTool* Hand::begin_shared_step(double now) {
 bodies::SteppedBody* Hand::begin_step(double now, double h) {
   hold_->set_hand(stylus_.motion(now), now);
   energy_added_before_ = hold_->energy_added();
-  bodies::BodyState& o = workbench_.state(grasp_.object);
+  bodies::BodyState& o = objects_.state(grasp_.object);
   const bool was_asleep = o.asleep;
-  o.asleep = hold_->sleeps(h, workbench_.rests(grasp_.object));
+  o.asleep = hold_->sleeps(h, objects_.rests(grasp_.object));
   if (o.asleep) {
     hold_->let_pass(h);
     o.V_WO_W = Twist();
     return nullptr;
   }
-  if (was_asleep) workbench_.wake_what_lies_on(grasp_.object, now);
+  if (was_asleep) objects_.wake_what_lies_on(grasp_.object, now);
   moved_ = true;
   return hold_.get();
 }
@@ -181,20 +181,20 @@ void Hand::end_step(AdvanceReport& report) {
   report.angle_error = std::max(report.angle_error, e.angle);
   report.stiffest_omega_dt = std::max(report.stiffest_omega_dt, e.omega_dt);
   report.steps += e.extra_steps;
-  report.steps_rejected += e.rejected;
+  report.substeps += e.rejected;
   report.energy_held += e.energy_held;
 }
 
-rod::ForkDofs Hand::families_run() const {
+rod::ForkDofs Hand::dofs_run() const {
   return hold_ && moved_ ? maker_.possible_dofs(grasp_, grasped_body()) : rod::ForkDofs{false, false, false};
 }
 
 bool Hand::overloaded(double now, double h) {
-  const rod::ForkSettings& fork = settings_.fork;
-  if (!dynamic() || workbench_.massless(grasp_.object)) return false;
+  const tools::LimitSettings& limit = settings_.limit;
+  if (!dynamic() || objects_.massless(grasp_.object)) return false;
   const auto too_much = [&] {
     const Wrench at_tip = state().tip_wrench_W;
-    return at_tip.force.norm() > fork.breakaway_force || at_tip.moment.norm() > fork.breakaway_moment;
+    return at_tip.force.norm() > limit.force || at_tip.moment.norm() > limit.moment;
   };
   if (h == 0.0) return too_much();
   hold_->set_hand(stylus_.motion(now), now);
@@ -205,7 +205,7 @@ bool Hand::overloaded(double now, double h) {
 }
 
 void Hand::change_dofs(ChangeReport& change) {
-  if (!hold_ || workbench_.massless(grasp_.object) || tool_ != tools::Tool::spring_fork) return;
+  if (!hold_ || objects_.massless(grasp_.object) || tool_ != tools::Tool::spring_fork) return;
   if (hold_->set_dofs(maker_.possible_dofs(grasp_, grasped_body()), settings_.fork.switch_off_time)) {
     change.message += "; the strain of what went off returns to zero with a time constant of " +
                       std::to_string(settings_.fork.switch_off_time) + " s and gives back its energy";
@@ -230,7 +230,7 @@ bool Hand::calibrate(ChangeReport& change, double now) {
     make_hold(now);
   }
   if (!calibrate_hold()) return false;
-  hold_->grip_anew(before.X_WO, pull);
+  hold_->regrasp(before.X_WO, pull);
   keep_twist(before.V_WO_W);
   change.message = "calibrated for " + before.name;
   return true;
@@ -252,11 +252,11 @@ tools::ToolState Hand::state() const {
   f.strain = rod::StrainVector::Zero(rod::make_shape_model(f.shape, f.length)->size());
   f.stiffness = settings_.fork.stiffness;
   f.damping_ratio = settings_.fork.damping_ratio;
-  f.X_WS = f.X_WH = f.X_WH_seen = stylus_.X_WS();
+  f.X_WS = f.X_WH = f.X_WH_proxy = stylus_.X_WS();
   f.X_WE = stylus_.X_WS() * Eigen::Translation3d(0.0, 0.0, f.length);
   if (hold_) {
     f.held_object = object().name;
-    hold_->describe(workbench_.massless(grasp_.object), f);
+    hold_->describe(objects_.massless(grasp_.object), f);
   }
   if (probe_) probe_->describe(stylus_.X_WS(), f);
   f.force_scale = scene_.force_scale;

@@ -18,7 +18,7 @@ constexpr double longest_ray = 2.0;  ///< [m]
 class Hand {
  public:
   /// Keeps references to scene, settings (changed by calibration) and workbench.
-  Hand(const scene::Scene& scene, SimulationSettings& settings, Workbench& workbench, tools::Tool tool);
+  Hand(const scene::Scene& scene, SimulationSettings& settings, Objects& objects, tools::Tool tool);
 
   /// Forgets what the stylus told, holds nothing. The workbench is reset beside it.
   void reset();
@@ -58,7 +58,7 @@ class Hand {
 
   double elastic_energy() const;
   /// The families that ran since the last call of begin_call().
-  rod::ForkDofs families_run() const;
+  rod::ForkDofs dofs_run() const;
   /// Whether what is held takes more of the tool's springs than their breakaway force or moment: now, or, where `h` > 0
   /// [s], at the end of that time if it touches nothing then.
   bool overloaded(double now, double h);
@@ -75,11 +75,11 @@ class Hand {
   void leave_with_probe(double now);
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now);
   bool dynamic() const { return hold_ && hold_->coordinates() > 0; }  ///< there is something for an integrator to do
-  const bodies::BodyState& object() const { return workbench_.states()[grasp_.object]; }  ///< that is held, or pushed
+  const bodies::BodyState& object() const { return objects_.states()[grasp_.object]; }  ///< that is held, or pushed
   /// How far the tip is in front of the hand, along z [m].
   double reach() const;
   tools::GraspedBody grasped_body() const {
-    return {workbench_.scene_index(grasp_.object), workbench_.body(grasp_.object), object().X_WO};
+    return {objects_.scene_index(grasp_.object), objects_.body(grasp_.object), object().X_WO};
   }
   /// The grip on the object where it is, for a tool that has its usual size.
   tools::Grasp grasp_of(std::size_t object) const;
@@ -93,7 +93,7 @@ class Hand {
 
   const scene::Scene& scene_;
   SimulationSettings& settings_;
-  Workbench& workbench_;
+  Objects& objects_;
   tools::HoldMaker maker_;
   tools::Tool tool_;
   Stylus stylus_;

@@ -20,8 +20,8 @@ tools::InFront Hand::look_ahead(double reach, Passes&& passes) const {
   for (const scene::Body& body : scene_.bodies) {
     if (!body.movable) look(body, body.X_WO);
   }
-  const std::vector<bodies::BodyState>& objects = workbench_.states();
-  for (std::size_t i = 0; i < objects.size(); ++i) look(workbench_.body(i), objects[i].X_WO);
+  const std::vector<bodies::BodyState>& objects = objects_.states();
+  for (std::size_t i = 0; i < objects.size(); ++i) look(objects_.body(i), objects[i].X_WO);
   return found;
 }
 
@@ -47,18 +47,18 @@ void Hand::select_pierced() {
   ray_length_ = front.distance;
   const Vector3d tip = stylus_.X_WS() * Vector3d(0.0, 0.0, reach());
   double nearest = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < workbench_.states().size(); ++i) {
-    const RigidTransform& X_WO = workbench_.states()[i].X_WO;
+  for (std::size_t i = 0; i < objects_.states().size(); ++i) {
+    const RigidTransform& X_WO = objects_.states()[i].X_WO;
     const bool pierced =
-        picks ? front.body == &workbench_.body(i)
-              : front.body == nullptr && geometry::contains(workbench_.body(i).collision, X_WO.inverse() * tip);
+        picks ? front.body == &objects_.body(i)
+              : front.body == nullptr && geometry::contains(objects_.body(i).collision, X_WO.inverse() * tip);
     const double distance = (X_WO.translation() - tip).norm() * (before == i ? stays : 1.0);
     if (!pierced || distance >= nearest) continue;
     nearest = distance;
     selection_.set_inserted(i);
   }
   if (selection_.inserted() && settings_.grasp.object.empty()) {
-    workbench_.highlight(*selection_.inserted());
+    objects_.highlight(*selection_.inserted());
   }
 }
 
@@ -75,15 +75,15 @@ void Hand::touch_with_probe(double now) {
     probe_->touch(front);
   } else {
     probe_ = std::make_unique<tools::Probe>(length, settings_.fork, front);
-    const std::optional<std::size_t> object = front.body != nullptr ? workbench_.find(front.body->name) : std::nullopt;
-    pushes_ = object && !workbench_.massless(*object);
-    if (pushes_) workbench_.hold(grasp_.object = *object, Workbench::Grip::push, now);
+    const std::optional<std::size_t> object = front.body != nullptr ? objects_.find(front.body->name) : std::nullopt;
+    pushes_ = object && !objects_.massless(*object);
+    if (pushes_) objects_.hold(grasp_.object = *object, Objects::Grip::push, now);
   }
   if (!pushes_) probe_->press();
 }
 
 void Hand::leave_with_probe(double now) {
-  if (pushes_) workbench_.let_go(grasp_.object, Workbench::Grip::push, true, now);
+  if (pushes_) objects_.let_go(grasp_.object, Objects::Grip::push, true, now);
   pushes_ = false;
   probe_.reset();
 }

@@ -17,7 +17,7 @@ constexpr double world_limit = 100.0;  ///< [m] from the origin; a body that fli
 
 }  // namespace
 
-Workbench::Workbench(const scene::Scene& scene, int bisection_levels) : scene_(scene), contacts_(scene) {
+Objects::Objects(const scene::Scene& scene, int bisection_levels) : scene_(scene), contacts_(scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     object_of_.push_back(movable_.size());
     if (scene.bodies[i].movable) movable_.push_back(i);
@@ -29,7 +29,7 @@ Workbench::Workbench(const scene::Scene& scene, int bisection_levels) : scene_(s
   reset();
 }
 
-void Workbench::reset() {
+void Objects::reset() {
   contacts_.reset(movable_.size());
   if (scene_.contact == scene::ContactMode::dynamic)
     dynamic_stepper_ = std::make_unique<contact::DynamicStepper>(scene_);
@@ -49,35 +49,35 @@ void Workbench::reset() {
   }
 }
 
-void Workbench::clear_highlights() {
+void Objects::clear_highlights() {
   for (const std::size_t object : highlighted_) states_[object].highlighted = false;
   highlighted_.clear();
 }
 
-void Workbench::highlight(std::size_t object) {
+void Objects::highlight(std::size_t object) {
   states_[object].highlighted = true;
   highlighted_.push_back(object);
 }
 
-std::optional<std::size_t> Workbench::find(const std::string& name) const {
+std::optional<std::size_t> Objects::find(const std::string& name) const {
   for (std::size_t i = 0; i < states_.size(); ++i) {
     if (states_[i].name == name) return i;
   }
   return std::nullopt;
 }
 
-bool Workbench::any_free() const {
+bool Objects::any_free() const {
   if (dynamic_stepper_) return dynamic_stepper_->others_awake();
   return !free_.empty();
 }
 
-void Workbench::take_state(std::size_t object, const motion::MotionState& s) {
+void Objects::take_state(std::size_t object, const motion::MotionState& s) {
   states_[object].X_WO = s.X;
   states_[object].V_WO_W = s.velocity;
   if (collision_) collision_->set_pose(movable_[object], s.X);
 }
 
-void Workbench::hold(std::size_t object, Grip grip, double now) {
+void Objects::hold(std::size_t object, Grip grip, double now) {
   ++(grip == Grip::grasp ? tools_[object].grasping : tools_[object].pushing);
   free_bodies_[object].reset();
   free_.erase(object);
@@ -88,7 +88,7 @@ void Workbench::hold(std::size_t object, Grip grip, double now) {
   wake_what_lies_on(object, now);
 }
 
-void Workbench::let_go(std::size_t object, Grip grip, bool thrown, double now) {
+void Objects::let_go(std::size_t object, Grip grip, bool thrown, double now) {
   Tools& tools = tools_[object];
   --(grip == Grip::grasp ? tools.grasping : tools.pushing);
   bodies::BodyState& o = states_[object];
@@ -98,14 +98,14 @@ void Workbench::let_go(std::size_t object, Grip grip, bool thrown, double now) {
   let_fly(object, now);
 }
 
-void Workbench::place(std::size_t object, const RigidTransform& X_WO, double now) {
+void Objects::place(std::size_t object, const RigidTransform& X_WO, double now) {
   motion::MotionState at_rest;
   at_rest.X = X_WO;
   take_state(object, at_rest);
   let_fly(object, now);
 }
 
-void Workbench::let_fly(std::size_t object, double now) {
+void Objects::let_fly(std::size_t object, double now) {
   bodies::BodyState& o = states_[object];
   if (massless(object)) {
     o.asleep = true;
@@ -115,7 +115,7 @@ void Workbench::let_fly(std::size_t object, double now) {
   }
 }
 
-void Workbench::set_free(std::size_t object, const Twist& V_WO_W, double now) {
+void Objects::set_free(std::size_t object, const Twist& V_WO_W, double now) {
   states_[object].asleep = false;
   if (dynamic_stepper_) {
     dynamic_stepper_->set_free(movable_[object], states_[object].X_WO, V_WO_W);
@@ -127,7 +127,7 @@ void Workbench::set_free(std::size_t object, const Twist& V_WO_W, double now) {
   slow_since_[object] = now;
 }
 
-void Workbench::wake_what_lies_on(std::size_t object, double now) {
+void Objects::wake_what_lies_on(std::size_t object, double now) {
   if (scene_.contact != scene::ContactMode::stop) return;  // Bullet's sleepers wake by themselves
   std::vector<collision::ContactPoint> found;
   RigidTransform lifted = states_[object].X_WO;
@@ -144,8 +144,8 @@ void Workbench::wake_what_lies_on(std::size_t object, double now) {
   }
 }
 
-bool Workbench::carry(bodies::SteppedBody& stepped, std::size_t object, double h,
-                      const contact::ContactStepper::MayGo& may_go, AdvanceReport& report) {
+bool Objects::carry(bodies::SteppedBody& stepped, std::size_t object, double h,
+                    const contact::ContactStepper::MayGo& may_go, AdvanceReport& report) {
   contact::ContactOutcome outcome;
   if (contact_stepper_) {
     if (!contact_stepper_->step(stepped, h, may_go, rows_[object], outcome)) return false;
@@ -155,21 +155,21 @@ bool Workbench::carry(bodies::SteppedBody& stepped, std::size_t object, double h
       stepped.accept();
     } else {
       stepped.go_back();
-      stepped.go_along(h);
+      stepped.follow_rigidly(h);
       outcome.refused = true;
     }
   }
   ++report.steps;
   take_state(object, stepped.object());
   report.collision_queries += outcome.queries;
-  if (outcome.held_back) ++report.held_back;
-  if (outcome.refused) ++report.guards_tripped;
+  if (outcome.steps_blocked) ++report.steps_blocked;
+  if (outcome.refused) ++report.steps_rejected;
   states_[object].in_contact = !outcome.rows.empty();
   contacts_.note(object, states_[object], outcome.rows, h);
   return true;
 }
 
-void Workbench::step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report) {
+void Objects::step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report) {
   if (dynamic_stepper_) {
     step_among_movable(held, h, report);
     return;
@@ -183,7 +183,7 @@ void Workbench::step(const std::vector<Carried>& held, double now, double h, Adv
   }
 }
 
-void Workbench::step_among_movable(const std::vector<Carried>& held, double h, AdvanceReport& report) {
+void Objects::step_among_movable(const std::vector<Carried>& held, double h, AdvanceReport& report) {
   std::vector<std::size_t> bodies;
   for (const Carried& c : held) bodies.push_back(movable_[c.object]);
   rigid_bodies::RigidWorld& world = dynamic_stepper_->world();
@@ -208,15 +208,15 @@ void Workbench::step_among_movable(const std::vector<Carried>& held, double h, A
   }
 }
 
-void Workbench::step_together(const std::vector<Carried>& held, double h, AdvanceReport& report) {
+void Objects::step_together(const std::vector<Carried>& held, double h, AdvanceReport& report) {
   std::vector<bodies::SteppedBody*> bodies;
   for (const Carried& c : held) bodies.push_back(c.body);
   const contact::DynamicStepper::Outcome outcome = dynamic_stepper_->step(bodies, h);
-  report.steps += outcome.pieces;
-  report.steps_among_movable += outcome.pieces;
-  report.collision_queries += outcome.pieces;
-  if (outcome.held_back) ++report.held_back;
-  if (outcome.refused) ++report.guards_tripped;
+  report.steps += outcome.substeps;
+  report.steps_among_movable += outcome.substeps;
+  report.collision_queries += outcome.substeps;
+  if (outcome.steps_blocked) ++report.steps_blocked;
+  if (outcome.refused) ++report.steps_rejected;
   for (const Carried& c : held) take_state(c.object, c.body->object());
   const rigid_bodies::RigidWorld& world = dynamic_stepper_->world();
   for (const std::size_t near : world.bodies_near()) {
@@ -228,7 +228,7 @@ void Workbench::step_together(const std::vector<Carried>& held, double h, Advanc
   note_world_contacts(h);
 }
 
-void Workbench::note_world_contacts(double h) {
+void Objects::note_world_contacts(double h) {
   std::map<std::size_t, std::vector<contact::ContactRow>> rows;
   for (const std::size_t object : in_contact_) rows[object];
   for (const rigid_bodies::WorldContact& c : dynamic_stepper_->contacts()) {
@@ -251,7 +251,7 @@ void Workbench::note_world_contacts(double h) {
   }
 }
 
-bool Workbench::rests(std::size_t object) const {
+bool Objects::rests(std::size_t object) const {
   if (dynamic_stepper_) return !dynamic_stepper_->others_awake();
   const std::vector<contact::ContactState>& touching = contacts_.touching(object);
   return std::none_of(touching.begin(), touching.end(), [&](const contact::ContactState& c) {
@@ -260,7 +260,7 @@ bool Workbench::rests(std::size_t object) const {
   });
 }
 
-void Workbench::put_to_sleep_if_slow(std::size_t object, double now) {
+void Objects::put_to_sleep_if_slow(std::size_t object, double now) {
   bodies::BodyState& o = states_[object];
   o.asleep = false;
   const double speed =

@@ -22,10 +22,10 @@ struct Carried {
 /// The movable objects of a scene: their states, those that fly freely and those that sleep, and what they touch.
 /// An object is named by its place in `states()`. A tool takes it with `hold`, carries it, and gives it back with
 /// `let_go`.
-class Workbench {
+class Objects {
  public:
   /// Keeps a reference to `scene`. `bisection_levels`: of the search for contact.
-  Workbench(const scene::Scene& scene, int bisection_levels);
+  Objects(const scene::Scene& scene, int bisection_levels);
 
   /// All objects back to their start, asleep.
   void reset();

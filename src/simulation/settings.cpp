@@ -10,13 +10,14 @@
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/tools/tool.h"
 #include "spring_workbench/validation/one_line.h"
+#include "spring_workbench/validation/renamed.h"
 
 namespace spring_workbench::simulation {
 namespace {
 
 using Choices = std::vector<std::string>;
 using S = SimulationSettings;
-const Choices damping_laws = {"per_family", "modal"};
+const Choices damping_laws = {"per_dof", "modal"};
 /// Where a setting's value is kept. A captureless lambda, so that the table below stays a table.
 template <typename T>
 using Member = T& (*)(S&);
@@ -143,20 +144,19 @@ std::vector<Field> fork_fields() {
              [](S& s) -> double& { return s.fork.damping_ratio.bend; }),
       number("fork.damping.torsion", "–", ratio, "damping ratio of twisting; 1 is critical",
              [](S& s) -> double& { return s.fork.damping_ratio.torsion; }),
-      choice(
-          "fork.damping_law", damping_laws,
-          "per_family: Kelvin–Voigt, the ratio that of each family alone; modal: every mode of the held object has the "
-          "ratio, which must be the same for all families",
-          [](S& s) -> std::string& { return s.fork.damping_law; }),
+      choice("fork.damping_law", damping_laws,
+             "per_dof: Kelvin–Voigt, the ratio that of each family alone; modal: every mode of the held object has the "
+             "ratio, which must be the same for all families",
+             [](S& s) -> std::string& { return s.fork.damping_law; }),
       flag("fork.dofs.stretch", "the fork stretches; false: rigid", [](S& s) -> bool& { return s.fork.dofs.stretch; }),
       flag("fork.dofs.bend", "the fork bends; false: rigid", [](S& s) -> bool& { return s.fork.dofs.bend; }),
       flag("fork.dofs.torsion", "the fork twists; false: rigid", [](S& s) -> bool& { return s.fork.dofs.torsion; }),
-      by_default(".inf", number("fork.breakaway_force", "N", positive_or_infinite(),
+      by_default(".inf", number("limit.force", "N", positive_or_infinite(),
                                 "what would take a larger force at the tip than this is let go",
-                                [](S& s) -> double& { return s.fork.breakaway_force; })),
-      by_default(".inf", number("fork.breakaway_moment", "N·m", positive_or_infinite(),
+                                [](S& s) -> double& { return s.limit.force; })),
+      by_default(".inf", number("limit.moment", "N·m", positive_or_infinite(),
                                 "what would take a larger moment at the tip than this is let go",
-                                [](S& s) -> double& { return s.fork.breakaway_moment; })),
+                                [](S& s) -> double& { return s.limit.moment; })),
       number("fork.switch_off_time", "s", validation::between(1e-6, 1e3),
              "time constant on which a family that is switched off while strained goes back to zero strain",
              [](S& s) -> double& { return s.fork.switch_off_time; }),
@@ -228,17 +228,17 @@ const Field& find_field(const std::string& key, const std::string& where) {
   Choices known;
   for (const Field& field : fields()) known.push_back(field.description.key);
   throw validation::InputError(
-      validation::one_line(where + ": " + key + ": unknown key; known are " + validation::join(known)));
+      validation::one_line(where + ": " + key + ": " + validation::unknown_key(key, validation::join(known))));
 }
 
 }  // namespace
 
 void check_damping(const std::string& where, const rod::ForkSettings& fork) {
-  const rod::PerFamily& ratio = fork.damping_ratio;
+  const rod::PerDof& ratio = fork.damping_ratio;
   if (std::find(damping_laws.begin(), damping_laws.end(), fork.damping_law) == damping_laws.end()) {
     validation::refuse(where, "damping law", fork.damping_law, "one of " + validation::join(damping_laws));
   }
-  if (fork.damping_law != "modal" || ratio == rod::PerFamily{ratio.stretch, ratio.stretch, ratio.stretch}) return;
+  if (fork.damping_law != "modal" || ratio == rod::PerDof{ratio.stretch, ratio.stretch, ratio.stretch}) return;
   validation::refuse(where, "damping ratios",
                      text_of(ratio.stretch) + ", " + text_of(ratio.bend) + ", " + text_of(ratio.torsion),
                      "the same for stretch, bend and torsion where the damping law is modal");

@@ -57,16 +57,16 @@ scene::Body body_of_unit_mass() {
 struct Simulation::Impl {
   SimulationSettings settings;
   const scene::Scene scene;
-  Workbench workbench;
+  Objects objects;
   std::vector<Hand> hands;
   const scene::Body unit_mass = body_of_unit_mass();
   bool started = false;
   double now = 0.0;
 
   Impl(const scene::Scene& s, const SimulationSettings& set)
-      : settings(set), scene(set_up(s, set)), workbench(scene, set.bisection_levels) {
+      : settings(set), scene(set_up(s, set)), objects(scene, set.bisection_levels) {
     for (std::size_t i = 0; i < most_hands; ++i)
-      hands.emplace_back(scene, settings, workbench, tools::tool_called(scene.tool, scene.path));
+      hands.emplace_back(scene, settings, objects, tools::tool_called(scene.tool, scene.path));
   }
   Hand& hand(std::size_t index) { return hands.at(index); }
 
@@ -131,7 +131,7 @@ void Simulation::Impl::with_handover(Change&& change) {
 }
 
 void Simulation::Impl::break_away(double h) {
-  if (std::isinf(settings.fork.breakaway_force) && std::isinf(settings.fork.breakaway_moment)) return;
+  if (std::isinf(settings.limit.force) && std::isinf(settings.limit.moment)) return;
   with_handover([&] {
     for (const auto& [object, of_object] : holders()) {
       if (h > 0.0 && of_object.size() > 1) continue;  // what one of them does depends on the others
@@ -144,7 +144,7 @@ void Simulation::Impl::break_away(double h) {
 
 /// Highlights, grasps and releases.
 void Simulation::Impl::act() {
-  workbench.clear_highlights();
+  objects.clear_highlights();
   break_away(0.0);
   with_handover([&] {
     for (Hand& hand : hands) {
@@ -185,14 +185,14 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
     }
     std::vector<bodies::CoupledTool*> tools;
     for (Hand* hand : on_it) tools.push_back(hand->begin_shared_step(now));
-    const bodies::BodyState& o = workbench.states()[object];
-    const bool massless = workbench.massless(object);
+    const bodies::BodyState& o = objects.states()[object];
+    const bool massless = objects.massless(object);
     const scene::Body& body =
-        massless ? unit_mass : workbench.body(object);  // which is of no effect where all tools are rigid
-    shared.emplace_back(workbench.scene_index(object), body, massless ? 0.0 : scene.gravity, o.X_WO, o.V_WO_W, tools);
+        massless ? unit_mass : objects.body(object);  // which is of no effect where all tools are rigid
+    shared.emplace_back(objects.scene_index(object), body, massless ? 0.0 : scene.gravity, o.X_WO, o.V_WO_W, tools);
     carried.push_back({object, &shared.back()});
   }
-  workbench.step(carried, now, h, report);
+  objects.step(carried, now, h, report);
   for (Hand& hand : hands) hand.end_step(report);
   now = end;
   for (Hand& hand : hands) {
@@ -204,14 +204,14 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
 void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
   start(t_end);
   const double begin = now;
-  workbench.contacts().begin_call();
+  objects.contacts().begin_call();
   for (Hand& hand : hands) hand.begin_call();
   act();
   while (now < t_end - same_time) {
     step(end_of_step(t_end), report);
     act();
   }
-  workbench.contacts().end_call();
+  objects.contacts().end_call();
   report.simulated_time = now - begin;
   fill_parts(report);
 }
@@ -224,19 +224,19 @@ double Simulation::Impl::elastic_energy() const {
 
 void Simulation::Impl::fill_parts(AdvanceReport& report) const {
   const auto part = [&](const std::string& name, bool runs) {
-    (runs ? report.parts_run : report.parts_left_out).push_back(name);
+    (runs ? report.active : report.skipped).push_back(name);
   };
   rod::ForkDofs run{false, false, false};
   for (const Hand& hand : hands) {
-    const rod::ForkDofs of_hand = hand.families_run();
+    const rod::ForkDofs of_hand = hand.dofs_run();
     run = {run.stretch || of_hand.stretch, run.bend || of_hand.bend, run.torsion || of_hand.torsion};
   }
   part("stretch", run.stretch);
   part("bend", run.bend);
   part("torsion", run.torsion);
   part("gravity", scene.gravity > 0.0 && report.steps > 0);
-  part("free_bodies", workbench.any_free());
-  part("collision", workbench.with_contact() && report.steps > 0);
+  part("free_bodies", objects.any_free());
+  part("collision", objects.with_contact() && report.steps > 0);
   part("movable_neighbours", report.steps_among_movable > 0);
 }
 
@@ -282,7 +282,7 @@ AdvanceReport Simulation::advance(double t_end) {
 
 void Simulation::reset() {
   for (Hand& hand : impl_->hands) hand.reset();
-  impl_->workbench.reset();
+  impl_->objects.reset();
   impl_->started = false;
 }
 
@@ -292,7 +292,7 @@ void Simulation::place(const std::map<std::string, RigidTransform>& X_WO) {
   }
   release();
   for (const auto& [name, X] : X_WO) {
-    if (const auto object = impl_->workbench.find(name)) impl_->workbench.place(*object, X, impl_->now);
+    if (const auto object = impl_->objects.find(name)) impl_->objects.place(*object, X, impl_->now);
   }
 }
 
@@ -331,14 +331,14 @@ ChangeReport Simulation::set_dofs(const rod::ForkDofs& dofs) {
   return change;
 }
 
-ChangeReport Simulation::set_stiffness(const rod::PerFamily& stiffness) {
+ChangeReport Simulation::set_stiffness(const rod::PerDof& stiffness) {
   const validation::NumberRule rule = validation::not_negative();
   validation::check_number("set_stiffness", "stretch", stiffness.stretch, rule);
   validation::check_number("set_stiffness", "bend", stiffness.bend, rule);
   validation::check_number("set_stiffness", "torsion", stiffness.torsion, rule);
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
-  rod::PerFamily& k = impl_->settings.fork.stiffness;
+  rod::PerDof& k = impl_->settings.fork.stiffness;
   if (stiffness.stretch > 0.0) k.stretch = stiffness.stretch;
   if (stiffness.bend > 0.0) k.bend = stiffness.bend;
   if (stiffness.torsion > 0.0) k.torsion = stiffness.torsion;
@@ -348,7 +348,7 @@ ChangeReport Simulation::set_stiffness(const rod::PerFamily& stiffness) {
   return change;
 }
 
-ChangeReport Simulation::set_damping_ratio(const rod::PerFamily& ratio, const std::string& law) {
+ChangeReport Simulation::set_damping_ratio(const rod::PerDof& ratio, const std::string& law) {
   const validation::NumberRule rule = validation::between(0.0, 10.0);
   validation::check_number("set_damping", "stretch", ratio.stretch, rule);
   validation::check_number("set_damping", "bend", ratio.bend, rule);
@@ -385,8 +385,8 @@ void Simulation::set_integrator(const std::string& name, double step, double tol
   for (Hand& hand : impl_->hands) hand.change_integrator();
 }
 
-const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->workbench.states(); }
-const std::vector<contact::ContactState>& Simulation::contacts() const { return impl_->workbench.contacts().told(); }
+const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->objects.states(); }
+const std::vector<contact::ContactState>& Simulation::contacts() const { return impl_->objects.contacts().told(); }
 tools::ToolState Simulation::fork(std::size_t hand) const { return impl_->hand(hand).state(); }
 
 }  // namespace spring_workbench::simulation

@@ -25,8 +25,8 @@ rod::StrainVector equilibrium(const dynamics::HeldBody& held, const RigidTransfo
 
 double weighing_gravity(double gravity) { return gravity > 0.0 ? gravity : earth; }
 
-rod::PerFamily calibrated_stiffness(const std::string& shape, double length, const dynamics::BodyInertia& body,
-                                    double gravity, const CalibrationGoal& goal) {
+rod::PerDof calibrated_stiffness(const std::string& shape, double length, const dynamics::BodyInertia& body,
+                                 double gravity, const CalibrationGoal& goal) {
   const double g = weighing_gravity(gravity);
   const double sag = goal.sag * length;
   const double omega = std::sqrt(g / sag);
@@ -39,7 +39,7 @@ rod::PerFamily calibrated_stiffness(const std::string& shape, double length, con
   RigidTransform hanging = RigidTransform::Identity(), level = RigidTransform::Identity();
   hanging.linear() = math::exp_so3(Vector3d(pi, 0.0, 0.0));       // z of the handle is down
   level.linear() = math::exp_so3(Vector3d(0.0, -0.5 * pi, 0.0));  // x of the handle is up
-  rod::PerFamily k{g / sag, g / sag, held.axial_inertia() * omega * omega};
+  rod::PerDof k{g / sag, g / sag, held.axial_inertia() * omega * omega};
   rod::StrainVector q_hanging = zero.q, q_level = zero.q;
   for (int iteration = 0; iteration < 40; ++iteration) {
     held.set_springs(k, {1.0, 1.0, 1.0});

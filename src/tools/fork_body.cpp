@@ -91,7 +91,7 @@ RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
   return X * returned;
 }
 
-motion::MotionSegment ForkBody::seen_motion(double h, const RigidTransform& offset_end) const {
+motion::MotionSegment ForkBody::proxy_motion(double h, const RigidTransform& offset_end) const {
   const motion::PoseSample begin{state_.t, state_.offset * hand_pose()};
   const motion::PoseSample end{state_.t + h, offset_end * hand_.at(state_.t + h).X};
   const Vector3d v = (end.X.translation() - begin.X.translation()) / h;
@@ -103,12 +103,12 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   const RigidTransform offset = next_offset(h, contact_W);
   const bool behind = (offset.matrix() - RigidTransform::Identity().matrix()).cwiseAbs().maxCoeff() > no_offset;
   const bool as_hand = !behind && !state_.behind;
-  const motion::MotionSegment motion = as_hand ? hand_ : seen_motion(h, offset);
+  const motion::MotionSegment motion = as_hand ? hand_ : proxy_motion(h, offset);
   dynamics::StrainState next = state_.strain;
   if (held_.size() > 0) {
     held_.set_external_wrench(contact_W);
     const dynamics::ControlledStep step = control_.advance(held_, motion, state_.t, h, next, state_.stepping);
-    if (!step.fine) return false;
+    if (!step.accepted) return false;
     estimates_.position = std::max(estimates_.position, step.position_error);
     estimates_.angle = std::max(estimates_.angle, step.angle_error);
     estimates_.omega_dt = std::max(estimates_.omega_dt, step.omega_dt);
@@ -199,9 +199,9 @@ rod::StrainMatrix ForkBody::inverse_mass() const {
       .solve(rod::StrainMatrix::Identity(held_.size(), held_.size()));
 }
 
-bodies::SteppedBody::Answer ForkBody::answer(double h) const {
+bodies::SteppedBody::Response ForkBody::response(double h) const {
   const Matrix6d proxy = proxy_compliance(h);
-  Answer a{proxy, proxy / h};
+  Response a{proxy, proxy / h};
   if (held_.size() > 0) {
     const auto J = jacobian_W();
     const dynamics::Integrator::Response r = control_.integrator().response(held_, state_.t, h, state_.strain);
@@ -250,7 +250,7 @@ void ForkBody::take_twist(const Twist& V_WO_W) {
   state_.strain.q_dot = held_.project_twist(handle(), state_.strain.q, V_WO_W);
 }
 
-void ForkBody::stay(double h) {
+void ForkBody::block(double h) {
   last_.reset();
   // The seen handle stays where it is, whatever the hand does next, and the strain with it.
   state_.strain.q_dot.setZero();
@@ -260,7 +260,7 @@ void ForkBody::stay(double h) {
   state_.behind = true;
 }
 
-void ForkBody::go_along(double h) {
+void ForkBody::follow_rigidly(double h) {
   last_.reset();
   state_.strain.q_dot.setZero();
   state_.t += h;

@@ -22,11 +22,11 @@ class ForkBody final : public ToolHold {
   void remember() override;
   void go_back() override;
   void accept() override;
-  Answer answer(double h) const override;
+  Response response(double h) const override;
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
-  void stay(double h) override;
-  void go_along(double h) override;
+  void block(double h) override;
+  void follow_rigidly(double h) override;
   bodies::Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const override;
   void follow(double h, const motion::MotionState& object, const Wrench& pull_W) override;
 
@@ -35,11 +35,11 @@ class ForkBody final : public ToolHold {
   void let_pass(double h) override { state_.t += h; }
 
   Wrench spring_pull() const override;
-  void grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) override;
+  void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) override;
   /// Sets strain rates so that the object's twist comes as near as it can to this one.
   void take_twist(const Twist& V_WO_W) override;
   void set_springs(const rod::ForkSettings& fork) override;
-  rod::PerFamily fitting_stiffness(const rod::ForkSettings& fork, double gravity) const override;
+  rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity) const override;
   bool set_dofs(const rod::ForkDofs& dofs, double switch_off_time) override;
   void set_step_control(const dynamics::DynamicsSettings& settings) override { control_ = make_step_control(settings); }
   static dynamics::StepControl make_step_control(const dynamics::DynamicsSettings& settings);
@@ -91,7 +91,7 @@ class ForkBody final : public ToolHold {
   /// The same under the wrench.
   RigidTransform next_offset(double h, const Wrench& contact_W) const;
   /// The seen handle's motion over a step that ends with this offset.
-  motion::MotionSegment seen_motion(double h, const RigidTransform& offset_end) const;
+  motion::MotionSegment proxy_motion(double h, const RigidTransform& offset_end) const;
   rod::StrainMatrix inverse_mass() const;
   /// What the rod does to the object at its centre, world axes: its change of momentum less gravity and contact.
   Wrench pull() const;

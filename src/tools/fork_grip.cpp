@@ -49,7 +49,7 @@ rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R
   return missing(q).norm() < 1e-6 * small / exact ? q : present;
 }
 
-void ForkBody::grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) {
+void ForkBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {
   state_.strain.q = strain_under(pull_W, X_WO.linear());
   const dynamics::HandleForcing at_origin = held_.forcing(motion::MotionSegment(RigidTransform::Identity()), state_.t);
   const RigidTransform X_HO = held_.object(at_origin, state_.strain).X;

@@ -6,7 +6,7 @@ namespace spring_workbench::tools {
 
 void ForkBody::set_springs(const rod::ForkSettings& fork) { held_.set_springs(fork); }
 
-rod::PerFamily ForkBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity) const {
+rod::PerDof ForkBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity) const {
   return calibrated_stiffness(fork.shape, length(), held_.body(), gravity);
 }
 
@@ -37,12 +37,12 @@ void ForkBody::describe(bool massless, ToolState& f) const {
   const rod::ShapeModel& shape = held_.shape();
   f.strain = full.q;
   f.X_WH = hand_pose();
-  f.X_WH_seen = handle().X_WH;
+  f.X_WH_proxy = handle().X_WH;
   f.stretch = shape.extension(full.q);
   f.torsion = shape.twist(full.q);
   const RigidTransform X_HE_bent = shape.section(full.q, shape.length());
   f.bend = X_HE_bent.translation().head<2>();
-  f.X_WE = f.X_WH_seen * X_HE_bent;
+  f.X_WE = f.X_WH_proxy * X_HE_bent;
   const motion::MotionState o = object();
   f.elastic_energy = elastic_energy();
   if (massless) return;
@@ -50,8 +50,8 @@ void ForkBody::describe(bool massless, ToolState& f) const {
   const auto [force, moment] = pull();
   f.tip_wrench_W.force = force;
   f.tip_wrench_W.moment = moment + (o.X.translation() - f.X_WE.translation()).cross(force);
-  const Vector3d at_handle = moment + (o.X.translation() - f.X_WH_seen.translation()).cross(force);
-  const Matrix3d R_HW = f.X_WH_seen.linear().transpose();
+  const Vector3d at_handle = moment + (o.X.translation() - f.X_WH_proxy.translation()).cross(force);
+  const Matrix3d R_HW = f.X_WH_proxy.linear().transpose();
   f.handle_wrench_H.force = -(R_HW * force);
   f.handle_wrench_H.moment = -(R_HW * at_handle);
 }

@@ -40,7 +40,7 @@ void SpringBody::set_springs(const rod::ForkSettings& fork) {
   c_ = 2.0 * fork.damping_ratio.stretch * std::sqrt(mass_ * k_);
 }
 
-rod::PerFamily SpringBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity) const {
+rod::PerDof SpringBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity) const {
   return {calibrated_spring(mass_, fork.length, gravity), fork.stiffness.bend, fork.stiffness.torsion};
 }
 
@@ -50,7 +50,7 @@ Wrench SpringBody::spring_pull() const {
 }
 
 /// It can do no more than pull along its line, by another rest length.
-void SpringBody::grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) {
+void SpringBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {
   const Vector3d d = X_WO.translation() - hand_.at(state_.t).X.translation();
   if (k_ > 0.0) rest_length_ = std::max(d.norm() + pull_W.force.dot(direction(d)) / k_, least_length);
 }
@@ -76,18 +76,18 @@ Vector3d SpringBody::acceleration(const Span& s, const Vector3d& rest_W) const {
   return rest_W - (k_ * (s.d.norm() - rest_length_) + c_ * n.dot(s.rate)) / mass_ * n;
 }
 
-Vector3d SpringBody::remainder(const Linear& a, const Span& s, const Vector3d& rest_W) const {
+Vector3d SpringBody::nonlinear_residual(const Linear& a, const Span& s, const Vector3d& rest_W) const {
   const Vector3d x = s.d - a.d;
   const double along = a.n.dot(x);
   return acceleration(s, rest_W) + (a.radial * along + 2.0 * a.alpha * a.n.dot(s.rate)) * a.n +
          a.transverse * (x - along * a.n);
 }
 
-SpringBody::Span SpringBody::respond(const Linear& a, const Span& s, double h, const Vector3d& remainder) {
+SpringBody::Span SpringBody::respond(const Linear& a, const Span& s, double h, const Vector3d& nonlinear_residual) {
   const math::OscillatorStep along = math::damped_oscillator(a.alpha, a.radial, h);
   const math::OscillatorStep across = math::damped_oscillator(0.0, a.transverse, h);
-  const double v = a.n.dot(s.rate), g = a.n.dot(remainder);
-  const Vector3d v_across = s.rate - v * a.n, g_across = remainder - g * a.n;
+  const double v = a.n.dot(s.rate), g = a.n.dot(nonlinear_residual);
+  const Vector3d v_across = s.rate - v * a.n, g_across = nonlinear_residual - g * a.n;
   return {a.d + (along.xv * v + along.xg * g) * a.n + across.xv * v_across + across.xg * g_across,
           (along.vv * v + along.vg * g) * a.n + across.vv * v_across + across.vg * g_across};
 }
@@ -98,9 +98,9 @@ bool SpringBody::advance(double h, const Wrench& contact_W) {
   };
   const Span begin = span();
   const Linear a = linear(begin);
-  const Vector3d at_begin = remainder(a, begin, rest(state_.t));
+  const Vector3d at_begin = nonlinear_residual(a, begin, rest(state_.t));
   const Span middle = respond(a, begin, 0.5 * h, at_begin);
-  const Span end = respond(a, begin, h, remainder(a, middle, rest(state_.t + 0.5 * h)));
+  const Span end = respond(a, begin, h, nonlinear_residual(a, middle, rest(state_.t + 0.5 * h)));
   State next = state_;
   if (!end.d.allFinite() || !end.rate.allFinite() || !next.free.advance(h, contact_W)) return false;
   const motion::MotionState hand = hand_.at(state_.t + h);
@@ -112,16 +112,17 @@ bool SpringBody::advance(double h, const Wrench& contact_W) {
   return true;
 }
 
-bodies::SteppedBody::Answer SpringBody::answer(double h) const {
-  Answer answer = state_.free.answer(h);
+bodies::SteppedBody::Response SpringBody::response(double h) const {
+  Response response = state_.free.response(h);
   const Linear a = linear(span());
   const math::OscillatorStep along = math::damped_oscillator(a.alpha, a.radial, h),
                              across = math::damped_oscillator(0.0, a.transverse, h);
   const Matrix3d radial = a.n * a.n.transpose();
-  answer.displacement.topLeftCorner<3, 3>() =
+  response.displacement.topLeftCorner<3, 3>() =
       (across.xg * Matrix3d::Identity() + (along.xg - across.xg) * radial) / mass_;
-  answer.velocity.topLeftCorner<3, 3>() = (across.vg * Matrix3d::Identity() + (along.vg - across.vg) * radial) / mass_;
-  return answer;
+  response.velocity.topLeftCorner<3, 3>() =
+      (across.vg * Matrix3d::Identity() + (along.vg - across.vg) * radial) / mass_;
+  return response;
 }
 
 bodies::Coupling SpringBody::coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const {
@@ -147,8 +148,8 @@ void SpringBody::follow(double h, const motion::MotionState& object, const Wrenc
   state_.t += h;
 }
 
-void SpringBody::stay(double h) {
-  state_.free.stay(h);
+void SpringBody::block(double h) {
+  state_.free.block(h);
   state_.t += h;
 }
 
@@ -170,9 +171,9 @@ void SpringBody::describe(bool, ToolState& state) const {
   const RigidTransform X_WH = hand_.at(state_.t).X;
   state.stretch = s.d.norm() - rest_length_;
   // Drawn straight from the hand to the object's centre.
-  state.X_WH_seen = X_WH;
-  state.X_WH_seen.linear() = Quaterniond::FromTwoVectors(X_WH.linear().col(2), n).toRotationMatrix() * X_WH.linear();
-  state.X_WE = state.X_WH_seen * Eigen::Translation3d(0.0, 0.0, s.d.norm());
+  state.X_WH_proxy = X_WH;
+  state.X_WH_proxy.linear() = Quaterniond::FromTwoVectors(X_WH.linear().col(2), n).toRotationMatrix() * X_WH.linear();
+  state.X_WE = state.X_WH_proxy * Eigen::Translation3d(0.0, 0.0, s.d.norm());
   const double drawn = state.shape == "bushing" ? state.stretch : state.stretch / rest_length_;
   state.strain[state.strain.size() - 1] = drawn;
   state.tip_wrench_W.force = -(k_ * state.stretch + c_ * n.dot(s.rate)) * n;

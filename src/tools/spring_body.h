@@ -20,19 +20,19 @@ class SpringBody final : public ToolHold {
   bool advance(double h, const Wrench& contact_W) override;
   void remember() override { remembered_ = state_; }
   void go_back() override { state_ = remembered_; }
-  Answer answer(double h) const override;
+  Response response(double h) const override;
   Matrix6d mobility() const override { return state_.free.mobility(); }
   void add_impulse(const Wrench& impulse_W) override { state_.free.add_impulse(impulse_W); }
-  void stay(double h) override;
+  void block(double h) override;
   bodies::Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const override;
   void follow(double h, const motion::MotionState& object, const Wrench& pull_W) override;
 
   void set_hand(const motion::MotionSegment& hand, double t) override;
   Wrench spring_pull() const override;
-  void grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) override;
+  void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) override;
   void take_twist(const Twist& V_WO_W) override { state_.free.set_twist(V_WO_W); }
   void set_springs(const rod::ForkSettings& fork) override;
-  rod::PerFamily fitting_stiffness(const rod::ForkSettings& fork, double gravity) const override;
+  rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity) const override;
   bool set_dofs(const rod::ForkDofs&, double) override { return false; }
   void set_step_control(const dynamics::DynamicsSettings&) override {}  // it has a rule of its own
   bool sleeps(double, bool) override { return false; }
@@ -61,8 +61,8 @@ class SpringBody final : public ToolHold {
   Span span() const;
   Linear linear(const Span& s) const;
   Vector3d acceleration(const Span& s, const Vector3d& rest_W) const;
-  Vector3d remainder(const Linear& a, const Span& s, const Vector3d& rest_W) const;
-  static Span respond(const Linear& a, const Span& s, double h, const Vector3d& remainder);
+  Vector3d nonlinear_residual(const Linear& a, const Span& s, const Vector3d& rest_W) const;
+  static Span respond(const Linear& a, const Span& s, double h, const Vector3d& nonlinear_residual);
 
   double mass_, gravity_, rest_length_;
   double k_ = 0.0, c_ = 0.0;

@@ -31,6 +31,17 @@ EXECUTABLES = {  # folders of executables, which have no module of their own: wh
     "nodes": {"manipulation", "tracker_driver", "contact_sound"},
     "apps": {"hand_input", "motion_files", "fastrak", "assembly"},
 }
+# A pose enters each module once: hand_input is entered by these headers, from these modules. Gate, smoothing,
+# re-acquisition and playout clock are the feed's own, and what hands a pose on towards it knows none of them.
+ENTRIES = {
+    "hand_input": {
+        "feed.h": {"manipulation", "assembly", "apps"},
+        "settings.h": {"manipulation", "apps"},
+        "local_time.h": {"ros_common"},
+    }
+}
+PICTURE = re.compile(r"^## The way of a pose$.*?^```mermaid$(.*?)^```$", re.MULTILINE | re.DOTALL)
+WAY = ["fastrak", "tracker_driver", "manipulation", "hand_input", "simulation"]
 # The few names that every module has in common are in the namespace above the modules.
 COMMON_NAMES = {"include/spring_workbench/math/rigid_transform.h", "include/spring_workbench/math/spatial.h"}
 
@@ -112,8 +123,12 @@ def fault_of(header, module, path, private, layout):
         inside = pathlib.Path(header[len(OWN) :])
         if len(inside.parts) == 1:  # generated from a message or service
             return None if module in ROS_MODULES else "messages belong to the ROS side"
-        allowed = reach(layout.uses, module)
-        return None if layout.module_of(inside) in allowed else f"must be one of {', '.join(sorted(allowed))}"
+        allowed, other = reach(layout.uses, module), layout.module_of(inside)
+        if other not in allowed:
+            return f"must be one of {', '.join(sorted(allowed))}"
+        if other in ENTRIES and other != module and module not in ENTRIES[other].get(inside.name, ()):
+            return f"{other} is entered by {', '.join(sorted(ENTRIES[other]))}, each from its own users alone"
+        return None
     if module == "apps" and "bag" in path.stem and EXTERNAL[0][0].match(header):
         return None
     if YAML.match(header) and module in WITHOUT_YAML:
@@ -122,6 +137,18 @@ def fault_of(header, module, path, private, layout):
         if pattern.match(header) and (module not in users or not (private or in_public)):
             return f"only in {', '.join(sorted(users))}" + ("" if in_public else ", in src/ alone")
     return None
+
+
+def picture_faults(text, uses):
+    """What is wrong with the picture of the way of a pose: arrows that no link line has, a second way into a module."""
+    arrows = re.findall(r"^  (\w+) --> (\w+)$", PICTURE.search(text).group(1), re.MULTILINE)
+    faults = [f"no arrow from {module}" for module in WAY if module not in dict(arrows)]
+    entered = [to for _, to in arrows]
+    faults += [f"{module} is entered {entered.count(module)} times" for module in uses if entered.count(module) > 1]
+    for start, end in arrows:
+        if {start, end} <= set(uses) and end not in reach(uses, start) and start not in reach(uses, end):
+            faults.append(f"{start} --> {end}: neither may use the other")
+    return faults
 
 
 class IncludeDirection(unittest.TestCase):
@@ -136,6 +163,13 @@ class IncludeDirection(unittest.TestCase):
         for module, others in uses.items():
             for other in others:
                 self.assertNotIn(module, reach(uses, other), f"{module} -> {other} closes a circle")
+
+    def test_a_pose_enters_each_module_once(self):
+        text, uses = (ROOT / "doc/architecture.md").read_text(), Layout(ROOT).uses
+        self.assertEqual(picture_faults(text, uses), [])
+        for arrow in ["tracker_driver --> hand_input", "fastrak --> rod"]:
+            spoilt = text.replace("  hand_input --> simulation\n", f"  hand_input --> simulation\n  {arrow}\n")
+            self.assertEqual(len(picture_faults(spoilt, uses)), 2 if "rod" in arrow else 1, arrow)
 
     def test_faults_are_found(self):
         cases = [  # file, line, whether it is a fault
@@ -154,6 +188,10 @@ class IncludeDirection(unittest.TestCase):
             ("src/nodes/a.cpp", "#include <ros/ros.h>", False),
             ("src/apps/bag_reader.cpp", "#include <rosbag/bag.h>", False),
             ("src/apps/main.cpp", "#include <rosbag/bag.h>", True),
+            ("src/assembly/a.cpp", '#include "spring_workbench/hand_input/feed.h"', False),
+            ("src/assembly/a.cpp", '#include "spring_workbench/hand_input/sample_gate.h"', True),
+            ("src/fastrak/a.cpp", '#include "spring_workbench/hand_input/feed.h"', True),
+            ("src/hand_input/a.cpp", '#include "spring_workbench/hand_input/sample_gate.h"', False),
             ("src/stray/a.cpp", "#include <vector>", True),
             ("src/low/a.cpp", "namespace spring_workbench::low {", False),
             ("src/low/a.cpp", "namespace spring_workbench::high {", True),
@@ -164,6 +202,8 @@ class IncludeDirection(unittest.TestCase):
                 root = pathlib.Path(folder)
                 (root / "CMakeLists.txt").write_text(
                     "add_module(low)\nadd_module(rod)\nadd_module(collision DEPENDS low)\n"
+                    "add_module(hand_input)\nadd_module(assembly DEPENDS hand_input)\n"
+                    "add_module(fastrak DEPENDS hand_input)\n"
                     "add_module(high DEPENDS low LIBRARIES x)\nadd_module(top FOLDER ros/top DEPENDS high)\n"
                 )
                 (root / file).parent.mkdir(parents=True)

@@ -38,7 +38,7 @@ class Choices {
     }
     return (choice - 128.0) / 128.0;
   }
-  /// A number of which no more is asked than a hand can do that the truth layer lets through; what is not finite stays
+  /// A number of which no more is asked than a hand can do that the gate lets through; what is not finite stays
   /// so.
   double hand_number() {
     const double value = number();
@@ -48,7 +48,7 @@ class Choices {
     const unsigned choice = byte();
     return choice < 0xf0 ? known[choice % known.size()] : std::string(choice - 0xef, static_cast<char>(byte()));
   }
-  rod::PerFamily per_family() {
+  rod::PerDof per_dof() {
     const double stretch = number(), bend = number();
     return {stretch, bend, number()};
   }
@@ -65,10 +65,10 @@ void call(Choices& next, simulation::Simulation& simulation, motion::PoseSample&
       simulation.set_dofs({next.flag(), next.flag(), next.flag()});
       break;
     case 1:
-      simulation.set_stiffness(next.per_family());
+      simulation.set_stiffness(next.per_dof());
       break;
     case 2:
-      simulation.set_damping_ratio(next.per_family());
+      simulation.set_damping_ratio(next.per_dof());
       break;
     case 3: {
       const std::string name = next.name(dynamics::integrator_names());

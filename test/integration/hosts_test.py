@@ -167,8 +167,8 @@ def run(folder, lost):
                 "_contact:=none",
                 "_grasp/object:=box",
                 "_start/follow:=true",
-                "_truth/lost:=" + lost,
-                "_truth/lost_after:=1.0",
+                "_input/on_loss:=" + lost,
+                "_input/loss_timeout:=1.0",
             )
         )
         watch = Watch()

@@ -43,7 +43,7 @@ class KilledNodes(unittest.TestCase):
         kill_and_wait(node)
         self.see_it_move()
         self.assertEqual(pid_of("/manipulation"), manipulation)
-        self.assertEqual(sum(m.guards_tripped for m in self.steps.messages[seen:]), 0)
+        self.assertEqual(sum(m.steps_rejected for m in self.steps.messages[seen:]), 0)
 
     def test_the_tracker_driver(self):
         with Launched(*STACK, *MOVING, "rviz:=false"):

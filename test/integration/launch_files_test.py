@@ -47,7 +47,7 @@ class LaunchFiles(unittest.TestCase):
             )
             objects.next(is_there, "the box to be lifted and carried")
             self.assertLess(objects.last.header.stamp.to_sec(), 1010.0)  # the bag's time
-            self.assertEqual(sum(m.guards_tripped for m in steps.messages), 0)
+            self.assertEqual(sum(m.steps_rejected for m in steps.messages), 0)
         shutil.rmtree(folder)
 
     def test_rviz_shows_the_shipped_configuration(self):

@@ -126,7 +126,7 @@ class Limits(unittest.TestCase):
 
     def test_each_setting_parameter_and_option_has_a_row(self):
         given = {name: [row[0] for row in rows] for name, rows in self.tables.items()}
-        for key in documented("Settings", r"^\| `([\w.]+)`") + documented("Truth settings", r"^\| `([\w.]+)`"):
+        for key in documented("Settings", r"^\| `([\w.]+)`") + documented("Input settings", r"^\| `([\w.]+)`"):
             self.assertTrue(any(setting.startswith(key + "=") for setting in given["Settings"]), key)
         for node in ["manipulation", "tracker_driver", "contact_sound"]:
             rows = [row[1] for row in self.tables["Parameters"] if row[0] == node]

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Every recorded motion and every bag of ../shared/data through `replay`, which has the truth layer of the nodes, with
+"""Every recorded motion and every bag of ../shared/data through `replay`, which feeds a hand as the nodes do, with
 an object held: nothing that is no number, and speed, acceleration and wrench within limits, through every gap, flip
 and jump.
 
@@ -92,7 +92,7 @@ class Recordings(unittest.TestCase):
             )
         )
         self.assertGreater(rows, 100)
-        self.assertEqual(summary["guards_tripped"], 0)
+        self.assertEqual(summary["steps_rejected"], 0)
         self.assertLess(fastest, FASTEST)
         self.assertLess(strongest, STRONGEST)
         self.assertLess(hardest_turn, HARDEST_TURN)
@@ -114,9 +114,9 @@ class Recordings(unittest.TestCase):
             "--motion",
             SHARED + "/data/motions/tumvi_room2_gaps_60s.tum",
             "--set",
-            "truth.lost=release",
+            "input.on_loss=release",
             "--set",
-            "truth.lost_after=1.0",
+            "input.loss_timeout=1.0",
             may_lose=True,
         )
         self.assertGreaterEqual(summary["losses"], 1)

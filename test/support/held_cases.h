@@ -34,7 +34,7 @@ struct Case {
 };
 
 inline Case random_case(const std::string& shape, double damping_ratio, double duration, std::mt19937& random,
-                        const std::string& damping_law = "per_family") {
+                        const std::string& damping_law = "per_dof") {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   dynamics::BodyInertia body;
   body.mass = std::pow(10.0, 3.0 * uniform(random));

@@ -12,7 +12,7 @@ struct Trial {
   TaskScore score;
   std::vector<Placement> placements;
   std::vector<motion::StylusSample> motion;  ///< of the hand, as it was sampled
-  int guards_tripped = 0;
+  int steps_rejected = 0;
 };
 
 /// What an operator sees who looks at the simulation and has its first hand's tool.

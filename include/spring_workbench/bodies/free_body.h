@@ -17,11 +17,11 @@ class FreeBody final : public SteppedBody {
   bool advance(double h, const Wrench& contact_W) override;
   void remember() override { remembered_ = state_; }
   void go_back() override { state_ = remembered_; }
-  Answer answer(double h) const override { return {0.5 * h * h * mobility(), h * mobility()}; }
+  Response response(double h) const override { return {0.5 * h * h * mobility(), h * mobility()}; }
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
-  bool turns_round() const override { return true; }
-  void stay(double h) override;
+  bool reverses() const override { return true; }
+  void block(double h) override;
 
   void set_twist(const Twist& V_WO_W);
   /// Pose and velocity.

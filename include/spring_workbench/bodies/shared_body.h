@@ -22,10 +22,10 @@ class SharedBody final : public SteppedBody {
   bool advance(double h, const Wrench& contact_W) override;
   void remember() override;
   void go_back() override;
-  Answer answer(double h) const override;
+  Response response(double h) const override;
   Matrix6d mobility() const override { return free_.mobility(); }
   void add_impulse(const Wrench& impulse_W) override { free_.add_impulse(impulse_W); }
-  void stay(double h) override;
+  void block(double h) override;
 
  private:
   struct Pulls;  ///< the tools' couplings as one system of equations

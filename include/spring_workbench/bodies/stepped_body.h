@@ -29,21 +29,21 @@ class SteppedBody {
   virtual void go_back() = 0;
 
   /// How a constant wrench over a step changes the displacement and the velocity at its end; 6 × 6 [linear; angular].
-  struct Answer {
+  struct Response {
     Matrix6d displacement, velocity;
   };
-  virtual Answer answer(double h) const = 0;
+  virtual Response response(double h) const = 0;
   /// How an impulse changes the velocity.
   virtual Matrix6d mobility() const = 0;
   virtual void add_impulse(const Wrench& impulse_W) = 0;
   /// Whether its way over a step is the mean of the velocities at both ends, times the step: what holds it in its place
   /// then leaves it with its velocity turned round.
-  virtual bool turns_round() const { return false; }
+  virtual bool reverses() const { return false; }
   /// Lets `h` [s] pass at rest where it is: the way out when nothing else fits.
-  virtual void stay(double h) = 0;
+  virtual void block(double h) = 0;
   /// Lets `h` [s] pass with its tool rigid, as one that has come to the end of its way: the way out where nothing can
   /// be in the way. Adds no energy while the hand rests.
-  virtual void go_along(double h) { stay(h); }
+  virtual void follow_rigidly(double h) { block(h); }
 };
 
 }  // namespace spring_workbench::bodies

@@ -13,8 +13,8 @@ namespace spring_workbench::contact {
 struct ContactOutcome {
   std::vector<ContactRow> rows;  ///< the contacts at the end of the step; `load_W` [N]
   int queries = 0;
-  bool held_back = false;  ///< nothing fitted and the body was stopped
-  bool refused = false;    ///< a step without contact would not have been finite or bounded
+  bool steps_blocked = false;  ///< nothing fitted and the body was stopped
+  bool refused = false;        ///< a step without contact would not have been finite or bounded
 };
 
 /// Contact mode `stop` (doc/model.md; the paper's section 5): the candidate step is swept, cut at the first contact by
@@ -61,8 +61,8 @@ class ContactStepper {
     bool allowed = true;              ///< it may go there
   };
   /// Tries to go `h` on, under the rows' loads where there are rows. Not done, the body is where it was.
-  Piece try_piece(bodies::SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
-                  ContactOutcome& outcome) const;
+  Piece try_substep(bodies::SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
+                    ContactOutcome& outcome) const;
   /// Corrects the impulses that the rows' loads have given over a piece of `h` [s] so that no contact approaches at its
   /// end, and none slips where friction, which is constant over the piece, has turned its slip round or could have held
   /// it.
@@ -70,7 +70,8 @@ class ContactStepper {
   /// Adds those contacts that are new and takes away the speed with which they approach. False when none was.
   bool meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, std::vector<ContactRow>& rows) const;
   /// How far the way between two states, `h` apart, is from the straight one [m].
-  double bow(std::size_t body, const motion::MotionState& begin, const motion::MotionState& end, double h) const;
+  double chord_deviation(std::size_t body, const motion::MotionState& begin, const motion::MotionState& end,
+                         double h) const;
   /// What is in the way between two states.
   struct Obstruction {
     bool hit = false;

@@ -19,9 +19,9 @@ class DynamicStepper {
   const rigid_bodies::RigidWorld& world() const { return *world_; }
 
   struct Outcome {
-    int pieces = 0;
-    bool held_back = false;  ///< contact left a held body no way, and it was stopped
-    bool refused = false;    ///< a piece without contact would not have been finite or bounded
+    int substeps = 0;
+    bool steps_blocked = false;  ///< contact left a held body no way, and it was stopped
+    bool refused = false;        ///< a piece without contact would not have been finite or bounded
   };
   /// Carries the held bodies and the world over `h` [s].
   Outcome step(const std::vector<bodies::SteppedBody*>& held, double h);
@@ -41,7 +41,7 @@ class DynamicStepper {
     Wrench impact_W;  ///< the impulse at its begin
     bool possible = false;
   };
-  Candidate try_piece(bodies::SteppedBody& body, double h) const;
+  Candidate try_substep(bodies::SteppedBody& body, double h) const;
   /// Whether nothing is in the way of any of them, and nothing that is not held moves.
   bool all_free(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates) const;
   /// What goes into the world of a candidate: its way without the load, and how its end answers to one. The body is at
@@ -58,8 +58,8 @@ class DynamicStepper {
   std::vector<rigid_bodies::DrivenBody> solve(const std::vector<bodies::SteppedBody*>& held,
                                               const std::vector<Candidate>& candidates, double h);
   /// The held bodies go over a piece under these loads; which part of their ways is sound.
-  double sound_part(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates,
-                    const std::vector<rigid_bodies::DrivenBody>& driven, double h) const;
+  double admissible_fraction(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates,
+                             const std::vector<rigid_bodies::DrivenBody>& driven, double h) const;
   /// The same of the ways that the solver foresaw for them.
   double foreseen_sound_part(const std::vector<rigid_bodies::DrivenBody>& driven) const;
   /// The held bodies stay where they are for one piece, while the others go on.

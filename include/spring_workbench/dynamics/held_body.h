@@ -56,12 +56,12 @@ class HeldBody {
   long load_version() const { return load_version_; }
 
   /// Stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio (Kelvin–Voigt; doc/model.md) per family.
-  void set_springs(const rod::PerFamily& stiffness, const rod::PerFamily& damping_ratio);
+  void set_springs(const rod::PerDof& stiffness, const rod::PerDof& damping_ratio);
   /// Damping coefficients outright, per family, the unit of its stiffness times s: `D = (c / k) K`.
-  void set_springs_and_dampers(const rod::PerFamily& stiffness, const rod::PerFamily& damping);
+  void set_springs_and_dampers(const rod::PerDof& stiffness, const rod::PerDof& damping);
   /// The same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, M that of
   /// the unstrained fork. Goes with set_dofs().
-  void set_springs_with_modal_damping(const rod::PerFamily& stiffness, double damping_ratio);
+  void set_springs_with_modal_damping(const rod::PerDof& stiffness, double damping_ratio);
   /// Stiffness, damping ratios and damping law of `fork`.
   void set_springs(const rod::ForkSettings& fork);
   /// Moment of inertia about the fork's axis through the grasp [kg·m²].

@@ -28,7 +28,7 @@ class Integrator {
   /// Order of accuracy for smooth motions.
   virtual int order() const = 0;
   /// Whether no stiffness, however large, limits the step: what StepControl guards.
-  virtual bool unlimited() const { return false; }
+  virtual bool stiffly_stable() const { return false; }
   /// Whether the estimate holds, too, in a step that begins with a jump of the handle's acceleration.
   virtual bool estimates_after_jumps() const { return true; }
 

@@ -8,7 +8,7 @@ namespace spring_workbench::dynamics {
 
 /// What a StepControl did over a span of time.
 struct ControlledStep {
-  bool fine = true;             ///< false: no state to go on from was found, and none was taken
+  bool accepted = true;         ///< false: no state to go on from was found, and none was taken
   int steps = 0;                ///< steps taken
   int rejected = 0;             ///< steps tried and taken again shorter
   int energy_held = 0;          ///< steps whose gain of energy was taken away (see StepControl)

@@ -5,7 +5,7 @@
 namespace spring_workbench::geometry {
 
 /// A body's motion over a fraction f of 0 … 1: straight in position, p + f · move, and turning evenly about one axis.
-struct Way {
+struct StraightMotion {
   Vector3d p_WO = Vector3d::Zero();    ///< of the body's origin at f = 0 [m]
   Vector3d move_W = Vector3d::Zero();  ///< [m]
   Vector3d turn_W = Vector3d::Zero();  ///< [rad]
@@ -19,10 +19,12 @@ struct HalfSpace {
 
 /// Up to which fraction of `way`, at most `longest`, a box that goes with the body surely has no corner deeper than
 /// `tolerance` [m] in the half-space: a corner's height is its tangent but for ½ f² of its largest second derivative.
-double clear_above(const OutlineBox& own, const Way& way, const HalfSpace& below, double tolerance, double longest);
+double clear_above(const OutlineBox& own, const StraightMotion& motion, const HalfSpace& below, double tolerance,
+                   double longest);
 
 /// The same for a box that stands still: the plane between the two is held fast to one of them, whichever keeps clear
 /// longer.
-double clear_of(const OutlineBox& own, const Way& way, const OutlineBox& other, double tolerance, double longest);
+double clear_of(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
+                double longest);
 
 }  // namespace spring_workbench::geometry

@@ -2,15 +2,9 @@
 
 #include <limits>
 
-namespace spring_workbench::hand_input {
+#include "spring_workbench/hand_input/local_time.h"
 
-/// One moment by two clocks [s].
-struct LocalTime {
-  double loop = 0.0;      ///< of the loop: steady, or simulated
-  double attended = 0.0;  ///< of the steady clock, the time in which this process ran: it grows by at most 10 ms from
-                          ///< one look to the next, so that messages that wait while a busy machine stops the process
-                          ///< are not taken for messages that do not come
-};
+namespace spring_workbench::hand_input {
 
 /// Says how far to simulate: one sample interval behind the tracker as long as samples come, so that every segment of
 /// the hand's motion is known before it is walked; and on past the newest sample, the hand held at rest, once they have

@@ -5,24 +5,22 @@
 
 namespace spring_workbench::hand_input {
 
-/// Takes jitter out of a pose and foretells it, both only where the settings ask for it.
+/// Takes jitter out of a pose, if the settings ask for it.
 /// The One Euro filter (Casiez, Roussel, Vogel, CHI 2012): a first-order low-pass whose cut-off grows with the speed,
 /// `f_c = min_cutoff + beta |v|`, so that a hand at rest does not tremble and a quick one does not lag. Position is
-/// filtered by components with the length of the velocity, rotation along the shortest arc with the turn rate. Then the
-/// pose is carried on for `prediction` at the (low-passed) velocity and turn rate.
+/// filtered by components with the length of the velocity, rotation along the shortest arc with the turn rate.
 class PoseFilter {
  public:
-  explicit PoseFilter(const TruthSettings& settings);
+  explicit PoseFilter(const InputSettings& settings) : settings_(settings) {}
 
-  /// The next sample (later than the last one): its pose as filtered and foretold, its stamp as it is.
+  /// The next sample (later than the last one): its pose as filtered, its stamp as it is.
   motion::PoseSample filter(const motion::PoseSample& sample);
   /// The next sample starts anew.
   void restart() { running_ = false; }
 
  private:
   bool running_ = false;
-  bool active_;
-  TruthSettings settings_;
+  InputSettings settings_;
   motion::PoseSample raw_;           ///< the newest sample
   RigidTransform X_;                 ///< filtered
   Vector3d v_ = Vector3d::Zero();    ///< low-passed velocity [m/s]

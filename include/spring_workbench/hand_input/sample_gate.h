@@ -17,9 +17,9 @@ struct RawSample {
 };
 
 /// What the gate says of a sample.
-enum class Verdict {
-  accepted,   ///< goes on from the sample before
-  new_place,  ///< accepted, but not from where the last one was: after a jump or a dropout, or the first of all
+enum class GateResult {
+  accepted,    ///< goes on from the sample before
+  relocation,  ///< accepted, but not from where the last one was: after a jump or a dropout, or the first of all
   not_finite,
   bad_quaternion,  ///< far from unit length
   too_far,
@@ -29,20 +29,24 @@ enum class Verdict {
   turns_too_fast,
   out_of_view,
 };
-/// Whether a sample with this verdict may be used.
-inline bool usable(Verdict verdict) { return verdict == Verdict::accepted || verdict == Verdict::new_place; }
-/// The verdict in words, as /diagnostics tells it.
-std::string to_string(Verdict verdict);
+/// Whether a sample with this result may be used.
+inline bool usable(GateResult result) { return result == GateResult::accepted || result == GateResult::relocation; }
+/// The result in words, as /diagnostics tells it.
+std::string to_string(GateResult result);
 /// What is wrong with a sample that was left out: field, value and rule.
-std::string complaint(Verdict verdict, const RawSample& sample, const TruthSettings& settings);
+std::string complaint(GateResult result, const RawSample& sample, const InputSettings& settings);
+
+/// Whether a sample is a pose in reach at all, whatever came before it: accepted, not_finite, bad_quaternion or
+/// too_far.
+GateResult check_pose(const RawSample& sample, const InputSettings& settings);
 
 /// What the gate met so far.
 struct GateCounts {
   std::size_t accepted = 0;
-  std::size_t new_places = 0;  ///< jumps that were taken as true
-  std::size_t dropouts = 0;    ///< gaps between accepted samples longer than `dropout_after`
-  std::size_t sign_flips = 0;  ///< neighbours whose quaternions have opposite signs; harmless
-  std::map<Verdict, std::size_t> left_out;
+  std::size_t relocations = 0;  ///< jumps that were taken as true
+  std::size_t dropouts = 0;     ///< gaps between accepted samples longer than `dropout_after`
+  std::size_t sign_flips = 0;   ///< neighbours whose quaternions have opposite signs; harmless
+  std::map<GateResult, std::size_t> rejected;
 };
 
 /// Lets those samples of one station through that a hand can have made. A sample too far from the last accepted one for
@@ -51,23 +55,23 @@ struct GateCounts {
 class SampleGate {
  public:
   /// `dropout_after` [s], > 0: a longer gap is a dropout, and what comes after it is a new place.
-  SampleGate(const TruthSettings& settings, double dropout_after);
+  SampleGate(const InputSettings& settings, double dropout_after);
 
-  Verdict offer(const RawSample& sample);
+  GateResult offer(const RawSample& sample);
   const GateCounts& counts() const { return counts_; }
   /// Forgets the samples, for a jump of time; keeps the counts.
   void restart();
 
  private:
-  Verdict judge(const RawSample& sample) const;
-  Verdict judge_move(const RawSample& from, const RawSample& to) const;
+  GateResult judge(const RawSample& sample) const;
+  GateResult judge_move(const RawSample& from, const RawSample& to) const;
   bool is_out_of_view(const RawSample& sample) const;
   bool confirmed(const RawSample& sample);
   /// A sample in reach at last, only because time has passed, of a place that was out of reach before.
   bool is_from_candidate(const RawSample& sample) const;
-  Verdict accept(const RawSample& sample, bool jumped);
+  GateResult accept(const RawSample& sample, bool jumped);
 
-  TruthSettings settings_;
+  InputSettings settings_;
   double dropout_after_;
   GateCounts counts_;
   std::optional<RawSample> newest_;     ///< accepted

@@ -21,9 +21,10 @@ struct DrivenBody {
   Matrix6d compliance = Matrix6d::Zero();
   Twist V_WO_W;                          ///< at the start of the step
   Matrix6d mobility = Matrix6d::Zero();  ///< how the velocity answers to an impulse; symmetric, ≥ 0
-  Matrix6d coasting = Matrix6d::Zero();  ///< how the displacement over the step answers to an impulse at its start
-  Wrench impact_W;                       ///< out: the impulse of contact at the start, at O [N·s, N·m·s]
-  Wrench contact_W;                      ///< out: what contact does besides, constant over the step, at O [N, N·m]
+  Matrix6d displacement_by_impulse =
+      Matrix6d::Zero();  ///< how the displacement over the step answers to an impulse at its start
+  Wrench impact_W;       ///< out: the impulse of contact at the start, at O [N·s, N·m·s]
+  Wrench contact_W;      ///< out: what contact does besides, constant over the step, at O [N, N·m]
 };
 
 /// A place where two bodies press on each other.
@@ -70,10 +71,12 @@ class RigidWorld {
 
   /// Which part of the body's way from `X0_WO` to `X1_WO`, straight and evenly turning, it surely goes without touching
   /// anything; 0 … 1. Others are taken to stand still.
-  virtual double free_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const = 0;
+  virtual double collision_free_fraction(std::size_t body, const RigidTransform& X0_WO,
+                                         const RigidTransform& X1_WO) const = 0;
   /// Which part it surely goes without having gone through anything or, among boxes, without being deeper than 0.05 mm,
   /// or than at the start (half, if the last step was not solved to 1 µm). Others have gone straight since remember().
-  virtual double sound_part(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO) const = 0;
+  virtual double admissible_fraction(std::size_t body, const RigidTransform& X0_WO,
+                                     const RigidTransform& X1_WO) const = 0;
 
   /// Contacts of the last step that pressed or were closed.
   virtual const std::vector<WorldContact>& contacts() const = 0;

@@ -1,22 +1,21 @@
 #pragma once
 
-#include <limits>
 #include <string>
 
 namespace spring_workbench::rod {
 
-/// One number per deformation family of the fork.
-struct PerFamily {
+/// One number per degree of freedom (DOF) of the fork.
+struct PerDof {
   double stretch = 0.0;
   double bend = 0.0;
   double torsion = 0.0;
 };
 
-inline bool operator==(const PerFamily& a, const PerFamily& b) {
+inline bool operator==(const PerDof& a, const PerDof& b) {
   return a.stretch == b.stretch && a.bend == b.bend && a.torsion == b.torsion;
 }
 
-/// The deformation families that are switched on (the paper's deformation DOFs, section 4). Off means rigid.
+/// The DOFs that are switched on (the paper's deformation DOFs, section 4). Off means rigid.
 struct ForkDofs {
   bool stretch = true;
   bool bend = true;
@@ -26,19 +25,15 @@ struct ForkDofs {
 
 /// The spring-fork's elastic part (doc/model.md, "The spring-fork is a rod").
 struct ForkSettings {
-  std::string shape = "linear";             ///< key `shape`: the shape model's name
-  double length = 0.2;                      ///< key `fork.length` [m], > 0: rest length L
-  PerFamily stiffness{2000.0, 500.0, 5.0};  ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
-  PerFamily damping_ratio{1.0, 1.0, 1.0};   ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
-  std::string damping_law = "per_family";   ///< key `fork.damping_law`: per_family, or modal: the same ζ in every mode
-                                            ///< of the held body, for one ζ of all families
-  ForkDofs dofs;                            ///< keys `fork.dofs.*`
-  double breakaway_force =
-      std::numeric_limits<double>::infinity();  ///< key `fork.breakaway_force` [N], > 0: at the tip;
-  double breakaway_moment = std::numeric_limits<double>::infinity();  ///< key `fork.breakaway_moment` [N·m], > 0:
-                                                                      ///< likewise; what would take more is let go
-  double switch_off_time = 0.05;  ///< key `fork.switch_off_time` [s], > 0: time constant on which a family that
-                                  ///< is switched off while strained goes back to zero strain
+  std::string shape = "linear";          ///< key `shape`: the shape model's name
+  double length = 0.2;                   ///< key `fork.length` [m], > 0: rest length L
+  PerDof stiffness{2000.0, 500.0, 5.0};  ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
+  PerDof damping_ratio{1.0, 1.0, 1.0};   ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
+  std::string damping_law = "per_dof";   ///< key `fork.damping_law`: per_dof, or modal: the same ζ in every mode
+                                         ///< of the held body, for one ζ of all families
+  ForkDofs dofs;                         ///< keys `fork.dofs.*`
+  double switch_off_time = 0.05;         ///< key `fork.switch_off_time` [s], > 0: time constant on which a family that
+                                         ///< is switched off while strained goes back to zero strain
 };
 
 }  // namespace spring_workbench::rod

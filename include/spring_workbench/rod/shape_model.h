@@ -66,10 +66,10 @@ class ShapeModel {
 
   /// Diagonal of the stiffness matrix K, `U = ½ qᵀ K q` [J] with nothing condensed, for the families' stiffness [N/m,
   /// N/m, N·m/rad].
-  virtual StrainVector stiffness(const PerFamily& k) const = 0;
+  virtual StrainVector stiffness(const PerDof& k) const = 0;
   /// The same shape for this stiffness, where the stiffness decides on the shape (by coordinates that are condensed);
   /// else null. As made by make_shape_model a shape has none of them.
-  virtual std::shared_ptr<const ShapeModel> for_stiffness(const PerFamily& k) const;
+  virtual std::shared_ptr<const ShapeModel> for_stiffness(const PerDof& k) const;
   /// Elastic energy in condensed coordinates, beyond ½ qᵀ K q [J].
   virtual double condensed_energy(const StrainVector& q) const;
 

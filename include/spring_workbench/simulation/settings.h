@@ -24,6 +24,7 @@ struct SimulationSettings {
   double force_scale = -1.0;            ///< key `force_scale`; negative: as the scene says
   dynamics::DynamicsSettings dynamics;  ///< keys `integrator`, `step`, `tolerance`, `inertia`
   rod::ForkSettings fork;               ///< keys `shape`, `fork.*`
+  tools::LimitSettings limit;           ///< keys `limit.*`
   tools::GraspSettings grasp;           ///< keys `calibrate`, `grasp.*`, `start.follow`, `release`
   double dropout_after = 0.5;           ///< key `dropout_after` [s]
   int bisection_levels = 8;             ///< key `bisection_levels`; 0 … 30 (paper, section 5); 0: time of impact

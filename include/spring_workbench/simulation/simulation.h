@@ -14,7 +14,7 @@
 
 namespace spring_workbench::simulation {
 
-/// What a call of `advance` did.
+/// What a call of `advance` did, or several one after the other.
 struct AdvanceReport {
   int steps = 0;                   ///< integrator steps taken
   double simulated_time = 0.0;     ///< [s]
@@ -25,12 +25,15 @@ struct AdvanceReport {
   double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
   int steps_among_movable = 0;     ///< of `steps`, with other movable objects (contact mode `dynamic`)
   int collision_queries = 0;
-  int steps_rejected = 0;              ///< steps tried and taken again shorter, for their error
-  int energy_held = 0;                 ///< steps whose gain of energy, with the hand at rest, was taken away
-  int held_back = 0;                   ///< steps in which contact left a body no way that was found, and it stayed
-  int guards_tripped = 0;              ///< times a step was refused because it would not have been finite or bounded
-  std::vector<std::string> parts_run;  ///< e.g. "stretch", "gravity", "collision"
-  std::vector<std::string> parts_left_out;
+  int substeps = 0;                 ///< steps tried and taken again shorter, for their error
+  int energy_held = 0;              ///< steps whose gain of energy, with the hand at rest, was taken away
+  int steps_blocked = 0;            ///< steps in which contact left a body no way that was found, and it stayed
+  int steps_rejected = 0;           ///< times a step was refused because it would not have been finite or bounded
+  std::vector<std::string> active;  ///< e.g. "stretch", "gravity", "collision"
+  std::vector<std::string> skipped;
+
+  /// What both did together: sums, largest errors, the parts that were ever active and those that never were.
+  void add(const AdvanceReport& later);
 };
 
 /// What a change of the fork did to the stored energy.
@@ -90,9 +93,9 @@ class Simulation {
   ChangeReport select_tool(const std::string& name, std::size_t hand = 0);
   ChangeReport set_dofs(const rod::ForkDofs& dofs);
   /// A family with 0 keeps its stiffness.
-  ChangeReport set_stiffness(const rod::PerFamily& stiffness);
+  ChangeReport set_stiffness(const rod::PerDof& stiffness);
   /// `law`: one of damping_laws(); empty keeps the present one. `modal` takes one ratio for all families.
-  ChangeReport set_damping_ratio(const rod::PerFamily& ratio, const std::string& law = "");
+  ChangeReport set_damping_ratio(const rod::PerDof& ratio, const std::string& law = "");
   /// Stiffness from the mass and size of the held object, the first hand's where both hold one; the damping ratios
   /// stay. Throws InputError when nothing is held.
   ChangeReport calibrate();

@@ -20,8 +20,8 @@ double weighing_gravity(double gravity);
 /// along −x of the handle, it deflects the tip by as much: both in the full nonlinear equilibrium. Then every
 /// direction, twisting too, has near to the natural frequency `ω = sqrt(g / (sag · length))`, whatever the mass.
 /// Without gravity as on Earth.
-rod::PerFamily calibrated_stiffness(const std::string& shape, double length, const dynamics::BodyInertia& body,
-                                    double gravity, const CalibrationGoal& goal = {});
+rod::PerDof calibrated_stiffness(const std::string& shape, double length, const dynamics::BodyInertia& body,
+                                 double gravity, const CalibrationGoal& goal = {});
 
 /// Stiffness [N/m] of the tool `spring` that the weight of `mass` [kg] extends by `goal.sag` of `length` [m]. Without
 /// gravity as on Earth.

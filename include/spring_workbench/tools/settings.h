@@ -1,11 +1,18 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 
 #include "spring_workbench/math/rigid_transform.h"
 
 namespace spring_workbench::tools {
+
+/// What a tool can hold at its tip; what would take more is let go.
+struct LimitSettings {
+  double force = std::numeric_limits<double>::infinity();   ///< key `limit.force` [N], > 0
+  double moment = std::numeric_limits<double>::infinity();  ///< key `limit.moment` [N·m], > 0
+};
 
 struct GraspSettings {
   bool calibrate = false;              ///< key `calibrate`: on every grasp, from the object's mass and size

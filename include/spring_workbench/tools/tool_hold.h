@@ -34,13 +34,13 @@ class ToolHold : public bodies::SteppedBody, public bodies::CoupledTool {
   virtual Wrench spring_pull() const = 0;
   /// The tool is gripped anew, with the object at `X_WO`: what there was of strain is gone, and the springs do `pull_W`
   /// to the object, at its centre, as far as the tool has springs for it (doc/model.md, "Gripped anew").
-  virtual void grip_anew(const RigidTransform& X_WO, const Wrench& pull_W) = 0;
+  virtual void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) = 0;
   /// The object's twist comes as near as it can to this one.
   virtual void take_twist(const Twist& V_WO_W) = 0;
   /// New stiffness and damping ratios; the strain stays.
   virtual void set_springs(const rod::ForkSettings& fork) = 0;
   /// The stiffness that fits the object as it is held (doc/model.md, "Calibration"). The object's mass must be > 0.
-  virtual rod::PerFamily fitting_stiffness(const rod::ForkSettings& fork, double gravity) const = 0;
+  virtual rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity) const = 0;
   /// Switches families; true when one is on its way to zero strain. For the fork alone.
   virtual bool set_dofs(const rod::ForkDofs& dofs, double switch_off_time) = 0;
   virtual void set_step_control(const dynamics::DynamicsSettings& settings) = 0;

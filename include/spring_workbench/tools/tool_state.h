@@ -16,8 +16,8 @@ struct ToolState {
   std::string integrator;
   rod::ForkDofs dofs;                                ///< families switched on
   double length = 0.0;                               ///< rest length [m]
-  rod::PerFamily stiffness;                          ///< [N/m, N/m, N·m/rad]
-  rod::PerFamily damping_ratio;                      ///< –
+  rod::PerDof stiffness;                             ///< [N/m, N/m, N·m/rad]
+  rod::PerDof damping_ratio;                         ///< –
   rod::StrainVector strain;                          ///< all coordinates of the shape model; zero when nothing is held
   double stretch = 0.0;                              ///< extension along the rod [m]
   Eigen::Vector2d bend = Eigen::Vector2d::Zero();    ///< tip deflection along x and y of the handle [m]
@@ -25,13 +25,13 @@ struct ToolState {
   RigidTransform X_WS = RigidTransform::Identity();  ///< the stylus
   RigidTransform X_WH = RigidTransform::Identity();  ///< the handle, as the hand has it: the stylus itself unless
                                                      ///< the fork was given another size, or gripped anew
-  RigidTransform X_WH_seen = RigidTransform::Identity();  ///< the handle that the object sees (proxy of the hand)
-  RigidTransform X_WE = RigidTransform::Identity();       ///< the tip
-  Wrench tip_wrench_W;                                    ///< on the object at the tip, world axes [N, N·m]
-  Wrench handle_wrench_H;                                 ///< what the hand would feel, at and in the handle frame
-  double elastic_energy = 0.0;                            ///< [J]
-  double kinetic_energy = 0.0;                            ///< of the held object, in world [J]
-  double force_scale = 1.0;                               ///< virtual per real unit of force
+  RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< the handle that the object sees (proxy of the hand)
+  RigidTransform X_WE = RigidTransform::Identity();        ///< the tip
+  Wrench tip_wrench_W;                                     ///< on the object at the tip, world axes [N, N·m]
+  Wrench handle_wrench_H;                                  ///< what the hand would feel, at and in the handle frame
+  double elastic_energy = 0.0;                             ///< [J]
+  double kinetic_energy = 0.0;                             ///< of the held object, in world [J]
+  double force_scale = 1.0;                                ///< virtual per real unit of force
   double weight = 0.0;              ///< the tool as a scale: upward force on the object over g [vkg]
   double torque = 0.0;              ///< the tool as a torque wrench: moment about its axis at the tip [N·m]
   double material_stiffness = 0.0;  ///< that the probe reads [N/m]; infinite: rigid; 0: no reading

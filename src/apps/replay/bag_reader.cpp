@@ -7,12 +7,15 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iostream>
+#include <regex>
 #include <set>
 #include <utility>
 
 #include "motion.h"
 #include "spring_workbench/simulation/simulation.h"
 #include "spring_workbench/validation/number_rule.h"
+#include "spring_workbench/validation/renamed.h"
 
 namespace spring_workbench::replay {
 namespace {
@@ -96,7 +99,19 @@ class BagReader {
     return motion;
   }
 
+  /// A bag of ours with fields that were renamed: each is told once, with its new name.
+  void tell_renamed(const rosbag::MessageInstance& message) {
+    if (message.getDataType().rfind("spring_workbench/", 0) != 0 || !own_types_.insert(message.getDataType()).second)
+      return;
+    for (const auto& [before, now] : validation::renamed()) {
+      if (!std::regex_search(message.getMessageDefinition(), std::regex("\\b" + before + "\\b"))) continue;
+      std::cerr << "warning: " << path_ << ": " << message.getTopic() << ": " << before << " is called " << now
+                << " now\n";
+    }
+  }
+
   void take(const rosbag::MessageInstance& message) {
+    tell_renamed(message);
     const std::string topic = bare(message.getTopic());
     if (topic == "tf_static") return;
     if (message.getDataType() == "sensor_msgs/Joy") {
@@ -131,7 +146,8 @@ class BagReader {
 
   std::string path_, parent_;
   std::array<Hand, simulation::Simulation::most_hands> hands_;
-  std::set<std::string> pairs_;  ///< all that are in the bag, for the message
+  std::set<std::string> own_types_;  ///< of messages, that were seen
+  std::set<std::string> pairs_;      ///< all that are in the bag, for the message
 };
 
 }  // namespace

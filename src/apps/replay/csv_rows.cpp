@@ -83,7 +83,7 @@ std::string fork_header() {
   for (const char* name : {"t", "fork", "tool", "held", "stretch", "bend_x", "bend_y", "torsion"}) {
     row.add(std::string(name));
   }
-  for (const char* frame : {"handle_", "seen_", "tip_"}) add_pose_names(frame, row);
+  for (const char* frame : {"handle_", "proxy_", "tip_"}) add_pose_names(frame, row);
   for (const char* frame : {"tip_", "handle_"}) add_wrench_names(frame, row);
   row.add(std::string("elastic_energy")).add(std::string("kinetic_energy"));
   return row.end();
@@ -94,7 +94,7 @@ std::string fork_row(double t, const simulation::Simulation& simulation, std::si
   Row row;
   row.add(t).add(hand == 0 ? "fork" : "fork_" + std::to_string(hand + 1)).add(fork.tool).add(fork.held_object);
   row.add(fork.stretch).add(fork.bend).add(fork.torsion);
-  row.add(fork.X_WH).add(fork.X_WH_seen).add(fork.X_WE);
+  row.add(fork.X_WH).add(fork.X_WH_proxy).add(fork.X_WE);
   row.add(fork.tip_wrench_W.force).add(fork.tip_wrench_W.moment);
   row.add(fork.handle_wrench_H.force).add(fork.handle_wrench_H.moment);
   row.add(fork.elastic_energy).add(fork.kinetic_energy);

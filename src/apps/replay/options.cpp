@@ -26,7 +26,7 @@ void apply(const YAML::Node& values, const std::string& where, Options& options)
       settings.force_insert(entry.first, entry.second);
     }
   }
-  hand_input::take_truth_settings(settings, where, options.truth);
+  hand_input::take_input_settings(settings, where, options.input);
   simulation::apply_settings(settings, where, options.settings);
 }
 
@@ -155,18 +155,18 @@ RUN.fork.csv, a line per output time and hand:
   t,fork,tool,held                          [s], the hand's fork (fork, fork_2), its tool, the object held
   stretch,bend_x,bend_y,torsion             [m, m, m, rad] strain, seen at the tip
   handle_x,...,handle_qw                    the hand in world
-  seen_x,...,seen_qw                        the handle that the object sees (differs where the object cannot follow)
+  proxy_x,...,proxy_qw                      the handle that the object sees (differs where the object cannot follow)
   tip_x,...,tip_qw                          the tip in world
   tip_fx,tip_fy,tip_fz,tip_mx,tip_my,tip_mz          [N, N*m] on the object, at the tip, world axes
   handle_fx,...,handle_mz                            [N, N*m] what the hand would feel, handle axes
   elastic_energy,kinetic_energy             [J] of the fork; of the held object
 
 The last line on standard output is one JSON object: steps, simulated_time and wall_time and time_per_step [s], outputs,
-samples, samples_left_out (by the rules of truth.*; left_out says why), reengagements, losses (of the hand),
+samples, samples_rejected (by the rules of input.*; left_out says why), reengagements, losses (of the hand),
 position_error [m] and angle_error [rad] (the largest estimate of a step's local error), energy_drift [J] (added by
 integration beyond hand, gravity, damping and contact), stiffest_omega_dt, contacts (pairs that came into
-contact, as seen at the output times), collision_queries, held_back (steps in which contact left an object
-no way and it stayed), guards_tripped, parts_run, parts_left_out.
+contact, as seen at the output times), collision_queries, steps_blocked (steps in which contact left an object
+no way and it stayed), steps_rejected, active, skipped.
 Exit status: 0 done; 2 bad arguments or input, with one line on standard error.
 
 Keys (unit; allowed; default): meaning
@@ -176,7 +176,7 @@ Keys (unit; allowed; default): meaning
     text << "  " << key << " (" << d.unit << "; " << d.allowed << "; " << d.default_value << "): " << d.meaning << "\n";
   };
   for (const simulation::SettingDescription& d : simulation::setting_descriptions()) add(d.key, d);
-  for (const hand_input::TruthDescription& d : hand_input::truth_descriptions()) add("truth." + d.key, d);
+  for (const hand_input::InputDescription& d : hand_input::input_descriptions()) add("input." + d.key, d);
   return text.str();
 }
 

@@ -19,7 +19,7 @@ struct Options {
   std::string out;     ///< path of the CSV file of the objects
   double rate = 50.0;  ///< output times per second [Hz]
   simulation::SimulationSettings settings;
-  hand_input::TruthSettings truth;
+  hand_input::InputSettings input;
 };
 
 /// Reads the command line, and the settings file that it names. Throws InputError for everything that cannot be used.

@@ -2,13 +2,10 @@
 
 #include <chrono>
 #include <iostream>
-#include <limits>
-#include <map>
 
 #include "csv_rows.h"
 #include "output_file.h"
-#include "spring_workbench/hand_input/input_filter.h"
-#include "spring_workbench/hand_input/reacquisition.h"
+#include "spring_workbench/hand_input/feed.h"
 #include "spring_workbench/motion_files/open_motion.h"
 #include "spring_workbench/scene/scene.h"
 
@@ -38,40 +35,13 @@ simulation::Simulation make_simulation(const Options& options) {
   return simulation::Simulation(scene, options.settings);
 }
 
-/// Gives the simulation the samples that the truth layer lets through, as `manipulation` does.
-void push_motion(const Motion& motion, std::size_t hand, const Options& options, hand_input::Reengagement& follower,
-                 simulation::Simulation& simulation, Summary& summary) {
-  constexpr double nothing_simulated = -std::numeric_limits<double>::infinity();
-  hand_input::TruthLayer truth(options.truth, options.settings.dropout_after);
-  for (const motion::PoseSample& sample : motion.samples) {
-    ++summary.samples;
-    const hand_input::TrueSample taken = truth.take(sample);
-    if (!hand_input::usable(taken.verdict)) continue;
-    const bool new_place = taken.verdict == hand_input::Verdict::new_place;
-    for (const motion::PoseSample& s : follower.follow(taken.sample, new_place, nothing_simulated)) {
-      simulation.push_stylus(s, hand);
-    }
-  }
-  summary.add(truth.counts());
+void push_motion(const Motion& motion, std::size_t hand, bool with_grasp, hand_input::Feed& feed) {
+  for (const motion::PoseSample& sample : motion.samples) feed.push_stylus(sample, hand);
   for (const ButtonEvent& event : motion.next_tool) {
-    if (event.pressed) simulation.push_next_tool(event.t, hand);
+    if (event.pressed) feed.push_next_tool(event.t, hand);
   }
-  if (!options.settings.grasp.object.empty()) return;
-  for (const ButtonEvent& event : motion.buttons) simulation.push_button(event.t, event.pressed, hand);
-}
-
-/// Goes to t; lets go of what a hand holds where it is lost on the way.
-void advance(double t, std::vector<hand_input::Reengagement>& hands, simulation::Simulation& simulation,
-             Summary& summary) {
-  std::multimap<double, std::size_t> releases;
-  for (std::size_t hand = 0; hand < hands.size(); ++hand) {
-    while (const auto release = hands[hand].take_release(t)) releases.emplace(*release, hand);
-  }
-  for (const auto& [at, hand] : releases) {
-    summary.add(simulation.advance(at));
-    simulation.release(hand);
-  }
-  summary.add(simulation.advance(t));
+  if (!with_grasp) return;
+  for (const ButtonEvent& event : motion.buttons) feed.push_button(event.t, event.pressed, hand);
 }
 
 }  // namespace
@@ -85,20 +55,24 @@ Summary run(const Options& options) {
   fork.write(fork_header());
 
   Summary summary;
-  std::vector<hand_input::Reengagement> hands(motions.size(), hand_input::Reengagement(options.truth));
-  for (std::size_t hand = 0; hand < hands.size(); ++hand) {
-    push_motion(motions[hand], hand, options, hands[hand], simulation, summary);
+  hand_input::Feed feed(simulation, options.input);
+  for (std::size_t hand = 0; hand < motions.size(); ++hand) {
+    push_motion(motions[hand], hand, options.settings.grasp.object.empty(), feed);
+    summary.samples += motions[hand].samples.size();
   }
   const double end = simulation.newest_sample() + kTimeTolerance;
   const auto started = std::chrono::steady_clock::now();
   for (double t = 0.0; t <= end; t = ++summary.outputs / options.rate) {
-    advance(t, hands, simulation, summary);
+    summary.advance.add(feed.advance_to(t));
     summary.add_contacts(simulation.contacts());
     objects.write(object_rows(t, simulation));
-    for (std::size_t hand = 0; hand < hands.size(); ++hand) fork.write(fork_row(t, simulation, hand));
+    for (std::size_t hand = 0; hand < motions.size(); ++hand) fork.write(fork_row(t, simulation, hand));
   }
   summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  for (const hand_input::Reengagement& hand : hands) summary.add(hand.counts());
+  for (std::size_t hand = 0; hand < motions.size(); ++hand) {
+    summary.add(feed.gate_counts(hand));
+    summary.add(feed.reacquisition_counts(hand));
+  }
   fork.commit();
   objects.commit();
   return summary;

@@ -1,6 +1,5 @@
 #include "summary.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <locale>
 #include <sstream>
@@ -23,18 +22,19 @@ std::string quoted(const std::string& text) {
   return json + "\"";
 }
 
-std::string list_of(const std::set<std::string>& words) {
+std::string list_of(const std::vector<std::string>& words) {
   std::string json;
-  for (const std::string& word : words) json += (json.empty() ? "" : ", ") + quoted(word);
+  for (const std::string& word : std::set<std::string>(words.begin(), words.end()))
+    json += (json.empty() ? "" : ", ") + quoted(word);
   return "[" + json + "]";
 }
 
 /// {"reason": count, ...}, and their sum.
-std::pair<std::string, std::size_t> left_out_of(const hand_input::GateCounts& gate) {
+std::pair<std::string, std::size_t> rejected_of(const hand_input::GateCounts& gate) {
   std::string json;
   std::size_t sum = 0;
-  for (const auto& [verdict, count] : gate.left_out) {
-    json += (json.empty() ? "" : ", ") + quoted(hand_input::to_string(verdict)) + ": " + std::to_string(count);
+  for (const auto& [result, count] : gate.rejected) {
+    json += (json.empty() ? "" : ", ") + quoted(hand_input::to_string(result)) + ": " + std::to_string(count);
     sum += count;
   }
   return {"{" + json + "}", sum};
@@ -42,30 +42,14 @@ std::pair<std::string, std::size_t> left_out_of(const hand_input::GateCounts& ga
 
 }  // namespace
 
-void Summary::add(const simulation::AdvanceReport& report) {
-  total_.steps += report.steps;
-  total_.simulated_time += report.simulated_time;
-  total_.position_error = std::max(total_.position_error, report.position_error);
-  total_.angle_error = std::max(total_.angle_error, report.angle_error);
-  total_.energy_added += report.energy_added;
-  total_.stiffest_omega_dt = std::max(total_.stiffest_omega_dt, report.stiffest_omega_dt);
-  total_.collision_queries += report.collision_queries;
-  total_.steps_rejected += report.steps_rejected;
-  total_.energy_held += report.energy_held;
-  total_.held_back += report.held_back;
-  total_.guards_tripped += report.guards_tripped;
-  parts_run_.insert(report.parts_run.begin(), report.parts_run.end());
-  parts_left_out_.insert(report.parts_left_out.begin(), report.parts_left_out.end());
-}
-
 void Summary::add(const hand_input::GateCounts& of_hand) {
   gate.accepted += of_hand.accepted;
   gate.dropouts += of_hand.dropouts;
-  for (const auto& [verdict, count] : of_hand.left_out) gate.left_out[verdict] += count;
+  for (const auto& [result, count] : of_hand.rejected) gate.rejected[result] += count;
 }
 
-void Summary::add(const hand_input::ReengagementCounts& of_hand) {
-  hand.reengagements += of_hand.reengagements;
+void Summary::add(const hand_input::ReacquisitionCounts& of_hand) {
+  hand.reacquisitions += of_hand.reacquisitions;
   hand.losses += of_hand.losses;
 }
 
@@ -79,25 +63,22 @@ void Summary::add_contacts(const std::vector<contact::ContactState>& contacts) {
 }
 
 std::string Summary::json() const {
-  std::set<std::string> never_run;
-  std::set_difference(parts_left_out_.begin(), parts_left_out_.end(), parts_run_.begin(), parts_run_.end(),
-                      std::inserter(never_run, never_run.end()));
-  const auto [left_out, samples_left_out] = left_out_of(gate);
+  const auto [rejected, samples_rejected] = rejected_of(gate);
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out.precision(9);
-  out << "{\"steps\": " << total_.steps << ", \"simulated_time\": " << total_.simulated_time
+  out << "{\"steps\": " << advance.steps << ", \"simulated_time\": " << advance.simulated_time
       << ", \"wall_time\": " << wall_time
-      << ", \"time_per_step\": " << (total_.steps > 0 ? wall_time / total_.steps : 0.0) << ", \"outputs\": " << outputs
-      << ", \"samples\": " << samples << ", \"samples_left_out\": " << samples_left_out
-      << ", \"left_out\": " << left_out << ", \"dropouts\": " << gate.dropouts
-      << ", \"reengagements\": " << hand.reengagements << ", \"losses\": " << hand.losses
-      << ", \"position_error\": " << total_.position_error << ", \"angle_error\": " << total_.angle_error
-      << ", \"energy_drift\": " << total_.energy_added << ", \"stiffest_omega_dt\": " << total_.stiffest_omega_dt
-      << ", \"contacts\": " << contacts_ << ", \"collision_queries\": " << total_.collision_queries
-      << ", \"steps_rejected\": " << total_.steps_rejected << ", \"energy_held\": " << total_.energy_held
-      << ", \"held_back\": " << total_.held_back << ", \"guards_tripped\": " << total_.guards_tripped
-      << ", \"parts_run\": " << list_of(parts_run_) << ", \"parts_left_out\": " << list_of(never_run) << "}";
+      << ", \"time_per_step\": " << (advance.steps > 0 ? wall_time / advance.steps : 0.0)
+      << ", \"outputs\": " << outputs << ", \"samples\": " << samples << ", \"samples_rejected\": " << samples_rejected
+      << ", \"left_out\": " << rejected << ", \"dropouts\": " << gate.dropouts
+      << ", \"reengagements\": " << hand.reacquisitions << ", \"losses\": " << hand.losses
+      << ", \"position_error\": " << advance.position_error << ", \"angle_error\": " << advance.angle_error
+      << ", \"energy_drift\": " << advance.energy_added << ", \"stiffest_omega_dt\": " << advance.stiffest_omega_dt
+      << ", \"contacts\": " << contacts_ << ", \"collision_queries\": " << advance.collision_queries
+      << ", \"substeps\": " << advance.substeps << ", \"energy_held\": " << advance.energy_held
+      << ", \"steps_blocked\": " << advance.steps_blocked << ", \"steps_rejected\": " << advance.steps_rejected
+      << ", \"active\": " << list_of(advance.active) << ", \"skipped\": " << list_of(advance.skipped) << "}";
   return out.str();
 }
 

@@ -4,24 +4,22 @@
 #include <string>
 #include <utility>
 
-#include "spring_workbench/hand_input/reacquisition.h"
-#include "spring_workbench/hand_input/sample_gate.h"
-#include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/hand_input/feed.h"
 
 namespace spring_workbench::replay {
 
 /// What a whole run did.
 class Summary {
  public:
-  int samples = 0;              ///< of all hands
+  std::size_t samples = 0;      ///< of all hands
   hand_input::GateCounts gate;  ///< of them
-  hand_input::ReengagementCounts hand;
+  hand_input::ReacquisitionCounts hand;
+  simulation::AdvanceReport advance;
   int outputs = 0;         ///< output times
   double wall_time = 0.0;  ///< [s]
 
-  void add(const simulation::AdvanceReport& report);
   void add(const hand_input::GateCounts& of_hand);
-  void add(const hand_input::ReengagementCounts& of_hand);
+  void add(const hand_input::ReacquisitionCounts& of_hand);
   /// Counts the pairs in contact now that were not at the call before.
   void add_contacts(const std::vector<contact::ContactState>& contacts);
   /// One line of JSON, as `help_text()` describes it.
@@ -30,10 +28,8 @@ class Summary {
  private:
   using Pair = std::pair<std::string, std::string>;
 
-  simulation::AdvanceReport total_;
   int contacts_ = 0;
   std::set<Pair> touching_;
-  std::set<std::string> parts_run_, parts_left_out_;
 };
 
 }  // namespace spring_workbench::replay

@@ -39,17 +39,13 @@ DiagnosticStatusBuilder& DiagnosticStatusBuilder::raise(int8_t level, const std:
   return *this;
 }
 
-void add_stream(const hand_input::StreamFigures& stream, const hand_input::GateCounts& gate,
-                DiagnosticStatusBuilder& status) {
+void add_stream(const motion::StreamFigures& stream, DiagnosticStatusBuilder& status) {
   status.add("samples", stream.samples)
       .add("rate [Hz]", stream.interval > 0.0 ? 1.0 / stream.interval : 0.0)
       .add("jitter of stamps [s]", stream.stamp_jitter)
       .add("jitter of receipt [s]", stream.receipt_jitter)
       .add("age of newest sample when it came [s]", stream.age)
-      .add("longest gap [s]", stream.longest_gap)
-      .add("dropouts", gate.dropouts)
-      .add("jumps taken as true", gate.new_places)
-      .add("sign flips put right", gate.sign_flips);
+      .add("longest gap [s]", stream.longest_gap);
 }
 
 }  // namespace spring_workbench::ros_common

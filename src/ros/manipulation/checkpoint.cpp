@@ -18,7 +18,7 @@ XmlRpc::XmlRpcValue list(std::initializer_list<double> numbers) {
   return value;
 }
 
-XmlRpc::XmlRpcValue list(const rod::PerFamily& f) { return list({f.stretch, f.bend, f.torsion}); }
+XmlRpc::XmlRpcValue list(const rod::PerDof& f) { return list({f.stretch, f.bend, f.torsion}); }
 
 XmlRpc::XmlRpcValue state_of(const simulation::Simulation& simulation) {
   const simulation::SimulationSettings& settings = simulation.settings();
@@ -49,13 +49,13 @@ XmlRpc::XmlRpcValue state_of(const simulation::Simulation& simulation) {
   return state;
 }
 
-rod::PerFamily read_per_family(const YAML::Node& state, const std::string& key) {
+rod::PerDof read_per_family(const YAML::Node& state, const std::string& key) {
   const std::vector<double> numbers = config::read_numbers(state[key], kKey, key, 3);
   return {numbers[0], numbers[1], numbers[2]};
 }
 
 void set(simulation::Simulation& simulation, const YAML::Node& state) {
-  const rod::PerFamily dofs = read_per_family(state, "dofs");
+  const rod::PerDof dofs = read_per_family(state, "dofs");
   simulation.set_dofs({dofs.stretch != 0.0, dofs.bend != 0.0, dofs.torsion != 0.0});
   simulation.set_stiffness(read_per_family(state, "stiffness"));
   simulation.set_damping_ratio(read_per_family(state, "damping"),

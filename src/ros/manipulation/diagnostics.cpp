@@ -10,9 +10,10 @@ namespace spring_workbench::manipulation {
 
 using diagnostic_msgs::DiagnosticStatus;
 
-std::string hint_for_silence(const InputStatistics& input, const std::vector<std::string>& senders,
+std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std::string>& senders,
                              const std::string& stylus_frame) {
-  if (input.stream.samples > 0) return "";
+  const InputStatistics& input = tracker.input;
+  if (tracker.hand.stream.samples > 0) return "";
   if (input.messages == 0 && senders.empty()) return "nobody sends /tf: is tracker_driver, or a bag, running?";
   if (input.messages == 0) {
     return validation::join(senders) +
@@ -23,9 +24,9 @@ std::string hint_for_silence(const InputStatistics& input, const std::vector<std
     return "no frame " + stylus_frame + " on /tf, but " + validation::join({input.frames.begin(), input.frames.end()}) +
            ": is the parameter stylus_frame right?";
   }
-  const auto most = std::max_element(input.left_out.begin(), input.left_out.end(),
+  const auto most = std::max_element(input.rejected.begin(), input.rejected.end(),
                                      [](const auto& a, const auto& b) { return a.second < b.second; });
-  if (most == input.left_out.end()) return "";
+  if (most == input.rejected.end()) return "";
   if (most->first == "too old" || most->first == "from the future") {
     std::ostringstream text;
     text << "all samples are " << most->first << ", the newest by " << std::abs(input.newest_offer_age)
@@ -38,7 +39,7 @@ std::string hint_for_silence(const InputStatistics& input, const std::vector<std
 std::vector<DiagnosticStatus> ManipulationDiagnostics::report(const TrackerInput& first, const TrackerInput& second,
                                                               const LoopStatistics& loop, double now) {
   std::vector<DiagnosticStatus> result{report_input("tracker input", first, last_first_, now), report_loop(loop)};
-  const bool is_second = second.input.stream.samples > 0 || !second.input.left_out.empty();
+  const bool is_second = second.hand.stream.samples > 0 || !second.input.rejected.empty();
   if (is_second) result.push_back(report_input("second stylus", second, last_second_, now));
   last_first_ = first;
   last_second_ = second;
@@ -49,28 +50,33 @@ std::vector<DiagnosticStatus> ManipulationDiagnostics::report(const TrackerInput
 DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, const TrackerInput& tracker,
                                                        const TrackerInput& last, double now) const {
   const InputStatistics& input = tracker.input;
+  const HandStatistics& hand = tracker.hand;
   ros_common::DiagnosticStatusBuilder status(name_ + ": " + what, "tracker");
-  ros_common::add_stream(input.stream, input.gate, status);
-  status.add("came after their time was simulated", tracker.hand.late)
-      .add("times the hand was found again", tracker.hand.reengagements)
-      .add("times the hand was lost", tracker.hand.losses)
+  ros_common::add_stream(hand.stream, status);
+  status.add("dropouts", hand.gate.dropouts)
+      .add("jumps taken as true", hand.gate.relocations)
+      .add("sign flips put right", hand.gate.sign_flips)
+      .add("came after their time was simulated", hand.reacquisition.late)
+      .add("times the hand was found again", hand.reacquisition.reacquisitions)
+      .add("times the hand was lost", hand.reacquisition.losses)
       .add("jumps back in time", input.restarts);
-  bool more_left_out = false;
-  for (const auto& [reason, count] : input.left_out) {
+  bool more_rejected = false;
+  for (const auto& [reason, count] : input.rejected) {
     status.add("left out: " + reason, count);
-    const auto before = last.input.left_out.find(reason);
-    more_left_out |= before == last.input.left_out.end() || before->second < count;
+    const auto before = last.input.rejected.find(reason);
+    more_rejected |= before == last.input.rejected.end() || before->second < count;
   }
   if (!tracker.hint.empty()) status.add("hint", tracker.hint);
-  if (input.stream.samples == 0) {
+  if (hand.stream.samples == 0) {
     return status.raise(DiagnosticStatus::STALE, tracker.hint.empty() ? "no sample yet" : tracker.hint).status();
   }
-  const double silence = now - input.newest_arrival;
+  const double silence = now - hand.newest_arrival;
   status.add("time since newest sample [s]", silence);
   if (silence > dropout_after_) status.raise(DiagnosticStatus::WARN, "no samples: the hand is held at rest");
-  if (tracker.hand.losses > last.hand.losses) status.raise(DiagnosticStatus::WARN, "the hand was lost");
-  if (input.gate.dropouts > last.input.gate.dropouts) status.raise(DiagnosticStatus::WARN, "dropouts");
-  if (more_left_out) status.raise(DiagnosticStatus::WARN, "samples left out");
+  if (hand.reacquisition.losses > last.hand.reacquisition.losses)
+    status.raise(DiagnosticStatus::WARN, "the hand was lost");
+  if (hand.gate.dropouts > last.hand.gate.dropouts) status.raise(DiagnosticStatus::WARN, "dropouts");
+  if (more_rejected) status.raise(DiagnosticStatus::WARN, "samples left out");
   return status.status();
 }
 
@@ -78,10 +84,10 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   ros_common::DiagnosticStatusBuilder status(name_ + ": physics loop", "simulation");
   status.add("cycles", loop.cycles)
       .add("deadlines missed", loop.deadlines_missed)
-      .add("guards tripped", loop.guards_tripped)
+      .add("guards tripped", loop.steps_rejected)
       .add("leaps of time", loop.leaps)
       .add("longest cycle [s]", loop.longest_cycle);
-  if (loop.guards_tripped > last_loop_.guards_tripped) {
+  if (loop.steps_rejected > last_loop_.steps_rejected) {
     status.raise(DiagnosticStatus::ERROR, "steps refused: they would not have been finite or bounded");
   }
   if (loop.deadlines_missed > last_loop_.deadlines_missed) status.raise(DiagnosticStatus::WARN, "deadlines missed");

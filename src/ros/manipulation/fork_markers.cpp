@@ -42,7 +42,7 @@ void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, Marke
   std::snprintf(text, sizeof text, "%.2f vkg   %.2f N   %.3f N m", virtual_kilograms(force, scene),
                 force / scene.force_scale, tool.tip_wrench_W.moment.norm() / scene.force_scale);
   const Vector3d place =
-      tool.X_WH_seen * Vector3d(0.0, 0.0, -0.5 * tool.length) + 0.35 * tool.length * Vector3d::UnitZ();
+      tool.X_WH_proxy * Vector3d(0.0, 0.0, -0.5 * tool.length) + 0.35 * tool.length * Vector3d::UnitZ();
   markers.add_text("readout", 0, place, 0.13 * tool.length, text, text_color);
 }
 
@@ -53,7 +53,7 @@ void draw_fork(const fork_mesh::ForkModel& model, const fork_mesh::ForkMesh& mes
   constexpr double smallest_gap = 1e-5;  // [m]
   add_triangles("fork" + number, 0, model.spring(), mesh, spring_color, markers);
   add_triangles("fork" + number, 1, model.shaft_and_end(), mesh, rigid_color, markers);
-  const Vector3d hand = tool.X_WH.translation(), seen = tool.X_WH_seen.translation();
+  const Vector3d hand = tool.X_WH.translation(), seen = tool.X_WH_proxy.translation();
   if ((hand - seen).norm() < smallest_gap) return;
   markers.add_points("gap" + number, 0, Marker::LINE_LIST, {hand, seen}, gap_color).scale.x = 0.01 * tool.length;
 }

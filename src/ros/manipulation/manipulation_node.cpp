@@ -39,7 +39,7 @@ std::vector<std::string> scene_roots(const ManipulationParameters& parameters, S
 ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : parameters_(
           read_manipulation_parameters(ros_common::private_parameters(private_node), private_node.getNamespace())),
-      runner_(scene::load_scene(parameters_.scene), parameters_.simulation, parameters_.truth,
+      runner_(scene::load_scene(parameters_.scene), parameters_.simulation, parameters_.input,
               ros::Time::isSimTime() ? 1.0 / parameters_.rate : 0.0),
       input_(node, parameters_, parameters_.stylus_frame, "stylus/joy"),
       second_input_(node, parameters_, parameters_.stylus_frame + "_2", "stylus_2/joy"),
@@ -82,6 +82,8 @@ bool ManipulationNode::run_step(double due) {
   const hand_input::LocalTime local = ros_common::local_time();
   const double now = local.loop;
   const CycleReport report = runner_.cycle({input_.take_events(), second_input_.take_events()}, local);
+  input_.count_rejected(report.rejected[0]);
+  second_input_.count_rejected(report.rejected[1]);
   const ros::Time stamp = runner_.stamp(ros::Time::now());
   runner_.locked([&](const simulation::Simulation& simulation) { publisher_.publish(simulation, stamp, now); });
   // In simulated time the clock may have gone on by itself.
@@ -100,7 +102,7 @@ void ManipulationNode::count(const CycleReport& report, bool deadline_missed) {
   const std::lock_guard<std::mutex> lock(loop_mutex_);
   ++loop_.cycles;
   loop_.deadlines_missed += deadline_missed ? 1 : 0;
-  loop_.guards_tripped += static_cast<std::size_t>(report.advance.guards_tripped);
+  loop_.steps_rejected += static_cast<std::size_t>(report.advance.steps_rejected);
   loop_.leaps += report.leapt ? 1 : 0;
   loop_.longest_cycle = std::max(loop_.longest_cycle, report.wall_time);
 }
@@ -115,13 +117,12 @@ void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
   }
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
-  const InputStatistics input = input_.statistics();
-  const std::string hint = hint_for_silence(input, input.messages == 0 ? senders_of_tf() : std::vector<std::string>(),
-                                            parameters_.stylus_frame);
+  TrackerInput first{input_.statistics(), runner_.hand_statistics(0), ""};
+  first.hint = hint_for_silence(first, first.input.messages == 0 ? senders_of_tf() : std::vector<std::string>(),
+                                parameters_.stylus_frame);
   constexpr double patience = 10.0;  // [s]
-  if (!hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(patience, "no sample of the stylus yet: " << hint);
-  const TrackerInput first{input, runner_.hand_counts(0), hint};
-  const TrackerInput second{second_input_.statistics(), runner_.hand_counts(1), ""};
+  if (!first.hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(patience, "no sample of the stylus yet: " << first.hint);
+  const TrackerInput second{second_input_.statistics(), runner_.hand_statistics(1), ""};
   message.status = diagnostics_.report(first, second, loop, ros_common::loop_time());
   diagnostics_publisher_.publish(message);
 }

@@ -43,7 +43,7 @@ ForkState to_message(const tools::ToolState& tool) {
   message.bend = {tool.bend.x(), tool.bend.y()};
   message.torsion = tool.torsion;
   message.handle = ros_common::to_pose(tool.X_WH);
-  message.handle_seen = ros_common::to_pose(tool.X_WH_seen);
+  message.proxy_handle = ros_common::to_pose(tool.X_WH_proxy);
   message.tip = ros_common::to_pose(tool.X_WE);
   message.tip_wrench = ros_common::to_wrench(tool.tip_wrench_W);
   message.elastic_energy = tool.elastic_energy;
@@ -110,12 +110,12 @@ StepReport to_message(const simulation::AdvanceReport& report) {
   message.energy_added = report.energy_added;
   message.omega_dt = report.stiffest_omega_dt;
   message.collision_queries = static_cast<uint32_t>(report.collision_queries);
-  message.steps_rejected = static_cast<uint32_t>(report.steps_rejected);
+  message.substeps = static_cast<uint32_t>(report.substeps);
   message.energy_held = static_cast<uint32_t>(report.energy_held);
-  message.held_back = static_cast<uint32_t>(report.held_back);
-  message.guards_tripped = static_cast<uint32_t>(report.guards_tripped);
-  message.parts_run = report.parts_run;
-  message.parts_left_out = report.parts_left_out;
+  message.steps_blocked = static_cast<uint32_t>(report.steps_blocked);
+  message.steps_rejected = static_cast<uint32_t>(report.steps_rejected);
+  message.active = report.active;
+  message.skipped = report.skipped;
   return message;
 }
 

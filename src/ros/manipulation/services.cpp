@@ -10,7 +10,7 @@ namespace {
 
 /// Runs the change and turns bad input into an answer.
 template <typename Response, typename Change>
-bool answer(Response& response, Change&& change) {
+bool respond(Response& response, Change&& change) {
   try {
     change();
     response.success = true;
@@ -59,7 +59,7 @@ Services::Services(ros::NodeHandle private_node, SimulationRunner& runner, std::
 }
 
 bool Services::select_tool(SelectTool::Request& request, SelectTool::Response& response) {
-  return answer(response, [&] {
+  return respond(response, [&] {
     validation::check_number("select_tool", "stylus", request.stylus,
                              validation::between(0.0, simulation::Simulation::most_hands));
     const std::size_t hand = request.stylus > 0 ? request.stylus - 1 : 0;
@@ -69,26 +69,26 @@ bool Services::select_tool(SelectTool::Request& request, SelectTool::Response& r
 
 bool Services::set_dofs(SetForkDofs::Request& request, SetForkDofs::Response& response) {
   const rod::ForkDofs dofs{request.stretch != 0, request.bend != 0, request.torsion != 0};
-  return answer(response,
-                [&] { fill(runner_.locked([&](simulation::Simulation& s) { return s.set_dofs(dofs); }), response); });
+  return respond(response,
+                 [&] { fill(runner_.locked([&](simulation::Simulation& s) { return s.set_dofs(dofs); }), response); });
 }
 
 bool Services::set_stiffness(SetForkStiffness::Request& request, SetForkStiffness::Response& response) {
-  const rod::PerFamily stiffness{request.stretch, request.bend, request.torsion};
-  return answer(response, [&] {
+  const rod::PerDof stiffness{request.stretch, request.bend, request.torsion};
+  return respond(response, [&] {
     fill(runner_.locked([&](simulation::Simulation& s) { return s.set_stiffness(stiffness); }), response);
   });
 }
 
 bool Services::set_damping(SetForkDamping::Request& request, SetForkDamping::Response& response) {
-  const rod::PerFamily ratio{request.stretch, request.bend, request.torsion};
-  return answer(response, [&] {
+  const rod::PerDof ratio{request.stretch, request.bend, request.torsion};
+  return respond(response, [&] {
     fill(runner_.locked([&](simulation::Simulation& s) { return s.set_damping_ratio(ratio, request.law); }), response);
   });
 }
 
 bool Services::set_integrator(SetIntegrator::Request& request, SetIntegrator::Response& response) {
-  return answer(response, [&] {
+  return respond(response, [&] {
     runner_.locked([&](simulation::Simulation& s) {
       s.set_integrator(request.name, request.step, request.tolerance);
       response.message = describe(s.settings().dynamics);
@@ -97,7 +97,7 @@ bool Services::set_integrator(SetIntegrator::Request& request, SetIntegrator::Re
 }
 
 bool Services::load_scene(LoadScene::Request& request, LoadScene::Response& response) {
-  return answer(response, [&] {
+  return respond(response, [&] {
     const scene::Scene scene = spring_workbench::scene::load_scene(request.scene, scene_roots_);
     runner_.load(scene);
     response.message = scene.name + ": " + std::to_string(scene.bodies.size()) + " bodies";
@@ -106,21 +106,21 @@ bool Services::load_scene(LoadScene::Request& request, LoadScene::Response& resp
 }
 
 bool Services::calibrate(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return answer(response, [&] {
+  return respond(response, [&] {
     const simulation::ChangeReport report = runner_.locked([](simulation::Simulation& s) { return s.calibrate(); });
     response.message = report.message + energies(report);
   });
 }
 
 bool Services::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return answer(response, [&] {
+  return respond(response, [&] {
     runner_.restart();
     response.message = "all objects are back at their start";
   });
 }
 
 bool Services::release(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return answer(response, [&] {
+  return respond(response, [&] {
     const std::string held = runner_.locked([](simulation::Simulation& s) {
       std::vector<std::string> names;
       for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 namespace spring_workbench::manipulation {
@@ -14,10 +13,10 @@ constexpr double kSlack = 1e-6;  // of a grid step
 }  // namespace
 
 SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
-                                   const hand_input::TruthSettings& truth, double grid)
-    : simulation_(std::make_unique<simulation::Simulation>(scene, settings)), task_(scene), grid_(grid) {
+                                   const hand_input::InputSettings& input, double grid)
+    : simulation_(scene, settings), feed_(simulation_, input, grid > 0.0), task_(scene), grid_(grid) {
   for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-    inputs_.emplace_back(hand, truth, settings.dropout_after, grid > 0.0);
+    inputs_.emplace_back(hand, settings.dropout_after);
   }
 }
 
@@ -30,14 +29,17 @@ CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::
   }
   feed(now);
   CycleReport report;
-  const double target = this->target(now);
-  if (has_sample_ && target > simulation_->time() + longest_catch_up) {
+  const double target = feed_.target(now);
+  if (target > simulation_.time() + longest_catch_up) {
     start_anew();
     report.leapt = true;
-  } else if (has_sample_ && target > simulation_->time()) {
+  } else if (target > simulation_.time()) {
     advance(target, report);
   }
-  for (const HandInput& input : inputs_) report.more |= !input.waiting.empty();
+  for (HandInput& input : inputs_) {
+    report.more |= !input.waiting.empty();
+    report.rejected[input.hand] = std::exchange(input.rejected, {});
+  }
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   return report;
 }
@@ -47,7 +49,7 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
     while (!input.waiting.empty()) {
       const auto* epoch = std::get_if<NewEpoch>(&input.waiting.front());
       const bool restarts = epoch != nullptr && !joins(input, *epoch);
-      if (restarts && grid_ > 0.0 && has_sample_ && has_more(target(now))) break;
+      if (restarts && grid_ > 0.0 && has_more(feed_.target(now))) break;
       // What comes from before a jump of time that another hand has told of already is of no use.
       if (input.in_epoch || epoch != nullptr)
         std::visit([&](const auto& e) { apply(input, e); }, input.waiting.front());
@@ -56,21 +58,12 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
   }
 }
 
-/// As far as the slowest hand allows.
-double SimulationRunner::target(const hand_input::LocalTime& now) const {
-  double target = std::numeric_limits<double>::infinity();
-  for (const HandInput& input : inputs_) {
-    if (input.has_sample) target = std::min(target, input.playout.target(now) + input.shift);
-  }
-  return std::isfinite(target) ? target : -std::numeric_limits<double>::infinity();
-}
-
 /// Whether the next step of the grid lies before the target, not on it: there the segment begins whose velocity hangs
 /// on a sample that may not be here yet.
 bool SimulationRunner::has_more(double target) const { return next_on_grid() <= target - kSlack * grid_; }
 
 double SimulationRunner::next_on_grid() const {
-  return grid_ * (std::floor(simulation_->time() / grid_ + kSlack) + 1.0);
+  return grid_ * (std::floor(simulation_.time() / grid_ + kSlack) + 1.0);
 }
 
 void SimulationRunner::advance(double target, CycleReport& report) {
@@ -80,77 +73,54 @@ void SimulationRunner::advance(double target, CycleReport& report) {
     report.more = next + grid_ <= target - kSlack * grid_;
     target = next;
   }
-  const auto release = take_release(target);
-  if (release) {
-    target = std::max(release->t, simulation_->time());
-    report.more = true;
-  }
-  report.advance = simulation_->advance(target);
-  if (release) simulation_->release(release->hand);
-  task_.observe(*simulation_);
-}
-
-std::optional<SimulationRunner::Loss> SimulationRunner::take_release(double target) {
-  for (HandInput& input : inputs_) {
-    if (const auto release = input.reengagement.take_release(target - input.shift))
-      return Loss{*release + input.shift, input.hand};
-  }
-  return std::nullopt;
+  report.advance = feed_.advance_to(target);
+  task_.observe(simulation_);
 }
 
 /// Whether a stylus that begins there comes to the others that are under way, rather than that all time has jumped.
 bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
   constexpr double slip = 1.5;  // [s]: in simulated time an epoch begins at the whole second before its first sample
-  return has_sample_ && !input.in_epoch && (epoch.zero - zero_).toSec() > simulation_->time() - slip;
+  return feed_.has_sample() && !input.in_epoch && (epoch.zero - zero_).toSec() > simulation_.time() - slip;
 }
 
 void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
   if (!joins(input, epoch)) {
     start_anew();
-    simulation_->place(std::exchange(places_, {}));
+    simulation_.place(std::exchange(places_, {}));
     zero_ = epoch.zero;
     for (HandInput& other : inputs_) other.in_epoch = false;
   }
+  feed_.restart_gate(input.hand);
+  input.monitor.restart();
   input.in_epoch = true;
   input.shift = (epoch.zero - zero_).toSec();
 }
 
 void SimulationRunner::apply(HandInput& input, const StylusPose& pose) {
-  constexpr double never = -std::numeric_limits<double>::infinity();
-  const double simulated_until = has_sample_ ? simulation_->time() - input.shift : never;
-  for (motion::PoseSample sample : input.reengagement.follow(pose.sample, pose.new_place, simulated_until)) {
-    sample.t += input.shift;
-    input.has_sample |= simulation_->push_stylus(sample, input.hand);
-  }
-  has_sample_ |= input.has_sample;
-  input.playout.sample(pose.sample.t, pose.arrival);  // a late one, too: simulated time waits for what is under way
+  hand_input::RawSample sample = pose.sample;
+  sample.t += input.shift;
+  const hand_input::GateResult result = feed_.push_stylus(sample, pose.X_WP, pose.arrival, input.hand);
+  if (!hand_input::usable(result)) return input.rejected.push_back({result, pose});
+  input.monitor.sample(sample.t, sample.t + pose.age);
+  input.newest_arrival = pose.arrival.loop;
 }
 
 void SimulationRunner::apply(HandInput& input, const StylusButton& button) {
-  simulation_->push_button(button.t + input.shift, button.pressed, input.hand);
+  feed_.push_button(button.t + input.shift, button.pressed, input.hand);
 }
 
 void SimulationRunner::apply(HandInput& input, const NextTool& press) {
-  simulation_->push_next_tool(press.t + input.shift, input.hand);
+  feed_.push_next_tool(press.t + input.shift, input.hand);
 }
 
 void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {
-  input.playout.buttons(known.t, known.arrival);
+  feed_.buttons_known(known.t + input.shift, known.arrival, input.hand);
 }
 
 void SimulationRunner::start_anew() {
-  simulation_->reset();
+  simulation_.reset();
   task_.reset();
-  forget_hands();
-}
-
-void SimulationRunner::forget_hands() {
-  for (HandInput& input : inputs_) {
-    input.playout.clear();
-    input.reengagement.restart();
-    input.has_sample = false;
-  }
-  has_sample_ = false;
+  feed_.restart();
 }
 
 void SimulationRunner::restart() {
@@ -166,23 +136,24 @@ void SimulationRunner::load(const scene::Scene& scene) {
 void SimulationRunner::resume(const scene::Scene& scene, const std::function<void(simulation::Simulation&)>& prepare,
                               const std::map<std::string, RigidTransform>& X_WO) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  auto simulation = std::make_unique<simulation::Simulation>(scene, simulation_->settings());
-  prepare(*simulation);
-  simulation->place(X_WO);
+  simulation::Simulation simulation(scene, simulation_.settings());
+  prepare(simulation);
+  simulation.place(X_WO);
   task_ = assembly::TaskMonitor(scene);
   simulation_ = std::move(simulation);
   places_ = X_WO;
-  forget_hands();
+  feed_.restart();
 }
 
 ros::Time SimulationRunner::stamp(const ros::Time& now) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return has_sample_ ? zero_ + ros::Duration(simulation_->time()) : now;
+  return feed_.has_sample() ? zero_ + ros::Duration(simulation_.time()) : now;
 }
 
-hand_input::ReengagementCounts SimulationRunner::hand_counts(std::size_t hand) const {
+HandStatistics SimulationRunner::hand_statistics(std::size_t hand) const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return inputs_.at(hand).reengagement.counts();
+  const HandInput& input = inputs_.at(hand);
+  return {input.monitor.figures(), feed_.gate_counts(hand), feed_.reacquisition_counts(hand), input.newest_arrival};
 }
 
 }  // namespace spring_workbench::manipulation

@@ -111,7 +111,7 @@ void StatePublisher::publish_steps(const CycleReport& report, const std::string&
                                    bool deadline_missed) {
   if (steps_publisher_.getNumSubscribers() == 0) return;
   StepReport message = to_message(report.advance);
-  (markers_were_built_ ? message.parts_run : message.parts_left_out).push_back("markers");
+  (markers_were_built_ ? message.active : message.skipped).push_back("markers");
   message.header.frame_id = world_frame_;
   message.header.stamp = stamp;
   message.wall_time = report.wall_time;

@@ -19,8 +19,12 @@ RigidTransform from_message(const geometry_msgs::Transform& T) {
                         Vector3d(T.translation.x, T.translation.y, T.translation.z));
 }
 
+std::string place(const std::string& parent, const std::string& child) {
+  return "tf " + parent + " -> " + child + ": ";
+}
+
 std::string place(const geometry_msgs::TransformStamped& transform) {
-  return "tf " + transform.header.frame_id + " -> " + transform.child_frame_id + ": ";
+  return place(transform.header.frame_id, transform.child_frame_id);
 }
 
 geometry_msgs::TransformStamped identity(const std::string& parent, const std::string& child) {
@@ -69,11 +73,7 @@ std::string number(double value) {
 
 StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame,
                          std::string joy)
-    : parameters_(parameters),
-      frame_(std::move(frame)),
-      joy_(std::move(joy)),
-      truth_(parameters.truth, parameters.simulation.dropout_after),
-      monitor_(parameters.simulation.dropout_after) {
+    : parameters_(parameters), frame_(std::move(frame)), joy_(std::move(joy)) {
   if (parameters.workbench_frame != parameters.world_frame) {
     static_frames_.setTransform(identity(parameters.world_frame, parameters.workbench_frame), "default", true);
   }
@@ -102,11 +102,10 @@ void StylusInput::on_static_transforms(const tf2_msgs::TFMessageConstPtr& messag
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const geometry_msgs::TransformStamped& transform : message->transforms) {
     const hand_input::RawSample sample = raw(transform.transform, 0.0);
-    const hand_input::Verdict verdict =
-        hand_input::SampleGate(parameters_.truth, parameters_.simulation.dropout_after).offer(sample);
-    if (!hand_input::usable(verdict)) {
-      leave_out(hand_input::to_string(verdict),
-                place(transform) + hand_input::complaint(verdict, sample, parameters_.truth));
+    const hand_input::GateResult result = hand_input::check_pose(sample, parameters_.input);
+    if (!hand_input::usable(result)) {
+      reject(hand_input::to_string(result),
+             place(transform) + hand_input::complaint(result, sample, parameters_.input));
       continue;
     }
     geometry_msgs::TransformStamped normalised = transform;
@@ -139,45 +138,38 @@ void StylusInput::on_stylus(const geometry_msgs::TransformStamped& transform, co
   statistics_.newest_offer_age = age;
   if (ros::Time::isSimTime() && (poses_.newest - transform.header.stamp).toSec() > kSlip) keep(transform, early_poses_);
   if (std::abs(age) > parameters_.max_age) {
-    return leave_out(age > 0.0 ? "too old" : "from the future",
-                     place(transform) + "stamp: an age of " + number(age) + " s is not allowed: must be within " +
-                         "max_age = " + number(parameters_.max_age) + " s (a bag needs --clock and use_sim_time)");
+    return reject(age > 0.0 ? "too old" : "from the future",
+                  place(transform) + "stamp: an age of " + number(age) + " s is not allowed: must be within " +
+                      "max_age = " + number(parameters_.max_age) + " s (a bag needs --clock and use_sim_time)");
   }
   RigidTransform X_WP = RigidTransform::Identity();
   if (const std::string parent = frame(transform.header.frame_id); parent != parameters_.world_frame) {
     try {
       X_WP = from_message(static_frames_.lookupTransform(parameters_.world_frame, parent, ros::Time()).transform);
     } catch (const tf2::TransformException&) {
-      return leave_out("unknown frame", place(transform) + "frame_id: " + parent + " is not allowed: must be " +
-                                            parameters_.workbench_frame + " or tied to it on /tf_static");
+      return reject("unknown frame", place(transform) + "frame_id: " + parent + " is not allowed: must be " +
+                                         parameters_.workbench_frame + " or tied to it on /tf_static");
     }
   }
   go_on_to(transform.header.stamp, poses_, early_poses_);
-  offer(transform, X_WP, age);
+  const hand_input::RawSample sample = raw(transform.transform, seconds(transform.header.stamp));
+  events_.push_back(StylusPose{sample, transform.header.frame_id, X_WP, ros_common::local_time(), age});
 }
 
-void StylusInput::offer(const geometry_msgs::TransformStamped& transform, const RigidTransform& X_WP, double age) {
-  const hand_input::RawSample sample = raw(transform.transform, seconds(transform.header.stamp));
-  const hand_input::TrueSample taken = truth_.take(sample);
-  statistics_.gate = truth_.counts();
-  if (!hand_input::usable(taken.verdict)) {
-    return leave_out(hand_input::to_string(taken.verdict),
-                     place(transform) + hand_input::complaint(taken.verdict, sample, parameters_.truth));
+void StylusInput::count_rejected(const std::vector<RejectedPose>& poses) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& [result, pose] : poses) {
+    reject(hand_input::to_string(result),
+           place(pose.parent, frame_) + hand_input::complaint(result, pose.sample, parameters_.input));
   }
-  const hand_input::LocalTime arrival = ros_common::local_time();
-  monitor_.sample(sample.t, sample.t + age);
-  statistics_.stream = monitor_.figures();
-  statistics_.newest_arrival = arrival.loop;
-  events_.push_back(
-      StylusPose{{sample.t, X_WP * taken.sample.X}, arrival, taken.verdict == hand_input::Verdict::new_place});
 }
 
 void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   // Without a clock yet there is no time that it could be of: an epoch that it began would be followed by the true one.
-  if (ros::Time::now().isZero()) return leave_out("no clock", joy_ + ": no time on /clock yet");
+  if (ros::Time::now().isZero()) return reject("no clock", joy_ + ": no time on /clock yet");
   if (message->buttons.empty()) {
-    return leave_out("no buttons", joy_ + ": buttons: [] is not allowed: must be at least one button");
+    return reject("no buttons", joy_ + ": buttons: [] is not allowed: must be at least one button");
   }
   if (const std::optional<ros::Time> now = moment_of(message->header.stamp, buttons_))
     return on_buttons(*message, *now);
@@ -243,8 +235,6 @@ void StylusInput::start_anew_when_due() {
   jumped_ = pressed_ = next_tool_ = false;
   zero_ = poses_.newest = buttons_.newest = ros::Time();
   last_now_ = now;
-  truth_.restart();
-  monitor_.restart();
   ++statistics_.restarts;
   // By now the clock of a bag that is played quickly may be far on: what waited is as old as it was.
   const auto came_at = [&](const ros::Time& stamp) { return ros::Time::isSimTime() && !stamp.isZero() ? stamp : now; };
@@ -265,8 +255,8 @@ double StylusInput::seconds(const ros::Time& stamp) {
   return (stamp - zero_).toSec();
 }
 
-void StylusInput::leave_out(const std::string& reason, const std::string& line) {
-  ++statistics_.left_out[reason];
+void StylusInput::reject(const std::string& reason, const std::string& line) {
+  ++statistics_.rejected[reason];
   const ros::WallTime now = ros::WallTime::now();
   const auto told = told_.find(reason);
   if (told != told_.end() && now - told->second < ros::WallDuration(5.0)) return;

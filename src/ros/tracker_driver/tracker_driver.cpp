@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -52,11 +53,18 @@ ros::Time ros_time(double t) {
 
 }  // namespace
 
+std::string why_not_sent(const motion::StationSample& sample, const std::string& source) {
+  constexpr double tolerance = 0.1;  // of a quaternion's length
+  if (!sample.p_TS.allFinite() || !sample.q_TS.coeffs().allFinite()) return "not finite";
+  if (std::abs(sample.q_TS.norm() - 1.0) > tolerance) return "not a unit quaternion";
+  if (source == "fastrak" && sample.p_TS.isZero(0.0) && sample.q_TS.vec().isZero(0.0)) return "out of view";
+  return "";
+}
+
 TrackerDriver::TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
     : parameters_(read_tracker_parameters(ros_common::private_parameters(private_node), private_node.getNamespace())),
       name_(private_node.getNamespace()),
       X_BT_(parameters_.X_BT),
-      played_(parameters_.truth, parameters_.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
   joy_publishers_[1] = node.advertise<sensor_msgs::Joy>("stylus/joy", 100);
   for (const int station : parameters_.fastrak.styluses) {
@@ -125,7 +133,6 @@ void TrackerDriver::play() {
   ros::Time::waitForValid();
   const double start = ros_common::loop_time() + parameters_.pause;
   ++passes_;
-  played_.restart();
   double last = -std::numeric_limits<double>::infinity();  // time of the newest sample sent [s]
   const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
   constexpr double slack = 1e-6;  // [s] rounding of stamps
@@ -134,15 +141,9 @@ void TrackerDriver::play() {
     if (!sample) return;
     const double t = sample->t / parameters_.speed;
     if (t <= last || t < last + shortest - slack) {
-      ++left_out_;
+      ++not_sent_;
       continue;
     }
-    const hand_input::TrueSample taken = played_.take(motion::PoseSample{sample->t, sample->X});
-    if (!hand_input::usable(taken.verdict)) {
-      ++left_out_;
-      continue;
-    }
-    sample->X = taken.sample.X;
     wait_until(start + t);
     interval_ = t - last;
     last = t;
@@ -180,40 +181,32 @@ void TrackerDriver::stream() {
   }
 }
 
-fastrak::StationStream& TrackerDriver::stream_of(int station) {
-  const auto stream = streams_.find(station);
-  if (stream != streams_.end()) return stream->second;
-  return streams_
-      .emplace(station, fastrak::StationStream(parameters_.truth, parameters_.dropout_after, parameters_.even_stamps))
-      .first->second;
-}
-
 void TrackerDriver::send(const motion::StationSample& sample) {
-  const hand_input::TrueSample taken = stream_of(sample.station).take(sample);
+  Station& station = stations_.try_emplace(sample.station, parameters_).first->second;
+  const ros::Time stamp = ros_time(station.stream.stamp(sample.received));
   if (joy_publishers_.count(sample.station) > 0) {
     send_buttons(sample.station, sample.button, sample.next_tool, ros_time(sample.received));
   }
-  if (!hand_input::usable(taken.verdict)) {
-    ++left_out_;
-    return;
-  }
-  const ros::Time stamp = ros_time(taken.sample.t);
-  ros::Time& newest = newest_[sample.station];
   const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
-  if (stamp <= newest || (stamp - newest).toSec() < shortest) {
-    ++left_out_;
+  std::string reason = why_not_sent(sample, parameters_.source);
+  if (reason.empty() && stamp <= station.newest) reason = "stamp not later";
+  if (reason.empty() && (stamp - station.newest).toSec() < shortest) reason = "more than ~rate";
+  if (!reason.empty()) {
+    ++station.not_sent[reason];
+    ++not_sent_;
     return;
   }
-  std::vector<geometry_msgs::TransformStamped> transforms{transform_of(sample.station, taken.sample.X, stamp)};
+  std::vector<geometry_msgs::TransformStamped> transforms{
+      transform_of(sample.station, make_transform(sample.q_TS, sample.p_TS), stamp)};
   if (sample.station == parameters_.fastrak.stations.front()) {
     if (parameters_.head_station == 0) {
       transforms.push_back(
           ros_common::to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
     }
-    if (!newest.isZero()) interval_ = (stamp - newest).toSec();
+    if (!station.newest.isZero()) interval_ = (stamp - station.newest).toSec();
   }
   transforms_.sendTransform(transforms);
-  newest = stamp;
+  station.newest = stamp;
   ++sent_;
 }
 
@@ -257,7 +250,7 @@ void TrackerDriver::add_health(ros_common::DiagnosticStatusBuilder& status) cons
 void TrackerDriver::publish_diagnostics() {
   ros_common::DiagnosticStatusBuilder status(name_ + ": source", parameters_.source);
   status.add("samples sent", sent_)
-      .add("samples left out", left_out_)
+      .add("samples not sent", not_sent_)
       .add("rate [Hz]", interval_ > 0.0 ? 1.0 / interval_ : 0.0);
   if (device_) {
     add_health(status);
@@ -268,11 +261,10 @@ void TrackerDriver::publish_diagnostics() {
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
   message.status = {status.status()};
-  for (const auto& [station, stream] : streams_) {
-    ros_common::DiagnosticStatusBuilder of_station(name_ + ": station " + std::to_string(station), parameters_.source);
-    ros_common::add_stream(stream.figures(), stream.counts(), of_station);
-    for (const auto& [verdict, count] : stream.counts().left_out)
-      of_station.add("left out: " + hand_input::to_string(verdict), count);
+  for (const auto& [number, station] : stations_) {
+    ros_common::DiagnosticStatusBuilder of_station(name_ + ": station " + std::to_string(number), parameters_.source);
+    ros_common::add_stream(station.stream.figures(), of_station);
+    for (const auto& [reason, count] : station.not_sent) of_station.add("not sent: " + reason, count);
     message.status.push_back(of_station.status());
   }
   diagnostics_publisher_.publish(message);

@@ -41,7 +41,10 @@ int read_head_station(const YAML::Node& value, const std::string& where, const s
 TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::string& where) {
   YAML::Node parameters = YAML::Clone(given);
   TrackerParameters result;
-  hand_input::take_truth_settings(parameters, where, result.truth);
+  for (const char* key : {"input", "truth"}) {
+    if (parameters[key])
+      throw validation::InputError(where + ": " + key + ": unknown key; manipulation has ~input now");
+  }
   if (parameters["source"]) {
     result.source =
         config::read_choice(parameters["source"], where, "source",

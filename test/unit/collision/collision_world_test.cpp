@@ -631,10 +631,10 @@ TEST(Sweep, TheFreeEndIsFreeAndTheTouchingEndTouches) {
     EXPECT_TRUE(world.touches(0, pose(result.touching_fraction), 1e-6));
     const auto found = contacts(world, 0, pose(result.touching_fraction), 1e-6);
     ASSERT_FALSE(found.empty());
-    const double way =
+    const double path =
         (pose(result.touching_fraction).translation() - pose(result.free_fraction).translation()).norm() +
         0.1 * (result.touching_fraction - result.free_fraction) * turn.norm();
-    for (const ContactPoint& c : found) EXPECT_LT(c.depth, 3.0 * way + 2e-6) << "deep where it only just touches";
+    for (const ContactPoint& c : found) EXPECT_LT(c.depth, 3.0 * path + 2e-6) << "deep where it only just touches";
   }
   EXPECT_GT(hits, 50);
 }

@@ -32,7 +32,7 @@ TEST_P(EveryIntegrator, HasItsOrderOfAccuracy) {
   std::vector<std::pair<std::string, std::string>> rods{{"linear", "modal"}};
   for (const std::string& shape : rod::shape_model_names()) {
     if (shape == "quadratic" && GetParam() != "rosenbrock") continue;  // costly; one method will do
-    rods.emplace_back(shape, "per_family");
+    rods.emplace_back(shape, "per_dof");
   }
   for (const auto& [shape, law] : rods) {
     std::mt19937 random(5);

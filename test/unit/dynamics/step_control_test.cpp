@@ -87,7 +87,7 @@ TEST_P(SteppedWithATolerance, LandsWithinAFactorOfThreeOfItsTolerance) {
       c.hand = run.hand[i];
       const double t = c.hand.begin(), h = c.hand.end() - t;
       const ControlledStep step = control.advance(c.held, c.hand, t, h, state, memory);
-      ASSERT_TRUE(step.fine);
+      ASSERT_TRUE(step.accepted);
       steps += static_cast<std::size_t>(step.steps);
       largest = std::max(largest, distance(c, c.hand.end(), state, run.exact[i]));
     }
@@ -114,7 +114,7 @@ TEST(StepControl, TakesNoStepFromAStrainFarOff) {
           StepControl::Memory memory;
           StrainState state = c.held.zero_state();
           state.q.setConstant(size);
-          EXPECT_FALSE(control.advance(c.held, c.hand, 0.0, 0.02, state, memory).fine)
+          EXPECT_FALSE(control.advance(c.held, c.hand, 0.0, 0.02, state, memory).accepted)
               << integrator << " " << shape << " " << stretch_alone << " " << size;
           EXPECT_TRUE((state.q.array() == size).all() && state.q_dot.isZero(0.0));
         }
@@ -148,7 +148,7 @@ TEST_P(SteppedWithATolerance, EndsWhereNoStepKeepsIt) {
         const int most = static_cast<int>(h / 2e-6) + 1;
         EXPECT_LE(step.steps, most) << stiffness << " " << h;
         EXPECT_LE(step.rejected, 2 * most) << stiffness << " " << h;
-        EXPECT_TRUE(step.fine || stiffness > 1e3);
+        EXPECT_TRUE(step.accepted || stiffness > 1e3);
         EXPECT_TRUE(state.q.allFinite() && state.q_dot.allFinite()) << stiffness;
         t += h;
       }

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "spring_workbench/fastrak/station_stream.h"
-#include "spring_workbench/hand_input/stream_monitor.h"
+#include "spring_workbench/hand_input/sample_gate.h"
 #include "spring_workbench/motion/pose_track.h"
 
 namespace spring_workbench::fastrak {
@@ -104,25 +104,6 @@ TEST(CadenceClock, LostRecordsAndStallsAreGotOver) {
   EXPECT_LE(wrong, 8 * 61);
 }
 
-TEST(StreamMonitor, SaysRateJitterGapsAndAge) {
-  std::mt19937 random(2);
-  std::normal_distribution<double> noise(0.0, 1e-3);
-  hand_input::StreamMonitor monitor(0.5);
-  double age = 0.0;
-  for (int k = 0; k < 5000; ++k) {
-    const double t = k * 0.01 + (k >= 2500 ? 2.0 : 0.0);
-    age = 0.02 + noise(random);
-    monitor.sample(t, t + age);
-  }
-  const hand_input::StreamFigures& figures = monitor.figures();
-  EXPECT_EQ(figures.samples, 5000u);
-  EXPECT_NEAR(figures.interval, 0.01, 1e-9);
-  EXPECT_LT(figures.stamp_jitter, 1e-9);
-  EXPECT_NEAR(figures.receipt_jitter, std::sqrt(2.0) * 1e-3, 0.4e-3);  // of some fifty samples
-  EXPECT_NEAR(figures.longest_gap, 2.01, 1e-9);
-  EXPECT_NEAR(figures.age, age, 1e-12);
-}
-
 /// The cadence that the stream finds by itself serves as well as one that is known.
 TEST(StationStream, StampsByTheCadenceThatItMeasures) {
   for (const double rate : {15.0, 50.0, 100.0, 120.0}) {
@@ -130,7 +111,7 @@ TEST(StationStream, StampsByTheCadenceThatItMeasures) {
       for (const unsigned seed : {1u, 2u, 3u}) {
         std::mt19937 random(seed);
         std::exponential_distribution<double> delay(1.0 / 0.003);
-        StationStream stream(hand_input::TruthSettings(), 0.5, true);
+        StationStream stream(0.5, true);
         Spread before, after;
         double receipt = -1.0;
         for (int k = 0; k < static_cast<int>(60.0 * rate); ++k) {
@@ -138,12 +119,10 @@ TEST(StationStream, StampsByTheCadenceThatItMeasures) {
           double came = measured + delay(random);
           if (poll > 0.0) came = std::ceil(came / poll) * poll;
           receipt = std::max(receipt + 1e-6, came);
-          const motion::StationSample sample{1, receipt, Vector3d(0.3, 0.0, 0.4), Quaterniond::Identity(), false, ' '};
-          const hand_input::TrueSample taken = stream.take(sample);
+          const double stamp = stream.stamp(receipt);
           if (measured < 10.0) continue;
-          EXPECT_TRUE(hand_input::usable(taken.verdict));
           before.add(receipt - measured);
-          after.add(taken.sample.t - measured);
+          after.add(stamp - measured);
         }
         std::cout << rate << " Hz, poll " << poll << " s: jitter " << 1e3 * before.deviation() << " ms -> "
                   << 1e3 * after.deviation() << " ms\n";
@@ -157,30 +136,31 @@ TEST(StationStream, StampsByTheCadenceThatItMeasures) {
 TEST(StationStream, MeasuresAnewACadenceThatProvesWrong) {
   std::mt19937 random(8);
   std::exponential_distribution<double> delay(1.0 / 0.003);
-  StationStream stream(hand_input::TruthSettings(), 0.5, true);
+  StationStream stream(0.5, true);
   Spread before, after;
   double receipt = -1.0;
   for (int k = 0; k < 120 * 60; ++k) {
     const double measured = k * kInterval;
     receipt = std::max(receipt + 1e-6, measured + delay(random));
     if (k > 100 && k < 300 && k % 20 < 3) continue;
-    const motion::StationSample sample{1, receipt, Vector3d(0.3, 0.0, 0.4), Quaterniond::Identity(), false, ' '};
-    const hand_input::TrueSample taken = stream.take(sample);
-    if (measured < 30.0 || !hand_input::usable(taken.verdict)) continue;
+    const double stamp = stream.stamp(receipt);
+    if (measured < 30.0) continue;
     before.add(receipt - measured);
-    after.add(taken.sample.t - measured);
+    after.add(stamp - measured);
   }
   EXPECT_EQ(after.count, 30 * 120);
   EXPECT_LT(after.deviation(), before.deviation() / 20.0);
 }
 
 /// A hand that goes evenly along x at 1 m/s, read in bursts from the very start: what is played between the samples
-/// must stay on its way. Samples microseconds apart would make velocities of a thousand metres per second.
+/// must stay on its way. Samples microseconds apart would make velocities of a thousand metres per second; the gate of
+/// who follows the hand leaves them out.
 TEST(StationStream, BurstsMakeNoJumpBetweenSamples) {
   for (const double rate : {50.0, 120.0, 1000.0}) {
     std::mt19937 random(4);
     std::exponential_distribution<double> delay(1.0 / 0.5e-3), between_reads(1.0 / 4e-3);
-    StationStream stream(hand_input::TruthSettings(), 0.5, true);
+    StationStream stream(0.5, true);
+    hand_input::SampleGate gate(hand_input::InputSettings(), 0.5);
     motion::PoseTrack track(0.5);
     double read_at = 0.0, last = 0.0, farthest = 0.0;
     int used = 0, sent = 0;
@@ -188,15 +168,14 @@ TEST(StationStream, BurstsMakeNoJumpBetweenSamples) {
       const double measured = k / rate, due = measured + delay(random);
       while (read_at < due) read_at += between_reads(random);
       last = std::max(read_at, last + 1e-6);  // what is read at once is received a microsecond apart
-      const motion::StationSample sample{1, last, Vector3d(measured, 0.0, 0.0), Quaterniond::Identity(), false, ' '};
-      const hand_input::TrueSample taken = stream.take(sample);
+      const hand_input::RawSample sample{stream.stamp(last), Vector3d(measured, 0.0, 0.0), Quaterniond::Identity()};
       ++sent;
-      if (!hand_input::usable(taken.verdict)) continue;
-      const double before = track.empty() ? taken.sample.t : track.end();
-      used += track.push(taken.sample);
+      if (!hand_input::usable(gate.offer(sample))) continue;
+      const double before = track.empty() ? sample.t : track.end();
+      used += track.push({sample.t, make_transform(sample.q, sample.p)});
       if (track.begin() < before) {
         for (int i = 0; i <= 20; ++i) {
-          const double t = before - 1e-9 + 0.05 * i * (taken.sample.t - before);
+          const double t = before - 1e-9 + 0.05 * i * (sample.t - before);
           if (t < track.begin()) continue;
           farthest = std::max(farthest, std::abs(track.segment(t).at(t).X.translation().x() - t));
         }

@@ -25,12 +25,12 @@ std::size_t count_records(const std::string& bytes, const std::map<int, FastrakL
 TEST(FastrakDevice, AtPowerOnItAnswersInInchesWithPositionAndAngles) {
   FastrakDevice device = device_with(2);
   EXPECT_EQ(device.measure(0.1), "");
-  const std::string answer = device.receive("P");
-  EXPECT_EQ(answer.size(), 2u * 47u);
+  const std::string response = device.receive("P");
+  EXPECT_EQ(response.size(), 2u * 47u);
   const FastrakLayout layout({2, 4, 1}, FastrakFormat::ascii, FastrakUnits::inches);
   const motion::StylusSample truth = circling_hand().at(0.1);
   for (const std::size_t station : {0u, 1u}) {
-    const auto record = layout.decode(answer.substr(47 * station, 47));
+    const auto record = layout.decode(response.substr(47 * station, 47));
     ASSERT_TRUE(record);
     EXPECT_EQ(record->station, static_cast<int>(station) + 1);
     EXPECT_LT((record->p_TS - truth.X.translation()).cwiseAbs().maxCoeff(), 0.0051 * 0.0254);
@@ -92,9 +92,9 @@ TEST(FastrakDevice, RefusesWithTheManualsCodes) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"Z", "EC-99"}, {"O5,2,4,1\r", "EC-3"}, {"O1,2,4,77\r", "EC-3"}, {"Ox\r", "EC-2"}, {"l\r", "EC-1"}};
   for (const auto& [command, code] : cases) {
-    const std::string answer = device.receive(command);
-    EXPECT_EQ(answer.substr(0, 10), "2 E*ERROR*") << command;
-    EXPECT_NE(answer.find(code), std::string::npos) << answer;
+    const std::string response = device.receive(command);
+    EXPECT_EQ(response.substr(0, 10), "2 E*ERROR*") << command;
+    EXPECT_NE(response.find(code), std::string::npos) << response;
   }
   EXPECT_EQ(device.receive("O1\r"), "21O 2 4 1\r\n");
   EXPECT_EQ(device.receive("H1,0.,0.0E+00,3\rI1,0\rN1,1,2,3\r"), "");

@@ -12,11 +12,11 @@ namespace {
 
 using test_support::Random;
 
-OutlineBox moved(const OutlineBox& box, const Way& way, double fraction) {
-  const Matrix3d R = math::exp_so3(fraction * way.turn_W);
+OutlineBox moved(const OutlineBox& box, const StraightMotion& motion, double fraction) {
+  const Matrix3d R = math::exp_so3(fraction * motion.turn_W);
   OutlineBox at = box;
   at.X.linear() = R * box.X.linear();
-  at.X.translation() = way.p_WO + fraction * way.move_W + R * (box.X.translation() - way.p_WO);
+  at.X.translation() = motion.p_WO + fraction * motion.move_W + R * (box.X.translation() - motion.p_WO);
   return at;
 }
 
@@ -26,16 +26,16 @@ TEST(ClearWay, NoBoxIsDeeperOnItThanTheTolerance) {
   for (int i = 0; i < 2000; ++i) {
     const auto size = [&] { return Vector3d(random.vector(0.1).cwiseAbs() + Vector3d::Constant(0.005)); };
     const OutlineBox own{random.pose(0.2), size(), true}, other{random.pose(0.2), size(), true};
-    const Way way{own.X.translation() + random.vector(0.2), random.vector(0.5), random.vector(2.0)};
+    const StraightMotion motion{own.X.translation() + random.vector(0.2), random.vector(0.5), random.vector(2.0)};
     const double tolerance = i % 2 ? 1e-3 : 0.0;
     if (gap_between(own, other).gap < -tolerance) continue;
-    const double clear = clear_of(own, way, other, tolerance, 1.0);
+    const double clear = clear_of(own, motion, other, tolerance, 1.0);
     ASSERT_GE(clear, 0.0);
     ASSERT_LE(clear, 1.0);
     if (clear < 1.0) ++cut;
     if (clear > 0.05) ++long_ways;
     for (int k = 0; k <= 20; ++k) {
-      EXPECT_GE(gap_between(moved(own, way, clear * k / 20.0), other).gap, -tolerance - 1e-12) << i;
+      EXPECT_GE(gap_between(moved(own, motion, clear * k / 20.0), other).gap, -tolerance - 1e-12) << i;
     }
   }
   EXPECT_GT(cut, 200);
@@ -45,18 +45,18 @@ TEST(ClearWay, NoBoxIsDeeperOnItThanTheTolerance) {
 TEST(ClearWay, StraightOntoAFaceItIsExact) {
   const OutlineBox own{RigidTransform(Eigen::Translation3d(0, 0, 0.5)), Vector3d::Constant(0.1), true};
   const OutlineBox other{RigidTransform::Identity(), Vector3d(1.0, 1.0, 0.1), true};
-  const Way way{own.X.translation(), Vector3d(0.2, 0.1, -1.0), Vector3d::Zero()};
-  EXPECT_NEAR(clear_of(own, way, other, 0.0, 1.0), 0.3, 1e-12);
-  EXPECT_NEAR(clear_of(own, way, other, 0.01, 1.0), 0.31, 1e-12);
-  EXPECT_NEAR(clear_above(own, way, {Vector3d::UnitZ(), 0.1}, 0.0, 1.0), 0.3, 1e-12);
-  EXPECT_EQ(clear_of(own, way, other, 0.0, 0.2), 0.2);
+  const StraightMotion motion{own.X.translation(), Vector3d(0.2, 0.1, -1.0), Vector3d::Zero()};
+  EXPECT_NEAR(clear_of(own, motion, other, 0.0, 1.0), 0.3, 1e-12);
+  EXPECT_NEAR(clear_of(own, motion, other, 0.01, 1.0), 0.31, 1e-12);
+  EXPECT_NEAR(clear_above(own, motion, {Vector3d::UnitZ(), 0.1}, 0.0, 1.0), 0.3, 1e-12);
+  EXPECT_EQ(clear_of(own, motion, other, 0.0, 0.2), 0.2);
 }
 
 TEST(ClearWay, SlidingAndTurningFlushOnAFaceIsFree) {
   const OutlineBox own{RigidTransform(Eigen::Translation3d(0, 0, 0.2)), Vector3d::Constant(0.1), true};
   const OutlineBox other{RigidTransform::Identity(), Vector3d(1.0, 1.0, 0.1), true};
-  const Way way{own.X.translation(), Vector3d(0.5, 0.0, 0.0), Vector3d(0.0, 0.0, 3.0)};
-  EXPECT_EQ(clear_of(own, way, other, 1e-9, 1.0), 1.0);
+  const StraightMotion motion{own.X.translation(), Vector3d(0.5, 0.0, 0.0), Vector3d(0.0, 0.0, 3.0)};
+  EXPECT_EQ(clear_of(own, motion, other, 1e-9, 1.0), 1.0);
 }
 
 }  // namespace

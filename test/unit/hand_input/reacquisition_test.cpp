@@ -18,9 +18,9 @@ double angle(const RigidTransform& a, const RigidTransform& b) {
 }
 double distance(const RigidTransform& a, const RigidTransform& b) { return (a.translation() - b.translation()).norm(); }
 
-TEST(Reengagement, AHandThatIsNeverLostIsFollowedToTheBit) {
+TEST(Reacquisition, AHandThatIsNeverLostIsFollowedToTheBit) {
   srand(1);
-  Reengagement hand{TruthSettings()};
+  Reacquisition hand{InputSettings()};
   for (int k = 0; k < 100; ++k) {
     const motion::PoseSample sample{kInterval * k, make_transform(Quaterniond::UnitRandom(), Vector3d::Random())};
     const auto followed = hand.follow(sample, k == 0, kNever);
@@ -28,7 +28,7 @@ TEST(Reengagement, AHandThatIsNeverLostIsFollowedToTheBit) {
     EXPECT_EQ(followed[0].t, sample.t);
     EXPECT_EQ(followed[0].X.matrix(), sample.X.matrix());
   }
-  EXPECT_EQ(hand.counts().reengagements, 0u);
+  EXPECT_EQ(hand.counts().reacquisitions, 0u);
 }
 
 /// A hand that turns and moves evenly.
@@ -43,13 +43,13 @@ struct EvenHand {
   }
 };
 
-TEST(Reengagement, SetsOutWhereItWasHeldAtRestWithinTheSpeedsAndArrivesExactly) {
+TEST(Reacquisition, SetsOutWhereItWasHeldAtRestWithinTheSpeedsAndArrivesExactly) {
   srand(1);
   for (int run = 0; run < 100; ++run) {
-    TruthSettings settings;
-    settings.reengage_speed = 0.4;
-    settings.reengage_turn_rate = 1.5;
-    Reengagement hand(settings);
+    InputSettings settings;
+    settings.reacquisition_speed = 0.4;
+    settings.reacquisition_turn_rate = 1.5;
+    Reacquisition hand(settings);
     const motion::PoseSample held{0.0, make_transform(Quaterniond::UnitRandom(), Vector3d::Random())};
     hand.follow(held, true, kNever);
     const double v = 0.3, w = 2.0;  // of the hand that is back
@@ -64,20 +64,20 @@ TEST(Reengagement, SetsOutWhereItWasHeldAtRestWithinTheSpeedsAndArrivesExactly) 
       if (k == 0) {
         EXPECT_LT(distance(followed[0].X, held.X) + angle(followed[0].X, held.X), 1e-9);
       }
-      EXPECT_LT(distance(followed[0].X, before), kInterval * (settings.reengage_speed + v) * (1.0 + 1e-9));
-      EXPECT_LT(angle(followed[0].X, before), kInterval * (settings.reengage_turn_rate + w) * (1.0 + 1e-9));
+      EXPECT_LT(distance(followed[0].X, before), kInterval * (settings.reacquisition_speed + v) * (1.0 + 1e-9));
+      EXPECT_LT(angle(followed[0].X, before), kInterval * (settings.reacquisition_turn_rate + w) * (1.0 + 1e-9));
       before = followed[0].X;
       arrived = followed[0].X.matrix() == sample.X.matrix();
     }
     EXPECT_TRUE(arrived);
-    EXPECT_EQ(hand.counts().reengagements, 1u);
+    EXPECT_EQ(hand.counts().reacquisitions, 1u);
   }
 }
 
-TEST(Reengagement, TheFirstStepIsOfThirdOrder) {  // at rest, and without a kick
+TEST(Reacquisition, TheFirstStepIsOfThirdOrder) {  // at rest, and without a kick
   double last = 0.0;
   for (const double h : {0.02, 0.01, 0.005}) {
-    Reengagement hand{TruthSettings()};
+    Reacquisition hand{InputSettings()};
     hand.follow({0.0, RigidTransform::Identity()}, true, kNever);
     const motion::PoseSample elsewhere{1.0, make_transform(Quaterniond::Identity(), Vector3d(1, 0, 0))};
     hand.follow(elsewhere, true, kNever);
@@ -89,8 +89,8 @@ TEST(Reengagement, TheFirstStepIsOfThirdOrder) {  // at rest, and without a kick
   }
 }
 
-TEST(Reengagement, SamplesWhoseTimeIsSimulatedComeTooLate) {
-  Reengagement hand{TruthSettings()};
+TEST(Reacquisition, SamplesWhoseTimeIsSimulatedComeTooLate) {
+  Reacquisition hand{InputSettings()};
   const RigidTransform X = RigidTransform::Identity();
   hand.follow({0.0, X}, true, kNever);
   hand.follow({0.1, X}, false, 0.0);
@@ -101,22 +101,22 @@ TEST(Reengagement, SamplesWhoseTimeIsSimulatedComeTooLate) {
   EXPECT_EQ(followed[1].t, 2.1);
   for (const motion::PoseSample& s : followed) EXPECT_LT(distance(s.X, X), 1e-12);
   EXPECT_EQ(hand.counts().late, 4u);
-  EXPECT_EQ(hand.counts().reengagements, 1u);
+  EXPECT_EQ(hand.counts().reacquisitions, 1u);
 }
 
-TEST(Reengagement, ALostHandLetsGoOnceOrNever) {
-  for (const std::string action : {"freeze", "release"}) {
-    TruthSettings settings;
-    settings.lost = action;
-    settings.lost_after = 1.5;
-    Reengagement hand(settings);
+TEST(Reacquisition, ALostHandLetsGoOnceOrNever) {
+  for (const OnLoss on_loss : {OnLoss::freeze, OnLoss::release}) {
+    InputSettings settings;
+    settings.on_loss = on_loss;
+    settings.loss_timeout = 1.5;
+    Reacquisition hand(settings);
     EXPECT_FALSE(hand.take_release(1e9));
     const RigidTransform X = RigidTransform::Identity();
     hand.follow({0.0, X}, true, kNever);
     EXPECT_FALSE(hand.take_release(1.49));
     EXPECT_EQ(hand.counts().losses, 0u);
     const auto release = hand.take_release(10.0);  // live: the silence goes on
-    EXPECT_EQ(release.has_value(), action == "release");
+    EXPECT_EQ(release.has_value(), on_loss == OnLoss::release);
     if (release) {
       EXPECT_EQ(*release, 1.5);
     }
@@ -126,7 +126,7 @@ TEST(Reengagement, ALostHandLetsGoOnceOrNever) {
     hand.follow({40.1, X}, false, kNever);
     EXPECT_FALSE(hand.take_release(31.4));
     const auto second = hand.take_release(40.0);
-    EXPECT_EQ(second.has_value(), action == "release");
+    EXPECT_EQ(second.has_value(), on_loss == OnLoss::release);
     if (second) {
       EXPECT_EQ(*second, 31.5);
     }
@@ -134,9 +134,9 @@ TEST(Reengagement, ALostHandLetsGoOnceOrNever) {
   }
 }
 
-TEST(Reengagement, MoreThanOneTurnAwayIsCaughtUpWithoutAJump) {
-  TruthSettings settings;
-  Reengagement hand(settings);
+TEST(Reacquisition, MoreThanOneTurnAwayIsCaughtUpWithoutAJump) {
+  InputSettings settings;
+  Reacquisition hand(settings);
   hand.follow({0.0, RigidTransform::Identity()}, true, kNever);
   EvenHand back{make_transform(Quaterniond::Identity(), Vector3d(3, 0, 0)), Vector3d::Zero(), Vector3d(0, 0, 3.0)};
   RigidTransform before = RigidTransform::Identity();
@@ -144,7 +144,7 @@ TEST(Reengagement, MoreThanOneTurnAwayIsCaughtUpWithoutAJump) {
   do {
     before = hand.follow(back.at(1.0 + steps * kInterval), steps == 0, kNever)[0].X;
     const RigidTransform next = hand.follow(back.at(1.0 + (steps + 0.5) * kInterval), false, kNever)[0].X;
-    ASSERT_LT(angle(before, next), kInterval * (settings.reengage_turn_rate + 3.0));
+    ASSERT_LT(angle(before, next), kInterval * (settings.reacquisition_turn_rate + 3.0));
     ++steps;
   } while (steps < 5000);
   EXPECT_LT(angle(before, back.at(1.0 + (steps - 1) * kInterval).X), 1e-9);

@@ -6,7 +6,7 @@
 #include <limits>
 #include <random>
 
-#include "spring_workbench/hand_input/input_filter.h"
+#include "spring_workbench/hand_input/pose_filter.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::hand_input {
@@ -27,51 +27,51 @@ RawSample hand(double t) {
 }
 
 TEST(SampleGate, EverySampleOfAHandIsAccepted) {
-  SampleGate gate(TruthSettings(), kDropout);
+  SampleGate gate(InputSettings(), kDropout);
   for (int k = 0; k < 5000; ++k) {
-    EXPECT_EQ(gate.offer(hand(k * kInterval)), k == 0 ? Verdict::new_place : Verdict::accepted) << k;
+    EXPECT_EQ(gate.offer(hand(k * kInterval)), k == 0 ? GateResult::relocation : GateResult::accepted) << k;
   }
   EXPECT_EQ(gate.counts().accepted, 5000u);
-  EXPECT_TRUE(gate.counts().left_out.empty());
+  EXPECT_TRUE(gate.counts().rejected.empty());
 }
 
 TEST(SampleGate, NothingThatIsNotAPoseGetsThrough) {
-  SampleGate gate(TruthSettings(), kDropout);
+  SampleGate gate(InputSettings(), kDropout);
   gate.offer(hand(0.0));
   int k = 1;
-  const auto verdict = [&](auto&& change) {
+  const auto result = [&](auto&& change) {
     RawSample sample = hand(kInterval * k++);
     change(sample);
     return gate.offer(sample);
   };
   for (const double bad : {kNan, kInf, -kInf}) {
-    EXPECT_EQ(verdict([&](RawSample& s) { s.t = bad; }), Verdict::not_finite);
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(verdict([&](RawSample& s) { s.p[i] = bad; }), Verdict::not_finite);
-    for (int i = 0; i < 4; ++i) EXPECT_EQ(verdict([&](RawSample& s) { s.q.coeffs()[i] = bad; }), Verdict::not_finite);
+    EXPECT_EQ(result([&](RawSample& s) { s.t = bad; }), GateResult::not_finite);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(result([&](RawSample& s) { s.p[i] = bad; }), GateResult::not_finite);
+    for (int i = 0; i < 4; ++i) EXPECT_EQ(result([&](RawSample& s) { s.q.coeffs()[i] = bad; }), GateResult::not_finite);
   }
-  EXPECT_EQ(verdict([](RawSample& s) { s.q.coeffs().setZero(); }), Verdict::bad_quaternion);
-  EXPECT_EQ(verdict([](RawSample& s) { s.q.coeffs() *= 1.11; }), Verdict::bad_quaternion);
-  EXPECT_EQ(verdict([](RawSample& s) { s.q.coeffs() *= 0.89; }), Verdict::bad_quaternion);
-  EXPECT_EQ(verdict([](RawSample& s) { s.p.x() = 1001.0; }), Verdict::too_far);
-  EXPECT_EQ(verdict([](RawSample& s) { s.q.coeffs() *= 1.09; }), Verdict::accepted);
+  EXPECT_EQ(result([](RawSample& s) { s.q.coeffs().setZero(); }), GateResult::bad_quaternion);
+  EXPECT_EQ(result([](RawSample& s) { s.q.coeffs() *= 1.11; }), GateResult::bad_quaternion);
+  EXPECT_EQ(result([](RawSample& s) { s.q.coeffs() *= 0.89; }), GateResult::bad_quaternion);
+  EXPECT_EQ(result([](RawSample& s) { s.p.x() = 1001.0; }), GateResult::too_far);
+  EXPECT_EQ(result([](RawSample& s) { s.q.coeffs() *= 1.09; }), GateResult::accepted);
   const GateCounts& counts = gate.counts();
-  EXPECT_EQ(counts.left_out.at(Verdict::not_finite), 24u);
-  EXPECT_EQ(counts.left_out.at(Verdict::bad_quaternion), 3u);
-  EXPECT_EQ(counts.left_out.at(Verdict::too_far), 1u);
+  EXPECT_EQ(counts.rejected.at(GateResult::not_finite), 24u);
+  EXPECT_EQ(counts.rejected.at(GateResult::bad_quaternion), 3u);
+  EXPECT_EQ(counts.rejected.at(GateResult::too_far), 1u);
 }
 
 TEST(SampleGate, AStampThatIsNotLaterIsLeftOut) {
-  SampleGate gate(TruthSettings(), kDropout);
+  SampleGate gate(InputSettings(), kDropout);
   for (int k = 0; k < 100; ++k) {
     EXPECT_TRUE(usable(gate.offer(hand(kInterval * k))));
-    EXPECT_EQ(gate.offer(hand(kInterval * k)), Verdict::not_later);
-    EXPECT_EQ(gate.offer(hand(kInterval * (k - 5))), Verdict::not_later);
+    EXPECT_EQ(gate.offer(hand(kInterval * k)), GateResult::not_later);
+    EXPECT_EQ(gate.offer(hand(kInterval * (k - 5))), GateResult::not_later);
   }
   EXPECT_EQ(gate.counts().accepted, 100u);
 }
 
 TEST(SampleGate, TheSignOfAQuaternionMeansNothing) {
-  SampleGate gate(TruthSettings(), kDropout);
+  SampleGate gate(InputSettings(), kDropout);
   std::mt19937 random(3);
   for (int k = 0; k < 1000; ++k) {
     RawSample sample = hand(kInterval * k);
@@ -84,7 +84,7 @@ TEST(SampleGate, TheSignOfAQuaternionMeansNothing) {
 TEST(SampleGate, LoneOutliersNeverGetThrough) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> far(0.3, 2.0), angle(1.0, 3.0);
-  SampleGate gate(TruthSettings(), kDropout);
+  SampleGate gate(InputSettings(), kDropout);
   int outliers = 0;
   for (int k = 0; k < 5000; ++k) {
     RawSample sample = hand(kInterval * k);
@@ -95,54 +95,56 @@ TEST(SampleGate, LoneOutliersNeverGetThrough) {
     EXPECT_EQ(usable(gate.offer(sample)), !(moved || turned)) << k;
   }
   EXPECT_EQ(gate.counts().accepted, static_cast<std::size_t>(5000 - outliers));
-  EXPECT_EQ(gate.counts().new_places, 0u);
+  EXPECT_EQ(gate.counts().relocations, 0u);
 }
 
 TEST(SampleGate, ANewSteadyPlaceIsTrueAfterSoManySamples) {
   for (const int n : {1, 2, 5, 20}) {
-    TruthSettings settings;
+    InputSettings settings;
     settings.accept_after = n;
     SampleGate gate(settings, kDropout);
     for (int k = 0; k < 50; ++k) gate.offer(hand(kInterval * k));
     for (int k = 50; k < 200; ++k) {
       RawSample sample = hand(kInterval * k);
       sample.p.x() += 3.0;  // the hand is elsewhere from now on
-      const Verdict verdict = gate.offer(sample);
+      const GateResult result = gate.offer(sample);
       const int in_a_row = k - 49;
-      EXPECT_EQ(verdict, in_a_row < n ? Verdict::too_fast : in_a_row == n ? Verdict::new_place : Verdict::accepted);
+      EXPECT_EQ(result, in_a_row < n    ? GateResult::too_fast
+                        : in_a_row == n ? GateResult::relocation
+                                        : GateResult::accepted);
     }
-    EXPECT_EQ(gate.counts().new_places, 1u);
+    EXPECT_EQ(gate.counts().relocations, 1u);
   }
 }
 
 TEST(SampleGate, APlaceThatComesIntoReachOnlyWithTimeIsANewOne) {
-  TruthSettings settings;
+  InputSettings settings;
   settings.accept_after = 1000;
   SampleGate gate(settings, kDropout);
   for (int k = 0; k < 50; ++k) gate.offer(hand(kInterval * k));
   int k = 50;
-  Verdict verdict = Verdict::too_fast;
-  for (; verdict == Verdict::too_fast; ++k) {
+  GateResult result = GateResult::too_fast;
+  for (; result == GateResult::too_fast; ++k) {
     RawSample sample = hand(kInterval * k);
     sample.p.x() += 1.5;
-    verdict = gate.offer(sample);
+    result = gate.offer(sample);
   }
-  EXPECT_EQ(verdict, Verdict::new_place);
+  EXPECT_EQ(result, GateResult::relocation);
   EXPECT_NEAR(k - 50, 1.5 / (settings.max_speed * kInterval), 6.0);
 }
 
 TEST(SampleGate, ALongGapDoesNotLetEverythingThrough) {
-  SampleGate gate(TruthSettings(), kDropout);
+  SampleGate gate(InputSettings(), kDropout);
   gate.offer(hand(0.0));
   RawSample back = hand(60.0);
   back.p.x() += 8.0;  // beyond max_speed times dropout_after
-  EXPECT_EQ(gate.offer(back), Verdict::too_fast);
-  EXPECT_EQ(gate.offer(hand(60.0 + kInterval)), Verdict::new_place);
+  EXPECT_EQ(gate.offer(back), GateResult::too_fast);
+  EXPECT_EQ(gate.offer(hand(60.0 + kInterval)), GateResult::relocation);
   EXPECT_EQ(gate.counts().dropouts, 1u);
 }
 
 TEST(SampleGate, AJumpToTheOriginIsOutOfViewHoweverLongItLasts) {
-  SampleGate gate(TruthSettings(), kDropout);
+  SampleGate gate(InputSettings(), kDropout);
   for (int k = 0; k < 1000; ++k) {
     RawSample sample = hand(kInterval * k);
     const bool out = k >= 100 && k < 900;
@@ -150,20 +152,20 @@ TEST(SampleGate, AJumpToTheOriginIsOutOfViewHoweverLongItLasts) {
       sample.p = Vector3d(1e-4, -2e-4, 3e-4);
       sample.q = Quaterniond(math::exp_so3(Vector3d(1e-3, 0, 0)));
     }
-    const Verdict verdict = gate.offer(sample);
+    const GateResult result = gate.offer(sample);
     if (out) {
-      EXPECT_EQ(verdict, Verdict::out_of_view);
+      EXPECT_EQ(result, GateResult::out_of_view);
     } else if (k < 100) {
-      EXPECT_TRUE(usable(verdict));
+      EXPECT_TRUE(usable(result));
     } else if (k > 905) {
-      EXPECT_EQ(verdict, Verdict::accepted);
+      EXPECT_EQ(result, GateResult::accepted);
     }
   }
-  EXPECT_EQ(gate.counts().left_out.at(Verdict::out_of_view), 800u);
+  EXPECT_EQ(gate.counts().rejected.at(GateResult::out_of_view), 800u);
 }
 
 TEST(SampleGate, AStreamThatBeginsAtTheOriginIsTrue) {
-  SampleGate gate(TruthSettings(), kDropout);
+  SampleGate gate(InputSettings(), kDropout);
   for (int k = 0; k < 100; ++k) {
     RawSample sample;
     sample.t = 0.1 * k;
@@ -173,46 +175,34 @@ TEST(SampleGate, AStreamThatBeginsAtTheOriginIsTrue) {
 }
 
 TEST(SampleGate, ComplaintsNameFieldValueAndRuleInOneLine) {
-  const TruthSettings settings;
+  const InputSettings settings;
   const RawSample bad{1.5, Vector3d(7.25, 0, 0), Quaterniond(0.5, 0, 0, 0)};
-  for (const auto& [verdict, field, value] :
-       std::vector<std::tuple<Verdict, std::string, std::string>>{{Verdict::bad_quaternion, "rotation", "0.5"},
-                                                                  {Verdict::too_far, "position", "7.25"},
-                                                                  {Verdict::not_later, "stamp", "1.5"},
-                                                                  {Verdict::too_fast, "position", "7.25"},
-                                                                  {Verdict::turns_too_fast, "rotation", "0.5"},
-                                                                  {Verdict::out_of_view, "position", "7.25"}}) {
-    const std::string line = complaint(verdict, bad, settings);
+  for (const auto& [result, field, value] :
+       std::vector<std::tuple<GateResult, std::string, std::string>>{{GateResult::bad_quaternion, "rotation", "0.5"},
+                                                                     {GateResult::too_far, "position", "7.25"},
+                                                                     {GateResult::not_later, "stamp", "1.5"},
+                                                                     {GateResult::too_fast, "position", "7.25"},
+                                                                     {GateResult::turns_too_fast, "rotation", "0.5"},
+                                                                     {GateResult::out_of_view, "position", "7.25"}}) {
+    const std::string line = complaint(result, bad, settings);
     for (const std::string& word : {field, value, std::string("must be")})
       EXPECT_NE(line.find(word), line.npos) << line;
     EXPECT_EQ(line.find('\n'), line.npos);
   }
   const RawSample nan{1.5, Vector3d(kNan, 0, 0), Quaterniond::Identity()};
-  EXPECT_NE(complaint(Verdict::not_finite, nan, settings).find("position"), std::string::npos);
+  EXPECT_NE(complaint(GateResult::not_finite, nan, settings).find("position"), std::string::npos);
 }
 
-TEST(TruthLayer, APoseComesThroughToTheBit) {
-  TruthLayer layer(TruthSettings(), kDropout);
-  for (int k = 0; k < 200; ++k) {
-    const RawSample raw = hand(kInterval * k);
-    const motion::PoseSample sample{raw.t, make_transform(raw.q, raw.p)};
-    const TrueSample taken = layer.take(sample);
-    ASSERT_TRUE(usable(taken.verdict));
-    EXPECT_EQ(taken.sample.t, sample.t);
-    EXPECT_EQ(taken.sample.X.matrix(), sample.X.matrix());
-  }
-}
-
-TEST(TruthLayer, AnyRubbishInGivesFiniteRotationsOut) {
+TEST(SampleGate, AnyRubbishGivesFiniteRotationsBehindGateAndSmoothing) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> number(-2.0, 2.0);
   const double odd[] = {kNan, kInf, -kInf, 0.0, 1e300, -1e300, 1e-300};
   const auto any = [&] { return random() % 10 == 0 ? odd[random() % 7] : number(random); };
-  TruthSettings settings;
+  InputSettings settings;
   settings.min_cutoff = 1.0;
-  settings.prediction = 0.05;
   settings.max_speed = kInf;
-  TruthLayer layer(settings, kDropout);
+  SampleGate gate(settings, kDropout);
+  PoseFilter smoothing(settings);
   std::size_t used = 0;
   double t = 0.0;
   for (int k = 0; k < 20000; ++k) {
@@ -221,11 +211,13 @@ TEST(TruthLayer, AnyRubbishInGivesFiniteRotationsOut) {
     raw.p = Vector3d(any(), any(), any());
     raw.q = Quaterniond(any(), any(), any(), any());
     if (random() % 2 == 0) raw.q.normalize();
-    const TrueSample taken = layer.take(raw);
-    if (!usable(taken.verdict)) continue;
+    const GateResult result = gate.offer(raw);
+    if (!usable(result)) continue;
     ++used;
-    ASSERT_TRUE(taken.sample.X.matrix().allFinite());
-    const Matrix3d R = taken.sample.X.linear();
+    if (result == GateResult::relocation) smoothing.restart();
+    const RigidTransform X = smoothing.filter({raw.t, make_transform(raw.q, raw.p)}).X;
+    ASSERT_TRUE(X.matrix().allFinite());
+    const Matrix3d R = X.linear();
     ASSERT_LT((R.transpose() * R - Matrix3d::Identity()).norm(), 1e-12);
   }
   EXPECT_GT(used, 100u);

@@ -9,9 +9,10 @@ namespace {
 
 /// What may be wrong, and the words that the hint must have.
 TEST(HintForSilence, NamesWhatToLookAt) {
-  InputStatistics input;
+  TrackerInput tracker;
+  InputStatistics& input = tracker.input;
   const auto hint = [&](const std::vector<std::string>& senders = {}) {
-    return hint_for_silence(input, senders, "stylus");
+    return hint_for_silence(tracker, senders, "stylus");
   };
   const auto expect = [](const std::string& text, const std::string& word) {
     EXPECT_NE(text.find(word), std::string::npos) << text;
@@ -27,14 +28,14 @@ TEST(HintForSilence, NamesWhatToLookAt) {
   input.frames.insert("stylus");
   EXPECT_EQ(hint(), "");  // the first ones are on their way
   for (const char* reason : {"too old", "from the future"}) {
-    input.left_out = {{reason, 90}, {"too fast", 10}};
+    input.rejected = {{reason, 90}, {"too fast", 10}};
     input.newest_offer_age = 37.0;
     expect(hint(), reason);
     expect(hint(), "by 37 s: are the clocks of two hosts apart");
   }
-  input.left_out = {{"not finite", 90}, {"too old", 10}};
+  input.rejected = {{"not finite", 90}, {"too old", 10}};
   expect(hint(), "most for this: not finite");
-  input.stream.samples = 1;
+  tracker.hand.stream.samples = 1;
   EXPECT_EQ(hint(), "");
 }
 

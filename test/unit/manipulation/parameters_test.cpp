@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
-#include "spring_workbench/ros/tracker_driver/tracker_driver.h"
 #include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::manipulation {
@@ -27,10 +26,6 @@ std::string refusal(Read&& read) {
 
 std::string refusal_of(const std::string& yaml) {
   return refusal([&] { read_manipulation_parameters(YAML::Load(yaml), "/manipulation"); });
-}
-
-std::string refusal_of_tracker(const std::string& yaml) {
-  return refusal([&] { tracker_driver::read_tracker_parameters(YAML::Load(yaml), "/tracker_driver"); });
 }
 
 TEST(ToYaml, KeepsEveryDoubleToTheLastBit) {
@@ -91,27 +86,6 @@ TEST(ManipulationParameters, RefusesWithTheKeyInTheMessage) {
   for (const auto& [yaml, key] : cases) {
     const std::string message = refusal_of(yaml);
     EXPECT_NE(message.find("/manipulation"), std::string::npos) << yaml << ": " << message;
-    EXPECT_NE(message.find(" " + key + ":"), std::string::npos) << yaml << ": " << message;
-  }
-}
-
-TEST(TrackerParameters, RefusesWithTheKeyInTheMessage) {
-  const std::vector<std::pair<std::string, std::string>> cases{
-      {"{}", "file"},
-      {"{file: a, source: mouse}", "source"},
-      {"{file: a, speed: 0}", "speed"},
-      {"{file: a, offset: [0, 0, 0, 0, 0, 0, 0]}", "offset"},
-      {"{file: a, offset: [0, 0, 0, 0, 0, 0, 1], start: [0, 0, 0, 0, 0, 0, 1]}", "start"},
-      {"{file: a, grasp_from: 2, grasp_until: 1}", "grasp_until"},
-      {"{file: a, looop: true}", "looop"},
-      {"{file: a, port: /dev/x}", "port"},
-      {"{source: fastrak, file: a}", "file"},
-      {"{source: fastrak, baud: 1}", "baud"},
-      {"{source: fastrak, head_station: 1}", "head_station"},
-      {"{source: fastrak, stations: [1, 2], head_station: 3}", "head_station"},
-      {"{source: joy, head_station: 2}", "head_station"}};
-  for (const auto& [yaml, key] : cases) {
-    const std::string message = refusal_of_tracker(yaml);
     EXPECT_NE(message.find(" " + key + ":"), std::string::npos) << yaml << ": " << message;
   }
 }

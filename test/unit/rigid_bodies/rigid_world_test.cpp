@@ -86,10 +86,10 @@ TEST(RigidWorld, SlidingBoxStopsWhereItMust) {
     const double v = 1.0;
     world.place(0, world.pose(0), moving({v, 0.0, 0.0}), true);
     run(world, 1.0);
-    const double way = v * v / (2.0 * mu * g);
-    EXPECT_NEAR(world.pose(0).translation().x(), way, 0.01 * way) << mu;
+    const double path = v * v / (2.0 * mu * g);
+    EXPECT_NEAR(world.pose(0).translation().x(), path, 0.01 * path) << mu;
     EXPECT_NEAR(world.pose(0).translation().z(), 0.01, 1e-5);
-    EXPECT_NEAR(world.pose(0).translation().y(), 0.0, 1e-3 * way);
+    EXPECT_NEAR(world.pose(0).translation().y(), 0.0, 1e-3 * path);
   }
 }
 
@@ -149,11 +149,11 @@ TEST(RigidWorld, AWayEndsWhereItTouches) {
     X.translation() += Vector3d(x, 0, z);
     return X;
   };
-  EXPECT_NEAR(world.free_part(0, world.pose(0), to(0, -0.2)), 0.5, 1e-9);
-  EXPECT_NEAR(world.sound_part(0, world.pose(0), to(0, -0.2)), (0.1 + 5e-5) / 0.2, 1e-9);
-  EXPECT_NEAR(world.free_part(0, world.pose(0), to(0.8, 0)), 0.25, 1e-9);  // through a wall of 1 mm
-  EXPECT_EQ(world.free_part(0, world.pose(0), to(0.2, 0)), 1.0);
-  EXPECT_EQ(world.free_part(0, world.pose(0), to(-0.8, 0.5)), 1.0);
+  EXPECT_NEAR(world.collision_free_fraction(0, world.pose(0), to(0, -0.2)), 0.5, 1e-9);
+  EXPECT_NEAR(world.admissible_fraction(0, world.pose(0), to(0, -0.2)), (0.1 + 5e-5) / 0.2, 1e-9);
+  EXPECT_NEAR(world.collision_free_fraction(0, world.pose(0), to(0.8, 0)), 0.25, 1e-9);  // through a wall of 1 mm
+  EXPECT_EQ(world.collision_free_fraction(0, world.pose(0), to(0.2, 0)), 1.0);
+  EXPECT_EQ(world.collision_free_fraction(0, world.pose(0), to(-0.8, 0.5)), 1.0);
 }
 
 TEST(RigidWorld, StackOfTenStandsAndSleeps) {

@@ -16,7 +16,7 @@ struct Elastica {
 /// Static answer of a shape model: K q = Jᵀ P, by Newton with differences, the load raised in small steps.
 Elastica solve(const std::string& name, double alpha) {
   const double L = 0.2;
-  const PerFamily k{1e10, 500.0, 1e10};  // neither extension nor twist
+  const PerDof k{1e10, 500.0, 1e10};  // neither extension nor twist
   auto made = make_shape_model(name, L);
   if (auto stiff = made->for_stiffness(k)) made = std::move(stiff);
   const ShapeModel& shape = *made;

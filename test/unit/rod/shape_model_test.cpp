@@ -34,7 +34,7 @@ RigidTransform tip_pose(const ShapeModel& shape, const StrainVector& q) {
   return X;
 }
 
-std::shared_ptr<const ShapeModel> stiff_shape(const std::string& name, const PerFamily& k = {2000.0, 500.0, 5.0}) {
+std::shared_ptr<const ShapeModel> stiff_shape(const std::string& name, const PerDof& k = {2000.0, 500.0, 5.0}) {
   auto shape = make_shape_model(name, L);
   auto stiff = shape->for_stiffness(k);
   return stiff ? stiff : shape;
@@ -113,7 +113,7 @@ TEST_P(EveryShape, OtherCoordinatesAreOfTheSameTipAndMotionAndStoreNoMore) {
 
 TEST_P(EveryShape, SmallDeflectionFollowsTheStiffness) {
   // k_bend is transverse tip force over tip deflection, k_torsion moment over twist, k_stretch force over extension.
-  const PerFamily k{3000.0, 700.0, 9.0};
+  const PerDof k{3000.0, 700.0, 9.0};
   const StrainVector K = shape->stiffness(k);
   TipKinematics tip;
   shape->tip(zero(*shape), zero(*shape), tip);
@@ -159,7 +159,7 @@ TEST(ShapeModel, UnknownNameIsRefusedWithTheKnownOnes) {
 /// A small end moment M turns the bushing's tip by M L / EI, as it does the rod with a linear curvature, which is exact
 /// there.
 TEST(Bushing, AnEndMomentTurnsItAsItDoesTheRod) {
-  const PerFamily k{2000.0, 500.0, 5.0};
+  const PerDof k{2000.0, 500.0, 5.0};
   for (const double length : {0.1, 0.2, 0.7}) {
     const double per_curvature = make_shape_model("linear", length)->stiffness(k)[0];  // ½ K κ², and the angle is κ L
     const StrainVector bushing = make_shape_model("bushing", length)->stiffness(k);
@@ -255,7 +255,7 @@ TEST_P(EveryShape, ElasticForceIsTheGradientOfTheEnergy) {
 
 TEST(QuadraticRod, OfAllRodsWithTheSameTipItStoresLess) {
   // `linear` is one of them: the tip's pose given, its coordinates store more.
-  const PerFamily k{2000.0, 500.0, 5.0};
+  const PerDof k{2000.0, 500.0, 5.0};
   const auto linear = stiff_shape("linear"), quadratic = stiff_shape("quadratic", k);
   const StrainVector K = linear->stiffness(k);
   std::mt19937 random(11);

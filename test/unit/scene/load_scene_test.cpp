@@ -632,7 +632,7 @@ std::string collada(const std::string& nodes, const std::string& library = "", c
 
 // Each takes its reader along, or never ends, where it is read like any other.
 TEST_F(LoadScene, RefusesHostileMeshes) {
-  const auto answer = [&](const std::string& name) {
+  const auto response = [&](const std::string& name) {
     folder_.write("scene.urdf", "<robot name='r'><link name='a'><collision><geometry><mesh filename='" + name +
                                     "'/></geometry>"
                                     "</collision></link></robot>");
@@ -640,9 +640,9 @@ TEST_F(LoadScene, RefusesHostileMeshes) {
   };
   const std::string part = "<instance_geometry url='#g'/>";
   folder_.write("good.dae", collada("<node id='n'>" + part + "</node>"));
-  EXPECT_EQ(answer("good.dae"), "(loaded)");
+  EXPECT_EQ(response("good.dae"), "(loaded)");
   folder_.write("count.dae", collada("<node id='n'>" + part + "</node>", "", "4000000000"));
-  EXPECT_TRUE(has(answer("count.dae"), "must be readable"));
+  EXPECT_TRUE(has(response("count.dae"), "must be readable"));
 
   std::string deep, end;
   for (int i = 0; i < 300000; ++i) {
@@ -650,23 +650,23 @@ TEST_F(LoadScene, RefusesHostileMeshes) {
     end += "</node>";
   }
   folder_.write("deep.dae", collada(deep + part + end));
-  EXPECT_TRUE(has(answer("deep.dae"), "must be readable"));
+  EXPECT_TRUE(has(response("deep.dae"), "must be readable"));
   folder_.write("loop.dae",
                 collada("<node id='n'><instance_node url='#a'/></node>",
                         "<node id='a'><instance_node url='#b'/></node><node id='b'><instance_node url='#a'/></node>"));
-  EXPECT_TRUE(has(answer("loop.dae"), "must be readable"));
+  EXPECT_TRUE(has(response("loop.dae"), "must be readable"));
   std::string doubled = "<node id='m0'>" + part + "</node>";
   for (int i = 1; i < 40; ++i) {
     const std::string of = "<instance_node url='#m" + std::to_string(i - 1) + "'/>";
     doubled += "<node id='m" + std::to_string(i) + "'>" + of + of + "</node>";
   }
   folder_.write("doubled.dae", collada("<node id='n'><instance_node url='#m39'/></node>", doubled));
-  EXPECT_TRUE(has(answer("doubled.dae"), "must be readable"));
+  EXPECT_TRUE(has(response("doubled.dae"), "must be readable"));
 
   // A file of materials that never ends: it is not opened.
   ASSERT_EQ(mkfifo(folder_.path("pipe").c_str(), 0600), 0);
   folder_.write("materials.obj", "mtllib pipe\nmtllib " + folder_.path("pipe") + "\n" + std::string(tetrahedron_obj));
-  EXPECT_EQ(answer("materials.obj"), "(loaded)");
+  EXPECT_EQ(response("materials.obj"), "(loaded)");
 }
 
 }  // namespace

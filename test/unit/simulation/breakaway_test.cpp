@@ -21,8 +21,8 @@ scene::Scene one_box(double mass, scene::ContactMode contact) {
 
 SimulationSettings breaking_at(double force, double moment = std::numeric_limits<double>::infinity()) {
   SimulationSettings set;
-  set.fork.breakaway_force = force;
-  set.fork.breakaway_moment = moment;
+  set.limit.force = force;
+  set.limit.moment = moment;
   return set;
 }
 

@@ -110,9 +110,9 @@ TEST(BrokenMeshes, ContactsAreFewAndFinite) {
           EXPECT_NEAR(c.n_W.norm(), 1.0, 1e-9) << broken.what << " and " << other.index();
           EXPECT_LT(c.depth, 25.0 * edge) << broken.what;  // the longest shape has 20
         }
-        const collision::SweepResult way = world.sweep(0, X0, X1, 1e-6, 1e-3, i % 9);
-        EXPECT_TRUE(way.free_fraction >= 0.0 && way.free_fraction <= way.touching_fraction &&
-                    way.touching_fraction <= 1.0);
+        const collision::SweepResult path = world.sweep(0, X0, X1, 1e-6, 1e-3, i % 9);
+        EXPECT_TRUE(path.free_fraction >= 0.0 && path.free_fraction <= path.touching_fraction &&
+                    path.touching_fraction <= 1.0);
       }
     }
   }
@@ -135,7 +135,7 @@ TEST(BrokenMeshes, HeldAndPressedTheyStayBoundedAndComeFree) {
       push_move(s, 0.42, 0.8, start + Vector3d(0.1, 0.02, -0.08), start + Vector3d(0, 0, 0.1));
       push_move(s, 0.82, 2.0, start + Vector3d(0, 0, 0.1), start + Vector3d(0, 0, 0.1));
       for (int i = 1; i <= 100; ++i) {
-        EXPECT_EQ(s.advance(0.02 * i).guards_tripped, 0) << broken.what;
+        EXPECT_EQ(s.advance(0.02 * i).steps_rejected, 0) << broken.what;
         const bodies::BodyState& o = s.objects()[0];
         ASSERT_TRUE(o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite()) << broken.what;
         EXPECT_LT(o.X_WO.translation().norm(), 0.5) << broken.what;

@@ -70,12 +70,12 @@ TEST(DynamicContact, ANeighbourThatIsNotTouchedIsNotFelt) {
     const Vector3d start(0, 0, set.fork.length);
     push_move(s, 0.0, 2.0, start, start + Vector3d(0.4, 0, 0));
     AdvanceReport sum;
-    std::vector<Vector3d> way;
+    std::vector<Vector3d> path;
     for (double t = 0.02; t < 2.0; t += 0.02) {
       sum.steps_among_movable += s.advance(t).steps_among_movable;
-      way.push_back(s.objects()[0].X_WO.translation());
+      path.push_back(s.objects()[0].X_WO.translation());
     }
-    return std::pair(sum.steps_among_movable, way);
+    return std::pair(sum.steps_among_movable, path);
   };
   const auto [far_steps, far_way] = dragged_past(1.0);
   const auto [near_steps, near_way] = dragged_past(1e-3);
@@ -190,7 +190,7 @@ TEST(DynamicContact, LightAndHeavyStiffAndSoftAgainstAWallStayBounded) {
       push_move(s, 0.0, 0.5, start, start + Vector3d(0.22, 0, 0));
       push_move(s, 0.52, 1.0, start + Vector3d(0.22, 0, 0), start + Vector3d(0.22, 0, 0));
       for (double t = 0.02; t < 1.0 + 1e-9; t += 0.02) {
-        EXPECT_EQ(s.advance(t).guards_tripped, 0) << mass << " " << k;
+        EXPECT_EQ(s.advance(t).steps_rejected, 0) << mass << " " << k;
         const bodies::BodyState& box_state = s.objects()[0];
         const RigidTransform& X = box_state.X_WO;
         ASSERT_TRUE(X.matrix().allFinite()) << mass << " " << k;

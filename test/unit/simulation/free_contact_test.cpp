@@ -51,8 +51,8 @@ TEST_P(LetGo, ABoxSlidesAsFarAsFrictionLetsIt) {
     const bodies::BodyState start = s.objects()[0];
     ASSERT_GT(start.V_WO_W.linear.x(), 0.5);
     s.advance(3.0);
-    const double way = start.V_WO_W.linear.squaredNorm() / (2.0 * mu * g);
-    EXPECT_NEAR((s.objects()[0].X_WO.translation() - start.X_WO.translation()).x(), way, 0.01 * way) << mu;
+    const double path = start.V_WO_W.linear.squaredNorm() / (2.0 * mu * g);
+    EXPECT_NEAR((s.objects()[0].X_WO.translation() - start.X_WO.translation()).x(), path, 0.01 * path) << mu;
     EXPECT_TRUE(s.objects()[0].asleep) << mu;
   }
 }
@@ -66,10 +66,10 @@ TEST_P(LetGo, ASphereSlipsAndThenRolls) {
   s.advance(1.2);
   const double t = s.time() - 0.18, rolling = 5.0 / 7.0 * v;
   const bodies::BodyState& end = s.objects()[0];
-  const double way = v * grip - 0.5 * mu * g * grip * grip + rolling * (t - grip);
+  const double path = v * grip - 0.5 * mu * g * grip * grip + rolling * (t - grip);
   EXPECT_NEAR(end.V_WO_W.linear.x(), rolling, 0.01 * rolling);
   EXPECT_NEAR(end.V_WO_W.angular.y() * radius, end.V_WO_W.linear.x(), 0.005 * rolling);
-  EXPECT_NEAR(end.X_WO.translation().x() - start.X_WO.translation().x(), way, 0.01 * way);
+  EXPECT_NEAR(end.X_WO.translation().x() - start.X_WO.translation().x(), path, 0.01 * path);
   EXPECT_NEAR(end.X_WO.translation().z(), radius, 2e-5);
 }
 

@@ -40,12 +40,12 @@ std::string fingerprint(const SimulationSettings& s) {
   out << s.tool << '|' << s.contact << '|' << s.gravity << '|' << s.force_scale << '|' << s.dynamics.integrator << '|'
       << s.dynamics.step << '|' << s.dynamics.tolerance << '|' << s.dynamics.inertia << '|' << s.fork.shape << '|'
       << s.fork.length << '|';
-  for (const rod::PerFamily& p : {s.fork.stiffness, s.fork.damping_ratio}) {
+  for (const rod::PerDof& p : {s.fork.stiffness, s.fork.damping_ratio}) {
     out << p.stretch << '|' << p.bend << '|' << p.torsion << '|';
   }
   out << s.fork.damping_law << '|' << s.fork.dofs.stretch << s.fork.dofs.bend << s.fork.dofs.torsion << '|'
-      << s.fork.breakaway_force << '|' << s.fork.breakaway_moment << '|' << s.fork.switch_off_time << '|'
-      << s.grasp.calibrate << s.grasp.start_follow << '|' << s.grasp.object << '|' << s.grasp.release << '|';
+      << s.limit.force << '|' << s.limit.moment << '|' << s.fork.switch_off_time << '|' << s.grasp.calibrate
+      << s.grasp.start_follow << '|' << s.grasp.object << '|' << s.grasp.release << '|';
   if (s.grasp.X_OE) out << s.grasp.X_OE->matrix();
   out << '|' << s.dropout_after << '|' << s.bisection_levels;
   return out.str();

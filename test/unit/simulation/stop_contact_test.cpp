@@ -29,7 +29,7 @@ struct SShape {
 /// The static answer of a shape model: K q = Jᵀ (P, M), with M such that the tip does not turn, by Newton with
 /// differences.
 SShape own_figure(const std::string& name, double bend, double force) {
-  const rod::PerFamily k{1e10, bend, 1e10};  // neither extension nor twist
+  const rod::PerDof k{1e10, bend, 1e10};  // neither extension nor twist
   auto made = rod::make_shape_model(name, length);
   if (auto stiff = made->for_stiffness(k)) made = std::move(stiff);
   const rod::ShapeModel& shape = *made;
@@ -142,13 +142,13 @@ TEST(StopContact, BetweenTwoSurfacesItSlidesAndStaysOutOfBoth) {
       push_move(s, 0.42, 0.8, start + Vector3d(0.1, 0, 0.03), start + Vector3d(0.3, 0.1, -0.03), 0.5);
       push_move(s, 0.82, 1.2, start + Vector3d(0.3, 0.1, -0.03), start + Vector3d(0.3, 0.1, 0.0), 0.0);
       double deepest = 0.0;
-      int held_back = 0;
+      int steps_blocked = 0;
       for (double t = 0.0; t < 1.2 + 1e-9; t += 0.005) {
-        held_back += s.advance(t).held_back;
+        steps_blocked += s.advance(t).steps_blocked;
         deepest = std::max(deepest, outside(s.objects()[0].X_WO, size, ceiling));
       }
       EXPECT_LT(deepest, 1e-5) << room << " " << k;
-      EXPECT_EQ(held_back, 0) << room << " " << k;
+      EXPECT_EQ(steps_blocked, 0) << room << " " << k;
       EXPECT_LT((s.objects()[0].X_WO.translation() - Vector3d(0.3, 0.1, 0.05)).norm(), 1e-3 + room) << room << " " << k;
     }
   }
@@ -173,14 +173,14 @@ TEST(StopContact, AForkThatCannotFollowPressesAsItsRuleSaysAndHoldsNothingBack) 
         push_move(s, 0.0, 0.4, start, low);
         push_move(s, 0.42, 0.8, low, aside);
         push_move(s, 0.82, 3.0, aside, aside);
-        EXPECT_EQ(s.advance(0.4).held_back, 0);
+        EXPECT_EQ(s.advance(0.4).steps_blocked, 0);
         double force = 0.0;
         for (const contact::ContactState& c : s.contacts()) force += c.force;
         EXPECT_NEAR(force, mass * pressed / (T * T), 0.05 * force)
             << dofs.bend << dofs.torsion << " " << mass << " " << step;
-        EXPECT_EQ(s.advance(1.0).held_back, 0);
+        EXPECT_EQ(s.advance(1.0).steps_blocked, 0);
         const Vector3d p = s.objects()[0].X_WO.translation();
-        EXPECT_EQ(s.advance(3.0).held_back, 0);
+        EXPECT_EQ(s.advance(3.0).steps_blocked, 0);
         EXPECT_LT((p - Vector3d(0, 0, 0.02)).norm(), 1e-5);
         EXPECT_LT((s.objects()[0].X_WO.translation() - p).norm(), 1e-6) << "creeps";
       }
@@ -212,7 +212,7 @@ TEST(StopContact, APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling) {
   push_move(s, 4.02, 4.5, in, in);
   std::vector<double> force;  // on the wall while the peg goes down along it
   for (double t = 0.0; t < 4.5 + 1e-9; t += 0.02) {
-    EXPECT_EQ(s.advance(t).held_back, 0) << t;
+    EXPECT_EQ(s.advance(t).steps_blocked, 0) << t;
     if (t < 2.3 || t > 3.7) continue;
     force.push_back(0.0);
     for (const contact::ContactState& c : s.contacts()) force.back() += std::abs(c.n_W.x()) * c.force;

@@ -138,12 +138,12 @@ TEST(TwoHands, HandoverMovesTheObjectLessThanAMillimetre) {
 TEST(TwoHands, HandoverOnTheWayLeavesTheObjectOnItsWay) {
   const auto run = [](bool hand_over) {
     BothHold two(with_stiffness(981.0, 981.0, 5.0));
-    const Vector3d way(0.2, 0.1, 0.1);
+    const Vector3d path(0.2, 0.1, 0.1);
     for (std::size_t hand = 0; hand < 2; ++hand) {
       const Vector3d from = hand == 0 ? left : right;
       for (double t = 0.22; t < 3.0; t += 0.02) {
         const double u = std::clamp(t - 1.0, 0.0, 1.0), s = u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
-        two.simulation.push_stylus({t, pointing_down(from + s * way)}, hand);
+        two.simulation.push_stylus({t, pointing_down(from + s * path)}, hand);
       }
     }
     if (hand_over) two.simulation.push_button(1.5, false, 0);
@@ -191,7 +191,7 @@ TEST(TwoHands, HandoverBetweenRigidToolsMovesNothing) {
     EXPECT_LT((simulation.objects()[0].X_WO.translation() - Vector3d(0, 0, 0.5)).norm(), 1e-4) << t;
   }
   EXPECT_EQ(simulation.fork(1).held_object, "box");
-  EXPECT_LT((simulation.fork(1).X_WH_seen.matrix() - simulation.fork(1).X_WH.matrix()).norm(), 1e-9);
+  EXPECT_LT((simulation.fork(1).X_WH_proxy.matrix() - simulation.fork(1).X_WH.matrix()).norm(), 1e-9);
 }
 
 TEST(TwoHands, TwoObjectsAreHeldIndependently) {

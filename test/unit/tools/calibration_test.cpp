@@ -29,7 +29,7 @@ const std::vector<Vector3d> grasps = {Vector3d::Zero(), Vector3d(0.05, 0.0, 0.0)
 
 /// The body on the calibrated fork, where it comes to rest by itself: no solver of equilibria here.
 struct Held {
-  Held(const dynamics::BodyInertia& body, const rod::PerFamily& stiffness, const Vector3d& turn)
+  Held(const dynamics::BodyInertia& body, const rod::PerDof& stiffness, const Vector3d& turn)
       : held(rod::make_shape_model("linear", length), body, gravity),
         integrator(dynamics::make_integrator("exponential")),
         hand(pose(turn)) {
@@ -65,7 +65,7 @@ TEST(Calibration, StaticSagIsTheSetPartOfTheLengthOverTwelveDecadesOfMassWhereve
   for (double mass = 1e-6; mass < 2e6; mass *= 1e4) {
     for (const Vector3d& p_OE : grasps) {
       const dynamics::BodyInertia body = box(mass, p_OE);
-      const rod::PerFamily fork = calibrated_stiffness("linear", length, body, gravity, goal);
+      const rod::PerDof fork = calibrated_stiffness("linear", length, body, gravity, goal);
       Held down(body, fork, hanging), across(body, fork, level);
       down.run(3.0);
       across.run(3.0);
@@ -144,7 +144,7 @@ TEST(Calibration, EveryDirectionSettlesAlikeOverTwelveDecadesOfMass) {
 }
 
 TEST(Calibration, NoLoadNoGravityStaysPositive) {
-  const rod::PerFamily fork = calibrated_stiffness("linear", length, box(1.0, Vector3d::Zero()), 0.0);
+  const rod::PerDof fork = calibrated_stiffness("linear", length, box(1.0, Vector3d::Zero()), 0.0);
   EXPECT_GT(fork.stretch, 0.0);
   EXPECT_GT(fork.torsion, 0.0);
 }

@@ -1,12 +1,13 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
-#include "spring_workbench/hand_input/settings.h"
 #include "spring_workbench/ros/tracker_driver/tracker_driver.h"
 #include "spring_workbench/validation/input_error.h"
 
@@ -35,18 +36,25 @@ std::set<std::string> documented_parameters(const std::string& heading) {
   return names;
 }
 
+/// The line that refuses these parameters; empty where they are taken.
+std::string refusal_of(const std::string& yaml) {
+  try {
+    read_tracker_parameters(YAML::Load(yaml), "/tracker_driver");
+  } catch (const validation::InputError& error) {
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos) << error.what();
+    return error.what();
+  }
+  return "";
+}
+
 /// Those that the driver knows, as its refusal of an unknown one lists them.
 std::set<std::string> known_parameters(const std::string& source) {
+  const std::string text = refusal_of("{source: " + source + ", no_such_key: 1}"), marker = "known are ";
+  std::string list = text.substr(text.find(marker) + marker.size());
+  for (char& c : list) c = c == ',' ? ' ' : c;
   std::set<std::string> names;
-  try {
-    read_tracker_parameters(YAML::Load("{source: " + source + ", no_such_key: 1}"), "/tracker_driver");
-  } catch (const validation::InputError& error) {
-    const std::string text = error.what(), marker = "known are ";
-    std::string list = text.substr(text.find(marker) + marker.size());
-    for (char& c : list) c = c == ',' ? ' ' : c;
-    std::istringstream words(list);
-    for (std::string word; words >> word;) names.insert(word);
-  }
+  std::istringstream words(list);
+  for (std::string word; words >> word;) names.insert(word);
   return names;
 }
 
@@ -59,17 +67,55 @@ TEST(TrackerReference, ParametersAreThoseOfTheCode) {
   EXPECT_EQ(documented_parameters("`tracker_driver`"), known);
 }
 
-TEST(TrackerReference, TruthSettingsAreThoseOfTheCode) {
-  std::string given;
-  for (const std::string& line : section("Truth settings")) {
-    if (line.rfind("| `truth.", 0) == 0) given += line + "\n";
+TEST(WhyNotSent, AnyPoseIsSentAndNothingElse) {
+  const auto reason = [](const Vector3d& p, const Quaterniond& q, const std::string& source = "fastrak") {
+    return why_not_sent({1, 0.0, p, q, false, ' '}, source);
+  };
+  const Quaterniond unit(0.6, 0.0, 0.8, 0.0), identity = Quaterniond::Identity();
+  const double inf = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(reason({1e6, 0.0, -3.0}, unit), "");
+  EXPECT_EQ(reason(Vector3d::Zero(), unit), "");
+  EXPECT_EQ(reason({1e-9, 0.0, 0.0}, identity), "");
+  for (const double bad : {inf, -inf, std::nan("")}) {
+    for (int i = 0; i < 4; ++i) {
+      Quaterniond q = unit;
+      q.coeffs()[i] = bad;
+      EXPECT_EQ(reason(Vector3d::Zero(), q), "not finite");
+    }
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(reason(bad * Vector3d::Unit(i), unit), "not finite");
   }
-  std::string right;
-  for (const hand_input::TruthDescription& d : hand_input::truth_descriptions()) {
-    right += "| `truth." + d.key + "` | " + d.unit + " | " + d.allowed + " | " + d.default_value + " | " + d.meaning +
-             " |\n";
+  EXPECT_EQ(reason(Vector3d::Zero(), Quaterniond(0.0, 0.0, 0.0, 0.0)), "not a unit quaternion");
+  EXPECT_EQ(reason(Vector3d::Zero(), Quaterniond(1.2, 0.0, 0.0, 0.0)), "not a unit quaternion");
+  EXPECT_EQ(reason(Vector3d::Zero(), identity), "out of view");
+  EXPECT_EQ(reason(Vector3d::Zero(), identity, "joy"), "");
+}
+
+TEST(TrackerParameters, InputSettingsAreSaidToBeOfManipulation) {
+  for (const std::string key : {"input", "truth"}) {
+    EXPECT_EQ(refusal_of("{file: a.tum, " + key + ": {max_speed: 5}}"),
+              "/tracker_driver: " + key + ": unknown key; manipulation has ~input now");
   }
-  EXPECT_TRUE(given == right) << "put these rows into doc/reference.md:\n" << right;
+}
+
+TEST(TrackerParameters, RefusesWithTheKeyInTheMessage) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"{}", "file"},
+      {"{file: a, source: mouse}", "source"},
+      {"{file: a, speed: 0}", "speed"},
+      {"{file: a, offset: [0, 0, 0, 0, 0, 0, 0]}", "offset"},
+      {"{file: a, offset: [0, 0, 0, 0, 0, 0, 1], start: [0, 0, 0, 0, 0, 0, 1]}", "start"},
+      {"{file: a, grasp_from: 2, grasp_until: 1}", "grasp_until"},
+      {"{file: a, looop: true}", "looop"},
+      {"{file: a, port: /dev/x}", "port"},
+      {"{source: fastrak, file: a}", "file"},
+      {"{source: fastrak, baud: 1}", "baud"},
+      {"{source: fastrak, head_station: 1}", "head_station"},
+      {"{source: fastrak, stations: [1, 2], head_station: 3}", "head_station"},
+      {"{source: joy, head_station: 2}", "head_station"}};
+  for (const auto& [yaml, key] : cases) {
+    const std::string message = refusal_of(yaml);
+    EXPECT_NE(message.find(" " + key + ":"), std::string::npos) << yaml << ": " << message;
+  }
 }
 
 }  // namespace

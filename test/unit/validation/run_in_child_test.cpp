@@ -71,14 +71,14 @@ TEST(RunInChild, RefusesWhereTheSystemGivesNoProcess) {
   ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
   const rlimit none{0, before.rlim_max};
   ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
-  std::string answer;
+  std::string response;
   try {
     run_in_child([] { return std::string(); }, ample);
   } catch (const InputError& refusal) {
-    answer = refusal.what();
+    response = refusal.what();
   }
   ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
-  EXPECT_EQ(answer, "child process: cannot be made: Too many open files: must be possible, to read what may do harm");
+  EXPECT_EQ(response, "child process: cannot be made: Too many open files: must be possible, to read what may do harm");
   EXPECT_EQ(run_in_child([] { return std::string("again"); }, ample), "again");
 }
 

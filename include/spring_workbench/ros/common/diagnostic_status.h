@@ -4,8 +4,7 @@
 
 #include <string>
 
-#include "spring_workbench/hand_input/sample_gate.h"
-#include "spring_workbench/hand_input/stream_monitor.h"
+#include "spring_workbench/motion/stream_monitor.h"
 
 namespace spring_workbench::ros_common {
 
@@ -24,8 +23,7 @@ class DiagnosticStatusBuilder {
   diagnostic_msgs::DiagnosticStatus status_;
 };
 
-/// How evenly a station's samples come and what its gate met, as fields of a status.
-void add_stream(const hand_input::StreamFigures& stream, const hand_input::GateCounts& gate,
-                DiagnosticStatusBuilder& status);
+/// How evenly a station's samples come, as fields of a status.
+void add_stream(const motion::StreamFigures& stream, DiagnosticStatusBuilder& status);
 
 }  // namespace spring_workbench::ros_common

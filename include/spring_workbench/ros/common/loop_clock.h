@@ -2,7 +2,7 @@
 
 #include <ros/time.h>
 
-#include "spring_workbench/hand_input/playout_clock.h"
+#include "spring_workbench/hand_input/local_time.h"
 
 namespace spring_workbench::ros_common {
 

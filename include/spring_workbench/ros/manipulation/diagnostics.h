@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "spring_workbench/hand_input/reacquisition.h"
 #include "spring_workbench/ros/common/diagnostic_status.h"
-#include "spring_workbench/ros/manipulation/stylus_input.h"
+#include "spring_workbench/ros/manipulation/simulation_runner.h"
 
 namespace spring_workbench::manipulation {
 
@@ -15,22 +14,22 @@ namespace spring_workbench::manipulation {
 struct LoopStatistics {
   std::size_t cycles = 0;
   std::size_t deadlines_missed = 0;
-  std::size_t guards_tripped = 0;  ///< steps refused by the simulation
+  std::size_t steps_rejected = 0;  ///< steps refused by the simulation
   std::size_t leaps = 0;           ///< times the simulation was started anew because time leapt
   double longest_cycle = 0.0;      ///< wall time in the simulation [s]
 };
 
-/// Why no sample of the stylus is used, and what to do about it: one line, empty where samples are used.
-/// `senders`: the nodes that the master says publish /tf, this one left out.
-std::string hint_for_silence(const InputStatistics& input, const std::vector<std::string>& senders,
-                             const std::string& stylus_frame);
-
 /// What came of one stylus, and what became of the hand.
 struct TrackerInput {
   InputStatistics input;
-  hand_input::ReengagementCounts hand;
+  HandStatistics hand;
   std::string hint;  ///< of `hint_for_silence`
 };
+
+/// Why no sample of the stylus is used, and what to do about it: one line, empty where samples are used.
+/// `senders`: the nodes that the master says publish /tf, this one left out.
+std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std::string>& senders,
+                             const std::string& stylus_frame);
 
 /// Watches the counters and says once a second how tracker input and physics loop are doing: WARN when something went
 /// wrong since the last time, STALE when no sample came at all. A second stylus is told of once something came of it.

@@ -11,7 +11,7 @@
 namespace spring_workbench::manipulation {
 
 /// Private parameters of the node `manipulation`: these, and every key of `setting_descriptions()`
-/// and `truth_descriptions()`.
+/// and `input_descriptions()`.
 struct ManipulationParameters {
   std::string scene;                     ///< `scene`, required: a URDF's path or package:// URI
   std::vector<std::string> scene_roots;  ///< `scene_roots`: folders that `~load_scene` may read from, beside packages
@@ -24,7 +24,7 @@ struct ManipulationParameters {
       "workbench";                      ///< `workbench_frame`: put at the origin of world unless /tf_static says else
   std::string stylus_frame = "stylus";  ///< `stylus_frame`: the child frame on /tf that is the handle of the tool
   simulation::SimulationSettings simulation;
-  hand_input::TruthSettings truth;  ///< `truth`: how the stylus' samples are let through and followed
+  hand_input::InputSettings input;  ///< `input`: how the stylus' samples are let through and followed
 };
 
 /// Reads the map of private parameters. Throws InputError with `where`, key, value and rule.

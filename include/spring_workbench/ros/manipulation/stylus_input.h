@@ -14,10 +14,7 @@
 #include <variant>
 #include <vector>
 
-#include "spring_workbench/hand_input/input_filter.h"
-#include "spring_workbench/hand_input/stream_monitor.h"
-#include "spring_workbench/motion/pose_track.h"
-#include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/hand_input/feed.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
 
 namespace spring_workbench::manipulation {
@@ -26,11 +23,18 @@ namespace spring_workbench::manipulation {
 struct NewEpoch {
   ros::Time zero;
 };
-/// A pose of the handle in world, and when it came.
+/// A pose of the handle as it came, in the frame P that is its parent on /tf, and when it came.
 struct StylusPose {
-  motion::PoseSample sample;
+  hand_input::RawSample sample;
+  std::string parent;  ///< P's name
+  RigidTransform X_WP = RigidTransform::Identity();
   hand_input::LocalTime arrival;
-  bool new_place = false;  ///< see Verdict
+  double age = 0.0;  ///< when it came, by its stamp [s]
+};
+/// One that the gate did not let through.
+struct RejectedPose {
+  hand_input::GateResult result;
+  StylusPose pose;
 };
 /// The grasp button went down or up at time `t` [s].
 struct StylusButton {
@@ -50,18 +54,16 @@ using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, NextTool, B
 
 /// What came in so far.
 struct InputStatistics {
-  std::size_t messages = 0;          ///< on /tf, those of this node left out
-  std::set<std::string> frames;      ///< child frames in them
-  hand_input::StreamFigures stream;  ///< of the samples used
-  hand_input::GateCounts gate;
+  std::size_t messages = 0;                     ///< on /tf, those of this node left out
+  std::set<std::string> frames;                 ///< child frames in them
   std::size_t restarts = 0;                     ///< times ROS time jumped back
-  std::map<std::string, std::size_t> left_out;  ///< by reason
+  std::map<std::string, std::size_t> rejected;  ///< by reason
   double newest_offer_age = 0.0;                ///< age by its stamp of the newest sample, used or not [s]
-  double newest_arrival = 0.0;                  ///< local time [s]
 };
 
 /// One stylus: listens to /tf, /tf_static and its buttons, and keeps what came, in order, until it is taken. What
-/// cannot be used is left out, counted by reason and told in one throttled line.
+/// cannot be used is left out, counted by reason and told in one throttled line. Poses go on as they came: the gate is
+/// in the Feed.
 class StylusInput {
  public:
   /// Listens to the child frame `frame` and to `joy` (`stylus/joy`: button 0 grasps while it is down, 1 takes the next
@@ -70,6 +72,8 @@ class StylusInput {
 
   /// What came since the last call. The first event ever, and the first after a jump of time, is a NewEpoch.
   std::vector<StylusEvent> take_events();
+  /// Counts and tells what the gate did not let through.
+  void count_rejected(const std::vector<RejectedPose>& poses);
   InputStatistics statistics() const;
   /// Whether /tf_static said where the workbench is.
   bool workbench_known() const;
@@ -85,9 +89,8 @@ class StylusInput {
   void go_on_to(const ros::Time& stamp, Stream& stream, std::deque<Message>& early);
   std::optional<ros::Time> moment_of(const ros::Time& stamp, Stream& stream);
   void start_anew_when_due();
-  void offer(const geometry_msgs::TransformStamped& transform, const RigidTransform& X_WP, double age);
   double seconds(const ros::Time& stamp);
-  void leave_out(const std::string& reason, const std::string& line);
+  void reject(const std::string& reason, const std::string& line);
 
   const ManipulationParameters parameters_;
   const std::string frame_, joy_;
@@ -96,8 +99,6 @@ class StylusInput {
   bool workbench_known_ = false;
   std::vector<StylusEvent> events_;
   InputStatistics statistics_;
-  hand_input::TruthLayer truth_;
-  hand_input::StreamMonitor monitor_;
   /// What was stamped before the newest: it waits for the clock, or for the other stream, to jump back.
   std::deque<geometry_msgs::TransformStamped> early_poses_;
   std::deque<sensor_msgs::Joy> early_buttons_;

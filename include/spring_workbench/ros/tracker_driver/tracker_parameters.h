@@ -7,7 +7,7 @@
 #include <string>
 
 #include "spring_workbench/fastrak/fastrak_source.h"
-#include "spring_workbench/hand_input/settings.h"
+#include "spring_workbench/math/rigid_transform.h"
 #include "spring_workbench/ros/tracker_driver/joy_motion.h"
 
 namespace spring_workbench::tracker_driver {
@@ -44,9 +44,8 @@ struct TrackerParameters {
   double grasp_until = std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up, beside the file's own
   Vector3d p_ST = Vector3d::Zero();  ///< `tip` (x y z) [m]: the handle's origin in the tracked frame of the stylus
   double interpupillary_distance = 0.063;  ///< `interpupillary_distance` [m], 0 … 0.2: between eye_left and eye_right
-  double dropout_after = 0.5;              ///< `dropout_after` [s], > 0: a longer gap is a dropout
+  double dropout_after = 0.5;              ///< `dropout_after` [s], > 0: rate and jitter leave longer gaps out
   bool even_stamps = true;                 ///< `even_stamps`: stamp a device's samples by its cadence, not by receipt
-  hand_input::TruthSettings truth;         ///< `truth`: which samples are let through, and how they are filtered
   fastrak::FastrakSettings fastrak;  ///< read_fastrak_settings; in place of file, speed, loop, pause, start and grasp_*
   JoySettings joy;                   ///< read_joy_settings
 };

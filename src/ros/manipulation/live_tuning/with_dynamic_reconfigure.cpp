@@ -23,7 +23,7 @@ void take_from(const simulation::SimulationSettings& settings, ManipulationConfi
   config.step = settings.dynamics.step;
 }
 
-bool same(const rod::PerFamily& a, const rod::PerFamily& b) {
+bool same(const rod::PerDof& a, const rod::PerDof& b) {
   return a.stretch == b.stretch && a.bend == b.bend && a.torsion == b.torsion;
 }
 
@@ -31,14 +31,14 @@ bool same(const rod::PerFamily& a, const rod::PerFamily& b) {
 void give_to(simulation::Simulation& simulation, const ManipulationConfig& config) {
   const rod::ForkSettings fork = simulation.settings().fork;
   const rod::ForkDofs dofs{config.stretch, config.bend, config.torsion};
-  const rod::PerFamily stiffness{config.stretch_stiffness, config.bend_stiffness, config.torsion_stiffness};
-  const rod::PerFamily damping{config.stretch_damping, config.bend_damping, config.torsion_damping};
+  const rod::PerDof stiffness{config.stretch_stiffness, config.bend_stiffness, config.torsion_stiffness};
+  const rod::PerDof damping{config.stretch_damping, config.bend_damping, config.torsion_damping};
   const dynamics::DynamicsSettings dynamics = simulation.settings().dynamics;
   if (!(dofs == fork.dofs)) simulation.set_dofs(dofs);
   if (!same(stiffness, fork.stiffness)) simulation.set_stiffness(stiffness);
   if (!same(damping, fork.damping_ratio)) {
     const bool one_ratio = same(damping, {damping.stretch, damping.stretch, damping.stretch});
-    simulation.set_damping_ratio(damping, one_ratio ? "" : "per_family");  // the modal law knows one ratio alone
+    simulation.set_damping_ratio(damping, one_ratio ? "" : "per_dof");  // the modal law knows one ratio alone
   }
   if (config.integrator != dynamics.integrator || config.step != dynamics.step) {
     simulation.set_integrator(config.integrator, config.step);

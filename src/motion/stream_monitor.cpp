@@ -1,9 +1,9 @@
-#include "spring_workbench/hand_input/stream_monitor.h"
+#include "spring_workbench/motion/stream_monitor.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace spring_workbench::hand_input {
+namespace spring_workbench::motion {
 
 void StreamMonitor::Spread::add(double x) {
   constexpr std::size_t memory = 50;  // samples
@@ -33,4 +33,4 @@ void StreamMonitor::sample(double stamp, double receipt) {
 
 void StreamMonitor::restart() { stamp_ = receipt_ = std::numeric_limits<double>::quiet_NaN(); }
 
-}  // namespace spring_workbench::hand_input
+}  // namespace spring_workbench::motion

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <limits>
 
-namespace spring_workbench::hand_input {
+namespace spring_workbench::motion {
 
 /// How evenly the samples of a station come. Smoothed over some fifty samples.
 struct StreamFigures {
@@ -41,4 +41,4 @@ class StreamMonitor {
   StreamFigures figures_;
 };
 
-}  // namespace spring_workbench::hand_input
+}  // namespace spring_workbench::motion

@@ -1,0 +1,39 @@
+#include <algorithm>
+
+#include "spring_workbench/simulation/simulation.h"
+
+namespace spring_workbench::simulation {
+namespace {
+
+bool has(const std::vector<std::string>& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+void add_missing(const std::vector<std::string>& more, std::vector<std::string>& words) {
+  for (const std::string& word : more) {
+    if (!has(words, word)) words.push_back(word);
+  }
+}
+
+}  // namespace
+
+void AdvanceReport::add(const AdvanceReport& later) {
+  steps += later.steps;
+  simulated_time += later.simulated_time;
+  position_error = std::max(position_error, later.position_error);
+  angle_error = std::max(angle_error, later.angle_error);
+  energy_added += later.energy_added;
+  stiffest_omega_dt = std::max(stiffest_omega_dt, later.stiffest_omega_dt);
+  steps_among_movable += later.steps_among_movable;
+  collision_queries += later.collision_queries;
+  substeps += later.substeps;
+  energy_held += later.energy_held;
+  steps_blocked += later.steps_blocked;
+  steps_rejected += later.steps_rejected;
+  add_missing(later.active, active);
+  add_missing(later.skipped, skipped);
+  skipped.erase(std::remove_if(skipped.begin(), skipped.end(), [&](const auto& part) { return has(active, part); }),
+                skipped.end());
+}
+
+}  // namespace spring_workbench::simulation

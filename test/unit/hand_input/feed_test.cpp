@@ -1,0 +1,231 @@
+#include "spring_workbench/hand_input/feed.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "spring_workbench/math/so3.h"
+#include "support/bench_scenes.h"
+
+namespace spring_workbench::hand_input {
+namespace {
+
+constexpr double kInf = std::numeric_limits<double>::infinity();
+constexpr double kInterval = 0.01;
+constexpr double kGravity = 9.81;
+
+const Vector3d left(-0.5, 0.0, 0.7), right(0.5, 0.0, 0.7);  // handles: the tips are in the boxes
+
+/// A box at the tip of each hand.
+simulation::Simulation make_simulation() {
+  const Vector3d size(0.1, 0.06, 0.04), tip(0.0, 0.0, -0.2);
+  simulation::SimulationSettings settings;
+  settings.grasp.release = "dropped";
+  return simulation::Simulation(
+      scene_of({box("left", size, 1.0, left + tip), box("right", size, 1.0, right + tip)}, scene::ContactMode::none),
+      settings);
+}
+
+/// A hand that shakes the box, is lost for a second and comes back elsewhere.
+std::vector<motion::PoseSample> shaking_hand() {
+  std::mt19937 random(3);
+  std::normal_distribution<double> noise(0.0, 1e-3);
+  std::vector<motion::PoseSample> samples;
+  for (int k = 0; k < 400; ++k) {
+    const double t = kInterval * k + (k < 200 ? 0.0 : 1.0);
+    RigidTransform X = pointing_down(left + Vector3d(0.2 * std::sin(4.0 * t) + noise(random), k < 200 ? 0.0 : 0.1,
+                                                     0.1 * std::sin(7.0 * t) + noise(random)));
+    X.linear() = X.linear() * math::exp_so3(Vector3d(0.3 * std::sin(3.0 * t), 0.0, 0.5 * std::sin(2.0 * t)));
+    samples.push_back({t, X});
+  }
+  return samples;
+}
+
+void expect_same_objects(const simulation::Simulation& a, const simulation::Simulation& b) {
+  for (std::size_t i = 0; i < a.objects().size(); ++i) {
+    EXPECT_EQ(a.objects()[i].X_WO.matrix(), b.objects()[i].X_WO.matrix());
+    EXPECT_EQ(a.objects()[i].V_WO_W.linear, b.objects()[i].V_WO_W.linear);
+    EXPECT_EQ(a.objects()[i].V_WO_W.angular, b.objects()[i].V_WO_W.angular);
+  }
+}
+
+/// Pushed all at once or sample by sample with time going on in between: the same bits, as long as each advance ends
+/// before the last sample but one, since the motion from there on hangs on samples to come.
+TEST(Feed, AMotionAtOnceAndSampleBySampleAreTheSame) {
+  for (const double min_cutoff : {0.0, 2.0}) {
+    InputSettings settings;
+    settings.min_cutoff = min_cutoff;
+    const std::vector<motion::PoseSample> samples = shaking_hand();
+    simulation::Simulation at_once = make_simulation(), live = make_simulation();
+    Feed feed_at_once(at_once, settings), feed_live(live, settings);
+    for (const motion::PoseSample& sample : samples) feed_at_once.push_stylus(sample);
+    feed_at_once.push_button(0.0, true);
+    feed_live.push_button(0.0, true);
+    simulation::AdvanceReport report;
+    for (std::size_t k = 0; k < samples.size(); ++k) {
+      feed_live.push_stylus(samples[k]);
+      if (k < 2) continue;
+      report.add(feed_live.advance_to(samples[k - 2].t));
+      if (k % 50 != 0) continue;
+      feed_at_once.advance_to(samples[k - 2].t);
+      expect_same_objects(at_once, live);
+    }
+    const double end = samples.back().t;
+    report.add(feed_live.advance_to(end));
+    feed_at_once.advance_to(end);
+    expect_same_objects(at_once, live);
+    EXPECT_NEAR(report.simulated_time, end, 1e-9);
+    EXPECT_TRUE(live.objects()[0].held);
+    EXPECT_EQ(feed_live.reacquisition_counts(0).reacquisitions, 1u);
+    EXPECT_EQ(feed_at_once.reacquisition_counts(0).reacquisitions, 1u);
+    EXPECT_EQ(feed_live.reacquisition_counts(0).late, 0u);
+  }
+}
+
+TEST(Feed, APoseOfAMotionReachesTheSimulationToTheBit) {
+  simulation::Simulation fed = make_simulation(), pushed = make_simulation();
+  Feed feed(fed, InputSettings());
+  for (const motion::PoseSample& sample : shaking_hand()) {
+    if (sample.t > 1.99) break;  // before it is lost
+    EXPECT_TRUE(usable(feed.push_stylus(sample)));
+    pushed.push_stylus(sample);
+  }
+  feed.push_button(0.0, true);
+  pushed.push_button(0.0, true);
+  feed.advance_to(1.9);
+  pushed.advance(1.9);
+  EXPECT_TRUE(fed.objects()[0].held);
+  expect_same_objects(fed, pushed);
+}
+
+/// Raw samples in a turned tracker's frame do what the poses in world do.
+TEST(Feed, RawSamplesInATrackersFrameAreThePosesInWorld) {
+  const RigidTransform X_WP = make_transform(Quaterniond(0.8, 0.0, 0.6, 0.0), Vector3d(0.3, -0.2, 0.1));
+  simulation::Simulation a = make_simulation(), b = make_simulation();
+  Feed poses(a, InputSettings()), raw(b, InputSettings());
+  for (const motion::PoseSample& sample : shaking_hand()) {
+    const RigidTransform X_PH = X_WP.inverse() * sample.X;
+    EXPECT_EQ(raw.push_stylus({sample.t, X_PH.translation(), Quaterniond(X_PH.linear())}, X_WP, {}),
+              poses.push_stylus(sample));
+  }
+  poses.advance_to(3.0);
+  raw.advance_to(3.0);
+  EXPECT_LT((a.fork().X_WE.matrix() - b.fork().X_WE.matrix()).norm(), 1e-9);
+}
+
+TEST(Feed, HandsThatAreLostOnTheWayLetGoEachAtItsTime) {
+  for (const OnLoss on_loss : {OnLoss::freeze, OnLoss::release}) {
+    InputSettings settings;
+    settings.on_loss = on_loss;
+    settings.loss_timeout = 0.5;
+    simulation::Simulation simulation = make_simulation();
+    Feed feed(simulation, settings);
+    const double ends[] = {1.5, 1.0};  // the second hand is lost first
+    for (const std::size_t hand : {0u, 1u}) {
+      feed.push_button(0.0, true, hand);
+      for (double t = 0.0; t < ends[hand] + 0.5 * kInterval; t += kInterval)
+        feed.push_stylus({std::min(t, ends[hand]), pointing_down(hand == 0 ? left : right)}, hand);
+    }
+    feed.advance_to(1.4);
+    const std::vector<bodies::BodyState> held = simulation.objects();
+    ASSERT_TRUE(held[0].held && held[1].held);
+    const double end = 5.0;
+    const simulation::AdvanceReport report = feed.advance_to(end);
+    EXPECT_NEAR(report.simulated_time, end - 1.4, 1e-9);
+    for (const std::size_t hand : {0u, 1u}) {
+      const bodies::BodyState& object = simulation.objects()[hand];
+      EXPECT_EQ(object.held, on_loss == OnLoss::freeze);
+      EXPECT_EQ(feed.reacquisition_counts(hand).losses, 1u);
+      const double fall = on_loss == OnLoss::freeze ? 0.0 : end - (ends[hand] + settings.loss_timeout);
+      EXPECT_NEAR(held[hand].X_WO.translation().z() - object.X_WO.translation().z(), 0.5 * kGravity * fall * fall,
+                  1e-4);
+    }
+  }
+}
+
+TEST(Feed, TheSlowestHandSaysHowFarToGo) {
+  simulation::Simulation simulation = make_simulation();
+  Feed feed(simulation, InputSettings());
+  const RigidTransform X_WP = RigidTransform::Identity();
+  const RawSample at_left{0.0, left, Quaterniond(pointing_down(left).linear())};
+  EXPECT_FALSE(feed.has_sample());
+  EXPECT_EQ(feed.target({1.0, 1.0}), -kInf);
+  for (int k = 0; k < 100; ++k) {
+    RawSample sample = at_left;
+    sample.t = kInterval * k;
+    feed.push_stylus(sample, X_WP, {sample.t, sample.t}, 0);
+    if (k <= 50) feed.push_stylus(sample, X_WP, {sample.t, sample.t}, 1);
+  }
+  EXPECT_NEAR(feed.target({0.99, 0.99}), kInterval * 50, 1e-12);
+  feed.restart();
+  EXPECT_FALSE(feed.has_sample());
+  EXPECT_EQ(feed.target({1.0, 1.0}), -kInf);
+  EXPECT_EQ(feed.gate_counts(0).accepted, 100u);
+  EXPECT_FALSE(usable(feed.push_stylus(at_left, X_WP, {}, 0)));  // the gate goes on
+  feed.restart_gate(0);
+  EXPECT_TRUE(usable(feed.push_stylus(at_left, X_WP, {}, 0)));
+}
+
+/// Samples of every kind of wrongness, mixed with those of a hand.
+std::vector<RawSample> rubbish(unsigned seed, int count) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> number(-2.0, 2.0);
+  const double odd[] = {std::nan(""), kInf, -kInf, 0.0, 1e300, -1e300, 1e-300};
+  const auto any = [&] { return random() % 4 == 0 ? odd[random() % 7] : number(random); };
+  std::vector<RawSample> samples;
+  for (int k = 0; k < count; ++k) {
+    RawSample sample{kInterval * k, left + 0.1 * Vector3d(std::sin(0.05 * k), 0.0, std::cos(0.03 * k)),
+                     Quaterniond(pointing_down(left).linear())};
+    switch (random() % 12) {
+      case 0:
+        sample.p = Vector3d(any(), any(), any());
+        break;
+      case 1:
+        sample.q = Quaterniond(any(), any(), any(), any());
+        break;
+      case 2:
+        sample.t = random() % 2 == 0 ? odd[random() % 3] : sample.t + kInterval * number(random);
+        break;
+      case 3:
+        sample = {sample.t, Vector3d::Zero(), Quaterniond::Identity()};
+        break;
+      default:
+        break;
+    }
+    samples.push_back(sample);
+  }
+  return samples;
+}
+
+TEST(Feed, NothingThatIsNotFiniteReachesTheSimulationAndTheGateCountsAsAlone) {
+  for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
+    simulation::Simulation simulation = make_simulation();
+    const InputSettings settings;
+    Feed feed(simulation, settings);
+    SampleGate gate(settings, simulation.settings().dropout_after);
+    feed.push_button(0.0, true);
+    double t = 0.0;
+    for (const RawSample& sample : rubbish(seed, 500)) {
+      EXPECT_EQ(feed.push_stylus(sample, RigidTransform::Identity(), {t, t}), gate.offer(sample));
+      feed.advance_to(t);
+      t += kInterval;
+      for (const bodies::BodyState& object : simulation.objects()) {
+        ASSERT_TRUE(object.X_WO.matrix().allFinite());
+        ASSERT_TRUE(object.V_WO_W.linear.allFinite() && object.V_WO_W.angular.allFinite());
+      }
+      ASSERT_TRUE(simulation.fork().X_WE.matrix().allFinite());
+    }
+    const GateCounts &in_feed = feed.gate_counts(0), &alone = gate.counts();
+    EXPECT_EQ(in_feed.accepted, alone.accepted);
+    EXPECT_EQ(in_feed.relocations, alone.relocations);
+    EXPECT_EQ(in_feed.dropouts, alone.dropouts);
+    EXPECT_EQ(in_feed.sign_flips, alone.sign_flips);
+    EXPECT_EQ(in_feed.rejected, alone.rejected);
+    EXPECT_GT(alone.accepted, 100u);
+    EXPECT_GE(alone.rejected.size(), 4u);
+  }
+}
+
+}  // namespace
+}  // namespace spring_workbench::hand_input

@@ -1,0 +1,25 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <string>
+
+#include "spring_workbench/hand_input/settings.h"
+
+namespace spring_workbench::hand_input {
+namespace {
+
+TEST(InputReference, SettingsAreThoseOfTheCode) {
+  std::ifstream file(SPRING_WORKBENCH_SOURCE_DIR "/doc/reference.md");
+  std::string given, right;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("| `input.", 0) == 0) given += line + "\n";
+  }
+  for (const InputDescription& d : input_descriptions()) {
+    right += "| `input." + d.key + "` | " + d.unit + " | " + d.allowed + " | " + d.default_value + " | " + d.meaning +
+             " |\n";
+  }
+  EXPECT_TRUE(given == right) << "put these rows into doc/reference.md:\n" << right;
+}
+
+}  // namespace
+}  // namespace spring_workbench::hand_input
