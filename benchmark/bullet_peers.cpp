@@ -15,7 +15,7 @@ Vector3d from_bullet(const btVector3& v) { return Vector3d(v.x(), v.y(), v.z());
 
 btTransform to_bullet(const Matrix3d& R, const Vector3d& p) {
   return btTransform(btMatrix3x3(R(0, 0), R(0, 1), R(0, 2), R(1, 0), R(1, 1), R(1, 2), R(2, 0), R(2, 1), R(2, 2)),
-                     rigid_bodies::to_bullet(p));
+                     to_bullet(p));
 }
 
 /// A Bullet world with the held object alone, at the scene's start.
@@ -25,14 +25,14 @@ class BulletWorld {
       : dispatcher_(&configuration_),
         world_(&dispatcher_, &broadphase_, &solver_, &configuration_),
         shape_(btVector3(0.1, 0.05, 0.025)),
-        object_(scene.mass, nullptr, &shape_, rigid_bodies::to_bullet(scene.inertia)) {
+        object_(scene.mass, nullptr, &shape_, to_bullet(scene.inertia)) {
     world_.setGravity(btVector3(0.0, 0.0, -scene.gravity));
     const BodyState start = start_state(scene);
     const Matrix3d R = start.R_WO.toRotationMatrix();
-    object_.setCenterOfMassTransform(rigid_bodies::to_bullet(R, start.p_WO));
+    object_.setCenterOfMassTransform(to_bullet(R, start.p_WO));
     object_.setInterpolationWorldTransform(object_.getCenterOfMassTransform());
-    object_.setLinearVelocity(rigid_bodies::to_bullet(start.v_WO_W));
-    object_.setAngularVelocity(rigid_bodies::to_bullet(R * start.w_WO_O));
+    object_.setLinearVelocity(to_bullet(start.v_WO_W));
+    object_.setAngularVelocity(to_bullet(R * start.w_WO_O));
     object_.setActivationState(DISABLE_DEACTIVATION);
     add(object_);
   }
@@ -101,8 +101,8 @@ class BulletExplicit : public Method {
       } else {
         const BodyState body = world.object_state();
         const BodyLoad load = bushing_load(scene, hand_state(scene, t), body);
-        object.applyCentralForce(rigid_bodies::to_bullet(load.force_W));
-        object.applyTorque(rigid_bodies::to_bullet(body.R_WO * load.moment_O));
+        object.applyCentralForce(to_bullet(load.force_W));
+        object.applyTorque(to_bullet(body.R_WO * load.moment_O));
       }
     };
     // The twist's spring bears the object's weight nowhere: B's object stays where it is.
@@ -134,7 +134,7 @@ class BulletSpring2 : public Method {
     hand.setActivationState(DISABLE_DEACTIVATION);
     const auto hand_transform = [&](double t) {
       const HandState state = hand_state(scene, t);
-      return rigid_bodies::to_bullet(state.R_WT, state.p_WT);
+      return to_bullet(state.R_WT, state.p_WT);
     };
     hand.setWorldTransform(hand_transform(0.0));
     hand.setInterpolationWorldTransform(hand_transform(-h));  // Bullet takes the hand's velocity from the difference
@@ -142,7 +142,7 @@ class BulletSpring2 : public Method {
     if (scene.kind == SceneKind::torsion) world.object().setGravity(btVector3(0.0, 0.0, 0.0));
 
     btGeneric6DofSpring2Constraint coupling(hand, world.object(), btTransform::getIdentity(),
-                                            rigid_bodies::to_bullet(Matrix3d::Identity(), -scene.p_EO));
+                                            to_bullet(Matrix3d::Identity(), -scene.p_EO));
     for (int i = 0; i < 6; ++i) {
       coupling.setLimit(i, 1.0, -1.0);
       if (scene.stiffness[i] == 0.0) continue;

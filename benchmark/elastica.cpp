@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "spring_workbench/dynamics/held_body.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -37,7 +38,9 @@ double root_of_load(double slope) {
 /// The body on the tip of a rod that hardly extends or twists: its mass sets no more than the scale of the
 /// accelerations, which vanish. Families are not off, so that `quadratic` knows the tension.
 dynamics::HeldBody bending_body(const std::string& shape) {
-  dynamics::HeldBody body(rod::make_shape_model(shape, kLength), dynamics::BodyInertia(), 0.0);
+  dynamics::HeldBody body(
+      rod::make_shape_model(validation::named<rod::ShapeKind>(shape, "benchmark", "shape"), kLength),
+      dynamics::BodyInertia(), 0.0);
   body.set_springs({kRigid, kBend, kRigid}, {1.0, 1.0, 1.0});
   return body;
 }
@@ -93,7 +96,7 @@ TipDeflection shape_deflection(const std::string& shape, double alpha) {
 
 std::vector<ElasticaRow> elastica_table() {
   std::vector<ElasticaRow> rows;
-  for (const std::string& shape : rod::shape_model_names()) {
+  for (const std::string& shape : validation::names<rod::ShapeKind>()) {
     for (const double alpha : {0.1, 0.25, 0.5, 1.0, 2.0, 3.0, 5.0, 7.0, 10.0}) {
       ElasticaRow row{shape, alpha, exact_elastica(alpha), shape_deflection(shape, alpha)};
       row.tip_error =
@@ -108,7 +111,9 @@ std::vector<ElasticaRow> elastica_table() {
 double evaluation_cost(const std::string& shape) {
   using Clock = std::chrono::steady_clock;
   constexpr int batch = 1000;
-  dynamics::HeldBody body(rod::make_shape_model(shape, kLength), dynamics::BodyInertia(), 9.81);
+  dynamics::HeldBody body(
+      rod::make_shape_model(validation::named<rod::ShapeKind>(shape, "benchmark", "shape"), kLength),
+      dynamics::BodyInertia(), 9.81);
   body.set_springs({2000.0, kBend, 5.0}, {1.0, 1.0, 1.0});
   const dynamics::HandleForcing handle = body.forcing(motion::MotionSegment(RigidTransform::Identity()), 0.0);
   rod::StrainVector q = rod::StrainVector::Constant(body.size(), 0.05), q_dot = q;

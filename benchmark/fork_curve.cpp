@@ -140,7 +140,7 @@ ForkCurveRow measure(const std::string& name, const Sections& exact, MakeCurve&&
 }  // namespace
 
 std::vector<ForkCurveRow> measure_fork_curves() {
-  const auto shape = rod::make_shape_model("linear", 1.0);
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, 1.0);
   const RigidTransform X_WH = RigidTransform::Identity();
   std::vector<ForkCurveRow> rows;
   for (const char* load : {"cantilever", "s_shape"}) {

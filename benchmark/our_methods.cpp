@@ -10,6 +10,7 @@
 #include "benchmark/stepping_loop.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -28,7 +29,7 @@ dynamics::HeldBody held_body(const Scenario& scene) {
   inertia.mass = scene.mass;
   inertia.inertia_O = scene.inertia.asDiagonal();
   inertia.X_OE.translation() = -scene.p_EO;
-  dynamics::HeldBody body(rod::make_shape_model("bushing", scene.length), inertia, scene.gravity);
+  dynamics::HeldBody body(rod::make_shape_model(rod::ShapeKind::bushing, scene.length), inertia, scene.gravity);
   body.set_springs_and_dampers(families(scene.stiffness), families(scene.damping));
   if (scene.kind != SceneKind::six_dof) {
     rod::ForkDofs dofs;
@@ -109,7 +110,8 @@ void set_up(const Scenario& scene, const dynamics::HeldBody& body, double step, 
 template <typename Hand>
 RunResult run_on(const Scenario& scene, const std::string& name, double step, Hand hand) {
   const dynamics::HeldBody body = held_body(scene);
-  const std::unique_ptr<dynamics::Integrator> integrator = dynamics::make_integrator(name);
+  const std::unique_ptr<dynamics::Integrator> integrator =
+      dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(name, "benchmark", "integrator"));
   set_up(scene, body, scene.output_interval / steps_per_output(scene, step), *integrator);
   dynamics::StrainState state = body.zero_state();
   const motion::FrameMotion* motion = &hand.at(0.0);
@@ -191,7 +193,8 @@ struct Start {
 /// In steps that do not end at the outputs.
 RunResult run_in_long_steps(const Scenario& scene, const std::string& name, double step) {
   const dynamics::HeldBody body = held_body(scene);
-  const std::unique_ptr<dynamics::Integrator> integrator = dynamics::make_integrator(name);
+  const std::unique_ptr<dynamics::Integrator> integrator =
+      dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(name, "benchmark", "integrator"));
   const std::vector<double> times = output_times(scene);
   const Start begin(scene, step);
   const FunctionHand hand(scene);
@@ -238,7 +241,7 @@ class OurMethod : public Method {
 
 std::vector<MethodPtr> our_methods() {
   std::vector<MethodPtr> methods;
-  for (const std::string& name : dynamics::integrator_names()) {
+  for (const std::string& name : validation::names<dynamics::IntegratorKind>()) {
     for (const bool samples : {false, true}) methods.push_back(std::make_unique<OurMethod>(name, samples));
   }
   return methods;

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -131,7 +132,7 @@ std::vector<RodCase> synthetic_cases(bool quick) {
   for (RodCase& one : cases) {
     one.duration = quick ? 1.0 : 4.0;
     one.hand = synthetic_hand(seed++, one.duration + 0.5);
-    one.shapes = rod::shape_model_names();
+    one.shapes = validation::names<rod::ShapeKind>();
   }
   return cases;
 }
@@ -159,7 +160,9 @@ dynamics::HeldBody held_body(const RodCase& one, const std::string& shape) {
   inertia.mass = one.mass;
   inertia.inertia_O = one.inertia.asDiagonal();
   inertia.X_OE.translation() = one.p_OE;
-  dynamics::HeldBody body(rod::make_shape_model(shape, one.fork.length), inertia, 9.81);
+  dynamics::HeldBody body(
+      rod::make_shape_model(validation::named<rod::ShapeKind>(shape, "benchmark", "shape"), one.fork.length), inertia,
+      9.81);
   body.set_springs(one.fork);
   body.set_dofs(one.fork.dofs, 0.0, 1.0, body.zero_state());
   return body;

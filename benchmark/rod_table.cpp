@@ -12,6 +12,7 @@
 #include "benchmark/rod_reference.h"
 #include "benchmark/simulated_rod.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/validation/names.h"
 #include "spring_workbench/validation/run_in_child.h"
 
 namespace spring_workbench::benchmark {
@@ -58,7 +59,8 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
 
 RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& integrator_name, double step) {
   const dynamics::HeldBody body = held_body(one, shape);
-  const std::unique_ptr<dynamics::Integrator> integrator = dynamics::make_integrator(integrator_name);
+  const std::unique_ptr<dynamics::Integrator> integrator = dynamics::make_integrator(
+      validation::named<dynamics::IntegratorKind>(integrator_name, "benchmark", "integrator"));
   dynamics::StrainState state = body.zero_state();
   motion::PoseTrack track = hand_track(one);
   const std::vector<double> ends = step_ends(one), times = output_times(one);
@@ -112,7 +114,7 @@ double error_as_length(const RodCase& one, double position, double angle) {
 std::size_t line_count(const RodTablePlan& plan) {
   std::size_t pairs = 0;
   for (const RodCase& one : plan.cases) pairs += one.shapes.size();
-  return pairs * (1 + dynamics::integrator_names().size());
+  return pairs * (1 + validation::names<dynamics::IntegratorKind>().size());
 }
 
 namespace {
@@ -247,7 +249,7 @@ std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units) {
   std::vector<ErrorRow> all;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto& [one, shape] = pairs[i];
-    for (const std::string& integrator : dynamics::integrator_names()) {
+    for (const std::string& integrator : validation::names<dynamics::IntegratorKind>()) {
       const Line line(plan, *one, shape, references[i], integrator);
       const std::vector<ErrorRow> rows =
           units.rows<ErrorRow>(i, one->name + ' ' + shape + ' ' + integrator, [&] { return line.rows(); });

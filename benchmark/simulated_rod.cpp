@@ -1,5 +1,7 @@
 #include "benchmark/simulated_rod.h"
 
+#include "spring_workbench/validation/names.h"
+
 namespace spring_workbench::benchmark {
 
 scene::Scene rod_scene(const RodCase& one) {
@@ -21,10 +23,10 @@ scene::Scene rod_scene(const RodCase& one) {
 simulation::SimulationSettings rod_settings(const RodCase& one, const std::string& shape, const std::string& integrator,
                                             double step) {
   simulation::SimulationSettings settings;
-  settings.contact = "none";
+  settings.contact = scene::ContactMode::none;
   settings.fork = one.fork;
-  settings.fork.shape = shape;
-  settings.dynamics.integrator = integrator;
+  settings.fork.shape = validation::named<rod::ShapeKind>(shape, "benchmark", "shape");
+  settings.dynamics.integrator = validation::named<dynamics::IntegratorKind>(integrator, "benchmark", "integrator");
   settings.dynamics.step = step;
   settings.grasp.object = "object";
   settings.grasp.start_follow = true;

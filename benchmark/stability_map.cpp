@@ -9,6 +9,7 @@
 #include "benchmark/parallel.h"
 #include "benchmark/simulated_rod.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -65,7 +66,7 @@ class CellRun {
   /// False when there is no point in going on.
   bool advance(double t) {
     outcome_.refused += simulation_.advance(t).steps_rejected;
-    const BodyState& object = simulation_.objects()[0];
+    const bodies::BodyState& object = simulation_.objects()[0];
     const Twist& V = object.V_WO_W;
     outcome_.finite = object.X_WO.matrix().allFinite() && V.linear.allFinite() && V.angular.allFinite();
     outcome_.bounded =
@@ -145,7 +146,7 @@ bool worse(const StabilityOutcome& a, const StabilityOutcome& b) {
 
 StabilityPlan stability_plan(bool quick) {
   StabilityPlan plan;
-  plan.integrators = dynamics::integrator_names();
+  plan.integrators = validation::names<dynamics::IntegratorKind>();
   plan.shapes = {"linear"};
   plan.stiffness_factors = decades(1e-6, 1e12, quick ? 1e6 : 1e2);
   plan.masses = quick ? std::vector<double>{0.0, 1e-6, 1.0, 1e6} : std::vector<double>{0.0, 1e-6, 1e-3, 1.0, 1e3, 1e6};

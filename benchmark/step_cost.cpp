@@ -3,6 +3,7 @@
 #include "benchmark/least_time.h"
 #include "benchmark/scenarios.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -28,7 +29,9 @@ dynamics::HeldBody body_of(const Scenario& scene, const std::string& shape, cons
   inertia.mass = scene.mass;
   inertia.inertia_O = scene.inertia.asDiagonal();
   inertia.X_OE.translation() = -scene.p_EO;
-  dynamics::HeldBody body(rod::make_shape_model(shape, scene.length), inertia, scene.gravity);
+  dynamics::HeldBody body(
+      rod::make_shape_model(validation::named<rod::ShapeKind>(shape, "benchmark", "shape"), scene.length), inertia,
+      scene.gravity);
   body.set_springs({scene.stiffness[2], scene.stiffness[0], scene.stiffness[5]}, {1.0, 1.0, 1.0});
   const rod::StrainVector zero = rod::StrainVector::Zero(body.shape().size());
   body.set_dofs(dofs, 0.0, 1.0, {zero, zero});
@@ -41,7 +44,7 @@ void add(const std::string& shape, const rod::ForkDofs& dofs, std::vector<StepCo
   const double h = scene.output_interval;
   std::vector<motion::MotionSegment> hand;
   for (int i = 0; i < calls; ++i) hand.push_back(hand_of(scene, i * h));
-  const auto integrator = dynamics::make_integrator("exponential");
+  const auto integrator = dynamics::make_integrator(dynamics::IntegratorKind::exponential);
   dynamics::StrainState state = body.zero_state();
   integrator->step(body, hand[0], 0.0, h, state);
   const dynamics::StrainState moving = state;
@@ -90,7 +93,7 @@ std::vector<StepCost> step_costs() {
   costs.push_back({"", 0, "hand between two samples", least_nanoseconds(calls, [&](int) {
                      sink = motion::MotionSegment(from, a.v_WT_W, a.w_WT_T, to, b.v_WT_W, b.w_WT_T).end();
                    })});
-  for (const std::string& shape : rod::shape_model_names()) {
+  for (const std::string& shape : validation::names<rod::ShapeKind>()) {
     add(shape, {true, true, true}, costs);
     add(shape, {true, false, false}, costs);
   }

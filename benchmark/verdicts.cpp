@@ -8,6 +8,7 @@
 
 #include "benchmark/curve.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -32,7 +33,7 @@ Verdict judged(std::string claim, std::string target, std::string measured, bool
 }
 
 bool is_ours(const std::string& method) {
-  const std::vector<std::string>& names = dynamics::integrator_names();
+  const std::vector<std::string>& names = validation::names<dynamics::IntegratorKind>();
   return std::find(names.begin(), names.end(), method) != names.end();
 }
 bool is_cvode(const std::string& method) { return method.rfind("cvode", 0) == 0; }
@@ -230,7 +231,7 @@ void tolerance(const Measurements& m, std::vector<Verdict>& out) {
 }
 
 void stability(const Measurements& m, std::vector<Verdict>& out) {
-  for (const std::string& name : dynamics::integrator_names()) {
+  for (const std::string& name : validation::names<dynamics::IntegratorKind>()) {
     StabilityRow sum;
     for (const StabilityRow& row : m.map.rows) {
       if (row.integrator != name) continue;

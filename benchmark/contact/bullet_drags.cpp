@@ -15,9 +15,9 @@ class BulletDrag : public DragWorld {
  public:
   explicit BulletDrag(const DragScene& scene)
       : scene_(scene),
-        box_shape_(rigid_bodies::to_bullet(Vector3d(0.5 * scene.size))),
+        box_shape_(to_bullet(Vector3d(0.5 * scene.size))),
         plane_(0.0, nullptr, &plane_shape_),
-        box_(scene.mass, nullptr, &box_shape_, rigid_bodies::to_bullet(scene.inertia())) {
+        box_(scene.mass, nullptr, &box_shape_, to_bullet(scene.inertia())) {
     world_.setGravity(btVector3(0.0, 0.0, -scene.gravity));
     box_.setCenterOfMassTransform(btTransform(btQuaternion::getIdentity(), btVector3(0, 0, 0.5 * scene.size.z())));
     box_.setInterpolationWorldTransform(box_.getCenterOfMassTransform());
@@ -65,7 +65,7 @@ class BulletForce final : public BulletDrag {
     const Vector3d rate = hand.v_W - from_bullet(box_.getLinearVelocity());
     const btQuaternion q = box_.getCenterOfMassTransform().getRotation();
     const btVector3 turned = q.getAngle() * q.getAxis();
-    box_.applyCentralForce(rigid_bodies::to_bullet(Vector3d(scene_.stiffness() * stretched + scene_.damping() * rate)));
+    box_.applyCentralForce(to_bullet(Vector3d(scene_.stiffness() * stretched + scene_.damping() * rate)));
     box_.applyTorque(-scene_.turning_stiffness() * turned - scene_.turning_damping() * box_.getAngularVelocity());
     world_.stepSimulation(h, 0);
   }
@@ -103,7 +103,7 @@ class BulletSpring2 final : public BulletDrag {
 
  private:
   btTransform hand_transform(double t) const {
-    return btTransform(btQuaternion::getIdentity(), rigid_bodies::to_bullet(drag_hand(scene_, t).p_W));
+    return btTransform(btQuaternion::getIdentity(), to_bullet(drag_hand(scene_, t).p_W));
   }
   btSphereShape hand_shape_{0.01};
   btRigidBody hand_;

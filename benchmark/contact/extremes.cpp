@@ -142,7 +142,7 @@ class Watch {
   /// False when there is no point in going on.
   bool look(bool at_rest, ExtremeOutcome& outcome) {
     for (std::size_t i = 0; i < start_.size(); ++i) {
-      const BodyState& o = simulation_.objects()[i];
+      const bodies::BodyState& o = simulation_.objects()[i];
       outcome.finite =
           outcome.finite && o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite() && o.V_WO_W.angular.allFinite();
       const double way = (o.X_WO.translation() - start_[i].X_WO.translation()).norm();
@@ -190,7 +190,7 @@ class Watch {
     std::size_t object = 0;
     for (const scene::Body& body : simulation_.scene().bodies) {
       if (!body.movable) continue;
-      const BodyState& o = simulation_.objects()[object++];
+      const bodies::BodyState& o = simulation_.objects()[object++];
       const Vector3d w_O = o.X_WO.linear().transpose() * o.V_WO_W.angular;
       const scene::MassProperties& m = body.mass_properties;
       sum += m.mass * (0.5 * o.V_WO_W.linear.squaredNorm() + g * o.X_WO.translation().z()) +
@@ -200,7 +200,7 @@ class Watch {
   }
 
   const simulation::Simulation& simulation_;
-  std::vector<BodyState> start_;
+  std::vector<bodies::BodyState> start_;
   double weight_ = 0.0, hardest_ = 0.0;
   Vector3d handle_ = Vector3d::Zero();  ///< that the held one saw at the last look
   double lowest_ = std::numeric_limits<double>::infinity(), growth_ = 0.0;

@@ -46,7 +46,7 @@ scene::Scene scene_of(const DragScene& drag, scene::ContactMode contact) {
 simulation::SimulationSettings settings_of(const DragScene& drag, double step) {
   simulation::SimulationSettings set;
   const double k = drag.stiffness(), turning = drag.turning_stiffness();
-  set.fork.shape = "bushing";
+  set.fork.shape = rod::ShapeKind::bushing;
   set.fork.length = std::sqrt(3.0 * turning / k);  // so that bending turns by the same stiffness
   set.fork.stiffness = {k, k, turning};
   set.grasp.object = "box";

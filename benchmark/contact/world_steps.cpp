@@ -129,7 +129,7 @@ Push push(double step) {
     const double begin = processor_time();
     simulation.advance(i * sample_time);
     run.seconds += processor_time() - begin;
-    for (const BodyState& object : simulation.objects()) run.p.push_back(object.X_WO.translation());
+    for (const bodies::BodyState& object : simulation.objects()) run.p.push_back(object.X_WO.translation());
   }
   return run;
 }

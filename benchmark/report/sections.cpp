@@ -7,6 +7,7 @@
 #include "benchmark/parallel.h"
 #include "benchmark/report/pictures.h"
 #include "benchmark/report/tables.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -67,7 +68,7 @@ PageSection rods_section(const Measurements& measured, const Tables& tables, con
       "solver, good to 2e-9 m. Steps end at samples.";
   section.figures.push_back(
       figure({"rods", tables.rods, "rods.png", {}, "Error against run time on the rods"}, folder));
-  for (const std::string& shape : rod::shape_model_names()) {
+  for (const std::string& shape : validation::names<rod::ShapeKind>()) {
     section.tables.push_back(
         {"Step 0.02 s, shape " + shape + ": position, angle (position over the largest deflection), cost",
          one_step_per_sample_csv(measured.rods, shape), shape != "linear"});

@@ -53,7 +53,7 @@ class Soak {
     for (unsigned seed = options_.seed; result_.steps < options_.steps; ++seed) {
       assemble(seed);
       rest();
-      for (const BodyState& object : simulation_.objects()) {
+      for (const bodies::BodyState& object : simulation_.objects()) {
         hash_.add(object.X_WO.matrix());
         hash_.add(object.V_WO_W.linear);
         hash_.add(object.V_WO_W.angular);
@@ -92,7 +92,7 @@ class Soak {
     simulation_.release();
     const double begin = simulation_.newest_sample();
     advance(begin + kSettle);
-    const std::vector<BodyState> at_first = simulation_.objects();
+    const std::vector<bodies::BodyState> at_first = simulation_.objects();
     for (double t = begin + kSettle; t < begin + kSettle + kRest; t += kRestInterval) advance(t);
     for (std::size_t i = 0; i < at_first.size(); ++i) {
       const Vector3d moved = simulation_.objects()[i].X_WO.translation() - at_first[i].X_WO.translation();
@@ -106,7 +106,7 @@ class Soak {
     result_.simulated_time += report.simulated_time;
     result_.refused += report.steps_rejected;
     const tools::ToolState tool = simulation_.fork();
-    for (const BodyState& object : simulation_.objects()) {
+    for (const bodies::BodyState& object : simulation_.objects()) {
       result_.finite = result_.finite && object.X_WO.matrix().allFinite() && object.V_WO_W.linear.allFinite() &&
                        object.V_WO_W.angular.allFinite();
     }

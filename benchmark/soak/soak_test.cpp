@@ -4,6 +4,8 @@
 
 #include <sstream>
 
+#include "spring_workbench/config/yaml_fields.h"
+
 namespace spring_workbench::benchmark {
 namespace {
 

@@ -8,6 +8,7 @@
 #include "benchmark/dense_strain.h"
 #include "benchmark/reference_solution.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -46,8 +47,8 @@ TEST(DenseStrain, IsExactForPolynomialsOfDegreeElevenOnUnevenSteps) {
 
 TEST(OurMethods, EveryIntegratorIsThereWithBothHands) {
   const std::vector<MethodPtr> methods = our_methods();
-  EXPECT_EQ(methods.size(), 2 * dynamics::integrator_names().size());
-  for (const std::string& name : dynamics::integrator_names()) {
+  EXPECT_EQ(methods.size(), 2 * validation::names<dynamics::IntegratorKind>().size());
+  for (const std::string& name : validation::names<dynamics::IntegratorKind>()) {
     for (const char* hand : {"function", "samples"}) {
       EXPECT_EQ(std::count_if(methods.begin(), methods.end(),
                               [&](const auto& m) { return m->name() == name && m->hand() == hand; }),
@@ -60,7 +61,9 @@ TEST(OurMethods, EachConvergesToTheReferencesWithItsOrder) {
   for (const Scenario& scene : {stretch_scene(1e3), torsion_scene(10.0), six_dof_scene(1.0)}) {
     for (const MethodPtr& method : our_methods()) {
       if (!knows_function(*method)) continue;
-      const double order = dynamics::make_integrator(method->name())->order();
+      const double order = dynamics::make_integrator(
+                               validation::named<dynamics::IntegratorKind>(method->name(), "benchmark", "integrator"))
+                               ->order();
       const int steps = order < 2.0 ? 32 : (scene.kind == SceneKind::six_dof ? 8 : 4);
       const double coarse = error_at(*method, scene, steps), fine = error_at(*method, scene, 2 * steps);
       EXPECT_LT(coarse, 5e-3) << method->name() << " in " << scene.name;

@@ -14,6 +14,7 @@
 #include "benchmark/simulated_rod.h"
 #include "benchmark/stability_map.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -129,7 +130,7 @@ TEST(Elastica, ExactSolutionIsTheReferenceTable) {
 }
 
 TEST(Elastica, RodsComeToTheExactSolutionForSmallLoadsAndMoreTermsAreNearer) {
-  for (const std::string& shape : rod::shape_model_names()) {
+  for (const std::string& shape : validation::names<rod::ShapeKind>()) {
     EXPECT_NEAR(shape_deflection(shape, 1e-3).deflection, 1e-3 / 3.0, 1e-8) << shape;
   }
   const auto error = [](const std::string& shape) {

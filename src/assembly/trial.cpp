@@ -10,7 +10,7 @@ OperatorView look_at(const simulation::Simulation& simulation) {
   OperatorView view;
   view.objects = simulation.objects();
   view.X_HE.translation().z() = tool.length;
-  view.turns = tools::turns(tools::tool_called(tool.tool, simulation.scene().path));
+  view.turns = tools::turns(tool.tool);
   return view;
 }
 

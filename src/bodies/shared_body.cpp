@@ -8,12 +8,6 @@
 namespace spring_workbench::bodies {
 namespace {
 
-Vector6d stacked(const Twist& V) {
-  Vector6d v;
-  v << V.linear, V.angular;
-  return v;
-}
-
 RigidTransform displaced(const RigidTransform& X, const Vector6d& by) {
   RigidTransform moved = X;
   moved.linear() = Quaterniond(math::exp_so3(by.tail<3>()) * X.linear()).normalized().toRotationMatrix();
@@ -58,7 +52,7 @@ struct SharedBody::Pulls {
 
 SharedBody::SharedBody(std::size_t index, const scene::Body& body, double gravity, const RigidTransform& X_WO,
                        const Twist& V_WO_W, std::vector<CoupledTool*> tools)
-    : free_(index, body, gravity, X_WO, V_WO_W), remembered_(free_), tools_(std::move(tools)) {}
+    : free_(index, body, gravity, X_WO, V_WO_W), tools_(std::move(tools)) {}
 
 SharedBody::Pulls SharedBody::pulls(double h) const {
   Pulls all;
@@ -87,7 +81,7 @@ bool SharedBody::advance(double h, const Wrench& contact_W) {
   const motion::MotionState begin = free_.object();
   FreeBody alone = free_;
   if (!alone.advance(h, contact_W)) return false;
-  const Vector6d velocity = stacked(alone.object().velocity);
+  const Vector6d velocity = to_vector(alone.object().velocity);
   const Pulls all = pulls(h);
   const Eigen::VectorXd f = all.solve(h * velocity);
   const Vector6d pull = all.P * f;
@@ -95,24 +89,27 @@ bool SharedBody::advance(double h, const Wrench& contact_W) {
   if (!displacement.allFinite()) return false;
   motion::MotionState end;
   end.X = displaced(begin.X, displacement);
-  end.velocity = {displacement.head<3>() / h, displacement.tail<3>() / h};
+  end.velocity = to_twist(displacement / h);
   free_.set_motion(end);
   for (std::size_t i = 0; i < tools_.size(); ++i) {
     const Eigen::Index c = all.begin[i], size = all.begin[i + 1] - c;
     const Vector6d of_tool = all.P.middleCols(c, size) * f.segment(c, size);
-    tools_[i]->follow(h, end, {of_tool.head<3>(), of_tool.tail<3>()});
+    tools_[i]->follow(h, end, to_wrench(of_tool));
   }
   return true;
 }
 
-void SharedBody::remember() {
-  remembered_ = free_;
-  for (CoupledTool* tool : tools_) tool->remember();
+void SharedBody::save(TrialStart& start) const {
+  State state{{}, std::vector<TrialStart>(tools_.size())};
+  free_.save(state.free);
+  for (std::size_t i = 0; i < tools_.size(); ++i) tools_[i]->save(state.tools[i]);
+  start.keep(state);
 }
 
-void SharedBody::go_back() {
-  free_ = remembered_;
-  for (CoupledTool* tool : tools_) tool->go_back();
+void SharedBody::restore(const TrialStart& start) {
+  const State& state = start.kept<State>();
+  free_.restore(state.free);
+  for (std::size_t i = 0; i < tools_.size(); ++i) tools_[i]->restore(state.tools[i]);
 }
 
 SteppedBody::Response SharedBody::response(double h) const {

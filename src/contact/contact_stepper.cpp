@@ -129,7 +129,6 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
                                         ContactOutcome& outcome) const {
   const motion::MotionState begin = body.object();
   const RigidTransform& X0 = begin.X;
-  body.remember();
   std::vector<ContactRow> work = rows;
   std::vector<Start> starts;
   for (ContactRow& row : work) {
@@ -151,9 +150,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
     solve_contacts(C, work);
     // Done when solving again would not move the body, however the contacts share what they carry.
     const Wrench before = total_load(assumed), after = total_load(work);
-    Vector6d more;
-    more << after.force - before.force, after.moment - before.moment;
-    const Vector6d moves = C * more;
+    const Vector6d moves = C * (to_vector(after) - to_vector(before));
     const double change = moves.head<3>().norm() + radius_[body.index()] * moves.tail<3>().norm();
     const double path = extent(X0, body.object().X, radius_[body.index()]);
     const bool solved = worst < std::clamp(solved_share * path, slack, 3.0 * touching) &&
@@ -164,7 +161,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
     }
     const bool runs_away =
         solution > 2 && chord_deviation(body.index(), begin, body.object(), h) > hopeless_chord_deviation;
-    body.go_back();
+    body.restore(start_);
     if (runs_away || change == 0.0) break;
   }
   return false;
@@ -255,16 +252,16 @@ ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, dou
   const motion::MotionState begin = body.object();
   const bool in_contact = !rows.empty();
   std::vector<ContactRow> solved = rows;
-  body.remember();
+  body.save(start_);
   const bool possible = in_contact ? advance_in_contact(body, h, solved, outcome) : body.advance(h, Wrench());
   if (!possible || !bodies::is_finite(body.object())) {
-    body.go_back();
+    body.restore(start_);
     outcome.refused = outcome.refused || !in_contact;
     return {false, in_contact ? smaller : 0.0, {}, false};
   }
   const motion::MotionState end = body.object();
   if (!may_go(begin.X, end.X)) {
-    body.go_back();
+    body.restore(start_);
     return {false, 0.0, {}, true, false};
   }
   const double bowed = chord_deviation(index, begin, end, h);
@@ -272,7 +269,7 @@ ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, dou
                                              std::max(bowed, 1e-3 * most_chord_deviation));
   if (in_contact || collision_.may_touch(index, begin.X, end.X, std::max(bowed, most_chord_deviation))) {
     if (straight < safety) {
-      body.go_back();
+      body.restore(start_);
       return {false, straight, {}};
     }
     // A start that is in something already may not go deeper.
@@ -281,7 +278,7 @@ ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, dou
     ++outcome.queries;
     if (found.hit) {
       Piece substep{false, found.free, {}};
-      body.go_back();
+      body.restore(start_);
       add_contacts(index, found.X_WO, touching, substep.touched, outcome);
       for (ContactRow& row : substep.touched) {
         const Vector3d here = moved(found.X_WO, begin.X, row.point.p_W);

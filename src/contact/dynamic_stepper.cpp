@@ -43,7 +43,7 @@ DynamicStepper::Candidate DynamicStepper::try_substep(bodies::SteppedBody& body,
   c.begin = body.object();
   const auto load = load_W_.find(body.index());
   if (load != load_W_.end()) c.load_W = load->second;
-  body.remember();
+  body.save(c.start);
   c.possible = body.advance(h, c.load_W) && bodies::is_finite(body.object());
   c.end = c.possible ? body.object() : c.begin;
   if (!c.possible) c.end.velocity = Twist();
@@ -66,7 +66,7 @@ void DynamicStepper::go_freely(const std::vector<bodies::SteppedBody*>& held, co
                                double h, Outcome& outcome) {
   for (std::size_t i = 0; i < held.size(); ++i) {
     if (!candidates[i].possible) {
-      held[i]->go_back();
+      held[i]->restore(candidates[i].start);
       held[i]->block(h);
       outcome.refused = true;
     }
@@ -98,7 +98,7 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<bodies::SteppedBo
     if (h <= shortest_step || all_free(held, candidates)) {
       go_freely(held, candidates, substep, outcome);
     } else {
-      const Piece result = go_in_contact(held, candidates, substep);
+      const Piece result = go_in_contact(held, std::move(candidates), substep);
       if (result == Piece::too_long) continue;
       if (result == Piece::stuck) {
         substep = std::min(blocked_substep, left);
@@ -113,7 +113,10 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<bodies::SteppedBo
 
 DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<bodies::SteppedBody*>& held,
                                                     std::vector<Candidate> candidates, double& h) {
-  for (bodies::SteppedBody* body : held) body->go_back();
+  const auto start_again = [&] {
+    for (std::size_t i = 0; i < held.size(); ++i) held[i]->restore(candidates[i].start);
+  };
+  start_again();
   const double longest = others_awake() ? longest_with_free : longest_piece;
   if (h > longest) {
     h = longest;
@@ -123,22 +126,22 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<bodies::St
   double sound = admissible_fraction(held, candidates, driven, h);
   double before = 0.0;
   for (int solution = 1; sound < 1.0 && sound > before && solution < most_solutions; ++solution) {
-    if (foreseen_sound_part(driven) < 1.0) break;
+    if (foreseen_admissible_fraction(driven) < 1.0) break;
     before = sound;
     // The fork gives way otherwise than to the load that was assumed: once more, about this one.
     for (std::size_t i = 0; i < held.size(); ++i) {
       candidates[i].end = held[i]->object();
       candidates[i].load_W = driven[i].contact_W;
       candidates[i].impact_W = driven[i].impact_W;
-      held[i]->go_back();
     }
-    world_->go_back();
+    start_again();
+    world_->undo_step();
     driven = solve(held, candidates, h);
     sound = admissible_fraction(held, candidates, driven, h);
   }
   if (sound < 1.0) {
-    world_->go_back();
-    for (bodies::SteppedBody* body : held) body->go_back();
+    world_->undo_step();
+    start_again();
     if (h <= shortest_piece_) return Piece::stuck;
     h = std::max(std::clamp(as_sound * sound, least_try, most_try) * h, shortest_piece_);
     return Piece::too_long;
@@ -152,7 +155,6 @@ std::vector<rigid_bodies::DrivenBody> DynamicStepper::solve(const std::vector<bo
                                                             const std::vector<Candidate>& candidates, double h) {
   std::vector<rigid_bodies::DrivenBody> driven;
   for (std::size_t i = 0; i < held.size(); ++i) driven.push_back(driven_body(*held[i], candidates[i], h));
-  world_->remember();
   world_->step(h, driven);
   return driven;
 }
@@ -171,14 +173,11 @@ double DynamicStepper::admissible_fraction(const std::vector<bodies::SteppedBody
   return sound;
 }
 
-double DynamicStepper::foreseen_sound_part(const std::vector<rigid_bodies::DrivenBody>& driven) const {
+double DynamicStepper::foreseen_admissible_fraction(const std::vector<rigid_bodies::DrivenBody>& driven) const {
   double sound = 1.0;
   for (const rigid_bodies::DrivenBody& d : driven) {
-    Vector6d load, impact, path;
-    load << d.contact_W.force, d.contact_W.moment;
-    impact << d.impact_W.force, d.impact_W.moment;
-    path << d.displacement_W.linear, d.displacement_W.angular;
-    path += d.compliance * load + d.displacement_by_impulse * impact;
+    Vector6d path = to_vector(d.displacement_W);
+    path += d.compliance * to_vector(d.contact_W) + d.displacement_by_impulse * to_vector(d.impact_W);
     RigidTransform end = d.X_WO;
     end.translation() += path.head<3>();
     end.linear() = math::exp_so3(path.tail<3>()) * d.X_WO.linear();
@@ -219,16 +218,14 @@ rigid_bodies::DrivenBody DynamicStepper::driven_body(const bodies::SteppedBody& 
   d.mobility = body.mobility();
   d.displacement_by_impulse =
       response.velocity;  // an impulse does at once what a constant load does in the course of the step
-  Vector6d load;
-  load << c.load_W.force, c.load_W.moment;
-  Vector6d impact;
-  impact << c.impact_W.force, c.impact_W.moment;
-  const Vector6d by_load = d.compliance * load + d.displacement_by_impulse * impact;
+  const Vector6d by_load = d.compliance * to_vector(c.load_W) + d.displacement_by_impulse * to_vector(c.impact_W);
   d.displacement_W.linear = c.end.X.translation() - c.begin.X.translation() - by_load.head<3>();
   d.displacement_W.angular =
       c.begin.X.linear() * math::log_so3(c.begin.X.linear().transpose() * c.end.X.linear()) - by_load.tail<3>();
   return d;
 }
+
+void DynamicStepper::exchange(math::StateArchive& state) { state(contacts_, held_, load_W_, *world_); }
 
 void DynamicStepper::set_free(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W) {
   world_->place(body, X_WO, V_WO_W, true);

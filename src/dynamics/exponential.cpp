@@ -64,6 +64,7 @@ class Exponential::Core {
   virtual StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                             StrainState& state) = 0;
   virtual bool response(const HeldBody& body, double h, Response& r) = 0;
+  virtual void exchange(math::StateArchive& state) = 0;
 };
 
 template <int n>
@@ -95,13 +96,24 @@ class Exponential::CoreOf final : public Core {
     return true;
   }
 
+  /// Not the sweeps themselves: each step begins its own.
+  void exchange(math::StateArchive& state) override {
+    state(version_);
+    if (version_ < 0) return;  // nothing derived yet
+    state(load_version_, linear_, q_reference_, stiffness_, damping_, to_modes_, from_modes_, force_to_modes_);
+    state(h_, squared_weight_, decay_, node_, error_, nonlinear_residual_, contraction_, squared_cubic_);
+    state(slow_iterations_, last_h_, t_end_, end_, end_acceleration_, end_angular_acceleration_, continued_ratio_,
+          continued_);
+  }
+
  private:
   using Strain = Eigen::Matrix<double, n, 1>;
   using Modes = Eigen::Matrix<double, 2 * n, 1>;
   using Square = Eigen::Matrix<double, n, n>;
 
   struct State {
-    Strain q, q_dot;
+    Strain q = Strain::Zero(), q_dot = Strain::Zero();
+    void exchange(math::StateArchive& state) { state(q, q_dot); }
   };
   struct Estimate {
     Modes error = Modes::Zero();  ///< of the resulting strain and strain rate
@@ -118,6 +130,7 @@ class Exponential::CoreOf final : public Core {
     SPRING_WORKBENCH_INLINE S of(const Other& x, int m) const {
       return own[at(m)] * x(m) + other[at(m)] * x(m ^ 1);
     }
+    void exchange(math::StateArchive& state) { state(own, other); }
   };
   template <typename S>
   static void set(Operator<S>& o, std::size_t lane_of, int mode, double value) {
@@ -420,13 +433,13 @@ class Exponential::CoreOf final : public Core {
   Eigen::Matrix<double, 2 * n, n> force_to_modes_;
 
   double h_ = 0.0;  ///< what the operators are for
-  Modes squared_weight_;
+  Modes squared_weight_ = Modes::Zero();
   Operator<math::Pack> decay_;                      ///< to the nodes
   std::array<Operator<math::Pack>, nodes> node_{};  ///< of the remainder at each node
   Operator<double> error_;
 
-  Swept swept_[3];                ///< the last sweeps, in turns
-  NodeModes nonlinear_residual_;  ///< at the nodes of this step, or the last one
+  Swept swept_[3];                  ///< the last sweeps, in turns
+  NodeModes nonlinear_residual_{};  ///< at the nodes of this step, or the last one
   Modes start_residual_;
   double contraction_ = 1.0;    ///< of the first sweep's change by the second
   double squared_cubic_ = 0.0;  ///< size of the cubic's error in the last step
@@ -434,9 +447,9 @@ class Exponential::CoreOf final : public Core {
   double last_h_ = 0.0, t_end_ = 0.0;
   State end_;
   long load_version_ = -1;
-  Vector3d end_acceleration_, end_angular_acceleration_;
+  Vector3d end_acceleration_ = Vector3d::Zero(), end_angular_acceleration_ = Vector3d::Zero();
   double continued_ratio_ = 0.0;
-  std::array<math::Pack, nodes> continued_;
+  std::array<math::Pack, nodes> continued_{};
 };
 
 Exponential::Exponential() = default;
@@ -473,6 +486,17 @@ StepEstimate Exponential::step(const HeldBody& body, const motion::FrameMotion& 
                                StrainState& state) {
   if (body.size() == 0) return {rod::StrainVector::Zero(0), 0.0};
   return core(body.size()).step(body, handle, t, h, state);
+}
+
+void Exponential::exchange(math::StateArchive& state) {
+  int n = n_;
+  state(n);
+  if (n == 0) {
+    core_.reset();
+    n_ = 0;
+  } else {
+    core(n).exchange(state);
+  }
 }
 
 Integrator::Response Exponential::response(const HeldBody& body, double t, double h, const StrainState& state) {

@@ -17,13 +17,13 @@ class Exponential final : public Integrator {
   Exponential();
   ~Exponential() override;
 
-  std::string name() const override { return "exponential"; }
   int order() const override { return 5; }
   bool stiffly_stable() const override { return true; }
   bool estimates_after_jumps() const override { return false; }  // the cubic's differences do not see what it misses
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
   Response response(const HeldBody& body, double t, double h, const StrainState& state) override;
+  void exchange(math::StateArchive& state) override;
 
  private:
   class Core;  ///< for one number of coordinates

@@ -47,6 +47,17 @@ HeldBody::HeldBody(std::shared_ptr<const rod::ShapeModel> shape, const BodyInert
 
 void HeldBody::changed() {
   ++version_;
+  take_modes();
+}
+
+void HeldBody::exchange(math::StateArchive& state) {
+  state(version_, load_version_, stiffness_, K_, D_, modal_, modal_ratio_, mode_, return_, external_W_, loaded_);
+  if (!state.sets()) return;
+  if (auto shape = shape_->for_stiffness(stiffness_)) shape_ = std::move(shape);
+  take_modes();
+}
+
+void HeldBody::take_modes() {
   active_count_ = 0;
   returning_ = 0;
   for (int i = 0; i < shape_->size(); ++i) {
@@ -81,6 +92,7 @@ void HeldBody::set_springs(const rod::PerDof& stiffness, const rod::PerDof& damp
 
 void HeldBody::set_springs_and_dampers(const rod::PerDof& stiffness, const rod::PerDof& damping) {
   if (auto shape = shape_->for_stiffness(stiffness)) shape_ = std::move(shape);
+  stiffness_ = stiffness;
   K_ = shape_->stiffness(stiffness);
   D_ = shape_->stiffness(damping);  // (c_f / k_f) K_f, without dividing by k_f
   modal_ = false;
@@ -95,10 +107,13 @@ void HeldBody::set_springs_with_modal_damping(const rod::PerDof& stiffness, doub
 }
 
 void HeldBody::set_springs(const rod::ForkSettings& fork) {
-  if (fork.damping_law == "modal") {
-    set_springs_with_modal_damping(fork.stiffness, fork.damping_ratio.stretch);
-  } else {
-    set_springs(fork.stiffness, fork.damping_ratio);
+  switch (fork.damping_law) {
+    case rod::DampingLaw::per_dof:
+      return set_springs(fork.stiffness, fork.damping_ratio);
+    case rod::DampingLaw::modal:
+      return set_springs_with_modal_damping(fork.stiffness, fork.damping_ratio.stretch);
+    case rod::DampingLaw::coefficients:
+      return set_springs_and_dampers(fork.stiffness, fork.damping_coefficient);
   }
 }
 

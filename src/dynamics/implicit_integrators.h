@@ -31,7 +31,6 @@ class ImplicitMatrix {
 /// Implicit Euler: q₁ = q + h q̇₁, q̇₁ = q̇ + h q̈(t + h, q₁, q̇₁), by Newton's method. First order, L-stable.
 class ImplicitEuler final : public Integrator {
  public:
-  std::string name() const override { return "implicit_euler"; }
   int order() const override { return 1; }
   bool stiffly_stable() const override { return true; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
@@ -43,7 +42,6 @@ class ImplicitEuler final : public Integrator {
 /// for the form used). Each step is done as two halves; against one whole it gives the error estimate.
 class Rosenbrock final : public Integrator {
  public:
-  std::string name() const override { return "rosenbrock"; }
   int order() const override { return 4; }
   bool stiffly_stable() const override { return true; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,

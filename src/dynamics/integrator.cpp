@@ -8,24 +8,36 @@
 #include "integrators.h"
 #include "quintic.h"
 #include "spring_workbench/math/damped_oscillator.h"
-#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::dynamics {
 
-const std::vector<std::string>& integrator_names() {
+const std::vector<std::string>& names_of(IntegratorKind) {
   static const std::vector<std::string> names = {"exponential", "rosenbrock",          "implicit_euler",
                                                  "closed_form", "semi_implicit_euler", "rk4"};
   return names;
 }
 
-std::unique_ptr<Integrator> make_integrator(const std::string& name) {
-  if (name == "exponential") return std::make_unique<Exponential>();
-  if (name == "closed_form") return std::make_unique<ClosedForm>();
-  if (name == "rk4") return std::make_unique<RungeKutta4>();
-  if (name == "semi_implicit_euler") return std::make_unique<SemiImplicitEuler>();
-  if (name == "implicit_euler") return std::make_unique<ImplicitEuler>();
-  if (name == "rosenbrock") return std::make_unique<Rosenbrock>();
-  validation::refuse("dynamics", "integrator", name, "one of " + validation::join(integrator_names()));
+const std::vector<std::string>& names_of(Inertia) {
+  static const std::vector<std::string> names = {"exact", "point_mass"};
+  return names;
+}
+
+std::unique_ptr<Integrator> make_integrator(IntegratorKind kind) {
+  switch (kind) {
+    case IntegratorKind::rosenbrock:
+      return std::make_unique<Rosenbrock>();
+    case IntegratorKind::implicit_euler:
+      return std::make_unique<ImplicitEuler>();
+    case IntegratorKind::closed_form:
+      return std::make_unique<ClosedForm>();
+    case IntegratorKind::semi_implicit_euler:
+      return std::make_unique<SemiImplicitEuler>();
+    case IntegratorKind::rk4:
+      return std::make_unique<RungeKutta4>();
+    case IntegratorKind::exponential:
+      break;
+  }
+  return std::make_unique<Exponential>();
 }
 
 Integrator::Response Integrator::response(const HeldBody& body, double t, double h, const StrainState& state) {

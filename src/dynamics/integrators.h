@@ -10,6 +10,9 @@ class LastAcceleration {
   rod::StrainVector get(const HeldBody& body, const HandleForcing& handle, const StrainState& state);
   void keep(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
             const rod::StrainVector& q_ddot);
+  void exchange(math::StateArchive& state) {
+    state(version_, load_version_, t_, handle_acceleration_, handle_angular_acceleration_, state_, q_ddot_);
+  }
 
  private:
   long version_ = -1, load_version_ = -1;
@@ -23,10 +26,10 @@ class LastAcceleration {
 /// sooner.
 class SemiImplicitEuler final : public Integrator {
  public:
-  std::string name() const override { return "semi_implicit_euler"; }
   int order() const override { return 1; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
+  void exchange(math::StateArchive& state) override { state(last_); }
 
  private:
   LastAcceleration last_;
@@ -35,10 +38,10 @@ class SemiImplicitEuler final : public Integrator {
 /// The classical Runge–Kutta method of order four. Unstable for ω h > 2.8.
 class RungeKutta4 final : public Integrator {
  public:
-  std::string name() const override { return "rk4"; }
   int order() const override { return 4; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
+  void exchange(math::StateArchive& state) override { state(last_); }
 
  private:
   LastAcceleration last_;
@@ -49,10 +52,10 @@ class RungeKutta4 final : public Integrator {
 /// step. Here for any damping ratio. First order.
 class ClosedForm final : public Integrator {
  public:
-  std::string name() const override { return "closed_form"; }
   int order() const override { return 1; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
+  void exchange(math::StateArchive& state) override { state(last_); }
 
  private:
   LastAcceleration last_;

@@ -23,6 +23,10 @@ struct LinearPart {
   int pairs = 0;
   std::array<std::complex<double>, most_modes> rates;  ///< [1/s]; a pair has its rate twice
   double fastest = 0.0;                                ///< largest |rate|
+
+  void exchange(math::StateArchive& state) {
+    state(q_reference, stiffness, damping, inverse_mass, mass, to_modes, from_modes, pairs, rates, fastest);
+  }
 };
 
 /// About `state.q`, under the handle's acceleration and the loads of the moment.

@@ -28,9 +28,6 @@ struct OnLossField {
   OnLoss InputSettings::*field;
 };
 
-/// In the order of OnLoss.
-const std::vector<std::string> on_loss_names{"freeze", "release"};
-
 struct Entry {
   std::string key, unit, meaning;
   std::variant<NumberField, CountField, OnLossField> field;
@@ -89,8 +86,8 @@ InputDescription describe(const Entry& entry) {
     d.default_value = std::to_string(defaults.*count->field);
   } else {
     const auto& on_loss = std::get<OnLossField>(entry.field);
-    d.allowed = "one of " + validation::join(on_loss_names);
-    d.default_value = on_loss_names[static_cast<std::size_t>(defaults.*on_loss.field)];
+    d.allowed = "one of " + validation::join(validation::names<OnLoss>());
+    d.default_value = validation::name_of(defaults.*on_loss.field);
   }
   return d;
 }
@@ -107,8 +104,7 @@ void set(const std::string& key, const YAML::Node& value, const std::string& whe
       settings.*count->field = config::read_integer(value, where, name, count->min, count->max);
     } else {
       const auto& on_loss = std::get<OnLossField>(entry.field);
-      const std::string chosen = config::read_choice(value, where, name, on_loss_names);
-      settings.*on_loss.field = chosen == on_loss_names[0] ? OnLoss::freeze : OnLoss::release;
+      settings.*on_loss.field = config::read_named<OnLoss>(value, where, name);
     }
     return;
   }
@@ -124,6 +120,11 @@ void set_all(const std::string& key, const YAML::Node& value, const std::string&
 }
 
 }  // namespace
+
+const std::vector<std::string>& names_of(OnLoss) {
+  static const std::vector<std::string> names = {"freeze", "release"};
+  return names;
+}
 
 std::vector<InputDescription> input_descriptions() {
   std::vector<InputDescription> descriptions;

@@ -86,6 +86,11 @@ void PoseTrack::clear() {
   current_valid_ = false;
 }
 
+void PoseTrack::exchange(math::StateArchive& state) {
+  state(nodes_);
+  if (state.sets()) current_valid_ = false;
+}
+
 bool PoseTrack::joined(std::size_t k) const {
   return k + 1 < nodes_.size() && nodes_[k + 1].sample.t - nodes_[k].sample.t <= dropout_after_;
 }

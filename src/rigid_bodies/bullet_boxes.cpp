@@ -42,7 +42,10 @@ class BoxContacts final : public btActivatingCollisionAlgorithm {
   BoxContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
               const btCollisionObjectWrapper* b)
       : btActivatingCollisionAlgorithm(info, a, b),
-        manifold_(m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject())) {}
+        manifold_(m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject())) {
+    manifold_->m_companionIdA = a->m_index;
+    manifold_->m_companionIdB = b->m_index;
+  }
   ~BoxContacts() override { m_dispatcher->releaseManifold(manifold_); }
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo&,
@@ -54,6 +57,8 @@ class BoxContacts final : public btActivatingCollisionAlgorithm {
     // Not by the result's own addContactPoint(), which takes near ones for one.
     for (const geometry::BoxContact& c : find(*a, *b)) {
       btManifoldPoint point = made(c, *a->getCollisionObject(), *b->getCollisionObject());
+      point.m_index0 = a->m_index;
+      point.m_index1 = b->m_index;
       take_impulses(before, point);
       manifold_->addManifoldPoint(point);
     }

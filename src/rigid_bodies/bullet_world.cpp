@@ -154,7 +154,7 @@ void BulletWorld::enter(std::size_t index) {
   world_.addRigidBody(item.bullet.get());
   item.in_world = true;
   in_world_.push_back(index);
-  if (item.movable) remembered_.push_back({index, item.X_WO, item.V_WO_W, ISLAND_SLEEPING, 0.0});
+  if (item.movable) before_step_.push_back({index, item.X_WO, item.V_WO_W, ISLAND_SLEEPING, 0.0});
 }
 
 void BulletWorld::leave(std::size_t index) {
@@ -276,9 +276,10 @@ void BulletWorld::enter_what_is_near(double h) {
 }
 
 void BulletWorld::step(double h, std::vector<DrivenBody>& driven) {
-  ++steps_;
+  begin_step();
   begin_driving(driven, h);
   enter_what_is_near(h);
+  for (const std::size_t i : in_world_) items_[i].X_seen = items_[i].bullet->getWorldTransform();
   world_.stepSimulation(h, 0);
   take_states();
   take_contacts();
@@ -289,18 +290,19 @@ void BulletWorld::step(double h, std::vector<DrivenBody>& driven) {
   }
 }
 
-void BulletWorld::remember() {
-  remembered_.clear();
+void BulletWorld::begin_step() {
+  ++steps_;
+  before_step_.clear();
   for (const std::size_t i : in_world_) {
     const Item& item = items_[i];
     if (!item.movable) continue;
-    remembered_.push_back(
+    before_step_.push_back(
         {i, item.X_WO, item.V_WO_W, item.bullet->getActivationState(), item.bullet->getDeactivationTime()});
   }
 }
 
-void BulletWorld::go_back() {
-  for (const Remembered& r : remembered_) {
+void BulletWorld::undo_step() {
+  for (const BeforeStep& r : before_step_) {
     put(r.body, r.X_WO, r.V_WO_W);
     items_[r.body].bullet->forceActivationState(r.activation);
     items_[r.body].bullet->setDeactivationTime(r.slow_for);
@@ -351,10 +353,10 @@ bool BulletWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const
   return std::any_of(found.begin(), found.end(), [&](std::size_t i) { return i != body; });
 }
 
-RigidTransform BulletWorld::remembered_pose(std::size_t body) const {
+RigidTransform BulletWorld::pose_before_step(std::size_t body) const {
   const auto found =
-      std::find_if(remembered_.begin(), remembered_.end(), [&](const auto& r) { return r.body == body; });
-  return found == remembered_.end() ? items_[body].X_WO : found->X_WO;
+      std::find_if(before_step_.begin(), before_step_.end(), [&](const auto& r) { return r.body == body; });
+  return found == before_step_.end() ? items_[body].X_WO : found->X_WO;
 }
 
 double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
@@ -392,7 +394,7 @@ double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, c
   for (const std::size_t i : near) {
     if (i == body) continue;
     const Item& other = items_[i];
-    const RigidTransform X_before = untouched ? other.X_WO : remembered_pose(i);
+    const RigidTransform X_before = untouched ? other.X_WO : pose_before_step(i);
     // As seen from the other, which stays where it was before.
     const geometry::StraightMotion relative =
         untouched ? path : path_between(X0_WO, X_before * other.X_WO.inverse() * X1_WO);

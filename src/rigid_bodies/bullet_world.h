@@ -21,6 +21,8 @@ class DispatcherForSleepers final : public btCollisionDispatcher {
   bool needsCollision(const btCollisionObject* a, const btCollisionObject* b) override {
     return a->checkCollideWith(b) && b->checkCollideWith(a);
   }
+  /// All the manifolds that there are, in this order.
+  void set_order(const std::vector<btPersistentManifold*>& manifolds);
 };
 
 /// Bullet turns its trees by where their nodes lie in memory, and the order of new pairs goes with it. Here they are
@@ -47,8 +49,7 @@ class BulletWorld final : public RigidWorld {
   BulletWorld& operator=(const BulletWorld&) = delete;
 
   void step(double h, std::vector<DrivenBody>& driven) override;
-  void remember() override;
-  void go_back() override;
+  void undo_step() override;
   void place(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W, bool awake) override;
   const RigidTransform& pose(std::size_t body) const override { return items_[body].X_WO; }
   const Twist& velocity(std::size_t body) const override { return items_[body].V_WO_W; }
@@ -67,6 +68,7 @@ class BulletWorld final : public RigidWorld {
   }
   const std::vector<WorldContact>& contacts() const override { return contacts_; }
   const std::vector<std::size_t>& bodies_near() const override { return in_world_; }
+  void exchange(math::StateArchive& state) override;
 
  private:
   struct Item {
@@ -82,11 +84,13 @@ class BulletWorld final : public RigidWorld {
     std::unique_ptr<BulletShape> shape;                ///< these two are made when something first comes near
     std::unique_ptr<btRigidBody> bullet;
     bool in_world = false;
-    bool driven = false;  ///< in the present step
-    long near_at = 0;     ///< step in which something awake was last near
+    bool driven = false;                              ///< in the present step
+    long near_at = 0;                                 ///< step in which something awake was last near
+    btTransform X_seen = btTransform::getIdentity();  ///< of `bullet`, when contacts were last looked for
   };
 
-  struct Remembered {
+  /// Where the last step found a body.
+  struct BeforeStep {
     std::size_t body;
     RigidTransform X_WO;
     Twist V_WO_W;
@@ -107,11 +111,21 @@ class BulletWorld final : public RigidWorld {
   Eigen::AlignedBox3d swept(const Item& item, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                             double margin) const;
   double part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, bool untouched) const;
-  RigidTransform remembered_pose(std::size_t body) const;
+  RigidTransform pose_before_step(std::size_t body) const;
+  void begin_step();
   void begin_driving(std::vector<DrivenBody>& driven, double h);
   void end_driving(const std::vector<DrivenBody>& driven);
   void take_states();
   void take_contacts();
+  btRigidBody& object(int index);  ///< by user index; the bench's is −1
+  // Parts of exchange(); `objects` by user index, in Bullet's order.
+  void exchange_body(math::StateArchive& state, int index);
+  void exchange_pairs(math::StateArchive& state, const std::vector<int>& objects);
+  /// Finds the contacts of a pair, of whose shapes so many parts were near.
+  void look_at(btBroadphasePair& pair, int parts);
+  void exchange_manifolds(math::StateArchive& state);
+  void exchange_broadphase(math::StateArchive& state, const std::vector<int>& objects);
+  void exchange_tree(math::StateArchive& state, btDbvt& tree, const std::vector<int>& objects);
   bool awake(const Item& item) const {
     return item.in_world && item.movable && (item.driven || (item.bullet->isActive() && !item.massless));
   }
@@ -128,7 +142,7 @@ class BulletWorld final : public RigidWorld {
   btStaticPlaneShape bench_shape_;
   std::unique_ptr<btRigidBody> bench_body_;
   std::vector<WorldContact> contacts_;
-  std::vector<Remembered> remembered_;
+  std::vector<BeforeStep> before_step_;
   long steps_ = 0;
 };
 

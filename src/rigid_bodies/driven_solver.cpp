@@ -53,7 +53,7 @@ const DrivenSolver::Driven* DrivenSolver::driven_of(int solver_body) const {
   return bullet == nullptr || found == driven_.end() ? nullptr : &*found;
 }
 
-DrivenSolver::Vector6d DrivenSolver::response(int solver_body, const Vector6d& J, const Vector6d& as_free) const {
+Vector6d DrivenSolver::response(int solver_body, const Vector6d& J, const Vector6d& as_free) const {
   // An impulse p spread over the step is a wrench p / h, which moves the body on by compliance · p / h in h.
   if (const Driven* driven = driven_of(solver_body)) return driven->body->compliance * J / (h_ * h_);
   return as_free;
@@ -185,14 +185,10 @@ void DrivenSolver::Rows::clear() {
   std::fill(change.begin(), change.end(), Vector6d::Zero());
 }
 
-DrivenSolver::Vector6d DrivenSolver::velocity(int solver_body, bool at_start) const {
+Vector6d DrivenSolver::velocity(int solver_body, bool at_start) const {
   const btSolverBody& body = m_tmpSolverBodyPool[solver_body];
   if (at_start) {
-    if (const Driven* driven = driven_of(solver_body)) {
-      Vector6d v;
-      v << driven->body->V_WO_W.linear, driven->body->V_WO_W.angular;
-      return v;
-    }
+    if (const Driven* driven = driven_of(solver_body)) return to_vector(driven->body->V_WO_W);
     return both(body.m_linearVelocity, body.m_angularVelocity);
   }
   return both(body.m_linearVelocity + body.m_externalForceImpulse,
@@ -269,9 +265,7 @@ void DrivenSolver::stop_approaches(Rows& rows) {
   for (std::size_t i = 0; i < rows.change.size(); ++i) {
     const Driven* driven = driven_of(static_cast<int>(i));
     if (driven == nullptr) continue;
-    Vector6d impact;
-    impact << driven->body->impact_W.force, driven->body->impact_W.moment;
-    rows.change[i] += driven->body->displacement_by_impulse * impact / h_;
+    rows.change[i] += driven->body->displacement_by_impulse * to_vector(driven->body->impact_W) / h_;
   }
 }
 

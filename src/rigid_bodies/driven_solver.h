@@ -37,7 +37,6 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
                                              btTypedConstraint** constraints, int constraint_count,
                                              const btContactSolverInfo& info, btIDebugDraw* debug) override;
 
-  using Vector6d = Eigen::Matrix<double, 6, 1>;
   struct Row {
     int a, b;                     ///< solver bodies
     Vector6d J_a, J_b;            ///< rate along the row = J_a · V_a + J_b · V_b

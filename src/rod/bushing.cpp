@@ -6,10 +6,17 @@
 
 namespace spring_workbench::rod {
 StrainVector Bushing::stiffness(const PerDof& k) const {
-  const double slope = k.bend * length() * length() / 3.0;
+  const double slope = slope_per_bend_ ? k.bend * *slope_per_bend_ : k.bend * length() * length() / 3.0;
   StrainVector K(6);
   K << k.bend, k.bend, slope, slope, k.torsion, k.stretch;
   return K;
+}
+
+std::shared_ptr<const ShapeModel> Bushing::for_stiffness(const PerDof& k) const {
+  if (!slope_stiffness_ || !(k.bend > 0.0)) return nullptr;
+  auto shape = std::make_shared<Bushing>(*this);
+  shape->slope_per_bend_ = *slope_stiffness_ / k.bend;
+  return shape;
 }
 
 template <typename S>

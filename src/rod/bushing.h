@@ -8,12 +8,14 @@ namespace spring_workbench::rod {
 /// with tip position (0, 0, L) + d and tip rotation exp(φ).
 class Bushing final : public ShapeModel {
  public:
-  explicit Bushing(double length) : ShapeModel(length) {}
+  /// `slope_stiffness` as of ForkSettings.
+  Bushing(double length, std::optional<double> slope_stiffness)
+      : ShapeModel(length), slope_stiffness_(slope_stiffness) {}
 
-  std::string name() const override { return "bushing"; }
   int size() const override { return 6; }
   CoordinateRange bend() const override { return {0, 4}; }
   StrainVector stiffness(const PerDof& k) const override;
+  std::shared_ptr<const ShapeModel> for_stiffness(const PerDof& k) const override;
   using ShapeModel::tip;
   void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
   void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const override;
@@ -27,6 +29,9 @@ class Bushing final : public ShapeModel {
   template <typename S>
   void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
   void tips(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const;
+
+  std::optional<double> slope_stiffness_;  ///< [N·m/rad]
+  std::optional<double> slope_per_bend_;   ///< its part of the bend stiffness [m²/rad]; by default L² / 3
 };
 
 }  // namespace spring_workbench::rod

@@ -14,7 +14,6 @@ class QuadraticRod final : public ShapeModel {
   /// `stiffness` [N/m, N/m, N·m/rad] ≥ 0.
   QuadraticRod(double length, const PerDof& stiffness);
 
-  std::string name() const override { return "quadratic"; }
   int size() const override { return 6; }
   CoordinateRange bend() const override { return {0, 4}; }
   StrainVector stiffness(const PerDof& k) const override;

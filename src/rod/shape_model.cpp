@@ -7,11 +7,6 @@
 
 namespace spring_workbench::rod {
 
-const std::vector<std::string>& shape_model_names() {
-  static const std::vector<std::string> names = {"constant", "linear", "quadratic", "bushing"};
-  return names;
-}
-
 void ShapeModel::tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const {
   TipOf<double> tip_of;
   tip(q.data(), q_dot.data(), tip_of);
@@ -37,13 +32,20 @@ double ShapeModel::condensed_energy(const StrainVector&) const { return 0.0; }
 
 bool ShapeModel::rechart(StrainVector&, StrainVector&) const { return false; }
 
-std::shared_ptr<const ShapeModel> make_shape_model(const std::string& name, double length) {
+std::shared_ptr<const ShapeModel> make_shape_model(ShapeKind kind, double length,
+                                                   std::optional<double> slope_stiffness) {
   validation::check_number("fork", "length", length, validation::positive());
-  if (name == "constant") return std::make_shared<StrainRod>(name, length, 1);
-  if (name == "linear") return std::make_shared<StrainRod>(name, length, 2);
-  if (name == "quadratic") return std::make_shared<QuadraticRod>(length, PerDof());
-  if (name == "bushing") return std::make_shared<Bushing>(length);
-  validation::refuse("fork", "shape", name, "one of " + validation::join(shape_model_names()));
+  switch (kind) {
+    case ShapeKind::constant:
+      return std::make_shared<StrainRod>(length, 1);
+    case ShapeKind::linear:
+      return std::make_shared<StrainRod>(length, 2);
+    case ShapeKind::quadratic:
+      return std::make_shared<QuadraticRod>(length, PerDof());
+    case ShapeKind::bushing:
+      break;
+  }
+  return std::make_shared<Bushing>(length, slope_stiffness);
 }
 
 }  // namespace spring_workbench::rod

@@ -25,8 +25,7 @@ const math::GaussLegendre<nodes>& rule() {
 
 }  // namespace
 
-StrainRod::StrainRod(std::string name, double length, int bend_terms)
-    : ShapeModel(length), name_(std::move(name)), bend_terms_(bend_terms) {}
+StrainRod::StrainRod(double length, int bend_terms) : ShapeModel(length), bend_terms_(bend_terms) {}
 
 StrainVector StrainRod::stiffness(const PerDof& k) const {
   const double L = length();

@@ -8,9 +8,8 @@ namespace spring_workbench::rod {
 /// constant twist rate and axial strain. q = (κx terms, κy terms, twist rate, axial strain) [1/m, 1/m, rad/m, –].
 class StrainRod final : public ShapeModel {
  public:
-  StrainRod(std::string name, double length, int bend_terms);
+  StrainRod(double length, int bend_terms);
 
-  std::string name() const override { return name_; }
   int size() const override { return 2 * bend_terms_ + 2; }
   CoordinateRange bend() const override { return {0, 2 * bend_terms_}; }
   StrainVector stiffness(const PerDof& k) const override;
@@ -46,7 +45,6 @@ class StrainRod final : public ShapeModel {
   void integrate(const S* q, const S* q_dot, int count, double angle, TipOf<S>& out) const;
   int segments(double angle) const;
 
-  std::string name_;
   int bend_terms_;
 };
 

@@ -17,6 +17,7 @@
 #include <string>
 
 #include "spring_workbench/validation/input_error.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::rviz_plugin {
 namespace {
@@ -142,7 +143,8 @@ bool ForkDisplay::place(const ForkState& fork) {
 
 bool ForkDisplay::deform(const ForkState& fork) {
   try {
-    const auto shape = rod::make_shape_model(fork.shape, fork.length);
+    const auto shape =
+        rod::make_shape_model(validation::named<rod::ShapeKind>(fork.shape, "fork", "shape"), fork.length);
     const rod::StrainVector q = Eigen::Map<const Eigen::VectorXd>(
         fork.strain.data(),
         std::min<Eigen::Index>(static_cast<Eigen::Index>(fork.strain.size()), rod::max_strain_coordinates));

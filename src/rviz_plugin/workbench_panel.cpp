@@ -26,6 +26,7 @@
 #include "spring_workbench/SetIntegrator.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/tools/tool.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::rviz_plugin {
 namespace {
@@ -100,9 +101,10 @@ void WorkbenchPanel::make_families(QVBoxLayout* layout) {
 void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
   auto* grid = new QGridLayout;
   integrator_ = new QComboBox(this);
-  for (const std::string& name : dynamics::integrator_names()) integrator_->addItem(QString::fromStdString(name));
+  for (const std::string& name : validation::names<dynamics::IntegratorKind>())
+    integrator_->addItem(QString::fromStdString(name));
   tool_ = new QComboBox(this);
-  for (const std::string& name : tools::tool_names()) tool_->addItem(QString::fromStdString(name));
+  for (const std::string& name : validation::names<tools::Tool>()) tool_->addItem(QString::fromStdString(name));
   held_ = new QLabel(this);
   held_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // the panel keeps its width whatever is held
   scene_ = new QLineEdit("package://spring_workbench/scenes/mini_world.urdf", this);
@@ -119,6 +121,7 @@ void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
   connect(integrator_, QOverload<int>::of(&QComboBox::activated), this, [this] {
     SetIntegrator::Request request;
     request.name = integrator_->currentText().toStdString();
+    request.tolerance = SetIntegrator::Request::KEEP_TOLERANCE;
     free_at_ = panel_time() + settling;
     services_.call<SetIntegrator>("integrator", node + "set_integrator", request);
   });

@@ -70,10 +70,11 @@ std::string inertia_defect(const RigidMass& mass, const std::vector<geometry::Sh
   constexpr double rounding = 1e-6;  // of figures as people write them
   if (!(moments[0] > 1e-9 * moments[2])) return "is not positive definite";
   if (moments[0] + moments[1] < (1.0 - rounding) * moments[2]) return "breaks the triangle inequality";
-  const double gyration = std::sqrt(moments[2] / mass.mass);
+  const double largest_gyration = std::sqrt(moments[2] / mass.mass);
   const double size = farthest_point(shapes, mass.centre);
-  if (!shapes.empty() && gyration > (1.0 + rounding) * size) {
-    return "is a placeholder (radius of gyration " + number(gyration) + " m, the shape ends at " + number(size) + " m)";
+  if (!shapes.empty() && largest_gyration > (1.0 + rounding) * size) {
+    return "is a placeholder (radius of gyration " + number(largest_gyration) + " m, the shape ends at " +
+           number(size) + " m)";
   }
   return "";
 }

@@ -119,6 +119,11 @@ class SceneLoader {
 
 }  // namespace
 
+const std::vector<std::string>& names_of(ContactMode) {
+  static const std::vector<std::string> names = {"none", "stop", "dynamic"};
+  return names;
+}
+
 Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots) {
   const std::string path = resolve_file(path_or_uri, "", roots, "scene", "path");
   return SceneLoader(path, roots).load();

@@ -54,12 +54,6 @@ Target read_target(const YAML::Node& map, const std::string& path, const std::st
   return target;
 }
 
-ContactMode read_contact(const YAML::Node& node, const std::string& path) {
-  static const std::map<std::string, ContactMode> modes = {
-      {"none", ContactMode::none}, {"stop", ContactMode::stop}, {"dynamic", ContactMode::dynamic}};
-  return modes.at(config::read_choice(node, path, "contact", {"none", "stop", "dynamic"}));
-}
-
 void read_settings(const YAML::Node& map, const std::string& path, Scene& scene) {
   if (map["gravity"].IsDefined())
     scene.gravity = config::read_number(map["gravity"], path, "gravity", validation::not_negative());
@@ -69,7 +63,7 @@ void read_settings(const YAML::Node& map, const std::string& path, Scene& scene)
   if (map["force_scale"].IsDefined()) {
     scene.force_scale = config::read_number(map["force_scale"], path, "force_scale", validation::positive());
   }
-  if (map["contact"].IsDefined()) scene.contact = read_contact(map["contact"], path);
+  if (map["contact"].IsDefined()) scene.contact = config::read_named<ContactMode>(map["contact"], path, "contact");
   if (map["tool"].IsDefined()) {
     scene.tool =
         config::read_choice(map["tool"], path, "tool", {"spring", "spring_fork", "spring_probe", "direct", "ray"});

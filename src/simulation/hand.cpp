@@ -1,6 +1,7 @@
 #include "hand.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/tools/calibration.h"
@@ -12,11 +13,11 @@ constexpr double least_length = 1e-4;  ///< [m] of a rigid tool
 
 }  // namespace
 
-Hand::Hand(const scene::Scene& scene, SimulationSettings& settings, Objects& objects, tools::Tool tool)
+Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, Objects& objects, tools::Tool tool)
     : scene_(scene),
       settings_(settings),
+      fork_(settings.fork),
       objects_(objects),
-      maker_(settings.fork, settings.dynamics, scene.gravity),
       tool_(tool),
       stylus_(settings.dropout_after, scene.X_WH_start),
       ray_length_(longest_ray) {}
@@ -32,7 +33,7 @@ void Hand::reset() {
 
 double Hand::reach() const {
   if (tool_ == tools::Tool::direct) return least_length;
-  return tool_ == tools::Tool::ray ? std::max(ray_length_, least_length) : settings_.fork.length;
+  return tool_ == tools::Tool::ray ? std::max(ray_length_, least_length) : fork_.length;
 }
 
 void Hand::apply_buttons(double now) {
@@ -58,7 +59,7 @@ void Hand::apply_grasp_button(bool pressed, double now) {
       grasp(*selection_.inserted(), std::nullopt, false, now);
       break;
     case tools::GraspEvent::release:
-      let_go(settings_.grasp.release == "thrown", now);
+      let_go(settings_.grasp.release == tools::Release::thrown, now);
       break;
     case tools::GraspEvent::none:
       break;
@@ -77,27 +78,27 @@ void Hand::fit_size(tools::Grasp& grasp) const {
 }
 
 void Hand::make_hold(double now) {
-  hold_ = maker_.make(grasp_, grasped_body(), now);
+  hold_ = maker().make(grasp_, grasped_body(), now);
   hold_->set_hand(stylus_.motion(now), now);
 }
 
 bool Hand::calibrate_hold() {
   if (!hold_ || tool_ == tools::Tool::direct || tool_ == tools::Tool::ray) return false;
   if (objects_.massless(grasp_.object)) return true;
-  rod::ForkSettings& fork = settings_.fork;
-  fork.stiffness = hold_->fitting_stiffness(fork, scene_.gravity);
-  const double ratio = fork.damping_ratio.stretch;
-  if (fork.damping_ratio == rod::PerDof{ratio, ratio, ratio}) fork.damping_law = "modal";
-  hold_->set_springs(fork);
+  fork_.stiffness = hold_->fitting_stiffness(fork_, scene_.gravity);
+  const double ratio = fork_.damping_ratio.stretch;
+  const bool one_ratio = fork_.damping_ratio == rod::PerDof{ratio, ratio, ratio};
+  if (one_ratio && fork_.damping_law == rod::DampingLaw::per_dof) fork_.damping_law = rod::DampingLaw::modal;
+  hold_->set_springs(fork_);
   return true;
 }
 
 void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now) {
   grasp_ = grasp_of(object);
   if (X_OE) grasp_.X_OE = *X_OE;
-  if (settings_.grasp.calibrate) fit_size(grasp_);
+  if (settings_.grasp.calibrate == tools::Calibration::object) fit_size(grasp_);
   make_hold(now);
-  if (settings_.grasp.calibrate) calibrate_hold();
+  if (settings_.grasp.calibrate == tools::Calibration::object) calibrate_hold();
   // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the
   // hand's.
   if (!follow_hand && dynamic()) hold_->take_twist(objects_.states()[object].V_WO_W);
@@ -108,9 +109,9 @@ void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, 
 void Hand::keep_twist(const Twist& V_WO_W) {
   if (objects_.massless(grasp_.object)) return;
   // With every family on, a fork can take any twist; what is off then comes to rest without a jump.
-  hold_->set_dofs({true, true, true}, settings_.fork.switch_off_time);
+  hold_->set_dofs({true, true, true}, fork_.switch_off_time);
   hold_->take_twist(V_WO_W);
-  hold_->set_dofs(maker_.possible_dofs(grasp_, grasped_body()), settings_.fork.switch_off_time);
+  hold_->set_dofs(maker().possible_dofs(grasp_, grasped_body()), fork_.switch_off_time);
 }
 
 void Hand::select_tool(tools::Tool tool, double now) {
@@ -122,9 +123,9 @@ void Hand::select_tool(tools::Tool tool, double now) {
   const Twist before = object().V_WO_W;
   ray_length_ = std::max((stylus_.X_WS().inverse() * object().X_WO.translation()).z(), least_length);
   grasp_ = grasp_of(grasp_.object);
-  if (settings_.grasp.calibrate) fit_size(grasp_);
+  if (settings_.grasp.calibrate == tools::Calibration::object) fit_size(grasp_);
   make_hold(now);
-  if (settings_.grasp.calibrate) calibrate_hold();
+  if (settings_.grasp.calibrate == tools::Calibration::object) calibrate_hold();
   keep_twist(before);
   objects_.take_state(grasp_.object, hold_->object());
 }
@@ -186,7 +187,7 @@ void Hand::end_step(AdvanceReport& report) {
 }
 
 rod::ForkDofs Hand::dofs_run() const {
-  return hold_ && moved_ ? maker_.possible_dofs(grasp_, grasped_body()) : rod::ForkDofs{false, false, false};
+  return hold_ && moved_ ? maker().possible_dofs(grasp_, grasped_body()) : rod::ForkDofs{false, false, false};
 }
 
 bool Hand::overloaded(double now, double h) {
@@ -198,23 +199,21 @@ bool Hand::overloaded(double now, double h) {
   };
   if (h == 0.0) return too_much();
   hold_->set_hand(stylus_.motion(now), now);
-  hold_->remember();
+  hold_->save(start_);
   const bool over = hold_->advance(h, Wrench()) && too_much();
-  hold_->go_back();
+  hold_->restore(start_);
   return over;
 }
 
-void Hand::change_dofs(ChangeReport& change) {
-  if (!hold_ || objects_.massless(grasp_.object) || tool_ != tools::Tool::spring_fork) return;
-  if (hold_->set_dofs(maker_.possible_dofs(grasp_, grasped_body()), settings_.fork.switch_off_time)) {
-    change.message += "; the strain of what went off returns to zero with a time constant of " +
-                      std::to_string(settings_.fork.switch_off_time) + " s and gives back its energy";
+void Hand::change_fork(const ForkChange& change, ChangeReport& report) {
+  fork_ = change.applied_to(fork_);
+  if (change.changes_springs() && hold_) hold_->set_springs(fork_);
+  if (change.changes_springs() && probe_) probe_->set_springs(fork_);
+  if (!change.dofs || !hold_ || objects_.massless(grasp_.object) || tool_ != tools::Tool::spring_fork) return;
+  if (hold_->set_dofs(maker().possible_dofs(grasp_, grasped_body()), fork_.switch_off_time)) {
+    report.message = "switched; the strain of what went off returns to zero with a time constant of " +
+                     std::to_string(fork_.switch_off_time) + " s and gives back its energy";
   }
-}
-
-void Hand::change_springs() {
-  if (hold_) hold_->set_springs(settings_.fork);
-  if (probe_) probe_->set_springs(settings_.fork);
 }
 
 void Hand::change_integrator() {
@@ -244,14 +243,14 @@ double Hand::elastic_energy() const {
 tools::ToolState Hand::state() const {
   tools::ToolState f;
   f.present = !stylus_.track().empty();
-  f.tool = tools::name_of(tool_);
-  f.shape = settings_.fork.shape;
+  f.tool = tool_;
+  f.shape = fork_.shape;
   f.integrator = settings_.dynamics.integrator;
-  f.dofs = settings_.fork.dofs;
+  f.dofs = fork_.dofs;
   f.length = hold_ ? hold_->length() : reach();
   f.strain = rod::StrainVector::Zero(rod::make_shape_model(f.shape, f.length)->size());
-  f.stiffness = settings_.fork.stiffness;
-  f.damping_ratio = settings_.fork.damping_ratio;
+  f.stiffness = fork_.stiffness;
+  f.damping_ratio = fork_.damping_ratio;
   f.X_WS = f.X_WH = f.X_WH_proxy = stylus_.X_WS();
   f.X_WE = stylus_.X_WS() * Eigen::Translation3d(0.0, 0.0, f.length);
   if (hold_) {
@@ -263,6 +262,23 @@ tools::ToolState Hand::state() const {
   f.weight = f.tip_wrench_W.force.z() / tools::weighing_gravity(scene_.gravity);
   f.torque = f.tip_wrench_W.moment.dot(f.X_WE.linear().col(2));
   return f;
+}
+
+void Hand::exchange(math::StateArchive& state, double now) {
+  bool holds = hold_ != nullptr, touches = probe_ != nullptr;
+  std::size_t touched = scene_.bodies.size();  // the bench
+  if (touches && probe_->body() != nullptr) touched = static_cast<std::size_t>(probe_->body() - scene_.bodies.data());
+  state(fork_.dofs, fork_.stiffness, fork_.damping_ratio, fork_.damping_coefficient, fork_.damping_law);
+  state(tool_, stylus_, ray_length_, selection_, grasped_by_name_, pushes_, grasp_, holds, touches, touched);
+  if (state.sets()) {
+    if (grasp_.object >= std::max<std::size_t>(objects_.states().size(), 1)) throw std::out_of_range("state: object");
+    hold_ = holds ? maker().make(grasp_, grasped_body(), now) : nullptr;
+    const scene::Body* body = touched < scene_.bodies.size() ? &scene_.bodies[touched] : nullptr;
+    const tools::InFront front{0.0, body, body != nullptr ? &body->material : &scene_.bench_material};
+    probe_ = touches ? std::make_unique<tools::Probe>(fork_.length, fork_, front) : nullptr;
+  }
+  if (holds) state(*hold_);
+  if (touches) state(*probe_);
 }
 
 }  // namespace spring_workbench::simulation

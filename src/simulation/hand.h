@@ -17,8 +17,8 @@ constexpr double longest_ray = 2.0;  ///< [m]
 /// One hand: a stylus, the tool in it, and what that holds.
 class Hand {
  public:
-  /// Keeps references to scene, settings (changed by calibration) and workbench.
-  Hand(const scene::Scene& scene, SimulationSettings& settings, Objects& objects, tools::Tool tool);
+  /// Keeps references to scene, settings and objects.
+  Hand(const scene::Scene& scene, const SimulationSettings& settings, Objects& objects, tools::Tool tool);
 
   /// Forgets what the stylus told, holds nothing. The workbench is reset beside it.
   void reset();
@@ -49,9 +49,11 @@ class Hand {
   /// The only tool left on what is held does from now on what `pull_W` says; the object does not move.
   void take_over(const Wrench& pull_W, double now);
 
-  // Changes of the settings reach what is held. The settings are changed before.
-  void change_dofs(ChangeReport& change);
-  void change_springs();
+  /// The fork of this hand: as set, changed and calibrated since.
+  const rod::ForkSettings& fork() const { return fork_; }
+  /// The change reaches what is held; it fits the fork.
+  void change_fork(const ForkChange& change, ChangeReport& report);
+  /// That of the settings, which are changed before.
   void change_integrator();
   /// Size, springs and dampers from the held object and its grasp. False when nothing is held on a tool with springs.
   bool calibrate(ChangeReport& change, double now);
@@ -64,6 +66,9 @@ class Hand {
   bool overloaded(double now, double h);
   void begin_call() { moved_ = false; }
   tools::ToolState state() const;
+
+  /// Between two calls of `advance`; settings and objects come before.
+  void exchange(math::StateArchive& state, double now);
 
  private:
   void apply_grasp_button(bool pressed, double now);
@@ -85,6 +90,7 @@ class Hand {
   tools::Grasp grasp_of(std::size_t object) const;
   /// The length of the fork's spring part from the object's size, where it has mass.
   void fit_size(tools::Grasp& grasp) const;
+  tools::HoldMaker maker() const { return {fork_, settings_.dynamics, scene_.gravity}; }
   void make_hold(double now);
   /// Springs and dampers for what is held; the settings tell the stiffness. False where the tool has no springs.
   bool calibrate_hold();
@@ -92,9 +98,9 @@ class Hand {
   void keep_twist(const Twist& V_WO_W);
 
   const scene::Scene& scene_;
-  SimulationSettings& settings_;
+  const SimulationSettings& settings_;
+  rod::ForkSettings fork_;
   Objects& objects_;
-  tools::HoldMaker maker_;
   tools::Tool tool_;
   Stylus stylus_;
   double ray_length_;  ///< to what the ray hits [m]
@@ -103,9 +109,11 @@ class Hand {
   std::unique_ptr<tools::ToolHold> hold_;  ///< while something is held
   std::unique_ptr<tools::Probe> probe_;    ///< while the probe touches something
   bool pushes_ = false;                    ///< what the probe touches can move, and is the grip's object
-  tools::Grasp grasp_{};                   ///< of what is held
-  bool moved_ = false;                     ///< what is held, in this call of advance
+  tools::Grasp grasp_{tools::Tool::spring_fork,   0,   RigidTransform::Identity(),
+                      RigidTransform::Identity(), 0.0, 0.0};  ///< of what is held
+  bool moved_ = false;                                        ///< what is held, in this call of advance
   double energy_added_before_ = 0.0;
+  bodies::TrialStart start_;  ///< of a trial; no allocation in a step
 };
 
 }  // namespace spring_workbench::simulation

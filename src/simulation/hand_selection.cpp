@@ -64,7 +64,7 @@ void Hand::select_pierced() {
 
 void Hand::touch_with_probe(double now) {
   if (!stylus_.known(now)) return leave_with_probe(now);
-  const double length = settings_.fork.length;
+  const double length = fork_.length;
   tools::InFront front = look_ahead(length, [](const scene::Body&, const RigidTransform&) { return false; });
   const double down = -stylus_.X_WS().linear()(2, 2), height = stylus_.X_WS().translation().z() - scene_.bench_height;
   if (height > 0.0 && down * front.distance > height) front = {height / down, nullptr, &scene_.bench_material};
@@ -74,7 +74,7 @@ void Hand::touch_with_probe(double now) {
   if (probe_) {
     probe_->touch(front);
   } else {
-    probe_ = std::make_unique<tools::Probe>(length, settings_.fork, front);
+    probe_ = std::make_unique<tools::Probe>(length, fork_, front);
     const std::optional<std::size_t> object = front.body != nullptr ? objects_.find(front.body->name) : std::nullopt;
     pushes_ = object && !objects_.massless(*object);
     if (pushes_) objects_.hold(grasp_.object = *object, Objects::Grip::push, now);

@@ -19,8 +19,8 @@ constexpr double world_limit = 100.0;  ///< [m] from the origin; a body that fli
 
 Objects::Objects(const scene::Scene& scene, int bisection_levels) : scene_(scene), contacts_(scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-    object_of_.push_back(movable_.size());
-    if (scene.bodies[i].movable) movable_.push_back(i);
+    object_of_.push_back(objects_.size());
+    if (scene.bodies[i].movable) objects_.emplace_back().body = i;
   }
   if (with_contact()) {
     collision_ = contact::open_collision_world(scene);
@@ -30,22 +30,20 @@ Objects::Objects(const scene::Scene& scene, int bisection_levels) : scene_(scene
 }
 
 void Objects::reset() {
-  contacts_.reset(movable_.size());
+  contacts_.reset(objects_.size());
   if (scene_.contact == scene::ContactMode::dynamic)
     dynamic_stepper_ = std::make_unique<contact::DynamicStepper>(scene_);
-  states_.assign(movable_.size(), bodies::BodyState());
-  rows_.assign(movable_.size(), {});
-  slow_since_.assign(movable_.size(), 0.0);
-  tools_.assign(movable_.size(), Tools());
+  states_.assign(objects_.size(), bodies::BodyState());
   highlighted_.clear();
   free_.clear();
   in_contact_.clear();
-  free_bodies_.clear();
-  free_bodies_.resize(movable_.size());
-  for (std::size_t i = 0; i < movable_.size(); ++i) {
+  for (std::size_t i = 0; i < objects_.size(); ++i) {
+    Object of_body;
+    of_body.body = objects_[i].body;
+    objects_[i] = std::move(of_body);
     states_[i].name = body(i).name;
     states_[i].X_WO = body(i).X_WO;
-    if (collision_) collision_->set_pose(movable_[i], body(i).X_WO);
+    if (collision_) collision_->set_pose(objects_[i].body, body(i).X_WO);
   }
 }
 
@@ -74,26 +72,26 @@ bool Objects::any_free() const {
 void Objects::take_state(std::size_t object, const motion::MotionState& s) {
   states_[object].X_WO = s.X;
   states_[object].V_WO_W = s.velocity;
-  if (collision_) collision_->set_pose(movable_[object], s.X);
+  if (collision_) collision_->set_pose(objects_[object].body, s.X);
 }
 
 void Objects::hold(std::size_t object, Grip grip, double now) {
-  ++(grip == Grip::grasp ? tools_[object].grasping : tools_[object].pushing);
-  free_bodies_[object].reset();
+  ++(grip == Grip::grasp ? objects_[object].grasping : objects_[object].pushing);
+  objects_[object].free_body.reset();
   free_.erase(object);
   bodies::BodyState& o = states_[object];
-  o.held = tools_[object].grasping > 0;
+  o.held = objects_[object].grasping > 0;
   if (o.held) o.highlighted = false;
   o.asleep = false;
   wake_what_lies_on(object, now);
 }
 
 void Objects::let_go(std::size_t object, Grip grip, bool thrown, double now) {
-  Tools& tools = tools_[object];
-  --(grip == Grip::grasp ? tools.grasping : tools.pushing);
+  Object& carried = objects_[object];
+  --(grip == Grip::grasp ? carried.grasping : carried.pushing);
   bodies::BodyState& o = states_[object];
-  o.held = tools.grasping > 0;
-  if (tools.grasping + tools.pushing > 0) return;
+  o.held = carried.grasping > 0;
+  if (carried.grasping + carried.pushing > 0) return;
   if (!thrown || massless(object)) o.V_WO_W = Twist();
   let_fly(object, now);
 }
@@ -109,7 +107,7 @@ void Objects::let_fly(std::size_t object, double now) {
   bodies::BodyState& o = states_[object];
   if (massless(object)) {
     o.asleep = true;
-    if (dynamic_stepper_) dynamic_stepper_->world().place(movable_[object], o.X_WO, Twist(), false);
+    if (dynamic_stepper_) dynamic_stepper_->world().place(objects_[object].body, o.X_WO, Twist(), false);
   } else {
     set_free(object, o.V_WO_W, now);
   }
@@ -118,13 +116,13 @@ void Objects::let_fly(std::size_t object, double now) {
 void Objects::set_free(std::size_t object, const Twist& V_WO_W, double now) {
   states_[object].asleep = false;
   if (dynamic_stepper_) {
-    dynamic_stepper_->set_free(movable_[object], states_[object].X_WO, V_WO_W);
+    dynamic_stepper_->set_free(objects_[object].body, states_[object].X_WO, V_WO_W);
     return;
   }
-  free_bodies_[object] =
-      std::make_unique<bodies::FreeBody>(movable_[object], body(object), scene_.gravity, states_[object].X_WO, V_WO_W);
+  objects_[object].free_body = std::make_unique<bodies::FreeBody>(objects_[object].body, body(object), scene_.gravity,
+                                                                  states_[object].X_WO, V_WO_W);
   free_.insert(object);
-  slow_since_[object] = now;
+  objects_[object].slow_since = now;
 }
 
 void Objects::wake_what_lies_on(std::size_t object, double now) {
@@ -132,7 +130,7 @@ void Objects::wake_what_lies_on(std::size_t object, double now) {
   std::vector<collision::ContactPoint> found;
   RigidTransform lifted = states_[object].X_WO;
   lifted.translation().z() += support_gap;
-  collision_->find_contacts(movable_[object], lifted, 0.0, found);
+  collision_->find_contacts(objects_[object].body, lifted, 0.0, found);
   for (const collision::ContactPoint& c : found) {
     const bool carries_it =
         c.other != collision::CollisionWorld::bench && scene_.bodies[c.other].movable && c.n_W.z() < -0.1;
@@ -148,13 +146,13 @@ bool Objects::carry(bodies::SteppedBody& stepped, std::size_t object, double h,
                     const contact::ContactStepper::MayGo& may_go, AdvanceReport& report) {
   contact::ContactOutcome outcome;
   if (contact_stepper_) {
-    if (!contact_stepper_->step(stepped, h, may_go, rows_[object], outcome)) return false;
+    if (!contact_stepper_->step(stepped, h, may_go, objects_[object].rows, outcome)) return false;
   } else {
-    stepped.remember();
+    stepped.save(start_);
     if (stepped.advance(h, Wrench())) {
       stepped.accept();
     } else {
-      stepped.go_back();
+      stepped.restore(start_);
       stepped.follow_rigidly(h);
       outcome.refused = true;
     }
@@ -178,23 +176,23 @@ void Objects::step(const std::vector<Carried>& held, double now, double h, Advan
   for (const Carried& c : held) carry(*c.body, c.object, h, anywhere, report);
   const std::set<std::size_t> free = free_;
   for (const std::size_t i : free) {
-    carry(*free_bodies_[i], i, h, anywhere, report);
+    carry(*objects_[i].free_body, i, h, anywhere, report);
     put_to_sleep_if_slow(i, now + h);
   }
 }
 
 void Objects::step_among_movable(const std::vector<Carried>& held, double h, AdvanceReport& report) {
   std::vector<std::size_t> bodies;
-  for (const Carried& c : held) bodies.push_back(movable_[c.object]);
+  for (const Carried& c : held) bodies.push_back(objects_[c.object].body);
   rigid_bodies::RigidWorld& world = dynamic_stepper_->world();
   std::vector<Carried> among_others, alone;
   for (const Carried& c : held) {
-    const std::size_t body = movable_[c.object];
+    const std::size_t body = objects_[c.object].body;
     const auto among_fixed = [&](const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
       return !world.near_movable(body, X0_WO, X1_WO, h, bodies);
     };
     if (!carry(*c.body, c.object, h, among_fixed, report)) {
-      rows_[c.object].clear();
+      objects_[c.object].rows.clear();
       among_others.push_back(c);
       continue;
     }
@@ -221,7 +219,7 @@ void Objects::step_together(const std::vector<Carried>& held, double h, AdvanceR
   const rigid_bodies::RigidWorld& world = dynamic_stepper_->world();
   for (const std::size_t near : world.bodies_near()) {
     const std::size_t object = object_of_[near];
-    if (!scene_.bodies[near].movable || tools_[object].grasping + tools_[object].pushing > 0) continue;
+    if (!scene_.bodies[near].movable || objects_[object].grasping + objects_[object].pushing > 0) continue;
     take_state(object, {world.pose(near), world.velocity(near), {}});
     states_[object].asleep = !world.awake(near);
   }
@@ -247,8 +245,27 @@ void Objects::note_world_contacts(double h) {
     } else {
       in_contact_.insert(object);
     }
-    rows_[object] = std::move(of_object);
+    objects_[object].rows = std::move(of_object);
   }
+}
+
+void Objects::exchange(math::StateArchive& state) {
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    Object& object = objects_[i];
+    bool flies = object.free_body != nullptr;
+    state(states_[i], object.rows, object.grasping, object.pushing, object.slow_since, flies);
+    if (state.sets()) {
+      const bodies::BodyState& o = states_[i];
+      if (collision_) collision_->set_pose(object.body, o.X_WO);
+      object.free_body.reset();
+      if (flies) {
+        object.free_body = std::make_unique<bodies::FreeBody>(object.body, body(i), scene_.gravity, o.X_WO, o.V_WO_W);
+      }
+    }
+    if (flies) state(*object.free_body);
+  }
+  state(contacts_, highlighted_, free_, in_contact_);
+  if (dynamic_stepper_) state(*dynamic_stepper_);
 }
 
 bool Objects::rests(std::size_t object) const {
@@ -265,10 +282,10 @@ void Objects::put_to_sleep_if_slow(std::size_t object, double now) {
   o.asleep = false;
   const double speed =
       o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * geometry::bounding_radius(body(object).collision);
-  if (!o.in_contact || !rests(object) || speed > asleep_speed) slow_since_[object] = now;
+  if (!o.in_contact || !rests(object) || speed > asleep_speed) objects_[object].slow_since = now;
   const bool away = o.X_WO.translation().norm() > world_limit;
-  if (away || now - slow_since_[object] > asleep_after) {
-    free_bodies_[object].reset();
+  if (away || now - objects_[object].slow_since > asleep_after) {
+    objects_[object].free_body.reset();
     free_.erase(object);
     o.V_WO_W = Twist();
     o.asleep = true;

@@ -32,8 +32,8 @@ class Objects {
 
   const std::vector<bodies::BodyState>& states() const { return states_; }
   bodies::BodyState& state(std::size_t object) { return states_[object]; }
-  const scene::Body& body(std::size_t object) const { return scene_.bodies[movable_[object]]; }
-  std::size_t scene_index(std::size_t object) const { return movable_[object]; }
+  const scene::Body& body(std::size_t object) const { return scene_.bodies[objects_[object].body]; }
+  std::size_t scene_index(std::size_t object) const { return objects_[object].body; }
   bool massless(std::size_t object) const { return !(body(object).mass_properties.mass > 0.0); }
   void clear_highlights();
   void highlight(std::size_t object);
@@ -63,6 +63,9 @@ class Objects {
   /// has been slow for long enough falls asleep.
   void step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report);
 
+  /// Between two calls of `advance`.
+  void exchange(math::StateArchive& state);
+
  private:
   /// Contact mode `dynamic`: what only fixed bodies are near is carried as with `stop`, all the rest in one world.
   void step_among_movable(const std::vector<Carried>& held, double h, AdvanceReport& report);
@@ -81,17 +84,18 @@ class Objects {
   std::unique_ptr<contact::ContactStepper> contact_stepper_;  ///< likewise
   std::unique_ptr<contact::DynamicStepper> dynamic_stepper_;  ///< of contact mode `dynamic` alone
   contact::ContactLog contacts_;
-  // All parallel, one entry for each movable object.
-  std::vector<std::size_t> movable_;  ///< index in the scene
-  std::vector<bodies::BodyState> states_;
-  std::vector<std::vector<contact::ContactRow>> rows_;
-  std::vector<std::unique_ptr<bodies::FreeBody>> free_bodies_;  ///< null while held or asleep
-  struct Tools {
-    int grasping = 0, pushing = 0;
+  std::vector<bodies::BodyState> states_;  ///< what others see of `objects_`, one for each
+  /// A movable object.
+  struct Object {
+    std::size_t body = 0;                         ///< index in the scene
+    int grasping = 0, pushing = 0;                ///< tools that carry it
+    std::unique_ptr<bodies::FreeBody> free_body;  ///< null while held or asleep
+    std::vector<contact::ContactRow> rows;        ///< of its last step
+    double slow_since = 0.0;                      ///< [s]
   };
-  std::vector<Tools> tools_;            ///< that carry it
-  std::vector<double> slow_since_;      ///< [s]
+  std::vector<Object> objects_;
   std::vector<std::size_t> object_of_;  ///< by index in the scene; means something for movable bodies
+  bodies::TrialStart start_;            ///< of a step without contact; no allocation there
   // Few of many: a step looks at no others.
   std::vector<std::size_t> highlighted_;
   std::set<std::size_t> free_;        ///< those with a free body

@@ -5,45 +5,34 @@
 #include <deque>
 #include <limits>
 #include <map>
+#include <stdexcept>
 
 #include "hand.h"
 #include "objects.h"
 #include "spring_workbench/bodies/shared_body.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/rod/shape_model.h"
-#include "spring_workbench/validation/number_rule.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::simulation {
 namespace {
 
 /// The scene as the settings have it. Throws InputError when they do not fit.
 scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings) {
-  if (settings.gravity >= 0.0) scene.gravity = settings.gravity;
-  if (settings.force_scale > 0.0) scene.force_scale = settings.force_scale;
-  if (settings.contact == "none") scene.contact = scene::ContactMode::none;
-  if (settings.contact == "stop") scene.contact = scene::ContactMode::stop;
-  if (settings.contact == "dynamic") scene.contact = scene::ContactMode::dynamic;
-  if (!settings.tool.empty()) scene.tool = settings.tool;
-  tools::tool_called(scene.tool, scene.path);
-  if (!settings.grasp.object.empty()) {
-    const std::optional<std::size_t> index = scene::find_body(scene, settings.grasp.object);
-    if (!index || !scene.bodies[*index].movable) {
-      std::vector<std::string> names;
-      for (const scene::Body& b : scene.bodies) {
-        if (b.movable) names.push_back(b.name);
-      }
-      validation::refuse(scene.path, "grasp.object", settings.grasp.object,
-                         "a movable object of the scene: " + validation::join(names));
-    }
+  validate(settings, scene.path);
+  scene.gravity = settings.gravity.value_or(scene.gravity);
+  scene.force_scale = settings.force_scale.value_or(scene.force_scale);
+  scene.contact = settings.contact.value_or(scene.contact);
+  if (settings.tool) scene.tool = validation::name_of(*settings.tool);
+  if (settings.grasp.object.empty()) return scene;
+  const std::optional<std::size_t> index = scene::find_body(scene, settings.grasp.object);
+  if (index && scene.bodies[*index].movable) return scene;
+  std::vector<std::string> names;
+  for (const scene::Body& b : scene.bodies) {
+    if (b.movable) names.push_back(b.name);
   }
-  if (settings.grasp.X_OE && !settings.grasp.start_follow) {
-    validation::refuse(scene.path, "grasp.tip_in_object", "(a pose)",
-                       "used with start.follow: true, so that the object can move to it");
-  }
-  check_damping(scene.path, settings.fork);
-  dynamics::make_integrator(settings.dynamics.integrator);
-  rod::make_shape_model(settings.fork.shape, settings.fork.length);
-  return scene;
+  validation::refuse(scene.path, "grasp.object", settings.grasp.object,
+                     "a movable object of the scene: " + validation::join(names));
 }
 
 scene::Body body_of_unit_mass() {
@@ -65,8 +54,8 @@ struct Simulation::Impl {
 
   Impl(const scene::Scene& s, const SimulationSettings& set)
       : settings(set), scene(set_up(s, set)), objects(scene, set.bisection_levels) {
-    for (std::size_t i = 0; i < most_hands; ++i)
-      hands.emplace_back(scene, settings, objects, tools::tool_called(scene.tool, scene.path));
+    const auto tool = validation::named<tools::Tool>(scene.tool, scene.path, "tool");
+    for (std::size_t i = 0; i < most_hands; ++i) hands.emplace_back(scene, settings, objects, tool);
   }
   Hand& hand(std::size_t index) { return hands.at(index); }
 
@@ -83,7 +72,12 @@ struct Simulation::Impl {
   void break_away(double h);
   double end_of_step(double t_end);
   void step(double end, AdvanceReport& report);
+  /// What must be the same in a simulation that goes on from a state of this one.
+  std::string signature() const;
+  void exchange(math::StateArchive& state);
+  void set(const math::StateArchive::Words& words);
   double elastic_energy() const;
+  void check(const ForkChange& of_fork, const DynamicsChange& of_dynamics) const;
   void fill_parts(AdvanceReport& report) const;
 };
 
@@ -136,7 +130,7 @@ void Simulation::Impl::break_away(double h) {
     for (const auto& [object, of_object] : holders()) {
       if (h > 0.0 && of_object.size() > 1) continue;  // what one of them does depends on the others
       for (Hand* hand : of_object) {
-        if (hand->overloaded(now, h)) hand->let_go(settings.grasp.release == "thrown", now);
+        if (hand->overloaded(now, h)) hand->let_go(settings.grasp.release == tools::Release::thrown, now);
       }
     }
   });
@@ -214,6 +208,23 @@ void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
   objects.contacts().end_call();
   report.simulated_time = now - begin;
   fill_parts(report);
+}
+
+std::string Simulation::Impl::signature() const {
+  std::string text = validation::name_of(scene.contact) + "; " + validation::name_of(settings.fork.shape) + ";";
+  for (const scene::Body& body : scene.bodies) text += " " + body.name;
+  return text;
+}
+
+void Simulation::Impl::exchange(math::StateArchive& state) {
+  state(now, started, settings.dynamics.integrator, settings.dynamics.step, settings.dynamics.tolerance, objects);
+  for (Hand& hand : hands) hand.exchange(state, now);
+}
+
+void Simulation::Impl::set(const math::StateArchive::Words& words) {
+  math::StateArchive state(words);
+  exchange(state);
+  if (!state.at_end()) throw std::out_of_range("state: goes on too long");
 }
 
 double Simulation::Impl::elastic_energy() const {
@@ -305,62 +316,55 @@ bool Simulation::release() {
 bool Simulation::release(std::size_t hand) {
   Hand& of = impl_->hand(hand);
   const bool released = of.holds();
-  impl_->with_handover([&] { of.let_go(impl_->settings.grasp.release == "thrown", impl_->now); });
+  impl_->with_handover([&] { of.let_go(impl_->settings.grasp.release == tools::Release::thrown, impl_->now); });
   return released;
 }
 
-ChangeReport Simulation::select_tool(const std::string& name, std::size_t hand) {
-  const tools::Tool tool = tools::tool_called(name, "select_tool");
+const rod::ForkSettings& Simulation::fork_settings(std::size_t hand) const { return impl_->hand(hand).fork(); }
+
+ChangeReport Simulation::select_tool(tools::Tool tool, std::size_t hand) {
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
   const bool held = impl_->hand(hand).holds();
   impl_->with_handover([&] { impl_->hand(hand).select_tool(tool, impl_->now); });
   change.elastic_energy_after = impl_->elastic_energy();
-  change.message =
-      "tool: " + name + (held && !impl_->hand(hand).holds() ? "; it cannot hold, the object is let go" : "");
+  change.message = "tool: " + validation::name_of(tool) +
+                   (held && !impl_->hand(hand).holds() ? "; it cannot hold, the object is let go" : "");
   return change;
 }
 
-ChangeReport Simulation::set_dofs(const rod::ForkDofs& dofs) {
-  ChangeReport change;
-  change.elastic_energy_before = impl_->elastic_energy();
-  impl_->settings.fork.dofs = dofs;
-  change.message = "families switched";
-  for (Hand& hand : impl_->hands) hand.change_dofs(change);
-  change.elastic_energy_after = impl_->elastic_energy();
-  return change;
+/// Throws InputError unless every fork, and the settings, are fit for the changes.
+void Simulation::Impl::check(const ForkChange& of_fork, const DynamicsChange& of_dynamics) const {
+  SimulationSettings changed = settings;
+  changed.dynamics = of_dynamics.applied_to(settings.dynamics);
+  for (const Hand& hand : hands) {
+    changed.fork = of_fork.applied_to(hand.fork());
+    validate(changed, "change");
+  }
 }
 
-ChangeReport Simulation::set_stiffness(const rod::PerDof& stiffness) {
-  const validation::NumberRule rule = validation::not_negative();
-  validation::check_number("set_stiffness", "stretch", stiffness.stretch, rule);
-  validation::check_number("set_stiffness", "bend", stiffness.bend, rule);
-  validation::check_number("set_stiffness", "torsion", stiffness.torsion, rule);
-  ChangeReport change;
-  change.elastic_energy_before = impl_->elastic_energy();
-  rod::PerDof& k = impl_->settings.fork.stiffness;
-  if (stiffness.stretch > 0.0) k.stretch = stiffness.stretch;
-  if (stiffness.bend > 0.0) k.bend = stiffness.bend;
-  if (stiffness.torsion > 0.0) k.torsion = stiffness.torsion;
-  for (Hand& hand : impl_->hands) hand.change_springs();
-  change.elastic_energy_after = impl_->elastic_energy();
-  change.message = "stiffness set; the strain stays as it is";
-  return change;
+ChangeReport Simulation::change(const ForkChange& change, std::optional<std::size_t> hand) {
+  impl_->check(change, {});
+  ChangeReport report;
+  report.elastic_energy_before = impl_->elastic_energy();
+  for (std::size_t i = 0; i < most_hands; ++i) {
+    if (hand.value_or(i) == i) impl_->hand(i).change_fork(change, report);
+  }
+  report.elastic_energy_after = impl_->elastic_energy();
+  if (report.message.empty()) report.message = change.empty() ? "nothing changed" : "set; the strain stays as it is";
+  return report;
 }
 
-ChangeReport Simulation::set_damping_ratio(const rod::PerDof& ratio, const std::string& law) {
-  const validation::NumberRule rule = validation::between(0.0, 10.0);
-  validation::check_number("set_damping", "stretch", ratio.stretch, rule);
-  validation::check_number("set_damping", "bend", ratio.bend, rule);
-  validation::check_number("set_damping", "torsion", ratio.torsion, rule);
-  rod::ForkSettings changed = impl_->settings.fork;
-  changed.damping_ratio = ratio;
-  if (!law.empty()) changed.damping_law = law;
-  check_damping("set_damping", changed);
-  impl_->settings.fork = changed;
-  for (Hand& hand : impl_->hands) hand.change_springs();
-  const double energy = impl_->elastic_energy();
-  return {energy, energy, "damping ratios set"};
+void Simulation::change(const DynamicsChange& change) {
+  impl_->check({}, change);
+  impl_->settings.dynamics = change.applied_to(impl_->settings.dynamics);
+  for (Hand& hand : impl_->hands) hand.change_integrator();
+}
+
+void Simulation::change(const ForkChange& of_fork, const DynamicsChange& of_dynamics) {
+  impl_->check(of_fork, of_dynamics);
+  if (!of_fork.empty()) change(of_fork);
+  if (!of_dynamics.empty()) change(of_dynamics);
 }
 
 ChangeReport Simulation::calibrate() {
@@ -375,14 +379,24 @@ ChangeReport Simulation::calibrate() {
   return change;
 }
 
-void Simulation::set_integrator(const std::string& name, double step, double tolerance) {
-  dynamics::make_integrator(name);
-  if (step != 0.0) validation::check_number("set_integrator", "step", step, validation::between(1e-6, 1.0));
-  validation::check_number("set_integrator", "tolerance", tolerance, allowed_tolerance());
-  impl_->settings.dynamics.integrator = name;
-  impl_->settings.dynamics.tolerance = tolerance;
-  if (step != 0.0) impl_->settings.dynamics.step = step;
-  for (Hand& hand : impl_->hands) hand.change_integrator();
+SimulationState Simulation::save() const {
+  math::StateArchive archive;
+  impl_->exchange(archive);
+  SimulationState state;
+  state.scene_ = impl_->signature();
+  state.words_ = archive.taken();
+  return state;
+}
+
+void Simulation::restore(const SimulationState& state) {
+  const SimulationState present = save();
+  if (state.scene_ != present.scene_) validation::refuse("restore", "scene", state.scene_, present.scene_);
+  try {
+    impl_->set(state.words_);
+  } catch (const std::exception& error) {
+    impl_->set(present.words_);
+    throw validation::InputError(std::string("restore: numbers that are no state: ") + error.what());
+  }
 }
 
 const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->objects.states(); }

@@ -61,10 +61,13 @@ class Stylus {
     if (!track_.empty() && track_.begin() < now) track_.forget_before(now);
   }
 
+  void exchange(math::StateArchive& state) { state(track_, presses_, X_WS_); }
+
  private:
   struct Edge {
     double t;
     Press press;
+    void exchange(math::StateArchive& state) { state(t, press); }
   };
   motion::PoseTrack track_;
   std::deque<Edge> presses_;

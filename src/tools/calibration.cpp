@@ -5,6 +5,7 @@
 
 #include "spring_workbench/dynamics/find_strain.h"
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/math/spatial.h"
 
 namespace spring_workbench::tools {
 namespace {
@@ -25,8 +26,8 @@ rod::StrainVector equilibrium(const dynamics::HeldBody& held, const RigidTransfo
 
 double weighing_gravity(double gravity) { return gravity > 0.0 ? gravity : earth; }
 
-rod::PerDof calibrated_stiffness(const std::string& shape, double length, const dynamics::BodyInertia& body,
-                                 double gravity, const CalibrationGoal& goal) {
+rod::PerDof calibrated_stiffness(rod::ShapeKind shape, double length, const dynamics::BodyInertia& body, double gravity,
+                                 const CalibrationGoal& goal) {
   const double g = weighing_gravity(gravity);
   const double sag = goal.sag * length;
   const double omega = std::sqrt(g / sag);
@@ -59,7 +60,7 @@ double calibrated_spring(double mass, double length, double gravity, const Calib
 }
 
 double calibrated_length(const dynamics::BodyInertia& body, const CalibrationGoal& goal) {
-  const double gyration = std::sqrt(body.inertia_O.trace() / (3.0 * body.mass));
+  const double gyration = radius_of_gyration(body.mass, body.inertia_O);
   return std::clamp(2.0 * goal.twist * gyration / goal.sag, 1e-3, 100.0);
 }
 

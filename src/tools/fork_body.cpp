@@ -80,9 +80,7 @@ RigidTransform ForkBody::returned_offset(double h) const {
 RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
   const RigidTransform returned = returned_offset(h);
   if (contact_W.force.isZero(0.0) && contact_W.moment.isZero(0.0)) return returned;
-  Vector6d wrench;
-  wrench << contact_W.force, contact_W.moment;
-  const Vector6d given_way = proxy_compliance(h) * wrench;
+  const Vector6d given_way = proxy_compliance(h) * to_vector(contact_W);
   // A rotation about the object's centre of mass and a translation.
   const Vector3d centre = object().X.translation();
   RigidTransform X = RigidTransform::Identity();
@@ -177,11 +175,14 @@ double ForkBody::added_energy(const Advance& advance) const {
   return energy - energy_begin - h / 6.0 * work;
 }
 
-void ForkBody::remember() { remembered_ = state_; }
-
-void ForkBody::go_back() {
-  state_ = remembered_;
+void ForkBody::restore(const bodies::TrialStart& start) {
+  state_ = start.kept<State>();
   last_.reset();
+}
+
+void ForkBody::exchange(math::StateArchive& state) {
+  state(held_, control_.integrator(), X_SH_, hand_, state_, estimates_, sleep_);
+  if (state.sets()) last_.reset();
 }
 
 ForkBody::Jacobian ForkBody::jacobian_W(const Matrix3d& R_WH, double t) const {
@@ -219,10 +220,8 @@ Matrix6d ForkBody::mobility() const {
 
 void ForkBody::add_impulse(const Wrench& impulse_W) {
   if (held_.size() == 0) return;
-  Vector6d impulse;
-  impulse << impulse_W.force, impulse_W.moment;
   sleep_ = Sleep();
-  state_.strain.q_dot += inverse_mass() * (jacobian_W().transpose() * impulse);
+  state_.strain.q_dot += inverse_mass() * (jacobian_W().transpose() * to_vector(impulse_W));
 }
 
 bool ForkBody::sleeps(double h, bool may_fall_asleep) {

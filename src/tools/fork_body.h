@@ -19,8 +19,8 @@ class ForkBody final : public ToolHold {
   std::size_t index() const override { return index_; }
   motion::MotionState object() const override;
   bool advance(double h, const Wrench& contact_W) override;
-  void remember() override;
-  void go_back() override;
+  void save(bodies::TrialStart& start) const override { start.keep(state_); }
+  void restore(const bodies::TrialStart& start) override;
   void accept() override;
   Response response(double h) const override;
   Matrix6d mobility() const override;
@@ -71,8 +71,11 @@ class ForkBody final : public ToolHold {
   void describe(bool massless, ToolState& state) const override;
 
   StepEstimates take_estimates() override;
+  void exchange(math::StateArchive& state) override;
 
  private:
+  /// What a trial of a step changes of the motion. Beyond it a trial leaves the integrator's history, the equations'
+  /// versions and load, and estimates.
   struct State {
     double t = 0.0;
     dynamics::StrainState strain;
@@ -81,6 +84,8 @@ class ForkBody final : public ToolHold {
     double energy_added = 0.0;                           ///< [J]
     dynamics::StepControl::Memory stepping;
     std::optional<Wrench> pull_W;  ///< on the object at its centre, where it was shared last
+
+    void exchange(math::StateArchive& state) { state(t, strain, behind, offset, energy_added, stepping, pull_W); }
   };
   static constexpr double no_offset = 1e-9;  ///< [m, rad]; the proxy has come back
   /// How the proxy gives way to a wrench at the centre of mass over a step, in what the coordinates cannot follow: as a
@@ -117,13 +122,14 @@ class ForkBody final : public ToolHold {
   dynamics::StepControl control_;
   RigidTransform X_SH_;         ///< from one grip to the next
   motion::MotionSegment hand_;  ///< of the handle as the hand has it
-  State state_, remembered_;
+  State state_;
   std::optional<Advance> last_;  ///< while it may turn out to have been a trial
   StepEstimates estimates_;
   /// What a sleeper's rest rests on.
   struct Sleep {
     long version = -1;  ///< of the equations; −1: awake
     RigidTransform X_WH = RigidTransform::Identity();
+    void exchange(math::StateArchive& state) { state(version, X_WH); }
   };
   Sleep sleep_;
 };

@@ -11,12 +11,6 @@ constexpr double exact = 1e-12;  ///< of the generalised force that the springs 
 
 RigidTransform normalised(const RigidTransform& X) { return make_transform(Quaterniond(X.linear()), X.translation()); }
 
-Vector6d stacked(const Vector3d& force, const Vector3d& moment) {
-  Vector6d all;
-  all << force, moment;
-  return all;
-}
-
 }  // namespace
 
 Wrench ForkBody::spring_pull() const {
@@ -26,9 +20,7 @@ Wrench ForkBody::spring_pull() const {
   const rod::StrainVector dampers = held_.damping() * state_.strain.q_dot;
   const Eigen::MatrixXd onto_coordinates = jacobian_W().transpose();
   const Vector6d damping = onto_coordinates.completeOrthogonalDecomposition().solve(-dampers);
-  springs.force -= damping.head<3>();
-  springs.moment -= damping.tail<3>();
-  return springs;
+  return to_wrench(to_vector(springs) - damping);
 }
 
 rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const {
@@ -37,7 +29,7 @@ rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R
   const dynamics::HandleForcing at_origin = held_.forcing(motion::MotionSegment(RigidTransform::Identity()), state_.t);
   const auto missing = [&](const rod::StrainVector& q) -> rod::StrainVector {
     const Matrix3d R_HO = held_.object(at_origin, {q, rod::StrainVector::Zero(q.size())}).X.linear();
-    const Vector6d load = stacked(R_HO * force_O, R_HO * moment_O);
+    const Vector6d load = to_vector(Wrench{R_HO * force_O, R_HO * moment_O});
     rod::StrainVector f = -(held_.object_jacobian(state_.t, q).transpose() * load) - held_.elastic_force(state_.t, q);
     for (Eigen::Index i = 0; i < q.size(); ++i) {
       if (!(K[i] > 0.0)) f[i] = present[i] - q[i];  // no spring there that could do anything

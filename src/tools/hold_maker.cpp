@@ -20,7 +20,7 @@ rod::ForkDofs HoldMaker::possible_dofs(const Grasp& grasp, const GraspedBody& ob
   if (object.massless() || grasp.tool != Tool::spring_fork) return {false, false, false};
   rod::ForkDofs dofs = fork_.dofs;
   const Vector3d lever = grasp.X_OE.linear().col(2).cross(grasp.X_OE.translation());
-  const bool point_mass = dynamics_.inertia == "point_mass";
+  const bool point_mass = dynamics_.inertia == dynamics::Inertia::point_mass;
   if (point_mass && lever.norm() < on_the_axis * fork_.length) dofs.torsion = false;
   return dofs;
 }
@@ -31,7 +31,7 @@ dynamics::BodyInertia HoldMaker::inertia(const Grasp& grasp, const GraspedBody& 
     return {1.0, Matrix3d::Identity(), grasp.X_OE};  // of no effect: nothing bends a fork that carries nothing
   }
   dynamics::BodyInertia inertia{of_body.mass, of_body.inertia_O, grasp.X_OE};
-  if (dynamics_.inertia == "point_mass") {
+  if (dynamics_.inertia == dynamics::Inertia::point_mass) {
     // The paper's I = r² m: all of the mass at its centre. A small radius keeps the rotation about that point defined.
     const double radius = point_mass_radius * fork_.length;
     inertia.inertia_O = inertia.mass * radius * radius * Matrix3d::Identity();
@@ -41,8 +41,10 @@ dynamics::BodyInertia HoldMaker::inertia(const Grasp& grasp, const GraspedBody& 
 
 std::unique_ptr<ToolHold> HoldMaker::make_fork(const Grasp& grasp, const GraspedBody& object, double now) const {
   // A rigid tool may be as short as can be: what its object still moves must not depend on a length.
-  const std::string shape = grasp.tool == Tool::spring_fork ? fork_.shape : "bushing";
-  dynamics::HeldBody held(rod::make_shape_model(shape, grasp.length), inertia(grasp, object), gravity_);
+  const auto shape = grasp.tool == Tool::spring_fork
+                         ? rod::make_shape_model(fork_.shape, grasp.length, fork_.slope_stiffness)
+                         : rod::make_shape_model(rod::ShapeKind::bushing, grasp.length);
+  dynamics::HeldBody held(shape, inertia(grasp, object), gravity_);
   held.set_springs(fork_);
   const dynamics::StrainState zero{rod::StrainVector::Zero(held.shape().size()),
                                    rod::StrainVector::Zero(held.shape().size())};

@@ -23,7 +23,7 @@ Probe::Probe(double length, const rod::ForkSettings& fork, const InFront& touche
 void Probe::set_springs(const rod::ForkSettings& fork) {
   const double mass = body_ != nullptr && body_->movable ? body_->mass_properties.mass : 0.0;
   k_ = fork.stiffness.stretch;
-  c_ = 2.0 * fork.damping_ratio.stretch * std::sqrt(mass * k_);
+  c_ = rod::stretch_damping(fork, mass);
 }
 
 void Probe::set_hand(const motion::MotionSegment& hand, double t) {
@@ -83,7 +83,7 @@ void Probe::describe(const RigidTransform& X_WH, ToolState& state) const {
   state.touched = body_ != nullptr ? body_->name : "workbench";
   state.stretch = -shortened;
   state.X_WE = X_WH * Eigen::Translation3d(0.0, 0.0, length_ - shortened);
-  state.strain[state.strain.size() - 1] = state.shape == "bushing" ? -shortened : -shortened / length_;
+  state.strain[state.strain.size() - 1] = state.shape == rod::ShapeKind::bushing ? -shortened : -shortened / length_;
   state.tip_wrench_W.force = push;
   state.handle_wrench_H.force = -(X_WH.linear().transpose() * push);
   state.elastic_energy = elastic_energy();

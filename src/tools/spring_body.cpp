@@ -25,7 +25,6 @@ SpringBody::SpringBody(std::size_t index, const scene::Body& body, double gravit
       rest_length_(rest_length),
       hand_(RigidTransform::Identity()),
       state_{0.0, bodies::FreeBody(index, body, gravity, X_WO, Twist())},
-      remembered_(state_),
       inertia_O_(body.mass_properties.inertia_O) {
   set_springs(fork);
 }
@@ -37,7 +36,7 @@ void SpringBody::set_hand(const motion::MotionSegment& hand, double t) {
 
 void SpringBody::set_springs(const rod::ForkSettings& fork) {
   k_ = fork.stiffness.stretch;
-  c_ = 2.0 * fork.damping_ratio.stretch * std::sqrt(mass_ * k_);
+  c_ = rod::stretch_damping(fork, mass_);
 }
 
 rod::PerDof SpringBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity) const {
@@ -174,7 +173,7 @@ void SpringBody::describe(bool, ToolState& state) const {
   state.X_WH_proxy = X_WH;
   state.X_WH_proxy.linear() = Quaterniond::FromTwoVectors(X_WH.linear().col(2), n).toRotationMatrix() * X_WH.linear();
   state.X_WE = state.X_WH_proxy * Eigen::Translation3d(0.0, 0.0, s.d.norm());
-  const double drawn = state.shape == "bushing" ? state.stretch : state.stretch / rest_length_;
+  const double drawn = state.shape == rod::ShapeKind::bushing ? state.stretch : state.stretch / rest_length_;
   state.strain[state.strain.size() - 1] = drawn;
   state.tip_wrench_W.force = -(k_ * state.stretch + c_ * n.dot(s.rate)) * n;
   state.handle_wrench_H.force = -(X_WH.linear().transpose() * state.tip_wrench_W.force);

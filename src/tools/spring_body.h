@@ -18,8 +18,8 @@ class SpringBody final : public ToolHold {
   std::size_t index() const override { return state_.free.index(); }
   motion::MotionState object() const override { return state_.free.object(); }
   bool advance(double h, const Wrench& contact_W) override;
-  void remember() override { remembered_ = state_; }
-  void go_back() override { state_ = remembered_; }
+  void save(bodies::TrialStart& start) const override { start.keep(state_); }
+  void restore(const bodies::TrialStart& start) override { state_ = start.kept<State>(); }
   Response response(double h) const override;
   Matrix6d mobility() const override { return state_.free.mobility(); }
   void add_impulse(const Wrench& impulse_W) override { state_.free.add_impulse(impulse_W); }
@@ -43,6 +43,9 @@ class SpringBody final : public ToolHold {
   double energy_added() const override { return 0.0; }
   StepEstimates take_estimates() override;
   void describe(bool massless, ToolState& state) const override;
+  void exchange(math::StateArchive& state) override {
+    state(rest_length_, k_, c_, hand_, state_.t, state_.free, estimates_);
+  }
 
  private:
   struct State {
@@ -67,7 +70,7 @@ class SpringBody final : public ToolHold {
   double mass_, gravity_, rest_length_;
   double k_ = 0.0, c_ = 0.0;
   motion::MotionSegment hand_;
-  State state_, remembered_;
+  State state_;
   Matrix3d inertia_O_;
   StepEstimates estimates_;
 };

@@ -38,15 +38,11 @@ class Choices {
     }
     return (choice - 128.0) / 128.0;
   }
-  /// A number of which no more is asked than a hand can do that the gate lets through; what is not finite stays
+  /// A number of which no more is asked than a hand can do that the input filter lets through; what is not finite stays
   /// so.
   double hand_number() {
     const double value = number();
     return std::isfinite(value) ? std::clamp(value, -2.0, 2.0) : value;
-  }
-  std::string name(const std::vector<std::string>& known) {
-    const unsigned choice = byte();
-    return choice < 0xf0 ? known[choice % known.size()] : std::string(choice - 0xef, static_cast<char>(byte()));
   }
   rod::PerDof per_dof() {
     const double stretch = number(), bend = number();
@@ -60,28 +56,40 @@ class Choices {
 
 /// One call, as the services make it, with numbers as they come.
 void call(Choices& next, simulation::Simulation& simulation, motion::PoseSample& hand) {
+  simulation::ForkChange fork;
   switch (next.byte() % 11) {
     case 0:
-      simulation.set_dofs({next.flag(), next.flag(), next.flag()});
+      fork.dofs = {next.flag(), next.flag(), next.flag()};
+      simulation.change(fork);
       break;
-    case 1:
-      simulation.set_stiffness(next.per_dof());
+    case 1: {
+      const rod::PerDof k = next.per_dof();
+      fork.stretch_stiffness = k.stretch;
+      fork.bend_stiffness = k.bend;
+      fork.torsion_stiffness = k.torsion;
+      simulation.change(fork, next.byte() % 2);
       break;
+    }
     case 2:
-      simulation.set_damping_ratio(next.per_dof());
+      (next.flag() ? fork.damping_coefficient : fork.damping_ratio) = next.per_dof();
+      fork.damping_law = static_cast<rod::DampingLaw>(next.byte() % 3);
+      simulation.change(fork);
       break;
     case 3: {
-      const std::string name = next.name(dynamics::integrator_names());
+      simulation::DynamicsChange change;
+      change.integrator = static_cast<dynamics::IntegratorKind>(next.byte() % 6);
       const double step = next.number();
       const bool to_tolerance = next.flag();
       // Not to wait for hours: a step that is allowed is no shorter than 2 ms, or 50 ms where it is made of as many as
       // a tolerance takes, which is 1 cm.
       const double shortest = to_tolerance ? 0.05 : 0.002;
-      simulation.set_integrator(name, step > 0.0 ? std::max(step, shortest) : step, to_tolerance ? 0.01 : 0.0);
+      change.step = step > 0.0 ? std::max(step, shortest) : step;
+      change.tolerance = to_tolerance ? 0.01 : 0.0;
+      simulation.change(fork, change);
       break;
     }
     case 4:
-      simulation.select_tool(next.name(tools::tool_names()), next.byte() % 2);
+      simulation.select_tool(static_cast<tools::Tool>(next.byte() % 5), next.byte() % 2);
       break;
     case 5:
       simulation.calibrate();
@@ -115,7 +123,7 @@ void calls(std::string_view bytes) {
   constexpr int most_calls = 60;
   Choices next(bytes);
   simulation::SimulationSettings settings;
-  settings.contact = std::array{"none", "stop", "dynamic"}[next.byte() % 3];
+  settings.contact = static_cast<scene::ContactMode>(next.byte() % 3);
   simulation::Simulation simulation(scene, settings);
   run_a_hand(simulation);
   motion::PoseSample hand{simulation.newest_sample(), simulation.fork().X_WH};

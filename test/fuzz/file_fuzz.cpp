@@ -4,6 +4,7 @@
 
 #include "fuzz/running.h"
 #include "fuzz/targets.h"
+#include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/motion_files/motion_file.h"
 #include "spring_workbench/motion_files/scripted_source.h"
 #include "support/temporary_folder.h"

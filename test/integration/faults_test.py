@@ -123,9 +123,9 @@ class Faults(unittest.TestCase):
         self.keep_going()
 
     def test_a_killed_node_comes_back_as_it_was(self):
-        self.assertTrue(self.call("set_stiffness", 1500.0, 700.0, 3.0).success)
-        self.assertTrue(self.call("set_damping", 0.5, 0.6, 0.7, "").success)
-        self.assertTrue(self.call("set_dofs", True, True, False).success)
+        self.assertTrue(self.call("set_stiffness", 1500.0, 700.0, 3.0, 0).success)
+        self.assertTrue(self.call("set_damping", 0.5, 0.6, 0.7, "", 0).success)
+        self.assertTrue(self.call("set_dofs", True, True, False, 0).success)
         self.assertTrue(self.call("set_integrator", "rosenbrock", 0.01, 0.0).success)
         self.carry_off()
         self.set_down()
@@ -134,7 +134,7 @@ class Faults(unittest.TestCase):
         self.assertTrue(self.call("select_tool", "direct", 0).success)
         self.keep_going()
         self.wait_for_checkpoint(
-            lambda checkpoint: checkpoint["tools"][0] == "direct" and self.keeps_the_box(checkpoint)
+            lambda checkpoint: checkpoint["hands"][0]["tool"] == "direct" and self.keeps_the_box(checkpoint)
         )
         self.kill_and_wait()
         self.hand.run(1.0)
@@ -158,10 +158,12 @@ class Faults(unittest.TestCase):
         """Its last entry names a tool that there is none of; all before it could be set."""
         self.keep_going()
         before = self.fork.last
-        self.assertTrue(self.call("set_stiffness", 1500.0, 700.0, 3.0).success)
+        self.assertTrue(self.call("set_stiffness", 1500.0, 700.0, 3.0, 0).success)
         self.assertTrue(self.call("set_integrator", "rosenbrock", 0.01, 0.0).success)
         self.wait_for_checkpoint(lambda checkpoint: checkpoint["integrator"] == "rosenbrock")
-        rospy.set_param("/manipulation/resume/tools", ["direct", "teapot"])
+        hands = rospy.get_param("/manipulation/resume/hands")
+        hands[0]["tool"], hands[1]["tool"] = "direct", "teapot"
+        rospy.set_param("/manipulation/resume/hands", hands)
         self.kill_and_wait()
         after = self.fork.last
         self.assertEqual((after.tool, after.integrator), (before.tool, before.integrator))
@@ -246,11 +248,11 @@ class Faults(unittest.TestCase):
         """All services that leave the object in the hand where it is, from four clients at once."""
         self.carry_off()
         calls = [
-            ("set_stiffness", (2000.0, 500.0, 5.0)),
-            ("set_damping", (1.0, 0.9, 0.8, "per_dof")),
-            ("set_dofs", (True, True, True)),
+            ("set_stiffness", (2000.0, 500.0, 5.0, 0)),
+            ("set_damping", (1.0, 0.9, 0.8, "per_dof", 0)),
+            ("set_dofs", (True, True, True, 0)),
             ("set_integrator", ("exponential", 0.02, 0.0)),
-            ("set_stiffness", (-1.0, 0.0, 0.0)),
+            ("set_stiffness", (-1.0, 0.0, 0.0, 0)),
         ]
         answered, broken = [0] * 4, []
 
@@ -294,9 +296,9 @@ class Faults(unittest.TestCase):
         calls = [
             ("select_tool", ("direct", 0)),
             ("select_tool", ("spring_fork", 2)),
-            ("set_dofs", (True, False, True)),
-            ("set_stiffness", (900.0, 500.0, 5.0)),
-            ("set_damping", (1.0, 0.9, 0.8, "per_dof")),
+            ("set_dofs", (True, False, True, 0)),
+            ("set_stiffness", (900.0, 500.0, 5.0, 0)),
+            ("set_damping", (1.0, 0.9, 0.8, "per_dof", 0)),
             ("calibrate", ()),
             ("set_integrator", ("implicit_euler", 0.02, 0.0)),
             ("reset", ()),
@@ -329,7 +331,7 @@ class Faults(unittest.TestCase):
         for service, arguments in [
             ("load_scene", calls[-1][1]),
             ("select_tool", ("spring_fork", 0)),
-            ("set_dofs", (True, True, True)),
+            ("set_dofs", (True, True, True, 0)),
         ]:
             self.assertTrue(self.call(service, *arguments).success)
         self.hand.run(0.5)

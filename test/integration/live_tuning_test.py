@@ -7,7 +7,7 @@ import rospy
 import rostest
 from dynamic_reconfigure.client import Client
 from spring_workbench.msg import ForkState
-from spring_workbench.srv import SetForkDofs, SetForkStiffness, SetIntegrator
+from spring_workbench.srv import SetForkDofs, SetForkStiffness, SetIntegrator, SetIntegratorRequest
 
 from stack import DEADLINE, Listener, wait_for
 
@@ -31,8 +31,8 @@ class LiveTuning(unittest.TestCase):
         self.fork.next(lambda m: m.torsion_on, "torsion to be on")
 
     def test_what_services_change_is_shown(self):
-        rospy.ServiceProxy("manipulation/set_stiffness", SetForkStiffness)(0.0, 0.0, 7.25)
-        rospy.ServiceProxy("manipulation/set_dofs", SetForkDofs)(False, True, True)
+        rospy.ServiceProxy("manipulation/set_stiffness", SetForkStiffness)(0.0, 0.0, 7.25, 0)
+        rospy.ServiceProxy("manipulation/set_dofs", SetForkDofs)(False, True, True, 0)
         rospy.ServiceProxy("manipulation/set_integrator", SetIntegrator)("closed_form", 0.005, 0.0)
         shown = lambda: self.client.get_configuration(timeout=DEADLINE)
         wait_for(
@@ -42,6 +42,18 @@ class LiveTuning(unittest.TestCase):
             and shown()["step"] == 0.005,
             "the changes to be shown",
         )
+
+    def test_a_change_of_the_step_keeps_the_tolerance(self):
+        set_integrator = rospy.ServiceProxy("manipulation/set_integrator", SetIntegrator)
+        self.assertTrue(set_integrator("exponential", 0.02, 1e-5).success)
+        self.assertEqual(self.client.update_configuration({"step": 0.01})["step"], 0.01)
+        keep = SetIntegratorRequest.KEEP_TOLERANCE
+        self.assertIn("steps of at most 0.01 s, tolerance 1e-05 m", set_integrator("exponential", 0.0, keep).message)
+
+    def test_of_a_good_and_a_bad_value_none_is_taken(self):
+        before = self.fork.next()
+        self.client.update_configuration({"bend_stiffness": 432.1, "integrator": "crystal_ball"})
+        self.assertEqual(self.client.get_configuration(timeout=DEADLINE)["bend_stiffness"], before.bend_stiffness)
 
     def test_what_the_simulation_refuses_is_put_back(self):
         before = self.fork.next().integrator

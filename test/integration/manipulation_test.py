@@ -61,9 +61,9 @@ class Manipulation(unittest.TestCase):
     def setUp(self):
         """A box at its start, a new hand above it, the fork as it comes."""
         self.call("load_scene", "package://spring_workbench/scenes/single_box.urdf")
-        self.call("set_dofs", True, True, True)
-        self.call("set_stiffness", 2000.0, 500.0, 5.0)
-        self.call("set_damping", 1.0, 1.0, 1.0, "per_dof")
+        self.call("set_dofs", True, True, True, 0)
+        self.call("set_stiffness", 2000.0, 500.0, 5.0, 0)
+        self.call("set_damping", 1.0, 1.0, 1.0, "per_dof", 0)
         self.call("set_integrator", "exponential", 0.02, 0.0)
         self.hand.position, self.hand.rotation, self.hand.pressed = (0.03, 0.0, 0.4), DOWN, False
         self.hand.run(0.2)
@@ -203,18 +203,18 @@ class Manipulation(unittest.TestCase):
         self.lift(level)
         twist = self.fork.next().torsion
         self.assertGreater(abs(twist), 0.01)
-        self.switch("set_dofs", True, True, False)
+        self.switch("set_dofs", True, True, False, 0)
         self.hand.run(2.0)
         off = self.fork.next()
         self.assertEqual((off.torsion_on, off.stretch_on, off.bend_on), (False, True, True))
         self.assertLess(abs(off.torsion), 1e-6)
-        self.switch("set_dofs", True, True, True)
+        self.switch("set_dofs", True, True, True, 0)
         self.hand.run(3.0)
         self.assertAlmostEqual(self.fork.next().torsion, twist, delta=1e-3 * abs(twist))
-        answer, before, after = self.switch("set_stiffness", 0.0, 250.0, 0.0)
+        answer, before, after = self.switch("set_stiffness", 0.0, 250.0, 0.0, 0)
         self.assertEqual((after.stretch_stiffness, after.bend_stiffness, after.torsion_stiffness), (2000.0, 250.0, 5.0))
         self.assertLess(answer.elastic_energy_after, answer.elastic_energy_before)
-        answer, before, after = self.switch("set_damping", 0.5, 0.6, 0.7, "")
+        answer, before, after = self.switch("set_damping", 0.5, 0.6, 0.7, "", 0)
         self.assertEqual(
             (after.stretch_damping_ratio, after.bend_damping_ratio, after.torsion_damping_ratio), (0.5, 0.6, 0.7)
         )
@@ -263,11 +263,11 @@ class Manipulation(unittest.TestCase):
         self.lift()
         before = self.fork.next()
         for service, arguments, words in [
-            ("set_stiffness", (NAN, 0.0, 0.0), ("stretch", "nan")),
-            ("set_stiffness", (0.0, -1.0, 0.0), ("bend", "-1")),
-            ("set_stiffness", (0.0, 0.0, math.inf), ("torsion", "inf")),
-            ("set_damping", (0.0, 11.0, 0.0, ""), ("bend", "11")),
-            ("set_damping", (NAN, 1.0, 1.0, ""), ("stretch", "nan")),
+            ("set_stiffness", (NAN, 0.0, 0.0, 0), ("stretch", "nan")),
+            ("set_stiffness", (0.0, -1.0, 0.0, 0), ("bend", "-1")),
+            ("set_stiffness", (0.0, 0.0, math.inf, 0), ("torsion", "inf")),
+            ("set_damping", (0.0, 11.0, 0.0, "", 0), ("bend", "11")),
+            ("set_damping", (NAN, 1.0, 1.0, "", 0), ("stretch", "nan")),
             ("set_integrator", ("magic", 0.0, 0.0), ("magic", "exponential")),
             ("set_integrator", ("rk4", -1.0, 0.0), ("step", "-1")),
             ("set_integrator", ("rk4", NAN, 0.0), ("step", "nan")),

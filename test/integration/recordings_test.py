@@ -83,9 +83,9 @@ class Recordings(unittest.TestCase):
                 os.path.basename(arguments[1]),
                 " ".join(arguments[2:]),
                 summary["samples"],
-                summary["left_out"],
+                summary["rejected"],
                 summary["dropouts"],
-                summary["reengagements"],
+                summary["reacquisitions"],
                 fastest,
                 strongest,
                 hardest_turn,
@@ -105,9 +105,9 @@ class Recordings(unittest.TestCase):
             with self.subTest(path=path):
                 summary = self.check("--motion", path)
                 name = os.path.basename(path)
-                self.assertEqual(summary["left_out"], LEFT_OUT.get(name, {}))
+                self.assertEqual(summary["rejected"], LEFT_OUT.get(name, {}))
                 self.assertEqual(summary["dropouts"], DROPOUTS.get(name, 0))
-                self.assertEqual(summary["reengagements"], DROPOUTS.get(name, 0))
+                self.assertEqual(summary["reacquisitions"], DROPOUTS.get(name, 0))
 
     def test_a_lost_hand_lets_go(self):
         summary = self.check(
@@ -154,11 +154,11 @@ class Recordings(unittest.TestCase):
         with open(path, "w") as file:
             file.writelines(" ".join(words) + "\n" for words in lines)
         summary = self.check("--motion", path)
-        left_out = summary["left_out"]
+        left_out = summary["rejected"]
         self.assertGreater(left_out["too fast"], 20)
         self.assertEqual(left_out["out of view"], 100)
         self.assertEqual(summary["dropouts"], 2)
-        self.assertGreaterEqual(summary["reengagements"], 3)
+        self.assertGreaterEqual(summary["reacquisitions"], 3)
 
 
 if __name__ == "__main__":

@@ -74,7 +74,7 @@ class Tools(unittest.TestCase):
         self.hand.run(0.2)
         for stylus in [1, 2]:
             self.call("select_tool", "spring_fork", stylus)
-        self.call("set_stiffness", 2000.0, 500.0, 5.0)
+        self.call("set_stiffness", 2000.0, 500.0, 5.0, 0)
         self.call("reset")
         self.hand.run(0.2)
 

@@ -5,6 +5,7 @@
 #include <random>
 #include <string>
 
+#include "named.h"
 #include "spring_workbench/dynamics/held_body.h"
 #include "spring_workbench/math/so3.h"
 
@@ -34,7 +35,7 @@ struct Case {
 };
 
 inline Case random_case(const std::string& shape, double damping_ratio, double duration, std::mt19937& random,
-                        const std::string& damping_law = "per_dof") {
+                        rod::DampingLaw damping_law = rod::DampingLaw::per_dof) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   dynamics::BodyInertia body;
   body.mass = std::pow(10.0, 3.0 * uniform(random));
@@ -42,7 +43,7 @@ inline Case random_case(const std::string& shape, double damping_ratio, double d
   const Vector3d turn(0.3 * uniform(random), 0.3 * uniform(random), uniform(random));
   const Vector3d grasp(0.03 * uniform(random), 0.03 * uniform(random), -0.05 + 0.02 * uniform(random));
   body.X_OE = make_transform(Quaterniond(math::exp_so3(turn)), grasp);
-  dynamics::HeldBody held(rod::make_shape_model(shape, 0.2), body, 9.81);
+  dynamics::HeldBody held(rod::make_shape_model(test_support::shape_named(shape), 0.2), body, 9.81);
   const auto factor = [&] { return std::pow(10.0, 0.5 * uniform(random)); };
   rod::ForkSettings fork;
   fork.stiffness = {1500.0 * body.mass * factor(), 500.0 * body.mass * factor(), 5.0 * body.mass * factor()};

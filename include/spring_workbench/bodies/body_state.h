@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "spring_workbench/math/rigid_transform.h"
+#include "spring_workbench/math/state_archive.h"
 
 namespace spring_workbench::bodies {
 
@@ -15,6 +15,8 @@ struct BodyState {
   bool highlighted = false;  ///< the fork's tip is in it and the button is up
   bool in_contact = false;
   bool asleep = true;
+
+  void exchange(math::StateArchive& state) { state(X_WO, V_WO_W, held, highlighted, in_contact, asleep); }
 };
 
 }  // namespace spring_workbench::bodies

@@ -27,8 +27,9 @@ class CoupledTool {
   virtual Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const = 0;
   /// `h` [s] have passed, the object is there, and the tool did `pull_W` to it (at its centre, world axes).
   virtual void follow(double h, const motion::MotionState& object, const Wrench& pull_W) = 0;
-  virtual void remember() = 0;
-  virtual void go_back() = 0;
+  /// As for SteppedBody.
+  virtual void save(TrialStart& start) const = 0;
+  virtual void restore(const TrialStart& start) = 0;
 };
 
 }  // namespace spring_workbench::bodies

@@ -15,8 +15,8 @@ class FreeBody final : public SteppedBody {
   std::size_t index() const override { return index_; }
   motion::MotionState object() const override;
   bool advance(double h, const Wrench& contact_W) override;
-  void remember() override { remembered_ = state_; }
-  void go_back() override { state_ = remembered_; }
+  void save(TrialStart& start) const override { start.keep(state_); }
+  void restore(const TrialStart& start) override { state_ = start.kept<State>(); }
   Response response(double h) const override { return {0.5 * h * h * mobility(), h * mobility()}; }
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
@@ -28,6 +28,8 @@ class FreeBody final : public SteppedBody {
   void set_motion(const motion::MotionState& object);
   /// Position [m] and velocity [m/s] of the centre of mass, world axes; the rotation goes on as it is.
   void set_motion_of_centre(const Vector3d& p_WO, const Vector3d& v_WO_W);
+
+  void exchange(math::StateArchive& state) { state(state_.X_WO, state_.velocity, state_.angular_momentum); }
 
  private:
   struct State {
@@ -41,7 +43,7 @@ class FreeBody final : public SteppedBody {
   double mass_;
   Matrix3d inertia_O_, inverse_inertia_O_;
   double gravity_;
-  State state_, remembered_;
+  State state_;
 };
 
 }  // namespace spring_workbench::bodies

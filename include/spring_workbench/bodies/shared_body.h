@@ -20,8 +20,8 @@ class SharedBody final : public SteppedBody {
   std::size_t index() const override { return free_.index(); }
   motion::MotionState object() const override { return free_.object(); }
   bool advance(double h, const Wrench& contact_W) override;
-  void remember() override;
-  void go_back() override;
+  void save(TrialStart& start) const override;
+  void restore(const TrialStart& start) override;
   Response response(double h) const override;
   Matrix6d mobility() const override { return free_.mobility(); }
   void add_impulse(const Wrench& impulse_W) override { free_.add_impulse(impulse_W); }
@@ -30,9 +30,12 @@ class SharedBody final : public SteppedBody {
  private:
   struct Pulls;  ///< the tools' couplings as one system of equations
   Pulls pulls(double h) const;
+  struct State {
+    TrialStart free;
+    std::vector<TrialStart> tools;
+  };
 
   FreeBody free_;
-  FreeBody remembered_;
   std::vector<CoupledTool*> tools_;
 };
 

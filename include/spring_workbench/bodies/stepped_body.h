@@ -1,6 +1,9 @@
 #pragma once
 
+#include <any>
+
 #include "spring_workbench/math/spatial.h"
+#include "spring_workbench/math/state_archive.h"
 #include "spring_workbench/motion/pose_track.h"
 
 namespace spring_workbench::bodies {
@@ -8,6 +11,29 @@ namespace spring_workbench::bodies {
 inline bool is_finite(const motion::MotionState& s) {
   return s.X.matrix().allFinite() && s.velocity.linear.allFinite() && s.velocity.angular.allFinite();
 }
+
+/// Where a body on trial has come from: what a step changes of its motion, kept by who may have to take the step again.
+/// Filled again without allocation. Less than a saved simulation: what a step has derived on its way stays for the next
+/// try.
+class TrialStart {
+ public:
+  template <typename State>
+  void keep(const State& state) {
+    if (State* kept = std::any_cast<State>(&state_)) {
+      *kept = state;
+    } else {
+      state_ = state;
+    }
+  }
+  /// Of the same body.
+  template <typename State>
+  const State& kept() const {
+    return *std::any_cast<State>(&state_);
+  }
+
+ private:
+  std::any state_;
+};
 
 /// A body that contact can carry over a step again and again until its load fits: the held body on its fork, or a free
 /// one.
@@ -24,9 +50,9 @@ class SteppedBody {
   virtual bool advance(double h, const Wrench& contact_W) = 0;
   /// The last advance() was not a trial: the body stays there.
   virtual void accept() {}
-  /// The state to come back to, and coming back to it.
-  virtual void remember() = 0;
-  virtual void go_back() = 0;
+  /// What to come back to before a trial, and coming back to it, bit by bit.
+  virtual void save(TrialStart& start) const = 0;
+  virtual void restore(const TrialStart& start) = 0;
 
   /// How a constant wrench over a step changes the displacement and the velocity at its end; 6 × 6 [linear; angular].
   struct Response {

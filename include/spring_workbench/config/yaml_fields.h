@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spring_workbench/math/rigid_transform.h"
+#include "spring_workbench/validation/names.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::config {
@@ -19,6 +20,11 @@ bool read_bool(const YAML::Node& node, const std::string& where, const std::stri
 std::string read_string(const YAML::Node& node, const std::string& where, const std::string& key);
 std::string read_choice(const YAML::Node& node, const std::string& where, const std::string& key,
                         const std::vector<std::string>& choices);
+/// The value of an enum (see validation::names).
+template <typename E>
+E read_named(const YAML::Node& node, const std::string& where, const std::string& key) {
+  return validation::named<E>(read_choice(node, where, key, validation::names<E>()), where, key);
+}
 /// `count` finite numbers as a list, or as a string of numbers with spaces between.
 std::vector<double> read_numbers(const YAML::Node& node, const std::string& where, const std::string& key,
                                  std::size_t count);

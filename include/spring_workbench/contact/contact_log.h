@@ -26,6 +26,9 @@ class ContactLog {
   void end_call();
   const std::vector<ContactState>& told() const { return told_; }
 
+  /// Between two calls of `advance`.
+  void exchange(math::StateArchive& state) { state(touching_, with_contacts_, ended_, told_); }
+
  private:
   std::vector<ContactState> all() const;
 

@@ -4,6 +4,7 @@
 
 #include "spring_workbench/collision/collision_world.h"
 #include "spring_workbench/math/spatial.h"
+#include "spring_workbench/math/state_archive.h"
 
 namespace spring_workbench::contact {
 
@@ -16,6 +17,10 @@ struct ContactRow {
   double gap = 0.0;                     ///< along the normal, for the load assumed so far: must not become negative
   Vector3d slip_W = Vector3d::Zero();   ///< across the normal, for the load assumed so far: friction opposes it
   Vector3d load_W = Vector3d::Zero();   ///< force (impulse) on the body; in: assumed, out: solved
+
+  void exchange(math::StateArchive& state) {
+    state(point.other, point.p_W, point.n_W, point.depth, lever_W, friction, gap, slip_W, load_W);
+  }
 };
 
 /// Finds the loads that leave every gap ≥ 0, press only, and keep to Coulomb's friction: gap ≥ 0 ⊥ normal load ≥ 0, and

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "spring_workbench/math/rigid_transform.h"
+#include "spring_workbench/math/state_archive.h"
 
 namespace spring_workbench::contact {
 
@@ -20,6 +20,8 @@ struct ContactState {
   double force = 0.0;                ///< the same as a mean force over that step [N]
   double slip_speed = 0.0;           ///< [m/s]
   ContactPhase phase = ContactPhase::started;
+
+  void exchange(math::StateArchive& state) { state(object, other, p_W, n_W, depth, impulse, force, slip_speed, phase); }
 };
 
 }  // namespace spring_workbench::contact

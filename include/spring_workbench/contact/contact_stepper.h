@@ -40,7 +40,8 @@ class ContactStepper {
   /// Takes away the speed with which the contacts approach, perfectly inelastic or with the materials' restitution.
   enum class Bounce { none, of_materials };
   void collide(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce) const;
-  /// Goes `h` on under loads that leave the rows' gaps closed or open. False when it did not come out free.
+  /// Goes `h` on, from the start of the present trial, under loads that leave the rows' gaps closed or open. False when
+  /// it did not come out free.
   bool advance_in_contact(bodies::SteppedBody& body, double h, std::vector<ContactRow>& rows,
                           ContactOutcome& outcome) const;
   /// Where a contact's point of the body was when a piece began.
@@ -85,7 +86,8 @@ class ContactStepper {
   const scene::Scene& scene_;
   collision::CollisionWorld& collision_;
   int levels_;
-  std::vector<double> radius_;  ///< of every body of the scene [m]
+  std::vector<double> radius_;        ///< of every body of the scene [m]
+  mutable bodies::TrialStart start_;  ///< of the present trial: no allocation in a step
 };
 
 }  // namespace spring_workbench::contact

@@ -33,9 +33,13 @@ class DynamicStepper {
   /// step began; impulses are sums over its pieces, places those of the last.
   const std::vector<rigid_bodies::WorldContact>& contacts() const { return contacts_; }
 
+  /// Between two steps, the world included.
+  void exchange(math::StateArchive& state);
+
  private:
   /// A held body's way over a piece under the contact load of the last one, at whose end the body then is.
   struct Candidate {
+    bodies::TrialStart start;
     motion::MotionState begin, end;
     Wrench load_W;
     Wrench impact_W;  ///< the impulse at its begin
@@ -61,7 +65,7 @@ class DynamicStepper {
   double admissible_fraction(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates,
                              const std::vector<rigid_bodies::DrivenBody>& driven, double h) const;
   /// The same of the ways that the solver foresaw for them.
-  double foreseen_sound_part(const std::vector<rigid_bodies::DrivenBody>& driven) const;
+  double foreseen_admissible_fraction(const std::vector<rigid_bodies::DrivenBody>& driven) const;
   /// The held bodies stay where they are for one piece, while the others go on.
   void hold_back(const std::vector<bodies::SteppedBody*>& held, double h, Outcome& outcome);
   void take(bodies::SteppedBody& body, const Wrench& contact_W);

@@ -3,6 +3,7 @@
 #include <array>
 #include <memory>
 
+#include "spring_workbench/math/state_archive.h"
 #include "spring_workbench/motion/pose_track.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/rod/shape_model.h"
@@ -37,6 +38,8 @@ struct HandleForcings {
 struct StrainState {
   rod::StrainVector q;      ///< strain
   rod::StrainVector q_dot;  ///< strain rate [1/s]
+
+  void exchange(math::StateArchive& state) { state(q, q_dot); }
 };
 
 /// The equation of motion of doc/model.md for a rigid body on a rod on a moving handle, in the active coordinates:
@@ -119,10 +122,15 @@ class HeldBody {
   rod::StrainVector elastic_force(double t, const rod::StrainVector& q) const;
   double kinetic_energy(const Twist& V_WO_W, const Matrix3d& R_WO) const;  ///< [J]
 
+  /// Springs, families, load and versions; shape, body and gravity must be the same ones. What an integrator has
+  /// derived from the equations is good for the versions only together with these: its history goes with them.
+  void exchange(math::StateArchive& state);
+
  private:
   enum class Mode { active, off, returning };
   struct Return {
     double t0 = 0.0, time_constant = 1.0, q0 = 0.0, rate0 = 0.0;
+    void exchange(math::StateArchive& state) { state(t0, time_constant, q0, rate0); }
   };
   struct Kinematics {
     rod::TipKinematics tip;
@@ -155,6 +163,7 @@ class HeldBody {
   void prescribe(double t, int k, S* q, S* q_dot, S* q_ddot) const;
   rod::StrainMatrix mass_matrix(const Kinematics& k, Matrix3d& I_H) const;
   void changed();
+  void take_modes();  ///< what is derived from modes, springs and dampers
 
   std::shared_ptr<const rod::ShapeModel> shape_;
   BodyInertia body_;
@@ -165,13 +174,14 @@ class HeldBody {
   double gravity_;
   long version_ = 0;
   long load_version_ = 0;
+  rod::PerDof stiffness_;    ///< of the families
   rod::StrainVector K_, D_;  ///< all coordinates; with modal damping D_ is zero
   bool modal_ = false;
   double modal_ratio_ = 0.0;
   rod::StrainMatrix D_modal_;  ///< active coordinates; where modal_
-  std::array<Mode, rod::max_strain_coordinates> mode_;
+  std::array<Mode, rod::max_strain_coordinates> mode_{};
   std::array<Return, rod::max_strain_coordinates> return_;
-  std::array<int, rod::max_strain_coordinates> active_;  ///< indices of the active coordinates
+  std::array<int, rod::max_strain_coordinates> active_{};  ///< indices of the active coordinates
   int active_count_ = 0;
   double axial_unit_ = 1.0;  ///< extension [m] or twist [rad] by strain 1, where that coordinate alone is active
   int shape_size_ = 0;

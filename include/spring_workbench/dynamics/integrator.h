@@ -1,10 +1,9 @@
 #pragma once
 
 #include <memory>
-#include <string>
-#include <vector>
 
 #include "spring_workbench/dynamics/held_body.h"
+#include "spring_workbench/dynamics/settings.h"
 
 namespace spring_workbench::dynamics {
 
@@ -24,7 +23,6 @@ class Integrator {
  public:
   virtual ~Integrator() = default;
 
-  virtual std::string name() const = 0;
   /// Order of accuracy for smooth motions.
   virtual int order() const = 0;
   /// Whether no stiffness, however large, limits the step: what StepControl guards.
@@ -43,12 +41,11 @@ class Integrator {
   };
   /// From the implicit Euler rule unless a method knows better.
   virtual Response response(const HeldBody& body, double t, double h, const StrainState& state);
+
+  /// The history: what it has kept of the equations and the last step, to be given back to one of the same name.
+  virtual void exchange(math::StateArchive&) {}
 };
 
-/// The names that `make_integrator` knows.
-const std::vector<std::string>& integrator_names();
-
-/// Throws InputError for a name that is not in integrator_names().
-std::unique_ptr<Integrator> make_integrator(const std::string& name);
+std::unique_ptr<Integrator> make_integrator(IntegratorKind kind);
 
 }  // namespace spring_workbench::dynamics

@@ -1,14 +1,23 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace spring_workbench::dynamics {
 
+/// How the held body's state is carried over a step (doc/model.md, "Integrators").
+enum class IntegratorKind { exponential, rosenbrock, implicit_euler, closed_form, semi_implicit_euler, rk4 };
+const std::vector<std::string>& names_of(IntegratorKind);
+
+/// The held object's own inertia, or the paper's I = r² m (section 3.1).
+enum class Inertia { exact, point_mass };
+const std::vector<std::string>& names_of(Inertia);
+
 struct DynamicsSettings {
-  std::string integrator = "exponential";  ///< key `integrator`: one of integrator_names()
-  double step = 0.02;             ///< key `step` [s], 1e-6 … 1: the largest step; a step also ends at every sample
-  double tolerance = 0.0;         ///< key `tolerance` [m], 0 … 0.1: of the run's error; 0: fixed steps (StepControl)
-  std::string inertia = "exact";  ///< key `inertia`: exact, or point_mass (the paper's I = r² m, section 3.1)
+  IntegratorKind integrator = IntegratorKind::exponential;  ///< key `integrator`
+  double step = 0.02;      ///< key `step` [s], 1e-6 … 1: the largest step; a step also ends at every sample
+  double tolerance = 0.0;  ///< key `tolerance` [m], 0 … 0.1: of the run's error; 0: fixed steps (StepControl)
+  Inertia inertia = Inertia::exact;  ///< key `inertia`
 };
 
 }  // namespace spring_workbench::dynamics

@@ -45,6 +45,10 @@ class StepControl {
     RigidTransform X_WH = RigidTransform::Identity();
     double lowest_energy = 0.0;  ///< of the body and the fork [J]
     double energy_scale = 0.0;   ///< what rounding is measured by [J]
+
+    void exchange(math::StateArchive& state) {
+      state(next_h, version, t, error, omega_version, stiffest_omega, rests, X_WH, lowest_energy, energy_scale);
+    }
   };
 
   /// `tolerance` [m]: 0 takes spans as they come; up to largest_tolerance.

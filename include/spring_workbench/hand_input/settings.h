@@ -9,6 +9,7 @@ namespace spring_workbench::hand_input {
 
 /// What happens to a held object when its hand is lost: it stays where the hand was last, or is let go of.
 enum class OnLoss { freeze, release };
+const std::vector<std::string>& names_of(OnLoss);
 
 /// The rules by which samples of a tracker are let through, filtered and followed. Keys `input.*`.
 struct InputSettings {

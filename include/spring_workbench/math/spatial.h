@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "spring_workbench/math/rigid_transform.h"
 
 namespace spring_workbench {
@@ -11,5 +13,11 @@ inline Vector6d to_vector(const Twist& V) { return (Vector6d() << V.linear, V.an
 inline Vector6d to_vector(const Wrench& F) { return (Vector6d() << F.force, F.moment).finished(); }
 inline Twist to_twist(const Vector6d& v) { return {v.head<3>(), v.tail<3>()}; }
 inline Wrench to_wrench(const Vector6d& f) { return {f.head<3>(), f.tail<3>()}; }
+
+/// Radius of gyration ρ [m] of a body of `mass` [kg] > 0, `inertia` [kg·m²] about its centre of mass: the root mean
+/// square of those about its three principal axes, ρ² = tr I / (3 m).
+inline double radius_of_gyration(double mass, const Matrix3d& inertia) {
+  return std::sqrt(inertia.trace() / (3.0 * mass));
+}
 
 }  // namespace spring_workbench

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <limits>
 
+#include "spring_workbench/math/state_archive.h"
 #include "spring_workbench/motion/frame_motion.h"
 
 namespace spring_workbench::motion {
@@ -10,6 +12,8 @@ namespace spring_workbench::motion {
 struct PoseSample {
   double t = 0.0;
   RigidTransform X = RigidTransform::Identity();
+
+  void exchange(math::StateArchive& state) { state(t, X); }
 };
 
 /// The motion between two neighbouring samples: a cubic Hermite polynomial in position and in rotation vector from the
@@ -34,10 +38,15 @@ class MotionSegment final : public FrameMotion {
   OwnAxesMotion in_own_axes(double t) const override;
   FrameForcing<math::Pack> forcing(const math::Pack& t, double gravity) const override;
 
+  void exchange(math::StateArchive& state) {
+    state(X_a_, begin_, end_, moving_, turning_, position_, rotation_, elsewhere_, X_BC_);
+  }
+
  private:
   /// `u (c[0] + u (c[1] + …))` for u = 0 … 1 over the segment: what a vector adds to its value at the start.
   struct Polynomial {
-    Vector3d c[3];
+    std::array<Vector3d, 3> c{{Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()}};
+    void exchange(math::StateArchive& state) { state(c); }
     static Polynomial cubic(const Vector3d& change, const Vector3d& slope_a, const Vector3d& slope_b);
     template <typename S>
     SPRING_WORKBENCH_INLINE math::Three<S> value(const S& u) const {

@@ -32,12 +32,15 @@ class PoseTrack {
   void forget_before(double t);
   void clear();
 
+  void exchange(math::StateArchive& state);
+
  private:
   struct Node {
     PoseSample sample;
     bool velocity_fixed = false;
     Vector3d v_W = Vector3d::Zero();  ///< [m/s]
     Vector3d w_B = Vector3d::Zero();  ///< body rates [rad/s]
+    void exchange(math::StateArchive& state) { state(sample, velocity_fixed, v_W, w_B); }
   };
 
   bool joined(std::size_t k) const;          ///< sample k + 1 exists and follows sample k without a dropout

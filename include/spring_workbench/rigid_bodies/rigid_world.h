@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spring_workbench/math/spatial.h"
+#include "spring_workbench/math/state_archive.h"
 #include "spring_workbench/scene/scene.h"
 
 namespace spring_workbench::rigid_bodies {
@@ -35,6 +36,8 @@ struct WorldContact {
   Vector3d n_W = Vector3d::UnitZ();       ///< unit normal, from `other` towards `body`
   double depth = 0.0;                     ///< penetration before the step [m]
   Vector3d impulse_W = Vector3d::Zero();  ///< on `body`, in the last step [N·s]
+
+  void exchange(math::StateArchive& state) { state(body, other, p_W, n_W, depth, impulse_W); }
 };
 
 /// What moves together in contact mode `dynamic` (doc/model.md): all bodies of the scene in one rigid-body world.
@@ -49,9 +52,9 @@ class RigidWorld {
   /// Goes `h` [s] > 0 on. Driven bodies are only looked at: place() them afterwards.
   virtual void step(double h, std::vector<DrivenBody>& driven) = 0;
 
-  /// The state of all bodies that are not driven, to come back to, and coming back to it.
-  virtual void remember() = 0;
-  virtual void go_back() = 0;
+  /// All bodies that are not driven go back to where the last step found them, to take it in another way; what it found
+  /// out about contacts stays for the next try.
+  virtual void undo_step() = 0;
 
   /// Puts a movable body somewhere, awake or asleep.
   virtual void place(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W, bool awake) = 0;
@@ -74,7 +77,7 @@ class RigidWorld {
   virtual double collision_free_fraction(std::size_t body, const RigidTransform& X0_WO,
                                          const RigidTransform& X1_WO) const = 0;
   /// Which part it surely goes without having gone through anything or, among boxes, without being deeper than 0.05 mm,
-  /// or than at the start (half, if the last step was not solved to 1 µm). Others have gone straight since remember().
+  /// or than at the start (half, if the last step was not solved to 1 µm). Others have gone straight in the last step.
   virtual double admissible_fraction(std::size_t body, const RigidTransform& X0_WO,
                                      const RigidTransform& X1_WO) const = 0;
 
@@ -82,6 +85,9 @@ class RigidWorld {
   virtual const std::vector<WorldContact>& contacts() const = 0;
   /// Bodies of the scene that have to be looked at, at present: those awake and what is near them.
   virtual const std::vector<std::size_t>& bodies_near() const = 0;
+
+  /// All of its state between two steps.
+  virtual void exchange(math::StateArchive& state) = 0;
 };
 
 /// All movable bodies begin asleep at the scene's poses. Bullet does the work, in double precision. Who calls this is

@@ -1,6 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
+
+#include "spring_workbench/math/state_archive.h"
 
 namespace spring_workbench::rod {
 
@@ -9,6 +13,8 @@ struct PerDof {
   double stretch = 0.0;
   double bend = 0.0;
   double torsion = 0.0;
+
+  void exchange(math::StateArchive& state) { state(stretch, bend, torsion); }
 };
 
 inline bool operator==(const PerDof& a, const PerDof& b) {
@@ -20,20 +26,37 @@ struct ForkDofs {
   bool stretch = true;
   bool bend = true;
   bool torsion = true;
+
+  void exchange(math::StateArchive& state) { state(stretch, bend, torsion); }
   bool operator==(const ForkDofs& o) const { return stretch == o.stretch && bend == o.bend && torsion == o.torsion; }
 };
 
+/// How the rod's curvature may vary along it (doc/model.md, "Shape models").
+enum class ShapeKind { constant, linear, quadratic, bushing };
+const std::vector<std::string>& names_of(ShapeKind);
+
+/// What the damping numbers are: a ratio per DOF (Kelvin–Voigt, that of each DOF alone), one ratio for every mode of
+/// the held body, or the coefficients themselves.
+enum class DampingLaw { per_dof, modal, coefficients };
+const std::vector<std::string>& names_of(DampingLaw);
+
 /// The spring-fork's elastic part (doc/model.md, "The spring-fork is a rod").
 struct ForkSettings {
-  std::string shape = "linear";          ///< key `shape`: the shape model's name
-  double length = 0.2;                   ///< key `fork.length` [m], > 0: rest length L
-  PerDof stiffness{2000.0, 500.0, 5.0};  ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
-  PerDof damping_ratio{1.0, 1.0, 1.0};   ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
-  std::string damping_law = "per_dof";   ///< key `fork.damping_law`: per_dof, or modal: the same ζ in every mode
-                                         ///< of the held body, for one ζ of all families
-  ForkDofs dofs;                         ///< keys `fork.dofs.*`
-  double switch_off_time = 0.05;         ///< key `fork.switch_off_time` [s], > 0: time constant on which a family that
-                                         ///< is switched off while strained goes back to zero strain
+  ShapeKind shape = ShapeKind::linear;    ///< key `shape`
+  double length = 0.2;                    ///< key `fork.length` [m], > 0: rest length L
+  PerDof stiffness{2000.0, 500.0, 5.0};   ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
+  std::optional<double> slope_stiffness;  ///< key `fork.stiffness.slope` [N·m/rad], > 0: of the `bushing`'s end slope,
+                                          ///< for a bend stiffness > 0; by default k_bend L² / 3, as of a rod
+  PerDof damping_ratio{1.0, 1.0, 1.0};    ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
+  PerDof damping_coefficient;  ///< keys `fork.damping_coefficient.*` [N·s/m, N·s/m, N·m·s/rad], ≥ 0: those of the law
+                               ///< `coefficients`
+  DampingLaw damping_law = DampingLaw::per_dof;  ///< key `fork.damping_law`; `modal` wants one ζ for all DOFs
+  ForkDofs dofs;                                 ///< keys `fork.dofs.*`
+  double switch_off_time = 0.05;  ///< key `fork.switch_off_time` [s], > 0: time constant on which a family that
+                                  ///< is switched off while strained goes back to zero strain
 };
+
+/// Coefficient of a damper [N·s/m] beside the fork's stretching spring, for a body of `mass` [kg] that it alone holds.
+double stretch_damping(const ForkSettings& fork, double mass);
 
 }  // namespace spring_workbench::rod

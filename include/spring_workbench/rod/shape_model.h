@@ -57,7 +57,6 @@ class ShapeModel {
  public:
   virtual ~ShapeModel() = default;
 
-  virtual std::string name() const = 0;
   /// Number of strain coordinates: bend first, then torsion, then stretch.
   virtual int size() const = 0;
   virtual CoordinateRange bend() const = 0;
@@ -102,10 +101,8 @@ class ShapeModel {
   double length_;  ///< [m]
 };
 
-/// The names that `make_shape_model` knows.
-const std::vector<std::string>& shape_model_names();
-
-/// `name` one of shape_model_names(), `length` [m] > 0. Throws InputError otherwise.
-std::shared_ptr<const ShapeModel> make_shape_model(const std::string& name, double length);
+/// `length` [m] > 0; `slope_stiffness` as of ForkSettings. Throws InputError for another length.
+std::shared_ptr<const ShapeModel> make_shape_model(ShapeKind kind, double length,
+                                                   std::optional<double> slope_stiffness = std::nullopt);
 
 }  // namespace spring_workbench::rod

@@ -36,6 +36,7 @@ struct Body {
 };
 
 enum class ContactMode { none, stop, dynamic };
+const std::vector<std::string>& names_of(ContactMode);
 
 /// Where an object has to be brought in an assembly: pose of its link frame in world, with tolerances [m, rad].
 struct Target {

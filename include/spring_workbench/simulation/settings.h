@@ -1,13 +1,14 @@
 #pragma once
 
-#include <functional>
+#include <optional>
 #include <string>
+#include <vector>
 
-#include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/dynamics/settings.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/tools/settings.h"
+#include "spring_workbench/tools/tool.h"
 
 namespace YAML {
 class Node;
@@ -18,24 +19,49 @@ namespace spring_workbench::simulation {
 /// Everything that can be set from outside about a simulation. One field per key; the keys with unit, range and meaning
 /// are in `setting_descriptions()`, which the parameter server, `replay` and the reference in doc/ are all made from.
 struct SimulationSettings {
-  std::string tool = "";                ///< key `tool`; empty: as the scene says
-  std::string contact = "";             ///< key `contact`; none, stop, dynamic; empty: as the scene says
-  double gravity = -1.0;                ///< key `gravity` [m/s²]; negative: as the scene says
-  double force_scale = -1.0;            ///< key `force_scale`; negative: as the scene says
-  dynamics::DynamicsSettings dynamics;  ///< keys `integrator`, `step`, `tolerance`, `inertia`
-  rod::ForkSettings fork;               ///< keys `shape`, `fork.*`
-  tools::LimitSettings limit;           ///< keys `limit.*`
-  tools::GraspSettings grasp;           ///< keys `calibrate`, `grasp.*`, `start.follow`, `release`
-  double dropout_after = 0.5;           ///< key `dropout_after` [s]
-  int bisection_levels = 8;             ///< key `bisection_levels`; 0 … 30 (paper, section 5); 0: time of impact
+  std::optional<tools::Tool> tool;            ///< key `tool`; by default as the scene says, so the next three
+  std::optional<scene::ContactMode> contact;  ///< key `contact`
+  std::optional<double> gravity;              ///< key `gravity` [m/s²], 0 … 1000
+  std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9
+  dynamics::DynamicsSettings dynamics;        ///< keys `integrator`, `step`, `tolerance`, `inertia`
+  rod::ForkSettings fork;                     ///< keys `shape`, `fork.*`
+  tools::LimitSettings limit;                 ///< keys `limit.*`
+  tools::GraspSettings grasp;                 ///< keys `calibrate`, `grasp.*`, `start.follow`, `release`
+  double dropout_after = 0.5;                 ///< key `dropout_after` [s]
+  int bisection_levels = 8;  ///< key `bisection_levels`; 0 … 30 (paper, section 5); 0: time of impact
 };
 
-/// Throws InputError for an unknown damping law, or one that the damping ratios do not go with (doc/model.md,
-/// "Damping").
-void check_damping(const std::string& where, const rod::ForkSettings& fork);
+/// Throws InputError naming `where`, key, value and rule for a value that its key does not allow, or for damping ratios
+/// that do not go with the damping law.
+void validate(const SimulationSettings& settings, const std::string& where);
 
-/// Which tolerances `integrator` may be given [m]; 0: fixed steps.
-validation::NumberRule allowed_tolerance();
+/// A change of the fork while running; what is absent stays as it is.
+struct ForkChange {
+  std::optional<rod::ForkDofs> dofs;
+  std::optional<double> stretch_stiffness, bend_stiffness;  ///< [N/m]
+  std::optional<double> torsion_stiffness;                  ///< [N·m/rad]
+  std::optional<rod::PerDof> damping_ratio;                 ///< –
+  std::optional<rod::PerDof> damping_coefficient;           ///< [N·s/m, N·s/m, N·m·s/rad]
+  std::optional<rod::DampingLaw> damping_law;
+
+  bool empty() const { return !dofs && !changes_springs(); }
+  bool changes_springs() const;
+  /// The fork with it.
+  rod::ForkSettings applied_to(rod::ForkSettings fork) const;
+};
+
+/// The change after which a fork, with its own shape and length, is as this one.
+ForkChange change_to(const rod::ForkSettings& fork);
+
+/// The same of how time is stepped.
+struct DynamicsChange {
+  std::optional<dynamics::IntegratorKind> integrator;
+  std::optional<double> step;       ///< [s]
+  std::optional<double> tolerance;  ///< [m]; 0: fixed steps
+
+  bool empty() const { return !integrator && !step && !tolerance; }
+  dynamics::DynamicsSettings applied_to(dynamics::DynamicsSettings dynamics) const;
+};
 
 /// What one key means.
 struct SettingDescription {

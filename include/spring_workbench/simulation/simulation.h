@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +12,7 @@
 #include "spring_workbench/motion/pose_track.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/simulation/settings.h"
+#include "spring_workbench/simulation/state.h"
 #include "spring_workbench/tools/tool_state.h"
 
 namespace spring_workbench::simulation {
@@ -57,7 +60,10 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
 
   const scene::Scene& scene() const;
+  /// As given; `dynamics` as changed since.
   const SimulationSettings& settings() const;
+  /// The fork in a hand: as given, changed and calibrated since.
+  const rod::ForkSettings& fork_settings(std::size_t hand = 0) const;
 
   /// Simulated time [s]: the first sample's stamp at first.
   double time() const;
@@ -67,7 +73,7 @@ class Simulation {
   bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
   /// The grasp button goes down or up at time `t` [s]; takes effect at the first step that begins at or after `t`.
   void push_button(double t, bool pressed, std::size_t hand = 0);
-  /// The second button of the stylus is pressed at time `t` [s]: the next of tool_names(), or, while something is held,
+  /// The second button of the stylus is pressed at time `t` [s]: the next of the tools, or, while something is held,
   /// the next that can hold it.
   void push_next_tool(double t, std::size_t hand = 0);
   /// Time of the newest sample of any hand, or time() where there is none.
@@ -86,25 +92,34 @@ class Simulation {
   /// The same of one hand.
   bool release(std::size_t hand);
 
-  // Changes while running, of the tools in all hands; pose and twist of the object go on without a jump. Bad values
-  // throw InputError and change nothing.
-  /// One of tool_names(), for one hand. The object that it holds goes on; the new tool starts without strain. The probe
-  /// cannot hold: with it the object is let go.
-  ChangeReport select_tool(const std::string& name, std::size_t hand = 0);
-  ChangeReport set_dofs(const rod::ForkDofs& dofs);
-  /// A family with 0 keeps its stiffness.
-  ChangeReport set_stiffness(const rod::PerDof& stiffness);
-  /// `law`: one of damping_laws(); empty keeps the present one. `modal` takes one ratio for all families.
-  ChangeReport set_damping_ratio(const rod::PerDof& ratio, const std::string& law = "");
-  /// Stiffness from the mass and size of the held object, the first hand's where both hold one; the damping ratios
+  // Changes while running; pose and twist of the object go on without a jump. One that cannot be made throws InputError
+  // and changes nothing.
+  /// Another tool in one hand. The object that it holds goes on; the new tool starts without strain. The probe cannot
+  /// hold: with it the object is let go.
+  ChangeReport select_tool(tools::Tool tool, std::size_t hand = 0);
+  /// Of the fork in one hand, or in all.
+  ChangeReport change(const ForkChange& change, std::optional<std::size_t> hand = std::nullopt);
+  void change(const DynamicsChange& change);
+  /// Both, or neither.
+  void change(const ForkChange& of_fork, const DynamicsChange& of_dynamics);
+  /// Stiffness from the mass and size of the held object, of the fork in each hand that holds one; the damping ratios
   /// stay. Throws InputError when nothing is held.
   ChangeReport calibrate();
-  /// By name; `step` [s] 0 keeps the present one; `tolerance` [m] of the run, 0 takes fixed steps (see StepControl).
-  void set_integrator(const std::string& name, double step, double tolerance = 0.0);
 
   const std::vector<bodies::BodyState>& objects() const;
   tools::ToolState fork(std::size_t hand = 0) const;
   const std::vector<contact::ContactState>& contacts() const;
+
+  /// The whole state: time, hands with their samples, buttons, tools and holds, objects, contacts and their warm
+  /// starts, histories of integrators, and the settings that can be changed while running. Two saves of one state are
+  /// equal.
+  SimulationState save() const;
+  /// Goes on from a saved state, bit by bit as the simulation that it is of, whatever has happened since. Throws
+  /// InputError where that was of other objects, another contact mode or another shape of the fork, and for numbers
+  /// that are no state; then nothing has changed.
+  void restore(const SimulationState& state);
+  /// The hash of save().
+  std::uint64_t state_hash() const { return save().hash(); }
 
  private:
   struct Impl;

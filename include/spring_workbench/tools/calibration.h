@@ -1,7 +1,5 @@
 #pragma once
 
-#include <string>
-
 #include "spring_workbench/dynamics/held_body.h"
 
 namespace spring_workbench::tools {
@@ -20,8 +18,8 @@ double weighing_gravity(double gravity);
 /// along −x of the handle, it deflects the tip by as much: both in the full nonlinear equilibrium. Then every
 /// direction, twisting too, has near to the natural frequency `ω = sqrt(g / (sag · length))`, whatever the mass.
 /// Without gravity as on Earth.
-rod::PerDof calibrated_stiffness(const std::string& shape, double length, const dynamics::BodyInertia& body,
-                                 double gravity, const CalibrationGoal& goal = {});
+rod::PerDof calibrated_stiffness(rod::ShapeKind shape, double length, const dynamics::BodyInertia& body, double gravity,
+                                 const CalibrationGoal& goal = {});
 
 /// Stiffness [N/m] of the tool `spring` that the weight of `mass` [kg] extends by `goal.sag` of `length` [m]. Without
 /// gravity as on Earth.

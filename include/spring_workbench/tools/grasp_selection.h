@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <optional>
 
-#include "spring_workbench/math/rigid_transform.h"
+#include "spring_workbench/math/state_archive.h"
 
 namespace spring_workbench::tools {
 
@@ -21,6 +21,8 @@ class GraspSelection {
   /// The button's level; says what follows from it.
   GraspEvent set_button(bool pressed, bool holding);
   bool pressed() const { return pressed_; }
+
+  void exchange(math::StateArchive& state) { state(inserted_, pressed_); }
 
  private:
   std::optional<std::size_t> inserted_;

@@ -18,6 +18,8 @@ struct Grasp {
   RigidTransform X_OE;  ///< the tip in the object
   double reach;         ///< from the stylus to the tip, along z [m]
   double length;        ///< of the spring part of a fork [m]; the rest of the reach is rigid
+
+  void exchange(math::StateArchive& state) { state(tool, object, X_WS, X_OE, reach, length); }
 };
 
 /// The object that it takes.

@@ -31,14 +31,18 @@ class Probe final : public bodies::CoupledTool {
 
   bodies::Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const override;
   void follow(double h, const motion::MotionState& object, const Wrench& pull_W) override;
-  void remember() override { remembered_ = state_; }
-  void go_back() override { state_ = remembered_; }
+  void save(bodies::TrialStart& start) const override { start.keep(state_); }
+  void restore(const bodies::TrialStart& start) override { state_ = start.kept<State>(); }
 
   /// On a body that does not move: the force is that of the springs at rest.
   void press();
 
   double elastic_energy() const;
   const scene::Body* body() const { return body_; }
+  /// All that changes while it touches the same body.
+  void exchange(math::StateArchive& state) {
+    state(k_, c_, hand_, state_.t, state_.depth, state_.indent, state_.force);
+  }
   /// Fills in what the probe knows; `X_WH`: the hand.
   void describe(const RigidTransform& X_WH, ToolState& state) const;
 
@@ -57,7 +61,7 @@ class Probe final : public bodies::CoupledTool {
   scene::Material material_;
   double k_ = 0.0, c_ = 0.0;  ///< of the probe
   motion::MotionSegment hand_;
-  State state_, remembered_;
+  State state_;
 };
 
 }  // namespace spring_workbench::tools

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "spring_workbench/math/rigid_transform.h"
 
@@ -14,12 +15,20 @@ struct LimitSettings {
   double moment = std::numeric_limits<double>::infinity();  ///< key `limit.moment` [N·m], > 0
 };
 
+/// What size, springs and dampers of a tool are made for at each grasp.
+enum class Calibration { none, object };
+const std::vector<std::string>& names_of(Calibration);
+
+/// What a released object does: it keeps its twist, or is set to rest.
+enum class Release { thrown, dropped };
+const std::vector<std::string>& names_of(Release);
+
 struct GraspSettings {
-  bool calibrate = false;              ///< key `calibrate`: on every grasp, from the object's mass and size
+  Calibration calibrate = Calibration::none;  ///< key `calibrate`: from the object's mass and size
   std::string object = "";             ///< key `grasp.object`: held from the first sample to the last; empty: by button
   std::optional<RigidTransform> X_OE;  ///< key `grasp.tip_in_object` (x y z qx qy qz qw); absent: where the tip is
   bool start_follow = false;           ///< key `start.follow`: move the object so that the grasp fits the first pose
-  std::string release = "thrown";      ///< key `release`: thrown keeps the object's twist, dropped sets it to rest
+  Release release = Release::thrown;   ///< key `release`
 };
 
 }  // namespace spring_workbench::tools

@@ -14,10 +14,7 @@ enum class Tool {
   ray,           ///< rigid, picked by a ray along z of the hand
 };
 
-const std::vector<std::string>& tool_names();
-std::string name_of(Tool tool);
-/// Throws InputError naming `where` for a name that is not in tool_names().
-Tool tool_called(const std::string& name, const std::string& where);
+const std::vector<std::string>& names_of(Tool);
 bool can_hold(Tool tool);
 /// Whether what is held turns with the hand.
 bool turns(Tool tool);

@@ -16,14 +16,16 @@ struct StepEstimates {
   int extra_steps = 0;    ///< beside one for each call of advance()
   int rejected = 0;       ///< taken again shorter, for their error
   int energy_held = 0;    ///< whose gain of energy was taken away
+
+  void exchange(math::StateArchive& state) { state(position, angle, omega_dt, extra_steps, rejected, energy_held); }
 };
 
 /// A tool's hold on an object: the object as the hand moves it through the tool.
 class ToolHold : public bodies::SteppedBody, public bodies::CoupledTool {
  public:
   // One state, whether the object is carried by this tool alone or shared.
-  void remember() override = 0;
-  void go_back() override = 0;
+  void save(bodies::TrialStart& start) const override = 0;
+  void restore(const bodies::TrialStart& start) override = 0;
   /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
   virtual void set_hand(const motion::MotionSegment& hand, double t) = 0;
   /// Whether nothing moves for the next `h` [s], and nothing need be done but let_pass(): the hand is at rest and the
@@ -50,6 +52,9 @@ class ToolHold : public bodies::SteppedBody, public bodies::CoupledTool {
   virtual double elastic_energy() const = 0;  ///< [J]
   virtual double energy_added() const = 0;    ///< by integration since the grasp [J]
   virtual StepEstimates take_estimates() = 0;
+  /// All that changes while it holds, between two steps, the integrator's history and the estimates included; given
+  /// back to a hold made for the same grasp and settings.
+  virtual void exchange(math::StateArchive& state) = 0;
   /// Fills in what the tool knows of its state. `massless`: the object has no mass, and forces mean nothing.
   virtual void describe(bool massless, ToolState& state) const = 0;
 };

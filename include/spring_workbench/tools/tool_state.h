@@ -2,19 +2,21 @@
 
 #include <string>
 
+#include "spring_workbench/dynamics/settings.h"
 #include "spring_workbench/rod/shape_model.h"
+#include "spring_workbench/tools/tool.h"
 
 namespace spring_workbench::tools {
 
 /// State of the tool in a hand.
 struct ToolState {
   bool present = false;  ///< a sample of this hand is known
-  std::string tool = "spring_fork";
+  Tool tool = Tool::spring_fork;
   std::string held_object;  ///< empty when nothing is held
   std::string touched;      ///< what the probe is on, "workbench" for the bench; else empty
-  std::string shape;
-  std::string integrator;
-  rod::ForkDofs dofs;                                ///< families switched on
+  rod::ShapeKind shape = rod::ShapeKind::linear;
+  dynamics::IntegratorKind integrator = dynamics::IntegratorKind::exponential;
+  rod::ForkDofs dofs;                                ///< DOFs switched on
   double length = 0.0;                               ///< rest length [m]
   rod::PerDof stiffness;                             ///< [N/m, N/m, N·m/rad]
   rod::PerDof damping_ratio;                         ///< –

@@ -3,6 +3,8 @@
 #include <locale>
 #include <sstream>
 
+#include "spring_workbench/validation/names.h"
+
 namespace spring_workbench::replay {
 namespace {
 
@@ -92,7 +94,10 @@ std::string fork_header() {
 std::string fork_row(double t, const simulation::Simulation& simulation, std::size_t hand) {
   const auto fork = simulation.fork(hand);
   Row row;
-  row.add(t).add(hand == 0 ? "fork" : "fork_" + std::to_string(hand + 1)).add(fork.tool).add(fork.held_object);
+  row.add(t)
+      .add(hand == 0 ? "fork" : "fork_" + std::to_string(hand + 1))
+      .add(validation::name_of(fork.tool))
+      .add(fork.held_object);
   row.add(fork.stretch).add(fork.bend).add(fork.torsion);
   row.add(fork.X_WH).add(fork.X_WH_proxy).add(fork.X_WE);
   row.add(fork.tip_wrench_W.force).add(fork.tip_wrench_W.moment);

@@ -162,11 +162,12 @@ RUN.fork.csv, a line per output time and hand:
   elastic_energy,kinetic_energy             [J] of the fork; of the held object
 
 The last line on standard output is one JSON object: steps, simulated_time and wall_time and time_per_step [s], outputs,
-samples, samples_rejected (by the rules of input.*; left_out says why), reengagements, losses (of the hand),
+samples, samples_rejected (by the rules of input.*; rejected says why), reacquisitions, losses (of the hand),
 position_error [m] and angle_error [rad] (the largest estimate of a step's local error), energy_drift [J] (added by
 integration beyond hand, gravity, damping and contact), stiffest_omega_dt, contacts (pairs that came into
 contact, as seen at the output times), collision_queries, steps_blocked (steps in which contact left an object
-no way and it stayed), steps_rejected, active, skipped.
+no way and it stayed), steps_rejected, state_hash (of the whole state at the end, 16 hexadecimal digits), active,
+skipped.
 Exit status: 0 done; 2 bad arguments or input, with one line on standard error.
 
 Keys (unit; allowed; default): meaning

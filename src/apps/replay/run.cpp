@@ -73,6 +73,7 @@ Summary run(const Options& options) {
     summary.add(feed.gate_counts(hand));
     summary.add(feed.reacquisition_counts(hand));
   }
+  summary.state_hash = simulation.state_hash();
   fork.commit();
   objects.commit();
   return summary;

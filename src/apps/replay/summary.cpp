@@ -1,5 +1,6 @@
 #include "summary.h"
 
+#include <cmath>
 #include <cstdio>
 #include <locale>
 #include <sstream>
@@ -20,6 +21,16 @@ std::string quoted(const std::string& text) {
     }
   }
   return json + "\"";
+}
+
+/// JSON has no word for what is not finite.
+std::string number(double value) {
+  if (!std::isfinite(value)) return "null";
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out.precision(9);
+  out << value;
+  return out.str();
 }
 
 std::string list_of(const std::vector<std::string>& words) {
@@ -71,14 +82,15 @@ std::string Summary::json() const {
       << ", \"wall_time\": " << wall_time
       << ", \"time_per_step\": " << (advance.steps > 0 ? wall_time / advance.steps : 0.0)
       << ", \"outputs\": " << outputs << ", \"samples\": " << samples << ", \"samples_rejected\": " << samples_rejected
-      << ", \"left_out\": " << rejected << ", \"dropouts\": " << gate.dropouts
-      << ", \"reengagements\": " << hand.reacquisitions << ", \"losses\": " << hand.losses
-      << ", \"position_error\": " << advance.position_error << ", \"angle_error\": " << advance.angle_error
-      << ", \"energy_drift\": " << advance.energy_added << ", \"stiffest_omega_dt\": " << advance.stiffest_omega_dt
-      << ", \"contacts\": " << contacts_ << ", \"collision_queries\": " << advance.collision_queries
-      << ", \"substeps\": " << advance.substeps << ", \"energy_held\": " << advance.energy_held
-      << ", \"steps_blocked\": " << advance.steps_blocked << ", \"steps_rejected\": " << advance.steps_rejected
-      << ", \"active\": " << list_of(advance.active) << ", \"skipped\": " << list_of(advance.skipped) << "}";
+      << ", \"rejected\": " << rejected << ", \"dropouts\": " << gate.dropouts
+      << ", \"reacquisitions\": " << hand.reacquisitions << ", \"losses\": " << hand.losses
+      << ", \"position_error\": " << number(advance.position_error)
+      << ", \"angle_error\": " << number(advance.angle_error) << ", \"energy_drift\": " << number(advance.energy_added)
+      << ", \"stiffest_omega_dt\": " << number(advance.stiffest_omega_dt) << ", \"contacts\": " << contacts_
+      << ", \"collision_queries\": " << advance.collision_queries << ", \"substeps\": " << advance.substeps
+      << ", \"energy_held\": " << advance.energy_held << ", \"steps_blocked\": " << advance.steps_blocked
+      << ", \"steps_rejected\": " << advance.steps_rejected << ", \"state_hash\": \"" << simulation::to_hex(state_hash)
+      << "\", \"active\": " << list_of(advance.active) << ", \"skipped\": " << list_of(advance.skipped) << "}";
   return out.str();
 }
 

@@ -15,8 +15,9 @@ class Summary {
   hand_input::GateCounts gate;  ///< of them
   hand_input::ReacquisitionCounts hand;
   simulation::AdvanceReport advance;
-  int outputs = 0;         ///< output times
-  double wall_time = 0.0;  ///< [s]
+  int outputs = 0;               ///< output times
+  double wall_time = 0.0;        ///< [s]
+  std::uint64_t state_hash = 0;  ///< of the simulation at the end
 
   void add(const hand_input::GateCounts& of_hand);
   void add(const hand_input::ReacquisitionCounts& of_hand);

@@ -21,20 +21,23 @@ XmlRpc::XmlRpcValue list(std::initializer_list<double> numbers) {
 XmlRpc::XmlRpcValue list(const rod::PerDof& f) { return list({f.stretch, f.bend, f.torsion}); }
 
 XmlRpc::XmlRpcValue state_of(const simulation::Simulation& simulation) {
-  const simulation::SimulationSettings& settings = simulation.settings();
+  const dynamics::DynamicsSettings& dynamics = simulation.settings().dynamics;
   XmlRpc::XmlRpcValue state;
   state["scene"] = simulation.scene().path;
   for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-    state["tools"][static_cast<int>(hand)] = simulation.fork(hand).tool;
+    const rod::ForkSettings& fork = simulation.fork_settings(hand);
+    XmlRpc::XmlRpcValue of_hand;
+    of_hand["tool"] = validation::name_of(simulation.fork(hand).tool);
+    of_hand["dofs"] = list({fork.dofs.stretch ? 1.0 : 0.0, fork.dofs.bend ? 1.0 : 0.0, fork.dofs.torsion ? 1.0 : 0.0});
+    of_hand["stiffness"] = list(fork.stiffness);
+    of_hand["damping"] = list(fork.damping_ratio);
+    of_hand["damping_coefficient"] = list(fork.damping_coefficient);
+    of_hand["damping_law"] = validation::name_of(fork.damping_law);
+    state["hands"][static_cast<int>(hand)] = of_hand;
   }
-  const rod::ForkDofs& dofs = settings.fork.dofs;
-  state["dofs"] = list({dofs.stretch ? 1.0 : 0.0, dofs.bend ? 1.0 : 0.0, dofs.torsion ? 1.0 : 0.0});
-  state["stiffness"] = list(settings.fork.stiffness);
-  state["damping"] = list(settings.fork.damping_ratio);
-  state["damping_law"] = settings.fork.damping_law;
-  state["integrator"] = settings.dynamics.integrator;
-  state["step"] = settings.dynamics.step;
-  state["tolerance"] = settings.dynamics.tolerance;
+  state["integrator"] = validation::name_of(dynamics.integrator);
+  state["step"] = dynamics.step;
+  state["tolerance"] = dynamics.tolerance;
   XmlRpc::XmlRpcValue objects;
   objects.setSize(0);
   for (const bodies::BodyState& object : simulation.objects()) {
@@ -49,23 +52,29 @@ XmlRpc::XmlRpcValue state_of(const simulation::Simulation& simulation) {
   return state;
 }
 
-rod::PerDof read_per_family(const YAML::Node& state, const std::string& key) {
+rod::PerDof read_per_dof(const YAML::Node& state, const std::string& key) {
   const std::vector<double> numbers = config::read_numbers(state[key], kKey, key, 3);
   return {numbers[0], numbers[1], numbers[2]};
 }
 
 void set(simulation::Simulation& simulation, const YAML::Node& state) {
-  const rod::PerDof dofs = read_per_family(state, "dofs");
-  simulation.set_dofs({dofs.stretch != 0.0, dofs.bend != 0.0, dofs.torsion != 0.0});
-  simulation.set_stiffness(read_per_family(state, "stiffness"));
-  simulation.set_damping_ratio(read_per_family(state, "damping"),
-                               config::read_string(state["damping_law"], kKey, "damping_law"));
-  simulation.set_integrator(config::read_string(state["integrator"], kKey, "integrator"),
-                            config::read_number(state["step"], kKey, "step", validation::positive()),
-                            config::read_number(state["tolerance"], kKey, "tolerance", validation::not_negative()));
   for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-    simulation.select_tool(config::read_string(state["tools"][hand], kKey, "tools"), hand);
+    const YAML::Node of_hand = state["hands"][hand];
+    const rod::PerDof dofs = read_per_dof(of_hand, "dofs");
+    rod::ForkSettings fork;
+    fork.dofs = {dofs.stretch != 0.0, dofs.bend != 0.0, dofs.torsion != 0.0};
+    fork.stiffness = read_per_dof(of_hand, "stiffness");
+    fork.damping_ratio = read_per_dof(of_hand, "damping");
+    fork.damping_coefficient = read_per_dof(of_hand, "damping_coefficient");
+    fork.damping_law = config::read_named<rod::DampingLaw>(of_hand["damping_law"], kKey, "damping_law");
+    simulation.change(simulation::change_to(fork), hand);
+    simulation.select_tool(config::read_named<tools::Tool>(of_hand["tool"], kKey, "tool"), hand);
   }
+  simulation::DynamicsChange change;
+  change.integrator = config::read_named<dynamics::IntegratorKind>(state["integrator"], kKey, "integrator");
+  change.step = config::read_number(state["step"], kKey, "step", validation::positive());
+  change.tolerance = config::read_number(state["tolerance"], kKey, "tolerance", validation::not_negative());
+  simulation.change(change);
 }
 
 }  // namespace
@@ -105,7 +114,7 @@ void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
   const YAML::Node state = parameters[kKey];
   if (!state) return;
   try {
-    if (!state.IsMap() || !state["objects"].IsSequence() || !state["tools"].IsSequence()) {
+    if (!state.IsMap() || !state["objects"].IsSequence() || !state["hands"].IsSequence()) {
       validation::refuse("parameter", kKey, "what is given", "as this node left it");
     }
     if (config::read_string(state["given_scene"], kKey, "given_scene") != parameters["scene"].as<std::string>()) return;

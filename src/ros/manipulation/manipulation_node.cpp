@@ -6,6 +6,7 @@
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/parameters.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::manipulation {
 namespace {
@@ -89,8 +90,8 @@ bool ManipulationNode::run_step(double due) {
   // In simulated time the clock may have gone on by itself.
   const double deadline = (ros::Time::isSimTime() ? std::max(due, now) : due) + 1.0 / parameters_.rate;
   const bool deadline_missed = ros_common::loop_time() > deadline;
-  const std::string integrator =
-      runner_.locked([](const simulation::Simulation& s) { return s.settings().dynamics.integrator; });
+  const std::string integrator = runner_.locked(
+      [](const simulation::Simulation& s) { return validation::name_of(s.settings().dynamics.integrator); });
   publisher_.publish_task(runner_, stamp);
   publisher_.publish_steps(report, integrator, stamp, deadline_missed);
   count(report, deadline_missed);

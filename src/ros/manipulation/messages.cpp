@@ -1,6 +1,7 @@
 #include "messages.h"
 
 #include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::manipulation {
 
@@ -23,11 +24,11 @@ ObjectStates to_message(const std::vector<bodies::BodyState>& objects) {
 
 ForkState to_message(const tools::ToolState& tool) {
   ForkState message;
-  message.tool = tool.tool;
+  message.tool = validation::name_of(tool.tool);
   message.held_object = tool.held_object;
   message.touched = tool.touched;
-  message.shape = tool.shape;
-  message.integrator = tool.integrator;
+  message.shape = validation::name_of(tool.shape);
+  message.integrator = validation::name_of(tool.integrator);
   message.stretch_on = tool.dofs.stretch;
   message.bend_on = tool.dofs.bend;
   message.torsion_on = tool.dofs.torsion;

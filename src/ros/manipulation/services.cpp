@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "spring_workbench/validation/number_rule.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::manipulation {
 namespace {
@@ -36,10 +36,20 @@ std::string energies(const simulation::ChangeReport& report) {
   return text;
 }
 
+/// The hand of the field `stylus` (1, 2, …); none for 0.
+std::optional<std::size_t> hand_of(unsigned stylus, const std::string& service) {
+  constexpr std::size_t most = simulation::Simulation::most_hands;
+  if (stylus > most) {
+    validation::refuse(service, "stylus", std::to_string(stylus), "an integer in [0, " + std::to_string(most) + "]");
+  }
+  return stylus > 0 ? std::optional<std::size_t>(stylus - 1) : std::nullopt;
+}
+
 std::string describe(const dynamics::DynamicsSettings& settings) {
   char text[120];
-  std::snprintf(text, sizeof text, "%s, steps of at most %g s, tolerance %g m%s", settings.integrator.c_str(),
-                settings.step, settings.tolerance, settings.tolerance > 0.0 ? "" : " (fixed steps)");
+  std::snprintf(text, sizeof text, "%s, steps of at most %g s, tolerance %g m%s",
+                validation::name_of(settings.integrator).c_str(), settings.step, settings.tolerance,
+                settings.tolerance > 0.0 ? "" : " (fixed steps)");
   return text;
 }
 
@@ -60,37 +70,56 @@ Services::Services(ros::NodeHandle private_node, SimulationRunner& runner, std::
 
 bool Services::select_tool(SelectTool::Request& request, SelectTool::Response& response) {
   return respond(response, [&] {
-    validation::check_number("select_tool", "stylus", request.stylus,
-                             validation::between(0.0, simulation::Simulation::most_hands));
-    const std::size_t hand = request.stylus > 0 ? request.stylus - 1 : 0;
-    fill(runner_.locked([&](simulation::Simulation& s) { return s.select_tool(request.tool, hand); }), response);
+    const auto tool = validation::named<tools::Tool>(request.tool, "select_tool", "tool");
+    const std::size_t hand = hand_of(request.stylus, "select_tool").value_or(0);
+    fill(runner_.locked([&](simulation::Simulation& s) { return s.select_tool(tool, hand); }), response);
   });
 }
 
+template <typename Response>
+void Services::change_fork(const simulation::ForkChange& change, std::optional<std::size_t> hand, Response& response) {
+  fill(runner_.locked([&](simulation::Simulation& s) { return s.change(change, hand); }), response);
+}
+
 bool Services::set_dofs(SetForkDofs::Request& request, SetForkDofs::Response& response) {
-  const rod::ForkDofs dofs{request.stretch != 0, request.bend != 0, request.torsion != 0};
-  return respond(response,
-                 [&] { fill(runner_.locked([&](simulation::Simulation& s) { return s.set_dofs(dofs); }), response); });
+  return respond(response, [&] {
+    simulation::ForkChange change;
+    change.dofs = {request.stretch != 0, request.bend != 0, request.torsion != 0};
+    change_fork(change, hand_of(request.stylus, "set_dofs"), response);
+  });
 }
 
 bool Services::set_stiffness(SetForkStiffness::Request& request, SetForkStiffness::Response& response) {
-  const rod::PerDof stiffness{request.stretch, request.bend, request.torsion};
   return respond(response, [&] {
-    fill(runner_.locked([&](simulation::Simulation& s) { return s.set_stiffness(stiffness); }), response);
+    const auto given = [](double k) { return k != 0.0 ? std::optional<double>(k) : std::nullopt; };
+    simulation::ForkChange change;
+    change.stretch_stiffness = given(request.stretch);
+    change.bend_stiffness = given(request.bend);
+    change.torsion_stiffness = given(request.torsion);
+    change_fork(change, hand_of(request.stylus, "set_stiffness"), response);
   });
 }
 
 bool Services::set_damping(SetForkDamping::Request& request, SetForkDamping::Response& response) {
-  const rod::PerDof ratio{request.stretch, request.bend, request.torsion};
   return respond(response, [&] {
-    fill(runner_.locked([&](simulation::Simulation& s) { return s.set_damping_ratio(ratio, request.law); }), response);
+    const rod::PerDof numbers{request.stretch, request.bend, request.torsion};
+    simulation::ForkChange change;
+    if (!request.law.empty()) {
+      change.damping_law = validation::named<rod::DampingLaw>(request.law, "set_damping", "law");
+    }
+    (change.damping_law == rod::DampingLaw::coefficients ? change.damping_coefficient : change.damping_ratio) = numbers;
+    change_fork(change, hand_of(request.stylus, "set_damping"), response);
   });
 }
 
 bool Services::set_integrator(SetIntegrator::Request& request, SetIntegrator::Response& response) {
   return respond(response, [&] {
+    simulation::DynamicsChange change;
+    change.integrator = validation::named<dynamics::IntegratorKind>(request.name, "set_integrator", "name");
+    if (request.step != 0.0) change.step = request.step;
+    if (request.tolerance != SetIntegrator::Request::KEEP_TOLERANCE) change.tolerance = request.tolerance;
     runner_.locked([&](simulation::Simulation& s) {
-      s.set_integrator(request.name, request.step, request.tolerance);
+      s.change(change);
       response.message = describe(s.settings().dynamics);
     });
   });

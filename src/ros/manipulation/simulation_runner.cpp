@@ -137,6 +137,9 @@ void SimulationRunner::resume(const scene::Scene& scene, const std::function<voi
                               const std::map<std::string, RigidTransform>& X_WO) {
   const std::lock_guard<std::mutex> lock(mutex_);
   simulation::Simulation simulation(scene, simulation_.settings());
+  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+    simulation.change(simulation::change_to(simulation_.fork_settings(hand)), hand);
+  }
   prepare(simulation);
   simulation.place(X_WO);
   task_ = assembly::TaskMonitor(scene);

@@ -1,6 +1,7 @@
 #include "spring_workbench/ros/tracker_driver/operator_eyes.h"
 
 #include "spring_workbench/tools/tool.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::tracker_driver {
 
@@ -40,7 +41,7 @@ void OperatorEyes::on_objects(const ObjectStates& message) {
 
 void OperatorEyes::on_fork(const ForkState& message) {
   view_.X_HE.translation().z() = message.length;
-  view_.turns = tools::turns(tools::tool_called(message.tool, "fork"));
+  view_.turns = tools::turns(validation::named<tools::Tool>(message.tool, "fork", "tool"));
 }
 
 }  // namespace spring_workbench::tracker_driver

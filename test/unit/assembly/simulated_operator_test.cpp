@@ -13,8 +13,8 @@ const std::string mini_world = SPRING_WORKBENCH_SOURCE_DIR "/scenes/mini_world.u
 
 simulation::SimulationSettings assembly_settings() {
   simulation::SimulationSettings settings;
-  settings.grasp.calibrate = true;
-  settings.grasp.release = "dropped";
+  settings.grasp.calibrate = tools::Calibration::object;
+  settings.grasp.release = tools::Release::dropped;
   return settings;
 }
 

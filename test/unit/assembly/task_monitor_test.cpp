@@ -34,10 +34,11 @@ scene::Scene box_scene() {
 /// A hand above the box that goes evenly from point to point; the monitor looks at every sample.
 class Assembly {
  public:
-  explicit Assembly(const std::string& release = "dropped") : simulation_(scene_, settings(release)), monitor_(scene_) {
+  explicit Assembly(tools::Release release = tools::Release::dropped)
+      : simulation_(scene_, settings(release)), monitor_(scene_) {
     go(0.02, Vector3d::Zero());
   }
-  static simulation::SimulationSettings settings(const std::string& release) {
+  static simulation::SimulationSettings settings(tools::Release release) {
     simulation::SimulationSettings s;
     s.grasp.release = release;
     return s;

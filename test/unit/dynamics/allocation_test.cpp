@@ -6,6 +6,7 @@
 
 #include "spring_workbench/dynamics/step_control.h"
 #include "support/held_cases.h"
+#include "support/named.h"
 
 namespace {
 
@@ -47,7 +48,7 @@ TEST(Allocations, AreCounted) {
 TEST_P(Stepping, AllocatesNothing) {
   // Whole steps and steps to a tolerance, loads that come and go, a stiffness that changes, motions that need new
   // linear parts.
-  for (const std::string& shape : rod::shape_model_names()) {
+  for (const std::string& shape : test_support::shape_names()) {
     for (const bool all : {true, false}) {
       for (const double tolerance : {0.0, 1e-3}) {
         std::mt19937 random(3);
@@ -56,7 +57,7 @@ TEST_P(Stepping, AllocatesNothing) {
         if (!all) c.held.set_dofs({true, false, false}, 0.0, 0.05, {zero, zero});
         const double m = c.held.body().mass;
         const double h = std::min(0.02, limited_by_stiffness(GetParam()) ? 0.2 / c.omega : 1.0);
-        const StepControl control(make_integrator(GetParam()), tolerance);
+        const StepControl control(test_support::make_integrator(GetParam()), tolerance);
         StepControl::Memory memory;
         StrainState state = c.held.zero_state();
         long counted = 0;
@@ -73,7 +74,7 @@ TEST_P(Stepping, AllocatesNothing) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, Stepping, testing::ValuesIn(integrator_names()),
+INSTANTIATE_TEST_SUITE_P(Integrators, Stepping, testing::ValuesIn(test_support::integrator_names()),
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace

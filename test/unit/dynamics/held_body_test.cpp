@@ -9,6 +9,7 @@
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/damped_oscillator.h"
 #include "spring_workbench/math/so3.h"
+#include "support/named.h"
 
 namespace spring_workbench::dynamics {
 namespace {
@@ -37,7 +38,7 @@ BodyInertia box_off_centre() {
 
 HeldBody held_by(const std::string& shape, const rod::PerDof& k, const rod::PerDof& zeta, const BodyInertia& body,
                  double gravity = 9.81) {
-  HeldBody held(rod::make_shape_model(shape, 0.2), body, gravity);
+  HeldBody held(rod::make_shape_model(test_support::shape_named(shape), 0.2), body, gravity);
   held.set_springs(k, zeta);
   return held;
 }
@@ -74,7 +75,7 @@ TEST(HeldBody, HangingObjectSagsByItsWeightOverTheStiffness) {
     HeldBody held = held_by("linear", {2000.0, 500.0, 5.0}, {1.0, 1.0, 1.0}, body);
     StrainState s = held.zero_state();
     const motion::MotionSegment hand(hanging());
-    const auto integrator = make_integrator(name);
+    const auto integrator = test_support::make_integrator(name);
     for (int i = 0; i < 400; ++i) integrator->step(held, hand, 0.02 * i, 0.02, s);
     EXPECT_NEAR(held.shape().extension(s.q), 9.81 / 2000.0, 1e-6 * 9.81 / 2000.0) << name;
   }
@@ -89,7 +90,7 @@ TEST(HeldBody, StretchAloneIsTheExactOscillatorAtAnyStepAndDamping) {
       only(held, {true, false, false});
       StrainState s = held.zero_state();
       const motion::MotionSegment hand(hanging());
-      const auto integrator = make_integrator(name);
+      const auto integrator = test_support::make_integrator(name);
       const double h = 0.05, omega = std::sqrt(1500.0 / 0.8);
       double x = 0.0, v = 0.0;
       const math::OscillatorStep exact = math::damped_oscillator(zeta * omega, omega * omega, h);
@@ -111,10 +112,10 @@ TEST(HeldBody, NoLagBehindAHandAtConstantVelocity) {
   b.X.translation() << 5.0, 3.0, -2.0;
   const Vector3d v = b.X.translation() / b.t;
   const motion::MotionSegment hand(a, v, Vector3d::Zero(), b, v, Vector3d::Zero());
-  for (const std::string& name : integrator_names()) {
+  for (const std::string& name : test_support::integrator_names()) {
     StrainState s = held.zero_state();
     s.q_dot = held.project_twist(held.forcing(hand, 0.0), s.q, Twist());
-    const auto integrator = make_integrator(name);
+    const auto integrator = test_support::make_integrator(name);
     const double h = integrator->stiffly_stable() ? 0.02 : 2e-4;
     for (int i = 0; h * i < 3.0; ++i) integrator->step(held, hand, h * i, h, s);
     EXPECT_LT(s.q.norm(), 1e-9) << name;
@@ -148,7 +149,7 @@ TEST(HeldBody, ObjectObeysNewtonAndEulerUnderTheRodsWrench) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const motion::MotionSegment hand = moving_hand(0.1);
-  for (const std::string& shape : rod::shape_model_names()) {
+  for (const std::string& shape : test_support::shape_names()) {
     for (const rod::ForkDofs& dofs : families) {
       for (int trial = 0; trial < 20; ++trial) {
         HeldBody held = held_by(shape, {1000.0, 200.0, 3.0}, {0.1, 0.5, 2.0}, box_off_centre());
@@ -182,7 +183,7 @@ TEST(HeldBody, ObjectObeysNewtonAndEulerUnderTheRodsWrench) {
 TEST(HeldBody, TheElasticForceIsTheSlopeOfTheElasticEnergy) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
-  for (const std::string& shape : rod::shape_model_names()) {
+  for (const std::string& shape : test_support::shape_names()) {
     for (int trial = 0; trial < 10; ++trial) {
       const HeldBody held = held_by(shape, {1000.0, 200.0, 3.0}, {1.0, 1.0, 1.0}, box_off_centre());
       StrainState s = held.zero_state();
@@ -230,7 +231,7 @@ TEST(HeldBody, WithModalDampingEveryModeHasTheRatio) {
     for (double mass = 1e-6; mass < 2e6; mass *= 1e2) {
       for (const BodyInertia& body : grasps_of_long_box(mass)) {
         for (const rod::ForkDofs& dofs : families) {
-          HeldBody held(rod::make_shape_model(shape, 0.2), body, 9.81);
+          HeldBody held(rod::make_shape_model(test_support::shape_named(shape), 0.2), body, 9.81);
           held.set_springs_with_modal_damping({2000.0, 500.0, 5.0}, 0.6);
           only(held, dofs);
           const int n = held.size();
@@ -261,7 +262,7 @@ TEST(HeldBody, ModalDampingIsExactOverDecadesOfStiffness) {
     if (trial % 4 == 2) k.bend = 0.0;
     if (trial % 4 == 3) k.torsion = 0.0;
     for (const BodyInertia& body : grasps_of_long_box(std::pow(10.0, -6.0 + trial % 13))) {
-      HeldBody held(rod::make_shape_model("linear", 0.2), body, 9.81);
+      HeldBody held(rod::make_shape_model(rod::ShapeKind::linear, 0.2), body, 9.81);
       held.set_springs_with_modal_damping(k, 3.0);
       const rod::StrainMatrix D = held.damping();
       const rod::StrainVector K = held.stiffness();
@@ -285,7 +286,7 @@ TEST(HeldBody, ModalDampingIsExactOverDecadesOfStiffness) {
 TEST(HeldBody, DampingIsWhatTheAccelerationTakesFromTheRates) {
   const motion::MotionSegment rest{RigidTransform::Identity()};
   for (const bool modal : {false, true}) {
-    for (const std::string& shape : rod::shape_model_names()) {
+    for (const std::string& shape : test_support::shape_names()) {
       for (const rod::ForkDofs& dofs : families) {
         HeldBody held = held_by(shape, {2000.0, 500.0, 5.0}, {0.3, 1.0, 2.0}, box_off_centre());
         if (modal) held.set_springs_with_modal_damping({2000.0, 500.0, 5.0}, 0.7);
@@ -314,7 +315,7 @@ TEST(HeldBody, FamilyOffIsTheLimitOfAStiffOne) {
         HeldBody held = held_by("linear", k, {1.0, 1.0, 1.0}, box_off_centre());
         if (!on) only(held, {family != 0, family != 1, family != 2});
         StrainState s = held.zero_state();
-        const auto integrator = make_integrator(name);
+        const auto integrator = test_support::make_integrator(name);
         for (int i = 0; i < 200; ++i) integrator->step(held, hand, 0.001 * i, 0.001, s);
         return held.object(held.forcing(hand, 0.2), s).X;
       };
@@ -338,7 +339,7 @@ TEST(HeldBody, WithoutStiffnessTheObjectIsFreeInThatFamily) {
       HeldBody held = held_by("linear", {0.0, 500.0, 5.0}, {zeta, zeta, zeta}, body);
       StrainState s = held.zero_state();
       const motion::MotionSegment hand(hanging());
-      const auto integrator = make_integrator(name);
+      const auto integrator = test_support::make_integrator(name);
       for (int i = 0; i < 20; ++i) integrator->step(held, hand, 0.01 * i, 0.01, s);
       EXPECT_NEAR(held.shape().extension(s.q), 0.5 * 9.81 * 0.04, 1e-9) << name << " " << zeta;
     }
@@ -349,7 +350,7 @@ TEST(HeldBody, SwitchingOffWhileStrainedKeepsPoseAndTwistAndEndsAtZero) {
   HeldBody held = held_by("linear", {2000.0, 500.0, 5.0}, {1.0, 1.0, 1.0}, box_off_centre());
   const motion::MotionSegment hand = moving_hand(2.0);
   StrainState s = held.zero_state();
-  const auto integrator = make_integrator("exponential");
+  const auto integrator = dynamics::make_integrator(dynamics::IntegratorKind::exponential);
   double t = 0.0;
   for (; t < 0.2; t += 0.01) integrator->step(held, hand, t, 0.01, s);
   const motion::MotionState before = held.object(held.forcing(hand, t), s);
@@ -385,7 +386,7 @@ TEST(Exponential, StaysBoundedAtEveryStiffnessAndStep) {
     HeldBody held = held_by("linear", {4.0 * k, k, 0.01 * k}, {zeta, zeta, zeta}, body);
     StrainState s = held.zero_state();
     const motion::MotionSegment hand = moving_hand(20.0 * h);
-    const auto integrator = make_integrator("exponential");
+    const auto integrator = dynamics::make_integrator(dynamics::IntegratorKind::exponential);
     for (int i = 0; i < 20; ++i) integrator->step(held, hand, h * i, h, s);
     EXPECT_TRUE(s.q.allFinite() && s.q_dot.allFinite());
     EXPECT_TRUE(held.shape().admissible(s.q)) << "k " << k << " m " << m << " h " << h << " ζ " << zeta;

@@ -6,6 +6,7 @@
 
 #include "spring_workbench/dynamics/step_control.h"
 #include "support/held_cases.h"
+#include "support/named.h"
 
 namespace spring_workbench::dynamics {
 namespace {
@@ -53,7 +54,7 @@ HeldBody body_of(const Cell& cell, const std::string& shape) {
   body.mass = cell.mass;
   body.inertia_O = cell.mass / 12.0 * Vector3d(0.0125, 0.0425, 0.05).asDiagonal().toDenseMatrix();
   body.X_OE.translation() << 0.08, 0.0, 0.0;
-  HeldBody held(rod::make_shape_model(shape, 0.2), body, 9.81);
+  HeldBody held(rod::make_shape_model(test_support::shape_named(shape), 0.2), body, 9.81);
   held.set_springs({5000.0 * cell.factor, 2000.0 * cell.factor, 20.0 * cell.factor}, {cell.zeta, cell.zeta, cell.zeta});
   const rod::StrainVector zero = rod::StrainVector::Zero(held.shape().size());
   held.set_dofs({(cell.families & 1) != 0, (cell.families & 2) != 0, (cell.families & 4) != 0}, 0.0, 0.05,
@@ -71,7 +72,7 @@ double energy(const HeldBody& held, const motion::MotionSegment& hand, double t,
 /// Half a second with the hand moving, then half a second with it at rest. Empty where all is well.
 std::string what_is_wrong(const Cell& cell, const std::string& shape, const std::string& integrator) {
   const HeldBody held = body_of(cell, shape);
-  const StepControl control(make_integrator(integrator));
+  const StepControl control(test_support::make_integrator(integrator));
   StepControl::Memory memory;
   std::mt19937 random(3);
   motion::PoseTrack track;
@@ -87,7 +88,7 @@ std::string what_is_wrong(const Cell& cell, const std::string& shape, const std:
     const motion::MotionSegment segment = track.segment(t + 1e-9);
     const double h = std::min(cell.step, t < rest_from - 1e-9 ? segment.end() - t : 1.0);
     const ControlledStep step = control.advance(held, segment, t, h, state, memory);
-    if (!step.fine) state.q_dot.setZero();  // as the simulation does: the body stays
+    if (!step.accepted) state.q_dot.setZero();  // as the simulation does: the body stays
     t += h;
     if (!state.q.allFinite() || !state.q_dot.allFinite()) return "not finite";
     const motion::MotionState o = held.object(held.forcing(segment, t), state);
@@ -114,14 +115,14 @@ TEST_P(StableIntegrator, AnObjectThatFallsOntoItsHandleStopsThereAndTurnsOn) {
   for (const double step : {0.05, 0.02, 0.003}) {
     Cell cell{0.0, 2.0, step, 0.0, 1 + 4, Hand::jump};
     HeldBody held = body_of(cell, "linear");
-    const StepControl control(make_integrator(GetParam()));
+    const StepControl control(test_support::make_integrator(GetParam()));
     StepControl::Memory memory;
     const motion::MotionSegment rest(RigidTransform::Identity());
     StrainState state = held.zero_state();
     state.q_dot[0] = 5.0;  // of the twist, over the length
     double fallen = 0.0, t = 0.0;
     for (; t < 0.6; t += step) {
-      ASSERT_TRUE(control.advance(held, rest, t, step, state, memory).fine) << step << " " << t;
+      ASSERT_TRUE(control.advance(held, rest, t, step, state, memory).accepted) << step << " " << t;
       ASSERT_TRUE(held.shape().admissible(held.full_state(t, state).q));
       if (state.q_dot[1] < 0.0) fallen = state.q[1];
     }
@@ -143,7 +144,7 @@ TEST_P(StableIntegrator, EveryCellStaysBoundedAndNoEnergyGrowsWithTheHandAtRest)
   for (int trial = 0; trial < trials; ++trial) {
     const Cell cell{any(stiffness_factors), any(masses), any(steps), any(damping_ratios), 1 + trial % 7, any(hands)};
     const std::string shape =
-        rod::shape_model_names()[static_cast<std::size_t>(trial) % rod::shape_model_names().size()];
+        test_support::shape_names()[static_cast<std::size_t>(trial) % test_support::shape_names().size()];
     const std::string complaint = what_is_wrong(cell, shape, GetParam());
     if (complaint.empty()) continue;
     ++wrong;

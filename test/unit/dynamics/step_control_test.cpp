@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "support/held_cases.h"
+#include "support/named.h"
 
 namespace spring_workbench::dynamics {
 namespace {
@@ -45,10 +46,11 @@ struct ReferenceRun {
 ReferenceRun make_run(int trial) {
   std::mt19937 random(static_cast<unsigned>(trial));
   const double zeta = trial % 4 == 0 ? 0.1 : trial % 4 == 1 ? 0.5 : 1.0;
-  const std::string shape = rod::shape_model_names()[static_cast<std::size_t>(trial) % rod::shape_model_names().size()];
+  const std::string shape =
+      test_support::shape_names()[static_cast<std::size_t>(trial) % test_support::shape_names().size()];
   ReferenceRun run{zeta, random_case(shape, zeta, 1.0, random), {}, {}};
   run.hand = sampled_hand(0.5, random);
-  const auto reference = make_integrator("rk4");
+  const auto reference = dynamics::make_integrator(dynamics::IntegratorKind::rk4);
   StrainState state = run.rod.held.zero_state();
   for (const motion::MotionSegment& segment : run.hand) {
     const double h = segment.end() - segment.begin();
@@ -74,11 +76,11 @@ const std::vector<ReferenceRun>& runs() {
 class SteppedWithATolerance : public testing::TestWithParam<std::string> {};
 
 TEST_P(SteppedWithATolerance, LandsWithinAFactorOfThreeOfItsTolerance) {
-  const bool first_order = make_integrator(GetParam())->order() == 1;
+  const bool first_order = test_support::make_integrator(GetParam())->order() == 1;
   const double tolerance = first_order ? 1e-3 : 1e-7;
   for (const ReferenceRun& run : runs()) {
     Case c = run.rod;
-    const StepControl control(make_integrator(GetParam()), tolerance);
+    const StepControl control(test_support::make_integrator(GetParam()), tolerance);
     StepControl::Memory memory;
     StrainState state = c.held.zero_state();
     double largest = 0.0;
@@ -91,26 +93,26 @@ TEST_P(SteppedWithATolerance, LandsWithinAFactorOfThreeOfItsTolerance) {
       steps += static_cast<std::size_t>(step.steps);
       largest = std::max(largest, distance(c, c.hand.end(), state, run.exact[i]));
     }
-    EXPECT_LT(largest, 3.0 * tolerance) << c.held.shape().name() << " ζ " << run.zeta;
+    EXPECT_LT(largest, 3.0 * tolerance) << c.held.shape().size() << " coordinates, ζ " << run.zeta;
     // From below where neither stability (explicit methods) nor a mode that decays within a step nor the samples, at
     // which a step ends, rule the step.
     const bool step_is_free =
         !limited_by_stiffness(GetParam()) && (first_order || run.zeta < 1.0) && steps > run.hand.size();
     EXPECT_TRUE(!step_is_free || largest > tolerance / 3.0)
-        << c.held.shape().name() << " ζ " << run.zeta << " " << largest;
+        << c.held.shape().size() << " coordinates, ζ " << run.zeta << " " << largest;
   }
 }
 
 /// A strain that is finite, but so far off that the equations overflow and have no modes.
 TEST(StepControl, TakesNoStepFromAStrainFarOff) {
   std::mt19937 random(1);
-  for (const std::string& integrator : integrator_names()) {
-    for (const std::string& shape : rod::shape_model_names()) {
+  for (const std::string& integrator : test_support::integrator_names()) {
+    for (const std::string& shape : test_support::shape_names()) {
       for (const bool stretch_alone : {false, true}) {
         Case c = random_case(shape, 1.0, 0.02, random);
         if (stretch_alone) c.held.set_dofs({true, false, false}, 0.0, 0.05, c.held.zero_state());
         for (const double size : {1e20, 1e100, 1e153, 1e155, 1e200, 1e305}) {
-          const StepControl control(make_integrator(integrator));
+          const StepControl control(test_support::make_integrator(integrator));
           StepControl::Memory memory;
           StrainState state = c.held.zero_state();
           state.q.setConstant(size);
@@ -133,12 +135,12 @@ TEST_P(SteppedWithATolerance, EndsWhereNoStepKeepsIt) {
     track.push({0.004 * i, make_transform(Quaterniond(math::exp_so3(0.05 * by)), 0.01 * by)});
   }
   for (const double stiffness : {1e3, 1e9, 1e15}) {
-    Case c = random_case(rod::shape_model_names().front(), 1.0, 1.0, random);
+    Case c = random_case(test_support::shape_names().front(), 1.0, 1.0, random);
     rod::ForkSettings fork;
     fork.stiffness = {stiffness, stiffness, stiffness};
     fork.damping_ratio = {1.0, 1.0, 1.0};
     c.held.set_springs(fork);
-    const StepControl control(make_integrator(GetParam()), 1e-9);
+    const StepControl control(test_support::make_integrator(GetParam()), 1e-9);
     StepControl::Memory memory;
     StrainState state = c.held.zero_state();
     for (double t = 0.0; t < 0.04;) {
@@ -156,7 +158,7 @@ TEST_P(SteppedWithATolerance, EndsWhereNoStepKeepsIt) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, SteppedWithATolerance, testing::ValuesIn(integrator_names()),
+INSTANTIATE_TEST_SUITE_P(Integrators, SteppedWithATolerance, testing::ValuesIn(test_support::integrator_names()),
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace

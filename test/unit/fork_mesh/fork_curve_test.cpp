@@ -7,6 +7,7 @@
 
 #include "random_strain.h"
 #include "spring_workbench/validation/input_error.h"
+#include "support/named.h"
 
 namespace spring_workbench::fork_mesh {
 namespace {
@@ -36,7 +37,7 @@ rod::StrainVector circle(const rod::ShapeModel& shape, double angle) {
 TEST(ForkCurve, BothEndAtTheSimulatedTip) {
   test_support::Random random(3);
   for (const char* name : {"constant", "linear"}) {
-    const auto shape = rod::make_shape_model(name, L);
+    const auto shape = rod::make_shape_model(test_support::shape_named(name), L);
     for (int run = 0; run < 200; ++run) {
       const RigidTransform X_WH = random.pose(1.0);
       const rod::StrainVector q = random_strain(*shape, 0.8, random);
@@ -55,7 +56,7 @@ TEST(ForkCurve, BothEndAtTheSimulatedTip) {
 
 TEST(ForkCurve, TheRodsKeepsItsLengthUnderBending) {
   for (const char* name : {"constant", "linear"}) {
-    const auto shape = rod::make_shape_model(name, L);
+    const auto shape = rod::make_shape_model(test_support::shape_named(name), L);
     for (const double angle : {0.0, 0.5, 2.0, pi, 2.0 * pi}) {
       rod::StrainVector q = circle(*shape, angle);
       EXPECT_NEAR(arc_length(rod_curve(*shape, q, RigidTransform::Identity())), L, 1e-5 * L) << name << " " << angle;
@@ -70,7 +71,7 @@ TEST(ForkCurve, TheRodsKeepsItsLengthUnderBending) {
 
 TEST(ForkCurve, TheRodsIsTheRodBetweenItsStations) {
   test_support::Random random(4);
-  const auto shape = rod::make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
   for (int run = 0; run < 200; ++run) {
     const rod::StrainVector q = random_strain(*shape, 1.0, random);
     const ForkCurve curve = rod_curve(*shape, q, RigidTransform::Identity());
@@ -85,7 +86,7 @@ TEST(ForkCurve, TheRodsIsTheRodBetweenItsStations) {
 
 TEST(ForkCurve, RatesAreDerivatives) {
   test_support::Random random(5);
-  const auto shape = rod::make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
   constexpr double d = 1e-6;
   for (int run = 0; run < 100; ++run) {
     const rod::StrainVector q = random_strain(*shape, 0.6, random);
@@ -102,7 +103,7 @@ TEST(ForkCurve, RatesAreDerivatives) {
 
 TEST(ForkCurve, MovesWithTheHandle) {
   test_support::Random random(6);
-  const auto shape = rod::make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
   for (int run = 0; run < 50; ++run) {
     const rod::StrainVector q = random_strain(*shape, 0.6, random);
     const RigidTransform X = random.pose(1.0);
@@ -119,7 +120,7 @@ TEST(ForkCurve, MovesWithTheHandle) {
 
 TEST(BezierCurve, HasTheRodsLengthAndItsStationsAreEvenlySpaced) {
   test_support::Random random(7);
-  const auto shape = rod::make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
   for (int run = 0; run < 20; ++run) {
     const rod::StrainVector q = random_strain(*shape, 0.4, random);
     const ForkCurve curve = make_fork_curve("bezier", *shape, q, RigidTransform::Identity());
@@ -131,7 +132,7 @@ TEST(BezierCurve, HasTheRodsLengthAndItsStationsAreEvenlySpaced) {
 
 TEST(BezierCurve, IsTheCantileverForSmallDeflections) {
   // Deflection P s² (3 L − s) / 6 EI: curvature falls evenly to nothing at the tip.
-  const auto shape = rod::make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
   for (const double slope : {1e-6, 1e-3, 0.03}) {
     rod::StrainVector q = rod::StrainVector::Zero(6);
     q[0] = slope / L;
@@ -145,7 +146,7 @@ TEST(BezierCurve, IsTheCantileverForSmallDeflections) {
 }
 
 TEST(BezierCurve, SpreadsTorsionEvenlyOverManyTurns) {
-  const auto shape = rod::make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
   for (const double twist : {-20.0, -3.0, 0.4, 9.0}) {
     rod::StrainVector q = rod::StrainVector::Zero(6);
     q[shape->torsion().begin] = twist / L;
@@ -168,7 +169,7 @@ TEST(BezierCurve, IsFiniteWhereverTheTipIs) {
 }
 
 TEST(ForkCurve, RefusesWhatItDoesNotKnow) {
-  const auto shape = rod::make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
   EXPECT_THROW(make_fork_curve("spline", *shape, rod::StrainVector::Zero(6), RigidTransform::Identity()),
                validation::InputError);
   EXPECT_THROW(ForkCurve(std::vector<RigidTransform>(4, RigidTransform::Identity())), validation::InputError);

@@ -6,6 +6,7 @@
 
 #include "random_strain.h"
 #include "spring_workbench/validation/input_error.h"
+#include "support/named.h"
 
 namespace spring_workbench::fork_mesh {
 namespace {
@@ -49,7 +50,7 @@ class DeformedFork : public testing::Test {
   }
 
   test_support::Random random_{12};
-  const std::shared_ptr<const rod::ShapeModel> shape_ = rod::make_shape_model("linear", L);
+  const std::shared_ptr<const rod::ShapeModel> shape_ = rod::make_shape_model(rod::ShapeKind::linear, L);
   const ForkModel model_{fine()};
   rod::StrainVector q_;
   RigidTransform X_WH_;

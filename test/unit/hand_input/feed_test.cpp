@@ -21,7 +21,7 @@ const Vector3d left(-0.5, 0.0, 0.7), right(0.5, 0.0, 0.7);  // handles: the tips
 simulation::Simulation make_simulation() {
   const Vector3d size(0.1, 0.06, 0.04), tip(0.0, 0.0, -0.2);
   simulation::SimulationSettings settings;
-  settings.grasp.release = "dropped";
+  settings.grasp.release = tools::Release::dropped;
   return simulation::Simulation(
       scene_of({box("left", size, 1.0, left + tip), box("right", size, 1.0, right + tip)}, scene::ContactMode::none),
       settings);

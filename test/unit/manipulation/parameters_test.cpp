@@ -67,7 +67,7 @@ TEST(ManipulationParameters, NodeAndSimulationAreReadFromOneMap) {
   EXPECT_EQ(parameters.rate, 250.0);
   EXPECT_EQ(parameters.stylus_frame, "pen");
   EXPECT_EQ(parameters.simulation.fork.stiffness.bend, 77.0);
-  EXPECT_EQ(parameters.simulation.dynamics.integrator, "rk4");
+  EXPECT_EQ(parameters.simulation.dynamics.integrator, dynamics::IntegratorKind::rk4);
   EXPECT_EQ(parameters.world_frame, ManipulationParameters().world_frame);
 }
 

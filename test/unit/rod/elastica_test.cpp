@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "spring_workbench/rod/shape_model.h"
+#include "support/named.h"
 
 namespace spring_workbench::rod {
 namespace {
@@ -17,7 +18,7 @@ struct Elastica {
 Elastica solve(const std::string& name, double alpha) {
   const double L = 0.2;
   const PerDof k{1e10, 500.0, 1e10};  // neither extension nor twist
-  auto made = make_shape_model(name, L);
+  auto made = rod::make_shape_model(test_support::shape_named(name), L);
   if (auto stiff = made->for_stiffness(k)) made = std::move(stiff);
   const ShapeModel& shape = *made;
   const double EI = k.bend * L * L * L / 3.0;

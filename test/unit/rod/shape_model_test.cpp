@@ -8,6 +8,7 @@
 
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/input_error.h"
+#include "support/named.h"
 
 namespace spring_workbench::rod {
 namespace {
@@ -18,7 +19,7 @@ StrainVector random_strain(const ShapeModel& shape, std::mt19937& random, double
   std::uniform_real_distribution<double> uniform(-size, size);
   StrainVector q(shape.size());
   for (int i = 0; i < q.size(); ++i) q[i] = uniform(random);
-  const bool bushing = shape.name() == "bushing";
+  const bool bushing = shape.extension(StrainVector::Ones(shape.size())) == 1.0;  // a length, not a strain
   if (!bushing) q.head(shape.size() - 1) /= L;
   return q;
 }
@@ -35,7 +36,7 @@ RigidTransform tip_pose(const ShapeModel& shape, const StrainVector& q) {
 }
 
 std::shared_ptr<const ShapeModel> stiff_shape(const std::string& name, const PerDof& k = {2000.0, 500.0, 5.0}) {
-  auto shape = make_shape_model(name, L);
+  auto shape = rod::make_shape_model(test_support::shape_named(name), L);
   auto stiff = shape->for_stiffness(k);
   return stiff ? stiff : shape;
 }
@@ -139,16 +140,16 @@ TEST_P(EveryShape, WhatIsNotFiniteIsRefusedAndDoesNotComeOutFinite) {
 }
 
 TEST_P(EveryShape, BadLengthIsRefused) {
-  EXPECT_THROW(make_shape_model(GetParam(), 0.0), validation::InputError);
-  EXPECT_THROW(make_shape_model(GetParam(), std::nan("")), validation::InputError);
+  EXPECT_THROW(rod::make_shape_model(test_support::shape_named(GetParam()), 0.0), validation::InputError);
+  EXPECT_THROW(rod::make_shape_model(test_support::shape_named(GetParam()), std::nan("")), validation::InputError);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::ValuesIn(shape_model_names()),
+INSTANTIATE_TEST_SUITE_P(Shapes, EveryShape, testing::ValuesIn(test_support::shape_names()),
                          [](const auto& instance) { return instance.param; });
 
 TEST(ShapeModel, UnknownNameIsRefusedWithTheKnownOnes) {
   try {
-    make_shape_model("spaghetti", L);
+    test_support::shape_named("spaghetti");
     FAIL();
   } catch (const validation::InputError& e) {
     EXPECT_NE(std::string(e.what()).find("spaghetti"), std::string::npos);
@@ -156,13 +157,30 @@ TEST(ShapeModel, UnknownNameIsRefusedWithTheKnownOnes) {
   }
 }
 
+/// The bushing's stiffness against the slope of its end is what is asked for, its damping in proportion, and by default
+/// that of the rod.
+TEST(ShapeModel, TheSlopeStiffnessOfABushing) {
+  const PerDof k{1000.0, 400.0, 3.0};
+  const StrainVector by_default = make_shape_model(ShapeKind::bushing, L)->stiffness(k);
+  const auto same = make_shape_model(ShapeKind::bushing, L, 400.0 * L * L / 3.0)->for_stiffness(k);
+  EXPECT_LT((same->stiffness(k) - by_default).norm(), 1e-12 * by_default.norm());
+  const auto set = make_shape_model(ShapeKind::bushing, L, 7.0)->for_stiffness(k);
+  const StrainVector K = set->stiffness(k), D = set->stiffness({1.0, 4.0, 0.1});
+  for (const int slope : {2, 3}) {
+    EXPECT_NEAR(K[slope], 7.0, 1e-12);
+    EXPECT_NEAR(D[slope], 0.01 * K[slope], 1e-12);
+  }
+  for (const int other : {0, 1, 4, 5}) EXPECT_EQ(K[other], by_default[other]);
+}
+
 /// A small end moment M turns the bushing's tip by M L / EI, as it does the rod with a linear curvature, which is exact
 /// there.
 TEST(Bushing, AnEndMomentTurnsItAsItDoesTheRod) {
   const PerDof k{2000.0, 500.0, 5.0};
   for (const double length : {0.1, 0.2, 0.7}) {
-    const double per_curvature = make_shape_model("linear", length)->stiffness(k)[0];  // ½ K κ², and the angle is κ L
-    const StrainVector bushing = make_shape_model("bushing", length)->stiffness(k);
+    const double per_curvature =
+        rod::make_shape_model(rod::ShapeKind::linear, length)->stiffness(k)[0];  // ½ K κ², and the angle is κ L
+    const StrainVector bushing = rod::make_shape_model(rod::ShapeKind::bushing, length)->stiffness(k);
     for (const int axis : {2, 3}) EXPECT_NEAR(bushing[axis], per_curvature / (length * length), 1e-12 * bushing[axis]);
   }
 }
@@ -180,7 +198,7 @@ TEST(StrainRod, EndMomentRollsItIntoAFullCircle) {
 
 TEST(StrainRod, TipMatchesManyHelices) {
   // A thousand pieces of constant strain each, with Richardson extrapolation of their second-order error.
-  const auto shape = make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
   std::mt19937 random(3);
   for (int trial = 0; trial < 5; ++trial) {
     const StrainVector q = random_strain(*shape, random, 2.0);
@@ -203,7 +221,7 @@ TEST(StrainRod, TipMatchesManyHelices) {
 }
 
 TEST(StrainRod, CentrelineKeepsItsLength) {
-  const auto shape = make_shape_model("linear", L);
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
   std::mt19937 random(5);
   for (int trial = 0; trial < 10; ++trial) {
     StrainVector q = random_strain(*shape, random, 1.5);

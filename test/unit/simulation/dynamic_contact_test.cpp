@@ -62,7 +62,7 @@ TEST(DynamicContact, ANeighbourThatIsNotTouchedIsNotFelt) {
     scene::Scene scene = scene_of({box("held", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0, 0, 0.02)),
                                    box("beside", Vector3d(0.1, 0.1, 0.04), 1.0, Vector3d(0.15, 0.1 + gap, 0.02))});
     SimulationSettings set;
-    set.fork.shape = "bushing";
+    set.fork.shape = rod::ShapeKind::bushing;
     set.fork.stiffness = {2000.0, 2000.0, 50.0};
     set.grasp.object = "held";
     set.dynamics.step = 0.002;
@@ -103,7 +103,7 @@ TEST_P(Drag, TheBoxLagsByCoulombsLaw) {
         scene.bench_material.friction = 4.0;  // on which the slab stays
       }
       SimulationSettings set;
-      set.fork.shape = "bushing";
+      set.fork.shape = rod::ShapeKind::bushing;
       set.fork.length = 0.2;
       set.fork.stiffness = {5000.0 * factor, 5000.0 * factor, 200.0 * factor};
       set.dynamics.step = mu == 0.5 ? 0.004 : 0.02;

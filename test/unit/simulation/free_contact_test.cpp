@@ -102,7 +102,7 @@ TEST_P(LetGo, OnAnInclineItStaysBelowTheAngleOfFrictionAndSlidesAbove) {
     b.X_WO.translation() = ramp.X_WO * Vector3d(0, 0, 0.1 + 0.025 + 1e-6);
     SimulationSettings set;
     // A fork that does nothing: an object that it takes and lets go again keeps its velocity, and is awake.
-    set.fork.shape = "bushing";
+    set.fork.shape = rod::ShapeKind::bushing;
     set.fork.stiffness = {0.0, 0.0, 0.0};
     Simulation s(scene_of({ramp, b}, GetParam(), mu), set);
     const double duration = off < 0.0 ? 60.0 : 5.0,

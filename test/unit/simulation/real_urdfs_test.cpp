@@ -21,7 +21,7 @@ const fs::path collection = fs::path(SPRING_WORKBENCH_SHARED_DIR) / "data" / "ur
 void lift_and_put_down(const scene::Scene& scene, const scene::Body& body) {
   SimulationSettings set;
   set.grasp.object = body.name;
-  set.grasp.calibrate = true;
+  set.grasp.calibrate = tools::Calibration::object;
   Simulation simulation(scene, set);
   const Vector3d start = body.X_WO.translation(), hand = start + Vector3d(0.0, 0.0, set.fork.length);
   simulation.push_stylus({0.0, pointing_down(hand)});

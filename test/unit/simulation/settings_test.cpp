@@ -6,7 +6,9 @@
 #include <set>
 #include <string>
 
-#include "spring_workbench/validation/input_error.h"
+#include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/validation/names.h"
+#include "spring_workbench/validation/renamed.h"
 
 namespace spring_workbench::simulation {
 namespace {
@@ -37,15 +39,17 @@ std::string other_value(const SettingDescription& d) {
 std::string fingerprint(const SimulationSettings& s) {
   std::ostringstream out;
   out.precision(17);
-  out << s.tool << '|' << s.contact << '|' << s.gravity << '|' << s.force_scale << '|' << s.dynamics.integrator << '|'
-      << s.dynamics.step << '|' << s.dynamics.tolerance << '|' << s.dynamics.inertia << '|' << s.fork.shape << '|'
-      << s.fork.length << '|';
-  for (const rod::PerDof& p : {s.fork.stiffness, s.fork.damping_ratio}) {
+  const auto name = [](auto value) { return validation::name_of(value); };
+  out << (s.tool ? name(*s.tool) : std::string()) << '|' << (s.contact ? name(*s.contact) : std::string()) << '|'
+      << s.gravity.value_or(-1.0) << '|' << s.force_scale.value_or(-1.0) << '|' << name(s.dynamics.integrator) << '|'
+      << s.dynamics.step << '|' << s.dynamics.tolerance << '|' << name(s.dynamics.inertia) << '|' << name(s.fork.shape)
+      << '|' << s.fork.length << '|' << s.fork.slope_stiffness.value_or(-1.0) << '|';
+  for (const rod::PerDof& p : {s.fork.stiffness, s.fork.damping_ratio, s.fork.damping_coefficient}) {
     out << p.stretch << '|' << p.bend << '|' << p.torsion << '|';
   }
-  out << s.fork.damping_law << '|' << s.fork.dofs.stretch << s.fork.dofs.bend << s.fork.dofs.torsion << '|'
-      << s.limit.force << '|' << s.limit.moment << '|' << s.fork.switch_off_time << '|' << s.grasp.calibrate
-      << s.grasp.start_follow << '|' << s.grasp.object << '|' << s.grasp.release << '|';
+  out << name(s.fork.damping_law) << '|' << s.fork.dofs.stretch << s.fork.dofs.bend << s.fork.dofs.torsion << '|'
+      << s.limit.force << '|' << s.limit.moment << '|' << s.fork.switch_off_time << '|' << name(s.grasp.calibrate)
+      << s.grasp.start_follow << '|' << s.grasp.object << '|' << name(s.grasp.release) << '|';
   if (s.grasp.X_OE) out << s.grasp.X_OE->matrix();
   out << '|' << s.dropout_after << '|' << s.bisection_levels;
   return out.str();
@@ -59,7 +63,7 @@ TEST(Settings, EveryKeySetsAFieldOfItsOwn) {
     ASSERT_EQ(refusal(yaml, settings), "") << yaml;
     EXPECT_TRUE(outcomes.insert(fingerprint(settings)).second) << d.key << " changes nothing, or what another key sets";
   }
-  EXPECT_EQ(outcomes.size(), 31u) << "one field of the structs has no key, or fingerprint() does not know it";
+  EXPECT_EQ(outcomes.size(), 35u) << "one field of the structs has no key, or fingerprint() does not know it";
 }
 
 TEST(Settings, EveryDefaultThatIsAValueIsAllowed) {
@@ -172,6 +176,46 @@ TEST(Settings, WhatIsNotAMapIsRefusedAndAnEmptyMapChangesNothing) {
   EXPECT_EQ(refusal("{}", settings), "");
   EXPECT_EQ(refusal("fork: {}", settings), "");
   EXPECT_EQ(fingerprint(settings), fingerprint(SimulationSettings()));
+}
+
+/// What a settings file refuses, settings made in C++ refuse, too.
+TEST(Settings, ValidateRefusesWhatAFileMayNotSay) {
+  const auto refused = [](auto change) {
+    SimulationSettings settings;
+    change(settings);
+    EXPECT_THROW(validate(settings, "test"), validation::InputError);
+    EXPECT_THROW(Simulation(scene::Scene(), settings), validation::InputError);
+  };
+  EXPECT_NO_THROW(validate(SimulationSettings(), "test"));
+  const double nan = std::nan("");
+  for (const double step : {0.0, -1.0, nan, 2.0}) refused([=](auto& s) { s.dynamics.step = step; });
+  for (const double tolerance : {-1e-9, nan, 1.0}) refused([=](auto& s) { s.dynamics.tolerance = tolerance; });
+  for (const double stiffness : {-1.0, nan, 1e20}) refused([=](auto& s) { s.fork.stiffness.bend = stiffness; });
+  for (const double gravity : {-1.0, nan}) refused([=](auto& s) { s.gravity = gravity; });
+  for (const int levels : {-1, 31}) refused([=](auto& s) { s.bisection_levels = levels; });
+  refused([](auto& s) { s.contact = static_cast<scene::ContactMode>(7); });
+  refused([](auto& s) { s.grasp.release = static_cast<tools::Release>(-1); });
+  refused([](auto& s) { s.dynamics.inertia = static_cast<dynamics::Inertia>(2); });
+  refused([](auto& s) { s.fork.slope_stiffness = 0.0; });
+  refused([=](auto& s) { s.limit.force = nan; });
+  refused([=](auto& s) { s.dropout_after = 0.0; });
+  refused([](auto& s) { s.grasp.X_OE = RigidTransform::Identity(); });
+  refused([](auto& s) {
+    s.fork.damping_law = rod::DampingLaw::modal;
+    s.fork.damping_ratio.bend = 0.5;
+  });
+}
+
+/// One who knows the key of before the first release is told the present one.
+TEST(Settings, ARenamedKeyIsToldItsNewName) {
+  for (const auto& [before, now] : validation::renamed()) {
+    if (before.find('.') == std::string::npos) continue;  // a message's field
+    SimulationSettings settings;
+    const std::string message = refusal(before + ": 1", settings);
+    EXPECT_TRUE(contains(message, before)) << message;
+    EXPECT_TRUE(contains(message, "it is called " + now + " now")) << message;
+    EXPECT_FALSE(contains(message, "\n")) << message;
+  }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/input_error.h"
 #include "support/bench_scenes.h"
+#include "support/named.h"
 
 namespace spring_workbench::simulation {
 namespace {
@@ -63,7 +64,7 @@ TEST(Simulation, ThrownObjectFliesOnAParabolaAndKeepsItsAngularMomentum) {
 
 TEST(Simulation, DroppedObjectStartsFromRest) {
   SimulationSettings set = settings();
-  set.grasp.release = "dropped";
+  set.grasp.release = tools::Release::dropped;
   Simulation simulation(box_scene({0.0, 0.0, 2.0}, scene::ContactMode::none), set);
   push_move(simulation, 0.0, 0.5, {0.0, 0.0, 2.2}, {0.4, 0.2, 2.5}, 1.5);
   simulation.push_button(0.0, true);
@@ -253,20 +254,26 @@ class Switching : public testing::Test {
   bodies::BodyState before;
 };
 
+ForkChange dofs_change(const rod::ForkDofs& dofs) {
+  ForkChange change;
+  change.dofs = dofs;
+  return change;
+}
+
 TEST_F(Switching, TorsionOffAndOn) {
   ASSERT_GT(std::abs(simulation.fork().torsion), 1e-3);
-  const ChangeReport off = simulation.set_dofs({true, true, false});
+  const ChangeReport off = simulation.change(dofs_change({true, true, false}));
   EXPECT_GT(off.elastic_energy_before, 0.0);
   expect_no_jump();
   simulation.advance(2.0);
   EXPECT_LT(std::abs(simulation.fork().torsion), 1e-9);
   const RigidTransform X = simulation.objects()[0].X_WO;
-  simulation.set_dofs({true, true, true});
+  simulation.change(dofs_change({true, true, true}));
   EXPECT_LT((simulation.objects()[0].X_WO.matrix() - X.matrix()).norm(), 1e-15);
 }
 
 TEST_F(Switching, AllOff) {
-  simulation.set_dofs({false, false, false});
+  simulation.change(dofs_change({false, false, false}));
   expect_no_jump();
   simulation.advance(6.0);
   EXPECT_EQ(simulation.fork().elastic_energy, 0.0);
@@ -274,58 +281,88 @@ TEST_F(Switching, AllOff) {
 
 TEST_F(Switching, NewStiffnessReportsTheEnergyItAdds) {
   const double torsion = simulation.fork().torsion;
-  const ChangeReport change = simulation.set_stiffness({0.0, 0.0, 15.0});
+  ForkChange torsion_alone;
+  torsion_alone.torsion_stiffness = 15.0;
+  const ChangeReport change = simulation.change(torsion_alone);
   EXPECT_NEAR(change.elastic_energy_after - change.elastic_energy_before, 0.5 * 10.0 * torsion * torsion, 1e-12);
-  EXPECT_EQ(simulation.settings().fork.stiffness.bend, 500.0);
+  EXPECT_EQ(simulation.fork_settings().stiffness.bend, 500.0);
   expect_no_jump();
 }
 
 TEST_F(Switching, EveryIntegratorTakesOver) {
-  for (const std::string& name : dynamics::integrator_names()) {
-    simulation.set_integrator(name, 0.0);
-    EXPECT_EQ(simulation.fork().integrator, name);
+  for (const std::string& name : test_support::integrator_names()) {
+    const dynamics::IntegratorKind kind = test_support::integrator_named(name);
+    DynamicsChange change;
+    change.integrator = kind;
+    simulation.change(change);
+    EXPECT_EQ(simulation.fork().integrator, kind);
+    EXPECT_EQ(simulation.settings().dynamics.step, 0.02);
   }
   expect_no_jump();
 }
 
 TEST_F(Switching, DampingLaws) {
-  simulation.set_damping_ratio({0.5, 0.5, 0.5}, "modal");
-  EXPECT_EQ(simulation.settings().fork.damping_law, "modal");
+  const auto damping = [](const rod::PerDof& ratio, std::optional<rod::DampingLaw> law = std::nullopt) {
+    ForkChange change;
+    change.damping_ratio = ratio;
+    change.damping_law = law;
+    return change;
+  };
+  simulation.change(damping({0.5, 0.5, 0.5}, rod::DampingLaw::modal));
+  EXPECT_EQ(simulation.fork_settings().damping_law, rod::DampingLaw::modal);
   expect_no_jump();
-  simulation.set_damping_ratio({0.7, 0.7, 0.7});
-  EXPECT_EQ(simulation.settings().fork.damping_law, "modal");
-  EXPECT_THROW(simulation.set_damping_ratio({0.7, 0.5, 0.7}), validation::InputError);
-  EXPECT_EQ(simulation.settings().fork.damping_ratio.bend, 0.7);
-  simulation.set_damping_ratio({0.7, 0.5, 0.7}, "per_dof");
-  EXPECT_EQ(simulation.settings().fork.damping_ratio.bend, 0.5);
-  EXPECT_THROW(simulation.set_damping_ratio({0.5, 0.5, 0.5}, "rayleigh"), validation::InputError);
-  EXPECT_EQ(simulation.settings().fork.damping_law, "per_dof");
+  simulation.change(damping({0.7, 0.7, 0.7}));
+  EXPECT_EQ(simulation.fork_settings().damping_law, rod::DampingLaw::modal);
+  EXPECT_THROW(simulation.change(damping({0.7, 0.5, 0.7})), validation::InputError);
+  EXPECT_EQ(simulation.fork_settings().damping_ratio.bend, 0.7);
+  simulation.change(damping({0.7, 0.5, 0.7}, rod::DampingLaw::per_dof));
+  EXPECT_EQ(simulation.fork_settings().damping_ratio.bend, 0.5);
   SimulationSettings settings = simulation.settings();
-  settings.fork.damping_law = "modal";
+  settings.fork.damping_law = rod::DampingLaw::modal;
+  settings.fork.damping_ratio.bend = 0.5;
   EXPECT_THROW(Simulation(simulation.scene(), settings), validation::InputError);
 }
 
 TEST_F(Switching, BadValuesChangeNothing) {
-  EXPECT_THROW(simulation.set_stiffness({std::nan(""), 0.0, 0.0}), validation::InputError);
-  EXPECT_THROW(simulation.set_stiffness({-1.0, 0.0, 0.0}), validation::InputError);
-  EXPECT_THROW(simulation.set_damping_ratio({0.0, 11.0, 0.0}), validation::InputError);
-  EXPECT_THROW(simulation.set_integrator("magic", 0.0), validation::InputError);
-  EXPECT_THROW(simulation.set_integrator("rk4", -1.0), validation::InputError);
-  EXPECT_THROW(simulation.set_integrator("rk4", std::nan("")), validation::InputError);
-  for (double tolerance : {-1e-6, 0.2, std::nan("")}) {
-    EXPECT_THROW(simulation.set_integrator("rk4", 0.0, tolerance), validation::InputError);
+  const double nan = std::nan("");
+  for (const double k : {nan, -1.0, 1e20}) {
+    ForkChange change;  // what is good in it stays undone, too
+    change.bend_stiffness = 700.0;
+    change.dofs = {true, false, true};
+    change.stretch_stiffness = k;
+    EXPECT_THROW(simulation.change(change), validation::InputError);
   }
-  EXPECT_EQ(simulation.settings().fork.stiffness.stretch, 2000.0);
-  EXPECT_EQ(simulation.settings().fork.damping_ratio.bend, 0.2);
-  EXPECT_EQ(simulation.settings().dynamics.integrator, "exponential");
+  ForkChange damping;
+  damping.damping_ratio = {0.0, 11.0, 0.0};
+  EXPECT_THROW(simulation.change(damping), validation::InputError);
+  for (const double step : {0.0, -1.0, nan}) {
+    DynamicsChange change;
+    change.integrator = dynamics::IntegratorKind::rk4;
+    change.step = step;
+    EXPECT_THROW(simulation.change(change), validation::InputError);
+    ForkChange good;
+    good.bend_stiffness = 700.0;
+    EXPECT_THROW(simulation.change(good, change), validation::InputError);
+  }
+  for (const double tolerance : {-1e-6, 0.2, nan}) {
+    DynamicsChange change;
+    change.tolerance = tolerance;
+    EXPECT_THROW(simulation.change(change), validation::InputError);
+  }
+  EXPECT_EQ(simulation.settings().dynamics.integrator, dynamics::IntegratorKind::exponential);
+  EXPECT_EQ(simulation.fork_settings().stiffness.bend, 500.0);
+  EXPECT_TRUE(simulation.fork_settings().dofs.bend);
+  EXPECT_EQ(simulation.fork_settings().stiffness.stretch, 2000.0);
+  EXPECT_EQ(simulation.fork_settings().damping_ratio.bend, 0.2);
+  EXPECT_EQ(simulation.settings().dynamics.integrator, dynamics::IntegratorKind::exponential);
   expect_no_jump();
 }
 
 TEST(Simulation, EveryIntegratorTellsTheStiffestModeAndItsErrors) {
   // A pure stretch oscillator: ω = √(k/m).
-  for (const std::string& name : dynamics::integrator_names()) {
+  for (const std::string& name : test_support::integrator_names()) {
     SimulationSettings set = settings();
-    set.dynamics.integrator = name;
+    set.dynamics.integrator = test_support::integrator_named(name);
     set.dynamics.step = 1e-3;
     set.fork.dofs = {true, false, false};
     set.fork.damping_ratio.stretch = 0.0;
@@ -343,7 +380,7 @@ TEST(Simulation, EveryIntegratorTellsTheStiffestModeAndItsErrors) {
 TEST(Simulation, ToleranceTakesMoreStepsAndSaysSo) {
   const auto steps = [](double tolerance) {
     SimulationSettings set = settings();
-    set.dynamics.integrator = "rk4";
+    set.dynamics.integrator = dynamics::IntegratorKind::rk4;
     set.dynamics.tolerance = tolerance;
     Simulation simulation(box_scene({0.0, 0.0, 1.0}, scene::ContactMode::none), set);
     push_move(simulation, 0.0, 1.0, {0.0, 0.0, 1.2}, {0.3, 0.0, 1.3});
@@ -383,7 +420,7 @@ TEST(Simulation, ACallThatEndsARoundingErrorBesideASampleMakesNoStepOfItsOwn) {
 TEST(Simulation, EnergyAddedIsTheIntegratorsErrorAndFallsWithTheStep) {
   const auto added = [](const char* integrator, double step) {
     SimulationSettings set = settings();
-    set.dynamics.integrator = integrator;
+    set.dynamics.integrator = test_support::integrator_named(integrator);
     set.dynamics.step = step;
     set.fork.stiffness = {200.0, 60.0, 1.0};
     Simulation simulation(box_scene({0.0, 0.0, 1.0}, scene::ContactMode::none), set);
@@ -426,7 +463,7 @@ TEST(Simulation, NothingHeldNothingStepped) {
 
 SimulationSettings spring_settings(double stiffness) {
   SimulationSettings set;
-  set.tool = "spring";
+  set.tool = tools::Tool::spring;
   set.fork.stiffness.stretch = stiffness;
   set.dynamics.step = 1e-3;
   return set;
@@ -439,7 +476,7 @@ TEST(Tools, SpringExtendsByTheWeightAndExertsNoMoment) {
     simulation.push_button(0.0, true);
     simulation.advance(10.0);
     const tools::ToolState tool = simulation.fork();
-    EXPECT_EQ(tool.tool, "spring");
+    EXPECT_EQ(tool.tool, tools::Tool::spring);
     EXPECT_NEAR(tool.stretch, 9.81 / k, 1e-9 * 9.81 / k);
     EXPECT_NEAR(tool.weight, 1.0, 1e-9);
     EXPECT_EQ(simulation.objects()[0].V_WO_W.angular.norm(), 0.0);
@@ -473,7 +510,7 @@ TEST(Tools, SpringSwingsWithThePeriodOfItsPendulum) {
 TEST(Calibrated, NoWeightAndThreeHundredKilogramsAreBothEasyToMove) {
   for (const double mass : {0.0, 1e-3, 1.0, 300.0}) {
     SimulationSettings set;
-    set.grasp.calibrate = true;
+    set.grasp.calibrate = tools::Calibration::object;
     scene::Scene scene = box_scene({0.0, 0.0, 0.5}, scene::ContactMode::none);
     scene.bodies[0].mass_properties.inertia_O *= mass;
     scene.bodies[0].mass_properties.mass = mass;
@@ -506,11 +543,12 @@ TEST(Calibrated, NoWeightAndThreeHundredKilogramsAreBothEasyToMove) {
 }
 
 TEST(Tools, DirectAndRayAreRigid) {
-  for (const char* name : {"direct", "ray"}) {
+  for (const tools::Tool tool : {tools::Tool::direct, tools::Tool::ray}) {
+    const std::string& name = validation::name_of(tool);
     SimulationSettings set = settings();
-    set.tool = name;
+    set.tool = tool;
     Simulation simulation(box_scene({0.0, 0.0, 1.0}, scene::ContactMode::none), set);
-    const Vector3d hand(0.01, 0.005, name == std::string("ray") ? 1.5 : 1.0);
+    const Vector3d hand(0.01, 0.005, tool == tools::Tool::ray ? 1.5 : 1.0);
     push_move(simulation, 0.0, 1.0, hand, hand + Vector3d(0.3, 0.1, 0.2), 2.0);
     simulation.push_button(0.0, true);
     simulation.advance(0.0);
@@ -525,14 +563,15 @@ TEST(Tools, DirectAndRayAreRigid) {
 }
 
 TEST_F(Switching, EveryToolTakesOverWithoutAJump) {
-  for (const char* name : {"direct", "spring", "ray", "spring_fork"}) {
-    EXPECT_GE(simulation.select_tool(name).elastic_energy_before, 0.0);
-    EXPECT_EQ(simulation.fork().tool, name);
+  for (const tools::Tool tool :
+       {tools::Tool::direct, tools::Tool::spring, tools::Tool::ray, tools::Tool::spring_fork}) {
+    const std::string& name = validation::name_of(tool);
+    EXPECT_GE(simulation.select_tool(tool).elastic_energy_before, 0.0);
+    EXPECT_EQ(simulation.fork().tool, tool);
     EXPECT_LT((simulation.objects()[0].X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-9) << name;
     EXPECT_LT((simulation.objects()[0].V_WO_W.linear - before.V_WO_W.linear).norm(), 1e-9) << name;
     EXPECT_LT((simulation.objects()[0].V_WO_W.angular - before.V_WO_W.angular).norm(), 1e-9) << name;
   }
-  EXPECT_THROW(simulation.select_tool("tongs"), validation::InputError);
   expect_no_jump();
 }
 
@@ -555,7 +594,7 @@ TEST(Simulation, SettingsThatDoNotFitAreRefused) {
   set.grasp.object = "ghost";
   EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}), set), validation::InputError);
   set = settings();
-  set.fork.shape = "spaghetti";
+  set.fork.length = 0.0;
   EXPECT_THROW(Simulation(box_scene({0.0, 0.0, 0.02}), set), validation::InputError);
 }
 
@@ -599,12 +638,14 @@ TEST_F(HeldAtRest, SagsByItsWeight) {
 }
 
 TEST_F(HeldAtRest, WakesWithANewStiffness) {
-  simulation.set_stiffness({500.0, 0.0, 0.0});
+  ForkChange softer;
+  softer.stretch_stiffness = 500.0;
+  simulation.change(softer);
   expect_awake();
 }
 
 TEST_F(HeldAtRest, WakesWithAFamilySwitchedOff) {
-  simulation.set_dofs({false, true, true});
+  simulation.change(dofs_change({false, true, true}));
   expect_awake();
 }
 
@@ -664,7 +705,7 @@ TEST(Simulation, MasslessObjectFollowsTheTipExactlyAndStopsAtTheBench) {
 TEST(Simulation, PointMassOnTheAxisDoesNotTwistAndOffItDoes) {
   const auto twist = [](double off_axis) {
     SimulationSettings set = settings();
-    set.dynamics.inertia = "point_mass";
+    set.dynamics.inertia = dynamics::Inertia::point_mass;
     Simulation simulation(box_scene({off_axis, 0.0, 1.0}, scene::ContactMode::none), set);
     push_move(simulation, 0.0, 1.0, {0.0, 0.0, 1.2}, {0.3, 0.2, 1.3}, 2.0);
     simulation.push_button(0.0, true);

@@ -9,6 +9,7 @@
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
+#include "support/named.h"
 
 namespace spring_workbench::simulation {
 namespace {
@@ -30,7 +31,7 @@ struct SShape {
 /// differences.
 SShape own_figure(const std::string& name, double bend, double force) {
   const rod::PerDof k{1e10, bend, 1e10};  // neither extension nor twist
-  auto made = rod::make_shape_model(name, length);
+  auto made = rod::make_shape_model(test_support::shape_named(name), length);
   if (auto stiff = made->for_stiffness(k)) made = std::move(stiff);
   const rod::ShapeModel& shape = *made;
   const rod::StrainVector K = shape.stiffness(k), none = rod::StrainVector::Zero(shape.size());

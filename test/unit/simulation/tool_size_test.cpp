@@ -7,6 +7,7 @@
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/tools/calibration.h"
 #include "support/bench_scenes.h"
+#include "support/named.h"
 
 namespace spring_workbench::simulation {
 namespace {
@@ -16,7 +17,7 @@ const Vector3d start(0.0, 0.0, 0.6);
 
 SimulationSettings settings(bool calibrate) {
   SimulationSettings set;
-  set.grasp.calibrate = calibrate;
+  set.grasp.calibrate = calibrate ? tools::Calibration::object : tools::Calibration::none;
   return set;
 }
 
@@ -87,11 +88,11 @@ TEST(ToolSize, AfterTheReleaseTheHandReachesAsFarAsBefore) {
 
 /// The object hangs at rest on a fork of any stiffness: calibration gives it another size and stiffness, and it stays.
 TEST(ToolSize, CalibratingWhileHoldingMovesNothingAtRest) {
-  for (const std::string& shape : rod::shape_model_names()) {
+  for (const std::string& shape : test_support::shape_names()) {
     for (const double soft : {0.7, 1.0, 100.0}) {
       for (const Vector3d& tip : {Vector3d(0, 0, 0), Vector3d(0.04, 0.02, 0)}) {
         SimulationSettings set = settings(false);
-        set.fork.shape = shape;
+        set.fork.shape = test_support::shape_named(shape);
         set.fork.stiffness = {soft * 500.0, soft * 500.0, soft * 5.0};
         Simulation simulation = grasped(one_box({0.1, 0.06, 0.04}, 1.0), set, tip);
         simulation.advance(10.0);

@@ -6,6 +6,7 @@
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
+#include "support/named.h"
 
 namespace spring_workbench::simulation {
 namespace {
@@ -16,7 +17,7 @@ const Vector3d left(-0.05, 0.0, 0.7), right(0.05, 0.0, 0.7);  // handles: the ti
 
 SimulationSettings with_stiffness(double stretch, double bend, double torsion, const std::string& shape = "linear") {
   SimulationSettings set;
-  set.fork.shape = shape;
+  set.fork.shape = test_support::shape_named(shape);
   set.fork.stiffness = {stretch, bend, torsion};
   return set;
 }
@@ -41,7 +42,7 @@ struct BothHold {
 };
 
 TEST(TwoHands, ObjectOfTwoKilogramsOnTwoForksSagsHalf) {
-  for (const std::string& shape : rod::shape_model_names()) {
+  for (const std::string& shape : test_support::shape_names()) {
     for (const double k : {2e2, 2e3, 2e5, 2e9}) {
       const SimulationSettings set = with_stiffness(k, 500.0, 5.0, shape);
       BothHold two(set);
@@ -73,7 +74,7 @@ TEST(TwoHands, ObjectOfTwoKilogramsOnTwoForksSagsHalf) {
 
 TEST(TwoHands, OneSpringAndOneForkShareTheWeight) {
   BothHold two(with_stiffness(2000.0, 500.0, 5.0));
-  two.simulation.select_tool("spring", 1);
+  two.simulation.select_tool(tools::Tool::spring, 1);
   two.simulation.advance(20.0);
   const double sum = two.simulation.fork(0).tip_wrench_W.force.z() + two.simulation.fork(1).tip_wrench_W.force.z();
   EXPECT_NEAR(sum, 2.0 * g, 1e-4);
@@ -82,7 +83,7 @@ TEST(TwoHands, OneSpringAndOneForkShareTheWeight) {
 
 TEST(TwoHands, NoStiffnessMakesItBlowUp) {
   for (const double k : {0.0, 1.0, 1e6, 1e12}) {
-    for (const std::string& shape : rod::shape_model_names()) {
+    for (const std::string& shape : test_support::shape_names()) {
       for (const rod::ForkDofs& dofs :
            {rod::ForkDofs{true, true, true}, rod::ForkDofs{false, true, false}, rod::ForkDofs{false, false, false}}) {
         SimulationSettings set = with_stiffness(k, k, 1e-2 * k, shape);
@@ -104,7 +105,7 @@ TEST(TwoHands, NoStiffnessMakesItBlowUp) {
 
 /// Whatever the forks' stiffness: the second one takes over what the springs of both have done.
 TEST(TwoHands, HandoverMovesTheObjectLessThanAMillimetre) {
-  for (const std::string& shape : rod::shape_model_names()) {
+  for (const std::string& shape : test_support::shape_names()) {
     for (const double soft : {0.5, 1.0, 10.0, 100.0}) {  // 1: what calibration gives 2 kg on a fork of 0.2 m
       const double k = soft * 2.0 * g / 0.02;
       BothHold two(with_stiffness(k, k, 5.0 * soft, shape));
@@ -165,7 +166,7 @@ TEST(TwoHands, HandoverFromAForkToASpringKeepsTheHeight) {
   BothHold two(with_stiffness(981.0, 981.0, 5.0));
   two.simulation.push_stylus({0.5, pointing_down({0.0, 0.0, 0.7})}, 1);  // above the centre
   two.simulation.advance(0.6);
-  two.simulation.select_tool("spring", 1);
+  two.simulation.select_tool(tools::Tool::spring, 1);
   two.simulation.advance(6.0);
   const Vector3d before = two.p();
   two.simulation.push_button(6.0, false, 0);
@@ -178,7 +179,7 @@ TEST(TwoHands, HandoverFromAForkToASpringKeepsTheHeight) {
 
 TEST(TwoHands, HandoverBetweenRigidToolsMovesNothing) {
   SimulationSettings set;
-  set.tool = "direct";
+  set.tool = tools::Tool::direct;
   Simulation simulation(scene_of({box("box", size, 2.0, Vector3d(0, 0, 0.5))}, scene::ContactMode::none), set);
   for (std::size_t hand = 0; hand < 2; ++hand) {
     simulation.push_stylus({0.0, pointing_down({hand == 0 ? -0.05 : 0.05, 0.0, 0.5})}, hand);
@@ -247,7 +248,7 @@ TEST(NextTool, GoesThroughAllTools) {
   for (int press = 0; press < 5; ++press) {
     simulation.push_next_tool(0.01 * press);
     simulation.advance(0.01 * press);
-    seen.push_back(simulation.fork().tool);
+    seen.push_back(validation::name_of(simulation.fork().tool));
   }
   EXPECT_EQ(seen, (std::vector<std::string>{"spring_probe", "direct", "ray", "spring", "spring_fork"}));
 }
@@ -272,9 +273,40 @@ TEST(NextTool, WhileHoldingGoesThroughThoseThatHoldWithoutAJump) {
     EXPECT_LT((after.X_WO.matrix() - before.X_WO.matrix()).norm(), 1e-5) << press;
     EXPECT_LT((after.V_WO_W.linear - before.V_WO_W.linear).norm(), 1e-3) << press;
     EXPECT_EQ(simulation.fork().held_object, "box");
-    seen.push_back(simulation.fork().tool);
+    seen.push_back(validation::name_of(simulation.fork().tool));
   }
   EXPECT_EQ(seen, (std::vector<std::string>{"direct", "ray", "spring", "spring_fork"}));
+}
+
+/// Each hand calibrates its fork to what it holds, and keeps that whatever the other does; to set what is there already
+/// moves nothing.
+TEST(TwoHands, EachHasAForkOfItsOwn) {
+  SimulationSettings set;
+  set.grasp.calibrate = tools::Calibration::object;
+  const Vector3d far_left(-0.5, 0.0, 0.7), far_right(0.5, 0.0, 0.7), tip(0.0, 0.0, -0.2);
+  Simulation simulation(scene_of({box("heavy", size, 20.0, far_left + tip), box("light", size, 0.2, far_right + tip)},
+                                 scene::ContactMode::none),
+                        set);
+  for (std::size_t hand = 0; hand < 2; ++hand) {
+    const Vector3d p = hand == 0 ? far_left : far_right;
+    push_move(simulation, 0.0, 6.0, p, p, 0.0, hand);
+    simulation.push_button(0.5 * static_cast<double>(hand), true, hand);
+  }
+  simulation.advance(5.0);
+  ASSERT_EQ(simulation.fork(0).held_object, "heavy");
+  ASSERT_EQ(simulation.fork(1).held_object, "light");
+  EXPECT_NEAR(simulation.fork(0).stiffness.stretch / simulation.fork(1).stiffness.stretch, 100.0, 1.0);
+  const Vector3d heavy = object(simulation, "heavy").X_WO.translation();
+  ForkChange same;
+  same.damping_ratio = {1.0, 1.0, 1.0};
+  simulation.change(same);
+  simulation.advance(5.5);
+  EXPECT_LT((object(simulation, "heavy").X_WO.translation() - heavy).norm(), 1e-9);
+  ForkChange stiffer;
+  stiffer.stretch_stiffness = 5.0 * simulation.fork(1).stiffness.stretch;
+  simulation.change(stiffer, 1);
+  EXPECT_LT((object(simulation, "heavy").X_WO.translation() - heavy).norm(), 1e-9);
+  EXPECT_NEAR(simulation.fork(0).stiffness.stretch / simulation.fork(1).stiffness.stretch, 20.0, 0.2);
 }
 
 }  // namespace

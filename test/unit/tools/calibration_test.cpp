@@ -30,8 +30,8 @@ const std::vector<Vector3d> grasps = {Vector3d::Zero(), Vector3d(0.05, 0.0, 0.0)
 /// The body on the calibrated fork, where it comes to rest by itself: no solver of equilibria here.
 struct Held {
   Held(const dynamics::BodyInertia& body, const rod::PerDof& stiffness, const Vector3d& turn)
-      : held(rod::make_shape_model("linear", length), body, gravity),
-        integrator(dynamics::make_integrator("exponential")),
+      : held(rod::make_shape_model(rod::ShapeKind::linear, length), body, gravity),
+        integrator(dynamics::make_integrator(dynamics::IntegratorKind::exponential)),
         hand(pose(turn)) {
     const int size = held.shape().size();
     state = {rod::StrainVector::Zero(size), rod::StrainVector::Zero(size)};
@@ -65,7 +65,7 @@ TEST(Calibration, StaticSagIsTheSetPartOfTheLengthOverTwelveDecadesOfMassWhereve
   for (double mass = 1e-6; mass < 2e6; mass *= 1e4) {
     for (const Vector3d& p_OE : grasps) {
       const dynamics::BodyInertia body = box(mass, p_OE);
-      const rod::PerDof fork = calibrated_stiffness("linear", length, body, gravity, goal);
+      const rod::PerDof fork = calibrated_stiffness(rod::ShapeKind::linear, length, body, gravity, goal);
       Held down(body, fork, hanging), across(body, fork, level);
       down.run(3.0);
       across.run(3.0);
@@ -77,8 +77,8 @@ TEST(Calibration, StaticSagIsTheSetPartOfTheLengthOverTwelveDecadesOfMassWhereve
 
 /// A held body at rest without gravity, all families on, as calibration sets it up.
 dynamics::HeldBody calibrated(const dynamics::BodyInertia& body, double ratio) {
-  dynamics::HeldBody held(rod::make_shape_model("linear", length), body, 0.0);
-  held.set_springs_with_modal_damping(calibrated_stiffness("linear", length, body, gravity), ratio);
+  dynamics::HeldBody held(rod::make_shape_model(rod::ShapeKind::linear, length), body, 0.0);
+  held.set_springs_with_modal_damping(calibrated_stiffness(rod::ShapeKind::linear, length, body, gravity), ratio);
   held.set_dofs({true, true, true}, 0.0, 1.0, {rod::StrainVector::Zero(6), rod::StrainVector::Zero(6)});
   return held;
 }
@@ -103,7 +103,7 @@ TEST(Calibration, EveryModeHasTheDampingRatioWhereverTheGraspIs) {
 /// 2 %.
 double settling_time(const dynamics::BodyInertia& body, int direction) {
   const dynamics::HeldBody held = calibrated(body, 1.0);
-  const auto integrator = dynamics::make_integrator("exponential");
+  const auto integrator = dynamics::make_integrator(dynamics::IntegratorKind::exponential);
   const motion::MotionSegment hand{RigidTransform::Identity()};
   const auto place = [&](const dynamics::StrainState& state) {
     const RigidTransform X = held.object(held.forcing(hand, 0.0), state).X;
@@ -144,7 +144,7 @@ TEST(Calibration, EveryDirectionSettlesAlikeOverTwelveDecadesOfMass) {
 }
 
 TEST(Calibration, NoLoadNoGravityStaysPositive) {
-  const rod::PerDof fork = calibrated_stiffness("linear", length, box(1.0, Vector3d::Zero()), 0.0);
+  const rod::PerDof fork = calibrated_stiffness(rod::ShapeKind::linear, length, box(1.0, Vector3d::Zero()), 0.0);
   EXPECT_GT(fork.stretch, 0.0);
   EXPECT_GT(fork.torsion, 0.0);
 }

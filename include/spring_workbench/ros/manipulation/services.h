@@ -31,6 +31,9 @@ class Services {
   bool reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool release(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
+  template <typename Response>
+  void change_fork(const simulation::ForkChange& change, std::optional<std::size_t> hand, Response& response);
+
   SimulationRunner& runner_;
   std::vector<std::string> scene_roots_;
   std::vector<ros::ServiceServer> servers_;

@@ -2,14 +2,14 @@
 
 #include "spring_workbench/ManipulationConfig.h"
 #include "spring_workbench/ros/manipulation/live_tuning.h"
-#include "spring_workbench/validation/input_error.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::manipulation {
 namespace {
 
-/// What the simulation has now.
-void take_from(const simulation::SimulationSettings& settings, ManipulationConfig& config) {
-  const rod::ForkSettings& fork = settings.fork;
+/// What the simulation has now; of the forks, the first hand's.
+void take_from(const simulation::Simulation& simulation, ManipulationConfig& config) {
+  const rod::ForkSettings& fork = simulation.fork_settings();
   config.stretch = fork.dofs.stretch;
   config.bend = fork.dofs.bend;
   config.torsion = fork.dofs.torsion;
@@ -19,30 +19,35 @@ void take_from(const simulation::SimulationSettings& settings, ManipulationConfi
   config.stretch_damping = fork.damping_ratio.stretch;
   config.bend_damping = fork.damping_ratio.bend;
   config.torsion_damping = fork.damping_ratio.torsion;
-  config.integrator = settings.dynamics.integrator;
-  config.step = settings.dynamics.step;
+  config.integrator = validation::name_of(simulation.settings().dynamics.integrator);
+  config.step = simulation.settings().dynamics.step;
 }
 
-bool same(const rod::PerDof& a, const rod::PerDof& b) {
-  return a.stretch == b.stretch && a.bend == b.bend && a.torsion == b.torsion;
+template <typename T>
+std::optional<T> if_other(const T& asked, const T& present) {
+  return asked == present ? std::nullopt : std::optional<T>(asked);
 }
 
-/// Makes the changes that the configuration asks for, one after the other. Throws InputError at the first bad one.
+/// Makes the change that the configuration asks for, of all forks. Throws InputError, and changes nothing, for a bad
+/// one.
 void give_to(simulation::Simulation& simulation, const ManipulationConfig& config) {
-  const rod::ForkSettings fork = simulation.settings().fork;
-  const rod::ForkDofs dofs{config.stretch, config.bend, config.torsion};
-  const rod::PerDof stiffness{config.stretch_stiffness, config.bend_stiffness, config.torsion_stiffness};
+  const rod::ForkSettings& fork = simulation.fork_settings();
+  const dynamics::DynamicsSettings& dynamics = simulation.settings().dynamics;
   const rod::PerDof damping{config.stretch_damping, config.bend_damping, config.torsion_damping};
-  const dynamics::DynamicsSettings dynamics = simulation.settings().dynamics;
-  if (!(dofs == fork.dofs)) simulation.set_dofs(dofs);
-  if (!same(stiffness, fork.stiffness)) simulation.set_stiffness(stiffness);
-  if (!same(damping, fork.damping_ratio)) {
-    const bool one_ratio = same(damping, {damping.stretch, damping.stretch, damping.stretch});
-    simulation.set_damping_ratio(damping, one_ratio ? "" : "per_dof");  // the modal law knows one ratio alone
-  }
-  if (config.integrator != dynamics.integrator || config.step != dynamics.step) {
-    simulation.set_integrator(config.integrator, config.step);
-  }
+  simulation::ForkChange of_fork;
+  of_fork.dofs = if_other<rod::ForkDofs>({config.stretch, config.bend, config.torsion}, fork.dofs);
+  of_fork.stretch_stiffness = if_other(config.stretch_stiffness, fork.stiffness.stretch);
+  of_fork.bend_stiffness = if_other(config.bend_stiffness, fork.stiffness.bend);
+  of_fork.torsion_stiffness = if_other(config.torsion_stiffness, fork.stiffness.torsion);
+  of_fork.damping_ratio = if_other(damping, fork.damping_ratio);
+  const bool one_ratio = damping == rod::PerDof{damping.stretch, damping.stretch, damping.stretch};
+  if (of_fork.damping_ratio && !one_ratio)
+    of_fork.damping_law = rod::DampingLaw::per_dof;  // modal knows one ratio alone
+  simulation::DynamicsChange of_dynamics;
+  of_dynamics.integrator = if_other(
+      validation::named<dynamics::IntegratorKind>(config.integrator, "live", "integrator"), dynamics.integrator);
+  of_dynamics.step = if_other(config.step, dynamics.step);
+  simulation.change(of_fork, of_dynamics);
 }
 
 bool same(const ManipulationConfig& a, const ManipulationConfig& b) { return a.__level__(b) == 0; }
@@ -65,7 +70,7 @@ class Reconfigure final : public LiveTuning {
       } catch (const validation::InputError& error) {
         ROS_WARN_STREAM(error.what());
       }
-      take_from(simulation.settings(), config);
+      take_from(simulation, config);
     });
     told_ = config;
   }
@@ -73,7 +78,7 @@ class Reconfigure final : public LiveTuning {
   /// Tells what others have changed.
   void follow() {
     ManipulationConfig now = told_;
-    runner_.locked([&](const simulation::Simulation& simulation) { take_from(simulation.settings(), now); });
+    runner_.locked([&](const simulation::Simulation& simulation) { take_from(simulation, now); });
     if (same(now, told_)) return;
     told_ = now;
     server_.updateConfig(now);

@@ -1,0 +1,163 @@
+#pragma once
+
+#include <array>
+#include <complex>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "spring_workbench/math/pack.h"
+
+namespace spring_workbench::math {
+
+/// Goes through the numbers of a state, always in the same order, either to take them down or to set them. So a class
+/// lists once, in `exchange(StateArchive&)`, what a step changes of it, to be saved, restored, compared and hashed.
+/// Nothing but numbers goes in: no pointer, no padding, no capacity.
+class StateArchive {
+ public:
+  using Words = std::vector<std::uint64_t>;
+
+  /// Takes down.
+  StateArchive() = default;
+  /// Sets from `words`, which must be there as long as this.
+  explicit StateArchive(const Words& words) : given_(&words) {}
+
+  bool sets() const { return given_ != nullptr; }
+  const Words& taken() const { return taken_; }
+  bool at_end() const { return given_ == nullptr || next_ == given_->size(); }
+
+  /// The next values of the state. Throws std::out_of_range where the words do not go that far.
+  template <typename... Values>
+  void operator()(Values&... values) {
+    (exchange(values), ...);
+  }
+
+  /// The size of something that has as many words at least. Throws std::out_of_range where there are not so many left.
+  std::size_t size(std::size_t present) {
+    exchange(present);
+    if (sets() && present > given_->size() - next_) throw std::out_of_range("state: ends too early");
+    return present;
+  }
+
+ private:
+  void exchange_word(std::uint64_t& word) {
+    if (!sets()) {
+      taken_.push_back(word);
+    } else {
+      word = given_->at(next_++);
+    }
+  }
+  void exchange_numbers(double* numbers, Eigen::Index count) {
+    for (Eigen::Index i = 0; i < count; ++i) exchange(numbers[i]);
+  }
+
+  template <typename T>
+  void exchange(T& value) {
+    if constexpr (std::is_same_v<T, double>) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, &value, sizeof word);
+      exchange_word(word);
+      std::memcpy(&value, &word, sizeof word);
+    } else if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T>) {
+      auto word = static_cast<std::uint64_t>(value);
+      exchange_word(word);
+      value = static_cast<T>(word);
+    } else if constexpr (std::is_base_of_v<Eigen::EigenBase<T>, T>) {
+      Eigen::Index rows = value.rows(), columns = value.cols();
+      if constexpr (T::SizeAtCompileTime == Eigen::Dynamic) {
+        exchange(rows);
+        exchange(columns);
+        if (sets() && !fits<T>(rows, columns)) throw std::out_of_range("state: size of a matrix");
+        value.resize(rows, columns);
+      }
+      exchange_numbers(value.data(), rows * columns);
+    } else {
+      value.exchange(*this);
+    }
+  }
+  template <typename T>
+  static bool fits(Eigen::Index rows, Eigen::Index columns) {
+    const auto at_most = [](Eigen::Index size, int fixed, int most) {
+      return fixed == Eigen::Dynamic ? size >= 0 && (most == Eigen::Dynamic || size <= most) : size == fixed;
+    };
+    return at_most(rows, T::RowsAtCompileTime, T::MaxRowsAtCompileTime) &&
+           at_most(columns, T::ColsAtCompileTime, T::MaxColsAtCompileTime);
+  }
+  void exchange(RigidTransform& X) { exchange(X.matrix()); }
+  void exchange(Twist& V) { (*this)(V.linear, V.angular); }
+  void exchange(Wrench& F) { (*this)(F.force, F.moment); }
+  void exchange(std::complex<double>& z) { exchange_numbers(reinterpret_cast<double*>(&z), 2); }
+  void exchange(Pack& p) {
+    for (int i = 0; i < pack_size; ++i) {
+      double x = p[i];
+      exchange(x);
+      p[i] = x;
+    }
+  }
+  void exchange(std::string& text) {
+    text.resize(size(text.size()));
+    for (char& c : text) exchange(c);
+  }
+  template <typename T, std::size_t n>
+  void exchange(std::array<T, n>& list) {
+    for (T& value : list) exchange(value);
+  }
+  template <typename T>
+  void exchange(std::optional<T>& value) {
+    bool there = value.has_value();
+    exchange(there);
+    if (there && !value) value.emplace();
+    if (!there) value.reset();
+    if (there) exchange(*value);
+  }
+  template <typename T>
+  void exchange(std::vector<T>& list) {
+    exchange_list(list);
+  }
+  template <typename T>
+  void exchange(std::deque<T>& list) {
+    exchange_list(list);
+  }
+  template <typename T>
+  void exchange(std::set<T>& set) {
+    std::vector<T> list(set.begin(), set.end());
+    exchange_list(list);
+    if (sets()) set = std::set<T>(list.begin(), list.end());
+  }
+  template <typename Key, typename T>
+  void exchange(std::map<Key, T>& map) {
+    std::vector<Key> keys;
+    for (const auto& entry : map) keys.push_back(entry.first);
+    exchange_list(keys);
+    if (sets()) map.clear();
+    for (const Key& key : keys) exchange(map[key]);
+  }
+  template <typename List>
+  void exchange_list(List& list) {
+    list.resize(size(list.size()));
+    for (auto& value : list) exchange(value);
+  }
+
+  Words taken_;
+  const Words* given_ = nullptr;
+  std::size_t next_ = 0;
+};
+
+/// FNV-1a of the words' bytes, lowest first: the same on every machine.
+inline std::uint64_t hash(const StateArchive::Words& words) {
+  std::uint64_t h = 14695981039346656037u;
+  for (const std::uint64_t word : words) {
+    for (int shift = 0; shift < 64; shift += 8) h = (h ^ ((word >> shift) & 0xff)) * 1099511628211u;
+  }
+  return h;
+}
+
+}  // namespace spring_workbench::math

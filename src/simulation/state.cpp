@@ -1,0 +1,67 @@
+#include "spring_workbench/simulation/state.h"
+
+#include <yaml-cpp/yaml.h>
+
+#include <cstddef>
+
+#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/validation/number_rule.h"
+
+namespace spring_workbench::simulation {
+namespace {
+
+const std::string format = "spring_workbench state 1";
+constexpr std::size_t digits = 16;  ///< of a word
+const char* const hexadecimal = "0123456789abcdef";
+
+void append_hex(std::string& text, std::uint64_t word) {
+  for (int shift = 60; shift >= 0; shift -= 4) text += hexadecimal[(word >> shift) & 15u];
+}
+
+}  // namespace
+
+std::string to_hex(std::uint64_t hash) {
+  std::string text;
+  append_hex(text, hash);
+  return text;
+}
+
+std::string serialise(const SimulationState& state) {
+  std::string numbers;
+  numbers.reserve(digits * state.words_.size());
+  for (const std::uint64_t word : state.words_) append_hex(numbers, word);
+  YAML::Emitter text;
+  text << YAML::BeginMap << YAML::Key << "format" << YAML::Value << format << YAML::Key << "scene" << YAML::Value
+       << YAML::DoubleQuoted << state.scene_ << YAML::Key << "hash" << YAML::Value << YAML::DoubleQuoted
+       << to_hex(state.hash()) << YAML::Key << "numbers" << YAML::Value << YAML::DoubleQuoted << numbers
+       << YAML::EndMap;
+  return text.c_str();
+}
+
+SimulationState parse_state(const std::string& text) {
+  const std::string where = "state";
+  YAML::Node map;
+  try {
+    map = YAML::Load(text);
+  } catch (const YAML::Exception&) {
+  }
+  if (!map.IsMap() || config::read_string(map["format"], where, "format") != format) {
+    validation::refuse(where, "format", "what is given", format);
+  }
+  SimulationState state;
+  state.scene_ = config::read_string(map["scene"], where, "scene");
+  const std::string numbers = config::read_string(map["numbers"], where, "numbers");
+  const bool all_hexadecimal = numbers.find_first_not_of(hexadecimal) == std::string::npos;
+  if (all_hexadecimal && numbers.size() % digits == 0) {
+    for (std::size_t at = 0; at < numbers.size(); at += digits) {
+      state.words_.push_back(std::stoull(numbers.substr(at, digits), nullptr, 16));
+    }
+  }
+  if (!all_hexadecimal || numbers.size() % digits != 0 ||
+      config::read_string(map["hash"], where, "hash") != to_hex(state.hash())) {
+    validation::refuse(where, "numbers", "what is given", "those that the hash is of");
+  }
+  return state;
+}
+
+}  // namespace spring_workbench::simulation

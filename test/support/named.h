@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/rod/shape_model.h"
+#include "spring_workbench/validation/names.h"
+
+namespace spring_workbench::test_support {
+
+// Shapes and integrators by their names, which parameterised tests are called by.
+
+inline rod::ShapeKind shape_named(const std::string& name) {
+  return validation::named<rod::ShapeKind>(name, "test", "shape");
+}
+inline const std::vector<std::string>& shape_names() { return validation::names<rod::ShapeKind>(); }
+
+inline dynamics::IntegratorKind integrator_named(const std::string& name) {
+  return validation::named<dynamics::IntegratorKind>(name, "test", "integrator");
+}
+inline std::unique_ptr<dynamics::Integrator> make_integrator(const std::string& name) {
+  return dynamics::make_integrator(integrator_named(name));
+}
+inline const std::vector<std::string>& integrator_names() { return validation::names<dynamics::IntegratorKind>(); }
+
+}  // namespace spring_workbench::test_support
