@@ -7,6 +7,7 @@
 
 #include "energy_limit.h"
 #include "implicit_integrators.h"
+#include "spring_workbench/math/spatial.h"
 #include "strain_limit.h"
 
 namespace spring_workbench::dynamics {
@@ -54,8 +55,6 @@ double stiffest_omega(const HeldBody& body, double t, const rod::StrainVector& q
   return std::sqrt(std::max(0.0, modes.eigenvalues().maxCoeff()));
 }
 
-double radius_of_gyration(const BodyInertia& body) { return std::sqrt(0.5 * body.inertia_O.trace() / body.mass); }
-
 }  // namespace
 
 struct StepControl::Span {
@@ -68,7 +67,7 @@ struct StepControl::Span {
   /// An error of the strain as one length.
   double length(double t, const rod::StrainVector& q, const rod::StrainVector& error) const {
     const Sizes s = sizes(body, t, q, error);
-    return std::hypot(s.position, radius_of_gyration(body.body()) * s.angle);
+    return std::hypot(s.position, radius_of_gyration(body.body().mass, body.body().inertia_O) * s.angle);
   }
 };
 
