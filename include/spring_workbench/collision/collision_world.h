@@ -26,7 +26,7 @@ struct SweepResult {
 /// What touches what, where and when. Knows shapes and poses; no forces, no time. FCL does the work (in the .cpp
 /// alone). Bodies are those of the scene, by index; the bench is the half-space below `scene.bench_height`. Not
 /// copyable; one thread at a time. Virtual, so that who uses one from `open_collision_world`
-/// (engines/contact_engines.h) is not linked with FCL; who makes one by itself is.
+/// (contact/contact_engines.h) is not linked with FCL; who makes one by itself is.
 class CollisionWorld {
  public:
   static constexpr std::size_t bench = static_cast<std::size_t>(-1);

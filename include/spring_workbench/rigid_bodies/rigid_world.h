@@ -91,7 +91,7 @@ class RigidWorld {
 };
 
 /// All movable bodies begin asleep at the scene's poses. Bullet does the work, in double precision. Who calls this is
-/// linked with it; `open_rigid_world` (engines/contact_engines.h) opens it when it is needed.
+/// linked with it; `open_rigid_world` (contact/contact_engines.h) opens it when it is needed.
 std::unique_ptr<RigidWorld> make_rigid_world(const scene::Scene& scene);
 
 }  // namespace spring_workbench::rigid_bodies
