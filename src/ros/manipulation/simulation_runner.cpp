@@ -130,21 +130,30 @@ void SimulationRunner::restart() {
 }
 
 void SimulationRunner::load(const scene::Scene& scene) {
-  resume(scene, [](simulation::Simulation&) {}, {});
-}
-
-void SimulationRunner::resume(const scene::Scene& scene, const std::function<void(simulation::Simulation&)>& prepare,
-                              const std::map<std::string, RigidTransform>& X_WO) {
   const std::lock_guard<std::mutex> lock(mutex_);
   simulation::Simulation simulation(scene, simulation_.settings());
   for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
     simulation.change(simulation::change_to(simulation_.fork_settings(hand)), hand);
   }
-  prepare(simulation);
-  simulation.place(X_WO);
-  task_ = assembly::TaskMonitor(scene);
+  places_.clear();
+  begin_with(std::move(simulation));
+}
+
+void SimulationRunner::resume(const scene::Scene& scene, const simulation::SimulationState& state) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  simulation::Simulation simulation(scene, simulation_.settings());
+  simulation.restore(state);
+  std::map<std::string, RigidTransform> places;
+  for (const bodies::BodyState& object : simulation.objects()) places[object.name] = object.X_WO;
+  simulation.reset();
+  simulation.place(places);
+  places_ = std::move(places);
+  begin_with(std::move(simulation));
+}
+
+void SimulationRunner::begin_with(simulation::Simulation simulation) {
+  task_ = assembly::TaskMonitor(simulation.scene());
   simulation_ = std::move(simulation);
-  places_ = X_WO;
   feed_.restart();
 }
 

@@ -9,9 +9,9 @@
 
 namespace spring_workbench::manipulation {
 
-/// What a node `manipulation` that is started again after a crash goes on with: scene, tools, switches, stiffness,
-/// damping, integrator, and where the objects were; nobody holds anything. It lies on the parameter server under
-/// `~resume`, is brought up to date twice a second while something changes, and is deleted when the node ends in order.
+/// What a node `manipulation` that is started again after a crash goes on with: the scene's path and the simulation's
+/// state (simulation::serialise). It lies on the parameter server under `~resume`, is brought up to date twice a second
+/// while something changes, and is deleted when the node ends in order.
 class Checkpoint {
  public:
   /// Brings the runner to the checkpoint, where there is one of a node that was started with the same scene; one that
@@ -32,7 +32,8 @@ class Checkpoint {
   ros::NodeHandle private_node_;
   SimulationRunner& runner_;
   XmlRpc::XmlRpcValue parameters_;  ///< of the node, at its start
-  XmlRpc::XmlRpcValue kept_;
+  std::string kept_scene_;          ///< path; empty: nothing is kept
+  simulation::SimulationState kept_state_;
   bool handed_over_ = false;
   ros::WallTimer timer_;
 };

@@ -2,7 +2,6 @@
 
 #include <array>
 #include <deque>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <vector>
@@ -53,10 +52,10 @@ class SimulationRunner {
   void restart();
   /// Another scene, with the settings as they are now. Throws InputError, and keeps the old one, when it does not fit.
   void load(const scene::Scene& scene);
-  /// The same, and `prepare` changes the simulation first; then these objects are where they are said to be, and there
-  /// when the first hand comes: see Simulation::place. Where anything throws, all stays as it was.
-  void resume(const scene::Scene& scene, const std::function<void(simulation::Simulation&)>& prepare,
-              const std::map<std::string, RigidTransform>& X_WO);
+  /// Another scene, with tools and settings as of a saved state and the objects where they are in it; nobody holds.
+  /// They are there when the first hand comes, too, whose time begins anew. Throws InputError, and keeps all as it was,
+  /// when the state does not fit the scene.
+  void resume(const scene::Scene& scene, const simulation::SimulationState& state);
 
   /// Calls `use(Simulation&)` while nobody else does.
   template <typename Use>
@@ -95,6 +94,7 @@ class SimulationRunner {
   double next_on_grid() const;
   void advance(double target, CycleReport& report);
   void start_anew();
+  void begin_with(simulation::Simulation simulation);
 
   mutable std::mutex mutex_;
   simulation::Simulation simulation_;
