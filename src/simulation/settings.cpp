@@ -18,97 +18,66 @@ using S = SimulationSettings;
 using validation::between;
 using validation::NumberRule;
 
-/// Where a setting's value is kept.
-template <typename T>
-using Member = std::function<T&(S&)>;
-template <typename A, typename T>
-auto at(A S::*group, T A::*field) {
-  return Member<T>([=](S& s) -> T& { return s.*group.*field; });
-}
-template <typename A, typename B, typename T>
-auto at(A S::*group, B A::*part, T B::*field) {
-  return Member<T>([=](S& s) -> T& { return s.*group.*part.*field; });
-}
-
-/// One row of the table: who reads a file, a parameter or a command line, and who checks settings made in C++, ask the
-/// same rule.
+/// One key of some settings: who reads a file, a parameter or a command line, and who checks settings made in C++, ask
+/// the same rule. Refers to the settings that the table was made for.
 struct Field {
   SettingDescription description;
-  std::function<void(const YAML::Node&, const std::string& where, S&)> read;
-  std::function<void(const std::string& where, S&)> check;
+  std::function<void(const YAML::Node&, const std::string& where)> read;
+  std::function<void(const std::string& where)> check;
 };
+
+template <typename T>
+const T* given(const T& value) {
+  return &value;
+}
+template <typename T>
+const T* given(const std::optional<T>& value) {
+  return value ? &*value : nullptr;
+}
 
 std::string text_of(double value) {
   std::ostringstream out;
   out << value;
-  return out.str();
+  return std::isinf(value) ? ".inf" : out.str();
 }
 
-Field number(const std::string& key, const std::string& unit, const NumberRule& rule, const std::string& meaning,
-             const Member<double>& member) {
-  S defaults;
-  const double value = member(defaults);
-  return {{key, "double", unit, rule.text(), std::isinf(value) ? ".inf" : text_of(value), meaning},
-          [=](const auto& node, const auto& where, S& s) { member(s) = config::read_number(node, where, key, rule); },
-          [=](const auto& where, S& s) { validation::check_number(where, key, member(s), rule); }};
-}
-
-/// A number without a default of its own: `absent` says what is used then.
-Field number(const std::string& key, const std::string& unit, const NumberRule& rule, const std::string& absent,
-             const std::string& meaning, const Member<std::optional<double>>& member) {
-  return {{key, "double", unit, rule.text(), absent, meaning},
-          [=](const auto& node, const auto& where, S& s) { member(s) = config::read_number(node, where, key, rule); },
-          [=](const auto& where, S& s) {
-            if (member(s)) validation::check_number(where, key, *member(s), rule);
+/// `value`: a number, or an optional one, where `absent` says what is used without it.
+template <typename T>
+Field number(const char* key, const char* unit, const NumberRule& rule, const char* meaning, T& value,
+             const char* absent = "") {
+  return {{key, "double", unit, rule.text(), given(value) ? text_of(*given(value)) : absent, meaning},
+          [=, &value](const auto& node, const auto& where) { value = config::read_number(node, where, key, rule); },
+          [=, &value](const auto& where) {
+            if (given(value)) validation::check_number(where, key, *given(value), rule);
           }};
 }
 
-Field integer(const std::string& key, int min, int max, const std::string& meaning, const Member<int>& member) {
-  S defaults;
+Field integer(const char* key, int min, int max, const char* meaning, int& value) {
   const std::string allowed = "an integer in [" + std::to_string(min) + ", " + std::to_string(max) + "]";
   return {
-      {key, "int", "–", allowed, std::to_string(member(defaults)), meaning},
-      [=](const auto& node, const auto& where, S& s) { member(s) = config::read_integer(node, where, key, min, max); },
-      [=](const auto& where, S& s) {
-        const int value = member(s);
+      {key, "int", "–", allowed, std::to_string(value), meaning},
+      [=, &value](const auto& node, const auto& where) { value = config::read_integer(node, where, key, min, max); },
+      [=, &value](const auto& where) {
         if (value < min || value > max) validation::refuse(where, key, std::to_string(value), allowed);
       }};
 }
 
-Field flag(const std::string& key, const std::string& meaning, const Member<bool>& member) {
-  S defaults;
-  return {{key, "bool", "–", "true or false", member(defaults) ? "true" : "false", meaning},
-          [=](const auto& node, const auto& where, S& s) { member(s) = config::read_bool(node, where, key); },
-          [](const auto&, S&) {}};
+Field flag(const char* key, const char* meaning, bool& value) {
+  return {{key, "bool", "–", "true or false", value ? "true" : "false", meaning},
+          [=, &value](const auto& node, const auto& where) { value = config::read_bool(node, where, key); },
+          [](const auto&) {}};
 }
 
-template <typename E>
-void check(E value, const std::string& where, const std::string& key) {
-  const auto& names = validation::names<E>();
-  if (static_cast<std::size_t>(value) < names.size()) return;
-  validation::refuse(where, key, "no value of its enum", "one of " + validation::join(names));
-}
-
-template <typename E>
-std::string allowed() {
-  return "one of " + validation::join(validation::names<E>());
-}
-
-template <typename E>
-Field choice(const std::string& key, const std::string& meaning, const Member<E>& member) {
-  S defaults;
-  return {{key, "string", "–", allowed<E>(), validation::name_of(member(defaults)), meaning},
-          [=](const auto& node, const auto& where, S& s) { member(s) = config::read_named<E>(node, where, key); },
-          [=](const auto& where, S& s) { check(member(s), where, key); }};
-}
-
-template <typename E>
-Field choice(const std::string& key, const std::string& absent, const std::string& meaning,
-             const Member<std::optional<E>>& member) {
-  return {{key, "string", "–", allowed<E>(), absent, meaning},
-          [=](const auto& node, const auto& where, S& s) { member(s) = config::read_named<E>(node, where, key); },
-          [=](const auto& where, S& s) {
-            if (member(s)) check(*member(s), where, key);
+/// `value`: an enum's, or an optional one, as of number().
+template <typename T>
+Field choice(const char* key, const char* meaning, T& value, const char* absent = "") {
+  using E = std::decay_t<decltype(*given(value))>;
+  const std::string allowed = "one of " + validation::join(validation::names<E>());
+  return {{key, "string", "–", allowed, given(value) ? validation::name_of(*given(value)) : absent, meaning},
+          [=, &value](const auto& node, const auto& where) { value = config::read_named<E>(node, where, key); },
+          [=, &value](const auto& where) {
+            if (!given(value) || static_cast<std::size_t>(*given(value)) < validation::names<E>().size()) return;
+            validation::refuse(where, key, "no value of its enum", allowed);
           }};
 }
 
@@ -118,133 +87,101 @@ NumberRule positive_or_infinite() {
   return rule;
 }
 
-std::vector<Field> scene_fields() {
-  const std::string as_scene = "as the scene says";
-  const auto direct = [](auto S::*field) {
-    using T = std::remove_reference_t<decltype(std::declval<S&>().*field)>;
-    return Member<T>([=](S& s) -> T& { return s.*field; });
-  };
+std::vector<Field> scene_fields(S& s) {
+  const char* as_scene = "as the scene says";
   return {
-      choice("tool", as_scene, "the tool in the hand", direct(&S::tool)),
-      choice("contact", as_scene,
+      choice("tool", "the tool in the hand", s.tool, as_scene),
+      choice("contact",
              "none: nothing is felt; stop: the held object stops at everything else and slides on; dynamic: it pushes, "
              "lifts and carries what it touches",
-             direct(&S::contact)),
-      number("gravity", "m/s²", between(0.0, 1e3), as_scene, "along −z of world", direct(&S::gravity)),
-      number("force_scale", "–", between(1e-9, 1e9), as_scene, "virtual per real unit of force",
-             direct(&S::force_scale)),
+             s.contact, as_scene),
+      number("gravity", "m/s²", between(0.0, 1e3), "along −z of world", s.gravity, as_scene),
+      number("force_scale", "–", between(1e-9, 1e9), "virtual per real unit of force", s.force_scale, as_scene),
   };
 }
 
-std::vector<Field> dynamics_fields() {
-  using D = dynamics::DynamicsSettings;
+std::vector<Field> dynamics_fields(dynamics::DynamicsSettings& d) {
   return {
-      choice("integrator", "how the fork and the held object are stepped", at(&S::dynamics, &D::integrator)),
+      choice("integrator", "how the fork and the held object are stepped", d.integrator),
       number("step", "s", between(1e-6, 1.0), "the largest step; a step also ends at every sample of the motion",
-             at(&S::dynamics, &D::step)),
+             d.step),
       number("tolerance", "m", between(0.0, dynamics::StepControl::largest_tolerance),
-             "0: fixed steps; else steps are made short enough for the run's error to stay near this",
-             at(&S::dynamics, &D::tolerance)),
-      choice("inertia", "exact: the object's own; point_mass: the paper's I = r² m", at(&S::dynamics, &D::inertia)),
+             "0: fixed steps; else steps are made short enough for the run's error to stay near this", d.tolerance),
+      choice("inertia", "exact: the object's own; point_mass: the paper's I = r² m", d.inertia),
   };
 }
 
-std::vector<Field> fork_fields() {
-  using F = rod::ForkSettings;
-  using P = rod::PerDof;
+std::vector<Field> fork_fields(rod::ForkSettings& f) {
   const NumberRule stiffness = between(0.0, 1e16), ratio = between(0.0, 10.0), coefficient = between(0.0, 1e12);
-  const auto dof = [](bool rod::ForkDofs::*field) { return at(&S::fork, &F::dofs, field); };
+  rod::PerDof &k = f.stiffness, &zeta = f.damping_ratio, &c = f.damping_coefficient;
   return {
-      choice("shape", "the fork's shape model: how its curvature may vary along it", at(&S::fork, &F::shape)),
-      number("fork.length", "m", between(1e-4, 1e3), "rest length", at(&S::fork, &F::length)),
-      number("fork.stiffness.stretch", "N/m", stiffness, "axial force per extension",
-             at(&S::fork, &F::stiffness, &P::stretch)),
-      number("fork.stiffness.bend", "N/m", stiffness, "transverse tip force per tip deflection",
-             at(&S::fork, &F::stiffness, &P::bend)),
-      number("fork.stiffness.torsion", "N·m/rad", stiffness, "axial moment per twist angle",
-             at(&S::fork, &F::stiffness, &P::torsion)),
-      number("fork.stiffness.slope", "N·m/rad", between(1e-12, 1e16), "k_bend L² / 3, as of a rod",
-             "of the shape bushing: transverse moment per slope of the tip", at(&S::fork, &F::slope_stiffness)),
-      number("fork.damping.stretch", "–", ratio, "damping ratio of stretching; 1 is critical",
-             at(&S::fork, &F::damping_ratio, &P::stretch)),
-      number("fork.damping.bend", "–", ratio, "damping ratio of bending; 1 is critical",
-             at(&S::fork, &F::damping_ratio, &P::bend)),
-      number("fork.damping.torsion", "–", ratio, "damping ratio of twisting; 1 is critical",
-             at(&S::fork, &F::damping_ratio, &P::torsion)),
-      number("fork.damping_coefficient.stretch", "N·s/m", coefficient, "axial force per speed of extension",
-             at(&S::fork, &F::damping_coefficient, &P::stretch)),
-      number("fork.damping_coefficient.bend", "N·s/m", coefficient, "transverse force per speed of deflection",
-             at(&S::fork, &F::damping_coefficient, &P::bend)),
-      number("fork.damping_coefficient.torsion", "N·m·s/rad", coefficient, "axial moment per twist rate",
-             at(&S::fork, &F::damping_coefficient, &P::torsion)),
+      choice("shape", "the fork's shape model: how its curvature may vary along it", f.shape),
+      number("fork.length", "m", between(1e-4, 1e3), "rest length", f.length),
+      number("fork.stiffness.stretch", "N/m", stiffness, "axial force per extension", k.stretch),
+      number("fork.stiffness.bend", "N/m", stiffness, "transverse tip force per tip deflection", k.bend),
+      number("fork.stiffness.torsion", "N·m/rad", stiffness, "axial moment per twist angle", k.torsion),
+      number("fork.stiffness.slope", "N·m/rad", between(1e-12, 1e16),
+             "of the shape bushing: transverse moment per slope of the tip", f.slope_stiffness,
+             "k_bend L² / 3, as of a rod"),
+      number("fork.damping.stretch", "–", ratio, "damping ratio of stretching; 1 is critical", zeta.stretch),
+      number("fork.damping.bend", "–", ratio, "damping ratio of bending; 1 is critical", zeta.bend),
+      number("fork.damping.torsion", "–", ratio, "damping ratio of twisting; 1 is critical", zeta.torsion),
+      number("fork.damping_coefficient.stretch", "N·s/m", coefficient, "axial force per speed of extension", c.stretch),
+      number("fork.damping_coefficient.bend", "N·s/m", coefficient, "transverse force per speed of deflection", c.bend),
+      number("fork.damping_coefficient.torsion", "N·m·s/rad", coefficient, "axial moment per twist rate", c.torsion),
       choice(
           "fork.damping_law",
           "per_dof: Kelvin–Voigt, the ratio that of each degree of freedom alone; modal: every mode of the held object "
           "has the ratio, which must be the same for all; coefficients: those of fork.damping_coefficient",
-          at(&S::fork, &F::damping_law)),
-      flag("fork.dofs.stretch", "the fork stretches; false: rigid", dof(&rod::ForkDofs::stretch)),
-      flag("fork.dofs.bend", "the fork bends; false: rigid", dof(&rod::ForkDofs::bend)),
-      flag("fork.dofs.torsion", "the fork twists; false: rigid", dof(&rod::ForkDofs::torsion)),
+          f.damping_law),
+      flag("fork.dofs.stretch", "the fork stretches; false: rigid", f.dofs.stretch),
+      flag("fork.dofs.bend", "the fork bends; false: rigid", f.dofs.bend),
+      flag("fork.dofs.torsion", "the fork twists; false: rigid", f.dofs.torsion),
       number("fork.switch_off_time", "s", between(1e-6, 1e3),
              "time constant on which a degree of freedom that is switched off while strained goes back to zero strain",
-             at(&S::fork, &F::switch_off_time)),
+             f.switch_off_time),
   };
 }
 
-std::vector<Field> grasp_fields() {
-  using G = tools::GraspSettings;
-  using L = tools::LimitSettings;
-  const Member<std::string> object = at(&S::grasp, &G::object);
-  const Member<std::optional<RigidTransform>> tip = at(&S::grasp, &G::X_OE);
+std::vector<Field> grasp_fields(S& s) {
+  std::string& object = s.grasp.object;
+  std::optional<RigidTransform>& tip = s.grasp.X_OE;
   return {
       number("limit.force", "N", positive_or_infinite(),
-             "what would take a larger force at the tip than this is let go", at(&S::limit, &L::force)),
+             "what would take a larger force at the tip than this is let go", s.limit.force),
       number("limit.moment", "N·m", positive_or_infinite(),
-             "what would take a larger moment at the tip than this is let go", at(&S::limit, &L::moment)),
+             "what would take a larger moment at the tip than this is let go", s.limit.moment),
       choice(
           "calibrate",
           "object: size, springs and dampers of the tool from the object and its grasp, on every grasp; none: as set",
-          at(&S::grasp, &G::calibrate)),
+          s.grasp.calibrate),
       {{"grasp.object", "string", "–", "the name of a movable object of the scene", "none: grasped by button",
         "this object is held from the first sample to the last"},
-       [=](const auto& node, const auto& where, S& s) { object(s) = config::read_string(node, where, "grasp.object"); },
-       [](const auto&, S&) {}},  // which objects there are, the scene knows
+       [&](const auto& node, const auto& where) { object = config::read_string(node, where, "grasp.object"); },
+       [](const auto&) {}},  // which objects there are, the scene knows
       {{"grasp.tip_in_object", "double list", "m, –", "x y z qx qy qz qw, the quaternion not zero",
         "where the tip is when it grasps", "the tip frame in the object's centre-of-mass frame"},
-       [=](const auto& node, const auto& where, S& s) {
-         tip(s) = config::read_pose(node, where, "grasp.tip_in_object");
-       },
-       [=](const auto& where, S& s) {
-         if (!tip(s) || tip(s)->matrix().allFinite()) return;
+       [&](const auto& node, const auto& where) { tip = config::read_pose(node, where, "grasp.tip_in_object"); },
+       [&](const auto& where) {
+         if (!tip || tip->matrix().allFinite()) return;
          validation::refuse(where, "grasp.tip_in_object", "a pose that is not finite", "finite");
        }},
-      flag("start.follow", "move the object so that the grasp fits the first pose of the handle",
-           at(&S::grasp, &G::start_follow)),
-      choice("release", "a released object keeps its velocity (thrown) or is set to rest (dropped)",
-             at(&S::grasp, &G::release)),
-  };
-}
-
-std::vector<Field> other_fields() {
-  return {
+      flag("start.follow", "move the object so that the grasp fits the first pose of the handle", s.grasp.start_follow),
+      choice("release", "a released object keeps its velocity (thrown) or is set to rest (dropped)", s.grasp.release),
       number("dropout_after", "s", positive_or_infinite(),
-             "a longer gap between samples holds the handle still until the next one",
-             [](S& s) -> double& { return s.dropout_after; }),
+             "a longer gap between samples holds the handle still until the next one", s.dropout_after),
       integer("bisection_levels", 0, 30,
               "how often the end of a step that touches is halved (the paper, section 5); 0: time of impact instead",
-              [](S& s) -> int& { return s.bisection_levels; }),
+              s.bisection_levels),
   };
 }
 
 /// Every key there is: the one table.
-const std::vector<Field>& fields() {
-  static const std::vector<Field> all = [] {
-    std::vector<Field> rows;
-    for (auto group : {scene_fields, dynamics_fields, fork_fields, grasp_fields, other_fields}) {
-      for (Field& field : group()) rows.push_back(std::move(field));
-    }
-    return rows;
-  }();
+std::vector<Field> fields(S& s) {
+  std::vector<Field> all;
+  for (auto& group : {scene_fields(s), dynamics_fields(s.dynamics), fork_fields(s.fork), grasp_fields(s)}) {
+    all.insert(all.end(), group.begin(), group.end());
+  }
   return all;
 }
 
@@ -263,12 +200,12 @@ void flatten(const YAML::Node& map, const std::string& where, const std::string&
   }
 }
 
-const Field& find_field(const std::string& key, const std::string& where) {
-  const auto found =
-      std::find_if(fields().begin(), fields().end(), [&](const Field& field) { return field.description.key == key; });
-  if (found != fields().end()) return *found;
+const Field& find_field(const std::vector<Field>& table, const std::string& key, const std::string& where) {
+  const auto is = [&](const Field& field) { return field.description.key == key; };
+  const auto found = std::find_if(table.begin(), table.end(), is);
+  if (found != table.end()) return *found;
   std::vector<std::string> known;
-  for (const Field& field : fields()) known.push_back(field.description.key);
+  for (const Field& field : table) known.push_back(field.description.key);
   throw validation::InputError(
       validation::one_line(where + ": " + key + ": " + validation::unknown_key(key, validation::join(known))));
 }
@@ -293,7 +230,7 @@ void check_together(const S& settings, const std::string& where) {
 
 void validate(const SimulationSettings& settings, const std::string& where) {
   S copy = settings;  // its fields are found by reference
-  for (const Field& field : fields()) field.check(where, copy);
+  for (const Field& field : fields(copy)) field.check(where);
   check_together(settings, where);
 }
 
@@ -314,15 +251,8 @@ rod::ForkSettings ForkChange::applied_to(rod::ForkSettings fork) const {
 }
 
 ForkChange change_to(const rod::ForkSettings& fork) {
-  ForkChange change;
-  change.dofs = fork.dofs;
-  change.stretch_stiffness = fork.stiffness.stretch;
-  change.bend_stiffness = fork.stiffness.bend;
-  change.torsion_stiffness = fork.stiffness.torsion;
-  change.damping_ratio = fork.damping_ratio;
-  change.damping_coefficient = fork.damping_coefficient;
-  change.damping_law = fork.damping_law;
-  return change;
+  return {fork.dofs,          fork.stiffness.stretch,   fork.stiffness.bend, fork.stiffness.torsion,
+          fork.damping_ratio, fork.damping_coefficient, fork.damping_law};
 }
 
 dynamics::DynamicsSettings DynamicsChange::applied_to(dynamics::DynamicsSettings dynamics) const {
@@ -333,8 +263,9 @@ dynamics::DynamicsSettings DynamicsChange::applied_to(dynamics::DynamicsSettings
 }
 
 std::vector<SettingDescription> setting_descriptions() {
+  S defaults;
   std::vector<SettingDescription> descriptions;
-  for (const Field& field : fields()) descriptions.push_back(field.description);
+  for (const Field& field : fields(defaults)) descriptions.push_back(field.description);
   return descriptions;
 }
 
@@ -343,11 +274,12 @@ void apply_settings(const YAML::Node& values, const std::string& where, Simulati
   std::vector<KeyAndValue> flat;
   flatten(values, where, "", flat);
   SimulationSettings changed = settings;
+  const std::vector<Field> table = fields(changed);
   std::set<std::string> seen;
   for (const auto& [key, node] : flat) {
     const std::string line = node.Mark().is_null() ? "" : ":" + std::to_string(node.Mark().line + 1);
     if (!seen.insert(key).second) validation::refuse(where + line, key, "a second value", "given once");
-    find_field(key, where + line).read(node, where, changed);
+    find_field(table, key, where + line).read(node, where);
   }
   settings = changed;
 }
