@@ -1,18 +1,11 @@
 #include "spring_workbench/bodies/free_body.h"
 
 #include <Eigen/LU>
-#include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::bodies {
-namespace {
-
-constexpr double most_turn_per_piece = 0.1;  ///< [rad]
-constexpr int most_substeps = 1000;
-
-}  // namespace
-
 FreeBody::FreeBody(std::size_t index, const scene::Body& body, double gravity, const RigidTransform& X_WO,
                    const Twist& V_WO_W)
     : index_(index),
@@ -78,10 +71,7 @@ bool FreeBody::advance(double h, const Wrench& contact_W) {
 
 Matrix6d FreeBody::mobility() const {
   const Matrix3d& R = state_.X_WO.linear();
-  Matrix6d m = Matrix6d::Zero();
-  m.topLeftCorner<3, 3>().diagonal().setConstant(1.0 / mass_);
-  m.bottomRightCorner<3, 3>() = R * inverse_inertia_O_ * R.transpose();
-  return m;
+  return spatial_matrix(1.0 / mass_, R * inverse_inertia_O_ * R.transpose());
 }
 
 void FreeBody::add_impulse(const Wrench& impulse_W) {

@@ -1,6 +1,6 @@
 #include "bench_contacts.h"
 
-#include <cmath>
+#include "spring_workbench/geometry/shape_queries.h"
 
 namespace spring_workbench::collision {
 namespace {
@@ -21,13 +21,6 @@ class Below {
   double height_, tolerance_;
   std::vector<ContactPoint>& contacts_;
 };
-
-void add_corners(const geometry::Box& box, const RigidTransform& X_WS, Below& below) {
-  for (int i = 0; i < 8; ++i) {
-    const Vector3d sign((i & 1) ? 0.5 : -0.5, (i & 2) ? 0.5 : -0.5, (i & 4) ? 0.5 : -0.5);
-    below.add(X_WS * box.size.cwiseProduct(sign));
-  }
-}
 
 /// Of each rim the lowest point, the highest and the two between: the lowest is exact, and a rim that lies flat has
 /// four.
@@ -51,7 +44,7 @@ void append_bench_contacts(const geometry::Geometry& geometry, const RigidTransf
                            double tolerance, std::vector<ContactPoint>& contacts) {
   Below below(height, tolerance, contacts);
   if (const auto* box = std::get_if<geometry::Box>(&geometry)) {
-    add_corners(*box, X_WS, below);
+    for (const Vector3d& corner : geometry::corners(0.5 * box->size)) below.add(X_WS * corner);
   } else if (const auto* sphere = std::get_if<geometry::Sphere>(&geometry)) {
     below.add(X_WS.translation() - Vector3d(0.0, 0.0, sphere->radius));
   } else if (const auto* cylinder = std::get_if<geometry::Cylinder>(&geometry)) {

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "bench_contacts.h"
+#include "constants.h"
 #include "narrow_phase.h"
 #include "spring_workbench/geometry/box_gap.h"
 #include "spring_workbench/geometry/conservative_advancement.h"
@@ -18,9 +19,6 @@
 
 namespace spring_workbench::collision {
 namespace {
-
-constexpr double impact_precision =
-    1e-8;  ///< [m] of the way, between the free and the touching end of a time of impact
 
 /// An axis-aligned box as an object of FCL's broadphase.
 class BoxObject {
@@ -59,7 +57,7 @@ struct Part {
   /// A box around the piece placed at `X`; for a mesh around its own box, so that its size does not matter.
   Eigen::AlignedBox3d box_at(const RigidTransform& X) const {
     if (!std::holds_alternative<geometry::MeshPtr>(geometry)) return geometry::bounding_box(geometry, X);
-    return geometry::bounding_box(geometry::Box{extent.sizes()}, X * Eigen::Translation3d(extent.center()));
+    return geometry::bounding_box(extent, X);
   }
   /// A box around it in its own axes.
   geometry::OutlineBox outline(const RigidTransform& X) const {
@@ -74,29 +72,10 @@ struct PieceRange {
   double radius;
 };
 
-RigidTransform between(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& turn, double fraction) {
-  RigidTransform X;
-  X.linear() = X0.linear() * math::exp_so3(fraction * turn);
-  X.translation() = X0.translation() + fraction * (X1.translation() - X0.translation());
-  X.makeAffine();
-  return X;
-}
-
-Vector3d turn_between(const RigidTransform& X0, const RigidTransform& X1) {
-  return math::log_so3(X0.linear().transpose() * X1.linear());
-}
-
-Eigen::AlignedBox3d grown(Eigen::AlignedBox3d box, double by) {
-  box.min().array() -= by;
-  box.max().array() += by;
-  return box;
-}
-
 /// Goes on from `free` towards `touching` by what is surely clear, and then by ever longer steps from `least` on.
 template <typename ClearFrom, typename TouchingAt>
 void approach(const ClearFrom& clear_from, const TouchingAt& touching_at, double least, double& free,
               double& touching) {
-  constexpr int most_advances = 50;
   for (int i = 0; i < most_advances; ++i) {
     const double clear = clear_from(free, touching);
     free += clear;
@@ -182,10 +161,9 @@ struct CollisionWorld::Impl {
       const std::size_t first = found.size();
       append_bench_contacts(part.geometry, X_WS, bench_height, tolerance, found);
       if (first_only && found.size() > first) return;
-      constexpr std::size_t many = 8;
-      if (found.size() - first > many) reduce_manifold(first, found);
+      if (found.size() - first > most_bench_points) reduce_manifold(first, found);
     }
-    find_near(part.body, grown(box, std::max(0.0, -tolerance)));
+    find_near(part.body, geometry::grown(box, std::max(0.0, -tolerance)));
     for (const std::size_t i : near) {
       const std::size_t first = found.size();
       narrow.append_contacts(part.solid, X_WS, parts[i].solid, parts[i].X_WS, tolerance, found);
@@ -218,7 +196,7 @@ struct CollisionWorld::Impl {
       const double by_corners =
           geometry::clear_above(own, path, {Vector3d::UnitZ(), bench_height}, own.exact ? tolerance : 0.0, clear);
       clear = std::max(by_corners, std::min(clear, (box.min().z() - bench_height) / fastest));
-      find_near(body, grown(box, fastest * clear));
+      find_near(body, geometry::grown(box, fastest * clear));
       for (const std::size_t other : near) {
         const geometry::OutlineBox others = parts[other].outline(parts[other].X_WS);
         const bool exact = own.exact && others.exact;
@@ -239,11 +217,11 @@ struct CollisionWorld::Impl {
   /// r θ²/8 for a point at r (the error of linear interpolation); or the ball around the body, where that is less.
   Eigen::AlignedBox3d swept_box(const Part& part, const RigidTransform& X0, const RigidTransform& X1) const {
     const double radius = bodies[part.body].radius;
-    const double angle = turn_between(X0, X1).norm();
+    const double angle = math::turn_between(X0, X1).norm();
     const Eigen::AlignedBox3d ends = part.box_at(X0 * part.X_OS).merged(part.box_at(X1 * part.X_OS));
     Eigen::AlignedBox3d ball(X0.translation());
     ball.extend(Vector3d(X1.translation()));
-    return grown(ends, radius * angle * angle / 8.0).intersection(grown(ball, radius));
+    return geometry::grown(ends, radius * angle * angle / 8.0).intersection(geometry::grown(ball, radius));
   }
 };
 
@@ -258,7 +236,7 @@ bool CollisionWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, co
                                double margin) const {
   const PieceRange& range = impl_->bodies[body];
   for (std::size_t i = range.begin; i < range.end; ++i) {
-    const Eigen::AlignedBox3d box = grown(impl_->swept_box(impl_->parts[i], X0_WO, X1_WO), margin);
+    const Eigen::AlignedBox3d box = geometry::grown(impl_->swept_box(impl_->parts[i], X0_WO, X1_WO), margin);
     if (box.min().z() < impl_->bench_height) return true;
     impl_->find_near(body, box);
     if (!impl_->near.empty()) return true;
@@ -279,12 +257,12 @@ void CollisionWorld::find_contacts(std::size_t body, const RigidTransform& X_WO,
 
 SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                                   double tolerance, double resolution, int levels) const {
-  const Vector3d turn = turn_between(X0_WO, X1_WO);
+  const Vector3d turn = math::turn_between(X0_WO, X1_WO);
   const Vector3d move = X1_WO.translation() - X0_WO.translation();
   const double path = move.norm() + impl_->bodies[body].radius * turn.norm();
   if (!(resolution > 0.0) || !std::isfinite(path)) throw std::invalid_argument("sweep: resolution or poses");
   if (!may_touch(body, X0_WO, X1_WO, std::max(0.0, -tolerance))) return {};
-  const auto at = [&](double fraction) { return between(X0_WO, X1_WO, turn, fraction); };
+  const auto at = [&](double fraction) { return math::between(X0_WO, X1_WO, turn, fraction); };
   const auto touching_at = [&](double fraction) { return touches(body, at(fraction), tolerance); };
   const auto clear_from = [&](double fraction, double until) {
     return tolerance < 0.0 ? 0.0 : impl_->clear_way(body, at(fraction), move, turn, tolerance, until - fraction);

@@ -1,9 +1,7 @@
 #include "narrow_phase.h"
 
-#include <fcl/geometry/bvh/BVH_model.h>
 #include <fcl/geometry/shape/box.h>
 #include <fcl/geometry/shape/sphere.h>
-#include <fcl/math/bv/OBBRSS.h>
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
@@ -11,17 +9,14 @@
 #include <cmath>
 #include <limits>
 
+#include "constants.h"
 #include "contact_patches.h"
-#include "side_contacts.h"
 #include "sphere_contacts.h"
-#include "surface.h"
 #include "swallowed.h"
 #include "thin_out.h"
 
 namespace spring_workbench::collision {
 namespace {
-
-using Triangles = fcl::BVHModel<fcl::OBBRSSd>;
 
 std::unique_ptr<Triangles> make_triangles(const geometry::TriangleMesh& mesh) {
   std::vector<fcl::Triangle> triangles;
@@ -53,31 +48,15 @@ double way_out(const geometry::Box& box, const Vector3d& q, const Vector3d& n) {
 
 }  // namespace
 
-struct NarrowPhase::Solid {
-  geometry::Geometry geometry;
-  std::shared_ptr<const Surface> surface;  // none for a sphere
-  std::unique_ptr<Triangles> triangles;
-  std::unique_ptr<TriangleTree> tree;  // of a mesh beside a cylinder
+void NarrowPhase::Solid::make_surface_and_triangles() {
+  surface = make_surface(geometry);
+  if (surface) triangles = make_triangles(*surface->mesh);
+}
 
-  void make_surface_and_triangles() {
-    surface = make_surface(geometry);
-    if (surface) triangles = make_triangles(*surface->mesh);
-  }
-  BesideCylinder beside(const geometry::Cylinder& cylinder, const RigidTransform& X_MC) {
-    if (!tree) tree = make_tree(*surface);
-    return BesideCylinder(*surface, *tree, cylinder, X_MC);
-  }
-};
-
-/// FCL's answer, kept between queries for its memory.
-struct NarrowPhase::Fcl {
-  fcl::CollisionResultd result;
-  std::vector<int> touched;
-  std::vector<std::pair<int, int>> pairs;
-};
-
-NarrowPhase::NarrowPhase() : fcl_(std::make_unique<Fcl>()) {}
-NarrowPhase::~NarrowPhase() = default;
+BesideCylinder NarrowPhase::Solid::beside(const geometry::Cylinder& cylinder, const RigidTransform& X_MC) {
+  if (!tree) tree = make_tree(*surface);
+  return BesideCylinder(*surface, *tree, cylinder, X_MC);
+}
 
 std::size_t NarrowPhase::add(const geometry::Geometry& geometry) {
   solids_.push_back({geometry, nullptr, nullptr, nullptr});
@@ -87,22 +66,18 @@ std::size_t NarrowPhase::add(const geometry::Geometry& geometry) {
 
 void NarrowPhase::append_contacts(std::size_t own_index, const RigidTransform& X_WA, std::size_t other_index,
                                   const RigidTransform& X_WB, double tolerance, std::vector<ContactPoint>& contacts) {
-  const Solid& own = solids_[own_index];
-  const Solid& other = solids_[other_index];
+  const Solid &own = solids_[own_index], &other = solids_[other_index];
   const std::size_t first = contacts.size();
-  if (std::holds_alternative<geometry::Sphere>(own.geometry)) {
+  if (own.is<geometry::Sphere>()) {
     sphere_and(own, X_WA, other, X_WB, tolerance, contacts);
-  } else if (std::holds_alternative<geometry::Sphere>(other.geometry)) {
+  } else if (other.is<geometry::Sphere>()) {
     sphere_and(other, X_WB, own, X_WA, tolerance, contacts);
     turn_round(first, contacts);
-  } else if (std::holds_alternative<geometry::Box>(own.geometry) &&
-             std::holds_alternative<geometry::Box>(other.geometry)) {
+  } else if (own.is<geometry::Box>() && other.is<geometry::Box>()) {
     boxes(own, X_WA, other, X_WB, tolerance, contacts);
-  } else if (std::holds_alternative<geometry::MeshPtr>(own.geometry) &&
-             std::holds_alternative<geometry::Cylinder>(other.geometry)) {
+  } else if (own.is<geometry::MeshPtr>() && other.is<geometry::Cylinder>()) {
     mesh_and_cylinder(own_index, X_WA, other_index, X_WB, tolerance, contacts);
-  } else if (std::holds_alternative<geometry::Cylinder>(own.geometry) &&
-             std::holds_alternative<geometry::MeshPtr>(other.geometry)) {
+  } else if (own.is<geometry::Cylinder>() && other.is<geometry::MeshPtr>()) {
     mesh_and_cylinder(other_index, X_WB, own_index, X_WA, tolerance, contacts);
     turn_round(first, contacts);
   } else {
@@ -118,24 +93,21 @@ const NarrowPhase::Solid& NarrowPhase::with_triangles(std::size_t index) {
 
 double NarrowPhase::clear_way(std::size_t own, const RigidTransform& X_WA, std::size_t other,
                               const RigidTransform& X_WB, double tolerance) {
-  const auto is_a = [&](auto kind, std::size_t solid) {
-    return std::holds_alternative<decltype(kind)>(solids_[solid].geometry);
-  };
-  if (is_a(geometry::Sphere(), own) || is_a(geometry::Sphere(), other)) {
-    if (is_a(geometry::MeshPtr(), own) || is_a(geometry::MeshPtr(), other)) return 0.0;
+  if (solids_[own].is<geometry::Sphere>() || solids_[other].is<geometry::Sphere>()) {
+    if (solids_[own].is<geometry::MeshPtr>() || solids_[other].is<geometry::MeshPtr>()) return 0.0;
     std::vector<ContactPoint> nearest;
     append_contacts(own, X_WA, other, X_WB, -std::numeric_limits<double>::max(), nearest);
     return std::max(0.0, tolerance - nearest.front().depth);
   }
   double rounded_off = 0.0, beside = 0.0;
-  if (is_a(geometry::Cylinder(), own) && is_a(geometry::MeshPtr(), other))
+  if (solids_[own].is<geometry::Cylinder>() && solids_[other].is<geometry::MeshPtr>())
     return clear_way(other, X_WB, own, X_WA, tolerance);
-  if (is_a(geometry::MeshPtr(), own) && is_a(geometry::Cylinder(), other)) {
+  if (solids_[own].is<geometry::MeshPtr>() && solids_[other].is<geometry::Cylinder>()) {
     const geometry::Cylinder& cylinder = std::get<geometry::Cylinder>(solids_[other].geometry);
     const BesideCylinder side = solids_[own].beside(cylinder, X_WA.inverse() * X_WB);
     beside = std::max(0.0, tolerance + side.gap());
     if (side.is_between_ends()) return beside;
-    rounded_off = cylinder.radius * (1.0 - std::cos(std::acos(-1.0) / cylinder_sides));
+    rounded_off = cylinder.radius * (1.0 - std::cos(M_PI / cylinder_sides));
   }
   fcl::DistanceResultd result;
   const Triangles* a = with_triangles(own).triangles.get();
@@ -166,19 +138,19 @@ void NarrowPhase::sphere_and(const Solid& sphere, const RigidTransform& X_WS, co
                              const RigidTransform& X_WB, double tolerance, std::vector<ContactPoint>& contacts) {
   const double radius = std::get<geometry::Sphere>(sphere.geometry).radius;
   const Vector3d centre_W = X_WS.translation();
-  if (!std::holds_alternative<geometry::MeshPtr>(other.geometry)) {
+  if (!other.is<geometry::MeshPtr>()) {
     append_sphere_contact(radius, centre_W, other.geometry, X_WB, tolerance, contacts);
     return;
   }
   const fcl::Sphered reached(radius + std::max(0.0, -tolerance));
-  fcl_->result.clear();
-  fcl::collide(other.triangles.get(), X_WB, &reached, X_WS, which_triangles(), fcl_->result);
-  fcl_->touched.clear();
-  for (std::size_t i = 0; i < fcl_->result.numContacts(); ++i) {
-    fcl_->touched.push_back(static_cast<int>(fcl_->result.getContact(i).b1));
+  fcl_.result.clear();
+  fcl::collide(other.triangles.get(), X_WB, &reached, X_WS, which_triangles(), fcl_.result);
+  fcl_.touched.clear();
+  for (std::size_t i = 0; i < fcl_.result.numContacts(); ++i) {
+    fcl_.touched.push_back(static_cast<int>(fcl_.result.getContact(i).b1));
   }
-  append_sphere_triangle_contacts(radius, centre_W, *other.surface, X_WB, fcl_->touched, tolerance, contacts);
-  if (fcl_->touched.empty()) {
+  append_sphere_triangle_contacts(radius, centre_W, *other.surface, X_WB, fcl_.touched, tolerance, contacts);
+  if (fcl_.touched.empty()) {
     append_containment(sphere.geometry, X_WS, other.geometry, {*other.surface, X_WB}, tolerance, contacts);
   }
 }
@@ -189,11 +161,10 @@ void NarrowPhase::boxes(const Solid& own, const RigidTransform& X_WA, const Soli
   const double grown = std::max(0.0, -tolerance);
   const geometry::Box reached{std::get<geometry::Box>(other.geometry).size + Vector3d::Constant(2.0 * grown)};
   const fcl::Boxd a(std::get<geometry::Box>(own.geometry).size), b(reached.size);
-  constexpr std::size_t most_points = 16;
-  fcl_->result.clear();
-  fcl::collide(&a, X_WA, &b, X_WB, fcl::CollisionRequestd(most_points, true), fcl_->result);
-  for (std::size_t i = 0; i < fcl_->result.numContacts(); ++i) {
-    const fcl::Contactd& contact = fcl_->result.getContact(i);
+  fcl_.result.clear();
+  fcl::collide(&a, X_WA, &b, X_WB, fcl::CollisionRequestd(most_box_points, true), fcl_.result);
+  for (std::size_t i = 0; i < fcl_.result.numContacts(); ++i) {
+    const fcl::Contactd& contact = fcl_.result.getContact(i);
     const Vector3d n_W = -contact.normal;  // FCL's points from own to other
     const double depth = contact.penetration_depth - grown;
     if (!(depth > tolerance)) continue;
@@ -210,15 +181,15 @@ void NarrowPhase::surfaces(const Solid& own, const RigidTransform& X_WA, const S
   const std::size_t first = contacts.size();
   const PlacedSurface own_surface{*own.surface, X_WA};
   const PlacedSurface other_surface{*other.surface, X_WB};
-  fcl_->result.clear();
-  fcl::collide(own.triangles.get(), X_WA, other.triangles.get(), X_WB, which_triangles(), fcl_->result);
-  if (fcl_->result.isCollision()) {
-    fcl_->pairs.clear();
-    for (std::size_t i = 0; i < fcl_->result.numContacts(); ++i) {
-      const fcl::Contactd& pair = fcl_->result.getContact(i);
-      fcl_->pairs.emplace_back(static_cast<int>(pair.b1), static_cast<int>(pair.b2));
+  fcl_.result.clear();
+  fcl::collide(own.triangles.get(), X_WA, other.triangles.get(), X_WB, which_triangles(), fcl_.result);
+  if (fcl_.result.isCollision()) {
+    fcl_.pairs.clear();
+    for (std::size_t i = 0; i < fcl_.result.numContacts(); ++i) {
+      const fcl::Contactd& pair = fcl_.result.getContact(i);
+      fcl_.pairs.emplace_back(static_cast<int>(pair.b1), static_cast<int>(pair.b2));
     }
-    append_surface_contacts(own_surface, other_surface, fcl_->pairs, tolerance, contacts);
+    append_surface_contacts(own_surface, other_surface, fcl_.pairs, tolerance, contacts);
     reduce_manifold(first, contacts);
     return;
   }

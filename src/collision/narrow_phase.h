@@ -1,11 +1,19 @@
 #pragma once
 
+#include <fcl/geometry/bvh/BVH_model.h>
+#include <fcl/math/bv/OBBRSS.h>
+#include <fcl/narrowphase/collision_result.h>
+
 #include <memory>
+#include <utility>
 #include <vector>
 
+#include "side_contacts.h"
 #include "spring_workbench/collision/collision_world.h"
 
 namespace spring_workbench::collision {
+
+using Triangles = fcl::BVHModel<fcl::OBBRSSd>;
 
 /// Contact of two shapes. FCL says which shapes and which of their triangles meet. Where, how deep and in which
 /// direction is taken from it for two boxes only (held against the separating axis theorem in the tests); elsewhere its
@@ -14,11 +22,6 @@ namespace spring_workbench::collision {
 /// prisms, by the triangles that meet.
 class NarrowPhase {
  public:
-  NarrowPhase();
-  ~NarrowPhase();
-  NarrowPhase(const NarrowPhase&) = delete;
-  NarrowPhase& operator=(const NarrowPhase&) = delete;
-
   /// Prepares a shape; returns its index.
   std::size_t add(const geometry::Geometry& geometry);
 
@@ -33,8 +36,19 @@ class NarrowPhase {
                    double tolerance);
 
  private:
-  struct Solid;
-  struct Fcl;
+  struct Solid {
+    geometry::Geometry geometry;
+    std::shared_ptr<const Surface> surface;  ///< none for a sphere
+    std::unique_ptr<Triangles> triangles;
+    std::unique_ptr<TriangleTree> tree;  ///< of a mesh beside a cylinder
+
+    template <typename Kind>
+    bool is() const {
+      return std::holds_alternative<Kind>(geometry);
+    }
+    void make_surface_and_triangles();
+    BesideCylinder beside(const geometry::Cylinder& cylinder, const RigidTransform& X_MC);
+  };
 
   /// Those of boxes and cylinders are made when they are first needed: most resting objects never do.
   const Solid& with_triangles(std::size_t index);
@@ -48,7 +62,12 @@ class NarrowPhase {
                 double tolerance, std::vector<ContactPoint>& contacts);
 
   std::vector<Solid> solids_;
-  std::unique_ptr<Fcl> fcl_;
+  /// FCL's answer, kept between queries for its memory.
+  struct {
+    fcl::CollisionResultd result;
+    std::vector<int> touched;
+    std::vector<std::pair<int, int>> pairs;
+  } fcl_;
 };
 
 }  // namespace spring_workbench::collision

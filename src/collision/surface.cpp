@@ -3,6 +3,9 @@
 #include <cmath>
 #include <map>
 
+#include "constants.h"
+#include "spring_workbench/geometry/shape_queries.h"
+
 namespace spring_workbench::collision {
 namespace {
 
@@ -13,10 +16,7 @@ void add_quad(geometry::TriangleMesh& mesh, int a, int b, int c, int d) {
 
 geometry::MeshPtr box_mesh(const geometry::Box& box) {
   geometry::TriangleMesh mesh;
-  for (int i = 0; i < 8; ++i) {
-    const Vector3d sign((i & 1) ? 0.5 : -0.5, (i & 2) ? 0.5 : -0.5, (i & 4) ? 0.5 : -0.5);
-    mesh.vertices.push_back(box.size.cwiseProduct(sign));
-  }
+  for (const Vector3d& corner : geometry::corners(0.5 * box.size)) mesh.vertices.push_back(corner);
   add_quad(mesh, 0, 4, 6, 2);
   add_quad(mesh, 1, 3, 7, 5);
   add_quad(mesh, 0, 1, 5, 4);
@@ -31,7 +31,7 @@ geometry::MeshPtr cylinder_mesh(const geometry::Cylinder& cylinder) {
   const double half = 0.5 * cylinder.length;
   mesh.vertices = {Vector3d(0.0, 0.0, -half), Vector3d(0.0, 0.0, half)};
   for (int i = 0; i < cylinder_sides; ++i) {
-    const double angle = 2.0 * std::acos(-1.0) * i / cylinder_sides;
+    const double angle = 2.0 * M_PI * i / cylinder_sides;
     const Vector3d rim = cylinder.radius * Vector3d(std::cos(angle), std::sin(angle), 0.0);
     mesh.vertices.push_back(rim - half * Vector3d::UnitZ());
     mesh.vertices.push_back(rim + half * Vector3d::UnitZ());

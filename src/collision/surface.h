@@ -15,8 +15,7 @@ struct Surface {
   std::vector<std::array<int, 3>> neighbours;  ///< triangle across the edge k → k+1, or −1
 
   const Vector3d& corner(int triangle, int k) const {
-    const Eigen::Vector3i& t = mesh->triangles[static_cast<std::size_t>(triangle)];
-    return mesh->vertices[static_cast<std::size_t>(t[k])];
+    return mesh->corner(mesh->triangles[static_cast<std::size_t>(triangle)], k);
   }
   const Vector3d& normal(int triangle) const { return normals[static_cast<std::size_t>(triangle)]; }
 };
@@ -24,7 +23,5 @@ struct Surface {
 /// The surface of a box, a cylinder (as a prism of `cylinder_sides` sides through its rims' points) or a mesh.
 /// Nothing for a sphere.
 std::shared_ptr<const Surface> make_surface(const geometry::Geometry& geometry);
-
-constexpr int cylinder_sides = 48;
 
 }  // namespace spring_workbench::collision

@@ -1,6 +1,7 @@
 #include "swallowed.h"
 
 #include <limits>
+#include <utility>
 
 #include "nearest_point.h"
 #include "spring_workbench/geometry/shape_queries.h"
@@ -23,20 +24,12 @@ bool is_inside(const geometry::Geometry& inner, const RigidTransform& X_WI, cons
   return geometry::bounding_box(outer).contains(p_O) && geometry::contains(outer, p_O);
 }
 
-struct NearestTriangle {
-  int triangle = 0;
-  Vector3d p = Vector3d::Zero();
-};
-
-NearestTriangle nearest_triangle(const Surface& surface, const Vector3d& q) {
-  NearestTriangle nearest;
-  double distance = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < surface.normals.size(); ++i) {
-    const int t = static_cast<int>(i);
+/// The point of the surface that is nearest to `q`, and its triangle.
+std::pair<Vector3d, int> nearest_point(const Surface& surface, const Vector3d& q) {
+  std::pair<Vector3d, int> nearest{Vector3d::Constant(std::numeric_limits<double>::infinity()), 0};
+  for (int t = 0; t < static_cast<int>(surface.normals.size()); ++t) {
     const Vector3d p = nearest_on_triangle(surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2), q);
-    if ((p - q).norm() >= distance) continue;
-    distance = (p - q).norm();
-    nearest = {t, p};
+    if ((p - q).norm() < (nearest.first - q).norm()) nearest = {p, t};
   }
   return nearest;
 }
@@ -54,9 +47,9 @@ void append_containment(const geometry::Geometry& inner, const RigidTransform& X
   const RigidTransform& X_WO = outer_surface.X_WS;
   if (!is_inside(inner, X_WI, outer, X_WO)) return;
   const Vector3d middle_O = X_WO.inverse() * geometry::bounding_box(inner, X_WI).center();
-  const NearestTriangle nearest = nearest_triangle(outer_surface.surface, middle_O);
-  const Vector3d n_W = X_WO.linear() * outer_surface.surface.normal(nearest.triangle);
-  const Vector3d p_W = X_WO * nearest.p;
+  const auto [p_O, triangle] = nearest_point(outer_surface.surface, middle_O);
+  const Vector3d n_W = X_WO.linear() * outer_surface.surface.normal(triangle);
+  const Vector3d p_W = X_WO * p_O;
   const double depth = n_W.dot(p_W) - lowest_along(inner, X_WI, n_W);
   if (depth > tolerance) contacts.push_back({0, p_W, n_W, depth});
 }

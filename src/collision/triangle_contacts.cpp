@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <optional>
+
+#include "constants.h"
 
 namespace spring_workbench::collision {
 namespace {
@@ -27,8 +27,7 @@ Edge edge_of(const Triangle& t, std::size_t k) {
   edge.along = t.corners[(k + 1) % 3] - t.corners[k];
   edge.into_face = t.n.cross(edge.along);
   edge.into_neighbour = edge.along.cross(t.neighbour_normals[k]);
-  constexpr double flat = 1e-6;
-  edge.convex = edge.into_neighbour.dot(t.n) < -flat * edge.along.norm();
+  edge.convex = edge.into_neighbour.dot(t.n) < -flat_edge * edge.along.norm();
   return edge;
 }
 
@@ -82,16 +81,15 @@ Ways find_paths(const Triangle& own, const Triangle& other) {
 
 /// Of the ways that go about as well along `n` as the best one, the least deep; nothing where all lie across.
 std::optional<std::size_t> choose_path(const Ways& paths, const std::optional<Vector3d>& n) {
-  constexpr double across = 0.5, as_good = 0.1;
   const auto goes_along = [&](const ContactPoint& path) { return n ? n->dot(path.n_W) : 1.0; };
-  double best = across;
+  double best = least_along;
   for (std::size_t i = 0; i < paths.count; ++i) {
     if (paths.deepest[i].depth > 0.0) best = std::max(best, goes_along(paths.deepest[i]));
   }
   std::optional<std::size_t> chosen;
   for (std::size_t i = 0; i < paths.count; ++i) {
     const ContactPoint& path = paths.deepest[i];
-    if (!(path.depth > 0.0) || goes_along(path) < std::max(across, best - as_good)) continue;
+    if (!(path.depth > 0.0) || goes_along(path) < std::max(least_along, best - as_good)) continue;
     if (!chosen || path.depth < paths.deepest[*chosen].depth) chosen = i;
   }
   return chosen;

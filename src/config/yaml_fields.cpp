@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "constants.h"
 #include "spring_workbench/validation/one_line.h"
 
 namespace spring_workbench::config {
@@ -15,8 +16,7 @@ namespace {
 std::string node_text(const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) return "(nothing)";
   std::string text = node.IsScalar() ? node.Scalar() : YAML::Dump(node);
-  constexpr std::size_t longest = 80;
-  return text.size() <= longest ? text : text.substr(0, longest) + "…";
+  return text.size() <= longest_value ? text : text.substr(0, longest_value) + "…";
 }
 
 /// yaml-cpp throws when a node that is not there is asked for its kind.
@@ -117,8 +117,6 @@ namespace {
 
 /// Refuses what an alias makes endless or immense: `&a [*a]`, and lists of lists of aliases.
 void check_extent(const YAML::Node& node, const std::string& path, int depth, long& values) {
-  constexpr int most_deep = 100;
-  constexpr long most_values = 1000000;
   if (depth > most_deep)
     throw validation::InputError(path + ": nesting: must be at most " + std::to_string(most_deep) + " deep");
   if (++values > most_values)

@@ -1,16 +1,12 @@
 #include "spring_workbench/contact/contact_solver.h"
 
-#include <Eigen/LU>
 #include <algorithm>
-#include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::contact {
 namespace {
-
-constexpr int most_iterations = 200;
-constexpr double small_change = 1e-10;  ///< of the largest load: the sweeps end
 
 /// Keeps the load inside its friction cone: presses only, and tangential ≤ μ normal.
 Vector3d into_cone(const Vector3d& load, const Vector3d& n, double friction) {
@@ -47,7 +43,7 @@ void solve_contacts(const Matrix6d& compliance, std::vector<ContactRow>& rows) {
   }
   // What the loads add to the body's motion beyond those assumed at the start.
   Vector6d motion = Vector6d::Zero();
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < most_sweeps; ++iteration) {
     double largest = 0.0, change = 0.0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       ContactRow& row = rows[i];

@@ -3,56 +3,26 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::contact {
 namespace {
-
-constexpr double touching = 1e-6;              ///< [m]; what is not deeper is free
-constexpr double slack = 0.5 * touching;       ///< [m] left to a body between two others that leave it no room
-constexpr double probe_depth = 1e-4;           ///< [m] by which the body is pushed to see what it touches
-constexpr double same_point = 2e-3;            ///< [m]; contacts nearer to each other are one
-constexpr double sweep_resolution = 2e-4;      ///< [m] between the poses that a sweep looks at, where boxes overlap
-constexpr double closed = 2e-5;                ///< [m]; on its way a body in contact may be so deep
-constexpr double same_face = 0.9998;           ///< cos 1°; normals nearer to each other are of one face
-constexpr double recovery_time = 5e-3;         ///< [s] on which a body that is in another comes out
-constexpr double solved_share = 0.01;          ///< of the way over a piece: a smaller change is none
-constexpr double most_chord_deviation = 5e-5;  ///< [m] between the way and each of the straight ones that are swept
-constexpr double hopeless_chord_deviation =
-    0.1;                                 ///< [m]; loads under which the body goes such a way will not be mended
-constexpr double slow_approach = 1e-6;   ///< [m/s]; a slower one is none
-constexpr double shortest_share = 1e-3;  ///< of a step: a shorter piece is not tried
-constexpr double blocked_share = 0.1;    ///< of a step, for which a body stays where nothing fits
-constexpr double most_segments = 4.0;    ///< straight ones for which the way over a piece is swept
-constexpr double safety = 0.9;           ///< of the longest piece that is straight enough
-constexpr double longer = 2.0;           ///< than the last, at most, is a piece
-constexpr int most_tries = 100;          ///< pieces tried in a step
-constexpr int most_unsolved = 6;         ///< pieces of a step without a solution, before the body stays
-constexpr int most_solutions = 8;        ///< solutions of one piece of a step, each about the last
 
 /// Where a row's point of the body, fixed in the object frame at `X0`, is when the body is at `X1`.
 Vector3d moved(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& p_W) {
   return X1 * (X0.inverse() * p_W);
 }
 
-/// Where the sweep from `X0` to `X1` is after a part of it.
-RigidTransform between(const RigidTransform& X0, const RigidTransform& X1, double fraction) {
-  RigidTransform X;
-  X.linear() = X0.linear() * math::exp_so3(fraction * math::log_so3(X0.linear().transpose() * X1.linear()));
-  X.translation() = X0.translation() + fraction * (X1.translation() - X0.translation());
-  X.makeAffine();
-  return X;
-}
-
 /// How far a point of a body goes between two poses, at most [m].
 double extent(const RigidTransform& X0, const RigidTransform& X1, double radius) {
-  return (X1.translation() - X0.translation()).norm() +
-         radius * math::log_so3(X0.linear().transpose() * X1.linear()).norm();
+  return (X1.translation() - X0.translation()).norm() + radius * math::turn_between(X0, X1).norm();
 }
 
-bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b) {
-  return a.other == b.other && a.n_W.dot(b.n_W) > 0.99 && (a.p_W - b.p_W).norm() < same_point;
+bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b, double within = same_point) {
+  return a.other == b.other && a.n_W.dot(b.n_W) > 0.99 && (a.p_W - b.p_W).norm() < within;
 }
 
 double deepest(const std::vector<ContactRow>& rows) {
@@ -68,10 +38,8 @@ ContactStepper::ContactStepper(const scene::Scene& scene, collision::CollisionWo
   for (const scene::Body& body : scene.bodies) radius_.push_back(geometry::bounding_radius(body.collision));
 }
 
-double ContactStepper::friction(std::size_t body, std::size_t other) const {
-  const scene::Material& b =
-      other == collision::CollisionWorld::bench ? scene_.bench_material : scene_.bodies[other].material;
-  return std::sqrt(scene_.bodies[body].material.friction * b.friction);
+const scene::Material& ContactStepper::material(std::size_t body) const {
+  return body == collision::CollisionWorld::bench ? scene_.bench_material : scene_.bodies[body].material;
 }
 
 void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance,
@@ -84,7 +52,7 @@ void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, 
         std::find_if(rows.begin(), rows.end(), [&](const ContactRow& row) { return is_same(row.point, point); });
     ContactRow& row = same == rows.end() ? rows.emplace_back() : *same;
     row.point = point;
-    row.friction = friction(body, point.other);
+    row.friction = std::sqrt(material(body).friction * material(point.other).friction);
     row.gap = -point.depth;
   }
 }
@@ -115,13 +83,9 @@ void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<Contac
   }
   // Loads of the last step are where the search for the new ones starts.
   for (ContactRow& row : rows) {
-    for (const ContactRow& old : before) {
-      if (old.point.other == row.point.other && old.point.n_W.dot(row.point.n_W) > 0.99 &&
-          (old.point.p_W - row.point.p_W).norm() < 5.0 * same_point) {
-        row.load_W = old.load_W;
-        break;
-      }
-    }
+    const auto old = std::find_if(before.begin(), before.end(),
+                                  [&](const ContactRow& o) { return is_same(o.point, row.point, 5.0 * same_point); });
+    if (old != before.end()) row.load_W = old->load_W;
   }
 }
 
@@ -172,7 +136,7 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
                                  ContactOutcome& outcome) const {
   const RigidTransform X1 = body.object().X;
   const Vector3d moved_on = X1.translation() - X0.translation();
-  const Vector3d turned = X0.linear() * math::log_so3(X0.linear().transpose() * X1.linear());
+  const Vector3d turned = X0.linear() * math::turn_between(X0, X1);
   // A point that stays on the surface slips by its way; one of a body that rolls comes or goes, and slips by what the
   // contact, which stays under the body, does.
   const auto set_slip = [&](ContactRow& row, const Vector3d& path) {
@@ -196,7 +160,7 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
     for (std::size_t i = 0; i < work.size(); ++i) {
       const collision::ContactPoint& w = work[i].point;
       const double distance = (w.p_W - row.point.p_W).norm();
-      if (w.other != row.point.other || w.n_W.dot(row.point.n_W) < same_face || distance >= nearest) continue;
+      if (w.other != row.point.other || w.n_W.dot(row.point.n_W) < scene::same_face || distance >= nearest) continue;
       nearest = distance;
       at = i;
     }
@@ -238,7 +202,8 @@ ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const motion
     const RigidTransform to = i + 1 < count ? path.at(h * (i + 1) / count).X : end.X;
     const collision::SweepResult result = collision_.sweep(body, from, to, tolerance, sweep_resolution, levels_);
     if (result.hit) {
-      return {true, (i + result.free_fraction) / std::max(count, 1), between(from, to, result.touching_fraction)};
+      return {true, (i + result.free_fraction) / std::max(count, 1),
+              math::between(from, to, math::turn_between(from, to), result.touching_fraction)};
     }
     from = to;
   }
@@ -247,7 +212,6 @@ ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const motion
 
 ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, double h, const MayGo& may_go,
                                                   std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
-  constexpr double smaller = 0.25;
   const std::size_t index = body.index();
   const motion::MotionState begin = body.object();
   const bool in_contact = !rows.empty();
@@ -257,7 +221,7 @@ ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, dou
   if (!possible || !bodies::is_finite(body.object())) {
     body.restore(start_);
     outcome.refused = outcome.refused || !in_contact;
-    return {false, in_contact ? smaller : 0.0, {}, false};
+    return {false, in_contact ? shorter : 0.0, {}, false};
   }
   const motion::MotionState end = body.object();
   if (!may_go(begin.X, end.X)) {

@@ -3,27 +3,14 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
+#include "constants.h"
 #include "spring_workbench/contact/contact_engines.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::contact {
 namespace {
-
-constexpr double longest_piece = 2e-3;  ///< [s] where something is touched …
-constexpr double longest_with_free =
-    1e-3;  ///< [s] … and where a body moves that nobody holds: the world's error is of order one
-constexpr double shortest_step = 1e-9;             ///< [s]; of a step shorter than this contact takes no notice
-constexpr double blocked_substep = 2e-4;           ///< [s] for which a held body stays where nothing else fits
-constexpr double growth = 2.0;                     ///< from one piece to the next, at most
-constexpr double as_sound = 0.9;                   ///< of the part of a piece that is sound: the next try
-constexpr double least_try = 0.1, most_try = 0.7;  ///< of a piece: the next try
-constexpr double shortest_piece = 1e-5;            ///< [s], or of a step that is shorter than the longest, as much less
-constexpr double margin_near = 5e-4;               ///< [m]
-constexpr int most_solutions = 4;                  ///< of one piece, each about the loads of the last
-constexpr double same_point = 2e-3;                ///< [m]
 
 /// A compliance as it has to be: symmetric, and nothing comes towards a load. Of a fork that is far from straight it
 /// may not be.
@@ -40,6 +27,7 @@ DynamicStepper::DynamicStepper(const scene::Scene& scene) : scene_(scene), world
 
 DynamicStepper::Candidate DynamicStepper::try_substep(bodies::SteppedBody& body, double h) const {
   Candidate c;
+  c.body = &body;
   c.begin = body.object();
   const auto load = load_W_.find(body.index());
   if (load != load_W_.end()) c.load_W = load->second;
@@ -50,30 +38,25 @@ DynamicStepper::Candidate DynamicStepper::try_substep(bodies::SteppedBody& body,
   return c;
 }
 
-bool DynamicStepper::all_free(const std::vector<bodies::SteppedBody*>& held,
-                              const std::vector<Candidate>& candidates) const {
+bool DynamicStepper::all_free(const std::vector<Candidate>& candidates) const {
   if (others_awake()) return false;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    const Candidate& c = candidates[i];
-    if (!c.load_W.force.isZero(0.0) || !c.load_W.moment.isZero(0.0)) return false;
-    if (!world_->may_touch(held[i]->index(), c.begin.X, c.end.X, margin_near)) continue;
-    if (world_->collision_free_fraction(held[i]->index(), c.begin.X, c.end.X) < 1.0) return false;
-  }
-  return true;
+  return std::all_of(candidates.begin(), candidates.end(), [&](const Candidate& c) {
+    return is_zero(c.load_W) && (!world_->may_touch(c.body->index(), c.begin.X, c.end.X, margin_near) ||
+                                 world_->collision_free_fraction(c.body->index(), c.begin.X, c.end.X) >= 1.0);
+  });
 }
 
-void DynamicStepper::go_freely(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates,
-                               double h, Outcome& outcome) {
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    if (!candidates[i].possible) {
-      held[i]->restore(candidates[i].start);
-      held[i]->block(h);
+void DynamicStepper::go_freely(const std::vector<Candidate>& candidates, double h, Outcome& outcome) {
+  for (const Candidate& c : candidates) {
+    if (!c.possible) {
+      c.body->restore(c.start);
+      c.body->block(h);
       outcome.refused = true;
     }
-    held[i]->accept();
-    load_W_.erase(held[i]->index());
-    const motion::MotionState s = held[i]->object();
-    world_->place(held[i]->index(), s.X, s.velocity, false);
+    c.body->accept();
+    load_W_.erase(c.body->index());
+    const motion::MotionState s = c.body->object();
+    world_->place(c.body->index(), s.X, s.velocity, false);
   }
 }
 
@@ -91,14 +74,14 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<bodies::SteppedBo
   double left = h, substep = h;
   while (left > 1e-9 * h) {
     substep = std::min(substep, left);
-    if (left < growth * substep && left > substep) substep = 0.5 * left;  // no small last one
+    if (left < longer * substep && left > substep) substep = 0.5 * left;  // no small last one
     std::vector<Candidate> candidates;
     for (bodies::SteppedBody* body : held) candidates.push_back(try_substep(*body, substep));
     ++outcome.substeps;
-    if (h <= shortest_step || all_free(held, candidates)) {
-      go_freely(held, candidates, substep, outcome);
+    if (h <= shortest_step || all_free(candidates)) {
+      go_freely(candidates, substep, outcome);
     } else {
-      const Piece result = go_in_contact(held, std::move(candidates), substep);
+      const Piece result = go_in_contact(std::move(candidates), substep);
       if (result == Piece::too_long) continue;
       if (result == Piece::stuck) {
         substep = std::min(blocked_substep, left);
@@ -106,15 +89,14 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<bodies::SteppedBo
       }
     }
     left -= substep;
-    substep *= growth;
+    substep *= longer;
   }
   return outcome;
 }
 
-DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<bodies::SteppedBody*>& held,
-                                                    std::vector<Candidate> candidates, double& h) {
+DynamicStepper::Piece DynamicStepper::go_in_contact(std::vector<Candidate> candidates, double& h) {
   const auto start_again = [&] {
-    for (std::size_t i = 0; i < held.size(); ++i) held[i]->restore(candidates[i].start);
+    for (const Candidate& c : candidates) c.body->restore(c.start);
   };
   start_again();
   const double longest = others_awake() ? longest_with_free : longest_piece;
@@ -122,22 +104,22 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<bodies::St
     h = longest;
     return Piece::too_long;
   }
-  std::vector<rigid_bodies::DrivenBody> driven = solve(held, candidates, h);
-  double sound = admissible_fraction(held, candidates, driven, h);
+  std::vector<rigid_bodies::DrivenBody> driven = solve(candidates, h);
+  double sound = admissible_fraction(candidates, driven, h);
   double before = 0.0;
-  for (int solution = 1; sound < 1.0 && sound > before && solution < most_solutions; ++solution) {
+  for (int solution = 1; sound < 1.0 && sound > before && solution < most_dynamic_solutions; ++solution) {
     if (foreseen_admissible_fraction(driven) < 1.0) break;
     before = sound;
     // The fork gives way otherwise than to the load that was assumed: once more, about this one.
-    for (std::size_t i = 0; i < held.size(); ++i) {
-      candidates[i].end = held[i]->object();
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+      candidates[i].end = candidates[i].body->object();
       candidates[i].load_W = driven[i].contact_W;
       candidates[i].impact_W = driven[i].impact_W;
     }
     start_again();
     world_->undo_step();
-    driven = solve(held, candidates, h);
-    sound = admissible_fraction(held, candidates, driven, h);
+    driven = solve(candidates, h);
+    sound = admissible_fraction(candidates, driven, h);
   }
   if (sound < 1.0) {
     world_->undo_step();
@@ -146,29 +128,26 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(const std::vector<bodies::St
     h = std::max(std::clamp(as_sound * sound, least_try, most_try) * h, shortest_piece_);
     return Piece::too_long;
   }
-  for (std::size_t i = 0; i < held.size(); ++i) take(*held[i], driven[i].contact_W);
+  for (std::size_t i = 0; i < candidates.size(); ++i) take(*candidates[i].body, driven[i].contact_W);
   add_contacts();
   return Piece::gone;
 }
 
-std::vector<rigid_bodies::DrivenBody> DynamicStepper::solve(const std::vector<bodies::SteppedBody*>& held,
-                                                            const std::vector<Candidate>& candidates, double h) {
+std::vector<rigid_bodies::DrivenBody> DynamicStepper::solve(const std::vector<Candidate>& candidates, double h) {
   std::vector<rigid_bodies::DrivenBody> driven;
-  for (std::size_t i = 0; i < held.size(); ++i) driven.push_back(driven_body(*held[i], candidates[i], h));
+  for (const Candidate& c : candidates) driven.push_back(driven_body(c, h));
   world_->step(h, driven);
   return driven;
 }
 
-double DynamicStepper::admissible_fraction(const std::vector<bodies::SteppedBody*>& held,
-                                           const std::vector<Candidate>& candidates,
+double DynamicStepper::admissible_fraction(const std::vector<Candidate>& candidates,
                                            const std::vector<rigid_bodies::DrivenBody>& driven, double h) const {
   double sound = 1.0;
-  for (std::size_t i = 0; i < held.size(); ++i) {
-    const Wrench& impact = driven[i].impact_W;
-    if (!impact.force.isZero(0.0) || !impact.moment.isZero(0.0)) held[i]->add_impulse(impact);
-    const bool possible = held[i]->advance(h, driven[i].contact_W) && bodies::is_finite(held[i]->object());
-    if (!possible) return 0.0;
-    sound = std::min(sound, world_->admissible_fraction(held[i]->index(), candidates[i].begin.X, held[i]->object().X));
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    bodies::SteppedBody& body = *candidates[i].body;
+    if (!is_zero(driven[i].impact_W)) body.add_impulse(driven[i].impact_W);
+    if (!body.advance(h, driven[i].contact_W) || !bodies::is_finite(body.object())) return 0.0;
+    sound = std::min(sound, world_->admissible_fraction(body.index(), candidates[i].begin.X, body.object().X));
   }
   return sound;
 }
@@ -208,20 +187,19 @@ void DynamicStepper::take(bodies::SteppedBody& body, const Wrench& contact_W) {
   world_->place(body.index(), s.X, s.velocity, true);
 }
 
-rigid_bodies::DrivenBody DynamicStepper::driven_body(const bodies::SteppedBody& body, const Candidate& c, double h) {
-  const bodies::SteppedBody::Response response = body.response(h);
+rigid_bodies::DrivenBody DynamicStepper::driven_body(const Candidate& c, double h) {
+  const bodies::SteppedBody::Response response = c.body->response(h);
   rigid_bodies::DrivenBody d;
-  d.body = body.index();
+  d.body = c.body->index();
   d.X_WO = c.begin.X;
   d.V_WO_W = c.begin.velocity;
   d.compliance = positive(response.displacement);
-  d.mobility = body.mobility();
+  d.mobility = c.body->mobility();
   d.displacement_by_impulse =
       response.velocity;  // an impulse does at once what a constant load does in the course of the step
   const Vector6d by_load = d.compliance * to_vector(c.load_W) + d.displacement_by_impulse * to_vector(c.impact_W);
   d.displacement_W.linear = c.end.X.translation() - c.begin.X.translation() - by_load.head<3>();
-  d.displacement_W.angular =
-      c.begin.X.linear() * math::log_so3(c.begin.X.linear().transpose() * c.end.X.linear()) - by_load.tail<3>();
+  d.displacement_W.angular = c.begin.X.linear() * math::turn_between(c.begin.X, c.end.X) - by_load.tail<3>();
   return d;
 }
 

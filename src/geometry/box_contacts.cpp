@@ -4,23 +4,16 @@
 #include <cmath>
 #include <limits>
 
+#include "constants.h"
+
 namespace spring_workbench::geometry {
 namespace {
-
-/// Two edges have to be further apart by this than two faces are, to count: those of flush faces are as far.
-constexpr double edges_by = 1e-5;        ///< [m]
-constexpr double edges_by_share = 0.05;  ///< of the faces' gap
-constexpr double stands_out = 1e-6;      ///< [m] by which a contact is deeper than others
 
 struct Axis {
   double gap = -std::numeric_limits<double>::infinity();
   Vector3d n_W = Vector3d::UnitZ();  ///< from `b` towards `a`
   int of_a = -1, of_b = -1;          ///< the boxes' axes that it is made from
 };
-
-double reach(const OutlineBox& box, const Vector3d& n_W) {
-  return (box.X.linear().transpose() * n_W).cwiseAbs().dot(box.half);
-}
 
 void look(const OutlineBox& a, const OutlineBox& b, const Vector3d& axis, int of_a, int of_b, Axis& best) {
   const double size = axis.norm();

@@ -24,9 +24,8 @@ BoxGap gap_between(const OutlineBox& a, const OutlineBox& b) {
   const auto look = [&](const Vector3d& axis) {
     const double size = axis.norm();
     if (size < 1e-6) return;  // parallel edges: the faces' axes cover it
-    const double reach = (A.transpose() * axis).cwiseAbs().dot(a.half) + (B.transpose() * axis).cwiseAbs().dot(b.half);
     const double apart = between.dot(axis);
-    const double gap = (std::abs(apart) - reach) / size;
+    const double gap = (std::abs(apart) - (reach(a, axis) + reach(b, axis))) / size;
     if (gap > best.gap) best = {gap, axis / (apart < 0.0 ? -size : size)};
   };
   for (int i = 0; i < 3; ++i) {

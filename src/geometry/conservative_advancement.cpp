@@ -1,25 +1,12 @@
 #include "spring_workbench/geometry/conservative_advancement.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+
+#include "spring_workbench/geometry/shape_queries.h"
 
 namespace spring_workbench::geometry {
 namespace {
-
-std::array<Vector3d, 8> corners(const OutlineBox& box) {
-  std::array<Vector3d, 8> all;
-  for (int i = 0; i < 8; ++i) {
-    const Vector3d sign((i & 1) ? 1.0 : -1.0, (i & 2) ? 1.0 : -1.0, (i & 4) ? 1.0 : -1.0);
-    all[static_cast<std::size_t>(i)] = box.X * box.half.cwiseProduct(sign);
-  }
-  return all;
-}
-
-/// How far the box reaches from its middle along `n`.
-double reach(const OutlineBox& box, const Vector3d& n_W) {
-  return (box.X.linear().transpose() * n_W).cwiseAbs().dot(box.half);
-}
 
 /// Up to which f ≤ longest a + b f − ½ c f² is not negative; c ≥ 0.
 double positive_until(double a, double b, double c, double longest) {
@@ -35,7 +22,8 @@ double clear_of_corners(const OutlineBox& own, const StraightMotion& motion, con
   const double lowest = n_W.dot(own.X.translation() - motion.p_WO) - reach(own, n_W);
   const Vector3d n_rate = motion.turn_W.cross(n_W);
   double clear = longest;
-  for (const Vector3d& corner : corners(other)) {
+  for (const Vector3d& p : corners(other.half)) {
+    const Vector3d corner = other.X * p;
     const Vector3d above = motion.p_WO - corner;
     const double furthest = above.norm() + longest * motion.move_W.norm();
     const double bend = n_rate.norm() * (motion.turn_W.norm() * furthest + 2.0 * motion.move_W.norm());
@@ -51,7 +39,8 @@ double clear_above(const OutlineBox& own, const StraightMotion& motion, const Ha
                    double longest) {
   const double across = below.n_W.cross(motion.turn_W).norm();
   double clear = longest;
-  for (const Vector3d& corner : corners(own)) {
+  for (const Vector3d& p : corners(own.half)) {
+    const Vector3d corner = own.X * p;
     const Vector3d by_turning = motion.turn_W.cross(corner - motion.p_WO);
     const double height = below.n_W.dot(corner) - below.height;
     clear = positive_until(height + tolerance, below.n_W.dot(motion.move_W + by_turning), across * by_turning.norm(),

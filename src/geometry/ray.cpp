@@ -63,9 +63,8 @@ double entry(const MeshPtr& mesh, const Vector3d& p, const Vector3d& d) {
   if (contains(Geometry(mesh), p)) return 0.0;
   double nearest = never;
   for (const Eigen::Vector3i& t : mesh->triangles) {
-    const Vector3d& corner = mesh->vertices[static_cast<std::size_t>(t[0])];
-    const Vector3d e1 = mesh->vertices[static_cast<std::size_t>(t[1])] - corner;
-    const Vector3d e2 = mesh->vertices[static_cast<std::size_t>(t[2])] - corner;
+    const Vector3d& corner = mesh->corner(t, 0);
+    const Vector3d e1 = mesh->corner(t, 1) - corner, e2 = mesh->corner(t, 2) - corner;
     const Vector3d q = d.cross(e2);
     const double determinant = e1.dot(q);
     if (determinant == 0.0) continue;

@@ -6,8 +6,6 @@
 namespace spring_workbench::geometry {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
-
 template <class... Ts>
 struct Overloaded : Ts... {
   using Ts::operator()...;
@@ -23,12 +21,12 @@ VolumeProperties box_properties(const Vector3d& size) {
 }
 
 VolumeProperties sphere_properties(double radius) {
-  const double volume = 4.0 / 3.0 * pi * radius * radius * radius;
+  const double volume = 4.0 / 3.0 * M_PI * radius * radius * radius;
   return {volume, Vector3d::Zero(), 0.4 * volume * radius * radius * Matrix3d::Identity()};
 }
 
 VolumeProperties cylinder_properties(const Cylinder& c) {
-  const double volume = pi * c.radius * c.radius * c.length;
+  const double volume = M_PI * c.radius * c.radius * c.length;
   const double across = volume * (3.0 * c.radius * c.radius + c.length * c.length) / 12.0;
   const double along = 0.5 * volume * c.radius * c.radius;
   return {volume, Vector3d::Zero(), Vector3d(across, across, along).asDiagonal()};
@@ -44,7 +42,7 @@ VolumeProperties mesh_properties(const TriangleMesh& mesh) {
   Matrix3d second = Matrix3d::Zero();  // ∫ x xᵀ
   for (const Eigen::Vector3i& t : mesh.triangles) {
     Matrix3d corners;
-    for (int k = 0; k < 3; ++k) corners.col(k) = mesh.vertices[static_cast<std::size_t>(t[k])] - middle;
+    for (int k = 0; k < 3; ++k) corners.col(k) = mesh.corner(t, k) - middle;
     const double v = corners.determinant() / 6.0;
     const Vector3d sum = corners.rowwise().sum();
     volume += v;
@@ -61,13 +59,11 @@ VolumeProperties mesh_properties(const TriangleMesh& mesh) {
 double winding_number(const TriangleMesh& mesh, const Vector3d& p) {
   double half_angles = 0.0;
   for (const Eigen::Vector3i& t : mesh.triangles) {
-    const Vector3d a = mesh.vertices[static_cast<std::size_t>(t[0])] - p;
-    const Vector3d b = mesh.vertices[static_cast<std::size_t>(t[1])] - p;
-    const Vector3d c = mesh.vertices[static_cast<std::size_t>(t[2])] - p;
+    const Vector3d a = mesh.corner(t, 0) - p, b = mesh.corner(t, 1) - p, c = mesh.corner(t, 2) - p;
     const double la = a.norm(), lb = b.norm(), lc = c.norm();
     half_angles += std::atan2(a.dot(b.cross(c)), la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb);
   }
-  return half_angles / (2.0 * pi);
+  return half_angles / (2.0 * M_PI);
 }
 
 Eigen::AlignedBox3d box_around(const Vector3d& centre, const Vector3d& half) {
@@ -132,6 +128,22 @@ Eigen::AlignedBox3d bounding_box(const Geometry& geometry, const RigidTransform&
                                  return box;
                                }},
                     geometry);
+}
+
+Eigen::AlignedBox3d bounding_box(const Eigen::AlignedBox3d& box_B, const RigidTransform& X_AB) {
+  return box_around(X_AB * box_B.center(), X_AB.linear().cwiseAbs() * (0.5 * box_B.sizes()));
+}
+
+Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by) {
+  return Eigen::AlignedBox3d(Vector3d(box.min().array() - by), Vector3d(box.max().array() + by));
+}
+
+std::array<Vector3d, 8> corners(const Vector3d& half) {
+  std::array<Vector3d, 8> all;
+  for (unsigned i = 0; i < 8; ++i) {
+    all[i] = half.cwiseProduct(Vector3d((i & 1) ? 1.0 : -1.0, (i & 2) ? 1.0 : -1.0, (i & 4) ? 1.0 : -1.0));
+  }
+  return all;
 }
 
 Eigen::AlignedBox3d bounding_box(const std::vector<Shape>& shapes) {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "constants.h"
+
 namespace spring_workbench::math {
 namespace {
 
@@ -12,13 +14,6 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::Vector3d;
 using Eigen::VectorXd;
-
-constexpr int most_iterations = 100;
-constexpr double solved = 1e-11;         ///< of the rates and impulses, both scaled to 1
-constexpr double acceptable = 1e-6;      ///< where no iteration comes nearer
-constexpr double slip_share = 0.1;       ///< of what is missing: the least distance from the cones that is aimed at
-constexpr double least_friction = 1e-6;  ///< a narrower cone is taken so wide
-constexpr double least_response = 1e-6;  ///< of that of the contact that gives way most
 
 // Vectors [v0, v1, v2] of the cone v0 ≥ |(v1, v2)|, one after the other.
 

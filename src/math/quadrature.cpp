@@ -6,7 +6,6 @@ namespace spring_workbench::math {
 
 template <int N>
 GaussLegendre<N>::GaussLegendre() {
-  constexpr double pi = 3.14159265358979323846;
   // Legendre polynomial of degree n and its derivative, by the three-term recurrence.
   const auto legendre = [](int n, double x, double& derivative) {
     double p0 = 1.0, p1 = x;
@@ -23,7 +22,7 @@ GaussLegendre<N>::GaussLegendre() {
     return p1;
   };
   for (int i = 0; i < N; ++i) {
-    double x = -std::cos(pi * (i + 0.75) / (N + 0.5));
+    double x = -std::cos(M_PI * (i + 0.75) / (N + 0.5));
     double derivative = 1.0;
     for (int newton = 0; newton < 20; ++newton) x -= legendre(N, x, derivative) / derivative;
     legendre(N, x, derivative);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 namespace spring_workbench::math {
+
 So3Coefficients so3_coefficients_of_angle(double t) {
   const double theta = std::sqrt(t);
   const double s = std::sin(theta);
@@ -33,6 +34,13 @@ Vector3d log_so3(const Matrix3d& R) {
   const double n = q.vec().norm();
   if (n < 1e-12) return 2.0 * q.vec() / q.w();
   return 2.0 * std::atan2(n, q.w()) / n * q.vec();
+}
+
+RigidTransform between(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& turn, double fraction) {
+  RigidTransform X = X0;
+  X.linear() = X0.linear() * exp_so3(fraction * turn);
+  X.translation() += fraction * (X1.translation() - X0.translation());
+  return X;
 }
 
 Matrix3d right_jacobian_so3(const Vector3d& theta) {

@@ -25,12 +25,9 @@ MotionSegment::MotionSegment(const PoseSample& a, const Vector3d& v_a, const Vec
   const double h = b.t - a.t;
   position_ = Polynomial::cubic(b.X.translation() - a.X.translation(), h * v_a, h * v_b);
   if (!turning_) return;
-  const Vector3d theta_b = math::log_so3(a.X.linear().transpose() * b.X.linear());
+  const Vector3d theta_b = math::turn_between(a.X, b.X);
   rotation_ = Polynomial::cubic(theta_b, h * w_a_B, h * (math::right_jacobian_inverse_so3(theta_b) * w_b_B));
 }
-
-double MotionSegment::begin() const { return begin_; }
-double MotionSegment::end() const { return end_; }
 
 template <typename S>
 SPRING_WORKBENCH_INLINE MotionSegment::Turn<S> MotionSegment::turn(const S& u, double per_second) const {

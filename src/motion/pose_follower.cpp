@@ -1,8 +1,8 @@
 #include "spring_workbench/motion/pose_follower.h"
 
-#include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::motion {
@@ -17,9 +17,8 @@ double share(double way, double dt, double max_rate) {
 }  // namespace
 
 const RigidTransform& PoseFollower::advance(double dt) {
-  constexpr double arrived = 1e-9;  // [m, rad]
   const Vector3d way = goal_.translation() - X_.translation();
-  const Vector3d turn = math::log_so3(X_.linear().transpose() * goal_.linear());
+  const Vector3d turn = math::turn_between(X_, goal_);
   if (way.norm() < arrived && turn.norm() < arrived) return X_ = goal_;
   const Quaterniond q(X_.linear() * math::exp_so3(share(turn.norm(), dt, max_turn_rate) * turn));
   X_ = make_transform(q, X_.translation() + share(way.norm(), dt, max_speed) * way);

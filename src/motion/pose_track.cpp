@@ -4,28 +4,24 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "constants.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::motion {
 namespace {
 
-constexpr double kShortestInterval = 0.5e-9;  // [s] half of what ROS time resolves
-constexpr double kFarthestTime = 1e12;        // [s]
-constexpr double kFarthestPosition = 1e9;     // [m]
-constexpr double kRotationTolerance = 1e-6;
-
 void check_sample(const PoseSample& sample) {
-  validation::check_number("tracked pose", "t", sample.t, validation::between(-kFarthestTime, kFarthestTime));
+  validation::check_number("tracked pose", "t", sample.t, validation::between(-farthest_time, farthest_time));
   const std::string where = "tracked pose at t = " + std::to_string(sample.t) + " s";
   const char* const axes[] = {"x", "y", "z"};
   for (int i = 0; i < 3; ++i) {
     validation::check_number(where, axes[i], sample.X.translation()[i],
-                             validation::between(-kFarthestPosition, kFarthestPosition));
+                             validation::between(-farthest_position, farthest_position));
   }
   const Matrix3d R = sample.X.linear();
   const double defect = (R.transpose() * R - Matrix3d::Identity()).norm();
-  if (!(defect < kRotationTolerance && R.determinant() > 0.0)) {  // also where it is not a number
+  if (!(defect < rotation_tolerance && R.determinant() > 0.0)) {  // also where it is not a number
     std::ostringstream text;
     text << R.format(Eigen::IOFormat(6, Eigen::DontAlignCols, " ", "; "));
     validation::refuse(where, "rotation", text.str(), "a right-handed orthonormal matrix");
@@ -41,30 +37,20 @@ Vector3d displacement(const PoseSample& from, const PoseSample& to) {
   return to.X.translation() - from.X.translation();
 }
 
-Vector3d rotation_vector(const PoseSample& from, const PoseSample& to) {
-  return math::log_so3(from.X.linear().transpose() * to.X.linear());
-}
-
 }  // namespace
 
 PoseTrack::PoseTrack(double dropout_after) : dropout_after_(dropout_after), current_(RigidTransform::Identity()) {
-  validation::NumberRule rule = validation::positive();
-  rule.infinity_allowed = true;
-  validation::check_number("tracked pose", "dropout_after", dropout_after, rule);
+  validation::check_number("tracked pose", "dropout_after", dropout_after, validation::positive_or_infinite());
 }
 
 bool PoseTrack::push(const PoseSample& sample) {
   check_sample(sample);
-  if (!nodes_.empty() && !(sample.t - end() >= kShortestInterval)) return false;
+  if (!nodes_.empty() && !(sample.t - end() >= shortest_interval)) return false;
   nodes_.emplace_back();
   nodes_.back().sample = sample;
   current_valid_ = false;
   return true;
 }
-
-bool PoseTrack::empty() const { return nodes_.empty(); }
-double PoseTrack::begin() const { return nodes_.front().sample.t; }
-double PoseTrack::end() const { return nodes_.back().sample.t; }
 
 const MotionSegment& PoseTrack::segment(double t) {
   if (current_valid_ && current_.begin() <= t && t < current_.end()) return current_;
@@ -116,12 +102,12 @@ const PoseTrack::Node& PoseTrack::with_velocity(std::size_t k) {
     const double s_1 = before.t - here.t;
     const double s_2 = after.t - here.t;
     node.v_W = parabola_slope(s_1, displacement(here, before), s_2, displacement(here, after));
-    node.w_B = parabola_slope(s_1, rotation_vector(here, before), s_2, rotation_vector(here, after));
+    node.w_B = parabola_slope(s_1, math::turn_between(here.X, before.X), s_2, math::turn_between(here.X, after.X));
   } else {  // an end: the chord
     const PoseSample& other = nodes_[has_before ? k - 1 : k + 1].sample;
     const double s = other.t - here.t;
     node.v_W = displacement(here, other) / s;
-    node.w_B = rotation_vector(here, other) / s;
+    node.w_B = math::turn_between(here.X, other.X) / s;
   }
   node.velocity_fixed = true;
   return node;

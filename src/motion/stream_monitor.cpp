@@ -3,11 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
+
 namespace spring_workbench::motion {
 
 void StreamMonitor::Spread::add(double x) {
-  constexpr std::size_t memory = 50;  // samples
-  const double share = 1.0 / static_cast<double>(std::min(++count, memory));
+  const double share = 1.0 / static_cast<double>(std::min(++count, monitored_samples));
   const double step = x - mean;
   mean += share * step;
   variance = (1.0 - share) * (variance + share * step * step);

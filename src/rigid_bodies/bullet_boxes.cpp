@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "bullet_shape.h"
+#include "constants.h"
 #include "spring_workbench/geometry/box_contacts.h"
 
 namespace spring_workbench::rigid_bodies {

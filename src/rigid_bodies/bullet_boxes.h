@@ -6,7 +6,6 @@ namespace spring_workbench::rigid_bodies {
 
 /// Boxes are seen by each other and by planes from so far [m], so that what comes near fast is stopped where it
 /// touches. Bullet's own boxes see each other where they overlap.
-constexpr double seen_from = 3e-3;
 
 /// A box that Bullet looks at before it overlaps anything.
 class SeenBox final : public btBoxShape {

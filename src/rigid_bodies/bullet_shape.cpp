@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "bullet_boxes.h"
+#include "constants.h"
 
 namespace spring_workbench::rigid_bodies {
 namespace {
@@ -17,10 +18,8 @@ bool is_convex(const geometry::TriangleMesh& mesh) {
   for (const Vector3d& v : mesh.vertices) box.extend(v);
   const double tolerance = 1e-6 * box.diagonal().norm();
   return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Eigen::Vector3i& t) {
-    const Vector3d& a = mesh.vertices[static_cast<std::size_t>(t[0])];
-    const Vector3d& b = mesh.vertices[static_cast<std::size_t>(t[1])];
-    const Vector3d& c = mesh.vertices[static_cast<std::size_t>(t[2])];
-    const Vector3d n = (b - a).cross(c - a);
+    const Vector3d& a = mesh.corner(t, 0);
+    const Vector3d n = (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a);
     if (n.isZero(0.0)) return true;
     const Vector3d unit = n.normalized();
     return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
@@ -69,9 +68,7 @@ void BulletShape::add_mesh(const geometry::TriangleMesh& mesh, bool movable, con
   } else {
     auto triangles = std::make_unique<btTriangleMesh>();
     for (const Eigen::Vector3i& t : mesh.triangles) {
-      triangles->addTriangle(to_bullet(mesh.vertices[static_cast<std::size_t>(t[0])]),
-                             to_bullet(mesh.vertices[static_cast<std::size_t>(t[1])]),
-                             to_bullet(mesh.vertices[static_cast<std::size_t>(t[2])]));
+      triangles->addTriangle(to_bullet(mesh.corner(t, 0)), to_bullet(mesh.corner(t, 1)), to_bullet(mesh.corner(t, 2)));
     }
     if (movable) {
       auto concave = std::make_unique<btGImpactMeshShape>(triangles.get());

@@ -10,7 +10,6 @@ namespace spring_workbench::rigid_bodies {
 
 /// Every shape is larger by this all round [m], and contact is closed where two of them overlap by twice as much: so
 /// that the solver sees a contact before it closes.
-constexpr double contact_skin = 1e-4;
 
 /// A body's collision shapes as Bullet's, in a frame B that `X_OB` places in the object frame.
 class BulletShape {

@@ -8,26 +8,24 @@
 
 #include "bullet_world.h"
 
+// Beside Bullet's types, where the archive looks for them.
+static void exchange_state(spring_workbench::math::StateArchive& state, btVector3& v) { state(v[0], v[1], v[2]); }
+
+static void exchange_state(spring_workbench::math::StateArchive& state, btTransform& X) {
+  state(X.getBasis()[0], X.getBasis()[1], X.getBasis()[2], X.getOrigin());
+}
+
+static void exchange_state(spring_workbench::math::StateArchive& state, btManifoldPoint& p) {
+  state(p.m_localPointA, p.m_localPointB, p.m_positionWorldOnB, p.m_positionWorldOnA, p.m_normalWorldOnB,
+        p.m_lateralFrictionDir1, p.m_lateralFrictionDir2, p.m_distance1, p.m_combinedFriction,
+        p.m_combinedRollingFriction, p.m_combinedSpinningFriction, p.m_combinedRestitution, p.m_partId0, p.m_partId1,
+        p.m_index0, p.m_index1, p.m_contactPointFlags, p.m_appliedImpulse, p.m_prevRHS, p.m_appliedImpulseLateral1,
+        p.m_appliedImpulseLateral2, p.m_contactMotion1, p.m_contactMotion2, p.m_contactCFM, p.m_contactERP,
+        p.m_frictionCFM, p.m_lifeTime);
+}
+
 namespace spring_workbench::rigid_bodies {
 namespace {
-
-void exchange(math::StateArchive& state, btVector3& v) { state(v[0], v[1], v[2]); }
-
-void exchange(math::StateArchive& state, btTransform& X) {
-  for (int row = 0; row < 3; ++row) exchange(state, X.getBasis()[row]);
-  exchange(state, X.getOrigin());
-}
-
-void exchange(math::StateArchive& state, btManifoldPoint& p) {
-  for (btVector3* v : {&p.m_localPointA, &p.m_localPointB, &p.m_positionWorldOnB, &p.m_positionWorldOnA,
-                       &p.m_normalWorldOnB, &p.m_lateralFrictionDir1, &p.m_lateralFrictionDir2}) {
-    exchange(state, *v);
-  }
-  state(p.m_distance1, p.m_combinedFriction, p.m_combinedRollingFriction, p.m_combinedSpinningFriction,
-        p.m_combinedRestitution, p.m_partId0, p.m_partId1, p.m_index0, p.m_index1, p.m_contactPointFlags,
-        p.m_appliedImpulse, p.m_prevRHS, p.m_appliedImpulseLateral1, p.m_appliedImpulseLateral2, p.m_contactMotion1,
-        p.m_contactMotion2, p.m_contactCFM, p.m_contactERP, p.m_frictionCFM, p.m_lifeTime);
-}
 
 btDbvtProxy& proxy_of(btCollisionObject& object) { return *static_cast<btDbvtProxy*>(object.getBroadphaseHandle()); }
 
@@ -109,19 +107,14 @@ void BulletWorld::exchange(math::StateArchive& state) {
 
 void BulletWorld::exchange_body(math::StateArchive& state, int index) {
   btRigidBody& body = object(index);
-  btTransform X = body.getWorldTransform(), X_next = body.getInterpolationWorldTransform();
   btVector3 v = body.getLinearVelocity(), w = body.getAngularVelocity();
   btVector3 v_next = body.getInterpolationLinearVelocity(), w_next = body.getInterpolationAngularVelocity();
   int activation = body.getActivationState();
   double slow_for = body.getDeactivationTime();
-  for (btTransform* transform : {&X, &X_next}) rigid_bodies::exchange(state, *transform);
-  for (btVector3* velocity : {&v, &w, &v_next, &w_next}) rigid_bodies::exchange(state, *velocity);
-  state(activation, slow_for);
-  if (index >= 0) rigid_bodies::exchange(state, items_[static_cast<std::size_t>(index)].X_seen);
+  state(body.getWorldTransform(), body.getInterpolationWorldTransform(), v, w, v_next, w_next, activation, slow_for);
+  if (index >= 0) state(items_[static_cast<std::size_t>(index)].X_seen);
   if (!state.sets()) return;
   body.clearForces();
-  body.setWorldTransform(X);
-  body.setInterpolationWorldTransform(X_next);
   body.setLinearVelocity(v);
   body.setAngularVelocity(w);
   body.setInterpolationLinearVelocity(v_next);
@@ -145,9 +138,7 @@ void BulletWorld::exchange_pairs(math::StateArchive& state, const std::vector<in
   }
   for (const int index : objects) {
     btDbvtProxy& proxy = proxy_of(object(index));
-    state(proxy.m_uniqueId, proxy.stage);
-    rigid_bodies::exchange(state, proxy.m_aabbMin);
-    rigid_bodies::exchange(state, proxy.m_aabbMax);
+    state(proxy.m_uniqueId, proxy.stage, proxy.m_aabbMin, proxy.m_aabbMax);
   }
   state(pairs);
   if (!state.sets()) return;
@@ -204,7 +195,7 @@ void BulletWorld::exchange_manifolds(math::StateArchive& state) {
     state(points);
     if (points < 0 || points > MANIFOLD_CACHE_SIZE) throw std::out_of_range("state: contacts");
     manifold->setNumContacts(points);
-    for (int k = 0; k < points; ++k) rigid_bodies::exchange(state, manifold->getContactPoint(k));
+    for (int k = 0; k < points; ++k) state(manifold->getContactPoint(k));
   }
   if (!state.sets()) return;
   ordered.insert(ordered.end(), left.begin(), left.end());
@@ -248,8 +239,7 @@ void BulletWorld::exchange_tree(math::StateArchive& state, btDbvt& tree, const s
       node = new (btAlignedAlloc(sizeof(btDbvtNode), 16)) btDbvtNode();
       node->parent = parent;
     }
-    rigid_bodies::exchange(state, node->volume.tMins());
-    rigid_bodies::exchange(state, node->volume.tMaxs());
+    state(node->volume.tMins(), node->volume.tMaxs());
     if (index == internal) {
       for (btDbvtNode*& child : node->childs) exchange_node(child, node);
     } else if (sets) {

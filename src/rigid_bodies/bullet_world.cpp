@@ -8,31 +8,16 @@
 #include <iterator>
 #include <set>
 
+#include "constants.h"
 #include "spring_workbench/geometry/conservative_advancement.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/math/so3.h"
+#include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::rigid_bodies {
 namespace {
 
-constexpr double margin_near = 2e-3;  ///< [m]; what comes nearer than this to an awake body enters Bullet's world
-constexpr int steps_until_left = 50;  ///< a sleeper leaves Bullet's world when nothing awake was near for so many steps
-constexpr double asleep_speed = 2e-3;      ///< [m/s] of every point of a body …
-constexpr double asleep_after = 0.5;       ///< [s] … for so long: it goes to sleep
-constexpr double rest_speed = 0.02;        ///< [m/s]; a slower approach does not bounce
-constexpr double penetration_share = 0.2;  ///< of a penetration that is undone in a step, where it pushes free bodies
-constexpr double blind_way = 2e-4;         ///< [m] towards what is near, where the shapes are not boxes
-constexpr double deepest_way = 5e-5;       ///< [m]; no deeper goes a box into another
-constexpr double closed_gap = 1e-5;        ///< [m]; a contact without impulse is told while its gap is smaller
-
 using Extent = Eigen::AlignedBox3d;
-
-/// Extent in world of a box in O placed at `X_WO`.
-Extent placed(const Extent& box_O, const RigidTransform& X_WO) {
-  const Vector3d centre = X_WO * box_O.center();
-  const Vector3d half = X_WO.linear().cwiseAbs() * (0.5 * box_O.sizes());
-  return Extent(centre - half, centre + half);
-}
 
 btDbvtVolume volume(const Extent& box) { return btDbvtVolume::FromMM(to_bullet(box.min()), to_bullet(box.max())); }
 
@@ -52,7 +37,7 @@ BulletWorld::BulletWorld(const scene::Scene& scene)
   info.m_splitImpulsePenetrationThreshold = 0.0;
   info.m_erp2 = penetration_share;
   info.m_linearSlop = 2.0 * contact_skin;
-  info.m_restitutionVelocityThreshold = rest_speed;
+  info.m_restitutionVelocityThreshold = scene::rest_speed;
   info.m_solverMode = SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
   world_.setForceUpdateAllAabbs(false);
 
@@ -73,7 +58,7 @@ BulletWorld::BulletWorld(const scene::Scene& scene)
     if (item.box_O.isEmpty()) continue;  // nothing to touch
     item.radius = geometry::bounding_radius(body.collision);
     item.outline_O = geometry::outline(body.collision);
-    item.leaf = tree_.insert(volume(placed(item.box_O, item.X_WO)), nullptr);
+    item.leaf = tree_.insert(volume(geometry::bounding_box(item.box_O, item.X_WO)), nullptr);
     item.leaf->dataAsInt = static_cast<int>(i);
   }
 }
@@ -100,8 +85,8 @@ void BulletWorld::make_bullet(std::size_t index) {
   }
   item.shape = std::make_unique<BulletShape>(body, item.X_OB);
   btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, item.shape->get(), principal);
-  info.m_linearSleepingThreshold = asleep_speed;
-  info.m_angularSleepingThreshold = asleep_speed / std::max(item.radius, 1e-9);
+  info.m_linearSleepingThreshold = scene::asleep_speed;
+  info.m_angularSleepingThreshold = scene::asleep_speed / std::max(item.radius, 1e-9);
   item.bullet = std::make_unique<btRigidBody>(info);
   item.bullet->setFriction(std::sqrt(body.material.friction));
   item.bullet->setRestitution(std::sqrt(body.material.restitution));
@@ -120,7 +105,7 @@ void BulletWorld::let_move(Item& item, bool may_move) {
 
 void BulletWorld::update_box(Item& item) {
   if (item.leaf == nullptr) return;
-  btDbvtVolume box = volume(placed(item.box_O, item.X_WO));
+  btDbvtVolume box = volume(geometry::bounding_box(item.box_O, item.X_WO));
   tree_.update(item.leaf, box);
 }
 
@@ -167,12 +152,11 @@ void BulletWorld::leave(std::size_t index) {
 
 Extent BulletWorld::path_of(std::size_t index, double h) const {
   const Item& item = items_[index];
-  Extent box = placed(item.box_O, item.X_WO);
+  Extent box = geometry::bounding_box(item.box_O, item.X_WO);
   const double turned = std::min(h * item.V_WO_W.angular.norm() * item.radius, 2.0 * item.radius);
   const Vector3d moved = h * item.V_WO_W.linear;
   box.extend(Extent(box.min() + moved, box.max() + moved));
-  const Vector3d margin = Vector3d::Constant(turned + margin_near);
-  return Extent(box.min() - margin, box.max() + margin);
+  return geometry::grown(box, turned + margin_near);
 }
 
 std::vector<std::size_t> BulletWorld::inside(const Extent& box_W) const {
@@ -322,11 +306,10 @@ void BulletWorld::place(std::size_t body, const RigidTransform& X_WO, const Twis
 
 Extent BulletWorld::swept(const Item& item, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                           double margin) const {
-  Extent path = placed(item.box_O, X0_WO);
-  path.extend(placed(item.box_O, X1_WO));
-  const double turned = math::log_so3(X0_WO.linear().transpose() * X1_WO.linear()).norm();
-  const Vector3d grown = Vector3d::Constant(margin + item.radius * std::min(turned, 2.0));
-  return Extent(path.min() - grown, path.max() + grown);
+  Extent path = geometry::bounding_box(item.box_O, X0_WO);
+  path.extend(geometry::bounding_box(item.box_O, X1_WO));
+  const double turned = math::turn_between(X0_WO, X1_WO).norm();
+  return geometry::grown(path, margin + item.radius * std::min(turned, 2.0));
 }
 
 bool BulletWorld::near_movable(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
@@ -363,7 +346,7 @@ double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, c
                                 bool untouched) const {
   const Item& item = items_[body];
   if (item.leaf == nullptr) return 1.0;
-  double part = !untouched && solver_.residual() > DrivenSolver::small_miss ? 0.5 : 1.0;
+  double part = !untouched && solver_.residual() > small_miss ? 0.5 : 1.0;
   // Of a pair whose shapes are not both boxes, only what the boxes around them say is known.
   const auto by_extent = [&](const geometry::BoxGap& gap, const geometry::StraightMotion& path) {
     const double left = gap.gap - 2.0 * contact_skin;
@@ -378,7 +361,7 @@ double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, c
   };
   const auto path_between = [](const RigidTransform& X0, const RigidTransform& X1) {
     return geometry::StraightMotion{X0.translation(), X1.translation() - X0.translation(),
-                                    X0.linear() * math::log_so3(X0.linear().transpose() * X1.linear())};
+                                    X0.linear() * math::turn_between(X0, X1)};
   };
   const geometry::StraightMotion path = path_between(X0_WO, X1_WO);
   const std::vector<std::size_t> near = inside(swept(item, X0_WO, X1_WO, 2.0 * contact_skin));

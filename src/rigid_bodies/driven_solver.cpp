@@ -5,21 +5,12 @@
 #include <limits>
 #include <utility>
 
+#include "constants.h"
 #include "spring_workbench/math/friction_cones.h"
+#include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::rigid_bodies {
 namespace {
-
-constexpr int most_iterations = 1000;
-constexpr std::size_t most_at_once =
-    150;                               ///< contacts whose equations are solved at once, where the sweeps are not done
-constexpr double small_change = 1e-8;  ///< of the largest impulse: the sweeps end …
-constexpr int enough_sweeps = 30;      ///< … or, after so many, …
-constexpr double small_displacement = 1e-8;  ///< [m] … where one changes no way by more, and no contact is further off
-constexpr double closed = 5e-5;              ///< [m]; a contact with a smaller gap is stopped by an impulse
-constexpr double rest_speed = 0.02;          ///< [m/s]; a slower approach does not bounce
-constexpr double recovery_time = 2e-3;       ///< [s] in which a penetration is undone
-constexpr double slow = 1e-7;                ///< [m/s]; a slower approach is none
 
 /// [linear; angular].
 Eigen::Matrix<double, 6, 1> both(const btVector3& linear, const btVector3& angular) {
@@ -251,7 +242,7 @@ void DrivenSolver::stop_approaches(Rows& rows) {
     approach = approach || (drives(n) && n.target > slow);
     const auto& contact = m_tmpSolverContactConstraintPool[static_cast<int>(i)];
     const auto& point = *static_cast<const btManifoldPoint*>(contact.m_originalContactPoint);
-    if (n.target > rest_speed) n.target *= 1.0 + point.m_combinedRestitution;
+    if (n.target > scene::rest_speed) n.target *= 1.0 + point.m_combinedRestitution;
     closing.normal.push_back(n);
     for (std::size_t k = 0; k < 2; ++k) closing.across.push_back(impact_row(rows.across[2 * i + k]));
     contacts.push_back(i);
@@ -269,18 +260,19 @@ void DrivenSolver::stop_approaches(Rows& rows) {
   }
 }
 
+void DrivenSolver::load_driven(const Row& row, double amount, Wrench DrivenBody::*load) const {
+  for (const auto& [body, J] : {std::pair(row.a, &row.J_a), std::pair(row.b, &row.J_b)}) {
+    if (const Driven* driven = driven_of(body)) driven->body->*load += to_wrench(amount * *J);
+  }
+}
+
 void DrivenSolver::hand_back_impacts(const Rows& rows, const std::vector<std::size_t>& contacts) {
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const auto& contact = m_tmpSolverContactConstraintPool[static_cast<int>(contacts[i])];
     Impact impact{static_cast<const btManifoldPoint*>(contact.m_originalContactPoint), Vector3d::Zero()};
     for (const Row* row : {&rows.normal[i], &rows.across[2 * i], &rows.across[2 * i + 1]}) {
       impact.impulse_W += row->impulse * row->J_a.head<3>();
-      for (const auto& [body, J] : {std::pair(row->a, &row->J_a), std::pair(row->b, &row->J_b)}) {
-        if (const Driven* driven = driven_of(body)) {
-          driven->body->impact_W.force += row->impulse * J->head<3>();
-          driven->body->impact_W.moment += row->impulse * J->tail<3>();
-        }
-      }
+      load_driven(*row, row->impulse, &DrivenBody::impact_W);
     }
     impacts_.push_back(impact);
   }
@@ -293,23 +285,15 @@ void DrivenSolver::hand_back(const Rows& rows) {
     body.internalGetDeltaLinearVelocity() = to_bullet(Vector3d(c.head<3>()));
     body.internalGetDeltaAngularVelocity() = to_bullet(Vector3d(c.tail<3>()));
   }
-  const auto load_driven = [&](const Row& row) {
-    for (const auto& [body, J] : {std::pair(row.a, &row.J_a), std::pair(row.b, &row.J_b)}) {
-      if (const Driven* driven = driven_of(body)) {
-        driven->body->contact_W.force += row.impulse / h_ * J->head<3>();
-        driven->body->contact_W.moment += row.impulse / h_ * J->tail<3>();
-      }
-    }
-  };
   for (std::size_t i = 0; i < rows.normal.size(); ++i) {
     auto& point =
         *static_cast<btManifoldPoint*>(m_tmpSolverContactConstraintPool[static_cast<int>(i)].m_originalContactPoint);
     point.m_appliedImpulse = rows.normal[i].impulse;
     point.m_appliedImpulseLateral1 = rows.across[2 * i].impulse;
     point.m_appliedImpulseLateral2 = rows.across[2 * i + 1].impulse;
-    load_driven(rows.normal[i]);
-    load_driven(rows.across[2 * i]);
-    load_driven(rows.across[2 * i + 1]);
+    for (const Row* row : {&rows.normal[i], &rows.across[2 * i], &rows.across[2 * i + 1]}) {
+      load_driven(*row, row->impulse / h_, &DrivenBody::contact_W);
+    }
   }
 }
 

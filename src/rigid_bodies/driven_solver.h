@@ -29,7 +29,6 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   /// How far a contact that presses would still go in or out in the last step, or another one in [m]: what the sweeps
   /// left.
   double residual() const { return missed_way_; }
-  static constexpr double small_miss = 1e-6;  ///< [m]; with less, a step is solved
 
  private:
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
@@ -66,6 +65,8 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   Row impact_row(const Row& row) const;
   /// Stops what approaches, and takes what that does to the rest of the step into `rows`.
   void stop_approaches(Rows& rows);
+  /// Adds `amount` of what the row does to those of its bodies that are driven.
+  void load_driven(const Row& row, double amount, Wrench DrivenBody::*load) const;
   void hand_back_impacts(const Rows& rows, const std::vector<std::size_t>& contacts);
   /// The largest changes in a sweep: of an impulse [N·s], and of the way that its row alone would make of that [m].
   struct Change {

@@ -1,10 +1,10 @@
 #include "mass.h"
 
 #include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 #include <sstream>
 
+#include "constants.h"
 #include "mesh_file.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/validation/number_rule.h"
@@ -67,12 +67,11 @@ RigidMass solid_mass(const std::vector<geometry::Shape>& shapes, double density,
 
 std::string inertia_defect(const RigidMass& mass, const std::vector<geometry::Shape>& shapes) {
   const Vector3d moments = Eigen::SelfAdjointEigenSolver<Matrix3d>(mass.inertia, Eigen::EigenvaluesOnly).eigenvalues();
-  constexpr double rounding = 1e-6;  // of figures as people write them
   if (!(moments[0] > 1e-9 * moments[2])) return "is not positive definite";
-  if (moments[0] + moments[1] < (1.0 - rounding) * moments[2]) return "breaks the triangle inequality";
+  if (moments[0] + moments[1] < (1.0 - inertia_rounding) * moments[2]) return "breaks the triangle inequality";
   const double largest_gyration = std::sqrt(moments[2] / mass.mass);
   const double size = farthest_point(shapes, mass.centre);
-  if (!shapes.empty() && largest_gyration > (1.0 + rounding) * size) {
+  if (!shapes.empty() && largest_gyration > (1.0 + inertia_rounding) * size) {
     return "is a placeholder (radius of gyration " + number(largest_gyration) + " m, the shape ends at " +
            number(size) + " m)";
   }

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <set>
 
+#include "constants.h"
 #include "mesh_reader.h"
 #include "package_path.h"
 #include "spring_workbench/geometry/shape_queries.h"
@@ -56,9 +57,8 @@ void merge_vertices(geometry::TriangleMesh& mesh) {
   std::vector<Vector3d> vertices;
   for (Eigen::Vector3i& t : mesh.triangles) {
     for (int k = 0; k < 3; ++k) {
-      const Vector3d& v = mesh.vertices[static_cast<std::size_t>(t[k])];
-      const auto [place, is_new] = index_of.emplace(v, static_cast<int>(vertices.size()));
-      if (is_new) vertices.push_back(v);
+      const auto [place, is_new] = index_of.emplace(mesh.corner(t, k), static_cast<int>(vertices.size()));
+      if (is_new) vertices.push_back(mesh.corner(t, k));
       t[k] = place->second;
     }
   }
@@ -72,7 +72,7 @@ void check_indices(const geometry::TriangleMesh& mesh, const std::string& where)
       if (t[k] < 0 || t[k] >= count) {
         validation::refuse(where, "vertex index", std::to_string(t[k]), "below the number of vertices");
       }
-      if (!mesh.vertices[static_cast<std::size_t>(t[k])].allFinite()) {
+      if (!mesh.corner(t, k).allFinite()) {
         validation::refuse(where, "vertex", "a number that is not finite", "finite");
       }
     }
@@ -80,8 +80,7 @@ void check_indices(const geometry::TriangleMesh& mesh, const std::string& where)
 }
 
 bool is_flat(const geometry::TriangleMesh& mesh, const Eigen::Vector3i& t) {
-  const auto corner = [&](int k) { return mesh.vertices[static_cast<std::size_t>(t[k])]; };
-  return (corner(1) - corner(0)).cross(corner(2) - corner(0)).norm() == 0.0;
+  return (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0)).norm() == 0.0;
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <map>
 #include <string>
 #include <tuple>
@@ -16,9 +15,6 @@ namespace spring_workbench::scene {
 /// nor in a package (as load_scene() says), or it is larger than a scene's files may be.
 std::string resolve_file(const std::string& name, const std::string& folder, const std::vector<std::string>& roots,
                          const std::string& where, const std::string& key);
-
-/// Largest file that a scene may name [bytes].
-constexpr std::uintmax_t most_bytes = 256u << 20;
 
 /// Makes a mesh fit for use: equal vertices become one, flat triangles go, a mesh that is inside out is turned.
 /// Throws InputError naming `where` for bad indices, values that are not finite, or no triangle left.

@@ -8,13 +8,13 @@
 #include <assimp/Importer.hpp>
 #include <cstring>
 
+#include "constants.h"
 #include "spring_workbench/validation/number_rule.h"
 #include "spring_workbench/validation/run_in_child.h"
 
 namespace spring_workbench::scene {
 namespace {
 
-constexpr validation::ChildLimits limits{30.0, std::uint64_t{2} << 30};
 constexpr char good = '+', bad = '-';
 
 /// Opens one file and nothing that it refers to, such as the materials of an OBJ file.
@@ -78,8 +78,7 @@ const char* unpack(const char* data, std::vector<T>& rows) {
   std::size_t count = 0;
   std::memcpy(&count, data, sizeof count);
   rows.resize(count);
-  for (T& row : rows)
-    std::memcpy(row.data(), data + sizeof count + static_cast<std::size_t>(&row - rows.data()) * sizeof(T), sizeof(T));
+  std::memcpy(static_cast<void*>(rows.data()), data + sizeof count, count * sizeof(T));
   return data + sizeof count + count * sizeof(T);
 }
 
@@ -99,7 +98,8 @@ std::string read_in_child(const std::string& path, const std::string& where) {
 }  // namespace
 
 geometry::TriangleMesh read_triangles(const std::string& path, const std::string& where) {
-  const std::optional<std::string> data = validation::run_in_child([&] { return read_in_child(path, where); }, limits);
+  const std::optional<std::string> data =
+      validation::run_in_child([&] { return read_in_child(path, where); }, {most_mesh_time, most_mesh_memory});
   if (!data) validation::refuse(where, "mesh", path, "readable within 30 s and 2 GiB");
   if (data->front() == bad) throw validation::InputError(data->substr(1));
   geometry::TriangleMesh mesh;

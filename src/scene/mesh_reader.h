@@ -1,14 +1,10 @@
 #pragma once
 
-#include <cstddef>
 #include <string>
 
 #include "spring_workbench/geometry/shape_queries.h"
 
 namespace spring_workbench::scene {
-
-/// Largest number of triangles of a mesh.
-constexpr std::size_t most_triangles = 1000000;
 
 /// The triangles of an STL, OBJ or DAE file, as they stand in it: axes as in the file (ROS ignores Collada's up axis;
 /// its unit counts). Read in a child process and from this one file alone, so that a file made to crash, to hang or to

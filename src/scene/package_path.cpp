@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "constants.h"
 #include "spring_workbench/scene/scene.h"
 
 namespace spring_workbench::scene {
@@ -47,8 +48,7 @@ std::string find_package_in_ros_package_path(const std::string& package) {
   for (std::string folder; std::getline(folders, folder, ':');) {
     if (folder.empty()) continue;
     if (package_name(fs::path(folder) / package) == package) return (fs::path(folder) / package).string();
-    constexpr int depth = 3;
-    const std::string found = crawl(folder, package, depth);
+    const std::string found = crawl(folder, package, package_depth);
     if (!found.empty()) return found;
   }
   return "";

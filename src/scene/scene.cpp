@@ -15,12 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> body_names(const Scene& scene) {
-  std::vector<std::string> names;
-  for (const Body& body : scene.bodies) names.push_back(body.name);
-  return names;
-}
-
 double lowest_point(const Body& body) {
   double lowest = std::numeric_limits<double>::infinity();
   for (const geometry::Shape& shape : body.collision.empty() ? body.visual : body.collision) {
@@ -100,7 +94,9 @@ class SceneLoader {
 
   /// What the YAML says of bodies must fit the bodies that there are.
   void check_names() const {
-    const std::string rule = "a body of the scene: " + validation::join(body_names(scene_));
+    std::vector<std::string> names;
+    for (const Body& body : scene_.bodies) names.push_back(body.name);
+    const std::string rule = "a body of the scene: " + validation::join(names);
     for (const auto& [name, entry] : file_.objects) {
       if (!find_body(scene_, name)) validation::refuse(entry.where, "objects", name, rule);
     }
@@ -118,11 +114,6 @@ class SceneLoader {
 };
 
 }  // namespace
-
-const std::vector<std::string>& names_of(ContactMode) {
-  static const std::vector<std::string> names = {"none", "stop", "dynamic"};
-  return names;
-}
 
 Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots) {
   const std::string path = resolve_file(path_or_uri, "", roots, "scene", "path");

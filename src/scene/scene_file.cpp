@@ -11,16 +11,23 @@ std::string line_of(const YAML::Node& node, const std::string& path) {
   return path + ":" + std::to_string(node.Mark().line + 1);
 }
 
-void read_material(const YAML::Node& map, const std::string& path, const std::string& prefix, Material& material) {
-  const auto number = [&](const std::string& key, const validation::NumberRule& rule, double& value) {
-    if (map[key].IsDefined()) value = config::read_number(map[key], path, prefix + key, rule);
-  };
-  validation::NumberRule stiffness = validation::positive();
-  stiffness.infinity_allowed = true;
-  number("friction", validation::not_negative(), material.friction);
-  number("restitution", validation::between(0.0, 1.0), material.restitution);
-  number("density", validation::positive(), material.density);
-  number("material_stiffness", stiffness, material.stiffness);
+/// A map of the file, whose keys need not be there.
+struct Fields {
+  const YAML::Node& map;
+  std::string path, prefix;
+
+  /// Sets `value` by one of config's readers, where the key is there.
+  template <typename T, typename Read, typename... Rule>
+  void operator()(const std::string& key, T& value, const Read& read, const Rule&... rule) const {
+    if (map[key].IsDefined()) value = read(map[key], path, prefix + key, rule...);
+  }
+};
+
+void read_material(const Fields& field, Material& material) {
+  field("friction", material.friction, config::read_number, validation::not_negative());
+  field("restitution", material.restitution, config::read_number, validation::between(0.0, 1.0));
+  field("density", material.density, config::read_number, validation::positive());
+  field("material_stiffness", material.stiffness, config::read_number, validation::positive_or_infinite());
 }
 
 ObjectEntry read_object(const YAML::Node& map, const std::string& path, const std::string& prefix,
@@ -31,14 +38,14 @@ ObjectEntry read_object(const YAML::Node& map, const std::string& path, const st
   ObjectEntry entry;
   entry.where = line_of(map, path);
   entry.material = defaults;
-  read_material(map, path, prefix, entry.material);
-  if (map["massless"].IsDefined()) entry.massless = config::read_bool(map["massless"], path, prefix + "massless");
-  if (map["urdf"].IsDefined()) entry.urdf = config::read_string(map["urdf"], path, prefix + "urdf");
-  if (map["pose"].IsDefined()) {
-    if (!entry.urdf)
-      validation::refuse(line_of(map["pose"], path), prefix + "pose", "without urdf", "given in the scene's URDF");
-    entry.X_WL = config::read_pose(map["pose"], path, prefix + "pose");
+  const Fields field{map, path, prefix};
+  read_material(field, entry.material);
+  field("massless", entry.massless, config::read_bool);
+  field("urdf", entry.urdf, config::read_string);
+  if (map["pose"].IsDefined() && !entry.urdf) {
+    validation::refuse(line_of(map["pose"], path), prefix + "pose", "without urdf", "given in the scene's URDF");
   }
+  field("pose", entry.X_WL, config::read_pose);
   return entry;
 }
 
@@ -46,35 +53,28 @@ Target read_target(const YAML::Node& map, const std::string& path, const std::st
   config::check_keys(map, path, prefix, {"pose", "position_tolerance", "angle_tolerance"});
   Target target;
   target.X_WL = config::read_pose(map["pose"], path, prefix + "pose");
-  const auto number = [&](const std::string& key, double& value) {
-    if (map[key].IsDefined()) value = config::read_number(map[key], path, prefix + key, validation::positive());
-  };
-  number("position_tolerance", target.position_tolerance);
-  number("angle_tolerance", target.angle_tolerance);
+  const Fields field{map, path, prefix};
+  field("position_tolerance", target.position_tolerance, config::read_number, validation::positive());
+  field("angle_tolerance", target.angle_tolerance, config::read_number, validation::positive());
   return target;
 }
 
 void read_settings(const YAML::Node& map, const std::string& path, Scene& scene) {
-  if (map["gravity"].IsDefined())
-    scene.gravity = config::read_number(map["gravity"], path, "gravity", validation::not_negative());
-  if (map["bench_height"].IsDefined()) {
-    scene.bench_height = config::read_number(map["bench_height"], path, "bench_height", validation::any_number());
-  }
-  if (map["force_scale"].IsDefined()) {
-    scene.force_scale = config::read_number(map["force_scale"], path, "force_scale", validation::positive());
-  }
-  if (map["contact"].IsDefined()) scene.contact = config::read_named<ContactMode>(map["contact"], path, "contact");
-  if (map["tool"].IsDefined()) {
-    scene.tool =
-        config::read_choice(map["tool"], path, "tool", {"spring", "spring_fork", "spring_probe", "direct", "ray"});
-  }
+  const Fields field{map, path, ""};
+  field("gravity", scene.gravity, config::read_number, validation::not_negative());
+  field("bench_height", scene.bench_height, config::read_number, validation::any_number());
+  field("force_scale", scene.force_scale, config::read_number, validation::positive());
+  field("contact", scene.contact, config::read_named<ContactMode>);
+  const std::vector<std::string> tools = {"spring", "spring_fork", "spring_probe", "direct", "ray"};
+  field("tool", scene.tool, config::read_choice, tools);
   if (map["start"].IsDefined()) {
     config::check_keys(map["start"], path, "start.", {"handle"});
     scene.X_WH_start = config::read_pose(map["start"]["handle"], path, "start.handle");
   }
   if (map["defaults"].IsDefined()) {
-    config::check_keys(map["defaults"], path, "defaults.", material_keys);
-    read_material(map["defaults"], path, "defaults.", scene.bench_material);
+    const YAML::Node defaults = map["defaults"];
+    config::check_keys(defaults, path, "defaults.", material_keys);
+    read_material({defaults, path, "defaults."}, scene.bench_material);
   }
 }
 

@@ -1,15 +1,13 @@
 #include "urdf_bodies.h"
 
-#include <algorithm>
 #include <filesystem>
 
+#include "constants.h"
 #include "mass.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::scene {
 namespace {
-
-constexpr double most_mass = 1e12;  // [kg]
 
 RigidTransform to_transform(const urdf::Pose& pose, const std::string& where) {
   const urdf::Rotation& q = pose.rotation;
@@ -96,8 +94,8 @@ class BodyBuilder {
     body.material = material;
     RigidMass mass_L;
     for (const auto& [link, X_LK] : group.links) {
-      const std::vector<geometry::Shape> collision = collision_shapes(*link, X_LK);
-      const std::vector<geometry::Shape> visual = visual_shapes(*link, X_LK);
+      const std::vector<geometry::Shape> collision = make_shapes(*link, X_LK, link->collision_array);
+      const std::vector<geometry::Shape> visual = make_shapes(*link, X_LK, link->visual_array);
       if (group.movable) {
         mass_L = sum(mass_L, link_mass(*link, X_LK, collision.empty() ? visual : collision, material.density));
       }
@@ -146,33 +144,23 @@ class BodyBuilder {
     return transformed(X_LK * to_transform(i.origin, where), {i.mass, Vector3d::Zero(), inertia});
   }
 
-  std::vector<geometry::Shape> collision_shapes(const urdf::Link& link, const RigidTransform& X_LK) {
+  /// Of collision or visual elements, in the frame of the group's first link.
+  template <typename Element>
+  std::vector<geometry::Shape> make_shapes(const urdf::Link& link, const RigidTransform& X_LK,
+                                           const std::vector<Element>& elements) {
+    const std::string where = file_.where(link.name);
     std::vector<geometry::Shape> shapes;
-    for (const urdf::CollisionSharedPtr& collision : link.collision_array) {
-      shapes.push_back(make_shape(link, *collision->geometry, X_LK, collision->origin));
-    }
-    return shapes;
-  }
-
-  std::vector<geometry::Shape> visual_shapes(const urdf::Link& link, const RigidTransform& X_LK) {
-    std::vector<geometry::Shape> shapes;
-    for (const urdf::VisualSharedPtr& visual : link.visual_array) {
-      shapes.push_back(make_shape(link, *visual->geometry, X_LK, visual->origin));
-      if (visual->material && visual->material->texture_filename.empty()) {
-        const urdf::Color& c = visual->material->color;  // urdfdom takes 0 … 1 only
-        shapes.back().color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
+    for (const Element& element : elements) {
+      geometry::Shape& shape = shapes.emplace_back();
+      shape.X_OS = X_LK * to_transform(element->origin, where);
+      shape.geometry = make_geometry(*element->geometry, where);
+      if constexpr (std::is_same_v<Element, urdf::VisualSharedPtr>) {
+        if (!element->material || !element->material->texture_filename.empty()) continue;
+        const urdf::Color& c = element->material->color;  // urdfdom takes 0 … 1 only
+        shape.color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
       }
     }
     return shapes;
-  }
-
-  geometry::Shape make_shape(const urdf::Link& link, const urdf::Geometry& geometry, const RigidTransform& X_LK,
-                             const urdf::Pose& origin) {
-    const std::string where = file_.where(link.name);
-    geometry::Shape shape;
-    shape.X_OS = X_LK * to_transform(origin, where);  // in the first link's frame as yet
-    shape.geometry = make_geometry(geometry, where);
-    return shape;
   }
 
   geometry::Geometry make_geometry(const urdf::Geometry& geometry, const std::string& where) {

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <sstream>
 
+#include "constants.h"
 #include "spring_workbench/validation/input_error.h"
 #include "spring_workbench/validation/number_rule.h"
 #include "spring_workbench/validation/one_line.h"
@@ -18,9 +19,6 @@
 
 namespace spring_workbench::scene {
 namespace {
-
-constexpr int most_nesting = 64;           ///< elements in each other; a URDF has six
-constexpr std::size_t most_links = 10000;  ///< a chain of them is walked by recursion
 
 /// Keeps what urdfdom says on the console while it lives. The console's handler is global: one reader at a time.
 class ConsoleCapture : private console_bridge::OutputHandler {
@@ -146,13 +144,12 @@ int depth_below(const TiXmlNode& node) {
 /// Whether TinyXML gets through it alive. It takes a stack frame for each element in another, and nobody but TinyXML
 /// knows what it takes for an element: so where there are enough for a stack, a child process tries it.
 bool can_be_parsed(const std::string& xml) {
-  constexpr int enough = 500;
   const auto parse = [&] {
     TiXmlDocument document;
     document.Parse(xml.c_str());
     return std::string();
   };
-  return std::count(xml.begin(), xml.end(), '<') < enough ||
+  return std::count(xml.begin(), xml.end(), '<') < tried_from ||
          validation::run_in_child(parse, {5.0, std::uint64_t{1} << 30});
 }
 

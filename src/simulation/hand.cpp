@@ -3,16 +3,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "constants.h"
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench::simulation {
-namespace {
-
-constexpr double least_length = 1e-4;  ///< [m] of a rigid tool
-
-}  // namespace
-
 Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, Objects& objects, tools::Tool tool)
     : scene_(scene),
       settings_(settings),
@@ -24,7 +19,8 @@ Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, Object
 
 void Hand::reset() {
   stylus_.reset();
-  selection_ = tools::GraspSelection();
+  inserted_.reset();
+  pressed_ = false;
   grasped_by_name_ = false;
   hold_.reset();
   probe_.reset();
@@ -54,16 +50,10 @@ void Hand::apply_buttons(double now) {
 }
 
 void Hand::apply_grasp_button(bool pressed, double now) {
-  switch (selection_.set_button(pressed, hold_ != nullptr)) {
-    case tools::GraspEvent::grasp:
-      grasp(*selection_.inserted(), std::nullopt, false, now);
-      break;
-    case tools::GraspEvent::release:
-      let_go(settings_.grasp.release == tools::Release::thrown, now);
-      break;
-    case tools::GraspEvent::none:
-      break;
-  }
+  const bool rising = pressed && !pressed_;
+  pressed_ = pressed;
+  if (rising && !hold_ && inserted_) grasp(*inserted_, std::nullopt, false, now);
+  if (!pressed) let_go(settings_.grasp.release == tools::Release::thrown, now);
 }
 
 tools::Grasp Hand::grasp_of(std::size_t object) const {
@@ -269,7 +259,7 @@ void Hand::exchange(math::StateArchive& state, double now) {
   std::size_t touched = scene_.bodies.size();  // the bench
   if (touches && probe_->body() != nullptr) touched = static_cast<std::size_t>(probe_->body() - scene_.bodies.data());
   state(fork_.dofs, fork_.stiffness, fork_.damping_ratio, fork_.damping_coefficient, fork_.damping_law);
-  state(tool_, stylus_, ray_length_, selection_, grasped_by_name_, pushes_, grasp_, holds, touches, touched);
+  state(tool_, stylus_, ray_length_, inserted_, pressed_, grasped_by_name_, pushes_, grasp_, holds, touches, touched);
   if (state.sets()) {
     if (grasp_.object >= std::max<std::size_t>(objects_.states().size(), 1)) throw std::out_of_range("state: object");
     hold_ = holds ? maker().make(grasp_, grasped_body(), now) : nullptr;

@@ -2,17 +2,13 @@
 
 #include <memory>
 #include <optional>
-#include <vector>
 
 #include "objects.h"
-#include "spring_workbench/tools/grasp_selection.h"
 #include "spring_workbench/tools/hold_maker.h"
 #include "spring_workbench/tools/probe.h"
 #include "stylus.h"
 
 namespace spring_workbench::simulation {
-
-constexpr double longest_ray = 2.0;  ///< [m]
 
 /// One hand: a stylus, the tool in it, and what that holds.
 class Hand {
@@ -71,6 +67,8 @@ class Hand {
   void exchange(math::StateArchive& state, double now);
 
  private:
+  /// The paper, section 5: insert the fork, adjust it, press and hold, let go. Pressing in the air grasps nothing, also
+  /// when the tip enters an object afterwards with the button still down.
   void apply_grasp_button(bool pressed, double now);
   /// The nearest thing within `reach` [m] in front of the hand. `passes(body)`: not in the way.
   template <typename Passes>
@@ -103,8 +101,9 @@ class Hand {
   Objects& objects_;
   tools::Tool tool_;
   Stylus stylus_;
-  double ray_length_;  ///< to what the ray hits [m]
-  tools::GraspSelection selection_;
+  double ray_length_;                    ///< to what the ray hits [m]
+  std::optional<std::size_t> inserted_;  ///< the object that the tip is in, or the ray on, while nothing is held
+  bool pressed_ = false;                 ///< the grasp button
   bool grasped_by_name_ = false;
   std::unique_ptr<tools::ToolHold> hold_;  ///< while something is held
   std::unique_ptr<tools::Probe> probe_;    ///< while the probe touches something

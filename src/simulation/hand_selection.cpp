@@ -1,7 +1,8 @@
 // What a hand points at, is in, or touches with the probe.
-#include <algorithm>
 #include <limits>
+#include <utility>
 
+#include "constants.h"
 #include "hand.h"
 #include "spring_workbench/geometry/ray.h"
 #include "spring_workbench/geometry/shape_queries.h"
@@ -27,17 +28,15 @@ tools::InFront Hand::look_ahead(double reach, Passes&& passes) const {
 
 void Hand::select(double now) {
   if (tool_ == tools::Tool::spring_probe) {
-    selection_.set_inserted(std::nullopt);
+    inserted_.reset();
     return touch_with_probe(now);
   }
-  if (hold_ || !stylus_.known(now)) return selection_.set_inserted(std::nullopt);
+  if (hold_ || !stylus_.known(now)) return inserted_.reset();
   select_pierced();
 }
 
 void Hand::select_pierced() {
-  constexpr double stays = 0.8;  // another object must be nearer than the present one by this factor
-  const std::optional<std::size_t> before = selection_.inserted();
-  selection_.set_inserted(std::nullopt);
+  const std::optional<std::size_t> before = std::exchange(inserted_, std::nullopt);
   const bool picks = tool_ == tools::Tool::ray;
   // The nearest thing in the way of the hand, and the objects that the tip is in.
   const tools::InFront front =
@@ -52,14 +51,12 @@ void Hand::select_pierced() {
     const bool pierced =
         picks ? front.body == &objects_.body(i)
               : front.body == nullptr && geometry::contains(objects_.body(i).collision, X_WO.inverse() * tip);
-    const double distance = (X_WO.translation() - tip).norm() * (before == i ? stays : 1.0);
+    const double distance = (X_WO.translation() - tip).norm() * (before == i ? another_is_nearer : 1.0);
     if (!pierced || distance >= nearest) continue;
     nearest = distance;
-    selection_.set_inserted(i);
+    inserted_ = i;
   }
-  if (selection_.inserted() && settings_.grasp.object.empty()) {
-    objects_.highlight(*selection_.inserted());
-  }
+  if (inserted_ && settings_.grasp.object.empty()) objects_.highlight(*inserted_);
 }
 
 void Hand::touch_with_probe(double now) {

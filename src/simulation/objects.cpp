@@ -4,19 +4,12 @@
 #include <map>
 #include <utility>
 
+#include "constants.h"
 #include "spring_workbench/contact/contact_engines.h"
 #include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::simulation {
-namespace {
-
-constexpr double asleep_speed = 2e-3;  ///< [m/s]; a body in contact that stays slower …
-constexpr double asleep_after = 0.2;   ///< [s] … this long goes to sleep
-constexpr double support_gap = 1e-4;   ///< [m]; what is nearer below carries
-constexpr double world_limit = 100.0;  ///< [m] from the origin; a body that flies further stops there
-
-}  // namespace
-
 Objects::Objects(const scene::Scene& scene, int bisection_levels) : scene_(scene), contacts_(scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     object_of_.push_back(objects_.size());
@@ -282,7 +275,7 @@ void Objects::put_to_sleep_if_slow(std::size_t object, double now) {
   o.asleep = false;
   const double speed =
       o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * geometry::bounding_radius(body(object).collision);
-  if (!o.in_contact || !rests(object) || speed > asleep_speed) objects_[object].slow_since = now;
+  if (!o.in_contact || !rests(object) || speed > scene::asleep_speed) objects_[object].slow_since = now;
   const bool away = o.X_WO.translation().norm() > world_limit;
   if (away || now - objects_[object].slow_since > asleep_after) {
     objects_[object].free_body.reset();

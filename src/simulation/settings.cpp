@@ -81,12 +81,6 @@ Field choice(const char* key, const char* meaning, T& value, const char* absent 
           }};
 }
 
-NumberRule positive_or_infinite() {
-  NumberRule rule = validation::positive();
-  rule.infinity_allowed = true;
-  return rule;
-}
-
 std::vector<Field> scene_fields(S& s) {
   const char* as_scene = "as the scene says";
   return {
@@ -147,9 +141,9 @@ std::vector<Field> grasp_fields(S& s) {
   std::string& object = s.grasp.object;
   std::optional<RigidTransform>& tip = s.grasp.X_OE;
   return {
-      number("limit.force", "N", positive_or_infinite(),
+      number("limit.force", "N", validation::positive_or_infinite(),
              "what would take a larger force at the tip than this is let go", s.limit.force),
-      number("limit.moment", "N·m", positive_or_infinite(),
+      number("limit.moment", "N·m", validation::positive_or_infinite(),
              "what would take a larger moment at the tip than this is let go", s.limit.moment),
       choice(
           "calibrate",
@@ -168,7 +162,7 @@ std::vector<Field> grasp_fields(S& s) {
        }},
       flag("start.follow", "move the object so that the grasp fits the first pose of the handle", s.grasp.start_follow),
       choice("release", "a released object keeps its velocity (thrown) or is set to rest (dropped)", s.grasp.release),
-      number("dropout_after", "s", positive_or_infinite(),
+      number("dropout_after", "s", validation::positive_or_infinite(),
              "a longer gap between samples holds the handle still until the next one", s.dropout_after),
       integer("bisection_levels", 0, 30,
               "how often the end of a step that touches is halved (the paper, section 5); 0: time of impact instead",

@@ -10,7 +10,6 @@
 #include "hand.h"
 #include "objects.h"
 #include "spring_workbench/bodies/shared_body.h"
-#include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/validation/names.h"
 
@@ -111,11 +110,7 @@ void Simulation::Impl::with_handover(Change&& change) {
   std::map<std::size_t, Wrench> shared;  // what all springs together do to what several hands hold
   for (const auto& [object, of_object] : holders()) {
     if (of_object.size() < 2) continue;
-    for (const Hand* hand : of_object) {
-      const Wrench pull = hand->spring_pull();
-      shared[object].force += pull.force;
-      shared[object].moment += pull.moment;
-    }
+    for (const Hand* hand : of_object) shared[object] += hand->spring_pull();
   }
   change();
   for (const auto& [object, of_object] : holders()) {

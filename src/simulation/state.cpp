@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "constants.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/validation/number_rule.h"
 
@@ -11,7 +12,6 @@ namespace spring_workbench::simulation {
 namespace {
 
 const std::string format = "spring_workbench state 1";
-constexpr std::size_t digits = 16;  ///< of a word
 const char* const hexadecimal = "0123456789abcdef";
 
 void append_hex(std::string& text, std::uint64_t word) {
@@ -28,7 +28,7 @@ std::string to_hex(std::uint64_t hash) {
 
 std::string serialise(const SimulationState& state) {
   std::string numbers;
-  numbers.reserve(digits * state.words_.size());
+  numbers.reserve(word_digits * state.words_.size());
   for (const std::uint64_t word : state.words_) append_hex(numbers, word);
   YAML::Emitter text;
   text << YAML::BeginMap << YAML::Key << "format" << YAML::Value << format << YAML::Key << "scene" << YAML::Value
@@ -52,12 +52,12 @@ SimulationState parse_state(const std::string& text) {
   state.scene_ = config::read_string(map["scene"], where, "scene");
   const std::string numbers = config::read_string(map["numbers"], where, "numbers");
   const bool all_hexadecimal = numbers.find_first_not_of(hexadecimal) == std::string::npos;
-  if (all_hexadecimal && numbers.size() % digits == 0) {
-    for (std::size_t at = 0; at < numbers.size(); at += digits) {
-      state.words_.push_back(std::stoull(numbers.substr(at, digits), nullptr, 16));
+  if (all_hexadecimal && numbers.size() % word_digits == 0) {
+    for (std::size_t at = 0; at < numbers.size(); at += word_digits) {
+      state.words_.push_back(std::stoull(numbers.substr(at, word_digits), nullptr, 16));
     }
   }
-  if (!all_hexadecimal || numbers.size() % digits != 0 ||
+  if (!all_hexadecimal || numbers.size() % word_digits != 0 ||
       config::read_string(map["hash"], where, "hash") != to_hex(state.hash())) {
     validation::refuse(where, "numbers", "what is given", "those that the hash is of");
   }

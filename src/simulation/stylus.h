@@ -4,11 +4,10 @@
 #include <limits>
 #include <optional>
 
+#include "constants.h"
 #include "spring_workbench/motion/pose_track.h"
 
 namespace spring_workbench::simulation {
-
-constexpr double same_time = 1e-9;  ///< [s]; stamps nearer to each other are one
 
 /// What one stylus has told: how it moves, and the edges of its buttons.
 class Stylus {

@@ -6,12 +6,10 @@
 #include "spring_workbench/dynamics/find_strain.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/spatial.h"
+#include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::tools {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double earth = 9.81;  // [m/s²]
 
 /// The strain at rest on a handle at `X_WH`, looked for from `q` on.
 rod::StrainVector equilibrium(const dynamics::HeldBody& held, const RigidTransform& X_WH, const rod::StrainVector& q) {
@@ -24,7 +22,7 @@ rod::StrainVector equilibrium(const dynamics::HeldBody& held, const RigidTransfo
 
 }  // namespace
 
-double weighing_gravity(double gravity) { return gravity > 0.0 ? gravity : earth; }
+double weighing_gravity(double gravity) { return gravity > 0.0 ? gravity : scene::standard_gravity; }
 
 rod::PerDof calibrated_stiffness(rod::ShapeKind shape, double length, const dynamics::BodyInertia& body, double gravity,
                                  const CalibrationGoal& goal) {
@@ -38,8 +36,8 @@ rod::PerDof calibrated_stiffness(rod::ShapeKind shape, double length, const dyna
   const dynamics::StrainState zero{rod::StrainVector::Zero(size), rod::StrainVector::Zero(size)};
   held.set_dofs({true, true, true}, 0.0, 1.0, zero);
   RigidTransform hanging = RigidTransform::Identity(), level = RigidTransform::Identity();
-  hanging.linear() = math::exp_so3(Vector3d(pi, 0.0, 0.0));       // z of the handle is down
-  level.linear() = math::exp_so3(Vector3d(0.0, -0.5 * pi, 0.0));  // x of the handle is up
+  hanging.linear() = math::exp_so3(Vector3d(M_PI, 0.0, 0.0));       // z of the handle is down
+  level.linear() = math::exp_so3(Vector3d(0.0, -0.5 * M_PI, 0.0));  // x of the handle is up
   rod::PerDof k{g / sag, g / sag, held.axial_inertia() * omega * omega};
   rod::StrainVector q_hanging = zero.q, q_level = zero.q;
   for (int iteration = 0; iteration < 40; ++iteration) {

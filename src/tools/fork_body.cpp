@@ -6,17 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "constants.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::tools {
 namespace {
-
-constexpr double return_time = 0.05;  ///< [s] on which the proxy comes back to the hand
-constexpr double give_time = 5e-3;    ///< [s]; squared over the object's mass, how the proxy gives way at rest
-// Below these an object on a hand at rest stops (the paper's threshold, section 3.3).
-constexpr double rest_speed = 1e-7;         ///< [m/s], and of a turning times the fork's length
-constexpr double rest_acceleration = 1e-6;  ///< [m/s²], likewise
-constexpr double largest_distance = 1e6;    ///< [m]; an object further away is not one to go on with
 
 RigidTransform shrunk(const RigidTransform& offset, double factor) {
   RigidTransform X;
@@ -65,11 +59,9 @@ motion::MotionState ForkBody::object_with_acceleration() const {
 }
 
 Matrix6d ForkBody::proxy_compliance(double h) const {
-  Matrix6d P = Matrix6d::Zero();
-  if (held_.size() == rod::max_strain_coordinates) return P;
+  if (held_.size() == rod::max_strain_coordinates) return Matrix6d::Zero();
   const Matrix3d R = object().X.linear();
-  P.topLeftCorner<3, 3>().diagonal().setConstant(1.0 / held_.body().mass);
-  P.bottomRightCorner<3, 3>() = R * held_.body().inertia_O.inverse() * R.transpose();
+  const Matrix6d P = spatial_matrix(1.0 / held_.body().mass, R * held_.body().inertia_O.inverse() * R.transpose());
   return give_time * give_time * (1.0 - std::exp(-h / return_time)) * (P - mobility());
 }
 
@@ -79,7 +71,7 @@ RigidTransform ForkBody::returned_offset(double h) const {
 
 RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
   const RigidTransform returned = returned_offset(h);
-  if (contact_W.force.isZero(0.0) && contact_W.moment.isZero(0.0)) return returned;
+  if (is_zero(contact_W)) return returned;
   const Vector6d given_way = proxy_compliance(h) * to_vector(contact_W);
   // A rotation about the object's centre of mass and a translation.
   const Vector3d centre = object().X.translation();
@@ -93,7 +85,7 @@ motion::MotionSegment ForkBody::proxy_motion(double h, const RigidTransform& off
   const motion::PoseSample begin{state_.t, state_.offset * hand_pose()};
   const motion::PoseSample end{state_.t + h, offset_end * hand_.at(state_.t + h).X};
   const Vector3d v = (end.X.translation() - begin.X.translation()) / h;
-  const Vector3d w = math::log_so3(begin.X.linear().transpose() * end.X.linear()) / h;
+  const Vector3d w = math::turn_between(begin.X, end.X) / h;
   return motion::MotionSegment(begin, v, w, end, v, w);
 }
 
@@ -143,16 +135,13 @@ double ForkBody::added_energy(const Advance& advance) const {
     const dynamics::HandleForcing handle = held_.forcing(motion, at);
     const motion::MotionState o = held_.object(handle, s, &q_ddot);
     const Wrench& contact = held_.external_wrench();
-    const Matrix3d I_W = o.X.linear() * held_.body().inertia_O * o.X.linear().transpose();
     const Vector3d up(0.0, 0.0, held_.gravity());
-    const Vector3d& w = o.velocity.angular;
-    const Vector3d force = m * (o.acceleration.linear + up) - contact.force;  // of the rod on the object
-    const Vector3d moment = I_W * o.acceleration.angular + w.cross(I_W * w) - contact.moment;
+    const auto [force, moment] = rod_load(o);
     const Vector3d arm = o.X.translation() - handle.X_WH.translation();
     energy =
         held_.elastic_energy(at, s) + held_.kinetic_energy(o.velocity, o.X.linear()) + m * up.dot(o.X.translation());
     power = force.dot(handle.v_WH_W) + (moment + arm.cross(force)).dot(handle.X_WH.linear() * handle.angular_velocity) +
-            contact.force.dot(o.velocity.linear) + contact.moment.dot(w) - s.q_dot.dot(D * s.q_dot);
+            contact.force.dot(o.velocity.linear) + contact.moment.dot(o.velocity.angular) - s.q_dot.dot(D * s.q_dot);
   };
   const rod::StrainVector a0 = held_.acceleration(held_.forcing(motion, t), begin.q, begin.q_dot);
   const rod::StrainVector a1 = held_.acceleration(held_.forcing(motion, t + h), end.q, end.q_dot);
@@ -236,9 +225,9 @@ bool ForkBody::sleeps(double h, bool may_fall_asleep) {
   if (!hand_rests || !may_fall_asleep || state_.behind || held_.returning()) return false;
   const motion::MotionState o = object_with_acceleration();
   const double L = held_.shape().length();
-  const bool at_rest = std::max(o.velocity.linear.norm(), L * o.velocity.angular.norm()) < rest_speed &&
+  const bool at_rest = std::max(o.velocity.linear.norm(), L * o.velocity.angular.norm()) < still_speed &&
                        (held_.size() == 0 ||
-                        std::max(o.acceleration.linear.norm(), L * o.acceleration.angular.norm()) < rest_acceleration);
+                        std::max(o.acceleration.linear.norm(), L * o.acceleration.angular.norm()) < still_acceleration);
   if (!at_rest) return false;
   state_.strain.q_dot.setZero();
   sleep_ = {held_.version(), begin.X};
@@ -263,12 +252,6 @@ void ForkBody::follow_rigidly(double h) {
   last_.reset();
   state_.strain.q_dot.setZero();
   state_.t += h;
-}
-
-StepEstimates ForkBody::take_estimates() {
-  const StepEstimates e = estimates_;
-  estimates_ = StepEstimates();
-  return e;
 }
 
 }  // namespace spring_workbench::tools

@@ -1,7 +1,7 @@
 #pragma once
 
-#include <memory>
 #include <optional>
+#include <utility>
 
 #include "spring_workbench/dynamics/step_control.h"
 #include "spring_workbench/tools/tool_hold.h"
@@ -38,7 +38,7 @@ class ForkBody final : public ToolHold {
   void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) override;
   /// Sets strain rates so that the object's twist comes as near as it can to this one.
   void take_twist(const Twist& V_WO_W) override;
-  void set_springs(const rod::ForkSettings& fork) override;
+  void set_springs(const rod::ForkSettings& fork) override { held_.set_springs(fork); }
   rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity) const override;
   bool set_dofs(const rod::ForkDofs& dofs, double switch_off_time) override;
   void set_step_control(const dynamics::DynamicsSettings& settings) override { control_ = make_step_control(settings); }
@@ -47,15 +47,6 @@ class ForkBody final : public ToolHold {
   double length() const override { return held_.shape().length(); }
   double elastic_energy() const override;
 
-  dynamics::HeldBody& held() { return held_; }
-  const dynamics::HeldBody& held() const { return held_; }
-  const dynamics::StrainState& state() const { return state_.strain; }
-  void set_state(const dynamics::StrainState& state) {
-    state_.strain = state;
-    sleep_ = Sleep();
-  }
-
-  double time() const { return state_.t; }
   dynamics::HandleForcing handle() const;  ///< the handle that the object sees, at present
   RigidTransform hand_pose() const;        ///< the handle as the hand has it
   /// Acceleration of the object at present.
@@ -70,7 +61,7 @@ class ForkBody final : public ToolHold {
   /// Fills in what the fork knows of its state. `massless`: the object has no mass, and forces mean nothing.
   void describe(bool massless, ToolState& state) const override;
 
-  StepEstimates take_estimates() override;
+  StepEstimates take_estimates() override { return std::exchange(estimates_, {}); }
   void exchange(math::StateArchive& state) override;
 
  private:
@@ -87,7 +78,6 @@ class ForkBody final : public ToolHold {
 
     void exchange(math::StateArchive& state) { state(t, strain, behind, offset, energy_added, stepping, pull_W); }
   };
-  static constexpr double no_offset = 1e-9;  ///< [m, rad]; the proxy has come back
   /// How the proxy gives way to a wrench at the centre of mass over a step, in what the coordinates cannot follow: as a
   /// spring and a damper in parallel (doc/model.md, "When the fork cannot follow").
   Matrix6d proxy_compliance(double h) const;
@@ -99,7 +89,8 @@ class ForkBody final : public ToolHold {
   motion::MotionSegment proxy_motion(double h, const RigidTransform& offset_end) const;
   rod::StrainMatrix inverse_mass() const;
   /// What the rod does to the object at its centre, world axes: its change of momentum less gravity and contact.
-  Wrench pull() const;
+  Wrench rod_load(const motion::MotionState& object) const;
+  Wrench pull() const { return state_.pull_W ? *state_.pull_W : rod_load(object_with_acceleration()); }
   /// The strain with which the springs do `pull_W` to the object, turned as `R_WO`; the present one where none is
   /// found.
   rod::StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const;

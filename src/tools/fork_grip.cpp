@@ -1,13 +1,12 @@
 // The fork as the hand grips it anew while it holds.
 #include <Eigen/QR>
 
+#include "constants.h"
 #include "fork_body.h"
 #include "spring_workbench/dynamics/find_strain.h"
 
 namespace spring_workbench::tools {
 namespace {
-
-constexpr double exact = 1e-12;  ///< of the generalised force that the springs are to do
 
 RigidTransform normalised(const RigidTransform& X) { return make_transform(Quaterniond(X.linear()), X.translation()); }
 
@@ -36,9 +35,9 @@ rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R
     }
     return f;
   };
-  const double small = exact * (missing(rod::StrainVector::Zero(present.size())).norm() + 1e-300);
+  const double small = exact_pull * (missing(rod::StrainVector::Zero(present.size())).norm() + 1e-300);
   const rod::StrainVector q = dynamics::find_strain(held_, state_.t, missing, present, small);
-  return missing(q).norm() < 1e-6 * small / exact ? q : present;
+  return missing(q).norm() < 1e-6 * small / exact_pull ? q : present;
 }
 
 void ForkBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {

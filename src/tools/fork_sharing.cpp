@@ -2,17 +2,12 @@
 #include <Eigen/Cholesky>
 #include <Eigen/QR>
 
+#include "constants.h"
 #include "fork_body.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::tools {
 namespace {
-
-constexpr double rigid_share = 1e-3;  ///< of a free body's compliance: how what has no coordinate gives way
-constexpr double least_stiffness =
-    1e-9;  ///< of what would hold the mass within a step, so that no family is without any
-constexpr int most_iterations = 20;
-constexpr double fitted = 1e-13;  ///< [m, rad]
 
 /// From `X0` to `X1`, at the origin of `X0`, world axes.
 Vector6d difference(const RigidTransform& X0, const RigidTransform& X1) {
@@ -52,13 +47,12 @@ void ForkBody::fit(const dynamics::HandleForcing& handle, const RigidTransform& 
   if (n == 0) return;
   dynamics::StrainState tried{state_.strain.q, rod::StrainVector::Zero(n)};
   const Matrix3d& R = X_WO.linear();
-  Matrix6d beside = Matrix6d::Zero();  // stiffness of what gives way beside the springs
-  beside.topLeftCorner<3, 3>().diagonal().setConstant(held_.body().mass);
-  beside.bottomRightCorner<3, 3>() = R * held_.body().inertia_O * R.transpose();
-  beside /= rigid_share * h * h;
+  // Stiffness of what gives way beside the springs.
+  const Matrix6d beside =
+      spatial_matrix(held_.body().mass, R * held_.body().inertia_O * R.transpose()) / (rigid_share * h * h);
   const Matrix6d root = beside.llt().matrixU();
   const rod::StrainVector springs = held_.stiffness().cwiseSqrt() * (n < rod::max_strain_coordinates ? 1.0 : 0.0);
-  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+  for (int iteration = 0; iteration < most_fit_iterations; ++iteration) {
     const Vector6d missing = difference(held_.object(handle, tried).X, X_WO);
     Eigen::MatrixXd left(6 + n, n);
     Eigen::VectorXd right(6 + n);

@@ -4,15 +4,14 @@
 
 namespace spring_workbench::tools {
 
-void ForkBody::set_springs(const rod::ForkSettings& fork) { held_.set_springs(fork); }
-
 rod::PerDof ForkBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity) const {
   return calibrated_stiffness(fork.shape, length(), held_.body(), gravity);
 }
 
 bool ForkBody::set_dofs(const rod::ForkDofs& dofs, double switch_off_time) {
   const dynamics::StrainState full = held_.full_state(state_.t, state_.strain);
-  set_state(held_.set_dofs(dofs, state_.t, switch_off_time, full));
+  state_.strain = held_.set_dofs(dofs, state_.t, switch_off_time, full);
+  sleep_ = Sleep();
   return held_.returning();
 }
 
@@ -22,9 +21,7 @@ dynamics::StepControl ForkBody::make_step_control(const dynamics::DynamicsSettin
 
 double ForkBody::elastic_energy() const { return held_.elastic_energy(state_.t, state_.strain); }
 
-Wrench ForkBody::pull() const {
-  if (state_.pull_W) return *state_.pull_W;
-  const motion::MotionState o = object_with_acceleration();
+Wrench ForkBody::rod_load(const motion::MotionState& o) const {
   const Matrix3d I_W = o.X.linear() * held_.body().inertia_O * o.X.linear().transpose();
   const Vector3d& w = o.velocity.angular;
   const Wrench& contact = held_.external_wrench();

@@ -3,19 +3,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "constants.h"
 #include "fork_body.h"
 #include "spring_body.h"
 #include "spring_workbench/rod/shape_model.h"
 
 namespace spring_workbench::tools {
-namespace {
-
-constexpr double least_rest_length = 1e-4;  ///< [m] of the tool `spring`
-constexpr double point_mass_radius = 1e-2;  ///< of the fork's length: radius of gyration of a point mass
-constexpr double on_the_axis = 1e-3;  ///< of the fork's length; a point mass so near to the fork's axis cannot twist it
-
-}  // namespace
-
 rod::ForkDofs HoldMaker::possible_dofs(const Grasp& grasp, const GraspedBody& object) const {
   if (object.massless() || grasp.tool != Tool::spring_fork) return {false, false, false};
   rod::ForkDofs dofs = fork_.dofs;

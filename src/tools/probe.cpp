@@ -1,19 +1,11 @@
 #include "spring_workbench/tools/probe.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
+#include "constants.h"
+
 namespace spring_workbench::tools {
-namespace {
-
-constexpr double no_give = 1e-9;  ///< of the depth; a material that gives way less is rigid
-constexpr double position_uncertainty =
-    1e-4;                                 ///< [m], one standard deviation: how well a tracker knows where the tip is
-constexpr double least_stiffness = 1e-9;  ///< of what would hold the mass within a step
-
-}  // namespace
-
 Probe::Probe(double length, const rod::ForkSettings& fork, const InFront& touched)
     : length_(length), body_(touched.body), material_(*touched.material), hand_(RigidTransform::Identity()) {
   set_springs(fork);

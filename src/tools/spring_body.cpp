@@ -3,16 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/math/damped_oscillator.h"
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench::tools {
 namespace {
-
-constexpr double least_stiffness =
-    1e-9;  ///< of what would hold the mass within a step, so that no direction is without any
-constexpr double least_length = 1e-4;  ///< [m] at rest
-constexpr double no_length = 1e-12;    ///< [m]; a shorter span has no direction
 
 Vector3d direction(const Vector3d& d) { return d.norm() > no_length ? Vector3d(d.normalized()) : Vector3d(0, 0, -1); }
 
@@ -51,7 +47,7 @@ Wrench SpringBody::spring_pull() const {
 /// It can do no more than pull along its line, by another rest length.
 void SpringBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {
   const Vector3d d = X_WO.translation() - hand_.at(state_.t).X.translation();
-  if (k_ > 0.0) rest_length_ = std::max(d.norm() + pull_W.force.dot(direction(d)) / k_, least_length);
+  if (k_ > 0.0) rest_length_ = std::max(d.norm() + pull_W.force.dot(direction(d)) / k_, least_rest_length);
 }
 
 SpringBody::Span SpringBody::span() const {
@@ -155,12 +151,6 @@ void SpringBody::block(double h) {
 double SpringBody::elastic_energy() const {
   const double extension = span().d.norm() - rest_length_;
   return 0.5 * k_ * extension * extension;
-}
-
-StepEstimates SpringBody::take_estimates() {
-  const StepEstimates e = estimates_;
-  estimates_ = StepEstimates();
-  return e;
 }
 
 void SpringBody::describe(bool, ToolState& state) const {

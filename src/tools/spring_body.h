@@ -1,5 +1,7 @@
 #pragma once
 
+#include <utility>
+
 #include "spring_workbench/bodies/free_body.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/tools/tool_hold.h"
@@ -41,7 +43,7 @@ class SpringBody final : public ToolHold {
   double length() const override { return rest_length_; }
   double elastic_energy() const override;
   double energy_added() const override { return 0.0; }
-  StepEstimates take_estimates() override;
+  StepEstimates take_estimates() override { return std::exchange(estimates_, {}); }
   void describe(bool massless, ToolState& state) const override;
   void exchange(math::StateArchive& state) override {
     state(rest_length_, k_, c_, hand_, state_.t, state_.free, estimates_);

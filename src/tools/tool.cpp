@@ -1,23 +1,6 @@
 #include "spring_workbench/tools/tool.h"
 
-#include "spring_workbench/tools/settings.h"
-
 namespace spring_workbench::tools {
-
-const std::vector<std::string>& names_of(Tool) {
-  static const std::vector<std::string> names = {"spring", "spring_fork", "spring_probe", "direct", "ray"};
-  return names;
-}
-
-const std::vector<std::string>& names_of(Calibration) {
-  static const std::vector<std::string> names = {"none", "object"};
-  return names;
-}
-
-const std::vector<std::string>& names_of(Release) {
-  static const std::vector<std::string> names = {"thrown", "dropped"};
-  return names;
-}
 
 bool can_hold(Tool tool) { return tool != Tool::spring_probe; }
 

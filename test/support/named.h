@@ -15,7 +15,7 @@ namespace spring_workbench::test_support {
 inline rod::ShapeKind shape_named(const std::string& name) {
   return validation::named<rod::ShapeKind>(name, "test", "shape");
 }
-inline const std::vector<std::string>& shape_names() { return validation::names<rod::ShapeKind>(); }
+inline std::vector<std::string> shape_names() { return validation::names<rod::ShapeKind>(); }
 
 inline dynamics::IntegratorKind integrator_named(const std::string& name) {
   return validation::named<dynamics::IntegratorKind>(name, "test", "integrator");
@@ -23,6 +23,6 @@ inline dynamics::IntegratorKind integrator_named(const std::string& name) {
 inline std::unique_ptr<dynamics::Integrator> make_integrator(const std::string& name) {
   return dynamics::make_integrator(integrator_named(name));
 }
-inline const std::vector<std::string>& integrator_names() { return validation::names<dynamics::IntegratorKind>(); }
+inline std::vector<std::string> integrator_names() { return validation::names<dynamics::IntegratorKind>(); }
 
 }  // namespace spring_workbench::test_support

@@ -31,7 +31,7 @@ class ContactStepper {
             ContactOutcome& outcome);
 
  private:
-  double friction(std::size_t body, std::size_t other) const;
+  const scene::Material& material(std::size_t body) const;  ///< also of the bench
   /// Contacts of the last step that are still there, with their gaps at the present pose.
   void refresh(const bodies::SteppedBody& body, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
   /// Adds contacts found with the body at `X_WO`; gaps as they are there.

@@ -39,6 +39,7 @@ class DynamicStepper {
  private:
   /// A held body's way over a piece under the contact load of the last one, at whose end the body then is.
   struct Candidate {
+    bodies::SteppedBody* body;
     bodies::TrialStart start;
     motion::MotionState begin, end;
     Wrench load_W;
@@ -47,22 +48,20 @@ class DynamicStepper {
   };
   Candidate try_substep(bodies::SteppedBody& body, double h) const;
   /// Whether nothing is in the way of any of them, and nothing that is not held moves.
-  bool all_free(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates) const;
+  bool all_free(const std::vector<Candidate>& candidates) const;
   /// What goes into the world of a candidate: its way without the load, and how its end answers to one. The body is at
   /// its begin.
-  static rigid_bodies::DrivenBody driven_body(const bodies::SteppedBody& body, const Candidate& candidate, double h);
+  static rigid_bodies::DrivenBody driven_body(const Candidate& candidate, double h);
   /// The candidates are where the bodies go.
-  void go_freely(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates, double h,
-                 Outcome& outcome);
+  void go_freely(const std::vector<Candidate>& candidates, double h, Outcome& outcome);
   enum class Piece { gone, too_long, stuck };
   /// Carries all over one piece with contact, unless that would bring a body too deep into something or through it;
   /// then all are where they were, and `h` is a piece to try instead, or none is short enough.
-  Piece go_in_contact(const std::vector<bodies::SteppedBody*>& held, std::vector<Candidate> candidates, double& h);
+  Piece go_in_contact(std::vector<Candidate> candidates, double& h);
   /// The world goes on over a piece, and says what contact does to the held bodies, which are at their begin.
-  std::vector<rigid_bodies::DrivenBody> solve(const std::vector<bodies::SteppedBody*>& held,
-                                              const std::vector<Candidate>& candidates, double h);
+  std::vector<rigid_bodies::DrivenBody> solve(const std::vector<Candidate>& candidates, double h);
   /// The held bodies go over a piece under these loads; which part of their ways is sound.
-  double admissible_fraction(const std::vector<bodies::SteppedBody*>& held, const std::vector<Candidate>& candidates,
+  double admissible_fraction(const std::vector<Candidate>& candidates,
                              const std::vector<rigid_bodies::DrivenBody>& driven, double h) const;
   /// The same of the ways that the solver foresaw for them.
   double foreseen_admissible_fraction(const std::vector<rigid_bodies::DrivenBody>& driven) const;

@@ -16,6 +16,11 @@ struct OutlineBox {
 /// The boxes around shapes, in the frame that these are placed in.
 std::vector<OutlineBox> outline(const std::vector<Shape>& shapes);
 
+/// How far the box reaches from its middle along `n_W`, times the length of that [m].
+inline double reach(const OutlineBox& box, const Vector3d& n_W) {
+  return (box.X.linear().transpose() * n_W).cwiseAbs().dot(box.half);
+}
+
 /// Along which direction two boxes are furthest apart, and by how much: at least the gap between them. Negative where
 /// they overlap; its size is then the least way that separates them (the fifteen axes of the separating axis theorem).
 struct BoxGap {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "spring_workbench/geometry/shapes.h"
 
 namespace spring_workbench::geometry {
@@ -18,6 +20,15 @@ bool contains(const Geometry& geometry, const Vector3d& p_S);
 
 /// Smallest axis-aligned box of a shape in the frame A that `X_AS` places it in; by default in its own frame.
 Eigen::AlignedBox3d bounding_box(const Geometry& geometry, const RigidTransform& X_AS = RigidTransform::Identity());
+
+/// Smallest axis-aligned box in the frame A of a box in the axes of the frame B that `X_AB` places in A.
+Eigen::AlignedBox3d bounding_box(const Eigen::AlignedBox3d& box_B, const RigidTransform& X_AB);
+
+/// The box, larger by `by` [m] on every side.
+Eigen::AlignedBox3d grown(const Eigen::AlignedBox3d& box, double by);
+
+/// The corners of a box with these half edges, in its own frame.
+std::array<Vector3d, 8> corners(const Vector3d& half);
 
 /// Axis-aligned box of shapes in the frame O that they are placed in; empty without shapes.
 Eigen::AlignedBox3d bounding_box(const std::vector<Shape>& shapes);

@@ -26,6 +26,11 @@ struct TriangleMesh {
   std::vector<Eigen::Vector3i> triangles;  ///< indices into `vertices`, counter-clockwise from outside
   std::string uri;                         ///< where it came from, for markers
   Vector3d scale = Vector3d::Ones();       ///< already applied to `vertices`
+
+  /// Corner `k` of a triangle.
+  const Vector3d& corner(const Eigen::Vector3i& triangle, int k) const {
+    return vertices[static_cast<std::size_t>(triangle[k])];
+  }
 };
 using MeshPtr = std::shared_ptr<const TriangleMesh>;
 using Geometry = std::variant<Box, Sphere, Cylinder, MeshPtr>;

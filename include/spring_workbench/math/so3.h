@@ -84,6 +84,15 @@ Matrix3d exp_so3(const Vector3d& theta);
 /// Rotation vector [rad] of length 0 … π with `exp_so3(log_so3(R)) = R`. At a half turn the axis' sign is free.
 Vector3d log_so3(const Matrix3d& R);
 
+/// Rotation vector [rad] from `X0` to `X1`, in the axes of `X0`.
+inline Vector3d turn_between(const RigidTransform& X0, const RigidTransform& X1) {
+  return log_so3(X0.linear().transpose() * X1.linear());
+}
+
+/// The pose after a `fraction` of the way from `X0` to `X1`: straight, and evenly about one axis by `turn`, which is
+/// turn_between() of both.
+RigidTransform between(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& turn, double fraction);
+
 /// Right Jacobian of SO(3): for `R = exp_so3(theta)`, the body rate is `J_r(theta) theta_dot`.
 Matrix3d right_jacobian_so3(const Vector3d& theta);
 

@@ -79,9 +79,19 @@ class StateArchive {
         value.resize(rows, columns);
       }
       exchange_numbers(value.data(), rows * columns);
-    } else {
+    } else if constexpr (has_member<T>(nullptr)) {
       value.exchange(*this);
+    } else {
+      exchange_state(*this, value);  // beside the type
     }
+  }
+  template <typename T>
+  static constexpr auto has_member(T* value) -> decltype(value->exchange(std::declval<StateArchive&>()), true) {
+    return true;
+  }
+  template <typename>
+  static constexpr bool has_member(...) {
+    return false;
   }
   template <typename T>
   static bool fits(Eigen::Index rows, Eigen::Index columns) {
@@ -95,17 +105,7 @@ class StateArchive {
   void exchange(Twist& V) { (*this)(V.linear, V.angular); }
   void exchange(Wrench& F) { (*this)(F.force, F.moment); }
   void exchange(std::complex<double>& z) { exchange_numbers(reinterpret_cast<double*>(&z), 2); }
-  void exchange(Pack& p) {
-    for (int i = 0; i < pack_size; ++i) {
-      double x = p[i];
-      exchange(x);
-      p[i] = x;
-    }
-  }
-  void exchange(std::string& text) {
-    text.resize(size(text.size()));
-    for (char& c : text) exchange(c);
-  }
+  void exchange(Pack& p) { exchange_numbers(reinterpret_cast<double*>(&p), pack_size); }
   template <typename T, std::size_t n>
   void exchange(std::array<T, n>& list) {
     for (T& value : list) exchange(value);
@@ -118,32 +118,30 @@ class StateArchive {
     if (!there) value.reset();
     if (there) exchange(*value);
   }
-  template <typename T>
-  void exchange(std::vector<T>& list) {
+  void exchange(std::string& text) { exchange_list(text); }
+  /// A vector, a deque.
+  template <template <typename, typename> class List, typename T, typename Allocator>
+  void exchange(List<T, Allocator>& list) {
     exchange_list(list);
   }
-  template <typename T>
-  void exchange(std::deque<T>& list) {
-    exchange_list(list);
+  template <typename List>
+  void exchange_list(List& list) {
+    list.resize(size(list.size()));
+    for (auto& value : list) exchange(value);
   }
   template <typename T>
   void exchange(std::set<T>& set) {
     std::vector<T> list(set.begin(), set.end());
-    exchange_list(list);
+    exchange(list);
     if (sets()) set = std::set<T>(list.begin(), list.end());
   }
   template <typename Key, typename T>
   void exchange(std::map<Key, T>& map) {
     std::vector<Key> keys;
     for (const auto& entry : map) keys.push_back(entry.first);
-    exchange_list(keys);
+    exchange(keys);
     if (sets()) map.clear();
     for (const Key& key : keys) exchange(map[key]);
-  }
-  template <typename List>
-  void exchange_list(List& list) {
-    list.resize(size(list.size()));
-    for (auto& value : list) exchange(value);
   }
 
   Words taken_;

@@ -31,8 +31,8 @@ class MotionSegment final : public FrameMotion {
   /// The motion of a frame C that stands at `X_BC` in this one, B, fixed to it.
   MotionSegment of_frame(const RigidTransform& X_BC) const;
 
-  double begin() const;  ///< [s]
-  double end() const;    ///< [s]; infinity for a frame at rest
+  double begin() const { return begin_; }  ///< [s]
+  double end() const { return end_; }      ///< [s]; infinity for a frame at rest
   /// State at time `t` [s], begin() ≤ t ≤ end().
   MotionState at(double t) const;
   OwnAxesMotion in_own_axes(double t) const override;

@@ -21,9 +21,9 @@ class PoseTrack {
   /// m) or its linear part is no rotation.
   bool push(const PoseSample& sample);
 
-  bool empty() const;
-  double begin() const;  ///< time of the oldest sample still held [s]
-  double end() const;    ///< time of the newest sample [s]
+  bool empty() const { return nodes_.empty(); }
+  double begin() const { return nodes_.front().sample.t; }  ///< time of the oldest sample still held [s]
+  double end() const { return nodes_.back().sample.t; }     ///< time of the newest sample [s]
   /// The segment that starts at or contains `t`, begin() ≤ t. At or after end(): at rest at the newest pose.
   /// The reference is good until the next call of a function that is not const.
   /// Throws std::logic_error when the track is empty or `t` lies before begin().

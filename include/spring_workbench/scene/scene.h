@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "spring_workbench/geometry/shapes.h"
+#include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::scene {
 
@@ -36,7 +37,7 @@ struct Body {
 };
 
 enum class ContactMode { none, stop, dynamic };
-const std::vector<std::string>& names_of(ContactMode);
+inline std::vector<std::string> names_of(ContactMode) { return {"none", "stop", "dynamic"}; }
 
 /// Where an object has to be brought in an assembly: pose of its link frame in world, with tolerances [m, rad].
 struct Target {
@@ -50,9 +51,9 @@ struct Scene {
   std::string name;
   std::string path;
   std::vector<Body> bodies;
-  double gravity = 9.81;      ///< [m/s²], along −z of world; ≥ 0
-  double bench_height = 0.0;  ///< z of the workbench plane in world [m]
-  Material bench_material;    ///< the scene's defaults
+  double gravity = standard_gravity;  ///< [m/s²], along −z of world; ≥ 0
+  double bench_height = 0.0;          ///< z of the workbench plane in world [m]
+  Material bench_material;            ///< the scene's defaults
   ContactMode contact = ContactMode::stop;
   std::string tool = "spring_fork";
   double force_scale = 1.0;                                ///< virtual per real unit of force, > 0

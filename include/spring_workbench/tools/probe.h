@@ -1,7 +1,5 @@
 #pragma once
 
-#include <optional>
-
 #include "spring_workbench/bodies/coupled_tool.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/scene/scene.h"

@@ -17,11 +17,11 @@ struct LimitSettings {
 
 /// What size, springs and dampers of a tool are made for at each grasp.
 enum class Calibration { none, object };
-const std::vector<std::string>& names_of(Calibration);
+inline std::vector<std::string> names_of(Calibration) { return {"none", "object"}; }
 
 /// What a released object does: it keeps its twist, or is set to rest.
 enum class Release { thrown, dropped };
-const std::vector<std::string>& names_of(Release);
+inline std::vector<std::string> names_of(Release) { return {"thrown", "dropped"}; }
 
 struct GraspSettings {
   Calibration calibrate = Calibration::none;  ///< key `calibrate`: from the object's mass and size

@@ -14,7 +14,7 @@ enum class Tool {
   ray,           ///< rigid, picked by a ray along z of the hand
 };
 
-const std::vector<std::string>& names_of(Tool);
+inline std::vector<std::string> names_of(Tool) { return {"spring", "spring_fork", "spring_probe", "direct", "ray"}; }
 bool can_hold(Tool tool);
 /// Whether what is held turns with the hand.
 bool turns(Tool tool);

@@ -8,24 +8,25 @@
 namespace spring_workbench::validation {
 
 /// The words of an enum, in the order of its values: those of files, parameters and services. Each enum declares
-/// `const std::vector<std::string>& names_of(E)` beside it.
+/// `names_of(E)` beside it.
 template <typename E>
-const std::vector<std::string>& names() {
+std::vector<std::string> names() {
   return names_of(E{});
 }
 
 template <typename E>
-const std::string& name_of(E value) {
+std::string name_of(E value) {
   return names<E>().at(static_cast<std::size_t>(value));
 }
 
 /// The value called `name`. Throws InputError naming `where` and `key` if there is none.
 template <typename E>
 E named(const std::string& name, const std::string& where, const std::string& key) {
-  for (std::size_t i = 0; i < names<E>().size(); ++i) {
-    if (names<E>()[i] == name) return static_cast<E>(i);
+  const std::vector<std::string> all = names<E>();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i] == name) return static_cast<E>(i);
   }
-  refuse(where, key, name, "one of " + join(names<E>()));
+  refuse(where, key, name, "one of " + join(all));
 }
 
 }  // namespace spring_workbench::validation

@@ -21,6 +21,7 @@ struct NumberRule {
 inline NumberRule any_number() { return {}; }
 inline NumberRule positive() { return {0.0, std::numeric_limits<double>::max(), false, false}; }
 inline NumberRule not_negative() { return {0.0, std::numeric_limits<double>::max(), true, false}; }
+inline NumberRule positive_or_infinite() { return {0.0, std::numeric_limits<double>::max(), false, true}; }
 inline NumberRule between(double min, double max) { return {min, max, true, false}; }
 
 /// Throws InputError("<where>: <key>: <value> is not allowed: must be <rule>").

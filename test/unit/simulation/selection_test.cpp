@@ -57,6 +57,17 @@ TEST_F(Overlapping, ATipThatTremblesBetweenThemStaysWithOne) {
   for (int i = 0; i < 50; ++i) EXPECT_EQ(lit_at(0.5 * apart + (i % 2 == 0 ? 1e-3 : -1e-3)), first);
 }
 
+TEST_F(Overlapping, PressedInTheAirTheButtonGraspsNothingLater) {
+  ASSERT_EQ(lit_at(-0.2), "");
+  simulation_.push_button(t_, true);
+  lit_at(0.0);
+  EXPECT_EQ(simulation_.fork().held_object, "");
+  simulation_.push_button(t_, false);
+  simulation_.push_button(t_ + 0.05, true);
+  lit_at(0.0);
+  EXPECT_EQ(simulation_.fork().held_object, "left");
+}
+
 TEST_F(Overlapping, WhatIsLitIsHeldWhereTheTipIsWhileTheButtonIsDown) {
   for (const double x : {-0.04, 0.013, 0.031, 0.08}) {
     const std::string lit = lit_at(x);
