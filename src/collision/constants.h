@@ -2,32 +2,36 @@
 
 #include <cstddef>
 
-// The constants of the module: unit, what changing one does, and the test that notices.
+// The constants of the module: unit, what changing one does, and the test that notices: "noticed by" was seen to fail
+// with another value, "goes into" is by reading alone.
 
 namespace spring_workbench::collision {
 
-/// [m] of the way, between the free and the touching end of a time of impact. `Sweep.TheTimeOfImpactIsExact`
+/// [m] of the way, between the free and the touching end of a time of impact. Goes into
+/// `Sweep.TheTimeOfImpactIsExact`.
 constexpr double impact_precision = 1e-8;
-/// by what is surely clear, before the rest of a way is halved. Fewer: more queries. `Sweep.TheTimeOfImpactIsExact`
+/// By what is surely clear, before the rest of a way is halved. Fewer: more queries. Goes into
+/// `Sweep.TheTimeOfImpactIsExact`.
 constexpr int most_advances = 50;
-/// of a shape on the bench that are kept as they are; of more, those furthest out are. Fewer: a box loses corners.
-/// `Bench.FlushFacesGivePointsThatSpanThem`
+/// Of a shape on the bench that are kept as they are; of more, those furthest out are. Fewer: a box loses corners.
+/// Goes into `Bench.FlushFacesGivePointsThatSpanThem`.
 constexpr std::size_t most_bench_points = 8;
-/// [m]; contacts nearer to each other are one. `Bench.AFineMeshGivesFewPointsThatKeepItsExtent`
+/// [m]; contacts nearer to each other are one. Goes into `Bench.AFineMeshGivesFewPointsThatKeepItsExtent`.
 constexpr double same_place = 1e-7;
-/// sine of the angle at an edge, below which it is a seam within a face and touches nothing.
-/// `Pairs.HowFinelyAFloorIsCutDoesNotShow`
+/// Sine of the angle at an edge, below which it is a seam within a face and touches nothing. Goes into
+/// `Pairs.HowFinelyAFloorIsCutDoesNotShow`.
 constexpr double flat_edge = 1e-6;
-/// cosine to how two surfaces meet on the whole; a way out that goes along it less is none.
-/// `Pairs.HowFinelyAFloorIsCutDoesNotShow`
+/// Cosine to how two surfaces meet on the whole; a way out that goes along it less is none. Goes into
+/// `Pairs.HowFinelyAFloorIsCutDoesNotShow`.
 constexpr double least_along = 0.5;
-/// of that cosine; of ways that differ by less the least deep is taken. `Pairs.HowFinelyAFloorIsCutDoesNotShow`
+/// Of that cosine; of ways that differ by less the least deep is taken. Goes into
+/// `Pairs.HowFinelyAFloorIsCutDoesNotShow`.
 constexpr double as_good = 0.1;
-/// that FCL may give of two boxes, of which there are eight. Fewer: faces lose corners.
-/// `Pairs.FlushBoxesGivePointsThatSpanTheCommonFace`
+/// That FCL may give of two boxes, of which there are eight. Fewer: faces lose corners. Goes into
+/// `Pairs.FlushBoxesGivePointsThatSpanTheCommonFace`.
 constexpr std::size_t most_box_points = 16;
-/// of the prism that stands for a cylinder among triangles. Fewer: less round; more: slower.
-/// `Pairs.AFlushCylinderStandsOnThePointsOfItsRim`
+/// Of the prism that stands for a cylinder among triangles. Fewer: less round; more: slower. Goes into
+/// `Pairs.AFlushCylinderStandsOnThePointsOfItsRim`.
 constexpr int cylinder_sides = 48;
 
 }  // namespace spring_workbench::collision

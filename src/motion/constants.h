@@ -2,22 +2,25 @@
 
 #include <cstddef>
 
-// The constants of the module: unit, what changing one does, and the test that notices.
+// The constants of the module: unit, what changing one does, and the test that notices: "noticed by" was seen to fail
+// with another value, "goes into" is by reading alone.
 
 namespace spring_workbench::motion {
 
-/// [s] between samples, half of what ROS time resolves; one that comes sooner is left out.
-/// `PoseTrack.EqualAndBackwardStampsAreLeftOut`
+/// [s] between samples, half of what ROS time resolves; one that comes sooner is left out. Noticed by
+/// `PoseTrack.EqualAndBackwardStampsAreLeftOut`.
 constexpr double shortest_interval = 0.5e-9;
-/// [s]; a stamp beyond it is refused. `PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas`
+/// [s]; a stamp beyond it is refused. Noticed by `PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas`.
 constexpr double farthest_time = 1e12;
-/// [m]; a coordinate beyond it is refused. `PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas`
+/// [m]; a coordinate beyond it is refused. Noticed by `PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas`.
 constexpr double farthest_position = 1e9;
-/// of RᵀR − I; what is off by more is no rotation and refused. `PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas`
+/// Of RᵀR − I; what is off by more is no rotation and refused. Noticed by
+/// `PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas`.
 constexpr double rotation_tolerance = 1e-6;
-/// over which the figures of a stream are smoothed. `StreamMonitor.SaysRateJitterGapsAndAge`
+/// Over which the figures of a stream are smoothed. Noticed by `StreamMonitor.SaysRateJitterGapsAndAge`.
 constexpr std::size_t monitored_samples = 50;
-/// [m, rad]; a follower so near to its goal is there. `PoseFollower.ComesToEveryGoalNeverFasterThanAHandAndNeverAway`
+/// [m, rad]; a follower so near to its goal is there. Goes into
+/// `PoseFollower.ComesToEveryGoalNeverFasterThanAHandAndNeverAway`.
 constexpr double arrived = 1e-9;
 
 }  // namespace spring_workbench::motion

@@ -2,58 +2,62 @@
 
 #include <cstddef>
 
-// The constants of the module: unit, what changing one does, and the test that notices.
+// The constants of the module: unit, what changing one does, and the test that notices: "noticed by" was seen to fail
+// with another value, "goes into" is by reading alone.
 
 namespace spring_workbench::rigid_bodies {
 
 /// [m] from which boxes and planes see a box, so that what comes near fast is stopped where it touches. Bullet's own
-/// boxes see each other where they overlap. `RigidWorld.AWayEndsWhereItTouches`
+/// boxes see each other where they overlap. Noticed by `RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother`.
 constexpr double seen_from = 3e-3;
 /// [m] by which every shape is larger all round; contact is closed where two overlap by twice as much: so that the
-/// solver sees it before. Larger: spheres roll on a larger radius. `RigidWorld.SphereRollsAtFiveSeventhsOfItsSpeed`
+/// solver sees it before. Larger: spheres roll on a larger radius. Noticed by
+/// `RigidWorld.SphereRollsAtFiveSeventhsOfItsSpeed`.
 constexpr double contact_skin = 1e-4;
 /// [m]; what comes nearer than this to an awake body enters Bullet's world. Contact mode `dynamic` itself looks for
-/// what is touched from 0.5 mm: no reason known. `RigidWorld.SleepersCostNothingAndStay`
+/// what is touched from 0.5 mm: no reason known. Noticed by `RigidWorld.SleepersCostNothingAndStay`.
 constexpr double margin_near = 2e-3;
-/// without anything awake near, after which a sleeper leaves Bullet's world. Fewer: it goes and comes; more: it costs
-/// longer. `RigidWorld.SleepersCostNothingAndStay`
+/// Without anything awake near, after which a sleeper leaves Bullet's world. Fewer: it goes and comes; more: it costs
+/// longer. Noticed by `RigidWorld.SleepersCostNothingAndStay`.
 constexpr int steps_until_left = 50;
-/// [s] for which a body is slow before it sleeps. With contact mode `stop` 0.2 s: no reason known.
-/// `RigidWorld.StackOfTenStandsAndSleeps`
+/// [s] for which a body is slow before it sleeps. With contact mode `stop` 0.2 s: no reason known. Noticed by
+/// `RigidWorld.StackOfTenStandsAndSleeps`.
 constexpr double asleep_after = 0.5;
-/// of a penetration that is undone in a step, where that pushes free bodies. Larger: piles tremble.
-/// `RigidWorld.StackOfTenStandsAndSleeps`
+/// Of a penetration that is undone in a step, where that pushes free bodies. Larger: piles tremble. Noticed by
+/// `RigidWorld.StackOfTenStandsAndSleeps`.
 constexpr double penetration_share = 0.2;
 /// [m] that a body may go towards what is near, where the shapes are not boxes. Larger: deeper; smaller: held back.
-/// `RigidWorld.AWayEndsWhereItTouches`
+/// Goes into `RigidWorld.AWayEndsWhereItTouches`.
 constexpr double blind_way = 2e-4;
-/// [m]; no deeper goes a box into another. Smaller: held bodies are held back more often.
-/// `RigidWorld.AWayEndsWhereItTouches`
+/// [m]; no deeper goes a box into another. Smaller: held bodies are held back more often. Noticed by
+/// `RigidWorld.AWayEndsWhereItTouches`.
 constexpr double deepest_way = 5e-5;
-/// [m]; a contact without impulse is told while its gap is smaller. `RigidWorld.SlidingBoxStopsWhereItMust`
+/// [m]; a contact without impulse is told while its gap is smaller. Goes into
+/// `RigidWorld.SlidingBoxStopsWhereItMust`.
 constexpr double closed_gap = 1e-5;
-/// [m]; a step in which no contact misses its law by more is solved.
-/// `RigidWorld.PressedAndDraggedLagsByFrictionOverStiffness`
+/// [m]; a step in which no contact misses its law by more is solved. Goes into
+/// `RigidWorld.PressedAndDraggedLagsByFrictionOverStiffness`.
 constexpr double small_miss = 1e-6;
-/// sweeps of the solver. `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`
+/// Sweeps of the solver. Noticed by `RigidWorld.PressedAndDraggedLagsByFrictionOverStiffness`.
 constexpr int most_iterations = 1000;
-/// contacts whose equations are solved at once, where the sweeps are not done. More: steps of seconds.
-/// `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`
+/// Contacts whose equations are solved at once, where the sweeps are not done. More: steps of seconds. Goes into
+/// `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
 constexpr std::size_t most_at_once = 150;
-/// of the largest impulse; the sweeps end where none changes by more.
-/// `RigidWorld.PressedAndDraggedLagsByFrictionOverStiffness`
+/// Of the largest impulse; the sweeps end where none changes by more. Noticed by
+/// `RigidWorld.StackOfTenStandsAndSleeps`.
 constexpr double small_change = 1e-8;
-/// after which they also end where `small_displacement` says so. `RigidWorld.StackOfTenStandsAndSleeps`
+/// After which they also end where `small_displacement` says so. Goes into `RigidWorld.StackOfTenStandsAndSleeps`.
 constexpr int enough_sweeps = 30;
-/// [m]; no way changes, and no contact is off, by more. `RigidWorld.StackOfTenStandsAndSleeps`
+/// [m]; no way changes, and no contact is off, by more. Noticed by `RigidWorld.StackOfTenStandsAndSleeps`.
 constexpr double small_displacement = 1e-8;
-/// [m]; a contact with a smaller gap is stopped by an impulse.
-/// `RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother`
+/// [m]; a contact with a smaller gap is stopped by an impulse. Goes into
+/// `RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother`.
 constexpr double closed = 5e-5;
 /// [s] in which a penetration by a driven body is undone. Shorter: it becomes a speed. With contact mode `stop` 5 ms:
-/// no reason known. `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`
+/// no reason known. Goes into `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
 constexpr double recovery_time = 2e-3;
-/// [m/s]; a slower approach of a driven body is none. `RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother`
+/// [m/s]; a slower approach of a driven body is none. Goes into
+/// `RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother`.
 constexpr double slow = 1e-7;
 
 }  // namespace spring_workbench::rigid_bodies

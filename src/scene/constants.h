@@ -3,33 +3,34 @@
 #include <cstddef>
 #include <cstdint>
 
-// The constants of the module: unit, what changing one does, and the test that notices.
+// The constants of the module: unit, what changing one does, and the test that notices: "noticed by" was seen to fail
+// with another value, "goes into" is by reading alone.
 
 namespace spring_workbench::scene {
 
-/// [bytes] of a file that a scene names; a larger one is refused. `LoadScene.RefusesHostileFiles`
+/// [bytes] of a file that a scene names; a larger one is refused. Goes into `LoadScene.RefusesHostileFiles`.
 constexpr std::uintmax_t most_bytes = 256u << 20;
-/// of a mesh; more are refused. `LoadScene.MoreThanAMillionTrianglesAreRefused`
+/// Of a mesh; more are refused. Goes into `LoadScene.MoreThanAMillionTrianglesAreRefused`.
 constexpr std::size_t most_triangles = 1000000;
-/// [s] of the processor for reading a mesh; longer ones are refused. `LoadScene.RefusesHostileMeshes`
+/// [s] of the processor for reading a mesh; longer ones are refused. Goes into `LoadScene.RefusesHostileMeshes`.
 constexpr double most_mesh_time = 30.0;
-/// [bytes] for reading a mesh; what needs more is refused. `LoadScene.RefusesHostileMeshes`
+/// [bytes] for reading a mesh; what needs more is refused. Goes into `LoadScene.RefusesHostileMeshes`.
 constexpr std::uint64_t most_mesh_memory = std::uint64_t{2} << 30;
-/// XML elements in each other, of which a URDF has six; more are refused. `LoadScene.RefusesHostileFiles`
+/// XML elements in each other, of which a URDF has six; more are refused. Goes into `LoadScene.RefusesHostileFiles`.
 constexpr int most_nesting = 64;
-/// of a URDF; a chain of them is walked by recursion, so that more would end the stack.
-/// `LoadScene.RefusesHostileFiles`
+/// Of a URDF; a chain of them is walked by recursion, so that more would end the stack. Goes into
+/// `LoadScene.RefusesHostileFiles`.
 constexpr std::size_t most_links = 10000;
-/// elements from which a child process tries whether TinyXML's recursion gets through. Larger: a deep file may crash;
-/// smaller: small files cost a process. `LoadScene.RefusesHostileFiles`
+/// Elements from which a child process tries whether TinyXML's recursion gets through. Larger: a deep file may crash;
+/// smaller: small files cost a process. Goes into `LoadScene.RefusesHostileFiles`.
 constexpr int tried_from = 500;
-/// folders below one of ROS_PACKAGE_PATH in which a package is looked for.
-/// `LoadScene.PackagesAreFoundByTheFinderAndInRosPackagePath`
+/// Folders below one of ROS_PACKAGE_PATH in which a package is looked for. Goes into
+/// `LoadScene.PackagesAreFoundByTheFinderAndInRosPackagePath`.
 constexpr int package_depth = 3;
-/// [kg] of a body; a larger one is refused. `LoadScene.MassThatIsNotPositiveComesFromTheShapeOrIsRefused`
+/// [kg] of a body; a larger one is refused. Goes into `LoadScene.MassThatIsNotPositiveComesFromTheShapeOrIsRefused`.
 constexpr double most_mass = 1e12;
-/// of an inertia's figures as people write them; what is wrong by more is mended.
-/// `LoadScene.TheRadiusOfGyrationMayReachTheShapesEndAndNoFurther`
+/// Of an inertia's figures as people write them; what is wrong by more is mended. Goes into
+/// `LoadScene.TheRadiusOfGyrationMayReachTheShapesEndAndNoFurther`.
 constexpr double inertia_rounding = 1e-6;
 
 }  // namespace spring_workbench::scene

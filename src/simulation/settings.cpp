@@ -72,12 +72,13 @@ Field flag(const char* key, const char* meaning, bool& value) {
 template <typename T>
 Field choice(const char* key, const char* meaning, T& value, const char* absent = "") {
   using E = std::decay_t<decltype(*given(value))>;
-  const std::string allowed = "one of " + validation::join(validation::names<E>());
-  return {{key, "string", "–", allowed, given(value) ? validation::name_of(*given(value)) : absent, meaning},
+  const std::vector<std::string> names = validation::names<E>();
+  const std::string allowed = "one of " + validation::join(names);
+  const auto index = [&value] { return given(value) ? static_cast<std::size_t>(*given(value)) : 0; };
+  return {{key, "string", "–", allowed, given(value) && index() < names.size() ? names[index()] : absent, meaning},
           [=, &value](const auto& node, const auto& where) { value = config::read_named<E>(node, where, key); },
-          [=, &value](const auto& where) {
-            if (!given(value) || static_cast<std::size_t>(*given(value)) < validation::names<E>().size()) return;
-            validation::refuse(where, key, "no value of its enum", allowed);
+          [=](const auto& where) {
+            if (index() >= names.size()) validation::refuse(where, key, "no value of its enum", allowed);
           }};
 }
 

@@ -1,20 +1,21 @@
 #pragma once
 
-// What several modules share: unit, what changing one does, and the test that notices.
+// What several modules share: unit, what changing one does, and the test that notices: "noticed by" was seen to fail
+// with another value, "goes into" is by reading alone.
 
 namespace spring_workbench::scene {
 
 /// [m/s²] on Earth: a scene's default, and what tells a weight from a mass without gravity. Weights scale with it.
-/// `Calibration.NoLoadNoGravityStaysPositive`
+/// Goes into `Calibration.NoLoadNoGravityStaysPositive`.
 constexpr double standard_gravity = 9.81;
 /// [m/s]; an approach that is slower does not bounce. Larger: bounces end sooner; at 0 a body never comes to rest.
-/// `RigidWorld.BallBouncesToTheSquareOfItsRestitution`
+/// Goes into `RigidWorld.BallBouncesToTheSquareOfItsRestitution`.
 constexpr double rest_speed = 0.02;
 /// [m/s] of every point of a body in contact; slower for long enough, it goes to sleep. Larger: what creeps stops.
-/// `RigidWorld.StackOfTenStandsAndSleeps`
+/// Goes into `RigidWorld.StackOfTenStandsAndSleeps`.
 constexpr double asleep_speed = 2e-3;
-/// cos 1°; normals nearer to each other are of one face. Smaller: contacts of two faces are taken for one face's.
-/// `Bench.AFineMeshGivesFewPointsThatKeepItsExtent`
+/// Cos 1°; normals nearer to each other are of one face. Smaller: contacts of two faces are taken for one face's.
+/// Goes into `Bench.AFineMeshGivesFewPointsThatKeepItsExtent`.
 constexpr double same_face = 0.9998;
 
 }  // namespace spring_workbench::scene

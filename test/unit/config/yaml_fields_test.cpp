@@ -195,6 +195,25 @@ TEST(LoadYamlFile, RefusesWhatAliasesMakeEndlessOrImmense) {
   EXPECT_TRUE(names(message_of([&] { load_yaml_file(folder.path("immense.yaml")); }), {"immense.yaml", "size"}));
 }
 
+TEST(LoadYamlFile, TakesAsMuchAsItSaysAndNoMore) {
+  const test_support::TemporaryFolder folder;
+  const auto message = [&](const std::string& text) {
+    folder.write("file.yaml", text);
+    return message_of([&] { load_yaml_file(folder.path("file.yaml")); });
+  };
+  EXPECT_EQ(message(std::string(95, '[') + std::string(95, ']')), "");
+  EXPECT_TRUE(names(message(std::string(105, '[') + std::string(105, ']')), {"nesting", "100"}));
+  const auto lists = [](int count) {  // of a thousand values each
+    std::string text = "a: &a [1";
+    for (int i = 1; i < 999; ++i) text += ",1";
+    text += "]\nb: [*a";
+    for (int i = 2; i < count; ++i) text += ",*a";
+    return text + "]\n";
+  };
+  EXPECT_EQ(message(lists(950)), "");
+  EXPECT_TRUE(names(message(lists(1050)), {"size", "1000000"}));
+}
+
 TEST(Join, PutsSeparatorsBetween) {
   EXPECT_EQ(validation::join({}), "");
   EXPECT_EQ(validation::join({"a"}), "a");

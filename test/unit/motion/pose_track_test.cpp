@@ -350,6 +350,27 @@ TEST(PoseTrack, EqualAndBackwardStampsAreLeftOut) {
   }
 }
 
+TEST(PoseTrack, ItsLimitsAreWhereItSaysTheyAre) {
+  const RigidTransform here = RigidTransform::Identity();
+  PoseTrack near(kNever);
+  EXPECT_TRUE(near.push({0.0, here}));
+  EXPECT_FALSE(near.push({0.45e-9, here}));
+  EXPECT_TRUE(near.push({0.55e-9, here}));
+  PoseTrack track(kNever);
+  PoseSample sample{0.0, here};
+  sample.X.translation().y() = 1.1e9;
+  EXPECT_THROW(track.push(sample), validation::InputError);
+  sample.X.translation().y() = 0.9e9;
+  EXPECT_TRUE(track.push(sample));
+  sample = {1.0, here};
+  sample.X.linear()(0, 0) = 1.0 + 0.55e-6;  // RᵀR − I is twice as large
+  EXPECT_THROW(track.push(sample), validation::InputError);
+  sample.X.linear()(0, 0) = 1.0 + 0.45e-6;
+  EXPECT_TRUE(track.push(sample));
+  EXPECT_THROW(track.push({1.1e12, here}), validation::InputError);
+  EXPECT_TRUE(track.push({0.9e12, here}));
+}
+
 TEST(PoseTrack, RefusesWhatIsNotAPoseAndStaysAsItWas) {
   const auto samples = wandering_hand(15, 3);
   PoseTrack track = track_of(samples);
