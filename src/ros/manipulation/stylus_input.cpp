@@ -7,17 +7,13 @@
 #include <sstream>
 #include <utility>
 
+#include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 
 namespace spring_workbench::manipulation {
 namespace {
 
 std::string frame(const std::string& name) { return !name.empty() && name.front() == '/' ? name.substr(1) : name; }
-
-RigidTransform from_message(const geometry_msgs::Transform& T) {
-  return make_transform(Quaterniond(T.rotation.w, T.rotation.x, T.rotation.y, T.rotation.z),
-                        Vector3d(T.translation.x, T.translation.y, T.translation.z));
-}
 
 std::string place(const std::string& parent, const std::string& child) {
   return "tf " + parent + " -> " + child + ": ";
@@ -145,7 +141,8 @@ void StylusInput::on_stylus(const geometry_msgs::TransformStamped& transform, co
   RigidTransform X_WP = RigidTransform::Identity();
   if (const std::string parent = frame(transform.header.frame_id); parent != parameters_.world_frame) {
     try {
-      X_WP = from_message(static_frames_.lookupTransform(parameters_.world_frame, parent, ros::Time()).transform);
+      X_WP = ros_common::from_message(
+          static_frames_.lookupTransform(parameters_.world_frame, parent, ros::Time()).transform);
     } catch (const tf2::TransformException&) {
       return reject("unknown frame", place(transform) + "frame_id: " + parent + " is not allowed: must be " +
                                          parameters_.workbench_frame + " or tied to it on /tf_static");

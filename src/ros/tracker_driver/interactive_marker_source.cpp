@@ -108,9 +108,7 @@ void InteractiveMarkerSource::on_feedback(const Feedback& feedback) {
     return refuse_pose("frame_id: " + feedback->header.frame_id + " is not allowed: must be " + workbench_frame_);
   }
   if (!is_pose(feedback->pose)) return refuse_pose("pose: must be finite, with a quaternion of length 1");
-  const auto& p = feedback->pose.position;
-  const auto& q = feedback->pose.orientation;
-  follower_.set_goal(make_transform(Quaterniond(q.w, q.x, q.y, q.z), Vector3d(p.x, p.y, p.z)));
+  follower_.set_goal(ros_common::from_message(feedback->pose));
   ++drags_;
 }
 

@@ -1,5 +1,6 @@
 #include "spring_workbench/ros/tracker_driver/operator_eyes.h"
 
+#include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/tools/tool.h"
 #include "spring_workbench/validation/names.h"
 
@@ -24,12 +25,10 @@ assembly::OperatorView OperatorEyes::look() {
 void OperatorEyes::on_objects(const ObjectStates& message) {
   view_.objects.clear();
   for (const ObjectState& object : message.objects) {
-    const auto& q = object.pose.orientation;
-    const auto& p = object.pose.position;
     const auto& v = object.twist.linear;
     bodies::BodyState state;
     state.name = object.name;
-    state.X_WO = make_transform(Quaterniond(q.w, q.x, q.y, q.z), Vector3d(p.x, p.y, p.z));
+    state.X_WO = ros_common::from_message(object.pose);
     state.V_WO_W.linear = Vector3d(v.x, v.y, v.z);
     state.held = object.held != 0;
     state.highlighted = object.highlighted != 0;
