@@ -8,17 +8,17 @@
 #include <thread>
 
 namespace spring_workbench::ros_common {
-namespace {
 
 using std::chrono::duration;
 using std::chrono::steady_clock;
 
+namespace {
+
 void sleep_until_simulated(double t) {
-  constexpr std::chrono::milliseconds poll(1);
-  const auto give_up = steady_clock::now() + std::chrono::milliseconds(100);
-  const double begin = loop_time();
-  for (double now = begin; now >= begin && now < t && steady_clock::now() < give_up && ros::ok(); now = loop_time()) {
-    std::this_thread::sleep_for(poll);
+  constexpr double poll = 1e-3, longest = 0.1;  // [s]
+  const double give_up = steady_time() + longest, begin = loop_time();
+  for (double now = begin; now >= begin && now < t && steady_time() < give_up && ros::ok(); now = loop_time()) {
+    std::this_thread::sleep_for(duration<double>(poll));
   }
 }
 
@@ -34,10 +34,12 @@ double attended_time(double wall) {
 
 }  // namespace
 
+double steady_time() { return duration<double>(steady_clock::now().time_since_epoch()).count(); }
+
 double loop_time() { return local_time().loop; }
 
 hand_input::LocalTime local_time() {
-  const double wall = duration<double>(steady_clock::now().time_since_epoch()).count();
+  const double wall = steady_time();
   return {ros::Time::isSimTime() ? ros::Time::now().toSec() : wall, attended_time(wall)};
 }
 

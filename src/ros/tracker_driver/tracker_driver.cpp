@@ -4,13 +4,11 @@
 #include <sensor_msgs/Joy.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "interactive_marker_source.h"
-#include "joy_source.h"
+#include "message_source.h"
 #include "spring_workbench/motion_files/motion_file.h"
 #include "spring_workbench/motion_files/scripted_source.h"
 #include "spring_workbench/ros/common/conversions.h"
@@ -38,15 +36,12 @@ std::string resolve(const std::string& path_or_uri) {
 /// was interrupted in between.
 ros::Time ros_time(double t) {
   constexpr double interrupted = 50e-6;  // [s]
-  const auto steady = [] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  };
   ros::Time now;
   double before = 0.0;
   for (int attempt = 0; attempt < 5; ++attempt) {
-    before = steady();
+    before = ros_common::steady_time();
     now = ros::Time::now();
-    if (steady() - before < interrupted) break;
+    if (ros_common::steady_time() - before < interrupted) break;
   }
   return now - ros::Duration(before - t);
 }
@@ -101,9 +96,9 @@ std::unique_ptr<motion::LiveSource> TrackerDriver::open_device(ros::NodeHandle n
   const RigidTransform above = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.4));
   const RigidTransform X_WB = parameters_.X_BS_first.value_or(above);
   if (parameters_.source == "fastrak") return std::make_unique<fastrak::FastrakSource>(parameters_.fastrak);
-  if (parameters_.source == "joy") return std::make_unique<JoySource>(node, parameters_.joy, X_WB);
+  if (parameters_.source == "joy") return make_joy_source(node, parameters_.joy, X_WB);
   if (parameters_.source == "interactive_marker") {
-    return std::make_unique<InteractiveMarkerSource>(private_node, parameters_.workbench_frame, X_WB);
+    return make_interactive_marker_source(private_node, parameters_.workbench_frame, X_WB);
   }
   return nullptr;
 }
