@@ -80,7 +80,7 @@ std::optional<motion::StylusSample> SimulatedOperator::next() {
 
 void SimulatedOperator::decide() {
   const bool lost = button_ && phase_ != Phase::grip && !state_of(job_->object).held;
-  if (lost) return give_up();
+  if (lost) return let_go();
   switch (phase_) {
     case Phase::choose:
       return choose();
@@ -138,13 +138,13 @@ void SimulatedOperator::insert() {
     corrections_ = 0;
     return wait(settings_.reaction, Phase::grip);
   }
-  if (++corrections_ > most_corrections) return give_up();
+  if (++corrections_ > most_corrections) return let_go();
   reach(hand_over(o.X_WO.translation()), Phase::insert);
 }
 
 void SimulatedOperator::grip() {
   if (!state_of(job_->object).held) {
-    if (++corrections_ > most_corrections) return give_up();
+    if (++corrections_ > most_corrections) return let_go();
     return wait(settings_.reaction, Phase::grip);
   }
   corrections_ = 0;
@@ -167,11 +167,10 @@ void SimulatedOperator::lower() {
     return off(goal(0.0), !o.in_contact) ? reach(hand_for(goal(0.0)), Phase::lower)
                                          : wait(settings_.reaction, Phase::lower);
   }
-  button_ = false;
-  wait(settings_.reaction, Phase::release);
+  let_go();
 }
 
-void SimulatedOperator::give_up() {
+void SimulatedOperator::let_go() {
   button_ = false;
   wait(settings_.reaction, Phase::release);
 }

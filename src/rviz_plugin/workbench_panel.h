@@ -63,7 +63,8 @@ class WorkbenchPanel : public rviz::Panel {
   void set_dofs();
   void set_stiffness(std::size_t family);
   void set_damping();
-  void trigger(const std::string& service);
+  template <typename Service>
+  void ask(const std::string& service, const typename Service::Request& request);
 
   std::shared_ptr<MasterWatch> master_;
   ros::Subscriber fork_subscriber_, steps_subscriber_, joy_subscriber_;
