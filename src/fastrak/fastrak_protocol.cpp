@@ -7,6 +7,7 @@
 #include <cstring>
 #include <map>
 
+#include "constants.h"
 #include "spring_workbench/config/yaml_fields.h"
 
 namespace spring_workbench::fastrak {
@@ -14,12 +15,11 @@ namespace {
 
 constexpr std::size_t kHeaderLength = 3;
 constexpr std::size_t kLongestRecord = 254;  // the manual, command O
-constexpr double kFarthestPosition = 10.0;   // [m] twice the reach of the largest transmitter
-constexpr double kNormTolerance = 0.01;      // of a quaternion
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr std::size_t kNumberLength = 7;      // Sxxx.xx, Sx.xxxx
-constexpr std::size_t kExtendedLength = 13;   // Sx.xxxxxESxx and a blank
-constexpr double kExtendedResolution = 1e-5;  // relative
+constexpr std::size_t kStatusLength = 53;    // without the end of line
+constexpr unsigned kBinaryFlag = 1, kCentimetresFlag = 2, kContinuousFlag = 8, kOtherFlags = 0x3F4;
+constexpr double kDegree = M_PI / 180.0;
+constexpr std::size_t kNumberLength = 7;     // Sxxx.xx, Sx.xxxx
+constexpr std::size_t kExtendedLength = 13;  // Sx.xxxxxESxx and a blank
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
@@ -172,7 +172,7 @@ std::optional<FastrakRecord> FastrakLayout::decode(std::string_view bytes) const
     if (!read) return false;
     const auto [entry, is_first] = known.try_emplace(kind, *read);
     Numbers& before = entry->second;
-    const double slack = format_ == FastrakFormat::binary ? 0.0 : kExtendedResolution;
+    const double slack = format_ == FastrakFormat::binary ? 0.0 : extended_resolution;
     const double coarser = 0.5 * std::max(read->resolution, before.resolution);
     for (std::size_t i = 0; i < 4 && !is_first; ++i) {
       const double difference = std::abs(read->value[i] - before.value[i]);
@@ -202,12 +202,12 @@ std::optional<FastrakRecord> FastrakLayout::decode(std::string_view bytes) const
     }
   }
   const auto& p = known.at(Kind::position).value;
-  if (!all_within(p, kFarthestPosition / unit_)) return std::nullopt;
+  if (!all_within(p, farthest_measured / unit_)) return std::nullopt;
   record.p_TS = unit_ * Vector3d(p[0], p[1], p[2]);
   if (const auto quaternion = known.find(Kind::quaternion); quaternion != known.end()) {
     const auto& q = quaternion->second.value;
     record.q_TS = Quaterniond(q[0], q[1], q[2], q[3]);
-    if (!(std::abs(record.q_TS.norm() - 1.0) <= kNormTolerance)) return std::nullopt;
+    if (!(std::abs(record.q_TS.norm() - 1.0) <= norm_tolerance)) return std::nullopt;
   } else {
     const auto& angles = known.at(Kind::angles).value;
     if (!all_within(angles, 180.0)) return std::nullopt;
@@ -278,11 +278,6 @@ std::string fastrak_list_command(int station, const std::vector<int>& items) {
   for (const int item : items) command += "," + std::to_string(item);
   return command + "\r";
 }
-
-namespace {
-constexpr std::size_t kStatusLength = 53;  // without the end of line
-constexpr unsigned kBinaryFlag = 1, kCentimetresFlag = 2, kContinuousFlag = 8, kOtherFlags = 0x3F4;
-}  // namespace
 
 std::optional<FastrakStatus> read_fastrak_status(const std::string& reply) {
   if (reply.size() != kStatusLength || reply[0] != '2' || reply[2] != 'S') return std::nullopt;

@@ -5,11 +5,6 @@
 
 namespace spring_workbench::fastrak {
 
-const std::vector<int>& fastrak_baud_rates() {
-  static const std::vector<int> rates{2400, 4800, 9600, 19200, 38400, 57600, 115200};
-  return rates;
-}
-
 const std::vector<std::string>& fastrak_keys() {
   static const std::vector<std::string> keys{"port",        "baud",      "format",     "stations",
                                              "orientation", "redundant", "hemisphere", "stylus"};
@@ -50,19 +45,16 @@ std::vector<int> read_styluses(const YAML::Node& node, const std::string& where,
   return styluses;
 }
 
-int read_baud(const YAML::Node& node, const std::string& where) {
-  std::vector<std::string> names;
-  for (const int rate : fastrak_baud_rates()) names.push_back(std::to_string(rate));
-  return std::stoi(config::read_choice(node, where, "baud", names));
-}
-
 }  // namespace
 
 FastrakSettings read_fastrak_settings(const YAML::Node& map, const std::string& where) {
   FastrakSettings settings;
   if (map["port"]) settings.port = config::read_string(map["port"], where, "port");
   if (settings.port.empty()) validation::refuse(where, "port", "(nothing)", "a path");
-  if (map["baud"]) settings.baud = read_baud(map["baud"], where);
+  if (map["baud"]) {
+    settings.baud = std::stoi(
+        config::read_choice(map["baud"], where, "baud", {"2400", "4800", "9600", "19200", "38400", "57600", "115200"}));
+  }
   if (map["format"]) {
     const bool binary = config::read_choice(map["format"], where, "format", {"binary", "ascii"}) == "binary";
     settings.format = binary ? FastrakFormat::binary : FastrakFormat::ascii;

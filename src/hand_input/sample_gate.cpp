@@ -4,16 +4,12 @@
 #include <cmath>
 #include <sstream>
 
+#include "constants.h"
+
 namespace spring_workbench::hand_input {
 namespace {
 
 // Below these a move is never an outlier: noise of a tracker, and of stamps that are close together.
-constexpr double kFreeDistance = 5e-3;        // [m]
-constexpr double kFreeAngle = 0.05;           // [rad]
-constexpr double kShortestInterval = 0.5e-9;  // [s] half of what ROS time resolves, as PoseTrack has it
-constexpr double kClosest = 5e-5;             // [s] and no closer than kClosestShare of the usual interval
-constexpr double kClosestShare = 0.25;
-constexpr double kAwayFromOrigin = 10.0;  // radii; a hand that was nearer may have come to the origin by itself
 
 std::string text(double value) {
   std::ostringstream out;
@@ -105,27 +101,27 @@ GateResult SampleGate::offer(const RawSample& sample) {
 GateResult SampleGate::judge(const RawSample& sample) const {
   const GateResult result = check_pose(sample, settings_);
   if (!usable(result) || !newest_) return result;
-  if (!(sample.t - newest_->t >= kShortestInterval)) return GateResult::not_later;
-  if (sample.t - newest_->t < std::max(kClosest, kClosestShare * interval_)) return GateResult::too_close;
+  if (!(sample.t - newest_->t >= same_time)) return GateResult::not_later;
+  if (sample.t - newest_->t < std::max(closest, closest_share * interval_)) return GateResult::too_close;
   if (is_out_of_view(sample)) return GateResult::out_of_view;
   return judge_move(*newest_, sample);
 }
 
 GateResult SampleGate::judge_move(const RawSample& from, const RawSample& to) const {
   const double dt = std::min(to.t - from.t, dropout_after_);
-  if ((to.p - from.p).norm() > kFreeDistance + settings_.max_speed * dt) return GateResult::too_fast;
-  if (angle_between(from.q, to.q) > kFreeAngle + settings_.max_turn_rate * dt) return GateResult::turns_too_fast;
+  if ((to.p - from.p).norm() > free_distance + settings_.max_speed * dt) return GateResult::too_fast;
+  if (angle_between(from.q, to.q) > free_angle + settings_.max_turn_rate * dt) return GateResult::turns_too_fast;
   return GateResult::accepted;
 }
 
 bool SampleGate::is_out_of_view(const RawSample& sample) const {
   return sample.p.norm() <= settings_.origin_radius && settings_.origin_radius > 0.0 &&
          angle_between(sample.q, Quaterniond::Identity()) <= settings_.origin_angle &&
-         newest_->p.norm() > kAwayFromOrigin * settings_.origin_radius;
+         newest_->p.norm() > away_from_origin * settings_.origin_radius;
 }
 
 bool SampleGate::confirmed(const RawSample& sample) {
-  const bool later = !candidate_ || sample.t - candidate_->t >= kShortestInterval;
+  const bool later = !candidate_ || sample.t - candidate_->t >= same_time;
   if (!later) return false;
   const bool fits = candidate_ && judge_move(*candidate_, sample) == GateResult::accepted;
   in_a_row_ = fits ? in_a_row_ + 1 : 1;
@@ -142,7 +138,6 @@ GateResult SampleGate::accept(const RawSample& sample, bool jumped) {
   const bool after_dropout = newest_ && sample.t - newest_->t > dropout_after_;
   const bool first = !newest_;
   if (!first && !after_dropout) {
-    constexpr double share_of_new = 0.1;  // smooths over some ten samples
     const double dt = sample.t - newest_->t;
     interval_ = interval_ > 0.0 ? interval_ + share_of_new * (dt - interval_) : dt;
   }

@@ -16,6 +16,7 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
+#include "constants.h"
 #include "error_plot.h"
 #include "log_slider.h"
 #include "spring_workbench/LoadScene.h"
@@ -32,8 +33,6 @@ namespace spring_workbench::rviz_plugin {
 namespace {
 
 const std::string node = "/manipulation/";
-constexpr double longest_silence = 2.0;  // [s]
-constexpr double settling = 0.7;         // [s] until an answer is in the state
 
 QComboBox* choice_of(const std::vector<std::string>& names, QWidget* parent) {
   auto* box = new QComboBox(parent);
@@ -62,9 +61,6 @@ WorkbenchPanel::WorkbenchPanel(QWidget* parent)
   connect(this, &WorkbenchPanel::answered, answer_, &QLabel::setText, Qt::QueuedConnection);
 }
 
-WorkbenchPanel::~WorkbenchPanel() = default;
-
-/// Switches and choices wait for what comes of it.
 template <typename Service>
 void WorkbenchPanel::ask(const std::string& service, const typename Service::Request& request) {
   free_at_ = panel_time() + settling;

@@ -33,7 +33,6 @@ class WorkbenchPanel : public rviz::Panel {
   Q_OBJECT
  public:
   explicit WorkbenchPanel(QWidget* parent = nullptr);
-  ~WorkbenchPanel() override;
   void onInitialize() override;
 
  Q_SIGNALS:
@@ -63,7 +62,7 @@ class WorkbenchPanel : public rviz::Panel {
   void set_dofs();
   void set_stiffness(std::size_t family);
   void set_damping();
-  template <typename Service>
+  template <typename Service>  // switches and choices wait for what comes of it
   void ask(const std::string& service, const typename Service::Request& request);
 
   std::shared_ptr<MasterWatch> master_;

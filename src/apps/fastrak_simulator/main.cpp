@@ -4,6 +4,7 @@
 #include <iostream>
 #include <utility>
 
+#include "constants.h"
 #include "options.h"
 #include "spring_workbench/config/command_line.h"
 #include "spring_workbench/fastrak/fastrak_simulator.h"
@@ -14,8 +15,6 @@ namespace {
 
 using std::chrono::duration;
 using std::chrono::steady_clock;
-
-constexpr double kLongestWait = 0.05;  // [s] between looks at `interrupted`
 
 volatile std::sig_atomic_t interrupted = 0;
 
@@ -33,7 +32,7 @@ void serve_until(fastrak::FastrakSimulator& simulator, steady_clock::time_point 
     if (left <= 0.0) break;
     // Waits for the host in whole milliseconds; the rest is slept below, so that cycles are even.
     if (left > 1e-3) {
-      simulator.serve(std::min(left - 1e-3, kLongestWait));
+      simulator.serve(std::min(left - 1e-3, longest_wait));
     } else {
       simulator.serve(0.0);
       timespec rest{0, static_cast<long>(std::min(left, 2e-4) * 1e9)};

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "constants.h"
 #include "csv_rows.h"
 #include "motion.h"
 #include "options.h"
@@ -19,8 +20,6 @@
 
 namespace spring_workbench::replay {
 namespace {
-
-constexpr double kTimeTolerance = 1e-9;  // [s] an output time this much after the motion's end is still given
 
 /// A text file that appears whole or not at all: it is written under another name and renamed by commit().
 /// What is no regular file (a pipe, /dev/null) is written in place.
@@ -108,7 +107,7 @@ Summary run(const Options& options) {
     push_motion(motions[hand], hand, options.settings.grasp.object.empty(), feed);
     summary.samples += motions[hand].samples.size();
   }
-  const double end = simulation.newest_sample() + kTimeTolerance;
+  const double end = simulation.newest_sample() + time_tolerance;
   const auto started = std::chrono::steady_clock::now();
   for (double t = 0.0; t <= end; t = ++summary.outputs / options.rate) {
     summary.advance.add(feed.advance_to(t));

@@ -7,6 +7,8 @@
 #include <mutex>
 #include <thread>
 
+#include "constants.h"
+
 namespace spring_workbench::ros_common {
 
 using std::chrono::duration;
@@ -15,19 +17,17 @@ using std::chrono::steady_clock;
 namespace {
 
 void sleep_until_simulated(double t) {
-  constexpr double poll = 1e-3, longest = 0.1;  // [s]
-  const double give_up = steady_time() + longest, begin = loop_time();
+  const double give_up = steady_time() + stopped_clock_patience, begin = loop_time();
   for (double now = begin; now >= begin && now < t && steady_time() < give_up && ros::ok(); now = loop_time()) {
-    std::this_thread::sleep_for(duration<double>(poll));
+    std::this_thread::sleep_for(duration<double>(clock_poll));
   }
 }
 
 double attended_time(double wall) {
-  constexpr double longest = 0.01;  // [s]
   static std::mutex mutex;
   static double last = wall, attended = 0.0;
   const std::lock_guard<std::mutex> lock(mutex);
-  attended += std::clamp(wall - last, 0.0, longest);
+  attended += std::clamp(wall - last, 0.0, longest_attended);
   last = std::max(last, wall);
   return attended;
 }

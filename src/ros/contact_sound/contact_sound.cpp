@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "constants.h"
 #include "spring_workbench/Contacts.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/ros/common/parameters.h"
@@ -13,10 +14,6 @@
 
 namespace spring_workbench::contact_sound {
 namespace {
-
-constexpr double period = 0.02;       // of the node's work [s]
-constexpr double longest_gap = 0.5;   // a longer one is not filled with sound [s]
-constexpr double silent_after = 0.3;  // without a message nothing slips any more [s]
 
 class ContactSound {
  public:
@@ -29,7 +26,7 @@ class ContactSound {
         volume ? config::read_number(volume, where, "volume", validation::between(0.0, 1.0)) : 0.8);
     output_ = file ? sound::open_wav_file(config::read_string(file, where, "file")) : sound::open_audio_device();
     subscriber_ = node.subscribe("contacts", 100, &ContactSound::on_contacts, this);
-    timer_ = node.createWallTimer(ros::WallDuration(period), &ContactSound::play, this);
+    timer_ = node.createWallTimer(ros::WallDuration(render_period), &ContactSound::play, this);
   }
 
  private:
@@ -46,7 +43,7 @@ class ContactSound {
   void play(const ros::WallTimerEvent&) {
     const ros::WallTime now = ros::WallTime::now();
     if ((now - last_contacts_).toSec() > silent_after) synthesizer_->scrape(0.0);
-    played_until_ = std::max(played_until_, now - ros::WallDuration(longest_gap));
+    played_until_ = std::max(played_until_, now - ros::WallDuration(longest_filled_gap));
     const auto count =
         static_cast<std::size_t>(std::max(0.0, (now - played_until_).toSec()) * sound::ContactSynthesizer::sample_rate);
     played_until_ += ros::WallDuration(static_cast<double>(count) / sound::ContactSynthesizer::sample_rate);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "constants.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/parameters.h"
@@ -117,8 +118,8 @@ void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
   TrackerInput first{input_.statistics(), runner_.hand_statistics(0), ""};
   first.hint = hint_for_silence(first, first.input.messages == 0 ? senders_of_tf() : std::vector<std::string>(),
                                 parameters_.stylus_frame);
-  constexpr double patience = 10.0;  // [s]
-  if (!first.hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(patience, "no sample of the stylus yet: " << first.hint);
+  if (!first.hint.empty())
+    ROS_WARN_STREAM_DELAYED_THROTTLE(hint_patience, "no sample of the stylus yet: " << first.hint);
   const TrackerInput second{second_input_.statistics(), runner_.hand_statistics(1), ""};
   message.status = diagnostics_.report(first, second, loop, ros_common::loop_time());
   diagnostics_publisher_.publish(message);

@@ -4,14 +4,13 @@
 
 #include <algorithm>
 
+#include "constants.h"
 #include "messages.h"
 #include "spring_workbench/ros/common/conversions.h"
 
 namespace spring_workbench::manipulation {
 namespace {
 
-constexpr uint32_t queue = 1000;           // simulated time may go on by many steps at once, without pause
-constexpr double shortest_lifetime = 2.0;  // of markers [s]
 const std::string handle_frame = "fork_handle";
 const std::string tip_frame = "fork_tip";
 
@@ -29,15 +28,15 @@ void publish_made(const ros::Publisher& publisher, const std_msgs::Header& heade
 StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters)
     : world_frame_(parameters.world_frame),
       marker_period_(1.0 / parameters.markers_rate),
-      markers_(parameters.fork_curve, std::max(shortest_lifetime, 3.0 / parameters.markers_rate)),
-      objects_publisher_(private_node.advertise<ObjectStates>("objects", queue)),
-      fork_publisher_(private_node.advertise<ForkState>("fork", queue)),
-      second_fork_publisher_(private_node.advertise<ForkState>("fork_2", queue)),
-      wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", queue)),
-      contacts_publisher_(private_node.advertise<Contacts>("contacts", queue)),
+      markers_(parameters.fork_curve, std::max(shortest_marker_lifetime, 3.0 / parameters.markers_rate)),
+      objects_publisher_(private_node.advertise<ObjectStates>("objects", state_queue)),
+      fork_publisher_(private_node.advertise<ForkState>("fork", state_queue)),
+      second_fork_publisher_(private_node.advertise<ForkState>("fork_2", state_queue)),
+      wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", state_queue)),
+      contacts_publisher_(private_node.advertise<Contacts>("contacts", state_queue)),
       markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 10)),
-      steps_publisher_(private_node.advertise<StepReport>("steps", queue)),
-      task_publisher_(private_node.advertise<TaskState>("task", queue)) {}
+      steps_publisher_(private_node.advertise<StepReport>("steps", state_queue)),
+      task_publisher_(private_node.advertise<TaskState>("task", state_queue)) {}
 
 void StatePublisher::publish(const simulation::Simulation& simulation, const ros::Time& stamp, double now) {
   const std_msgs::Header header = header_at(stamp);

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "constants.h"
 #include "message_source.h"
 #include "spring_workbench/motion/pose_follower.h"
 #include "spring_workbench/ros/common/conversions.h"
@@ -101,8 +102,7 @@ class InteractiveMarkerSource final : public MessageSource {
     using interactive_markers::MenuHandler;
     grasp_entry_ = menu_.insert("Grasp", [this](const Feedback&) { set_grasp(!grasp_); });
     menu_.setCheckState(grasp_entry_, MenuHandler::UNCHECKED);
-    constexpr double press = 0.1;  // [s]
-    menu_.insert("Next tool", [this](const Feedback&) { tool_button_for_ = press; });
+    menu_.insert("Next tool", [this](const Feedback&) { tool_button_for_ = menu_press; });
     menu_.apply(server_, marker_name);
     server_.applyChanges();
   }

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "constants.h"
 #include "message_source.h"
 #include "operator_eyes.h"
 #include "spring_workbench/fastrak/station_stream.h"
@@ -43,13 +44,12 @@ std::string resolve(const std::string& path_or_uri) {
 /// ROS's time at which the steady clock showed `t` [s]. The two are read beside each other, once more where the process
 /// was interrupted in between.
 ros::Time ros_time(double t) {
-  constexpr double interrupted = 50e-6;  // [s]
   ros::Time now;
   double before = 0.0;
   for (int attempt = 0; attempt < 5; ++attempt) {
     before = ros_common::steady_time();
     now = ros::Time::now();
-    if (ros_common::steady_time() - before < interrupted) break;
+    if (ros_common::steady_time() - before < clocks_apart) break;
   }
   return now - ros::Duration(before - t);
 }
@@ -57,9 +57,8 @@ ros::Time ros_time(double t) {
 }  // namespace
 
 std::string why_not_sent(const motion::StationSample& sample, const std::string& source) {
-  constexpr double tolerance = 0.1;  // of a quaternion's length
   if (!sample.p_TS.allFinite() || !sample.q_TS.coeffs().allFinite()) return "not finite";
-  if (std::abs(sample.q_TS.norm() - 1.0) > tolerance) return "not a unit quaternion";
+  if (std::abs(sample.q_TS.norm() - 1.0) > quaternion_tolerance) return "not a unit quaternion";
   if (source == "fastrak" && sample.p_TS.isZero(0.0) && sample.q_TS.vec().isZero(0.0)) return "out of view";
   return "";
 }
@@ -142,12 +141,11 @@ class TrackerDriver {
     ++passes_;
     double last = -std::numeric_limits<double>::infinity();  // time of the newest sample sent [s]
     const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
-    constexpr double slack = 1e-6;  // [s] rounding of stamps
     while (ros::ok()) {
       auto sample = source->next();
       if (!sample) return;
       const double t = sample->t / parameters_.speed;
-      if (t <= last || t < last + shortest - slack) {
+      if (t <= last || t < last + shortest - stamp_slack) {
         ++not_sent_;
         continue;
       }
@@ -177,10 +175,9 @@ class TrackerDriver {
   }
 
   void stream() {
-    constexpr double slice = 0.1;  // [s] between looks at what else is due
     ros::Time::waitForValid();
     while (ros::ok()) {
-      for (const motion::StationSample& sample : device_->read(slice)) send(sample);
+      for (const motion::StationSample& sample : device_->read(longest_slice)) send(sample);
       if (ros_common::loop_time() >= next_diagnostics_) {
         publish_diagnostics();
         next_diagnostics_ = ros_common::loop_time() + 1.0;
@@ -234,13 +231,13 @@ class TrackerDriver {
   }
 
   void wait_until(double t) {
-    constexpr double slice = 0.1;  // [s] between looks at what else is due
+    constexpr double longest_slice = 0.1;  // [s] between looks at what else is due
     for (double now = ros_common::loop_time(); now < t && ros::ok(); now = ros_common::loop_time()) {
       if (now >= next_diagnostics_ || now < next_diagnostics_ - 1.0) {
         publish_diagnostics();
         next_diagnostics_ = now + 1.0;
       }
-      ros_common::sleep_until_loop_time(std::min(t, now + slice));
+      ros_common::sleep_until_loop_time(std::min(t, now + longest_slice));
     }
   }
 
