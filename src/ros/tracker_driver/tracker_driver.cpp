@@ -231,7 +231,6 @@ class TrackerDriver {
   }
 
   void wait_until(double t) {
-    constexpr double longest_slice = 0.1;  // [s] between looks at what else is due
     for (double now = ros_common::loop_time(); now < t && ros::ok(); now = ros_common::loop_time()) {
       if (now >= next_diagnostics_ || now < next_diagnostics_ - 1.0) {
         publish_diagnostics();
