@@ -5,6 +5,7 @@
 #include "constants.h"
 
 namespace spring_workbench::assembly {
+
 TaskMonitor::TaskMonitor(const scene::Scene& scene) {
   for (const scene::Body& body : scene.bodies) {
     if (body.movable) movable_.push_back(body.name);

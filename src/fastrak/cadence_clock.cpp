@@ -6,6 +6,7 @@
 #include "constants.h"
 
 namespace spring_workbench::fastrak {
+
 double CadenceClock::stamp(double receipt) {
   if (k_ < 0.0) {
     first_ = stamp_ = receipt;

@@ -9,6 +9,7 @@
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::fastrak {
+
 FastrakSimulator::FastrakSimulator(FastrakDevice device, LineFaults faults, std::string link)
     : device_(std::move(device)), faults_(std::move(faults)), link_(std::move(link)) {
   if (!faults_.active(Fault::Kind::unplug, 0.0)) plug_in();

@@ -11,10 +11,7 @@ namespace spring_workbench::fastrak {
 namespace {
 
 using std::chrono::duration;
-using std::chrono::duration_cast;
 using std::chrono::steady_clock;
-
-steady_clock::duration seconds(double s) { return duration_cast<steady_clock::duration>(duration<double>(s)); }
 
 std::string hemisphere_text(const Vector3d& direction) {
   std::ostringstream text;

@@ -5,7 +5,6 @@
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
-#include <chrono>
 #include <utility>
 
 #include "constants.h"
@@ -69,7 +68,7 @@ void SerialPort::write(const std::string& bytes) {
     over = true;
     failure = error;
   });
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(longest_write);
+  const auto deadline = std::chrono::steady_clock::now() + seconds(longest_write);
   context_.restart();
   while (!over && context_.run_one_until(deadline) > 0) continue;
   if (!over) {
@@ -84,7 +83,7 @@ void SerialPort::write(const std::string& bytes) {
 std::string SerialPort::read(double timeout) {
   if (received_.empty() && !failure_) {
     context_.restart();
-    if (context_.poll_one() == 0) context_.run_one_for(std::chrono::duration<double>(timeout));
+    if (context_.poll_one() == 0) context_.run_one_for(seconds(timeout));
   }
   if (received_.empty() && failure_) fail(failure_);
   return std::exchange(received_, {});

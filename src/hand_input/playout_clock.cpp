@@ -6,6 +6,7 @@
 #include "constants.h"
 
 namespace spring_workbench::hand_input {
+
 void PlayoutClock::sample(double t, const LocalTime& arrival) {
   const double interval = t - newest_;
   if (std::isfinite(interval) && interval <= dropout_after_) {

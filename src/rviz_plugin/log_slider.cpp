@@ -10,6 +10,7 @@
 #include "constants.h"
 
 namespace spring_workbench::rviz_plugin {
+
 double panel_time() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }

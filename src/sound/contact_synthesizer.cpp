@@ -7,6 +7,7 @@
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::sound {
+
 ContactSynthesizer::ContactSynthesizer(double volume) : volume_(volume) {
   validation::check_number("contact sound", "volume", volume, validation::between(0.0, 1.0));
   // A small wooden block: frequency [Hz], time to 1/e [s], share.

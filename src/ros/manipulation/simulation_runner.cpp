@@ -8,6 +8,7 @@
 #include "constants.h"
 
 namespace spring_workbench::manipulation {
+
 SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
                                    const hand_input::InputSettings& input, double grid)
     : simulation_(scene, settings), feed_(simulation_, input, grid > 0.0), task_(scene), grid_(grid) {

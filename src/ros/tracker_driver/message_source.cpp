@@ -11,6 +11,7 @@
 #include "spring_workbench/ros/common/loop_clock.h"
 
 namespace spring_workbench::tracker_driver {
+
 std::vector<motion::StationSample> MessageSource::read(double timeout) {
   const double wait = last_ + message_interval - ros_common::steady_time();
   if (wait > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(wait, timeout)));
