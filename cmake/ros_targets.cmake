@@ -6,6 +6,7 @@ add_dependencies(spring_workbench_ros_common ${PROJECT_NAME}_generate_messages_c
 add_module(manipulation FOLDER ros/manipulation DEPENDS ros_common assembly fork_mesh)
 add_module(tracker_driver FOLDER ros/tracker_driver DEPENDS ros_common assembly fastrak motion_files registration)
 add_module(contact_sound FOLDER ros/contact_sound DEPENDS ros_common sound)
+add_module(register_tracker FOLDER ros/register_tracker DEPENDS ros_common motion_files registration)
 foreach(module manipulation tracker_driver contact_sound)
   add_dependencies(spring_workbench_${module} ${PROJECT_NAME}_generate_messages_cpp)
 endforeach()
@@ -23,12 +24,8 @@ set(SPRING_WORKBENCH_NODES contact_sound manipulation register_tracker tracker_d
 foreach(node ${SPRING_WORKBENCH_NODES})
   add_executable(${node} src/nodes/${node}.cpp)
   target_compile_options(${node} PRIVATE ${SPRING_WORKBENCH_WARNINGS})
-endforeach()
-foreach(node contact_sound manipulation tracker_driver)
   target_link_libraries(${node} spring_workbench_${node})
 endforeach()
-target_link_libraries(register_tracker spring_workbench_ros_common spring_workbench_registration
-  spring_workbench_motion_files)
 
 install(TARGETS ${SPRING_WORKBENCH_NODES} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 foreach(folder config launch rviz scenes)

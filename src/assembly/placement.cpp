@@ -1,5 +1,7 @@
 #include "spring_workbench/assembly/placement.h"
 
+#include <cmath>
+
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::assembly {
@@ -15,9 +17,6 @@ Placement judge_placement(const scene::Body& body, const scene::Target& target, 
   return placement;
 }
 
-bool angle_matters(const scene::Target& target) {
-  constexpr double pi = 3.14159265358979323846;
-  return target.angle_tolerance < pi;
-}
+bool angle_matters(const scene::Target& target) { return target.angle_tolerance < M_PI; }
 
 }  // namespace spring_workbench::assembly

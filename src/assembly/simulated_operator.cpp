@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/assembly/placement.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/math/so3.h"
@@ -11,16 +12,6 @@
 
 namespace spring_workbench::assembly {
 namespace {
-
-constexpr int most_attempts = 4;       ///< at one object
-constexpr int most_corrections = 6;    ///< of one reach
-constexpr double clearance = 0.05;     ///< [m] under a carried object
-constexpr double good_enough = 0.3;    ///< part of the tolerance that a correction is made for
-constexpr double touching = 1.5e-3;    ///< [m] an object this near above its target is set down
-constexpr double steady_speed = 4e-3;  ///< [m/s] an object slower than this is let go
-constexpr double fitts_slope = 0.2;    ///< [s/bit]
-constexpr double fitts_width = 0.01;   ///< [m]
-constexpr double lever = 0.1;          ///< [m] a turn by an angle counts like a way of lever times it
 
 /// Top of what stands fixed in the scene, above the bench.
 double obstacle_height(const scene::Scene& scene) {
@@ -65,9 +56,8 @@ std::optional<motion::StylusSample> SimulatedOperator::next() {
   if (phase_ == Phase::over && t_ >= t_decide_) return std::nullopt;
   t_ = static_cast<double>(samples_++) / settings_.rate;
   seen_.push_back({t_, look_(), X_WH_});
-  constexpr double slack = 1e-9;
-  while (seen_.size() > 1 && seen_[1].t <= t_ - settings_.reaction + slack) seen_.pop_front();
-  if (t_ >= t_decide_ - slack && phase_ != Phase::over) decide();
+  while (seen_.size() > 1 && seen_[1].t <= t_ - settings_.reaction + time_slack) seen_.pop_front();
+  if (t_ >= t_decide_ - time_slack && phase_ != Phase::over) decide();
   const double u = t_to_ > t_from_ ? std::clamp((t_ - t_from_) / (t_to_ - t_from_), 0.0, 1.0) : 1.0;
   X_WH_ = motion::minimum_jerk_pose(X_WH_from_, X_WH_to_, u);
   motion::StylusSample sample;
@@ -80,7 +70,7 @@ std::optional<motion::StylusSample> SimulatedOperator::next() {
 
 void SimulatedOperator::decide() {
   const bool lost = button_ && phase_ != Phase::grip && !state_of(job_->object).held;
-  if (lost) return give_up();
+  if (lost) return let_go();
   switch (phase_) {
     case Phase::choose:
       return choose();
@@ -138,13 +128,13 @@ void SimulatedOperator::insert() {
     corrections_ = 0;
     return wait(settings_.reaction, Phase::grip);
   }
-  if (++corrections_ > most_corrections) return give_up();
+  if (++corrections_ > most_corrections) return let_go();
   reach(hand_over(o.X_WO.translation()), Phase::insert);
 }
 
 void SimulatedOperator::grip() {
   if (!state_of(job_->object).held) {
-    if (++corrections_ > most_corrections) return give_up();
+    if (++corrections_ > most_corrections) return let_go();
     return wait(settings_.reaction, Phase::grip);
   }
   corrections_ = 0;
@@ -167,11 +157,10 @@ void SimulatedOperator::lower() {
     return off(goal(0.0), !o.in_contact) ? reach(hand_for(goal(0.0)), Phase::lower)
                                          : wait(settings_.reaction, Phase::lower);
   }
-  button_ = false;
-  wait(settings_.reaction, Phase::release);
+  let_go();
 }
 
-void SimulatedOperator::give_up() {
+void SimulatedOperator::let_go() {
   button_ = false;
   wait(settings_.reaction, Phase::release);
 }
@@ -238,10 +227,10 @@ void SimulatedOperator::wait(double seconds, Phase then) {
 
 /// Standard normal by Box and Muller, so that the numbers are the same with every standard library.
 double SimulatedOperator::gauss() {
-  constexpr double pi = 3.14159265358979323846, scale = 1.0 / 4294967296.0;
+  constexpr double scale = 1.0 / 4294967296.0;
   const double a = (static_cast<double>(random_()) + 0.5) * scale;
   const double b = static_cast<double>(random_()) * scale;
-  return std::sqrt(-2.0 * std::log(a)) * std::cos(2.0 * pi * b);
+  return std::sqrt(-2.0 * std::log(a)) * std::cos(2.0 * M_PI * b);
 }
 
 Vector3d SimulatedOperator::gauss3() {

@@ -2,13 +2,9 @@
 
 #include <algorithm>
 
-namespace spring_workbench::assembly {
-namespace {
+#include "constants.h"
 
-constexpr double drop_height = 0.02;  ///< [m] a released object that falls further was dropped
-constexpr double same_contact = 0.2;  ///< [s] a contact that comes back within this time is the same one
-constexpr double from_below = 0.7;    ///< z of a normal: the other one carries the object
-}  // namespace
+namespace spring_workbench::assembly {
 
 TaskMonitor::TaskMonitor(const scene::Scene& scene) {
   for (const scene::Body& body : scene.bodies) {

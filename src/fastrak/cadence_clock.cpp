@@ -3,20 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
+
 namespace spring_workbench::fastrak {
-namespace {
-
-constexpr double kBucket = 0.5;         // [s]
-constexpr std::size_t kBuckets = 20;    // ten seconds
-constexpr double kShortestFit = 2.0;    // [s] before this, drift is not known and taken as none
-constexpr double kLargestDrift = 5e-3;  // relative
-constexpr double kLateFor = 0.5;        // [s] and no less than kLateInARow receipts
-constexpr double kLateInARow = 16.0;
-constexpr double kSilence = 0.25;           // [s]
-constexpr double kDoubt = 2.0;              // [s] for which a count that went on may be taken back
-constexpr double kShortestInterval = 1e-6;  // [s] between stamps
-
-}  // namespace
 
 double CadenceClock::stamp(double receipt) {
   if (k_ < 0.0) {
@@ -29,24 +18,24 @@ double CadenceClock::stamp(double receipt) {
     add({k_, receipt - first_ - k_ * interval_});
     fit();
     const double on_line = first_ + k_ * interval_ + line(k_);
-    stamp_ = std::max(std::min(on_line, receipt), stamp_ + kShortestInterval);
+    stamp_ = std::max(std::min(on_line, receipt), stamp_ + shortest_stamp_interval);
   }
   receipt_ = receipt;
   return stamp_;
 }
 
 bool CadenceClock::is_astray() const {
-  return quickest_.size() == kBuckets && std::abs(slope_) >= kLargestDrift * interval_;
+  return quickest_.size() == buckets && std::abs(slope_) >= largest_drift * interval_;
 }
 
 void CadenceClock::recount(double receipt) {
   const double lateness = receipt - first_ - k_ * interval_ - line(k_);
   recent_.push_back({receipt, lateness});
-  const std::size_t many = static_cast<std::size_t>(std::max(kLateInARow, kLateFor / interval_));
+  const std::size_t many = static_cast<std::size_t>(std::max(late_in_a_row, late_for / interval_));
   if (recent_.size() > many) recent_.pop_front();
-  if (k_ - counted_on_at_ > kDoubt / interval_) counted_on_ = 0.0;
+  if (k_ - counted_on_at_ > recount_doubt / interval_) counted_on_ = 0.0;
   double samples = 0.0;
-  if (receipt - receipt_ > std::max(kSilence, 4.0 * interval_)) {
+  if (receipt - receipt_ > std::max(stream_silence, 4.0 * interval_)) {
     samples = std::round(lateness / interval_);
   } else if (lateness < -0.5 * interval_) {  // too quick: what was counted on may not have been lost but held up
     samples = -std::min(std::round(-lateness / interval_), counted_on_);
@@ -71,8 +60,8 @@ bool CadenceClock::is_even(const std::deque<Receipt>& receipts) const {
 void CadenceClock::add(const Point& point) {
   if (quickest_.empty() || point.k >= bucket_end_) {
     quickest_.push_back(point);
-    bucket_end_ = point.k + kBucket / interval_;
-    if (quickest_.size() > kBuckets) quickest_.pop_front();
+    bucket_end_ = point.k + bucket / interval_;
+    if (quickest_.size() > buckets) quickest_.pop_front();
   } else if (point.late < quickest_.back().late) {
     quickest_.back() = point;
   }
@@ -90,11 +79,11 @@ void CadenceClock::fit() {
     middle += p.k / static_cast<double>(quickest_.size());
   }
   slope_ = 0.0;
-  if ((hull.back().k - hull.front().k) * interval_ >= kShortestFit) {
+  if ((hull.back().k - hull.front().k) * interval_ >= shortest_fit) {
     const auto right =
         std::upper_bound(hull.begin() + 1, hull.end() - 1, middle, [](double k, const Point& p) { return k < p.k; });
     const Point a = *(right - 1), b = *right;
-    const double largest = kLargestDrift * interval_;
+    const double largest = largest_drift * interval_;
     slope_ = std::clamp((b.late - a.late) / (b.k - a.k), -largest, largest);
   }
   level_ = hull.front().late - slope_ * hull.front().k;

@@ -1,9 +1,9 @@
 #include "spring_workbench/fastrak/fastrak_decoder.h"
 
+#include "constants.h"
+
 namespace spring_workbench::fastrak {
 namespace {
-
-constexpr std::size_t kLongestReply = 256;
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_station(char c) { return c >= '1' && c <= '0' + kFastrakStations; }
@@ -54,7 +54,7 @@ FastrakDecoder::Look FastrakDecoder::look_for_reply(std::string_view bytes, std:
                                                     std::size_t& length) {
   if (bytes.size() > 1 && bytes[1] != ' ' && !is_station(bytes[1])) return Look::nothing;
   if (bytes.size() > 2 && !is_letter(bytes[2])) return Look::nothing;
-  for (std::size_t i = 3; i < bytes.size() && i < kLongestReply; ++i) {
+  for (std::size_t i = 3; i < bytes.size() && i < longest_reply; ++i) {
     if (bytes[i - 1] == '\r' && bytes[i] == '\n') {
       length = i + 1;
       found.emplace_back(FastrakReply{std::string(bytes.substr(0, i - 1))});
@@ -64,7 +64,7 @@ FastrakDecoder::Look FastrakDecoder::look_for_reply(std::string_view bytes, std:
     if (!printable && bytes[i] != '\r') return Look::nothing;
     if (bytes[i - 1] == '\r') return Look::nothing;
   }
-  return bytes.size() < kLongestReply ? Look::unfinished : Look::nothing;
+  return bytes.size() < longest_reply ? Look::unfinished : Look::nothing;
 }
 
 }  // namespace spring_workbench::fastrak

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <utility>
 
+#include "constants.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::fastrak {
 namespace {
 
-constexpr double kFarthest = 9.99;  // [m] what three digits of centimetres hold
 constexpr int kFieldMissing = -1, kNotANumber = -2, kOutOfRange = -3, kUnknownCommand = -99;
 constexpr char kCtrlK = 0x0b, kCtrlQ = 0x11, kCtrlS = 0x13, kCtrlY = 0x19;
 const char* const kCommandsWithArguments = "AHINORelor";
@@ -34,7 +33,7 @@ bool read_arguments(const std::string& text, std::vector<double>& numbers) {
 
 PlayedMotion::PlayedMotion(const std::vector<motion::StylusSample>& samples) {
   for (const motion::StylusSample& sample : samples) {
-    if (!(sample.X.translation().cwiseAbs().maxCoeff() < kFarthest)) {
+    if (!(sample.X.translation().cwiseAbs().maxCoeff() < farthest_played)) {
       throw validation::InputError("motion: position at " + std::to_string(sample.t) +
                                    " s: must be within 9.99 m of the origin");
     }

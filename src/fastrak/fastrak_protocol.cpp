@@ -1,11 +1,13 @@
 #include "spring_workbench/fastrak/fastrak_protocol.h"
 
 #include <algorithm>
+#include <boost/endian/buffers.hpp>
 #include <cmath>
-#include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <map>
 
+#include "constants.h"
 #include "spring_workbench/config/yaml_fields.h"
 
 namespace spring_workbench::fastrak {
@@ -13,12 +15,11 @@ namespace {
 
 constexpr std::size_t kHeaderLength = 3;
 constexpr std::size_t kLongestRecord = 254;  // the manual, command O
-constexpr double kFarthestPosition = 10.0;   // [m] twice the reach of the largest transmitter
-constexpr double kNormTolerance = 0.01;      // of a quaternion
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr std::size_t kNumberLength = 7;      // Sxxx.xx, Sx.xxxx
-constexpr std::size_t kExtendedLength = 13;   // Sx.xxxxxESxx and a blank
-constexpr double kExtendedResolution = 1e-5;  // relative
+constexpr std::size_t kStatusLength = 53;    // without the end of line
+constexpr unsigned kBinaryFlag = 1, kCentimetresFlag = 2, kContinuousFlag = 8, kOtherFlags = 0x3F4;
+constexpr double kDegree = M_PI / 180.0;
+constexpr std::size_t kNumberLength = 7;     // Sxxx.xx, Sx.xxxx
+constexpr std::size_t kExtendedLength = 13;  // Sx.xxxxxESxx and a blank
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
@@ -57,20 +58,18 @@ std::optional<double> read_extended(std::string_view text) {
   return *mantissa * std::pow(10.0, sign == '-' ? -exponent : exponent);
 }
 
-/// IEEE 754, 32 bit, least significant byte first.
+// IEEE 754, 32 bit, least significant byte first.
+using LittleFloat = boost::endian::endian_buffer<boost::endian::order::little, float, 32>;
+
 double read_float(std::string_view bytes) {
-  std::uint32_t bits = 0;
-  for (int i = 3; i >= 0; --i) bits = (bits << 8U) | static_cast<unsigned char>(bytes[static_cast<std::size_t>(i)]);
-  float value = 0.0F;
-  std::memcpy(&value, &bits, sizeof value);
-  return static_cast<double>(value);
+  LittleFloat value;
+  std::memcpy(&value, bytes.data(), sizeof value);
+  return static_cast<double>(value.value());
 }
 
 void write_float(double value, std::string& bytes) {
-  const auto single = static_cast<float>(value);
-  std::uint32_t bits = 0;
-  std::memcpy(&bits, &single, sizeof bits);
-  for (unsigned i = 0; i < 4; ++i) bytes += static_cast<char>((bits >> (8 * i)) & 0xffU);
+  const LittleFloat single(static_cast<float>(value));
+  bytes.append(reinterpret_cast<const char*>(single.data()), sizeof single);
 }
 
 /// Azimuth, elevation, roll [deg] of R = Rz(azimuth) Ry(elevation) Rx(roll).
@@ -166,20 +165,20 @@ std::optional<FastrakRecord> FastrakLayout::decode(std::string_view bytes) const
   }
   record.station = bytes[1] - '0';
   record.error = bytes[2];
-  std::optional<Numbers> position, angles, quaternion;
+  std::map<Kind, Numbers> known;
   std::optional<bool> button;
   // The finer of two writings of the same, and whether they are the same.
-  const auto merge = [this](const std::optional<Numbers>& read, std::optional<Numbers>& known) {
+  const auto merge = [&](Kind kind, const std::optional<Numbers>& read) {
     if (!read) return false;
-    if (known) {
-      const double slack = format_ == FastrakFormat::binary ? 0.0 : kExtendedResolution;
-      const double coarser = 0.5 * std::max(read->resolution, known->resolution);
-      for (std::size_t i = 0; i < 4; ++i) {
-        const double difference = std::abs(read->value[i] - known->value[i]);
-        if (!(difference <= coarser + slack * (1.0 + std::abs(known->value[i])))) return false;
-      }
+    const auto [entry, is_first] = known.try_emplace(kind, *read);
+    Numbers& before = entry->second;
+    const double slack = format_ == FastrakFormat::binary ? 0.0 : extended_resolution;
+    const double coarser = 0.5 * std::max(read->resolution, before.resolution);
+    for (std::size_t i = 0; i < 4 && !is_first; ++i) {
+      const double difference = std::abs(read->value[i] - before.value[i]);
+      if (!(difference <= coarser + slack * (1.0 + std::abs(before.value[i])))) return false;
     }
-    if (!known || read->resolution < known->resolution) known = read;
+    if (read->resolution < before.resolution) before = *read;
     return true;
   };
   std::size_t at = kHeaderLength;
@@ -198,26 +197,21 @@ std::optional<FastrakRecord> FastrakLayout::decode(std::string_view bytes) const
         if (button && *button != (part[1] == '1')) return std::nullopt;
         button = part[1] == '1';
         break;
-      case Kind::position:
-        if (!merge(read_numbers(*item, part), position)) return std::nullopt;
-        break;
-      case Kind::angles:
-        if (!merge(read_numbers(*item, part), angles)) return std::nullopt;
-        break;
-      case Kind::quaternion:
-        if (!merge(read_numbers(*item, part), quaternion)) return std::nullopt;
-        break;
+      default:
+        if (!merge(item->kind, read_numbers(*item, part))) return std::nullopt;
     }
   }
-  if (!all_within(position->value, kFarthestPosition / unit_)) return std::nullopt;
-  record.p_TS = unit_ * Vector3d(position->value[0], position->value[1], position->value[2]);
-  if (quaternion) {
-    const auto& q = quaternion->value;
+  const auto& p = known.at(Kind::position).value;
+  if (!all_within(p, farthest_measured / unit_)) return std::nullopt;
+  record.p_TS = unit_ * Vector3d(p[0], p[1], p[2]);
+  if (const auto quaternion = known.find(Kind::quaternion); quaternion != known.end()) {
+    const auto& q = quaternion->second.value;
     record.q_TS = Quaterniond(q[0], q[1], q[2], q[3]);
-    if (!(std::abs(record.q_TS.norm() - 1.0) <= kNormTolerance)) return std::nullopt;
+    if (!(std::abs(record.q_TS.norm() - 1.0) <= norm_tolerance)) return std::nullopt;
   } else {
-    if (!all_within(angles->value, 180.0)) return std::nullopt;
-    record.q_TS = from_angles(angles->value);
+    const auto& angles = known.at(Kind::angles).value;
+    if (!all_within(angles, 180.0)) return std::nullopt;
+    record.q_TS = from_angles(angles);
   }
   record.button = button.value_or(false);
   return record;
@@ -284,11 +278,6 @@ std::string fastrak_list_command(int station, const std::vector<int>& items) {
   for (const int item : items) command += "," + std::to_string(item);
   return command + "\r";
 }
-
-namespace {
-constexpr std::size_t kStatusLength = 53;  // without the end of line
-constexpr unsigned kBinaryFlag = 1, kCentimetresFlag = 2, kContinuousFlag = 8, kOtherFlags = 0x3F4;
-}  // namespace
 
 std::optional<FastrakStatus> read_fastrak_status(const std::string& reply) {
   if (reply.size() != kStatusLength || reply[0] != '2' || reply[2] != 'S') return std::nullopt;

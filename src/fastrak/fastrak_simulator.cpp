@@ -5,14 +5,10 @@
 #include <thread>
 #include <utility>
 
+#include "constants.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::fastrak {
-namespace {
-
-constexpr std::size_t kMostWaiting = 4096;  // [bytes] a real line keeps none
-
-}  // namespace
 
 FastrakSimulator::FastrakSimulator(FastrakDevice device, LineFaults faults, std::string link)
     : device_(std::move(device)), faults_(std::move(faults)), link_(std::move(link)) {
@@ -66,7 +62,7 @@ void FastrakSimulator::measure(double t) {
   t_ = t;
   const std::string record = device_.measure(t);
   if (record.empty() || !terminal_) return;
-  if (waiting_.size() > kMostWaiting) {
+  if (waiting_.size() > most_waiting) {
     ++dropped_;
     return;
   }

@@ -4,23 +4,14 @@
 #include <sstream>
 #include <thread>
 
+#include "constants.h"
 #include "serial_port.h"
 
 namespace spring_workbench::fastrak {
 namespace {
 
 using std::chrono::duration;
-using std::chrono::duration_cast;
 using std::chrono::steady_clock;
-
-constexpr double kLookAgain = 0.1;    // [s] after a port could not be opened
-constexpr double kSilence = 0.25;     // [s] without a good record: set up anew, and
-constexpr double kAnswerTime = 0.15;  // [s] for the device to answer; both beside the time of the
-constexpr double kLineBytes = 200.0;  // that may be on the line meanwhile: a portion or a record, and a status
-constexpr double kChance = 0.05;      // [s]
-constexpr int kAttemptsPerOpening = 5;
-
-steady_clock::duration seconds(double s) { return duration_cast<steady_clock::duration>(duration<double>(s)); }
 
 std::string hemisphere_text(const Vector3d& direction) {
   std::ostringstream text;
@@ -98,7 +89,7 @@ std::vector<motion::StationSample> FastrakSource::read(double timeout) {
 }
 
 steady_clock::duration FastrakSource::patience(double s) const {
-  return seconds(s + kLineBytes * 10.0 / settings_.baud);
+  return seconds(s + line_bytes * 10.0 / settings_.baud);
 }
 
 void FastrakSource::open() {
@@ -111,7 +102,7 @@ void FastrakSource::close(const std::string& why) {
   port_.reset();
   problem_ = why;
   state_ = State::closed;
-  deadline_ = steady_clock::now() + seconds(kLookAgain);
+  deadline_ = steady_clock::now() + seconds(look_again_after);
 }
 
 void FastrakSource::begin_set_up() {
@@ -125,13 +116,13 @@ void FastrakSource::begin_set_up() {
 
 void FastrakSource::send_portion() {
   port_->write(set_up_[portion_] + "S");  // its answer says that the commands before it are done
-  deadline_ = steady_clock::now() + patience(kAnswerTime);
+  deadline_ = steady_clock::now() + patience(answer_time);
 }
 
 void FastrakSource::listen(Time until) {
   const Time begin = steady_clock::now();
   // Whoever comes late himself gives the line a chance before he calls it silent.
-  const double least = begin >= deadline_ ? kChance : 0.0;
+  const double least = begin >= deadline_ ? late_reader_chance : 0.0;
   const double wait = std::max(least, duration<double>(until - begin).count());
   const std::string bytes = port_->read(wait);
   const Time now = steady_clock::now();
@@ -172,7 +163,7 @@ void FastrakSource::take(const FastrakRecord& record, Time now) {
   if (record.error != ' ') ++counters_["records with a warning"];
   has_streamed_ = true;
   attempts_ = 0;
-  deadline_ = now + patience(kSilence);
+  deadline_ = now + patience(source_silence);
 }
 
 void FastrakSource::take(const FastrakReply& reply, Time) {
@@ -197,13 +188,13 @@ void FastrakSource::begin_stream() {
   state_ = State::streaming;
   has_streamed_ = false;
   decoder_ = FastrakDecoder(layouts_);
-  deadline_ = steady_clock::now() + patience(kSilence);
+  deadline_ = steady_clock::now() + patience(source_silence);
 }
 
 void FastrakSource::give_up_waiting() {
   problem_ = why_silent();
   if (state_ == State::streaming && has_streamed_) ++counters_["times the stream was lost"];
-  if (++attempts_ % kAttemptsPerOpening == 0) return close(problem_);
+  if (++attempts_ % attempts_per_opening == 0) return close(problem_);
   begin_set_up();
 }
 

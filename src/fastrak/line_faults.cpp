@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "constants.h"
 #include "spring_workbench/config/yaml_fields.h"
 
 namespace spring_workbench::fastrak {
@@ -10,19 +11,13 @@ namespace {
 
 const char* const kWhere = "command line";
 const char* const kLetters = "jklxy";  // of the device's own weak measurements
-constexpr std::size_t kLongestNoise = 80;
 
 }  // namespace
-
-const std::vector<std::string>& fault_kinds() {
-  static const std::vector<std::string> kinds{"garbage", "cut", "silence", "error", "wrong_mode", "unplug"};
-  return kinds;
-}
 
 Fault parse_fault(const std::string& text) {
   Fault fault;
   std::size_t end = std::min(text.find(','), text.size());
-  const auto& kinds = fault_kinds();
+  static const std::vector<std::string> kinds{"garbage", "cut", "silence", "error", "wrong_mode", "unplug"};
   const auto kind = std::find(kinds.begin(), kinds.end(), text.substr(0, end));
   if (kind == kinds.end())
     validation::refuse(kWhere, "--fault", text, "one of " + validation::join(kinds) + ", with ,rate= ,from= ,until=");
@@ -37,10 +32,8 @@ Fault parse_fault(const std::string& text) {
     const std::string name = "--fault " + key;
     if (key == "rate") {
       fault.rate = config::read_number(value, kWhere, name, validation::between(0.0, 1.0));
-    } else if (key == "from") {
-      fault.from = config::read_number(value, kWhere, name, validation::not_negative());
-    } else if (key == "until") {
-      fault.until = config::read_number(value, kWhere, name, validation::not_negative());
+    } else if (key == "from" || key == "until") {
+      (key == "from" ? fault.from : fault.until) = config::read_number(value, kWhere, name, validation::not_negative());
     } else {
       validation::refuse(kWhere, "--fault", field, "rate=, from= or until=");
     }
@@ -89,7 +82,7 @@ void LineFaults::spoil(std::string& record) {
   const std::size_t at = number(0, record.size() - 1);
   switch (number(0, 2)) {
     case 0:  // added
-      record.insert(at, noise(number(1, kLongestNoise)));
+      record.insert(at, noise(number(1, longest_noise)));
       break;
     case 1: {  // instead of what was there
       const std::size_t size = number(1, record.size() - at);

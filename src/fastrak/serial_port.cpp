@@ -5,20 +5,14 @@
 
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/write.hpp>
-#include <chrono>
 #include <utility>
 
+#include "constants.h"
+
 namespace spring_workbench::fastrak {
-namespace {
 
 using boost::asio::serial_port_base;
 using boost::system::error_code;
-
-std::chrono::steady_clock::duration as_duration(double seconds) {
-  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(seconds));
-}
-
-}  // namespace
 
 SerialPort::SerialPort(const std::string& path, int baud) : path_(path), port_(context_) {
   error_code error;
@@ -68,14 +62,13 @@ void SerialPort::listen() {
 }
 
 void SerialPort::write(const std::string& bytes) {
-  constexpr double longest = 0.2;  // [s]
   bool over = false;
   error_code failure;
   boost::asio::async_write(port_, boost::asio::buffer(bytes), [&](const error_code& error, std::size_t) {
     over = true;
     failure = error;
   });
-  const auto deadline = std::chrono::steady_clock::now() + as_duration(longest);
+  const auto deadline = std::chrono::steady_clock::now() + seconds(longest_write);
   context_.restart();
   while (!over && context_.run_one_until(deadline) > 0) continue;
   if (!over) {
@@ -90,7 +83,7 @@ void SerialPort::write(const std::string& bytes) {
 std::string SerialPort::read(double timeout) {
   if (received_.empty() && !failure_) {
     context_.restart();
-    if (context_.poll_one() == 0) context_.run_one_for(as_duration(timeout));
+    if (context_.poll_one() == 0) context_.run_one_for(seconds(timeout));
   }
   if (received_.empty() && failure_) fail(failure_);
   return std::exchange(received_, {});

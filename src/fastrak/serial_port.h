@@ -3,10 +3,15 @@
 #include <array>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/serial_port.hpp>
+#include <chrono>
 #include <stdexcept>
 #include <string>
 
 namespace spring_workbench::fastrak {
+
+inline std::chrono::steady_clock::duration seconds(double s) {
+  return std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(s));
+}
 
 /// Why a serial port cannot be used, in one line that names it.
 class SerialError : public std::runtime_error {

@@ -1,5 +1,7 @@
 #include "spring_workbench/fastrak/station_stream.h"
 
+#include "constants.h"
+
 namespace spring_workbench::fastrak {
 namespace {
 
@@ -18,14 +20,12 @@ double mean_interval(const std::vector<double>& receipts) {
 }  // namespace
 
 double StationStream::by_cadence(double received) {
-  constexpr double measured_for = 3.0;  // [s]
-  constexpr double longest_gap = 0.25;  // [s]
   if (!even_stamps_) return received;
   if (cadence_ && cadence_->is_astray()) cadence_.reset();  // records were lost while it was measured
   if (cadence_) return cadence_->stamp(received);
-  if (!receipts_.empty() && received - receipts_.back() > longest_gap) receipts_.clear();
+  if (!receipts_.empty() && received - receipts_.back() > stream_silence) receipts_.clear();
   receipts_.push_back(received);
-  if (received - receipts_.front() < measured_for) return received;
+  if (received - receipts_.front() < cadence_measured_for) return received;
   cadence_.emplace(mean_interval(receipts_));
   double stamp = received;
   for (const double receipt : receipts_) stamp = cadence_->stamp(receipt);

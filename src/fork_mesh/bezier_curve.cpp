@@ -2,16 +2,13 @@
 #include <array>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/fork_mesh/fork_curve.h"
 #include "spring_workbench/math/quadrature.h"
 #include "spring_workbench/math/so3.h"
-#include "stations.h"
 
 namespace spring_workbench::fork_mesh {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr int pieces = 8;  ///< of the curve's parameter, for its arc length
 
 const math::GaussLegendre<8>& rule() {
   static const math::GaussLegendre<8> gauss;
@@ -45,7 +42,8 @@ class Bezier {
   }
   double length() const {
     double sum = 0.0;
-    for (int i = 0; i < pieces; ++i) sum += length(static_cast<double>(i) / pieces, (i + 1.0) / pieces);
+    for (int i = 0; i < bezier_pieces; ++i)
+      sum += length(static_cast<double>(i) / bezier_pieces, (i + 1.0) / bezier_pieces);
     return sum;
   }
 
@@ -81,17 +79,17 @@ double arm_for(const RigidTransform& begin, const RigidTransform& end, double ar
 
 /// The curve's parameters at evenly spaced arc lengths after the first.
 std::vector<double> even_parameters(const Bezier& curve) {
-  std::array<double, pieces + 1> until{};  // arc length up to each piece
-  for (int i = 0; i < pieces; ++i) {
+  std::array<double, bezier_pieces + 1> until{};  // arc length up to each piece
+  for (int i = 0; i < bezier_pieces; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    until[k + 1] = until[k] + curve.length(static_cast<double>(i) / pieces, (i + 1.0) / pieces);
+    until[k + 1] = until[k] + curve.length(static_cast<double>(i) / bezier_pieces, (i + 1.0) / bezier_pieces);
   }
   std::vector<double> parameters;
   for (int i = 1; i + 1 < fork_curve_stations; ++i) {
     const double s = until.back() * i / (fork_curve_stations - 1);
     const auto after = std::upper_bound(until.begin() + 1, until.end() - 1, s);
     const auto k = static_cast<double>(after - until.begin() - 1);
-    const double from = k / pieces, to = (k + 1.0) / pieces, s_from = *(after - 1);
+    const double from = k / bezier_pieces, to = (k + 1.0) / bezier_pieces, s_from = *(after - 1);
     double t = from + (to - from) * (s - s_from) / std::max(*after - s_from, 1e-300);
     for (int newton = 0; newton < 5; ++newton) {
       const double speed = curve.rate(t).norm();
@@ -107,7 +105,7 @@ std::vector<double> even_parameters(const Bezier& curve) {
 /// Turns each frame about its z by its share of what is missing at the tip; the ends are the given poses.
 void spread_twist(const RigidTransform& X_WE, double twist, std::vector<RigidTransform>& stations) {
   const double missing = math::log_so3(stations.back().linear().transpose() * X_WE.linear()).z();
-  const double whole = missing + 2.0 * pi * std::round((twist - missing) / (2.0 * pi));
+  const double whole = missing + 2.0 * M_PI * std::round((twist - missing) / (2.0 * M_PI));
   for (std::size_t i = 0; i < stations.size(); ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(stations.size() - 1);
     stations[i].rotate(Eigen::AngleAxisd(share * whole, Vector3d::UnitZ()));

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/number_rule.h"
-#include "stations.h"
 
 namespace spring_workbench::fork_mesh {
 namespace {

@@ -2,14 +2,11 @@
 
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::fork_mesh {
 namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double coil_radius = 0.5;  ///< [diameters], of the wire's centre
-constexpr double flange = 0.2;       ///< thickness of the discs that hold the wire's ends [diameters]
 
 void check(const ForkLook& look) {
   const char* const where = "fork look";
@@ -73,7 +70,7 @@ void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double cent
     const Eigen::Vector2d outward(along.y(), -along.x());
     const int first = static_cast<int>(shaft_.size() + end_.size());
     for (int i = 0; i < sides; ++i) {
-      const double angle = 2.0 * pi * i / sides;
+      const double angle = 2.0 * M_PI * i / sides;
       for (const Eigen::Vector2d& p : {profile[k], profile[k + 1]}) {
         const double x = centre + p.x() * std::cos(angle), y = p.x() * std::sin(angle);
         const double phi = std::atan2(y, x), turn = angle - phi;
@@ -91,7 +88,7 @@ void ForkModel::make_spring() {
   const int rings = look_.turns * look_.points_per_turn + 1;
   const auto ring = [&](int k, double cap) {
     const double share = static_cast<double>(k) / (rings - 1);
-    wire_.push_back({coil_radius, 2.0 * pi * look_.turns * share, share, cap});
+    wire_.push_back({coil_radius, 2.0 * M_PI * look_.turns * share, share, cap});
   };
   ring(0, -1.0);
   for (int k = 0; k < rings; ++k) ring(k, 0.0);
@@ -114,7 +111,7 @@ void ForkModel::make_spring() {
 /// The ring's centre is where the deformed cylinder takes it; around it, the wire is round in its own cross section.
 void ForkModel::add_ring(const WireRing& ring, const ForkCurve& curve, double diameter, ForkMesh& mesh) const {
   const CurvePoint at = curve.at(ring.z);
-  const double phi_rate = 2.0 * pi * look_.turns;  // along the spring
+  const double phi_rate = 2.0 * M_PI * look_.turns;  // along the spring
   const Vector3d out(std::cos(ring.phi), std::sin(ring.phi), 0.0), around(-out.y(), out.x(), 0.0);
   const Vector3d from_axis = ring.r * diameter * out;
   const Vector3d centre = at.p + at.R * from_axis;
@@ -123,7 +120,7 @@ void ForkModel::add_ring(const WireRing& ring, const ForkCurve& curve, double di
   const Vector3d side = along.cross(at.R * out).normalized();
   const Vector3d outward = side.cross(along);
   for (int i = 0; i < look_.wire_sides; ++i) {
-    const double angle = 2.0 * pi * i / look_.wire_sides;
+    const double angle = 2.0 * M_PI * i / look_.wire_sides;
     const Vector3d direction = std::cos(angle) * outward + std::sin(angle) * side;
     mesh.vertices.push_back(centre + look_.wire_radius * diameter * direction);
     mesh.normals.push_back(ring.cap == 0.0 ? direction : Vector3d(ring.cap * along));

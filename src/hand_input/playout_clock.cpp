@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
+
 namespace spring_workbench::hand_input {
-namespace {
-
-constexpr double kShortestSilence = 0.2;  // [s] of attended time
-
-}  // namespace
 
 void PlayoutClock::sample(double t, const LocalTime& arrival) {
-  constexpr double share_of_new = 0.1;  // smooths over some ten samples
   const double interval = t - newest_;
   if (std::isfinite(interval) && interval <= dropout_after_) {
     interval_ = interval_ > 0.0 ? interval_ + share_of_new * (interval - interval_) : interval;
@@ -25,9 +21,9 @@ double PlayoutClock::target(const LocalTime& now) const {
   const double waited = std::max(now.loop - arrival_.loop, 0.0);
   const double target = newest_ + waited - interval_;
   if (!simulated_time_) return waited > dropout_after_ ? target : std::min(target, newest_);
-  const bool silent = waited > dropout_after_ && now.attended - arrival_.attended > kShortestSilence;
+  const bool silent = waited > dropout_after_ && now.attended - arrival_.attended > shortest_silence;
   if (silent) return std::max(target, before_newest_);
-  const bool buttons_come = now.attended - buttons_arrival_ < kShortestSilence;
+  const bool buttons_come = now.attended - buttons_arrival_ < shortest_silence;
   return buttons_come ? std::min(before_newest_, buttons_until_) : before_newest_;
 }
 

@@ -1,16 +1,16 @@
 #include "spring_workbench/hand_input/pose_filter.h"
 
+#include <cmath>
+
+#include "constants.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::hand_input {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kVelocityCutoff = 8.0;  // [Hz] of the low-pass of the velocities
-
 /// Weight of the new value in a first-order low-pass with this cut-off [Hz], for an interval dt [s].
 double weight(double cutoff, double dt) {
-  const double u = 2.0 * kPi * cutoff * dt;
+  const double u = 2.0 * M_PI * cutoff * dt;
   return u / (1.0 + u);
 }
 
@@ -26,7 +26,7 @@ motion::PoseSample PoseFilter::filter(const motion::PoseSample& sample) {
     return sample;
   }
   const double dt = sample.t - raw_.t;
-  const double a = weight(kVelocityCutoff, dt);
+  const double a = weight(velocity_cutoff, dt);
   v_ += a * ((sample.X.translation() - raw_.X.translation()) / dt - v_);
   w_B_ += a * (math::log_so3(raw_.X.linear().transpose() * sample.X.linear()) / dt - w_B_);
   raw_ = sample;

@@ -4,37 +4,32 @@
 #include <cmath>
 #include <utility>
 
+#include "constants.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::hand_input {
 namespace {
-
-constexpr double kRamp = 0.2;         // [s] from rest to full speed
-constexpr double kTail = 0.1;         // [s] time constant of the arrival
-constexpr double kNear = 1e-5;        // [m] where the rest of the way is made in one step
-constexpr double kNearAngle = 1e-4;   // [rad]
-constexpr double kSameTime = 0.5e-9;  // [s]
 
 /// From 0 to 1 while u goes there, with level ends.
 double smooth_step(double u) { return u >= 1.0 ? 1.0 : u * u * (3.0 - 2.0 * u); }
 
 /// How much of a way that long is made in dt.
 double share(double way, double speed, double dt) {
-  return way > 0.0 ? std::min(1.0, dt * std::min(speed / way, 1.0 / kTail)) : 0.0;
+  return way > 0.0 ? std::min(1.0, dt * std::min(speed / way, 1.0 / tail_time)) : 0.0;
 }
 
 }  // namespace
 
 std::vector<motion::PoseSample> Reacquisition::follow(const motion::PoseSample& sample, bool relocation,
                                                       double simulated_until) {
-  if (newest_ && sample.t <= simulated_until + kSameTime) {
+  if (newest_ && sample.t <= simulated_until + same_time) {
     ++counts_.late;
     return {};
   }
   std::vector<motion::PoseSample> result;
   if (newest_) {
     if (sample.t > lost_at()) note_loss(lost_at());
-    const bool held = simulated_until > newest_->t + kSameTime;
+    const bool held = simulated_until > newest_->t + same_time;
     if (held) result.push_back({simulated_until, newest_->X});
     if (held || relocation) set_out(sample);
   }
@@ -54,13 +49,13 @@ void Reacquisition::set_out(const motion::PoseSample& sample) {
 
 RigidTransform Reacquisition::catch_up(const motion::PoseSample& sample) {
   const double dt = sample.t - tracked_.t;
-  const double ramp = smooth_step((sample.t - set_out_at_) / kRamp);
+  const double ramp = smooth_step((sample.t - set_out_at_) / ramp_time);
   RigidTransform X = newest_->X;  // first with the tracked hand ...
   X.translation() += ramp * (sample.X.translation() - tracked_.X.translation());
   X.linear() = X.linear() * math::exp_so3(ramp * math::log_so3(tracked_.X.linear().transpose() * sample.X.linear()));
   const Vector3d way = sample.X.translation() - X.translation();  // ... then towards it
   const Vector3d turn = math::log_so3(X.linear().transpose() * sample.X.linear());
-  if (way.norm() < kNear && turn.norm() < kNearAngle) {
+  if (way.norm() < near && turn.norm() < near_angle) {
     catching_up_ = false;
     return sample.X;
   }

@@ -4,16 +4,18 @@
 #include <cmath>
 #include <sstream>
 
+#include "constants.h"
+
 namespace spring_workbench::hand_input {
 namespace {
 
 // Below these a move is never an outlier: noise of a tracker, and of stamps that are close together.
-constexpr double kFreeDistance = 5e-3;        // [m]
-constexpr double kFreeAngle = 0.05;           // [rad]
-constexpr double kShortestInterval = 0.5e-9;  // [s] half of what ROS time resolves, as PoseTrack has it
-constexpr double kClosest = 5e-5;             // [s] and no closer than kClosestShare of the usual interval
-constexpr double kClosestShare = 0.25;
-constexpr double kAwayFromOrigin = 10.0;  // radii; a hand that was nearer may have come to the origin by itself
+
+std::string text(double value) {
+  std::ostringstream out;
+  out << value;
+  return out.str();
+}
 
 /// Angle of the rotation from a to b [rad], 0 … π, the signs of the quaternions aside.
 double angle_between(const Quaterniond& a, const Quaterniond& b) {
@@ -23,72 +25,50 @@ double angle_between(const Quaterniond& a, const Quaterniond& b) {
 }  // namespace
 
 std::string to_string(GateResult result) {
-  switch (result) {
-    case GateResult::accepted:
-      return "accepted";
-    case GateResult::relocation:
-      return "new place";
-    case GateResult::not_finite:
-      return "not finite";
-    case GateResult::bad_quaternion:
-      return "not a unit quaternion";
-    case GateResult::too_far:
-      return "too far";
-    case GateResult::not_later:
-      return "stamp not later";
-    case GateResult::too_close:
-      return "too close to the last";
-    case GateResult::too_fast:
-      return "too fast";
-    case GateResult::turns_too_fast:
-      return "turns too fast";
-    case GateResult::out_of_view:
-      return "out of view";
-  }
-  return "";
+  static const char* const names[] = {"accepted",
+                                      "new place",
+                                      "not finite",
+                                      "not a unit quaternion",
+                                      "too far",
+                                      "stamp not later",
+                                      "too close to the last",
+                                      "too fast",
+                                      "turns too fast",
+                                      "out of view"};
+  return names[static_cast<std::size_t>(result)];
 }
 
 std::string complaint(GateResult result, const RawSample& sample, const InputSettings& settings) {
-  std::ostringstream out;
   const auto& p = sample.p;
   const auto& q = sample.q;
-  std::ostringstream position, rotation;
+  std::ostringstream stamp, position, rotation;
+  stamp << "stamp: " << sample.t;
   position << "position: (" << p.x() << ", " << p.y() << ", " << p.z() << ") is not allowed: must be ";
   rotation << "rotation: (" << q.x() << ", " << q.y() << ", " << q.z() << ", " << q.w() << ") is not allowed: must be ";
+  std::ostringstream& place = p.allFinite() ? rotation : position;
   switch (result) {
     case GateResult::accepted:
     case GateResult::relocation:
-      break;
+      return "";
     case GateResult::not_finite:
-      if (!std::isfinite(sample.t)) {
-        out << "stamp: " << sample.t << " is not allowed: must be a finite number";
-      } else {
-        out << (p.allFinite() ? rotation.str() : position.str()) << "finite numbers";
-      }
-      break;
+      if (!std::isfinite(sample.t)) return stamp.str() + " is not allowed: must be a finite number";
+      return place.str() + "finite numbers";
     case GateResult::bad_quaternion:
-      out << rotation.str() << "of length 1 within quaternion_tolerance = " << settings.quaternion_tolerance;
-      break;
+      return rotation.str() + "of length 1 within quaternion_tolerance = " + text(settings.quaternion_tolerance);
     case GateResult::too_far:
-      out << position.str() << "within max_distance = " << settings.max_distance << " m";
-      break;
+      return position.str() + "within max_distance = " + text(settings.max_distance) + " m";
     case GateResult::not_later:
-      out << "stamp: " << sample.t << " s is not allowed: must be later than the last one";
-      break;
+      return stamp.str() + " s is not allowed: must be later than the last one";
     case GateResult::too_close:
-      out << "stamp: " << sample.t << " s is not allowed: must be a quarter of the usual interval after the last one";
-      break;
+      return stamp.str() + " s is not allowed: must be a quarter of the usual interval after the last one";
     case GateResult::too_fast:
-      out << position.str() << "reached at max_speed = " << settings.max_speed << " m/s or less";
-      break;
+      return position.str() + "reached at max_speed = " + text(settings.max_speed) + " m/s or less";
     case GateResult::turns_too_fast:
-      out << rotation.str() << "reached at max_turn_rate = " << settings.max_turn_rate << " rad/s or less";
-      break;
+      return rotation.str() + "reached at max_turn_rate = " + text(settings.max_turn_rate) + " rad/s or less";
     case GateResult::out_of_view:
-      out << position.str() << "farther than origin_radius = " << settings.origin_radius << " m from the origin";
-      break;
+      return position.str() + "farther than origin_radius = " + text(settings.origin_radius) + " m from the origin";
   }
-  return out.str();
+  return "";
 }
 
 GateResult check_pose(const RawSample& sample, const InputSettings& settings) {
@@ -121,27 +101,27 @@ GateResult SampleGate::offer(const RawSample& sample) {
 GateResult SampleGate::judge(const RawSample& sample) const {
   const GateResult result = check_pose(sample, settings_);
   if (!usable(result) || !newest_) return result;
-  if (!(sample.t - newest_->t >= kShortestInterval)) return GateResult::not_later;
-  if (sample.t - newest_->t < std::max(kClosest, kClosestShare * interval_)) return GateResult::too_close;
+  if (!(sample.t - newest_->t >= same_time)) return GateResult::not_later;
+  if (sample.t - newest_->t < std::max(closest, closest_share * interval_)) return GateResult::too_close;
   if (is_out_of_view(sample)) return GateResult::out_of_view;
   return judge_move(*newest_, sample);
 }
 
 GateResult SampleGate::judge_move(const RawSample& from, const RawSample& to) const {
   const double dt = std::min(to.t - from.t, dropout_after_);
-  if ((to.p - from.p).norm() > kFreeDistance + settings_.max_speed * dt) return GateResult::too_fast;
-  if (angle_between(from.q, to.q) > kFreeAngle + settings_.max_turn_rate * dt) return GateResult::turns_too_fast;
+  if ((to.p - from.p).norm() > free_distance + settings_.max_speed * dt) return GateResult::too_fast;
+  if (angle_between(from.q, to.q) > free_angle + settings_.max_turn_rate * dt) return GateResult::turns_too_fast;
   return GateResult::accepted;
 }
 
 bool SampleGate::is_out_of_view(const RawSample& sample) const {
   return sample.p.norm() <= settings_.origin_radius && settings_.origin_radius > 0.0 &&
          angle_between(sample.q, Quaterniond::Identity()) <= settings_.origin_angle &&
-         newest_->p.norm() > kAwayFromOrigin * settings_.origin_radius;
+         newest_->p.norm() > away_from_origin * settings_.origin_radius;
 }
 
 bool SampleGate::confirmed(const RawSample& sample) {
-  const bool later = !candidate_ || sample.t - candidate_->t >= kShortestInterval;
+  const bool later = !candidate_ || sample.t - candidate_->t >= same_time;
   if (!later) return false;
   const bool fits = candidate_ && judge_move(*candidate_, sample) == GateResult::accepted;
   in_a_row_ = fits ? in_a_row_ + 1 : 1;
@@ -158,7 +138,6 @@ GateResult SampleGate::accept(const RawSample& sample, bool jumped) {
   const bool after_dropout = newest_ && sample.t - newest_->t > dropout_after_;
   const bool first = !newest_;
   if (!first && !after_dropout) {
-    constexpr double share_of_new = 0.1;  // smooths over some ten samples
     const double dt = sample.t - newest_->t;
     interval_ = interval_ > 0.0 ? interval_ + share_of_new * (dt - interval_) : dt;
   }

@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "constants.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::motion_files {
@@ -15,8 +16,6 @@ const char* const kFields[] = {"t", "x", "y", "z", "qx", "qy", "qz", "qw", "butt
 constexpr std::size_t kFieldsWithoutButton = 8;
 constexpr std::size_t kFieldsWithButton = 9;
 // The times of day and places that a PoseTrack takes.
-constexpr double kFarthestTime = 1e12;     // [s]
-constexpr double kFarthestPosition = 1e9;  // [m]
 
 std::vector<std::string> words_of(const std::string& line) {
   std::istringstream in(line.substr(0, line.find('#')));
@@ -50,9 +49,9 @@ Line read_line(const std::vector<std::string>& words, const std::string& where) 
     return static_cast<double>(read_word(words[i], where, kFields[i], validation::between(-largest, largest)));
   };
   Line line;
-  line.stamp = read_word(words[0], where, kFields[0], validation::between(-kFarthestTime, kFarthestTime));
+  line.stamp = read_word(words[0], where, kFields[0], validation::between(-farthest_time, farthest_time));
   Vector3d p;
-  for (std::size_t i = 0; i < 3; ++i) p[static_cast<Eigen::Index>(i)] = number(i + 1, kFarthestPosition);
+  for (std::size_t i = 0; i < 3; ++i) p[static_cast<Eigen::Index>(i)] = number(i + 1, farthest_position);
   const Quaterniond q(number(7, 2.0), number(4, 2.0), number(5, 2.0), number(6, 2.0));
   validation::check_number(where, "norm of qx qy qz qw", q.norm(), validation::between(0.5, 2.0));
   line.sample.X = make_transform(q, p);

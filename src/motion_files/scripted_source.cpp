@@ -2,19 +2,18 @@
 
 #include <algorithm>
 
+#include "constants.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/motion/minimum_jerk.h"
 
 namespace spring_workbench::motion_files {
 namespace {
 
-constexpr double kFarthestTime = 1e6;  // [s]
-constexpr double kClosest = 1e-9;      // [s] samples are not closer than ROS time resolves
-
 motion::StylusSample read_waypoint(const YAML::Node& node, const std::string& path, const std::string& name) {
   config::check_keys(node, path, name + ".", {"t", "pose", "button"});
   motion::StylusSample waypoint;
-  waypoint.t = config::read_number(node["t"], path, name + ".t", validation::between(-kFarthestTime, kFarthestTime));
+  waypoint.t = config::read_number(node["t"], path, name + ".t",
+                                   validation::between(-farthest_script_time, farthest_script_time));
   waypoint.X = config::read_pose(node["pose"], path, name + ".pose");
   if (node["button"]) waypoint.button = config::read_bool(node["button"], path, name + ".button");
   return waypoint;
@@ -36,7 +35,7 @@ ScriptedSource::ScriptedSource(const std::string& path) {
     motion::StylusSample waypoint = read_waypoint(list[i], path, name);
     if (i == 0) first = waypoint.t;
     waypoint.t -= first;
-    if (i > 0 && !(waypoint.t - waypoints_.back().t > kClosest)) {
+    if (i > 0 && !(waypoint.t - waypoints_.back().t > closest_samples)) {
       throw validation::InputError(path + ":" + std::to_string(list[i].Mark().line + 1) + ": " + name + ".t: " +
                                    list[i]["t"].Scalar() + " is not allowed: must be later than the waypoint before");
     }
@@ -48,7 +47,7 @@ std::optional<motion::StylusSample> ScriptedSource::next() {
   if (over_) return std::nullopt;
   const double last = waypoints_.back().t;
   const double t = static_cast<double>(next_++) / rate_;
-  over_ = t > last - kClosest;
+  over_ = t > last - closest_samples;
   return at(over_ ? last : t);
 }
 

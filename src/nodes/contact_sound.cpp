@@ -10,8 +10,7 @@
 int main(int argc, char** argv) {
   ros::init(argc, argv, "contact_sound");
   try {
-    const spring_workbench::contact_sound::ContactSound sound(ros::NodeHandle(), ros::NodeHandle("~"));
-    ros::spin();
+    spring_workbench::contact_sound::run(ros::NodeHandle(), ros::NodeHandle("~"));
   } catch (const spring_workbench::validation::InputError& error) {
     std::cerr << error.what() << std::endl;
     return 2;

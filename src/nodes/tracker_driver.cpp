@@ -10,7 +10,7 @@
 int main(int argc, char** argv) {
   ros::init(argc, argv, "tracker_driver");
   try {
-    spring_workbench::tracker_driver::TrackerDriver(ros::NodeHandle(), ros::NodeHandle("~")).run();
+    spring_workbench::tracker_driver::run(ros::NodeHandle(), ros::NodeHandle("~"));
   } catch (const spring_workbench::validation::InputError& error) {
     std::cerr << error.what() << std::endl;
     return 2;

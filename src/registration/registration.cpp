@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "constants.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::registration {
@@ -16,7 +17,6 @@ namespace {
 using Points = Eigen::Matrix3Xd;
 
 const std::string kWhere = "registration";
-constexpr double kThinnest = 0.01;  // [m] RMS distance of the landmarks from a line
 
 std::string millimetres(double metres) {
   std::ostringstream out;
@@ -38,8 +38,7 @@ double rms_of(const RigidTransform& X, const Points& to, const Points& from) {
 
 /// The order of touches, other than the given one, that fits best. Nothing for more landmarks than can be tried.
 std::optional<std::pair<double, std::vector<int>>> best_other_order(const Points& to, const Points& from) {
-  constexpr Eigen::Index most = 7;
-  if (to.cols() > most) return std::nullopt;
+  if (to.cols() > most_permuted) return std::nullopt;
   std::vector<int> order(static_cast<std::size_t>(to.cols()));
   std::iota(order.begin(), order.end(), 0);
   std::pair<double, std::vector<int>> best{std::numeric_limits<double>::infinity(), {}};
@@ -62,9 +61,9 @@ void check_shape(const std::vector<Landmark>& landmarks, const Points& to) {
   }
   const Points centred = to.colwise() - Vector3d(to.rowwise().mean());
   const Vector3d spread = Eigen::JacobiSVD<Eigen::MatrixXd>(centred).singularValues().head<3>();
-  if (const double off_line = spread[1] / std::sqrt(static_cast<double>(to.cols())); off_line < kThinnest) {
+  if (const double off_line = spread[1] / std::sqrt(static_cast<double>(to.cols())); off_line < thinnest) {
     validation::refuse(kWhere, "landmarks", millimetres(off_line) + " off one line",
-                       millimetres(kThinnest) + " off it or more");
+                       millimetres(thinnest) + " off it or more");
   }
 }
 
@@ -128,9 +127,8 @@ Registration register_tracker(const std::vector<Landmark>& landmarks, double lar
 }
 
 PivotCalibration calibrate_tip(const std::vector<RigidTransform>& poses_TS, double largest_rms) {
-  constexpr std::size_t fewest = 10;
-  constexpr double least_turned = 0.1;  // smallest singular value per root of the count; about 20° about two axes
-  if (poses_TS.size() < fewest) validation::refuse(kWhere, "poses", std::to_string(poses_TS.size()), "at least 10");
+  if (poses_TS.size() < fewest_poses)
+    validation::refuse(kWhere, "poses", std::to_string(poses_TS.size()), "at least 10");
   const Eigen::Index n = static_cast<Eigen::Index>(poses_TS.size());
   Eigen::MatrixXd A(3 * n, 6);
   Eigen::VectorXd b(3 * n);

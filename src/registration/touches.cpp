@@ -14,6 +14,16 @@ Vector3d read_point(const YAML::Node& node, const std::string& where, const std:
   return {p[0], p[1], p[2]};
 }
 
+std::string file_text(const RigidTransform& X_BT, const Vector3d& tip, const std::string& comment) {
+  const Vector3d p = X_BT.translation();
+  const Quaterniond q(X_BT.linear());
+  std::ostringstream out;
+  out << comment << std::setprecision(9) << "offset: [" << p.x() << ", " << p.y() << ", " << p.z() << ", " << q.x()
+      << ", " << q.y() << ", " << q.z() << ", " << q.w() << "]\n"
+      << "tip: [" << tip.x() << ", " << tip.y() << ", " << tip.z() << "]\n";
+  return out.str();
+}
+
 }  // namespace
 
 StoredRegistration read_registration(const YAML::Node& map, const std::string& where) {
@@ -22,16 +32,6 @@ StoredRegistration read_registration(const YAML::Node& map, const std::string& w
   if (map["offset"]) result.X_BT = config::read_pose(map["offset"], where, "offset");
   if (map["tip"]) result.p_ST = read_point(map["tip"], where, "tip");
   return result;
-}
-
-std::string write_registration(const StoredRegistration& registration, const std::string& comment) {
-  const Vector3d p = registration.X_BT.translation(), tip = registration.p_ST;
-  const Quaterniond q(registration.X_BT.linear());
-  std::ostringstream out;
-  out << comment << std::setprecision(9) << "offset: [" << p.x() << ", " << p.y() << ", " << p.z() << ", " << q.x()
-      << ", " << q.y() << ", " << q.z() << ", " << q.w() << "]\n"
-      << "tip: [" << tip.x() << ", " << tip.y() << ", " << tip.z() << "]\n";
-  return out.str();
 }
 
 std::vector<Landmark> read_landmarks(const std::string& path) {
@@ -84,6 +84,41 @@ std::vector<Landmark> touched_landmarks(std::vector<Landmark> landmarks,
     landmarks[i].p_T = mean;
   }
   return landmarks;
+}
+
+std::vector<motion::StylusSample> as_sent(std::vector<motion::StylusSample> samples,
+                                          const StoredRegistration& registration) {
+  for (motion::StylusSample& sample : samples) {
+    sample.X = registration.X_BT * sample.X * Eigen::Translation3d(registration.p_ST);
+  }
+  return samples;
+}
+
+std::string find_tip(const std::vector<motion::StylusSample>& samples, const StoredRegistration& present,
+                     double largest_residual) {
+  std::vector<RigidTransform> poses;
+  for (const motion::StylusSample& sample : samples) {
+    if (sample.button) poses.push_back(sample.X);
+  }
+  const PivotCalibration found = calibrate_tip(poses, largest_residual);
+  std::ostringstream report;
+  report << "# tip: rms " << 1e3 * found.rms << " mm over " << poses.size() << " poses\n";
+  return file_text(present.X_BT, present.p_ST + found.p_ST, report.str());
+}
+
+std::string find_tracker(const std::vector<motion::StylusSample>& samples, const std::vector<Landmark>& known,
+                         const StoredRegistration& present, double largest_residual) {
+  const std::vector<Landmark> landmarks = touched_landmarks(known, presses(samples), largest_residual);
+  const Registration found = register_tracker(landmarks, largest_residual);
+  std::ostringstream report;
+  for (std::size_t i = 0; i < landmarks.size(); ++i) {
+    report << "# " << landmarks[i].name << ": residual " << 1e3 * found.residuals[i] << " mm\n";
+  }
+  report << "# residuals' rms " << 1e3 * found.rms << " mm; a touch is off by " << 1e3 * found.touch_error
+         << " mm along an axis\n# expected error: position " << 1e3 * found.position_error
+         << " mm at the landmarks' middle, angle " << 1e3 * found.angle_error
+         << " mrad\n# check: no other order of the touches fits\n";
+  return file_text(found.X_BT * present.X_BT, present.p_ST, report.str());
 }
 
 }  // namespace spring_workbench::registration

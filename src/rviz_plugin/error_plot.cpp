@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
+
 namespace spring_workbench::rviz_plugin {
 namespace {
-
-constexpr double kept_for = 10.0;  // [s]
 
 /// A range of powers of ten.
 struct Decades {

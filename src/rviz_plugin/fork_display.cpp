@@ -16,6 +16,7 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
+#include "constants.h"
 #include "spring_workbench/validation/input_error.h"
 #include "spring_workbench/validation/names.h"
 
@@ -23,8 +24,6 @@ namespace spring_workbench::rviz_plugin {
 namespace {
 
 using rviz::StatusProperty;
-
-constexpr double longest_silence = 2.0;  // [s]
 
 Ogre::Vector3 to_ogre(const Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};

@@ -7,12 +7,9 @@
 #include <chrono>
 #include <cmath>
 
+#include "constants.h"
+
 namespace spring_workbench::rviz_plugin {
-namespace {
-
-constexpr int positions = 1000;
-
-}  // namespace
 
 double panel_time() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -21,7 +18,7 @@ double panel_time() {
 LogSlider::LogSlider(double low, double high, const QString& unit, QWidget* parent)
     : QWidget(parent), low_(low), high_(high), unit_(unit), value_(low) {
   slider_ = new QSlider(Qt::Horizontal, this);
-  slider_->setRange(0, positions);
+  slider_->setRange(0, slider_positions);
   slider_->setMinimumWidth(60);
   label_ = new QLabel(this);
   label_->setMinimumWidth(label_->fontMetrics().boundingRect("8.88e+05 " + unit).width());
@@ -38,15 +35,14 @@ void LogSlider::show_value(double value) {
   value_ = value;
   const double share = std::log(std::clamp(value, low_, high_) / low_) / std::log(high_ / low_);
   slider_->blockSignals(true);
-  slider_->setValue(static_cast<int>(std::lround(positions * share)));
+  slider_->setValue(static_cast<int>(std::lround(slider_positions * share)));
   slider_->blockSignals(false);
   write();
 }
 
 void LogSlider::on_moved(int position) {
-  constexpr double settling = 0.7;  // [s] until the answer is in the state
   free_at_ = panel_time() + settling;
-  value_ = low_ * std::pow(high_ / low_, static_cast<double>(position) / positions);
+  value_ = low_ * std::pow(high_ / low_, static_cast<double>(position) / slider_positions);
   write();
   Q_EMIT moved(value_);
 }

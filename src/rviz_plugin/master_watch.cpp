@@ -9,6 +9,8 @@
 #include <chrono>
 #include <string>
 
+#include "constants.h"
+
 namespace spring_workbench::rviz_plugin {
 namespace {
 
@@ -79,11 +81,10 @@ MasterWatch::~MasterWatch() {
 }
 
 void MasterWatch::run() {
-  constexpr int slices = 10;  // of a second, so that it ends soon
   int known = master_process();
   bool was_gone = false;
-  for (int i = 0; !ends_; i = (i + 1) % slices) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1000 / slices));
+  for (int i = 0; !ends_; i = (i + 1) % master_slices) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1000 / master_slices));
     if (i != 0) continue;
     const int process = master_process();
     if (process != 0 && (was_gone || process != known)) register_topics();

@@ -16,6 +16,7 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
+#include "constants.h"
 #include "error_plot.h"
 #include "log_slider.h"
 #include "spring_workbench/LoadScene.h"
@@ -32,13 +33,17 @@ namespace spring_workbench::rviz_plugin {
 namespace {
 
 const std::string node = "/manipulation/";
-constexpr double longest_silence = 2.0;  // [s]
-constexpr double settling = 0.7;         // [s] until an answer is in the state
 
-QString list(const std::vector<std::string>& words) {
-  QStringList names;
-  for (const std::string& word : words) names << QString::fromStdString(word);
-  return names.isEmpty() ? QString("nothing") : names.join(", ");
+QComboBox* choice_of(const std::vector<std::string>& names, QWidget* parent) {
+  auto* box = new QComboBox(parent);
+  for (const std::string& name : names) box->addItem(QString::fromStdString(name));
+  return box;
+}
+
+QLabel* wrapped_label(QWidget* parent) {
+  auto* label = new QLabel(parent);
+  label->setWordWrap(true);
+  return label;
 }
 
 }  // namespace
@@ -47,8 +52,7 @@ WorkbenchPanel::WorkbenchPanel(QWidget* parent)
     : rviz::Panel(parent),
       services_([this](const std::string& text) { Q_EMIT answered(QString::fromStdString(text)); }) {
   controls_ = make_controls();
-  answer_ = new QLabel(this);
-  answer_->setWordWrap(true);
+  answer_ = wrapped_label(this);
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(controls_);
   layout->addWidget(make_figures());
@@ -57,7 +61,11 @@ WorkbenchPanel::WorkbenchPanel(QWidget* parent)
   connect(this, &WorkbenchPanel::answered, answer_, &QLabel::setText, Qt::QueuedConnection);
 }
 
-WorkbenchPanel::~WorkbenchPanel() = default;
+template <typename Service>
+void WorkbenchPanel::ask(const std::string& service, const typename Service::Request& request) {
+  free_at_ = panel_time() + settling;
+  services_.call<Service>(service, node + service, request);
+}
 
 QWidget* WorkbenchPanel::make_controls() {
   auto* controls = new QWidget(this);
@@ -100,11 +108,8 @@ void WorkbenchPanel::make_families(QVBoxLayout* layout) {
 
 void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
   auto* grid = new QGridLayout;
-  integrator_ = new QComboBox(this);
-  for (const std::string& name : validation::names<dynamics::IntegratorKind>())
-    integrator_->addItem(QString::fromStdString(name));
-  tool_ = new QComboBox(this);
-  for (const std::string& name : validation::names<tools::Tool>()) tool_->addItem(QString::fromStdString(name));
+  integrator_ = choice_of(validation::names<dynamics::IntegratorKind>(), this);
+  tool_ = choice_of(validation::names<tools::Tool>(), this);
   held_ = new QLabel(this);
   held_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);  // the panel keeps its width whatever is held
   scene_ = new QLineEdit("package://spring_workbench/scenes/mini_world.urdf", this);
@@ -122,19 +127,17 @@ void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
     SetIntegrator::Request request;
     request.name = integrator_->currentText().toStdString();
     request.tolerance = SetIntegrator::Request::KEEP_TOLERANCE;
-    free_at_ = panel_time() + settling;
-    services_.call<SetIntegrator>("integrator", node + "set_integrator", request);
+    ask<SetIntegrator>("set_integrator", request);
   });
   connect(tool_, QOverload<int>::of(&QComboBox::activated), this, [this] {
     SelectTool::Request request;
     request.tool = tool_->currentText().toStdString();
-    free_at_ = panel_time() + settling;
-    services_.call<SelectTool>("tool", node + "select_tool", request);
+    ask<SelectTool>("select_tool", request);
   });
   connect(load, &QPushButton::clicked, this, [this] {
     LoadScene::Request request;
     request.scene = scene_->text().toStdString();
-    services_.call<LoadScene>("scene", node + "load_scene", request);
+    services_.call<LoadScene>("load_scene", node + "load_scene", request);
   });
 }
 
@@ -144,7 +147,8 @@ void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
     auto* button = new QPushButton(name, this);
     row->addWidget(button);
     const std::string service = node + QString(name).toLower().toStdString();
-    connect(button, &QPushButton::clicked, this, [this, service] { trigger(service); });
+    connect(button, &QPushButton::clicked, this,
+            [this, service] { services_.call<std_srvs::Trigger>(service, service, std_srvs::Trigger::Request()); });
   }
   layout->addLayout(row);
   grasp_ = new QCheckBox("Grasp (mouse)", this);
@@ -162,10 +166,8 @@ QWidget* WorkbenchPanel::make_figures() {
   auto* box = new QWidget(this);
   auto* layout = new QVBoxLayout(box);
   layout->setContentsMargins(0, 0, 0, 0);
-  figures_ = new QLabel(box);
-  figures_->setWordWrap(true);
-  left_out_ = new QLabel(box);
-  left_out_->setWordWrap(true);
+  figures_ = wrapped_label(box);
+  left_out_ = wrapped_label(box);
   plot_ = new ErrorPlot(box);
   layout->addWidget(figures_);
   layout->addWidget(left_out_);
@@ -243,7 +245,8 @@ void WorkbenchPanel::show_steps() {
                         .arg(1e3 * steps_->wall_time, 0, 'f', 3)
                         .arg(steps_->position_error, 0, 'g', 2)
                         .arg(missed_));
-  left_out_->setText("left out: " + list(steps_->skipped));
+  const QString skipped = QString::fromStdString(validation::join(steps_->skipped));
+  left_out_->setText("left out: " + (skipped.isEmpty() ? "nothing" : skipped));
 }
 
 void WorkbenchPanel::set_dofs() {
@@ -251,8 +254,7 @@ void WorkbenchPanel::set_dofs() {
   request.stretch = families_[0].on->isChecked() ? 1 : 0;
   request.bend = families_[1].on->isChecked() ? 1 : 0;
   request.torsion = families_[2].on->isChecked() ? 1 : 0;
-  free_at_ = panel_time() + settling;
-  services_.call<SetForkDofs>("dofs", node + "set_dofs", request);
+  ask<SetForkDofs>("set_dofs", request);
 }
 
 void WorkbenchPanel::set_stiffness(std::size_t family) {
@@ -270,10 +272,6 @@ void WorkbenchPanel::set_damping() {
   const bool one_ratio = request.stretch == request.bend && request.bend == request.torsion;
   request.law = one_ratio ? "" : "per_dof";  // the modal law knows one ratio alone
   services_.call<SetForkDamping>("damping", node + "set_damping", request);
-}
-
-void WorkbenchPanel::trigger(const std::string& service) {
-  services_.call<std_srvs::Trigger>(service, service, std_srvs::Trigger::Request());
 }
 
 }  // namespace spring_workbench::rviz_plugin

@@ -33,7 +33,6 @@ class WorkbenchPanel : public rviz::Panel {
   Q_OBJECT
  public:
   explicit WorkbenchPanel(QWidget* parent = nullptr);
-  ~WorkbenchPanel() override;
   void onInitialize() override;
 
  Q_SIGNALS:
@@ -63,7 +62,8 @@ class WorkbenchPanel : public rviz::Panel {
   void set_dofs();
   void set_stiffness(std::size_t family);
   void set_damping();
-  void trigger(const std::string& service);
+  template <typename Service>  // switches and choices wait for what comes of it
+  void ask(const std::string& service, const typename Service::Request& request);
 
   std::shared_ptr<MasterWatch> master_;
   ros::Subscriber fork_subscriber_, steps_subscriber_, joy_subscriber_;

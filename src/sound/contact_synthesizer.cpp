@@ -3,18 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::sound {
-namespace {
-
-constexpr double pi = 3.14159265358979323846;
-constexpr double half_impulse = 0.2;  ///< heard half as loud as the loudest [N·s]
-constexpr double half_speed = 0.2;    ///< likewise [m/s]
-constexpr double scrape_gain = 0.25;  ///< of the loudest scrape beside the loudest impact
-constexpr double fade_time = 0.01;    ///< of a change of speed [s]
-
-}  // namespace
 
 ContactSynthesizer::ContactSynthesizer(double volume) : volume_(volume) {
   validation::check_number("contact sound", "volume", volume, validation::between(0.0, 1.0));
@@ -22,7 +14,7 @@ ContactSynthesizer::ContactSynthesizer(double volume) : volume_(volume) {
   constexpr double ringing[4][3] = {
       {420.0, 0.060, 0.45}, {960.0, 0.035, 0.3}, {1730.0, 0.02, 0.15}, {3100.0, 0.01, 0.1}};
   for (std::size_t i = 0; i < modes_.size(); ++i) {
-    const double turn = 2.0 * pi * ringing[i][0] / sample_rate;
+    const double turn = 2.0 * M_PI * ringing[i][0] / sample_rate;
     const double decay = std::exp(-1.0 / (ringing[i][1] * sample_rate));
     modes_[i] = {decay, std::cos(turn), std::sin(turn), ringing[i][2]};
   }
@@ -63,7 +55,7 @@ double ContactSynthesizer::scraping() {
   const double white = static_cast<double>(noise_ >> 8) / (1 << 23) - 1.0;
   const double loudness = heard_speed_ / (heard_speed_ + half_speed);
   const double frequency = 300.0 + 2500.0 * loudness;  // [Hz]
-  const double f = 2.0 * std::sin(pi * frequency / sample_rate);
+  const double f = 2.0 * std::sin(M_PI * frequency / sample_rate);
   low_ += f * band_;
   band_ += f * (white - low_ - band_);  // Chamberlin's filter with quality 1
   return scrape_gain * loudness * band_;

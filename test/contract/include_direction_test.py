@@ -9,7 +9,8 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OWN = "spring_workbench/"
-ROS_MODULES = {"ros_common", "manipulation", "tracker_driver", "contact_sound", "nodes", "rviz_plugin"}
+NODES = {"manipulation", "tracker_driver", "contact_sound", "register_tracker"}
+ROS_MODULES = NODES | {"ros_common", "nodes", "rviz_plugin"}
 EXTERNAL = [  # headers, modules that may use them, whether their public headers may as well
     (
         re.compile(
@@ -28,7 +29,7 @@ YAML = re.compile(r"^yaml-cpp/")
 WITHOUT_YAML = set("math validation geometry motion rod fork_mesh dynamics bodies tools contact".split())
 EXECUTABLES = {  # folders of executables, which have no module of their own: what they may use
     "rviz_plugin": {"fork_mesh", "tools"},
-    "nodes": {"manipulation", "tracker_driver", "contact_sound"},
+    "nodes": NODES,
     "apps": {"hand_input", "motion_files", "fastrak", "assembly"},
 }
 # A pose enters each module once: hand_input is entered by these headers, from these modules. Gate, smoothing,

@@ -15,7 +15,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXEMPTIONS = pathlib.Path(__file__).with_name("size_exemptions.txt")
-MOST_EXEMPTIONS = 25  # only ever made smaller
+MOST_EXEMPTIONS = 21  # only ever made smaller
 LIMITS = {"module": 2000, "class": 300, "function": 60}
 BASES = ["include/spring_workbench", "src"]
 
@@ -56,18 +56,20 @@ def sizes(root):
         name = "::".join(filter(None, [tag.get("scope"), tag["name"]]))
         name = re.sub(r"^spring_workbench::|__anon\w+(::)?", "", name)
         if tag["kind"] in ("class", "struct"):
-            bodies[name] = length(tag)
+            bodies[name] = length(tag), tag["path"]
         else:
             found["function", name] = max(found["function", name], length(tag))
             if tag["path"].endswith(".cpp"):
                 members[tag["path"]][name.rpartition("::")[0]] += length(tag)
-    for name, body in bodies.items():
+    for name, (body, _) in bodies.items():
         found["class", name] = body
     for path, of_class in members.items():
         classes = {name: count for name, count in of_class.items() if name in bodies}
         for name, count in classes.items():
             alone = len(classes) == 1  # the whole file is this class'
-            found["class", name] += lines_of(pathlib.Path(path)) if alone else count
+            body, home = bodies[name]
+            inside = body if home == path else 0  # counted already
+            found["class", name] += max((lines_of(pathlib.Path(path)) if alone else count) - inside, 0)
     return found
 
 

@@ -67,7 +67,7 @@ class SimulatedOperator final : public motion::StylusSource {
   void grip();
   void carry();
   void lower();
-  void give_up();
+  void let_go();
 
   const bodies::BodyState& state_of(const std::string& object) const;
   /// Where the hand has to be so that the object, moving along with it, comes to `X_WO`.

@@ -19,7 +19,7 @@ class SerialPort;
 /// How a FASTRAK is connected and what it shall send.
 struct FastrakSettings {
   std::string port = "/dev/ttyUSB0";
-  int baud = 115200;  ///< as the switches on the device's back say; one of fastrak_baud_rates()
+  int baud = 115200;  ///< as the switches on the device's back say; 2400, 4800 … 115200
   FastrakFormat format = FastrakFormat::binary;
   std::vector<int> stations = {1};          ///< each 1 … 4, none twice; with n of them, each reports at 120 Hz / n
   std::vector<int> styluses = {1};          ///< stations whose switch is read
@@ -27,9 +27,6 @@ struct FastrakSettings {
   bool redundant = true;                    ///< every pose twice, so that no line fault can pass (fastrak_output_list)
   Vector3d hemisphere = Vector3d::UnitX();  ///< towards the half-space the stations are in, in T; zero: as tracked
 };
-
-/// The rates that the device's serial port knows [baud].
-const std::vector<int>& fastrak_baud_rates();
 
 /// The keys of read_fastrak_settings.
 const std::vector<std::string>& fastrak_keys();

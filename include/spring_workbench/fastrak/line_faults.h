@@ -23,8 +23,6 @@ struct Fault {
   double until = std::numeric_limits<double>::infinity();
 };
 
-const std::vector<std::string>& fault_kinds();
-
 /// Reads `KIND[,rate=R][,from=S][,until=S]`. Throws InputError.
 Fault parse_fault(const std::string& text);
 

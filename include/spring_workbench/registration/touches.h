@@ -18,9 +18,6 @@ struct StoredRegistration {
 
 /// Reads `offset` and `tip`, each where it is given; other keys are not looked at. Throws InputError with `where`.
 StoredRegistration read_registration(const YAML::Node& map, const std::string& where);
-/// As the file that `registration:=` of the launch files takes, with `comment` before it.
-std::string write_registration(const StoredRegistration& registration, const std::string& comment);
-
 /// The known points, `landmarks: [{name: …, position: x y z}, …]` [m in the workbench], in the order in which they are
 /// touched. Throws InputError with file:line, key, value and rule.
 std::vector<Landmark> read_landmarks(const std::string& path);
@@ -32,5 +29,19 @@ std::vector<std::vector<motion::StylusSample>> presses(const std::vector<motion:
 std::vector<Landmark> touched_landmarks(std::vector<Landmark> landmarks,
                                         const std::vector<std::vector<motion::StylusSample>>& touches,
                                         double largest_residual);
+
+/// What the driver sends of these samples, which the tracker measured, with this registration.
+std::vector<motion::StylusSample> as_sent(std::vector<motion::StylusSample> samples,
+                                          const StoredRegistration& registration);
+
+// The file that `registration:=` of the launch files takes, with what was found in place of `present`, and how good
+// that is as comments before it; from samples as sent. They throw InputError as calibrate_tip and as touched_landmarks
+// and register_tracker do.
+/// `tip`, from turning about it while the button is down.
+std::string find_tip(const std::vector<motion::StylusSample>& samples, const StoredRegistration& present,
+                     double largest_residual);
+/// `offset`, from touches of the landmarks `known`, in their order.
+std::string find_tracker(const std::vector<motion::StylusSample>& samples, const std::vector<Landmark>& known,
+                         const StoredRegistration& present, double largest_residual);
 
 }  // namespace spring_workbench::registration

@@ -1,17 +1,79 @@
+#include <fstream>
+#include <iomanip>
 #include <iostream>
+#include <sstream>
 
-#include "../common/program.h"
 #include "options.h"
-#include "run.h"
+#include "spring_workbench/assembly/trial.h"
+#include "spring_workbench/config/command_line.h"
+#include "table.h"
+#include "tools.h"
+
+namespace spring_workbench::assembly_trials {
+namespace {
+
+void expect_written(bool written, const std::string& path) {
+  if (!written) throw validation::InputError(path + ": cannot be written: must be a file that can");
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary | std::ios::trunc);
+  file << text;
+  file.close();
+  expect_written(file.good(), path);
+}
+
+/// The hand as a motion file (doc/reference.md): to 10 µm and 10 µrad, less than the tracker's noise.
+std::string motion_text(const std::vector<motion::StylusSample>& motion) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text << "# t x y z qx qy qz qw button\n" << std::fixed;
+  for (const motion::StylusSample& sample : motion) {
+    const Vector3d& p = sample.X.translation();
+    const Quaterniond q(sample.X.linear());
+    text << std::setprecision(3) << sample.t << std::setprecision(5) << ' ' << p.x() << ' ' << p.y() << ' ' << p.z()
+         << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << ' ' << q.w() << ' ' << (sample.button ? 1 : 0) << '\n';
+  }
+  return text.str();
+}
+
+/// Runs the trials and writes what was asked for.
+void run(const Options& options) {
+  const scene::Scene scene = scene::load_scene(options.scene);
+  if (scene.targets.empty())
+    throw validation::InputError(scene.path + ": targets: none is not allowed: must be at least one");
+  for (const std::string& path : {options.out, options.table, options.record}) {  // before hours of trials
+    if (!path.empty()) expect_written(std::ofstream(path, std::ios::app).good(), path);
+  }
+  for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
+  std::string csv = "tool,seed," + assembly::score_csv_header() + "\n";
+  std::vector<ToolTrials> all;
+  for (const std::string& label : options.tool.empty() ? tool_labels() : std::vector<std::string>{options.tool}) {
+    all.push_back({label, {}});
+    const simulation::SimulationSettings settings = with_tool(label, options.settings);
+    for (int k = 0; k < options.trials; ++k) {
+      assembly::OperatorSettings hand;
+      hand.seed = static_cast<unsigned>(options.seed + k);
+      const assembly::Trial trial = assembly::run_trial(scene, settings, hand);
+      all.back().scores.push_back(trial.score);
+      csv += label + "," + std::to_string(hand.seed) + "," + assembly::score_csv(trial.score) + "\n";
+      if (!options.record.empty() && all.size() == 1 && k == 0) write_file(options.record, motion_text(trial.motion));
+    }
+  }
+  if (!options.table.empty()) write_file(options.table, markdown_table(all));
+  if (options.out.empty()) {
+    std::cout << csv;
+  } else {
+    write_file(options.out, csv);
+  }
+}
+
+}  // namespace
+}  // namespace spring_workbench::assembly_trials
 
 int main(int argc, char** argv) {
   using namespace spring_workbench;
-  return run_program("assembly_trials", [&] {
-    const assembly_trials::Options options = assembly_trials::parse_options(argc, argv);
-    if (options.help) {
-      std::cout << assembly_trials::help_text();
-    } else {
-      assembly_trials::run(options);
-    }
-  });
+  return config::run_program(
+      "assembly_trials", assembly_trials::help_text(), [&] { return assembly_trials::parse_options(argc, argv); },
+      assembly_trials::run);
 }

@@ -1,73 +1,32 @@
 #include "options.h"
 
-#include <getopt.h>
-
 #include "spring_workbench/assembly/task_score.h"
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/config/command_line.h"
 #include "tools.h"
 
 namespace spring_workbench::assembly_trials {
-namespace {
+using config::command_line;
 
-const char* const kWhere = "command line";
-
-int whole_number(const std::string& option, const char* text, int min, int max) {
-  return config::read_integer(YAML::Node(std::string(text)), kWhere, option, min, max);
-}
-
-}  // namespace
-
-Options parse_options(int argc, char** argv) {
-  enum { help, scene, settings, tool, trials, seed, out, table, record };
-  const option known[] = {{"help", no_argument, nullptr, help},
-                          {"scene", required_argument, nullptr, scene},
-                          {"settings", required_argument, nullptr, settings},
-                          {"tool", required_argument, nullptr, tool},
-                          {"trials", required_argument, nullptr, trials},
-                          {"seed", required_argument, nullptr, seed},
-                          {"out", required_argument, nullptr, out},
-                          {"table", required_argument, nullptr, table},
-                          {"record", required_argument, nullptr, record},
-                          {nullptr, 0, nullptr, 0}};
+std::optional<Options> parse_options(int argc, char** argv) {
   Options options;
-  opterr = 0;
-  for (int code; (code = getopt_long(argc, argv, ":", known, nullptr)) != -1;) {
-    switch (code) {
-      case help:
-        options.help = true;
-        return options;
-      case scene:
-        options.scene = optarg;
-        break;
-      case settings:
-        simulation::apply_settings(config::load_yaml_file(optarg), optarg, options.settings);
-        break;
-      case tool:
-        options.tool = config::read_choice(YAML::Node(std::string(optarg)), kWhere, "--tool", tool_labels());
-        break;
-      case trials:
-        options.trials = whole_number("--trials", optarg, 1, 10000);
-        break;
-      case seed:
-        options.seed = whole_number("--seed", optarg, 0, 1000000000);
-        break;
-      case out:
-        options.out = optarg;
-        break;
-      case table:
-        options.table = optarg;
-        break;
-      case record:
-        options.record = optarg;
-        break;
-      case ':':
-        validation::refuse(kWhere, argv[optind - 1], "(nothing)", "followed by a value");
-      default:
-        validation::refuse(kWhere, "option", argv[optind - 1], "one of those that --help lists");
-    }
+  const auto settings = [&](const std::string& path) {
+    simulation::apply_settings(config::load_yaml_file(path), path, options.settings);
+  };
+  const auto tool = [&](const std::string& label) {
+    options.tool = config::read_choice(YAML::Node(label), command_line, "--tool", tool_labels());
+  };
+  if (!config::read_command_line(argc, argv,
+                                 {config::text_option("scene", options.scene),
+                                  {"settings", settings},
+                                  {"tool", tool},
+                                  config::integer_option("trials", 1, 10000, options.trials),
+                                  config::integer_option("seed", 0, 1000000000, options.seed),
+                                  config::text_option("out", options.out),
+                                  config::text_option("table", options.table),
+                                  config::text_option("record", options.record)})) {
+    return std::nullopt;
   }
-  if (optind < argc) validation::refuse(kWhere, "argument", argv[optind], "an option that --help lists");
-  if (options.scene.empty()) validation::refuse(kWhere, "--scene", "(nothing)", "a URDF of a scene with targets");
+  if (options.scene.empty()) validation::refuse(command_line, "--scene", "(nothing)", "a URDF of a scene with targets");
   return options;
 }
 

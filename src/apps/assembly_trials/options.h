@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "spring_workbench/simulation/settings.h"
@@ -8,7 +9,6 @@ namespace spring_workbench::assembly_trials {
 
 /// What the command line asks for.
 struct Options {
-  bool help = false;
   std::string scene;                        ///< path or package:// URI of a URDF with targets
   simulation::SimulationSettings settings;  ///< of all tools
   std::string tool;                         ///< label of one tool; empty: all
@@ -19,8 +19,8 @@ struct Options {
   std::string record;                       ///< path of the motion file of the first trial; empty: none
 };
 
-/// Throws InputError for everything that cannot be used.
-Options parse_options(int argc, char** argv);
+/// Nothing where help is asked for. Throws InputError for everything that cannot be used.
+std::optional<Options> parse_options(int argc, char** argv);
 
 /// What `--help` prints.
 std::string help_text();

@@ -1,5 +1,7 @@
 #include "table.h"
 
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <cstdio>
 #include <functional>
@@ -7,13 +9,10 @@
 namespace spring_workbench::assembly_trials {
 namespace {
 
-constexpr double normal_quantile = 1.959964;  // of 97.5 %
-
-/// 97.5 % quantile of Student's t, by Cornish and Fisher's expansion: to three digits from 4 degrees of freedom on.
-double student_quantile(double degrees) {
-  const double z = normal_quantile, z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
-  return z + (z3 + z) / (4.0 * degrees) + (5.0 * z5 + 16.0 * z3 + 3.0 * z) / (96.0 * degrees * degrees) +
-         (3.0 * z7 + 19.0 * z5 + 17.0 * z3 - 15.0 * z) / (384.0 * degrees * degrees * degrees);
+/// 97.5 % of the distribution lie below.
+template <typename Distribution>
+double quantile(const Distribution& distribution) {
+  return boost::math::quantile(distribution, 0.975);
 }
 
 std::string text(const char* format, double a, double b, double c = 0.0) {
@@ -30,39 +29,48 @@ std::string mean(const std::vector<assembly::TaskScore>& scores, double scale,
   for (const assembly::TaskScore& s : scores) sum += scale * value(s);
   for (const assembly::TaskScore& s : scores) squares += std::pow(scale * value(s) - sum / n, 2);
   if (n < 2.0) return text("%.3g", sum / n, 0.0);
-  return text("%.3g ± %.2g", sum / n, student_quantile(n - 1.0) * std::sqrt(squares / (n - 1.0) / n));
+  return text("%.3g ± %.2g", sum / n, quantile(boost::math::students_t(n - 1.0)) * std::sqrt(squares / (n - 1.0) / n));
 }
 
 std::string completed(const std::vector<assembly::TaskScore>& scores) {
-  const double n = static_cast<double>(scores.size()), zz = normal_quantile * normal_quantile;
+  const double n = static_cast<double>(scores.size());
+  const double z = quantile(boost::math::normal()), zz = z * z;
   double done = 0.0;
   for (const assembly::TaskScore& s : scores) done += s.complete() ? 1.0 : 0.0;
   const double p = done / n;
   const double centre = (p + zz / (2.0 * n)) / (1.0 + zz / n);
-  const double half = normal_quantile * std::sqrt(p * (1.0 - p) / n + zz / (4.0 * n * n)) / (1.0 + zz / n);
+  const double half = z * std::sqrt(p * (1.0 - p) / n + zz / (4.0 * n * n)) / (1.0 + zz / n);
   return text("%.0f %% (%.0f … %.0f)", 100.0 * p, 100.0 * (centre - half), 100.0 * (centre + half));
 }
 
 }  // namespace
 
 std::string markdown_table(const std::vector<ToolTrials>& tools) {
-  std::string table =
-      "| tool | trials | completed | placed | time [s] | hand's way [m] | objects' way [m] | grasps | collisions | "
-      "drops "
-      "| largest force [N] | placement error [mm] |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";
-  for (const ToolTrials& tool : tools) {
-    const std::vector<assembly::TaskScore>& s = tool.scores;
-    table += "| `" + tool.label + "` | " + std::to_string(s.size()) + " | " + completed(s);
-    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.placed; });
-    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.time; });
-    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.hand_path; });
-    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.object_path; });
-    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.grasps; });
-    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.collisions; });
-    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.drops; });
-    table += " | " + mean(s, 1.0, [](const assembly::TaskScore& t) { return t.largest_force; });
-    table += " | " + mean(s, 1e3, [](const assembly::TaskScore& t) { return t.position_error; }) + " |\n";
+  struct Column {
+    const char* title;
+    double scale;
+    std::function<double(const assembly::TaskScore&)> value;
+  };
+  using Score = assembly::TaskScore;
+  const Column columns[] = {{"placed", 1.0, &Score::placed},
+                            {"time [s]", 1.0, &Score::time},
+                            {"hand's way [m]", 1.0, &Score::hand_path},
+                            {"objects' way [m]", 1.0, &Score::object_path},
+                            {"grasps", 1.0, &Score::grasps},
+                            {"collisions", 1.0, &Score::collisions},
+                            {"drops", 1.0, &Score::drops},
+                            {"largest force [N]", 1.0, &Score::largest_force},
+                            {"placement error [mm]", 1e3, &Score::position_error}};
+  std::string table = "| tool | trials | completed |", rule = "| --- | --- | --- |";
+  for (const Column& column : columns) {
+    table += std::string(" ") + column.title + " |";
+    rule += " --- |";
+  }
+  table += "\n" + rule + "\n";
+  for (const auto& [label, scores] : tools) {
+    table += "| `" + label + "` | " + std::to_string(scores.size()) + " | " + completed(scores) + " |";
+    for (const Column& column : columns) table += " " + mean(scores, column.scale, column.value) + " |";
+    table += "\n";
   }
   return table;
 }

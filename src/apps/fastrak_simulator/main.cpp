@@ -1,26 +1,79 @@
+#include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <iostream>
+#include <utility>
 
-#include "../common/program.h"
+#include "constants.h"
 #include "options.h"
-#include "run.h"
+#include "spring_workbench/config/command_line.h"
+#include "spring_workbench/fastrak/fastrak_simulator.h"
+#include "spring_workbench/motion_files/open_motion.h"
 
+namespace spring_workbench::fastrak_simulator {
 namespace {
+
+using std::chrono::duration;
+using std::chrono::steady_clock;
 
 volatile std::sig_atomic_t interrupted = 0;
 
+fastrak::PlayedMotion read_motion(const std::string& path) {
+  const auto source = motion_files::open_motion(path);
+  std::vector<motion::StylusSample> samples;
+  while (const auto sample = source->next()) samples.push_back(*sample);
+  return fastrak::PlayedMotion(samples);
+}
+
+/// Serves the host up to a moment of the wall's clock.
+void serve_until(fastrak::FastrakSimulator& simulator, steady_clock::time_point moment) {
+  while (interrupted == 0) {
+    const double left = duration<double>(moment - steady_clock::now()).count();
+    if (left <= 0.0) break;
+    // Waits for the host in whole milliseconds; the rest is slept below, so that cycles are even.
+    if (left > 1e-3) {
+      simulator.serve(std::min(left - 1e-3, longest_wait));
+    } else {
+      simulator.serve(0.0);
+      timespec rest{0, static_cast<long>(std::min(left, 2e-4) * 1e9)};
+      nanosleep(&rest, nullptr);
+    }
+  }
+}
+
+/// Runs the device until the duration is over or somebody interrupts it.
+void run(const Options& options) {
+  std::signal(SIGINT, [](int) { interrupted = 1; });
+  std::signal(SIGTERM, [](int) { interrupted = 1; });
+  std::vector<fastrak::PlayedMotion> motions;
+  for (const std::string& path : options.motions) motions.push_back(read_motion(path));
+  fastrak::FastrakSimulator simulator(fastrak::FastrakDevice(std::move(motions), options.switches),
+                                      fastrak::LineFaults(options.faults, static_cast<unsigned>(options.seed)),
+                                      options.link);
+  std::string path;
+  const auto start = steady_clock::now();
+  for (long cycle = 0; interrupted == 0; ++cycle) {
+    const double t = static_cast<double>(cycle) / options.rate;
+    if (options.duration > 0.0 && t >= options.duration) break;
+    serve_until(simulator,
+                start + std::chrono::duration_cast<steady_clock::duration>(duration<double>(t / options.speed)));
+    simulator.serve(0.0);
+    simulator.measure(t);
+    if (simulator.path() != path) {
+      path = simulator.path();
+      std::cout << (path.empty() ? "unplugged" : path) << std::endl;
+    }
+  }
+  std::cout << simulator.records_sent() << " records sent, " << simulator.records_dropped()
+            << " dropped because nobody read" << std::endl;
+}
+
 }  // namespace
+}  // namespace spring_workbench::fastrak_simulator
 
 int main(int argc, char** argv) {
   using namespace spring_workbench;
-  return run_program("fastrak_simulator", [&] {
-    const fastrak_simulator::Options options = fastrak_simulator::parse_options(argc, argv);
-    if (options.help) {
-      std::cout << fastrak_simulator::help_text();
-      return;
-    }
-    std::signal(SIGINT, [](int) { interrupted = 1; });
-    std::signal(SIGTERM, [](int) { interrupted = 1; });
-    fastrak_simulator::run(options, [] { return interrupted != 0; });
-  });
+  return config::run_program(
+      "fastrak_simulator", fastrak_simulator::help_text(), [&] { return fastrak_simulator::parse_options(argc, argv); },
+      fastrak_simulator::run);
 }

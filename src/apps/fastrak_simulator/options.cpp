@@ -1,91 +1,39 @@
 #include "options.h"
 
-#include <getopt.h>
-#include <yaml-cpp/yaml.h>
-
+#include <algorithm>
 #include <limits>
 
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/config/command_line.h"
 #include "spring_workbench/fastrak/fastrak_protocol.h"
 
 namespace spring_workbench::fastrak_simulator {
-namespace {
+using config::command_line;
 
-const char* const kWhere = "command line";
-
-std::vector<char*> without_remappings(int argc, char** argv) {
-  std::vector<char*> words;
-  for (int i = 0; i < argc; ++i) {
-    if (std::string(argv[i]).find(":=") == std::string::npos) words.push_back(argv[i]);
-  }
-  return words;
-}
-
-double number(const std::string& option, const validation::NumberRule& rule) {
-  return config::read_number(YAML::Node(std::string(optarg)), kWhere, option, rule);
-}
-
-}  // namespace
-
-Options parse_options(int argc, char** argv) {
-  enum Code { help = 1, motion, link, rate, speed, duration, with_switch, fault, seed };
-  const option known[] = {{"help", no_argument, nullptr, help},
-                          {"motion", required_argument, nullptr, motion},
-                          {"link", required_argument, nullptr, link},
-                          {"rate", required_argument, nullptr, rate},
-                          {"speed", required_argument, nullptr, speed},
-                          {"duration", required_argument, nullptr, duration},
-                          {"switch", required_argument, nullptr, with_switch},
-                          {"fault", required_argument, nullptr, fault},
-                          {"seed", required_argument, nullptr, seed},
-                          {nullptr, 0, nullptr, 0}};
-  std::vector<char*> words = without_remappings(argc, argv);
+std::optional<Options> parse_options(int argc, char** argv) {
+  const auto is_remapping = [](const char* word) { return std::string(word).find(":=") != std::string::npos; };
+  std::vector<char*> words(argv, argv + argc);
+  words.erase(std::remove_if(words.begin(), words.end(), is_remapping), words.end());
   const int count = static_cast<int>(words.size());
   words.push_back(nullptr);
   Options options;
-  opterr = 0;
-  for (int code; (code = getopt_long(count, words.data(), ":", known, nullptr)) != -1;) {
-    switch (code) {
-      case help:
-        options.help = true;
-        return options;
-      case motion:
-        options.motions.emplace_back(optarg);
-        break;
-      case link:
-        options.link = optarg;
-        break;
-      case rate:
-        options.rate = number("--rate", validation::between(0.1, 1e4));
-        break;
-      case speed:
-        options.speed = number("--speed", validation::between(0.01, 1e3));
-        break;
-      case duration:
-        options.duration = number("--duration", validation::not_negative());
-        break;
-      case with_switch:
-        options.switches.push_back(
-            config::read_integer(YAML::Node(std::string(optarg)), kWhere, "--switch", 2, fastrak::kFastrakStations));
-        break;
-      case fault:
-        options.faults.push_back(fastrak::parse_fault(optarg));
-        break;
-      case seed:
-        options.seed = static_cast<unsigned>(config::read_integer(YAML::Node(std::string(optarg)), kWhere, "--seed", 0,
-                                                                  std::numeric_limits<int>::max()));
-        break;
-      case ':':
-        validation::refuse(kWhere, words[static_cast<std::size_t>(optind - 1)], "(nothing)", "followed by a value");
-      default:
-        validation::refuse(kWhere, "option", words[static_cast<std::size_t>(optind - 1)],
-                           "one of those that --help lists");
-    }
+  const auto add_switch = [&](const std::string& station) {
+    options.switches.push_back(
+        config::read_integer(YAML::Node(station), command_line, "--switch", 2, fastrak::kFastrakStations));
+  };
+  if (!config::read_command_line(
+          count, words.data(),
+          {{"motion", [&](const std::string& path) { options.motions.push_back(path); }},
+           config::text_option("link", options.link),
+           config::number_option("rate", validation::between(0.1, 1e4), options.rate),
+           config::number_option("speed", validation::between(0.01, 1e3), options.speed),
+           config::number_option("duration", validation::not_negative(), options.duration),
+           {"switch", add_switch},
+           {"fault", [&](const std::string& f) { options.faults.push_back(fastrak::parse_fault(f)); }},
+           config::integer_option("seed", 0, std::numeric_limits<int>::max(), options.seed)})) {
+    return std::nullopt;
   }
-  if (optind < count)
-    validation::refuse(kWhere, "argument", words[static_cast<std::size_t>(optind)], "an option that --help lists");
   if (options.motions.empty())
-    validation::refuse(kWhere, "--motion", "(nothing)", "the path of a motion file or script");
+    validation::refuse(command_line, "--motion", "(nothing)", "the path of a motion file or script");
   return options;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,6 @@ namespace spring_workbench::fastrak_simulator {
 
 /// What the command line asks for.
 struct Options {
-  bool help = false;
   std::vector<std::string> motions;  ///< paths; one for each station
   std::string link;                  ///< path of a link to the pseudo-terminal; empty: none
   double rate = 120.0;               ///< records per second, of all stations together [Hz]
@@ -17,12 +17,12 @@ struct Options {
   double duration = 0.0;             ///< of the device's clock [s]; 0: until it is interrupted
   std::vector<int> switches{1};      ///< stations whose switch works
   std::vector<fastrak::Fault> faults;
-  unsigned seed = 1;
+  int seed = 1;
 };
 
-/// Throws InputError for everything that cannot be used. Words with := in them (roslaunch gives some) are not looked
-/// at.
-Options parse_options(int argc, char** argv);
+/// Nothing where help is asked for. Throws InputError for everything that cannot be used. Words with := in them
+/// (roslaunch gives some) are not looked at.
+std::optional<Options> parse_options(int argc, char** argv);
 
 /// What `--help` prints.
 std::string help_text();

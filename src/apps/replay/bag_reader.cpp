@@ -12,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "constants.h"
 #include "motion.h"
 #include "spring_workbench/simulation/simulation.h"
 #include "spring_workbench/validation/number_rule.h"
@@ -19,8 +20,6 @@
 
 namespace spring_workbench::replay {
 namespace {
-
-constexpr double kFarthestPosition = 1e9;  // [m] what a PoseTrack takes
 
 /// Frame and topic names with and without a leading slash are the same.
 std::string bare(const std::string& name) { return !name.empty() && name[0] == '/' ? name.substr(1) : name; }
@@ -36,7 +35,7 @@ double seconds_between(const ros::Time& from, const ros::Time& to) {
 RigidTransform to_pose(const geometry_msgs::Transform& transform, const std::string& where) {
   const auto& p = transform.translation;
   const auto& q = transform.rotation;
-  const validation::NumberRule position = validation::between(-kFarthestPosition, kFarthestPosition);
+  const validation::NumberRule position = validation::between(-farthest_position, farthest_position);
   validation::check_number(where, "translation.x", p.x, position);
   validation::check_number(where, "translation.y", p.y, position);
   validation::check_number(where, "translation.z", p.z, position);

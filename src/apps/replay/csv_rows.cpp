@@ -52,23 +52,9 @@ class Row {
   bool empty_ = true;
 };
 
-void add_pose_names(const std::string& prefix, Row& row) {
-  for (const char* name : {"x", "y", "z", "qx", "qy", "qz", "qw"}) row.add(prefix + name);
-}
-
-void add_wrench_names(const std::string& prefix, Row& row) {
-  for (const char* name : {"fx", "fy", "fz", "mx", "my", "mz"}) row.add(prefix + name);
-}
-
 }  // namespace
 
-std::string object_header() {
-  Row row;
-  row.add(std::string("t")).add(std::string("object"));
-  add_pose_names("", row);
-  for (const char* name : {"vx", "vy", "vz", "wx", "wy", "wz"}) row.add(std::string(name));
-  return row.end();
-}
+std::string object_header() { return "t,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz\n"; }
 
 std::string object_rows(double t, const simulation::Simulation& simulation) {
   std::string rows;
@@ -81,14 +67,11 @@ std::string object_rows(double t, const simulation::Simulation& simulation) {
 }
 
 std::string fork_header() {
-  Row row;
-  for (const char* name : {"t", "fork", "tool", "held", "stretch", "bend_x", "bend_y", "torsion"}) {
-    row.add(std::string(name));
-  }
-  for (const char* frame : {"handle_", "proxy_", "tip_"}) add_pose_names(frame, row);
-  for (const char* frame : {"tip_", "handle_"}) add_wrench_names(frame, row);
-  row.add(std::string("elastic_energy")).add(std::string("kinetic_energy"));
-  return row.end();
+  return "t,fork,tool,held,stretch,bend_x,bend_y,torsion,"
+         "handle_x,handle_y,handle_z,handle_qx,handle_qy,handle_qz,handle_qw,"
+         "proxy_x,proxy_y,proxy_z,proxy_qx,proxy_qy,proxy_qz,proxy_qw,tip_x,tip_y,tip_z,tip_qx,tip_qy,tip_qz,tip_qw,"
+         "tip_fx,tip_fy,tip_fz,tip_mx,tip_my,tip_mz,handle_fx,handle_fy,handle_fz,handle_mx,handle_my,handle_mz,"
+         "elastic_energy,kinetic_energy\n";
 }
 
 std::string fork_row(double t, const simulation::Simulation& simulation, std::size_t hand) {

@@ -1,16 +1,137 @@
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 
-#include "../common/program.h"
-#include "run.h"
+#include "constants.h"
+#include "csv_rows.h"
+#include "motion.h"
+#include "options.h"
+#include "spring_workbench/config/command_line.h"
+#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/motion_files/open_motion.h"
+#include "spring_workbench/scene/scene.h"
+#include "summary.h"
+
+namespace spring_workbench::replay {
+namespace {
+
+/// A text file that appears whole or not at all: it is written under another name and renamed by commit().
+/// What is no regular file (a pipe, /dev/null) is written in place.
+class OutputFile {
+ public:
+  /// Throws InputError where the file cannot be made.
+  explicit OutputFile(const std::string& path) : path_(path) {
+    std::error_code none;
+    const auto status = std::filesystem::status(path, none);
+    if (std::filesystem::is_directory(status)) throw validation::InputError(path + ": cannot be written: is a folder");
+    const bool in_place = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+    written_path_ = in_place ? path : path + ".part" + std::to_string(getpid());
+    file_.open(written_path_, std::ios::binary | std::ios::trunc);
+    if (!file_) fail(path_);
+  }
+  /// Takes away what was not committed.
+  ~OutputFile() {
+    if (!committed_ && written_path_ != path_) std::remove(written_path_.c_str());
+  }
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
+
+  void write(const std::string& text) { file_ << text; }
+  /// Throws InputError where not everything could be written.
+  void commit() {
+    file_.close();
+    if (!file_) fail(path_);
+    if (written_path_ != path_ && std::rename(written_path_.c_str(), path_.c_str()) != 0) fail(path_);
+    committed_ = true;
+  }
+
+ private:
+  [[noreturn]] static void fail(const std::string& path) {
+    throw validation::InputError(path + ": cannot be written: " + std::strerror(errno));
+  }
+
+  std::string path_;
+  std::string written_path_;
+  std::ofstream file_;
+  bool committed_ = false;
+};
+
+std::vector<Motion> load_motions(const Options& options) {
+  if (!options.bag.empty()) return read_bag(options.bag, options.parent, options.child);
+  std::vector<Motion> motions;
+  for (const std::string& path : options.motions) motions.push_back(read_motion(*motion_files::open_motion(path)));
+  return motions;
+}
+
+/// RUN.csv → RUN.fork.csv
+std::string fork_path(const std::string& path) {
+  const std::string ending = ".csv";
+  const bool has_ending =
+      path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+  return (has_ending ? path.substr(0, path.size() - ending.size()) : path) + ".fork.csv";
+}
+
+simulation::Simulation make_simulation(const Options& options) {
+  const scene::Scene scene = scene::load_scene(options.scene);
+  for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
+  return simulation::Simulation(scene, options.settings);
+}
+
+void push_motion(const Motion& motion, std::size_t hand, bool with_grasp, hand_input::Feed& feed) {
+  for (const motion::PoseSample& sample : motion.samples) feed.push_stylus(sample, hand);
+  for (const ButtonEvent& event : motion.next_tool) {
+    if (event.pressed) feed.push_next_tool(event.t, hand);
+  }
+  if (!with_grasp) return;
+  for (const ButtonEvent& event : motion.buttons) feed.push_button(event.t, event.pressed, hand);
+}
+
+/// Loads the scene, moves the hand through it, writes both files; where it throws, no file is left.
+Summary run(const Options& options) {
+  const std::vector<Motion> motions = load_motions(options);
+  simulation::Simulation simulation = make_simulation(options);
+  OutputFile objects(options.out);
+  OutputFile fork(fork_path(options.out));
+  objects.write(object_header());
+  fork.write(fork_header());
+
+  Summary summary;
+  hand_input::Feed feed(simulation, options.input);
+  for (std::size_t hand = 0; hand < motions.size(); ++hand) {
+    push_motion(motions[hand], hand, options.settings.grasp.object.empty(), feed);
+    summary.samples += motions[hand].samples.size();
+  }
+  const double end = simulation.newest_sample() + time_tolerance;
+  const auto started = std::chrono::steady_clock::now();
+  for (double t = 0.0; t <= end; t = ++summary.outputs / options.rate) {
+    summary.advance.add(feed.advance_to(t));
+    summary.add_contacts(simulation.contacts());
+    objects.write(object_rows(t, simulation));
+    for (std::size_t hand = 0; hand < motions.size(); ++hand) fork.write(fork_row(t, simulation, hand));
+  }
+  summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  for (std::size_t hand = 0; hand < motions.size(); ++hand) {
+    summary.add(feed.gate_counts(hand));
+    summary.add(feed.reacquisition_counts(hand));
+  }
+  summary.state_hash = simulation.state_hash();
+  fork.commit();
+  objects.commit();
+  return summary;
+}
+
+}  // namespace
+}  // namespace spring_workbench::replay
 
 int main(int argc, char** argv) {
   using namespace spring_workbench;
-  return run_program("replay", [&] {
-    const replay::Options options = replay::parse_options(argc, argv);
-    if (options.help) {
-      std::cout << replay::help_text();
-    } else {
-      std::cout << replay::run(options).json() << std::endl;
-    }
-  });
+  return config::run_program(
+      "replay", replay::help_text(), [&] { return replay::parse_options(argc, argv); },
+      [](const replay::Options& options) { std::cout << replay::run(options).json() << std::endl; });
 }

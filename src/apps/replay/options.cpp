@@ -1,19 +1,13 @@
 #include "options.h"
 
-#include <getopt.h>
-#include <yaml-cpp/yaml.h>
-
 #include <sstream>
-#include <utility>
-#include <vector>
 
-#include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/config/command_line.h"
 #include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench::replay {
+using config::command_line;
 namespace {
-
-const char* const kWhere = "command line";
 
 /// Applies `values`: the key `rate` here, all others to the settings of the simulation.
 void apply(const YAML::Node& values, const std::string& where, Options& options) {
@@ -32,99 +26,59 @@ void apply(const YAML::Node& values, const std::string& where, Options& options)
 
 void apply_assignment(const std::string& assignment, Options& options) {
   const std::size_t equals = assignment.find('=');
-  if (equals == std::string::npos || equals == 0) validation::refuse(kWhere, "--set", assignment, "key=value");
+  if (equals == std::string::npos || equals == 0) validation::refuse(command_line, "--set", assignment, "key=value");
   YAML::Node values(YAML::NodeType::Map);
   values[assignment.substr(0, equals)] = assignment.substr(equals + 1);
-  apply(values, kWhere, options);
+  apply(values, command_line, options);
 }
 
-void set_once(const std::string& option, const char* value, std::string& field) {
-  if (!field.empty()) validation::refuse(kWhere, option, value, "given once");
-  if (*value == '\0') validation::refuse(kWhere, option, "(nothing)", "a path or a name");
-  field = value;
+config::CommandOption once(const std::string& name, std::string& field) {
+  return {name, [=, &field](const std::string& value) {
+            if (!field.empty()) validation::refuse(command_line, "--" + name, value, "given once");
+            if (value.empty()) validation::refuse(command_line, "--" + name, "(nothing)", "a path or a name");
+            field = value;
+          }};
 }
 
-void add_motion(const char* path, std::vector<std::string>& motions) {
-  if (*path == '\0') validation::refuse(kWhere, "--motion", "(nothing)", "a path");
-  const std::string most = std::to_string(simulation::Simulation::most_hands);
-  if (motions.size() == simulation::Simulation::most_hands)
-    validation::refuse(kWhere, "--motion", path, "given " + most + " times at most");
+void add_motion(const std::string& path, std::vector<std::string>& motions) {
+  constexpr std::size_t most = simulation::Simulation::most_hands;
+  if (path.empty()) validation::refuse(command_line, "--motion", "(nothing)", "a path");
+  if (motions.size() == most)
+    validation::refuse(command_line, "--motion", path, "given " + std::to_string(most) + " times at most");
   motions.push_back(path);
 }
 
-void check_complete(const Options& options, bool frames_given) {
-  if (options.scene.empty()) validation::refuse(kWhere, "--scene", "(nothing)", "the path of a scene's URDF");
+void check_complete(const Options& options) {
+  if (options.scene.empty()) validation::refuse(command_line, "--scene", "(nothing)", "the path of a scene's URDF");
   if (options.motions.empty() == options.bag.empty()) {
-    validation::refuse(kWhere, "--motion, --bag", options.bag.empty() ? "none of both" : "both", "one of both");
+    validation::refuse(command_line, "--motion, --bag", options.bag.empty() ? "none of both" : "both", "one of both");
   }
-  if (options.bag.empty() && frames_given)
-    validation::refuse(kWhere, "--parent, --child", "with --motion", "given with --bag");
-  if (options.out.empty()) validation::refuse(kWhere, "--out", "(nothing)", "the path of the CSV file to write");
+  if (options.bag.empty() && !(options.parent + options.child).empty())
+    validation::refuse(command_line, "--parent, --child", "with --motion", "given with --bag");
+  if (options.out.empty()) validation::refuse(command_line, "--out", "(nothing)", "the path of the CSV file to write");
 }
-
-/// The word on which getopt_long has just stopped.
-std::string stopped_at(int argc, char** argv) { return optind > 0 && optind <= argc ? argv[optind - 1] : ""; }
 
 }  // namespace
 
-Options parse_options(int argc, char** argv) {
-  enum Code { help = 1, scene, motion, bag, parent, child, settings, set, out };
-  const option known[] = {
-      {"help", no_argument, nullptr, help},
-      {"scene", required_argument, nullptr, scene},
-      {"motion", required_argument, nullptr, motion},
-      {"bag", required_argument, nullptr, bag},
-      {"parent", required_argument, nullptr, parent},
-      {"child", required_argument, nullptr, child},
-      {"settings", required_argument, nullptr, settings},
-      {"set", required_argument, nullptr, set},
-      {"out", required_argument, nullptr, out},
-      {nullptr, 0, nullptr, 0},
-  };
+std::optional<Options> parse_options(int argc, char** argv) {
   Options options;
-  std::string settings_path, parent_frame, child_frame;
+  std::string settings;
   std::vector<std::string> assignments;
-  opterr = 0;
-  for (int code; (code = getopt_long(argc, argv, ":", known, nullptr)) != -1;) {
-    switch (code) {
-      case help:
-        options.help = true;
-        return options;
-      case scene:
-        set_once("--scene", optarg, options.scene);
-        break;
-      case motion:
-        add_motion(optarg, options.motions);
-        break;
-      case bag:
-        set_once("--bag", optarg, options.bag);
-        break;
-      case parent:
-        set_once("--parent", optarg, parent_frame);
-        break;
-      case child:
-        set_once("--child", optarg, child_frame);
-        break;
-      case settings:
-        set_once("--settings", optarg, settings_path);
-        break;
-      case set:
-        assignments.push_back(optarg);
-        break;
-      case out:
-        set_once("--out", optarg, options.out);
-        break;
-      case ':':
-        validation::refuse(kWhere, stopped_at(argc, argv), "(nothing)", "followed by a value");
-      default:
-        validation::refuse(kWhere, "option", stopped_at(argc, argv), "one of those that --help lists");
-    }
+  if (!config::read_command_line(argc, argv,
+                                 {once("scene", options.scene),
+                                  {"motion", [&](const std::string& path) { add_motion(path, options.motions); }},
+                                  once("bag", options.bag),
+                                  once("parent", options.parent),
+                                  once("child", options.child),
+                                  once("settings", settings),
+                                  {"set", [&](const std::string& assignment) { assignments.push_back(assignment); }},
+                                  once("out", options.out)})) {
+    return std::nullopt;
   }
-  if (optind < argc) validation::refuse(kWhere, "argument", argv[optind], "an option that --help lists");
-  check_complete(options, !parent_frame.empty() || !child_frame.empty());
-  if (!parent_frame.empty()) options.parent = parent_frame;
-  if (!child_frame.empty()) options.child = child_frame;
-  if (!settings_path.empty()) apply(config::load_yaml_file(settings_path), settings_path, options);
+  check_complete(options);
+  if (options.parent.empty()) options.parent = "workbench";
+  if (options.child.empty()) options.child = "stylus";
+  if (!settings.empty()) apply(config::load_yaml_file(settings), settings, options);
   for (const std::string& assignment : assignments) apply_assignment(assignment, options);
   return options;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,20 +11,19 @@ namespace spring_workbench::replay {
 
 /// What the command line asks for.
 struct Options {
-  bool help = false;
   std::string scene;                 ///< path or package:// URI of a URDF
   std::vector<std::string> motions;  ///< paths, one a stylus; none where `bag` is given
   std::string bag;                   ///< path; empty where `motions` are given
-  std::string parent = "workbench";  ///< frames of the stylus' transform in the bag
-  std::string child = "stylus";
-  std::string out;     ///< path of the CSV file of the objects
-  double rate = 50.0;  ///< output times per second [Hz]
+  std::string parent, child;         ///< frames of the stylus' transform in the bag
+  std::string out;                   ///< path of the CSV file of the objects
+  double rate = 50.0;                ///< output times per second [Hz]
   simulation::SimulationSettings settings;
   hand_input::InputSettings input;
 };
 
-/// Reads the command line, and the settings file that it names. Throws InputError for everything that cannot be used.
-Options parse_options(int argc, char** argv);
+/// Reads the command line, and the settings file that it names; nothing where help is asked for. Throws InputError for
+/// everything that cannot be used.
+std::optional<Options> parse_options(int argc, char** argv);
 
 /// What `--help` prints.
 std::string help_text();

@@ -1,27 +1,16 @@
 #include "summary.h"
 
 #include <cmath>
-#include <cstdio>
 #include <locale>
 #include <sstream>
+
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::replay {
 namespace {
 
-std::string quoted(const std::string& text) {
-  std::string json = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') json += '\\';
-    if (static_cast<unsigned char>(c) >= 0x20) {
-      json += c;
-    } else {
-      char code[8];
-      std::snprintf(code, sizeof code, "\\u%04x", static_cast<unsigned>(c));
-      json += code;
-    }
-  }
-  return json + "\"";
-}
+/// A word of the program's own, which needs no escapes.
+std::string quoted(const std::string& word) { return '"' + word + '"'; }
 
 /// JSON has no word for what is not finite.
 std::string number(double value) {
@@ -34,21 +23,9 @@ std::string number(double value) {
 }
 
 std::string list_of(const std::vector<std::string>& words) {
-  std::string json;
-  for (const std::string& word : std::set<std::string>(words.begin(), words.end()))
-    json += (json.empty() ? "" : ", ") + quoted(word);
-  return "[" + json + "]";
-}
-
-/// {"reason": count, ...}, and their sum.
-std::pair<std::string, std::size_t> rejected_of(const hand_input::GateCounts& gate) {
-  std::string json;
-  std::size_t sum = 0;
-  for (const auto& [result, count] : gate.rejected) {
-    json += (json.empty() ? "" : ", ") + quoted(hand_input::to_string(result)) + ": " + std::to_string(count);
-    sum += count;
-  }
-  return {"{" + json + "}", sum};
+  std::vector<std::string> entries;
+  for (const std::string& word : std::set<std::string>(words.begin(), words.end())) entries.push_back(quoted(word));
+  return "[" + validation::join(entries) + "]";
 }
 
 }  // namespace
@@ -74,15 +51,19 @@ void Summary::add_contacts(const std::vector<contact::ContactState>& contacts) {
 }
 
 std::string Summary::json() const {
-  const auto [rejected, samples_rejected] = rejected_of(gate);
+  std::vector<std::string> rejected;
+  std::size_t samples_rejected = 0;
+  for (const auto& [result, count] : gate.rejected) {
+    rejected.push_back(quoted(hand_input::to_string(result)) + ": " + std::to_string(count));
+    samples_rejected += count;
+  }
   std::ostringstream out;
   out.imbue(std::locale::classic());
-  out.precision(9);
-  out << "{\"steps\": " << advance.steps << ", \"simulated_time\": " << advance.simulated_time
-      << ", \"wall_time\": " << wall_time
-      << ", \"time_per_step\": " << (advance.steps > 0 ? wall_time / advance.steps : 0.0)
+  out << "{\"steps\": " << advance.steps << ", \"simulated_time\": " << number(advance.simulated_time)
+      << ", \"wall_time\": " << number(wall_time)
+      << ", \"time_per_step\": " << number(advance.steps > 0 ? wall_time / advance.steps : 0.0)
       << ", \"outputs\": " << outputs << ", \"samples\": " << samples << ", \"samples_rejected\": " << samples_rejected
-      << ", \"rejected\": " << rejected << ", \"dropouts\": " << gate.dropouts
+      << ", \"rejected\": {" << validation::join(rejected) << "}, \"dropouts\": " << gate.dropouts
       << ", \"reacquisitions\": " << hand.reacquisitions << ", \"losses\": " << hand.losses
       << ", \"position_error\": " << number(advance.position_error)
       << ", \"angle_error\": " << number(advance.angle_error) << ", \"energy_drift\": " << number(advance.energy_added)

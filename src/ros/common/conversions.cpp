@@ -1,22 +1,26 @@
 #include "spring_workbench/ros/common/conversions.h"
 
 namespace spring_workbench::ros_common {
+namespace {
 
-geometry_msgs::Point to_point(const Vector3d& p) {
-  geometry_msgs::Point message;
-  message.x = p.x();
-  message.y = p.y();
-  message.z = p.z();
-  return message;
-}
-
-geometry_msgs::Vector3 to_vector(const Vector3d& v) {
-  geometry_msgs::Vector3 message;
+template <typename Message>
+Message with_xyz(const Vector3d& v) {
+  Message message;
   message.x = v.x();
   message.y = v.y();
   message.z = v.z();
   return message;
 }
+
+template <typename Vector>
+RigidTransform transform_from(const Vector& p, const geometry_msgs::Quaternion& q) {
+  return make_transform(Quaterniond(q.w, q.x, q.y, q.z), Vector3d(p.x, p.y, p.z));
+}
+
+}  // namespace
+
+geometry_msgs::Point to_point(const Vector3d& p) { return with_xyz<geometry_msgs::Point>(p); }
+geometry_msgs::Vector3 to_vector(const Vector3d& v) { return with_xyz<geometry_msgs::Vector3>(v); }
 
 geometry_msgs::Quaternion to_quaternion(const Matrix3d& R) {
   const Quaterniond q(R);
@@ -51,6 +55,11 @@ geometry_msgs::TransformStamped to_transform(const RigidTransform& X, const std:
   message.transform.translation = to_vector(X.translation());
   message.transform.rotation = to_quaternion(X.linear());
   return message;
+}
+
+RigidTransform from_message(const geometry_msgs::Pose& pose) { return transform_from(pose.position, pose.orientation); }
+RigidTransform from_message(const geometry_msgs::Transform& transform) {
+  return transform_from(transform.translation, transform.rotation);
 }
 
 }  // namespace spring_workbench::ros_common

@@ -1,7 +1,5 @@
 #include "spring_workbench/ros/common/diagnostic_status.h"
 
-#include <sstream>
-
 namespace spring_workbench::ros_common {
 
 using diagnostic_msgs::DiagnosticStatus;
@@ -11,24 +9,6 @@ DiagnosticStatusBuilder::DiagnosticStatusBuilder(const std::string& name, const 
   status_.name = name;
   status_.message = "ok";
   status_.hardware_id = hardware;
-}
-
-DiagnosticStatusBuilder& DiagnosticStatusBuilder::add(const std::string& key, const std::string& value) {
-  diagnostic_msgs::KeyValue entry;
-  entry.key = key;
-  entry.value = value;
-  status_.values.push_back(entry);
-  return *this;
-}
-
-DiagnosticStatusBuilder& DiagnosticStatusBuilder::add(const std::string& key, double value) {
-  std::ostringstream text;
-  text << value;
-  return add(key, text.str());
-}
-
-DiagnosticStatusBuilder& DiagnosticStatusBuilder::add(const std::string& key, std::size_t value) {
-  return add(key, std::to_string(value));
 }
 
 DiagnosticStatusBuilder& DiagnosticStatusBuilder::raise(int8_t level, const std::string& reason) {

@@ -7,37 +7,39 @@
 #include <mutex>
 #include <thread>
 
+#include "constants.h"
+
 namespace spring_workbench::ros_common {
-namespace {
 
 using std::chrono::duration;
 using std::chrono::steady_clock;
 
+namespace {
+
 void sleep_until_simulated(double t) {
-  constexpr std::chrono::milliseconds poll(1);
-  const auto give_up = steady_clock::now() + std::chrono::milliseconds(100);
-  const double begin = loop_time();
-  for (double now = begin; now >= begin && now < t && steady_clock::now() < give_up && ros::ok(); now = loop_time()) {
-    std::this_thread::sleep_for(poll);
+  const double give_up = steady_time() + stopped_clock_patience, begin = loop_time();
+  for (double now = begin; now >= begin && now < t && steady_time() < give_up && ros::ok(); now = loop_time()) {
+    std::this_thread::sleep_for(duration<double>(clock_poll));
   }
 }
 
 double attended_time(double wall) {
-  constexpr double longest = 0.01;  // [s]
   static std::mutex mutex;
   static double last = wall, attended = 0.0;
   const std::lock_guard<std::mutex> lock(mutex);
-  attended += std::clamp(wall - last, 0.0, longest);
+  attended += std::clamp(wall - last, 0.0, longest_attended);
   last = std::max(last, wall);
   return attended;
 }
 
 }  // namespace
 
+double steady_time() { return duration<double>(steady_clock::now().time_since_epoch()).count(); }
+
 double loop_time() { return local_time().loop; }
 
 hand_input::LocalTime local_time() {
-  const double wall = duration<double>(steady_clock::now().time_since_epoch()).count();
+  const double wall = steady_time();
   return {ros::Time::isSimTime() ? ros::Time::now().toSec() : wall, attended_time(wall)};
 }
 

@@ -1,50 +1,67 @@
 #include "spring_workbench/ros/contact_sound/contact_sound.h"
 
-#include <algorithm>
+#include <ros/ros.h>
 
+#include <algorithm>
+#include <memory>
+
+#include "constants.h"
+#include "spring_workbench/Contacts.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/ros/common/parameters.h"
+#include "spring_workbench/sound/audio_output.h"
+#include "spring_workbench/sound/contact_synthesizer.h"
 
 namespace spring_workbench::contact_sound {
 namespace {
 
-constexpr double period = 0.02;       // of the node's work [s]
-constexpr double longest_gap = 0.5;   // a longer one is not filled with sound [s]
-constexpr double silent_after = 0.3;  // without a message nothing slips any more [s]
+class ContactSound {
+ public:
+  ContactSound(ros::NodeHandle node, const ros::NodeHandle& private_node) : played_until_(ros::WallTime::now()) {
+    const std::string where = private_node.getNamespace();
+    YAML::Node parameters = ros_common::private_parameters(private_node);
+    config::check_keys(parameters, where, "", {"file", "volume"});
+    const YAML::Node volume = ros_common::take(parameters, "volume"), file = ros_common::take(parameters, "file");
+    synthesizer_ = std::make_unique<sound::ContactSynthesizer>(
+        volume ? config::read_number(volume, where, "volume", validation::between(0.0, 1.0)) : 0.8);
+    output_ = file ? sound::open_wav_file(config::read_string(file, where, "file")) : sound::open_audio_device();
+    subscriber_ = node.subscribe("contacts", 100, &ContactSound::on_contacts, this);
+    timer_ = node.createWallTimer(ros::WallDuration(render_period), &ContactSound::play, this);
+  }
+
+ private:
+  void on_contacts(const Contacts::ConstPtr& message) {
+    double speed = 0.0;
+    for (const Contact& contact : message->contacts) {
+      if (contact.phase == Contact::STARTED) synthesizer_->strike(contact.impulse);
+      if (contact.phase == Contact::PERSISTING) speed = std::max(speed, contact.slip_speed);
+    }
+    synthesizer_->scrape(speed);
+    last_contacts_ = ros::WallTime::now();
+  }
+
+  void play(const ros::WallTimerEvent&) {
+    const ros::WallTime now = ros::WallTime::now();
+    if ((now - last_contacts_).toSec() > silent_after) synthesizer_->scrape(0.0);
+    played_until_ = std::max(played_until_, now - ros::WallDuration(longest_filled_gap));
+    const auto count =
+        static_cast<std::size_t>(std::max(0.0, (now - played_until_).toSec()) * sound::ContactSynthesizer::sample_rate);
+    played_until_ += ros::WallDuration(static_cast<double>(count) / sound::ContactSynthesizer::sample_rate);
+    output_->write(synthesizer_->render(count));
+  }
+
+  std::unique_ptr<sound::ContactSynthesizer> synthesizer_;
+  std::unique_ptr<sound::AudioOutput> output_;
+  ros::WallTime played_until_, last_contacts_;
+  ros::Subscriber subscriber_;
+  ros::WallTimer timer_;
+};
 
 }  // namespace
 
-ContactSound::ContactSound(ros::NodeHandle node, const ros::NodeHandle& private_node)
-    : played_until_(ros::WallTime::now()) {
-  const std::string where = private_node.getNamespace();
-  YAML::Node parameters = ros_common::private_parameters(private_node);
-  config::check_keys(parameters, where, "", {"file", "volume"});
-  const YAML::Node volume = ros_common::take(parameters, "volume"), file = ros_common::take(parameters, "file");
-  synthesizer_ = std::make_unique<sound::ContactSynthesizer>(
-      volume ? config::read_number(volume, where, "volume", validation::between(0.0, 1.0)) : 0.8);
-  output_ = file ? sound::open_wav_file(config::read_string(file, where, "file")) : sound::open_audio_device();
-  subscriber_ = node.subscribe("contacts", 100, &ContactSound::on_contacts, this);
-  timer_ = node.createWallTimer(ros::WallDuration(period), &ContactSound::play, this);
-}
-
-void ContactSound::on_contacts(const Contacts::ConstPtr& message) {
-  double speed = 0.0;
-  for (const Contact& contact : message->contacts) {
-    if (contact.phase == Contact::STARTED) synthesizer_->strike(contact.impulse);
-    if (contact.phase == Contact::PERSISTING) speed = std::max(speed, contact.slip_speed);
-  }
-  synthesizer_->scrape(speed);
-  last_contacts_ = ros::WallTime::now();
-}
-
-void ContactSound::play(const ros::WallTimerEvent&) {
-  const ros::WallTime now = ros::WallTime::now();
-  if ((now - last_contacts_).toSec() > silent_after) synthesizer_->scrape(0.0);
-  played_until_ = std::max(played_until_, now - ros::WallDuration(longest_gap));
-  const auto count =
-      static_cast<std::size_t>(std::max(0.0, (now - played_until_).toSec()) * sound::ContactSynthesizer::sample_rate);
-  played_until_ += ros::WallDuration(static_cast<double>(count) / sound::ContactSynthesizer::sample_rate);
-  output_->write(synthesizer_->render(count));
+void run(ros::NodeHandle node, const ros::NodeHandle& private_node) {
+  const ContactSound sound(node, private_node);
+  ros::spin();
 }
 
 }  // namespace spring_workbench::contact_sound

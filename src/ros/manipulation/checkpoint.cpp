@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "constants.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/ros/common/parameters.h"
 
@@ -9,7 +10,6 @@ namespace spring_workbench::manipulation {
 namespace {
 
 const std::string kKey = "resume";
-constexpr double kPeriod = 0.5;  // s
 
 }  // namespace
 
@@ -18,7 +18,8 @@ Checkpoint::Checkpoint(const ros::NodeHandle& private_node, SimulationRunner& ru
     : private_node_(private_node), runner_(runner) {
   resume(scene_roots);
   private_node_.getParam(private_node_.getNamespace(), parameters_);
-  timer_ = private_node_.createWallTimer(ros::WallDuration(kPeriod), [this](const ros::WallTimerEvent&) { keep(); });
+  timer_ = private_node_.createWallTimer(ros::WallDuration(checkpoint_period),
+                                         [this](const ros::WallTimerEvent&) { keep(); });
 }
 
 Checkpoint::~Checkpoint() {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "constants.h"
 #include "spring_workbench/ros/common/conversions.h"
 
 namespace spring_workbench::manipulation {
@@ -29,11 +30,10 @@ void add_triangles(const std::string& ns, int id, const fork_mesh::ForkModel::Tr
 /// From the tip; nothing where it would be too short to be seen.
 void draw_arrow(const std::string& ns, const tools::ToolState& tool, const Vector3d& arrow, const Color& color,
                 MarkerList& markers) {
-  constexpr double shortest = 1e-3, longest = 1.0;  // [m]
   const double length = arrow.norm();
-  if (!(length > shortest)) return;
+  if (!(length > shortest_arrow)) return;
   const Vector3d begin = tool.X_WE.translation();
-  markers.add_arrow(ns, 0, begin, begin + arrow * std::min(1.0, longest / length), 0.03 * tool.length, color);
+  markers.add_arrow(ns, 0, begin, begin + arrow * std::min(1.0, longest_arrow / length), 0.03 * tool.length, color);
 }
 
 void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, MarkerList& markers) {
@@ -50,7 +50,6 @@ void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, Marke
 
 void draw_fork(const fork_mesh::ForkModel& model, const fork_mesh::ForkMesh& mesh, const tools::ToolState& tool,
                const Color& spring_color, const std::string& number, MarkerList& markers) {
-  constexpr double smallest_gap = 1e-5;  // [m]
   add_triangles("fork" + number, 0, model.spring(), mesh, spring_color, markers);
   add_triangles("fork" + number, 1, model.shaft_and_end(), mesh, rigid_color, markers);
   const Vector3d hand = tool.X_WH.translation(), seen = tool.X_WH_proxy.translation();

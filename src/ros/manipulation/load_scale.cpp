@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "constants.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/tools/calibration.h"
@@ -53,18 +54,16 @@ Color LoadScale::color(double load) const {
 }
 
 void LoadScale::draw_legend(const scene::Scene& scene, MarkerList& markers) const {
-  constexpr int steps = 16;
-  constexpr double edge = 0.014, text = 0.024;  // [m]
-  const Vector3d foot = legend_corner(scene) + Vector3d(0.5 * edge, -0.5 * edge, 0.05);
+  const Vector3d foot = legend_corner(scene) + Vector3d(0.5 * legend_edge, -0.5 * legend_edge, 0.05);
   std::vector<Vector3d> centres;
-  for (int i = 0; i < steps; ++i) centres.push_back(foot + Vector3d(0.0, 0.0, (i + 0.5) * edge));
+  for (int i = 0; i < legend_steps; ++i) centres.push_back(foot + Vector3d(0.0, 0.0, (i + 0.5) * legend_edge));
   visualization_msgs::Marker& column =
       markers.add_points("legend", 0, visualization_msgs::Marker::CUBE_LIST, centres, text_color);
-  column.scale = ros_common::to_vector(Vector3d::Constant(edge));
-  for (int i = 0; i < steps; ++i) column.colors.push_back(to_color(color(full_ * i / (steps - 1))));
-  markers.add_text("legend", 1, foot - Vector3d(0.0, 0.0, 0.6 * text), text, "0", text_color);
-  markers.add_text("legend", 2, foot + Vector3d(0.0, 0.0, steps * edge + 0.6 * text), text, label(full_, scene),
-                   text_color);
+  column.scale = ros_common::to_vector(Vector3d::Constant(legend_edge));
+  for (int i = 0; i < legend_steps; ++i) column.colors.push_back(to_color(color(full_ * i / (legend_steps - 1))));
+  markers.add_text("legend", 1, foot - Vector3d(0.0, 0.0, 0.6 * legend_letters), legend_letters, "0", text_color);
+  markers.add_text("legend", 2, foot + Vector3d(0.0, 0.0, legend_steps * legend_edge + 0.6 * legend_letters),
+                   legend_letters, label(full_, scene), text_color);
 }
 
 }  // namespace spring_workbench::manipulation

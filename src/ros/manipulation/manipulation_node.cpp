@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "constants.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/parameters.h"
@@ -45,7 +46,7 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
       input_(node, parameters_, parameters_.stylus_frame, "stylus/joy"),
       second_input_(node, parameters_, parameters_.stylus_frame + "_2", "stylus_2/joy"),
       publisher_(private_node, parameters_),
-      services_(private_node, runner_, scene_roots(parameters_, runner_)),
+      services_(advertise_services(private_node, runner_, scene_roots(parameters_, runner_))),
       live_tuning_(make_live_tuning(private_node, runner_)),
       checkpoint_(private_node, runner_, scene_roots(parameters_, runner_)),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
@@ -67,16 +68,12 @@ void ManipulationNode::run_physics() {
   const double period = 1.0 / parameters_.rate;
   double due = ros_common::loop_time();
   while (!stop_ && ros::ok()) {
-    run_cycle(due);
+    while (!stop_ && run_step(due)) continue;
     const double now = ros_common::loop_time();
     const bool on_time = due + period > now && due <= now + period;  // else the cycle was late, or the clock jumped
     due = on_time ? due + period : now + period;
     ros_common::sleep_until_loop_time(due);
   }
-}
-
-void ManipulationNode::run_cycle(double due) {
-  for (bool more = true; more && !stop_;) more = run_step(due);
 }
 
 bool ManipulationNode::run_step(double due) {
@@ -121,8 +118,8 @@ void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
   TrackerInput first{input_.statistics(), runner_.hand_statistics(0), ""};
   first.hint = hint_for_silence(first, first.input.messages == 0 ? senders_of_tf() : std::vector<std::string>(),
                                 parameters_.stylus_frame);
-  constexpr double patience = 10.0;  // [s]
-  if (!first.hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(patience, "no sample of the stylus yet: " << first.hint);
+  if (!first.hint.empty())
+    ROS_WARN_STREAM_DELAYED_THROTTLE(hint_patience, "no sample of the stylus yet: " << first.hint);
   const TrackerInput second{second_input_.statistics(), runner_.hand_statistics(1), ""};
   message.status = diagnostics_.report(first, second, loop, ros_common::loop_time());
   diagnostics_publisher_.publish(message);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/ros/common/conversions.h"
 
@@ -11,7 +12,6 @@ namespace {
 
 using visualization_msgs::Marker;
 
-constexpr double pi = 3.14159265358979323846;
 const Color contact_color(1.0, 0.25, 0.05, 1.0);
 const Color highlight_color(1.0, 1.0, 0.55, 1.0);
 const Color shadow_color(0.0, 0.0, 0.0, 0.45);
@@ -58,11 +58,10 @@ void draw_body(const scene::Body& body, const RigidTransform& X_WO, bool highlig
 
 /// Points of a shape's surface, in W, whose shadow is the shape's; of a mesh, its box.
 void add_outline(const geometry::Shape& shape, const RigidTransform& X_WO, std::vector<Vector3d>& points_W) {
-  constexpr int sides = 24;
   const RigidTransform X_WS = X_WO * shape.X_OS;
   const auto add_circle = [&](double radius, double z, const RigidTransform& X) {
-    for (int i = 0; i < sides; ++i) {
-      const double angle = 2.0 * pi * i / sides;
+    for (int i = 0; i < outline_sides; ++i) {
+      const double angle = 2.0 * M_PI * i / outline_sides;
       points_W.push_back(X * Vector3d(radius * std::cos(angle), radius * std::sin(angle), z));
     }
   };
@@ -101,11 +100,10 @@ std::vector<Vector3d> hull_from_above(std::vector<Vector3d> points, double z) {
 }
 
 void draw_shadow(int id, const std::vector<Vector3d>& points_W, double bench_height, MarkerList& markers) {
-  constexpr double least_height = 2e-3, above_bench = 1e-3;  // [m]
   double lowest = std::numeric_limits<double>::infinity();
   for (const Vector3d& p : points_W) lowest = std::min(lowest, p.z());
-  if (!std::isfinite(lowest) || lowest < bench_height + least_height) return;
-  const std::vector<Vector3d> hull = hull_from_above(points_W, bench_height + above_bench);
+  if (!std::isfinite(lowest) || lowest < bench_height + least_shadow_height) return;
+  const std::vector<Vector3d> hull = hull_from_above(points_W, bench_height + shadow_above_bench);
   std::vector<Vector3d> corners;
   for (std::size_t i = 1; i + 1 < hull.size(); ++i) corners.insert(corners.end(), {hull[0], hull[i], hull[i + 1]});
   if (!corners.empty()) markers.add_points("shadow", id, Marker::TRIANGLE_LIST, corners, shadow_color);
@@ -124,13 +122,12 @@ void draw_bodies(const simulation::Simulation& simulation, MarkerList& markers) 
 }
 
 void draw_targets(const scene::Scene& scene, MarkerList& markers) {
-  constexpr double opacity = 0.25;
   for (const auto& [name, target] : scene.targets) {
     const scene::Body& body = scene.bodies[*scene::find_body(scene, name)];
     int id = 0;
     for (const geometry::Shape& shape : body.visual) {
       Color color = shape.color;
-      color[3] *= opacity;
+      color[3] *= target_opacity;
       draw_shape("target " + name, id++, shape, target.X_WL * body.X_OL.inverse(), color, markers);
     }
   }

@@ -1,39 +1,26 @@
 #include "spring_workbench/ros/manipulation/services.h"
 
+#include <std_srvs/Trigger.h>
+
 #include <algorithm>
 #include <cstdio>
 
+#include "spring_workbench/LoadScene.h"
+#include "spring_workbench/SelectTool.h"
+#include "spring_workbench/SetForkDamping.h"
+#include "spring_workbench/SetForkDofs.h"
+#include "spring_workbench/SetForkStiffness.h"
+#include "spring_workbench/SetIntegrator.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::manipulation {
 namespace {
-
-/// Runs the change and turns bad input into an answer.
-template <typename Response, typename Change>
-bool respond(Response& response, Change&& change) {
-  try {
-    change();
-    response.success = true;
-  } catch (const validation::InputError& error) {
-    response.success = false;
-    response.message = error.what();
-    ROS_WARN_STREAM(error.what());
-  }
-  return true;
-}
 
 template <typename Response>
 void fill(const simulation::ChangeReport& report, Response& response) {
   response.message = report.message;
   response.elastic_energy_before = report.elastic_energy_before;
   response.elastic_energy_after = report.elastic_energy_after;
-}
-
-std::string energies(const simulation::ChangeReport& report) {
-  char text[80];
-  std::snprintf(text, sizeof text, "; elastic energy %.6g J -> %.6g J", report.elastic_energy_before,
-                report.elastic_energy_after);
-  return text;
 }
 
 /// The hand of the field `stylus` (1, 2, …); none for 0.
@@ -45,123 +32,140 @@ std::optional<std::size_t> hand_of(unsigned stylus, const std::string& service) 
   return stylus > 0 ? std::optional<std::size_t>(stylus - 1) : std::nullopt;
 }
 
-std::string describe(const dynamics::DynamicsSettings& settings) {
+void select_tool(SimulationRunner& runner, const SelectTool::Request& request, SelectTool::Response& response) {
+  const auto tool = validation::named<tools::Tool>(request.tool, "select_tool", "tool");
+  const std::size_t hand = hand_of(request.stylus, "select_tool").value_or(0);
+  fill(runner.locked([&](simulation::Simulation& s) { return s.select_tool(tool, hand); }), response);
+}
+
+template <typename Response>
+void change_fork(SimulationRunner& runner, const simulation::ForkChange& change, std::optional<std::size_t> hand,
+                 Response& response) {
+  fill(runner.locked([&](simulation::Simulation& s) { return s.change(change, hand); }), response);
+}
+
+void set_dofs(SimulationRunner& runner, const SetForkDofs::Request& request, SetForkDofs::Response& response) {
+  simulation::ForkChange change;
+  change.dofs = {request.stretch != 0, request.bend != 0, request.torsion != 0};
+  change_fork(runner, change, hand_of(request.stylus, "set_dofs"), response);
+}
+
+void set_stiffness(SimulationRunner& runner, const SetForkStiffness::Request& request,
+                   SetForkStiffness::Response& response) {
+  const auto given = [](double k) { return k != 0.0 ? std::optional<double>(k) : std::nullopt; };
+  simulation::ForkChange change;
+  change.stretch_stiffness = given(request.stretch);
+  change.bend_stiffness = given(request.bend);
+  change.torsion_stiffness = given(request.torsion);
+  change_fork(runner, change, hand_of(request.stylus, "set_stiffness"), response);
+}
+
+void set_damping(SimulationRunner& runner, const SetForkDamping::Request& request, SetForkDamping::Response& response) {
+  const rod::PerDof numbers{request.stretch, request.bend, request.torsion};
+  simulation::ForkChange change;
+  if (!request.law.empty()) {
+    change.damping_law = validation::named<rod::DampingLaw>(request.law, "set_damping", "law");
+  }
+  (change.damping_law == rod::DampingLaw::coefficients ? change.damping_coefficient : change.damping_ratio) = numbers;
+  change_fork(runner, change, hand_of(request.stylus, "set_damping"), response);
+}
+
+void set_integrator(SimulationRunner& runner, const SetIntegrator::Request& request,
+                    SetIntegrator::Response& response) {
+  simulation::DynamicsChange change;
+  change.integrator = validation::named<dynamics::IntegratorKind>(request.name, "set_integrator", "name");
+  if (request.step != 0.0) change.step = request.step;
+  if (request.tolerance != SetIntegrator::Request::KEEP_TOLERANCE) change.tolerance = request.tolerance;
+  const dynamics::DynamicsSettings now = runner.locked([&](simulation::Simulation& s) {
+    s.change(change);
+    return s.settings().dynamics;
+  });
   char text[120];
   std::snprintf(text, sizeof text, "%s, steps of at most %g s, tolerance %g m%s",
-                validation::name_of(settings.integrator).c_str(), settings.step, settings.tolerance,
-                settings.tolerance > 0.0 ? "" : " (fixed steps)");
-  return text;
+                validation::name_of(now.integrator).c_str(), now.step, now.tolerance,
+                now.tolerance > 0.0 ? "" : " (fixed steps)");
+  response.message = text;
+}
+
+void load_scene(SimulationRunner& runner, const std::vector<std::string>& roots, const LoadScene::Request& request,
+                LoadScene::Response& response) {
+  const scene::Scene scene = scene::load_scene(request.scene, roots);
+  runner.load(scene);
+  response.message = scene.name + ": " + std::to_string(scene.bodies.size()) + " bodies";
+  if (!scene.warnings.empty()) response.message += "; " + validation::join(scene.warnings, "; ");
+}
+
+std::string calibrate(SimulationRunner& runner) {
+  const simulation::ChangeReport report = runner.locked([](simulation::Simulation& s) { return s.calibrate(); });
+  char text[80];
+  std::snprintf(text, sizeof text, "; elastic energy %.6g J -> %.6g J", report.elastic_energy_before,
+                report.elastic_energy_after);
+  return report.message + text;
+}
+
+std::string reset(SimulationRunner& runner) {
+  runner.restart();
+  return "all objects are back at their start";
+}
+
+std::string release(SimulationRunner& runner) {
+  const std::string held = runner.locked([](simulation::Simulation& s) {
+    std::vector<std::string> names;
+    for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+      const std::string name = s.fork(hand).held_object;
+      if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    s.release();
+    return validation::join(names);
+  });
+  if (held.empty()) throw validation::InputError("release: nothing is held: must be called while an object is held");
+  return "released " + held;
 }
 
 }  // namespace
 
-Services::Services(ros::NodeHandle private_node, SimulationRunner& runner, std::vector<std::string> scene_roots)
-    : runner_(runner), scene_roots_(std::move(scene_roots)) {
-  servers_ = {private_node.advertiseService("select_tool", &Services::select_tool, this),
-              private_node.advertiseService("set_dofs", &Services::set_dofs, this),
-              private_node.advertiseService("set_stiffness", &Services::set_stiffness, this),
-              private_node.advertiseService("set_damping", &Services::set_damping, this),
-              private_node.advertiseService("set_integrator", &Services::set_integrator, this),
-              private_node.advertiseService("load_scene", &Services::load_scene, this),
-              private_node.advertiseService("calibrate", &Services::calibrate, this),
-              private_node.advertiseService("reset", &Services::reset, this),
-              private_node.advertiseService("release", &Services::release, this)};
-}
-
-bool Services::select_tool(SelectTool::Request& request, SelectTool::Response& response) {
-  return respond(response, [&] {
-    const auto tool = validation::named<tools::Tool>(request.tool, "select_tool", "tool");
-    const std::size_t hand = hand_of(request.stylus, "select_tool").value_or(0);
-    fill(runner_.locked([&](simulation::Simulation& s) { return s.select_tool(tool, hand); }), response);
-  });
-}
-
-template <typename Response>
-void Services::change_fork(const simulation::ForkChange& change, std::optional<std::size_t> hand, Response& response) {
-  fill(runner_.locked([&](simulation::Simulation& s) { return s.change(change, hand); }), response);
-}
-
-bool Services::set_dofs(SetForkDofs::Request& request, SetForkDofs::Response& response) {
-  return respond(response, [&] {
-    simulation::ForkChange change;
-    change.dofs = {request.stretch != 0, request.bend != 0, request.torsion != 0};
-    change_fork(change, hand_of(request.stylus, "set_dofs"), response);
-  });
-}
-
-bool Services::set_stiffness(SetForkStiffness::Request& request, SetForkStiffness::Response& response) {
-  return respond(response, [&] {
-    const auto given = [](double k) { return k != 0.0 ? std::optional<double>(k) : std::nullopt; };
-    simulation::ForkChange change;
-    change.stretch_stiffness = given(request.stretch);
-    change.bend_stiffness = given(request.bend);
-    change.torsion_stiffness = given(request.torsion);
-    change_fork(change, hand_of(request.stylus, "set_stiffness"), response);
-  });
-}
-
-bool Services::set_damping(SetForkDamping::Request& request, SetForkDamping::Response& response) {
-  return respond(response, [&] {
-    const rod::PerDof numbers{request.stretch, request.bend, request.torsion};
-    simulation::ForkChange change;
-    if (!request.law.empty()) {
-      change.damping_law = validation::named<rod::DampingLaw>(request.law, "set_damping", "law");
-    }
-    (change.damping_law == rod::DampingLaw::coefficients ? change.damping_coefficient : change.damping_ratio) = numbers;
-    change_fork(change, hand_of(request.stylus, "set_damping"), response);
-  });
-}
-
-bool Services::set_integrator(SetIntegrator::Request& request, SetIntegrator::Response& response) {
-  return respond(response, [&] {
-    simulation::DynamicsChange change;
-    change.integrator = validation::named<dynamics::IntegratorKind>(request.name, "set_integrator", "name");
-    if (request.step != 0.0) change.step = request.step;
-    if (request.tolerance != SetIntegrator::Request::KEEP_TOLERANCE) change.tolerance = request.tolerance;
-    runner_.locked([&](simulation::Simulation& s) {
-      s.change(change);
-      response.message = describe(s.settings().dynamics);
-    });
-  });
-}
-
-bool Services::load_scene(LoadScene::Request& request, LoadScene::Response& response) {
-  return respond(response, [&] {
-    const scene::Scene scene = spring_workbench::scene::load_scene(request.scene, scene_roots_);
-    runner_.load(scene);
-    response.message = scene.name + ": " + std::to_string(scene.bodies.size()) + " bodies";
-    if (!scene.warnings.empty()) response.message += "; " + validation::join(scene.warnings, "; ");
-  });
-}
-
-bool Services::calibrate(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return respond(response, [&] {
-    const simulation::ChangeReport report = runner_.locked([](simulation::Simulation& s) { return s.calibrate(); });
-    response.message = report.message + energies(report);
-  });
-}
-
-bool Services::reset(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return respond(response, [&] {
-    runner_.restart();
-    response.message = "all objects are back at their start";
-  });
-}
-
-bool Services::release(std_srvs::Trigger::Request&, std_srvs::Trigger::Response& response) {
-  return respond(response, [&] {
-    const std::string held = runner_.locked([](simulation::Simulation& s) {
-      std::vector<std::string> names;
-      for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-        const std::string name = s.fork(hand).held_object;
-        if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, SimulationRunner& runner,
+                                                   const std::vector<std::string>& scene_roots) {
+  std::vector<ros::ServiceServer> servers;
+  const auto serve = [&](const char* name, auto change, auto of_service) {
+    using Service = decltype(of_service);
+    using Request = typename Service::Request;
+    using Response = typename Service::Response;
+    servers.push_back(node.advertiseService<Request, Response>(name, [=](Request& request, Response& response) {
+      try {
+        change(request, response);
+        response.success = true;
+      } catch (const validation::InputError& error) {
+        response.success = false;
+        response.message = error.what();
+        ROS_WARN_STREAM(error.what());
       }
-      s.release();
-      return validation::join(names);
-    });
-    if (held.empty()) throw validation::InputError("release: nothing is held: must be called while an object is held");
-    response.message = "released " + held;
-  });
+      return true;
+    }));
+  };
+  const auto change = [&](const char* name, auto make_change, auto of_service) {
+    const auto with_runner = [&runner, make_change](auto& request, auto& response) {
+      make_change(runner, request, response);
+    };
+    serve(name, with_runner, of_service);
+  };
+  const auto trigger = [&](const char* name, std::string (*act)(SimulationRunner&)) {
+    serve(
+        name, [&runner, act](auto&, auto& response) { response.message = act(runner); }, std_srvs::Trigger());
+  };
+  change("select_tool", select_tool, SelectTool());
+  change("set_dofs", set_dofs, SetForkDofs());
+  change("set_stiffness", set_stiffness, SetForkStiffness());
+  change("set_damping", set_damping, SetForkDamping());
+  change("set_integrator", set_integrator, SetIntegrator());
+  serve(
+      "load_scene",
+      [&runner, scene_roots](auto& request, auto& response) { load_scene(runner, scene_roots, request, response); },
+      LoadScene());
+  trigger("calibrate", calibrate);
+  trigger("reset", reset);
+  trigger("release", release);
+  return servers;
 }
 
 }  // namespace spring_workbench::manipulation

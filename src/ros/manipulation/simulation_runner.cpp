@@ -5,12 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "constants.h"
+
 namespace spring_workbench::manipulation {
-namespace {
-
-constexpr double kSlack = 1e-6;  // of a grid step
-
-}  // namespace
 
 SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
                                    const hand_input::InputSettings& input, double grid)
@@ -21,7 +18,6 @@ SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::
 }
 
 CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::LocalTime& now) {
-  constexpr double longest_catch_up = 5.0;  // [s] beyond this, time has leapt
   const std::lock_guard<std::mutex> lock(mutex_);
   const auto begin = std::chrono::steady_clock::now();
   for (HandInput& input : inputs_) {
@@ -60,17 +56,17 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
 
 /// Whether the next step of the grid lies before the target, not on it: there the segment begins whose velocity hangs
 /// on a sample that may not be here yet.
-bool SimulationRunner::has_more(double target) const { return next_on_grid() <= target - kSlack * grid_; }
+bool SimulationRunner::has_more(double target) const { return next_on_grid() <= target - grid_slack * grid_; }
 
 double SimulationRunner::next_on_grid() const {
-  return grid_ * (std::floor(simulation_.time() / grid_ + kSlack) + 1.0);
+  return grid_ * (std::floor(simulation_.time() / grid_ + grid_slack) + 1.0);
 }
 
 void SimulationRunner::advance(double target, CycleReport& report) {
   if (grid_ > 0.0) {
     if (!has_more(target)) return;
     const double next = next_on_grid();
-    report.more = next + grid_ <= target - kSlack * grid_;
+    report.more = next + grid_ <= target - grid_slack * grid_;
     target = next;
   }
   report.advance = feed_.advance_to(target);
@@ -79,8 +75,7 @@ void SimulationRunner::advance(double target, CycleReport& report) {
 
 /// Whether a stylus that begins there comes to the others that are under way, rather than that all time has jumped.
 bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
-  constexpr double slip = 1.5;  // [s]: in simulated time an epoch begins at the whole second before its first sample
-  return feed_.has_sample() && !input.in_epoch && (epoch.zero - zero_).toSec() > simulation_.time() - slip;
+  return feed_.has_sample() && !input.in_epoch && (epoch.zero - zero_).toSec() > simulation_.time() - joining_slip;
 }
 
 void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {

@@ -4,46 +4,48 @@
 
 #include <algorithm>
 
+#include "constants.h"
 #include "messages.h"
 #include "spring_workbench/ros/common/conversions.h"
 
 namespace spring_workbench::manipulation {
 namespace {
 
-constexpr uint32_t queue = 1000;           // simulated time may go on by many steps at once, without pause
-constexpr double shortest_lifetime = 2.0;  // of markers [s]
 const std::string handle_frame = "fork_handle";
 const std::string tip_frame = "fork_tip";
+
+/// What `make` makes, only where somebody listens.
+template <typename Make>
+void publish_made(const ros::Publisher& publisher, const std_msgs::Header& header, Make&& make) {
+  if (publisher.getNumSubscribers() == 0) return;
+  auto message = make();
+  message.header = header;
+  publisher.publish(message);
+}
 
 }  // namespace
 
 StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters)
     : world_frame_(parameters.world_frame),
       marker_period_(1.0 / parameters.markers_rate),
-      markers_(parameters.fork_curve, std::max(shortest_lifetime, 3.0 / parameters.markers_rate)),
-      objects_publisher_(private_node.advertise<ObjectStates>("objects", queue)),
-      fork_publisher_(private_node.advertise<ForkState>("fork", queue)),
-      second_fork_publisher_(private_node.advertise<ForkState>("fork_2", queue)),
-      wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", queue)),
-      contacts_publisher_(private_node.advertise<Contacts>("contacts", queue)),
+      markers_(parameters.fork_curve, std::max(shortest_marker_lifetime, 3.0 / parameters.markers_rate)),
+      objects_publisher_(private_node.advertise<ObjectStates>("objects", state_queue)),
+      fork_publisher_(private_node.advertise<ForkState>("fork", state_queue)),
+      second_fork_publisher_(private_node.advertise<ForkState>("fork_2", state_queue)),
+      wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", state_queue)),
+      contacts_publisher_(private_node.advertise<Contacts>("contacts", state_queue)),
       markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 10)),
-      steps_publisher_(private_node.advertise<StepReport>("steps", queue)),
-      task_publisher_(private_node.advertise<TaskState>("task", queue)) {}
+      steps_publisher_(private_node.advertise<StepReport>("steps", state_queue)),
+      task_publisher_(private_node.advertise<TaskState>("task", state_queue)) {}
 
 void StatePublisher::publish(const simulation::Simulation& simulation, const ros::Time& stamp, double now) {
-  std_msgs::Header header;
-  header.frame_id = world_frame_;
-  header.stamp = stamp;
+  const std_msgs::Header header = header_at(stamp);
   const tools::ToolState tool = simulation.fork();
   publish_transforms(simulation, stamp);
-  if (objects_publisher_.getNumSubscribers() > 0) {
-    ObjectStates message = to_message(simulation.objects());
-    message.header = header;
-    objects_publisher_.publish(message);
-  }
-  publish_fork(fork_publisher_, tool, header);
+  publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
+  publish_made(fork_publisher_, header, [&] { return to_message(tool); });
   if (const tools::ToolState second = simulation.fork(1); second.present)
-    publish_fork(second_fork_publisher_, second, header);
+    publish_made(second_fork_publisher_, header, [&] { return to_message(second); });
   publish_wrench(tool, header);
   publish_contacts(simulation, header);
   publish_markers(simulation, header, now);
@@ -67,23 +69,15 @@ void StatePublisher::publish_transforms(const simulation::Simulation& simulation
   transforms_.sendTransform(transforms);
 }
 
-void StatePublisher::publish_fork(const ros::Publisher& publisher, const tools::ToolState& tool,
-                                  const std_msgs::Header& header) {
-  if (publisher.getNumSubscribers() == 0) return;
-  ForkState message = to_message(tool);
-  message.header = header;
-  publisher.publish(message);
-}
-
 /// In real units: what the hand would feel.
-void StatePublisher::publish_wrench(const tools::ToolState& tool, const std_msgs::Header& header) {
-  if (wrench_publisher_.getNumSubscribers() == 0) return;
-  geometry_msgs::WrenchStamped message;
-  message.header.stamp = header.stamp;
-  message.header.frame_id = handle_frame;
-  const Wrench& felt = tool.handle_wrench_H;
-  message.wrench = ros_common::to_wrench({felt.force / tool.force_scale, felt.moment / tool.force_scale});
-  wrench_publisher_.publish(message);
+void StatePublisher::publish_wrench(const tools::ToolState& tool, std_msgs::Header header) {
+  header.frame_id = handle_frame;
+  publish_made(wrench_publisher_, header, [&] {
+    geometry_msgs::WrenchStamped message;
+    const Wrench& felt = tool.handle_wrench_H;
+    message.wrench = ros_common::to_wrench({felt.force / tool.force_scale, felt.moment / tool.force_scale});
+    return message;
+  });
 }
 
 void StatePublisher::publish_contacts(const simulation::Simulation& simulation, const std_msgs::Header& header) {
@@ -109,24 +103,28 @@ void StatePublisher::publish_markers(const simulation::Simulation& simulation, c
 
 void StatePublisher::publish_steps(const CycleReport& report, const std::string& integrator, const ros::Time& stamp,
                                    bool deadline_missed) {
-  if (steps_publisher_.getNumSubscribers() == 0) return;
-  StepReport message = to_message(report.advance);
-  (markers_were_built_ ? message.active : message.skipped).push_back("markers");
-  message.header.frame_id = world_frame_;
-  message.header.stamp = stamp;
-  message.wall_time = report.wall_time;
-  message.integrator = integrator;
-  message.deadline_missed = deadline_missed;
-  steps_publisher_.publish(message);
+  publish_made(steps_publisher_, header_at(stamp), [&] {
+    StepReport message = to_message(report.advance);
+    (markers_were_built_ ? message.active : message.skipped).push_back("markers");
+    message.wall_time = report.wall_time;
+    message.integrator = integrator;
+    message.deadline_missed = deadline_missed;
+    return message;
+  });
 }
 
 void StatePublisher::publish_task(const SimulationRunner& runner, const ros::Time& stamp) {
-  if (task_publisher_.getNumSubscribers() == 0) return;
-  const assembly::TaskMonitor task = runner.task();
-  TaskState message = to_message(task.placements(), task.score());
-  message.header.frame_id = world_frame_;
-  message.header.stamp = stamp;
-  task_publisher_.publish(message);
+  publish_made(task_publisher_, header_at(stamp), [&] {
+    const assembly::TaskMonitor task = runner.task();
+    return to_message(task.placements(), task.score());
+  });
+}
+
+std_msgs::Header StatePublisher::header_at(const ros::Time& stamp) const {
+  std_msgs::Header header;
+  header.frame_id = world_frame_;
+  header.stamp = stamp;
+  return header;
 }
 
 }  // namespace spring_workbench::manipulation

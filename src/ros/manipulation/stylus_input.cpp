@@ -7,17 +7,14 @@
 #include <sstream>
 #include <utility>
 
+#include "constants.h"
+#include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 
 namespace spring_workbench::manipulation {
 namespace {
 
 std::string frame(const std::string& name) { return !name.empty() && name.front() == '/' ? name.substr(1) : name; }
-
-RigidTransform from_message(const geometry_msgs::Transform& T) {
-  return make_transform(Quaterniond(T.rotation.w, T.rotation.x, T.rotation.y, T.rotation.z),
-                        Vector3d(T.translation.x, T.translation.y, T.translation.z));
-}
 
 std::string place(const std::string& parent, const std::string& child) {
   return "tf " + parent + " -> " + child + ": ";
@@ -40,23 +37,18 @@ hand_input::RawSample raw(const geometry_msgs::Transform& T, double t) {
           Quaterniond(T.rotation.w, T.rotation.x, T.rotation.y, T.rotation.z)};
 }
 
-constexpr uint32_t kQueue =
-    2000;  // messages; what a busy machine holds up for a second, those of this node itself among it
-constexpr double kSlip = 0.1;  // [s] a clock that is set right by less goes on
-
 /// Keeps the newest few.
 template <typename Message>
 void keep(const Message& message, std::deque<Message>& kept) {
-  constexpr std::size_t most = 2000;
   kept.push_back(message);
-  if (kept.size() > most) kept.pop_front();
+  if (kept.size() > most_early) kept.pop_front();
 }
 
 /// What was kept since time went back for the last time.
 template <typename Message>
 std::deque<Message> newest_pass(std::deque<Message> kept) {
   for (std::size_t i = kept.size(); i-- > 1;) {
-    if ((kept[i - 1].header.stamp - kept[i].header.stamp).toSec() <= kSlip) continue;
+    if ((kept[i - 1].header.stamp - kept[i].header.stamp).toSec() <= clock_slip) continue;
     kept.erase(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(i));
     break;
   }
@@ -79,8 +71,8 @@ StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& par
   }
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   static_subscriber_ = node.subscribe("/tf_static", 100, &StylusInput::on_static_transforms, this, hints);
-  tf_subscriber_ = node.subscribe("/tf", kQueue, &StylusInput::on_transforms, this, hints);
-  joy_subscriber_ = node.subscribe(joy_, kQueue, &StylusInput::on_joy, this, hints);
+  tf_subscriber_ = node.subscribe("/tf", input_queue, &StylusInput::on_transforms, this, hints);
+  joy_subscriber_ = node.subscribe(joy_, input_queue, &StylusInput::on_joy, this, hints);
 }
 
 std::vector<StylusEvent> StylusInput::take_events() {
@@ -121,8 +113,7 @@ void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessag
   const std::lock_guard<std::mutex> lock(mutex_);
   ++statistics_.messages;
   for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
-    constexpr std::size_t most_frames = 20;  // that a hint can name
-    if (statistics_.frames.size() < most_frames) statistics_.frames.insert(frame(transform.child_frame_id));
+    if (statistics_.frames.size() < most_named_frames) statistics_.frames.insert(frame(transform.child_frame_id));
     if (frame(transform.child_frame_id) != frame_) continue;
     if (const std::optional<ros::Time> now = moment_of(transform.header.stamp, poses_)) {
       on_stylus(transform, *now);
@@ -136,7 +127,8 @@ void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessag
 void StylusInput::on_stylus(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {
   const double age = (now - transform.header.stamp).toSec();
   statistics_.newest_offer_age = age;
-  if (ros::Time::isSimTime() && (poses_.newest - transform.header.stamp).toSec() > kSlip) keep(transform, early_poses_);
+  if (ros::Time::isSimTime() && (poses_.newest - transform.header.stamp).toSec() > clock_slip)
+    keep(transform, early_poses_);
   if (std::abs(age) > parameters_.max_age) {
     return reject(age > 0.0 ? "too old" : "from the future",
                   place(transform) + "stamp: an age of " + number(age) + " s is not allowed: must be within " +
@@ -145,7 +137,8 @@ void StylusInput::on_stylus(const geometry_msgs::TransformStamped& transform, co
   RigidTransform X_WP = RigidTransform::Identity();
   if (const std::string parent = frame(transform.header.frame_id); parent != parameters_.world_frame) {
     try {
-      X_WP = from_message(static_frames_.lookupTransform(parameters_.world_frame, parent, ros::Time()).transform);
+      X_WP = ros_common::from_message(
+          static_frames_.lookupTransform(parameters_.world_frame, parent, ros::Time()).transform);
     } catch (const tf2::TransformException&) {
       return reject("unknown frame", place(transform) + "frame_id: " + parent + " is not allowed: must be " +
                                          parameters_.workbench_frame + " or tied to it on /tf_static");
@@ -179,7 +172,7 @@ void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
 
 void StylusInput::on_buttons(const sensor_msgs::Joy& message, const ros::Time& now) {
   const ros::Time& stamp = message.header.stamp;
-  if (ros::Time::isSimTime() && !stamp.isZero() && (buttons_.newest - stamp).toSec() > kSlip) {
+  if (ros::Time::isSimTime() && !stamp.isZero() && (buttons_.newest - stamp).toSec() > clock_slip) {
     return keep(message, early_buttons_);
   }
   const bool usable_stamp = std::abs((now - stamp).toSec()) <= parameters_.max_age;
@@ -209,9 +202,9 @@ void StylusInput::go_on_to(const ros::Time& stamp, Stream& stream, std::deque<Me
 std::optional<ros::Time> StylusInput::moment_of(const ros::Time& stamp, Stream& stream) {
   const ros::Time now = ros::Time::now();
   // The clock went back; or the whole way back was missed, and only the stamps show it.
-  const bool clock_jumped = !last_now_.isZero() && (last_now_ - now).toSec() > kSlip;
+  const bool clock_jumped = !last_now_.isZero() && (last_now_ - now).toSec() > clock_slip;
   const bool stamps_jumped = ros::Time::isSimTime() && !stream.newest.isZero() &&
-                             (stream.newest - stamp).toSec() > kSlip && (stream.newest - now).toSec() > kSlip;
+                             (stream.newest - stamp).toSec() > clock_slip && (stream.newest - now).toSec() > clock_slip;
   if (!jumped_ && (clock_jumped || stamps_jumped)) {
     jumped_ = true;
     jumped_at_ = ros_common::local_time().attended;
@@ -225,8 +218,7 @@ std::optional<ros::Time> StylusInput::moment_of(const ros::Time& stamp, Stream& 
 
 /// Starts anew unless a stream that there is has not come to the jump yet.
 void StylusInput::start_anew_when_due() {
-  constexpr double patience = 1.0;  // [s] of attended time; a player on a busy machine may stop for a while, too
-  const bool patient = ros::Time::isSimTime() && ros_common::local_time().attended - jumped_at_ < patience;
+  const bool patient = ros::Time::isSimTime() && ros_common::local_time().attended - jumped_at_ < jump_patience;
   const bool poses_awaited = !poses_.newest.isZero() && early_poses_.empty();
   const bool buttons_awaited = !buttons_.newest.isZero() && early_buttons_.empty();
   if (patient && (poses_awaited || buttons_awaited)) return;
@@ -259,7 +251,7 @@ void StylusInput::reject(const std::string& reason, const std::string& line) {
   ++statistics_.rejected[reason];
   const ros::WallTime now = ros::WallTime::now();
   const auto told = told_.find(reason);
-  if (told != told_.end() && now - told->second < ros::WallDuration(5.0)) return;
+  if (told != told_.end() && now - told->second < ros::WallDuration(told_again_after)) return;
   told_[reason] = now;
   ROS_WARN_STREAM(line << "; left out");
 }

@@ -1,7 +1,13 @@
-#include "interactive_marker_source.h"
+#include <interactive_markers/interactive_marker_server.h>
+#include <interactive_markers/menu_handler.h>
+#include <ros/ros.h>
+#include <std_srvs/SetBool.h>
 
 #include <cmath>
 
+#include "constants.h"
+#include "message_source.h"
+#include "spring_workbench/motion/pose_follower.h"
 #include "spring_workbench/ros/common/conversions.h"
 
 namespace spring_workbench::tracker_driver {
@@ -67,73 +73,89 @@ bool is_pose(const geometry_msgs::Pose& pose) {
   return std::isfinite(p.x + p.y + p.z) && std::abs(norm - 1.0) < 0.1;
 }
 
+class InteractiveMarkerSource final : public MessageSource {
+ public:
+  InteractiveMarkerSource(ros::NodeHandle private_node, const std::string& workbench_frame, const RigidTransform& X_WB)
+      : workbench_frame_(workbench_frame),
+        follower_(X_WB),
+        server_("stylus/marker"),
+        grasp_service_(private_node.advertiseService("grasp", &InteractiveMarkerSource::on_grasp, this)) {
+    server_.insert(make_marker(workbench_frame, X_WB), [this](const Feedback& feedback) { on_feedback(feedback); });
+    make_menu();
+  }
+
+  motion::SourceHealth health() const override {
+    return {true, "moved by the marker under stylus/marker", {{"drags", drags_}, {"poses left out", left_out_}}};
+  }
+
+ private:
+  using Feedback = visualization_msgs::InteractiveMarkerFeedbackConstPtr;
+
+  const RigidTransform& advance(double dt, motion::StationSample& sample) override {
+    sample.button = grasp_;
+    sample.next_tool = tool_button_for_ > 0.0;
+    tool_button_for_ -= dt;
+    return follower_.advance(dt);
+  }
+
+  void make_menu() {
+    using interactive_markers::MenuHandler;
+    grasp_entry_ = menu_.insert("Grasp", [this](const Feedback&) { set_grasp(!grasp_); });
+    menu_.setCheckState(grasp_entry_, MenuHandler::UNCHECKED);
+    menu_.insert("Next tool", [this](const Feedback&) { tool_button_for_ = menu_press; });
+    menu_.apply(server_, marker_name);
+    server_.applyChanges();
+  }
+
+  void on_feedback(const Feedback& feedback) {
+    if (feedback->event_type != InteractiveMarkerFeedback::POSE_UPDATE) return;
+    if (feedback->header.frame_id != workbench_frame_) {
+      return refuse_pose("frame_id: " + feedback->header.frame_id + " is not allowed: must be " + workbench_frame_);
+    }
+    if (!is_pose(feedback->pose)) return refuse_pose("pose: must be finite, with a quaternion of length 1");
+    follower_.set_goal(ros_common::from_message(feedback->pose));
+    ++drags_;
+  }
+
+  void refuse_pose(const std::string& reason) {
+    ++left_out_;
+    ROS_WARN_STREAM_THROTTLE(5.0, "stylus/marker/feedback: " << reason << "; left out");
+    server_.setPose(marker_name, ros_common::to_pose(follower_.goal()));
+    server_.applyChanges();
+  }
+
+  void set_grasp(bool grasp) {
+    using interactive_markers::MenuHandler;
+    grasp_ = grasp;
+    menu_.setCheckState(grasp_entry_, grasp ? MenuHandler::CHECKED : MenuHandler::UNCHECKED);
+    menu_.reApply(server_);
+    server_.applyChanges();
+  }
+
+  bool on_grasp(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
+    set_grasp(request.data != 0);
+    response.success = true;
+    response.message = grasp_ ? "the grasp button is down" : "the grasp button is up";
+    return true;
+  }
+
+  const std::string workbench_frame_;
+  motion::PoseFollower follower_;
+  interactive_markers::InteractiveMarkerServer server_;
+  interactive_markers::MenuHandler menu_;
+  interactive_markers::MenuHandler::EntryHandle grasp_entry_ = 0;
+  ros::ServiceServer grasp_service_;
+  bool grasp_ = false;
+  double tool_button_for_ = 0.0;  ///< how much longer the button for the next tool is down [s]
+  std::size_t drags_ = 0, left_out_ = 0;
+};
+
 }  // namespace
 
-InteractiveMarkerSource::InteractiveMarkerSource(ros::NodeHandle private_node, const std::string& workbench_frame,
-                                                 const RigidTransform& X_WB)
-    : workbench_frame_(workbench_frame),
-      follower_(X_WB),
-      server_("stylus/marker"),
-      grasp_service_(private_node.advertiseService("grasp", &InteractiveMarkerSource::on_grasp, this)) {
-  server_.insert(make_marker(workbench_frame, X_WB), [this](const Feedback& feedback) { on_feedback(feedback); });
-  make_menu();
-}
-
-void InteractiveMarkerSource::make_menu() {
-  using interactive_markers::MenuHandler;
-  grasp_entry_ = menu_.insert("Grasp", [this](const Feedback&) { set_grasp(!grasp_); });
-  menu_.setCheckState(grasp_entry_, MenuHandler::UNCHECKED);
-  constexpr double press = 0.1;  // [s]
-  menu_.insert("Next tool", [this](const Feedback&) { tool_button_for_ = press; });
-  menu_.apply(server_, marker_name);
-  server_.applyChanges();
-}
-
-motion::SourceHealth InteractiveMarkerSource::health() const {
-  return {true, "moved by the marker under stylus/marker", {{"drags", drags_}, {"poses left out", left_out_}}};
-}
-
-void InteractiveMarkerSource::advance(double dt, motion::StationSample& sample) {
-  const RigidTransform& X = follower_.advance(dt);
-  sample.p_TS = X.translation();
-  sample.q_TS = Quaterniond(X.linear());
-  sample.button = grasp_;
-  sample.next_tool = tool_button_for_ > 0.0;
-  tool_button_for_ -= dt;
-}
-
-void InteractiveMarkerSource::on_feedback(const Feedback& feedback) {
-  if (feedback->event_type != InteractiveMarkerFeedback::POSE_UPDATE) return;
-  if (feedback->header.frame_id != workbench_frame_) {
-    return refuse_pose("frame_id: " + feedback->header.frame_id + " is not allowed: must be " + workbench_frame_);
-  }
-  if (!is_pose(feedback->pose)) return refuse_pose("pose: must be finite, with a quaternion of length 1");
-  const auto& p = feedback->pose.position;
-  const auto& q = feedback->pose.orientation;
-  follower_.set_goal(make_transform(Quaterniond(q.w, q.x, q.y, q.z), Vector3d(p.x, p.y, p.z)));
-  ++drags_;
-}
-
-void InteractiveMarkerSource::refuse_pose(const std::string& reason) {
-  ++left_out_;
-  ROS_WARN_STREAM_THROTTLE(5.0, "stylus/marker/feedback: " << reason << "; left out");
-  server_.setPose(marker_name, ros_common::to_pose(follower_.goal()));
-  server_.applyChanges();
-}
-
-void InteractiveMarkerSource::set_grasp(bool grasp) {
-  using interactive_markers::MenuHandler;
-  grasp_ = grasp;
-  menu_.setCheckState(grasp_entry_, grasp ? MenuHandler::CHECKED : MenuHandler::UNCHECKED);
-  menu_.reApply(server_);
-  server_.applyChanges();
-}
-
-bool InteractiveMarkerSource::on_grasp(std_srvs::SetBool::Request& request, std_srvs::SetBool::Response& response) {
-  set_grasp(request.data != 0);
-  response.success = true;
-  response.message = grasp_ ? "the grasp button is down" : "the grasp button is up";
-  return true;
+std::unique_ptr<motion::LiveSource> make_interactive_marker_source(ros::NodeHandle private_node,
+                                                                   const std::string& workbench_frame,
+                                                                   const RigidTransform& X_WB) {
+  return std::make_unique<InteractiveMarkerSource>(private_node, workbench_frame, X_WB);
 }
 
 }  // namespace spring_workbench::tracker_driver

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "constants.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::tracker_driver {
 namespace {
-
-constexpr int most_controls = 64;  // axes or buttons of one device
 
 bool is_down(const std::vector<int>& buttons, int number) {
   return number >= 0 && static_cast<std::size_t>(number) < buttons.size() &&

@@ -1,31 +1,48 @@
-#include "joy_source.h"
+#include <ros/ros.h>
+#include <sensor_msgs/Joy.h>
+
+#include "message_source.h"
 
 namespace spring_workbench::tracker_driver {
+namespace {
 
-JoySource::JoySource(ros::NodeHandle node, const JoySettings& settings, const RigidTransform& X_WB)
-    : motion_(settings, X_WB),
-      subscriber_(node.subscribe("joy", 10, &JoySource::on_joy, this, ros::TransportHints().tcpNoDelay())) {}
+class JoySource final : public MessageSource {
+ public:
+  JoySource(ros::NodeHandle node, const JoySettings& settings, const RigidTransform& X_WB)
+      : motion_(settings, X_WB),
+        subscriber_(node.subscribe("joy", 10, &JoySource::on_joy, this, ros::TransportHints().tcpNoDelay())) {}
 
-motion::SourceHealth JoySource::health() const {
-  const bool streaming = messages_ > 0;
-  return {streaming,
-          streaming
-              ? "moved by " + subscriber_.getTopic()
-              : "nothing on " + subscriber_.getTopic() + ": start the device's node, e.g. joy_node or spacenav_node",
-          {{"messages", messages_}}};
-}
+  motion::SourceHealth health() const override {
+    const std::string topic = subscriber_.getTopic();
+    const bool streaming = messages_ > 0;
+    return {streaming,
+            streaming ? "moved by " + topic
+                      : "nothing on " + topic + ": start the device's node, e.g. joy_node or spacenav_node",
+            {{"messages", messages_}}};
+  }
 
-void JoySource::advance(double dt, motion::StationSample& sample) {
-  const RigidTransform& X = motion_.advance(dt);
-  sample.p_TS = X.translation();
-  sample.q_TS = Quaterniond(X.linear());
-  sample.button = motion_.grasp();
-  sample.next_tool = motion_.next_tool();
-}
+ private:
+  const RigidTransform& advance(double dt, motion::StationSample& sample) override {
+    sample.button = motion_.grasp();
+    sample.next_tool = motion_.next_tool();
+    return motion_.advance(dt);
+  }
 
-void JoySource::on_joy(const sensor_msgs::JoyConstPtr& message) {
-  motion_.input(message->axes, message->buttons);
-  ++messages_;
+  void on_joy(const sensor_msgs::JoyConstPtr& message) {
+    motion_.input(message->axes, message->buttons);
+    ++messages_;
+  }
+
+  JoyMotion motion_;
+  std::size_t messages_ = 0;
+  ros::Subscriber subscriber_;
+};
+
+}  // namespace
+
+std::unique_ptr<motion::LiveSource> make_joy_source(ros::NodeHandle node, const JoySettings& settings,
+                                                    const RigidTransform& X_WB) {
+  return std::make_unique<JoySource>(node, settings, X_WB);
 }
 
 }  // namespace spring_workbench::tracker_driver

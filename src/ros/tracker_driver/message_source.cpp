@@ -7,26 +7,23 @@
 #include <chrono>
 #include <thread>
 
+#include "constants.h"
+#include "spring_workbench/ros/common/loop_clock.h"
+
 namespace spring_workbench::tracker_driver {
-namespace {
-
-double steady_now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
-
-}  // namespace
 
 std::vector<motion::StationSample> MessageSource::read(double timeout) {
-  constexpr double interval = 1.0 / 60.0;  // [s]
-  const double wait = last_ + interval - steady_now();
+  const double wait = last_ + message_interval - ros_common::steady_time();
   if (wait > 0.0) std::this_thread::sleep_for(std::chrono::duration<double>(std::min(wait, timeout)));
   ros::getGlobalCallbackQueue()->callAvailable();
-  const double now = steady_now();
-  if (now < last_ + interval) return {};
-  const bool on_time = now < last_ + 2.0 * interval;
+  const double now = ros_common::steady_time();
+  if (now < last_ + message_interval) return {};
+  const bool on_time = now < last_ + 2.0 * message_interval;
   motion::StationSample sample;
-  sample.received = on_time ? last_ + interval : now;
-  advance(last_ > 0.0 ? sample.received - last_ : 0.0, sample);
+  sample.received = on_time ? last_ + message_interval : now;
+  const RigidTransform& X = advance(last_ > 0.0 ? sample.received - last_ : 0.0, sample);
+  sample.p_TS = X.translation();
+  sample.q_TS = Quaterniond(X.linear());
   last_ = sample.received;
   return {sample};
 }

@@ -1,22 +1,29 @@
 #include "spring_workbench/ros/tracker_driver/tracker_driver.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
+#include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
-#include "interactive_marker_source.h"
-#include "joy_source.h"
+#include "constants.h"
+#include "message_source.h"
+#include "operator_eyes.h"
+#include "spring_workbench/fastrak/station_stream.h"
 #include "spring_workbench/motion_files/motion_file.h"
 #include "spring_workbench/motion_files/scripted_source.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/diagnostic_status.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/parameters.h"
+#include "spring_workbench/ros/tracker_driver/tracker_parameters.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/validation/number_rule.h"
 
@@ -37,16 +44,12 @@ std::string resolve(const std::string& path_or_uri) {
 /// ROS's time at which the steady clock showed `t` [s]. The two are read beside each other, once more where the process
 /// was interrupted in between.
 ros::Time ros_time(double t) {
-  constexpr double interrupted = 50e-6;  // [s]
-  const auto steady = [] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-  };
   ros::Time now;
   double before = 0.0;
   for (int attempt = 0; attempt < 5; ++attempt) {
-    before = steady();
+    before = ros_common::steady_time();
     now = ros::Time::now();
-    if (steady() - before < interrupted) break;
+    if (ros_common::steady_time() - before < clocks_apart) break;
   }
   return now - ros::Duration(before - t);
 }
@@ -54,220 +57,245 @@ ros::Time ros_time(double t) {
 }  // namespace
 
 std::string why_not_sent(const motion::StationSample& sample, const std::string& source) {
-  constexpr double tolerance = 0.1;  // of a quaternion's length
   if (!sample.p_TS.allFinite() || !sample.q_TS.coeffs().allFinite()) return "not finite";
-  if (std::abs(sample.q_TS.norm() - 1.0) > tolerance) return "not a unit quaternion";
+  if (std::abs(sample.q_TS.norm() - 1.0) > quaternion_tolerance) return "not a unit quaternion";
   if (source == "fastrak" && sample.p_TS.isZero(0.0) && sample.q_TS.vec().isZero(0.0)) return "out of view";
   return "";
 }
 
-TrackerDriver::TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
-    : parameters_(read_tracker_parameters(ros_common::private_parameters(private_node), private_node.getNamespace())),
-      name_(private_node.getNamespace()),
-      X_BT_(parameters_.X_BT),
-      diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
-  joy_publishers_[1] = node.advertise<sensor_msgs::Joy>("stylus/joy", 100);
-  for (const int station : parameters_.fastrak.styluses) {
-    if (station == 1) continue;
-    joy_publishers_[station] = node.advertise<sensor_msgs::Joy>("stylus_" + std::to_string(station) + "/joy", 100);
+namespace {
+
+class TrackerDriver {
+ public:
+  TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
+      : parameters_(read_tracker_parameters(ros_common::private_parameters(private_node), private_node.getNamespace())),
+        name_(private_node.getNamespace()),
+        X_BT_(parameters_.X_BT),
+        diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
+    joy_publishers_[1] = node.advertise<sensor_msgs::Joy>("stylus/joy", 100);
+    for (const int station : parameters_.fastrak.styluses) {
+      if (station == 1) continue;
+      joy_publishers_[station] = node.advertise<sensor_msgs::Joy>("stylus_" + std::to_string(station) + "/joy", 100);
+    }
+    if (parameters_.source == "operator") {
+      eyes_ = std::make_unique<OperatorEyes>(node);
+      return;
+    }
+    device_ = open_device(node, private_node);
+    if (device_) return;
+    const auto first = open()->next();
+    if (!first) throw validation::InputError(parameters_.file + ": no samples: must be at least one");
+    if (parameters_.X_BS_first) X_BT_ = *parameters_.X_BS_first * first->X.inverse();
   }
-  if (parameters_.source == "operator") {
-    eyes_ = std::make_unique<OperatorEyes>(node);
-    return;
+
+  void run() {
+    send_eyes();
+    if (device_) return stream();
+    do {
+      play();
+    } while (parameters_.loop && ros::ok());
+    over_ = true;
+    while (ros::ok()) wait_until(ros_common::loop_time() + 1.0);
   }
-  device_ = open_device(node, private_node);
-  if (device_) return;
-  const auto first = open()->next();
-  if (!first) throw validation::InputError(parameters_.file + ": no samples: must be at least one");
-  if (parameters_.X_BS_first) X_BT_ = *parameters_.X_BS_first * first->X.inverse();
-}
 
-std::unique_ptr<motion::StylusSource> TrackerDriver::open() {
-  if (eyes_) {
-    assembly::OperatorSettings settings;
-    settings.seed = static_cast<unsigned>(parameters_.seed);
-    eyes_->wait();
-    return std::make_unique<assembly::SimulatedOperator>(scene::load_scene(parameters_.scene), settings,
-                                                         [this] { return eyes_->look(); });
+ private:
+  std::unique_ptr<motion::StylusSource> open() {
+    if (eyes_) {
+      assembly::OperatorSettings settings;
+      settings.seed = static_cast<unsigned>(parameters_.seed);
+      eyes_->wait();
+      return std::make_unique<assembly::SimulatedOperator>(scene::load_scene(parameters_.scene), settings,
+                                                           [this] { return eyes_->look(); });
+    }
+    const std::string path = resolve(parameters_.file);
+    if (parameters_.source == "scripted") return std::make_unique<motion_files::ScriptedSource>(path);
+    return std::make_unique<motion_files::RecordedSource>(motion_files::read_motion_file(path));
   }
-  const std::string path = resolve(parameters_.file);
-  if (parameters_.source == "scripted") return std::make_unique<motion_files::ScriptedSource>(path);
-  return std::make_unique<motion_files::RecordedSource>(motion_files::read_motion_file(path));
-}
 
-/// Nothing where the source is a motion.
-std::unique_ptr<motion::LiveSource> TrackerDriver::open_device(ros::NodeHandle node,
-                                                               ros::NodeHandle private_node) const {
-  const RigidTransform above = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.4));
-  const RigidTransform X_WB = parameters_.X_BS_first.value_or(above);
-  if (parameters_.source == "fastrak") return std::make_unique<fastrak::FastrakSource>(parameters_.fastrak);
-  if (parameters_.source == "joy") return std::make_unique<JoySource>(node, parameters_.joy, X_WB);
-  if (parameters_.source == "interactive_marker") {
-    return std::make_unique<InteractiveMarkerSource>(private_node, parameters_.workbench_frame, X_WB);
+  /// Nothing where the source is a motion.
+  std::unique_ptr<motion::LiveSource> open_device(ros::NodeHandle node, ros::NodeHandle private_node) const {
+    const RigidTransform above = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.4));
+    const RigidTransform X_WB = parameters_.X_BS_first.value_or(above);
+    if (parameters_.source == "fastrak") return std::make_unique<fastrak::FastrakSource>(parameters_.fastrak);
+    if (parameters_.source == "joy") return make_joy_source(node, parameters_.joy, X_WB);
+    if (parameters_.source == "interactive_marker") {
+      return make_interactive_marker_source(private_node, parameters_.workbench_frame, X_WB);
+    }
+    return nullptr;
   }
-  return nullptr;
-}
 
-/// Eyes beside each other in the head's axes: x forward, y left (REP 103).
-void TrackerDriver::send_eyes() {
-  const auto eye = [&](const std::string& name, double side) {
-    const Vector3d p(0.0, 0.5 * side * parameters_.interpupillary_distance, 0.0);
-    return ros_common::to_transform(make_transform(Quaterniond::Identity(), p), parameters_.head_frame, name,
-                                    ros::Time::now());
-  };
-  static_transforms_.sendTransform({eye("eye_left", 1.0), eye("eye_right", -1.0)});
-}
+  /// Eyes beside each other in the head's axes: x forward, y left (REP 103).
+  void send_eyes() {
+    const auto eye = [&](const std::string& name, double side) {
+      const Vector3d p(0.0, 0.5 * side * parameters_.interpupillary_distance, 0.0);
+      return ros_common::to_transform(make_transform(Quaterniond::Identity(), p), parameters_.head_frame, name,
+                                      ros::Time::now());
+    };
+    static_transforms_.sendTransform({eye("eye_left", 1.0), eye("eye_right", -1.0)});
+  }
 
-void TrackerDriver::run() {
-  send_eyes();
-  if (device_) return stream();
-  do {
-    play();
-  } while (parameters_.loop && ros::ok());
-  over_ = true;
-  while (ros::ok()) wait_until(ros_common::loop_time() + 1.0);
-}
+  void play() {
+    const std::unique_ptr<motion::StylusSource> source = open();
+    ros::Time::waitForValid();
+    const double start = ros_common::loop_time() + parameters_.pause;
+    ++passes_;
+    double last = -std::numeric_limits<double>::infinity();  // time of the newest sample sent [s]
+    const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
+    while (ros::ok()) {
+      auto sample = source->next();
+      if (!sample) return;
+      const double t = sample->t / parameters_.speed;
+      if (t <= last || t < last + shortest - stamp_slack) {
+        ++not_sent_;
+        continue;
+      }
+      wait_until(start + t);
+      interval_ = t - last;
+      last = t;
+      send(*sample, ros::Time::now() - ros::Duration(ros_common::loop_time() - (start + t)));
+    }
+  }
 
-void TrackerDriver::play() {
-  const std::unique_ptr<motion::StylusSource> source = open();
-  ros::Time::waitForValid();
-  const double start = ros_common::loop_time() + parameters_.pause;
-  ++passes_;
-  double last = -std::numeric_limits<double>::infinity();  // time of the newest sample sent [s]
-  const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
-  constexpr double slack = 1e-6;  // [s] rounding of stamps
-  while (ros::ok()) {
-    auto sample = source->next();
-    if (!sample) return;
-    const double t = sample->t / parameters_.speed;
-    if (t <= last || t < last + shortest - slack) {
+  void send(const motion::StylusSample& sample, const ros::Time& stamp) {
+    transforms_.sendTransform(
+        {ros_common::to_transform(X_BT_ * sample.X * Eigen::Translation3d(parameters_.p_ST),
+                                  parameters_.workbench_frame, parameters_.stylus_frame, stamp),
+         ros_common::to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp)});
+    send_buttons(1, sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), false,
+                 stamp);
+    ++sent_;
+  }
+
+  void send_buttons(int station, bool grasp, bool next_tool, const ros::Time& stamp) {
+    sensor_msgs::Joy joy;
+    joy.header.stamp = stamp;
+    joy.header.frame_id = frame_of(station);
+    joy.buttons = {grasp ? 1 : 0, next_tool ? 1 : 0};
+    joy_publishers_.at(station).publish(joy);
+  }
+
+  void stream() {
+    ros::Time::waitForValid();
+    while (ros::ok()) {
+      for (const motion::StationSample& sample : device_->read(longest_slice)) send(sample);
+      if (ros_common::loop_time() >= next_diagnostics_) {
+        publish_diagnostics();
+        next_diagnostics_ = ros_common::loop_time() + 1.0;
+      }
+    }
+  }
+
+  void send(const motion::StationSample& sample) {
+    Station& station = stations_.try_emplace(sample.station, parameters_).first->second;
+    const ros::Time stamp = ros_time(station.stream.stamp(sample.received));
+    if (joy_publishers_.count(sample.station) > 0) {
+      send_buttons(sample.station, sample.button, sample.next_tool, ros_time(sample.received));
+    }
+    const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
+    std::string reason = why_not_sent(sample, parameters_.source);
+    if (reason.empty() && stamp <= station.newest) reason = "stamp not later";
+    if (reason.empty() && (stamp - station.newest).toSec() < shortest) reason = "more than ~rate";
+    if (!reason.empty()) {
+      ++station.not_sent[reason];
       ++not_sent_;
-      continue;
+      return;
     }
-    wait_until(start + t);
-    interval_ = t - last;
-    last = t;
-    send(*sample, ros::Time::now() - ros::Duration(ros_common::loop_time() - (start + t)));
+    std::vector<geometry_msgs::TransformStamped> transforms{
+        transform_of(sample.station, make_transform(sample.q_TS, sample.p_TS), stamp)};
+    if (sample.station == parameters_.fastrak.stations.front()) {
+      if (parameters_.head_station == 0) {
+        transforms.push_back(
+            ros_common::to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
+      }
+      if (!station.newest.isZero()) interval_ = (stamp - station.newest).toSec();
+    }
+    transforms_.sendTransform(transforms);
+    station.newest = stamp;
+    ++sent_;
   }
-}
 
-void TrackerDriver::send(const motion::StylusSample& sample, const ros::Time& stamp) {
-  transforms_.sendTransform(
-      {ros_common::to_transform(X_BT_ * sample.X * Eigen::Translation3d(parameters_.p_ST), parameters_.workbench_frame,
-                                parameters_.stylus_frame, stamp),
-       ros_common::to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp)});
-  send_buttons(1, sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), false,
-               stamp);
-  ++sent_;
-}
+  std::string frame_of(int station) const {
+    if (station == 1) return parameters_.stylus_frame;
+    if (station == parameters_.head_station) return parameters_.head_frame;
+    return parameters_.stylus_frame + "_" + std::to_string(station);
+  }
 
-void TrackerDriver::send_buttons(int station, bool grasp, bool next_tool, const ros::Time& stamp) {
-  sensor_msgs::Joy joy;
-  joy.header.stamp = stamp;
-  joy.header.frame_id = frame_of(station);
-  joy.buttons = {grasp ? 1 : 0, next_tool ? 1 : 0};
-  joy_publishers_.at(station).publish(joy);
-}
+  geometry_msgs::TransformStamped transform_of(int station, const RigidTransform& X_TS, const ros::Time& stamp) const {
+    RigidTransform X_BF = X_BT_ * X_TS;
+    if (station == 1) {
+      X_BF = X_BF * Eigen::Translation3d(parameters_.p_ST);
+    } else if (station == parameters_.head_station) {
+      X_BF = X_BF * parameters_.X_BHead;
+    }
+    return ros_common::to_transform(X_BF, parameters_.workbench_frame, frame_of(station), stamp);
+  }
 
-void TrackerDriver::stream() {
-  constexpr double slice = 0.1;  // [s] between looks at what else is due
-  ros::Time::waitForValid();
-  while (ros::ok()) {
-    for (const motion::StationSample& sample : device_->read(slice)) send(sample);
-    if (ros_common::loop_time() >= next_diagnostics_) {
-      publish_diagnostics();
-      next_diagnostics_ = ros_common::loop_time() + 1.0;
+  void wait_until(double t) {
+    for (double now = ros_common::loop_time(); now < t && ros::ok(); now = ros_common::loop_time()) {
+      if (now >= next_diagnostics_ || now < next_diagnostics_ - 1.0) {
+        publish_diagnostics();
+        next_diagnostics_ = now + 1.0;
+      }
+      ros_common::sleep_until_loop_time(std::min(t, now + longest_slice));
     }
   }
-}
 
-void TrackerDriver::send(const motion::StationSample& sample) {
-  Station& station = stations_.try_emplace(sample.station, parameters_).first->second;
-  const ros::Time stamp = ros_time(station.stream.stamp(sample.received));
-  if (joy_publishers_.count(sample.station) > 0) {
-    send_buttons(sample.station, sample.button, sample.next_tool, ros_time(sample.received));
+  void add_health(ros_common::DiagnosticStatusBuilder& status) const {
+    const motion::SourceHealth health = device_->health();
+    for (const auto& [name, count] : health.counters) status.add(name, count);
+    status.add("state", health.text);
+    if (health.streaming) return;
+    status.raise(diagnostic_msgs::DiagnosticStatus::ERROR, health.text);
+    ROS_WARN_STREAM_THROTTLE(5.0, health.text);
   }
-  const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
-  std::string reason = why_not_sent(sample, parameters_.source);
-  if (reason.empty() && stamp <= station.newest) reason = "stamp not later";
-  if (reason.empty() && (stamp - station.newest).toSec() < shortest) reason = "more than ~rate";
-  if (!reason.empty()) {
-    ++station.not_sent[reason];
-    ++not_sent_;
-    return;
-  }
-  std::vector<geometry_msgs::TransformStamped> transforms{
-      transform_of(sample.station, make_transform(sample.q_TS, sample.p_TS), stamp)};
-  if (sample.station == parameters_.fastrak.stations.front()) {
-    if (parameters_.head_station == 0) {
-      transforms.push_back(
-          ros_common::to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
+
+  void publish_diagnostics() {
+    ros_common::DiagnosticStatusBuilder status(name_ + ": source", parameters_.source);
+    status.add("samples sent", sent_)
+        .add("samples not sent", not_sent_)
+        .add("rate [Hz]", interval_ > 0.0 ? 1.0 / interval_ : 0.0);
+    if (device_) {
+      add_health(status);
+    } else {
+      status.add("file", parameters_.file).add("passes", passes_);
     }
-    if (!station.newest.isZero()) interval_ = (stamp - station.newest).toSec();
-  }
-  transforms_.sendTransform(transforms);
-  station.newest = stamp;
-  ++sent_;
-}
-
-std::string TrackerDriver::frame_of(int station) const {
-  if (station == 1) return parameters_.stylus_frame;
-  if (station == parameters_.head_station) return parameters_.head_frame;
-  return parameters_.stylus_frame + "_" + std::to_string(station);
-}
-
-geometry_msgs::TransformStamped TrackerDriver::transform_of(int station, const RigidTransform& X_TS,
-                                                            const ros::Time& stamp) const {
-  RigidTransform X_BF = X_BT_ * X_TS;
-  if (station == 1) {
-    X_BF = X_BF * Eigen::Translation3d(parameters_.p_ST);
-  } else if (station == parameters_.head_station) {
-    X_BF = X_BF * parameters_.X_BHead;
-  }
-  return ros_common::to_transform(X_BF, parameters_.workbench_frame, frame_of(station), stamp);
-}
-
-void TrackerDriver::wait_until(double t) {
-  constexpr double slice = 0.1;  // [s] between looks at what else is due
-  for (double now = ros_common::loop_time(); now < t && ros::ok(); now = ros_common::loop_time()) {
-    if (now >= next_diagnostics_ || now < next_diagnostics_ - 1.0) {
-      publish_diagnostics();
-      next_diagnostics_ = now + 1.0;
+    if (over_) status.add("state", "over");
+    diagnostic_msgs::DiagnosticArray message;
+    message.header.stamp = ros::Time::now();
+    message.status = {status.status()};
+    for (const auto& [number, station] : stations_) {
+      ros_common::DiagnosticStatusBuilder of_station(name_ + ": station " + std::to_string(number), parameters_.source);
+      ros_common::add_stream(station.stream.figures(), of_station);
+      for (const auto& [reason, count] : station.not_sent) of_station.add("not sent: " + reason, count);
+      message.status.push_back(of_station.status());
     }
-    ros_common::sleep_until_loop_time(std::min(t, now + slice));
+    diagnostics_publisher_.publish(message);
   }
-}
 
-void TrackerDriver::add_health(ros_common::DiagnosticStatusBuilder& status) const {
-  const motion::SourceHealth health = device_->health();
-  for (const auto& [name, count] : health.counters) status.add(name, count);
-  status.add("state", health.text);
-  if (health.streaming) return;
-  status.raise(diagnostic_msgs::DiagnosticStatus::ERROR, health.text);
-  ROS_WARN_STREAM_THROTTLE(5.0, health.text);
-}
+  const TrackerParameters parameters_;
+  const std::string name_;
+  std::unique_ptr<motion::LiveSource> device_;
+  struct Station {
+    explicit Station(const TrackerParameters& p) : stream(p.dropout_after, p.even_stamps) {}
+    fastrak::StationStream stream;
+    ros::Time newest;                             ///< stamp of the last sample sent
+    std::map<std::string, std::size_t> not_sent;  ///< by reason
+  };
+  std::map<int, Station> stations_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  RigidTransform X_BT_;
+  std::unique_ptr<OperatorEyes> eyes_;  ///< for the operator
+  std::size_t sent_ = 0, not_sent_ = 0, passes_ = 0;
+  double interval_ = 0.0;  ///< between the last two samples sent [s]
+  bool over_ = false;
+  double next_diagnostics_ = 0.0;
+  tf2_ros::TransformBroadcaster transforms_;
+  std::map<int, ros::Publisher> joy_publishers_;  ///< by station
+  ros::Publisher diagnostics_publisher_;
+};
 
-void TrackerDriver::publish_diagnostics() {
-  ros_common::DiagnosticStatusBuilder status(name_ + ": source", parameters_.source);
-  status.add("samples sent", sent_)
-      .add("samples not sent", not_sent_)
-      .add("rate [Hz]", interval_ > 0.0 ? 1.0 / interval_ : 0.0);
-  if (device_) {
-    add_health(status);
-  } else {
-    status.add("file", parameters_.file).add("passes", passes_);
-  }
-  if (over_) status.add("state", "over");
-  diagnostic_msgs::DiagnosticArray message;
-  message.header.stamp = ros::Time::now();
-  message.status = {status.status()};
-  for (const auto& [number, station] : stations_) {
-    ros_common::DiagnosticStatusBuilder of_station(name_ + ": station " + std::to_string(number), parameters_.source);
-    ros_common::add_stream(station.stream.figures(), of_station);
-    for (const auto& [reason, count] : station.not_sent) of_station.add("not sent: " + reason, count);
-    message.status.push_back(of_station.status());
-  }
-  diagnostics_publisher_.publish(message);
-}
+}  // namespace
+
+void run(ros::NodeHandle node, ros::NodeHandle private_node) { TrackerDriver(node, private_node).run(); }
 
 }  // namespace spring_workbench::tracker_driver

@@ -92,6 +92,24 @@ TEST(SimulatedOperator, ActsOnWhatItSeesOneReactionLater) {
   }
 }
 
+/// A still hand without a reaction's delay: it is on its way for 0.1 s and 0.2 s more for each time that the way, plus
+/// one centimetre, doubles that centimetre.
+TEST(SimulatedOperator, ReachesFollowFittsLaw) {
+  const scene::Scene scene = scene::load_scene(mini_world);
+  OperatorSettings settings = still_hand();
+  settings.reaction = 0.0;
+  settings.rate = 1000.0;
+  SimulatedOperator hand(scene, settings, [&] { return view_of(scene); });
+  std::vector<RigidTransform> motion;
+  for (int k = 0; k < 1500; ++k) motion.push_back(hand.next()->X);
+  const Vector3d start = motion.front().translation();
+  std::size_t end = 1;  // at rest for the first time: the speed of a reach is zero at its end alone
+  const auto speed = [&](std::size_t k) { return (motion[k + 1].translation() - motion[k].translation()).norm(); };
+  while (end < 20 || speed(end) > speed(end - 1) || speed(end) > speed(end + 1)) ++end;
+  const double way = (motion[end].translation() - start).norm();
+  EXPECT_NEAR(1e-3 * static_cast<double>(end), 0.1 + 0.2 * std::log2(1.0 + way / 0.01), 3e-3);
+}
+
 TEST(SimulatedOperator, NoiseHasTheSetSize) {
   const scene::Scene scene = scene::load_scene(mini_world);
   OperatorSettings noisy = still_hand();

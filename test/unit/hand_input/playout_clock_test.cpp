@@ -78,6 +78,22 @@ TEST(PlayoutClock, ALocalClockThatGoesBackStandsStill) {
   EXPECT_EQ(clock.target(both(3.0)), clock.target(both(10.02)));
 }
 
+/// One interval in ten times as many is a tenth of the usual one; 0.2 s of attended time are silence.
+TEST(PlayoutClock, SmoothsTheIntervalAndWaitsForSilence) {
+  PlayoutClock clock(dropout_after);
+  clock.sample(0.00, both(10.00));
+  clock.sample(0.02, both(10.02));
+  clock.sample(0.05, both(10.05));
+  EXPECT_NEAR(clock.target(both(10.05)), 0.05 - (0.02 + 0.1 * 0.01), 1e-12);
+  for (const double attended : {0.19, 0.21}) {
+    PlayoutClock simulated(dropout_after, true);
+    simulated.sample(0.00, {10.00, 0.0});
+    simulated.sample(0.02, {10.02, 0.0});
+    const double target = simulated.target({20.0, attended});
+    EXPECT_EQ(target > 1.0, attended > 0.2) << attended;
+  }
+}
+
 TEST(PlayoutClock, ClearForgetsAll) {
   PlayoutClock clock(dropout_after);
   clock.sample(0.00, both(10.00));

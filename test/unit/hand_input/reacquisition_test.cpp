@@ -74,6 +74,41 @@ TEST(Reacquisition, SetsOutWhereItWasHeldAtRestWithinTheSpeedsAndArrivesExactly)
   }
 }
 
+/// Half of the speed after half of the ramp; e times nearer after each time constant; the last 10 µm, or 0.1 mrad, at
+/// once.
+TEST(Reacquisition, ComesInOverItsRampAndArrivesWithItsTimeConstant) {
+  constexpr double ramp = 0.2, tail = 0.1, h = 1e-4;
+  for (const bool turns : {false, true}) {
+    InputSettings settings;
+    const double speed = turns ? settings.reacquisition_turn_rate : settings.reacquisition_speed;
+    Reacquisition hand(settings);
+    hand.follow({0.0, RigidTransform::Identity()}, true, kNever);
+    const RigidTransform goal = turns ? make_transform(Quaterniond(math::exp_so3(Vector3d(0, 0, 1))), Vector3d::Zero())
+                                      : make_transform(Quaterniond::Identity(), Vector3d(1, 0, 0));
+    const auto left = [&](const RigidTransform& X) { return turns ? angle(X, goal) : distance(X, goal); };
+    double before = 1.0, nearest = 1.0, entered = 0.0;
+    bool ramp_seen = false, tail_seen = false;
+    for (int k = 0; nearest > 0.0; ++k) {
+      ASSERT_LT(k, 100000);
+      const double now = left(hand.follow({1.0 + k * h, goal}, k == 0, kNever)[0].X);
+      if (k == std::lround(0.5 * ramp / h)) {
+        EXPECT_NEAR((before - now) / h, 0.5 * speed, 1e-2 * speed);
+        ramp_seen = true;
+      }
+      if (now < 0.5 * speed * tail && entered == 0.0) entered = k * h + tail * std::log(now / (0.05 * speed * tail));
+      if (entered > 0.0 && k == std::lround(entered / h)) {
+        EXPECT_NEAR(now, 0.05 * speed * tail, 1e-3 * speed * tail);
+        tail_seen = true;
+      }
+      before = now;
+      if (now > 1e-12) nearest = now;
+      if (now <= 1e-12) break;
+    }
+    EXPECT_TRUE(ramp_seen && tail_seen);
+    EXPECT_NEAR(nearest, turns ? 1e-4 : 1e-5, turns ? 2e-6 : 2e-7);
+  }
+}
+
 TEST(Reacquisition, TheFirstStepIsOfThirdOrder) {  // at rest, and without a kick
   double last = 0.0;
   for (const double h : {0.02, 0.01, 0.005}) {

@@ -174,6 +174,52 @@ TEST(SampleGate, AStreamThatBeginsAtTheOriginIsTrue) {
   }
 }
 
+/// What is near the sample before, in place, turn or time, and on both sides of the limits.
+TEST(SampleGate, WhatAHandCanAlwaysHaveDone) {
+  InputSettings settings;
+  settings.max_speed = settings.max_turn_rate = 1e-3;
+  const auto after = [&](double dt, double way, double turn) {
+    SampleGate gate(settings, kDropout);
+    gate.offer({1.0, Vector3d(0.5, 0, 0), Quaterniond::Identity()});
+    return gate.offer({1.0 + dt, Vector3d(0.5 + way, 0, 0), Quaterniond(math::exp_so3(Vector3d(turn, 0, 0)))});
+  };
+  EXPECT_EQ(after(1e-3, 4.9e-3, 0.0), GateResult::accepted);
+  EXPECT_EQ(after(1e-3, 5.1e-3, 0.0), GateResult::too_fast);
+  EXPECT_EQ(after(1e-3, 0.0, 0.049), GateResult::accepted);
+  EXPECT_EQ(after(1e-3, 0.0, 0.051), GateResult::turns_too_fast);
+  EXPECT_EQ(after(5.1e-5, 0.0, 0.0), GateResult::accepted);
+  EXPECT_EQ(after(4.9e-5, 0.0, 0.0), GateResult::too_close);
+  EXPECT_EQ(after(0.6e-9, 0.0, 0.0), GateResult::too_close);
+  EXPECT_EQ(after(0.4e-9, 0.0, 0.0), GateResult::not_later);
+  for (const double share : {0.24, 0.26}) {  // of the usual interval
+    SampleGate gate(settings, kDropout);
+    for (int k = 0; k <= 100; ++k) gate.offer({0.01 * k, Vector3d(0.5, 0, 0), Quaterniond::Identity()});
+    const GateResult result = gate.offer({1.0 + 0.01 * share, Vector3d(0.5, 0, 0), Quaterniond::Identity()});
+    EXPECT_EQ(result, share > 0.25 ? GateResult::accepted : GateResult::too_close);
+  }
+  for (const double radii : {9.0, 11.0}) {  // a jump to the origin
+    SampleGate gate(InputSettings(), kDropout);
+    gate.offer({1.0, Vector3d(radii * InputSettings().origin_radius, 0, 0), Quaterniond::Identity()});
+    const GateResult result = gate.offer({1.01, Vector3d::Zero(), Quaterniond::Identity()});
+    EXPECT_EQ(result, radii > 10.0 ? GateResult::out_of_view : GateResult::accepted);
+  }
+}
+
+/// After one step at speed v the low-passed speed is a v, a the weight of 8 Hz, and the cut-off is min_cutoff + beta a
+/// v.
+TEST(PoseFilter, OpensWithTheLowPassedSpeed) {
+  const double dt = 0.01, v = 0.3;
+  const auto weight = [&](double cutoff) { return 1.0 - 1.0 / (1.0 + 2.0 * M_PI * cutoff * dt); };
+  InputSettings settings;
+  settings.min_cutoff = 1.0;
+  settings.beta = 20.0;
+  PoseFilter filter(settings);
+  filter.filter({0.0, RigidTransform::Identity()});
+  const motion::PoseSample step{dt, make_transform(Quaterniond::Identity(), Vector3d(v * dt, 0, 0))};
+  const double share = filter.filter(step).X.translation().x() / (v * dt);
+  EXPECT_NEAR(share, weight(1.0 + 20.0 * weight(8.0) * v), 1e-12);
+}
+
 TEST(SampleGate, ComplaintsNameFieldValueAndRuleInOneLine) {
   const InputSettings settings;
   const RawSample bad{1.5, Vector3d(7.25, 0, 0), Quaterniond(0.5, 0, 0, 0)};

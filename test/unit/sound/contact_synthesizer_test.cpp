@@ -74,6 +74,13 @@ TEST(ContactSynthesizer, SlippingIsLouderAndHigherWithItsSpeedAndEnds) {
   EXPECT_LT(energy(synthesizer.render(second)), 1e-9 * loud);
 }
 
+/// Half of the amplitude at 0.2 N·s; at 0.2 m/s half of the loudness, and the pitch half way up.
+TEST(ContactSynthesizer, HalfOfTheLoudestIsWhereItIsSaid) {
+  EXPECT_NEAR(energy_of_strike(0.2) / energy_of_strike(1e9), 0.25, 1e-6);
+  const int half = crossings(scraping(0.2)), low = crossings(scraping(1e-4)), high = crossings(scraping(1e9));
+  EXPECT_NEAR(half - low, 0.5 * (high - low), 0.1 * (high - low));
+}
+
 TEST(ContactSynthesizer, SamplesAreBoundedWhateverComes) {
   ContactSynthesizer synthesizer(1.0);
   for (const double value : {std::nan(""), std::numeric_limits<double>::infinity(), -1.0, 1e300, 0.0, 0.3}) {

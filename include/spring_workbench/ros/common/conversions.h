@@ -23,4 +23,8 @@ geometry_msgs::Wrench to_wrench(const Wrench& wrench);
 geometry_msgs::TransformStamped to_transform(const RigidTransform& X, const std::string& parent,
                                              const std::string& child, const ros::Time& stamp);
 
+/// Quaternions of another length than 1 are normalised.
+RigidTransform from_message(const geometry_msgs::Pose& pose);
+RigidTransform from_message(const geometry_msgs::Transform& transform);
+
 }  // namespace spring_workbench::ros_common

@@ -2,6 +2,7 @@
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 
+#include <sstream>
 #include <string>
 
 #include "spring_workbench/motion/stream_monitor.h"
@@ -12,9 +13,15 @@ namespace spring_workbench::ros_common {
 class DiagnosticStatusBuilder {
  public:
   DiagnosticStatusBuilder(const std::string& name, const std::string& hardware);
-  DiagnosticStatusBuilder& add(const std::string& key, const std::string& value);
-  DiagnosticStatusBuilder& add(const std::string& key, double value);
-  DiagnosticStatusBuilder& add(const std::string& key, std::size_t value);
+  template <typename Value>
+  DiagnosticStatusBuilder& add(const std::string& key, const Value& value) {
+    std::ostringstream text;
+    text << value;
+    status_.values.emplace_back();
+    status_.values.back().key = key;
+    status_.values.back().value = text.str();
+    return *this;
+  }
   /// Raises the level (OK, WARN, ERROR, STALE) with a reason; a lower one than the present changes nothing.
   DiagnosticStatusBuilder& raise(int8_t level, const std::string& reason);
   const diagnostic_msgs::DiagnosticStatus& status() const { return status_; }

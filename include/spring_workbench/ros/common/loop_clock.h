@@ -6,6 +6,9 @@
 
 namespace spring_workbench::ros_common {
 
+/// [s], a clock that does not go back.
+double steady_time();
+
 /// Local time [s] that intervals are measured with: ROS time under `use_sim_time`, else the steady clock.
 double loop_time();
 

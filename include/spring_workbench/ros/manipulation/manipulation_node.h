@@ -6,6 +6,7 @@
 #include <atomic>
 #include <mutex>
 #include <thread>
+#include <vector>
 
 #include "spring_workbench/ros/manipulation/checkpoint.h"
 #include "spring_workbench/ros/manipulation/diagnostics.h"
@@ -31,7 +32,6 @@ class ManipulationNode {
 
  private:
   void run_physics();
-  void run_cycle(double due);
   bool run_step(double due);
   void count(const CycleReport& report, bool deadline_missed);
   void on_every_second(const ros::WallTimerEvent&);
@@ -42,7 +42,7 @@ class ManipulationNode {
   SimulationRunner runner_;
   StylusInput input_, second_input_;
   StatePublisher publisher_;
-  Services services_;
+  std::vector<ros::ServiceServer> services_;
   std::unique_ptr<LiveTuning> live_tuning_;
   Checkpoint checkpoint_;
   ManipulationDiagnostics diagnostics_;

@@ -25,10 +25,10 @@ class StatePublisher {
 
  private:
   void publish_transforms(const simulation::Simulation& simulation, const ros::Time& stamp);
-  void publish_fork(const ros::Publisher& publisher, const tools::ToolState& tool, const std_msgs::Header& header);
-  void publish_wrench(const tools::ToolState& tool, const std_msgs::Header& header);
+  void publish_wrench(const tools::ToolState& tool, std_msgs::Header header);
   void publish_contacts(const simulation::Simulation& simulation, const std_msgs::Header& header);
   void publish_markers(const simulation::Simulation& simulation, const std_msgs::Header& header, double now);
+  std_msgs::Header header_at(const ros::Time& stamp) const;
 
   std::string world_frame_;
   double marker_period_;  ///< [s]

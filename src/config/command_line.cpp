@@ -1,0 +1,38 @@
+#include "spring_workbench/config/command_line.h"
+
+namespace spring_workbench::config {
+
+CommandOption text_option(const std::string& name, std::string& value) {
+  return {name, [&value](const std::string& text) { value = text; }};
+}
+
+CommandOption number_option(const std::string& name, const validation::NumberRule& rule, double& value) {
+  return {name, [=, &value](const std::string& text) {
+            value = read_number(YAML::Node(text), command_line, "--" + name, rule);
+          }};
+}
+
+CommandOption integer_option(const std::string& name, int min, int max, int& value) {
+  return {name, [=, &value](const std::string& text) {
+            value = read_integer(YAML::Node(text), command_line, "--" + name, min, max);
+          }};
+}
+
+bool read_command_line(int argc, char** argv, const std::vector<CommandOption>& options) {
+  std::vector<option> known{{"help", no_argument, nullptr, 0}};
+  for (const CommandOption& o : options) known.push_back({o.name.c_str(), o.argument, nullptr, 0});
+  known.push_back({});
+  opterr = 0;
+  int found = 0;
+  for (int code; (code = getopt_long(argc, argv, ":", known.data(), &found)) != -1;) {
+    const std::string word = optind > 0 && optind <= argc ? argv[optind - 1] : "";
+    if (code == ':') validation::refuse(command_line, word, "(nothing)", "followed by a value");
+    if (code != 0) validation::refuse(command_line, "option", word, "one of those that --help lists");
+    if (found == 0) return false;
+    options[static_cast<std::size_t>(found - 1)].take(optarg != nullptr ? optarg : "");
+  }
+  if (optind < argc) validation::refuse(command_line, "argument", argv[optind], "an option that --help lists");
+  return true;
+}
+
+}  // namespace spring_workbench::config

@@ -1,0 +1,17 @@
+#pragma once
+
+namespace spring_workbench::ros_common {
+
+// Each with its unit, what changing it does, and the test that notices.
+
+/// [s] between looks at a simulated clock. Longer: cycles begin later after their time. Test: none: later cycles give
+/// the same states.
+constexpr double clock_poll = 1e-3;
+/// [s] for which a simulated clock that stands is waited for. Longer: callbacks of a stopped bag wait longer. Test:
+/// none: nothing but the node's answers get slower.
+constexpr double stopped_clock_patience = 0.1;
+/// [s] that one look at the clock adds to attended time at most. Longer: what waits while the machine is busy counts as
+/// silence. Test: faults_test.py::test_after_a_stopped_processor_time_is_the_hands_again.
+constexpr double longest_attended = 0.01;
+
+}  // namespace spring_workbench::ros_common

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace spring_workbench::manipulation {
+
+// Each with its unit, what changing it does, and the test that notices.
+
+/// messages of one topic that wait for a slow subscriber. Fewer: a run of steps without pause loses some. Test:
+/// played_recordings_test.py::test_a_hundred_rounds_are_the_same.
+constexpr std::uint32_t state_queue = 1000;
+/// [s] for which rviz keeps a marker that is not sent again, at least. Shorter: flickers when the node is late. Test:
+/// rviz_recovery_test.py::test_markers.
+constexpr double shortest_marker_lifetime = 2.0;
+/// messages of /tf or of buttons that wait while the machine is busy. Fewer: samples are lost. Test:
+/// played_recordings_test.py::test_a_hundred_rounds_are_the_same.
+constexpr std::uint32_t input_queue = 2000;
+/// messages of a stream that are kept over a jump of time. Fewer: the first after a jump are lost. Test: none: no test
+/// has a jump over so many.
+constexpr std::size_t most_early = 2000;
+/// child frames that a hint can name. More: longer hints. Test: none: a line for people.
+constexpr std::size_t most_named_frames = 20;
+/// [s] a clock that is set back by less goes on. Less: a clock that is set right starts the scene anew. Test:
+/// manipulation_test.py::test_starts_anew_when_time_jumps_back.
+constexpr double clock_slip = 0.1;
+/// [s] of attended time in which the other stream may follow a jump back. Less: what a busy player sends late is lost.
+/// Test: tools_test.py::test_both_start_anew_when_time_jumps_back.
+constexpr double jump_patience = 1.0;
+/// [s] between two log lines of one reason to leave samples out. Test: none: a line for people.
+constexpr double told_again_after = 5.0;
+/// [s] between two hints why no sample of the stylus is used. Test: none: a line for people.
+constexpr double hint_patience = 10.0;
+/// [s] between checkpoints. Longer: a killed node goes on from an older state. Test:
+/// faults_test.py::test_a_killed_node_comes_back_as_it_was.
+constexpr double checkpoint_period = 0.5;
+/// of a grid step: what rounding may take from it. More: steps of the grid are skipped. Test:
+/// played_recordings_test.py::test_a_hundred_rounds_are_the_same.
+constexpr double grid_slack = 1e-6;
+/// [s] beyond which time has leapt and the scene starts anew. Longer: a leap is simulated in full. Test:
+/// manipulation_test.py::test_starts_anew_when_time_jumps_ahead.
+constexpr double longest_catch_up = 5.0;
+/// [s] by which a second stylus may begin before the simulated time and still join. At least 1: in simulated time an
+/// epoch begins at a whole second. Test: tools_test.py::test_second_stylus_takes_the_object_over.
+constexpr double joining_slip = 1.5;
+/// [m] arrows of force and moment below it are not drawn. Test: none: a look.
+constexpr double shortest_arrow = 1e-3;
+/// [m] arrows of force and moment are cut to it. Test: none: a look.
+constexpr double longest_arrow = 1.0;
+/// [m] between the hand and the seen handle from which on a line is drawn. Less: it flickers with rounding. Test: none:
+/// a look.
+constexpr double smallest_gap = 1e-5;
+/// [m] above the bench from which on an object throws a shadow. Less: those at rest flicker. Test:
+/// MarkersOfALift.ARaisedBoxThrowsItsOwnOutlineOnTheBench.
+constexpr double least_shadow_height = 2e-3;
+/// [m] less: the bench shines through. Test: MarkersOfALift.ARaisedBoxThrowsItsOwnOutlineOnTheBench.
+constexpr double shadow_above_bench = 1e-3;
+/// of the ghosts where objects belong. Test: none: a look.
+constexpr double target_opacity = 0.25;
+/// corners of a circle's shadow. Test: none: a look.
+constexpr int outline_sides = 24;
+/// colours in the column of loads. Test: MarkersOfALift.LoadIsColouredAndToldInVirtualKilograms.
+constexpr int legend_steps = 16;
+/// [m] of one colour in the column of loads. Test: none: a look.
+constexpr double legend_edge = 0.014;
+/// [m] height of the letters beside the column of loads. Test: none: a look.
+constexpr double legend_letters = 0.024;
+
+}  // namespace spring_workbench::manipulation

@@ -1,0 +1,130 @@
+#include "spring_workbench/ros/register_tracker/register_tracker.h"
+
+#include <ros/ros.h>
+#include <sensor_msgs/Joy.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <fstream>
+#include <iostream>
+
+#include "spring_workbench/config/command_line.h"
+#include "spring_workbench/motion_files/motion_file.h"
+#include "spring_workbench/registration/touches.h"
+#include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/ros/common/parameters.h"
+
+namespace spring_workbench::register_tracker {
+namespace {
+
+/// The stylus and its button from the running driver.
+class Listener {
+ public:
+  Listener()
+      : tf_(node_.subscribe("/tf", 1000, &Listener::on_transforms, this)),
+        joy_(node_.subscribe("stylus/joy", 1000, &Listener::on_buttons, this)) {}
+
+  /// All samples until the button was let go for the `count`th time.
+  std::vector<motion::StylusSample> collect(std::size_t count) {
+    for (std::size_t seen = 0; seen < count && ros::ok();) {
+      ros::spinOnce();
+      ros::WallDuration(0.005).sleep();
+      if (seen == released_) continue;
+      seen = released_;
+      std::cout << "touch " << seen << " of " << count << std::endl;
+    }
+    if (!ros::ok()) throw std::runtime_error("interrupted");
+    return samples_;
+  }
+
+ private:
+  void on_transforms(const tf2_msgs::TFMessage& message) {
+    for (const auto& transform : message.transforms) {
+      if (transform.child_frame_id != "stylus") continue;
+      motion::StylusSample sample;
+      sample.t = transform.header.stamp.toSec();
+      sample.X = ros_common::from_message(transform.transform);
+      sample.button = pressed_;
+      samples_.push_back(sample);
+    }
+  }
+  void on_buttons(const sensor_msgs::Joy& message) {
+    const bool pressed = !message.buttons.empty() && message.buttons[0] != 0;
+    if (pressed_ && !pressed) ++released_;
+    pressed_ = pressed;
+  }
+
+  ros::NodeHandle node_;
+  std::vector<motion::StylusSample> samples_;
+  bool pressed_ = false;
+  std::size_t released_ = 0;
+  ros::Subscriber tf_, joy_;
+};
+
+}  // namespace
+
+std::string help_text() {
+  return R"(Where the tracker stands on the workbench, or where the tip of the stylus is.
+
+register_tracker --landmarks FILE [--motion FILE] [--registration FILE] [--largest-residual MM] --out FILE
+register_tracker --pivot          [--motion FILE] [--registration FILE] [--largest-residual MM] --out FILE
+
+  --landmarks         YAML: landmarks: [{name: a, position: [x, y, z]}, ...], metres in the workbench. Touch one after
+                      the other, in this order, and press the button while the tip rests there
+  --pivot             hold the tip in one place, press the button, turn the stylus about it to all sides, let go
+  --motion            a recorded motion with a button column, as the tracker measured it, in place of the running
+                      tracker_driver
+  --registration      with --motion: the file found before, whose tip is to be used. A running driver has its own
+  --largest-residual  the most that a touch may be off, or the tip's rms [mm]; 5
+  --out               the file to write, for `registration:=` of workbench.launch and fastrak.launch
+
+Exit status: 0 done; 1 failed; 2 what is given or touched cannot be used, with one line on standard error; nothing is
+written then.
+)";
+}
+
+std::optional<Options> parse_options(int argc, char** argv) {
+  using config::command_line;
+  Options options;
+  double largest_residual = 5.0;  // [mm]
+  if (!config::read_command_line(argc, argv,
+                                 {{"pivot", [&](const std::string&) { options.pivot = true; }, no_argument},
+                                  config::text_option("landmarks", options.landmarks),
+                                  config::text_option("motion", options.motion),
+                                  config::text_option("registration", options.registration),
+                                  config::number_option("largest-residual", validation::positive(), largest_residual),
+                                  config::text_option("out", options.out)})) {
+    return std::nullopt;
+  }
+  options.largest_residual = 1e-3 * largest_residual;
+  if (options.out.empty()) validation::refuse(command_line, "--out", "(nothing)", "the path of the file to write");
+  if (options.pivot == !options.landmarks.empty()) {
+    validation::refuse(command_line, "--landmarks", options.pivot ? "given beside --pivot" : "(nothing)",
+                       "one of --landmarks and --pivot");
+  }
+  return options;
+}
+
+void run(const Options& options, int argc, char** argv) {
+  std::vector<registration::Landmark> known;
+  if (!options.pivot) known = registration::read_landmarks(options.landmarks);
+  std::vector<motion::StylusSample> samples;
+  registration::StoredRegistration present;
+  if (options.motion.empty()) {
+    ros::init(argc, argv, "register_tracker");
+    samples = Listener().collect(options.pivot ? 1 : known.size());
+    present = registration::read_registration(ros_common::private_parameters(ros::NodeHandle("tracker_driver")),
+                                              "tracker_driver");
+  } else {
+    if (!options.registration.empty())
+      present = registration::read_registration(config::load_yaml_file(options.registration), options.registration);
+    samples = registration::as_sent(motion_files::read_motion_file(options.motion), present);
+  }
+  const std::string text = options.pivot
+                               ? registration::find_tip(samples, present, options.largest_residual)
+                               : registration::find_tracker(samples, known, present, options.largest_residual);
+  std::cout << text;
+  std::ofstream file(options.out);
+  if (!(file << text) || !file.flush()) throw std::runtime_error(options.out + ": cannot be written");
+}
+
+}  // namespace spring_workbench::register_tracker

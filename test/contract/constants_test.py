@@ -1,0 +1,101 @@
+#!/usr/bin/python3
+"""The constants of a module have one home, src/<module>/constants.h, and each says which test notices a change."""
+import pathlib
+import re
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+NOT_YET = set(  # modules whose constants still stand where they are used; only ever made smaller
+    "simulation scene validation config geometry collision rigid_bodies contact bodies tools math motion rod".split()
+    + ["dynamics"]
+)
+# What a standard, a device or a file says: not to be tuned, and at home where it is read and written.
+FORMATS = {"fastrak/fastrak_protocol.cpp", "fastrak/fastrak_device.cpp", "motion_files/motion_file.cpp"}
+FORMATS |= {"fastrak/fastrak_protocol.h"}
+MOST_UNNOTICED = 36  # constants that no test notices; only ever made smaller
+TYPE = r"(?:unsigned |signed )?(?:double|float|bool|char|short|int|long|unsigned|(?:std::)?u?int\d+_t|(?:std::)?size_t)"
+DEFINITION = re.compile(rf"^(?:inline |static )*const(?:expr)? (?:inline )?{TYPE} (\w+)\s*[={{][^;]*\d", re.MULTILINE)
+ENTRY = re.compile(rf"((?:^///[^\n]*\n)*)^constexpr {TYPE} (\w+) =", re.MULTILINE)
+
+
+def module_of(path):
+    return "/".join(path.parts[: 2 if path.parts[0] in ("ros", "apps") else 1])
+
+
+def tests_of(root):
+    """Suite.Name of the unit tests, file.py::method of the others."""
+    found = set()
+    for path in (root / "test").rglob("*.cpp"):
+        for suite, name in re.findall(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", path.read_text(), re.MULTILINE):
+            found.add(f"{suite}.{name}")
+    for path in (root / "test").rglob("*_test.py"):
+        found |= {f"{path.name}::{name}" for name in re.findall(r"^    def (test_\w+)", path.read_text(), re.MULTILINE)}
+    return found
+
+
+def faults_of(root):
+    tests, faults, entries, unnoticed = tests_of(root), [], 0, 0
+    for base in ["include/spring_workbench", "src"]:
+        for path in sorted(p for p in (root / base).rglob("*") if p.suffix in {".h", ".cpp"}):
+            inside = path.relative_to(root / base)
+            if module_of(inside) in NOT_YET or str(inside) in FORMATS:
+                continue
+            text = path.read_text()
+            if path.name != "constants.h":
+                faults += [f"{inside}: {name}: must be in constants.h" for name in DEFINITION.findall(text)]
+                continue
+            for comment, name in ENTRY.findall(text):
+                entries += 1
+                comment = " ".join(line.lstrip("/ ") for line in comment.splitlines())
+                match = re.search(r"Test: (none: \w|[\w.]+\.py::\w+|\w+\.\w+)", comment)
+                if not match:
+                    faults.append(f"{inside}: {name}: its comment must name the test that notices")
+                elif match.group(1).startswith("none"):
+                    unnoticed += 1
+                elif match.group(1) not in tests:
+                    faults.append(f"{inside}: {name}: there is no test {match.group(1)}")
+    return faults, entries, unnoticed
+
+
+class Constants(unittest.TestCase):
+    def test_this_package_keeps_it(self):
+        faults, entries, unnoticed = faults_of(ROOT)
+        self.assertEqual(faults, [], "\n" + "\n".join(faults))
+        self.assertGreater(entries, 50)
+        self.assertEqual(unnoticed, MOST_UNNOTICED)
+
+    def test_the_list_only_shrinks(self):
+        self.assertLessEqual(len(NOT_YET), 14)
+        self.assertLessEqual(NOT_YET, {path.name for path in (ROOT / "src").iterdir()})
+
+    def test_faults_are_found(self):
+        cases = [  # file, text, whether it is a fault
+            ("src/a/a.cpp", "constexpr double most = 3.0;\n", True),
+            ("src/a/a.cpp", "namespace {\nconst int most = 3;\n}\n", True),
+            ("include/spring_workbench/a/a.h", "inline constexpr std::size_t most = 3;\n", True),
+            ("src/a/a.cpp", "void f() {\n  constexpr int count = 3;\n}\n", False),
+            ("src/a/a.cpp", 'const std::string name = "a";\n', False),
+            ("src/dynamics/a.cpp", "constexpr double most = 3.0;\n", False),
+            ("src/a/constants.h", "/// [s] Longer: later. Test: A.Notices.\nconstexpr double most = 3.0;\n", False),
+            ("src/a/constants.h", "/// [s]\n/// Test: a_test.py::test_it.\nconstexpr int most = 3;\n", False),
+            ("src/a/constants.h", "/// [s] Longer: later. Test: A.Sleeps.\nconstexpr double most = 3.0;\n", True),
+            ("src/a/constants.h", "/// [s] Longer: later.\nconstexpr double most = 3.0;\n", True),
+            ("src/ros/a/constants.h", "constexpr double most = 3.0;\n", True),
+        ]
+        for file, text, wrong in cases:
+            with self.subTest(file=file, text=text), tempfile.TemporaryDirectory() as folder:
+                root = pathlib.Path(folder)
+                for name, content in [
+                    ("test/unit/a_test.cpp", "TEST(A, Notices) {}\n"),
+                    ("test/integration/a_test.py", "class A:\n    def test_it(self):\n"),
+                    (file, text),
+                ]:
+                    (root / name).parent.mkdir(parents=True, exist_ok=True)
+                    (root / name).write_text(content)
+                self.assertEqual(len(faults_of(root)[0]), 1 if wrong else 0)
+
+
+if __name__ == "__main__":
+    sys.exit(unittest.main())
