@@ -36,7 +36,7 @@ double root_of_load(double slope) {
 }
 
 /// The body on the tip of a rod that hardly extends or twists: its mass sets no more than the scale of the
-/// accelerations, which vanish. Families are not off, so that `quadratic` knows the tension.
+/// accelerations, which vanish.
 dynamics::HeldBody bending_body(const std::string& shape) {
   dynamics::HeldBody body(
       rod::make_shape_model(validation::named<rod::ShapeKind>(shape, "benchmark", "shape"), kLength),

@@ -51,10 +51,8 @@ void HeldBody::changed() {
 }
 
 void HeldBody::exchange(math::StateArchive& state) {
-  state(version_, load_version_, stiffness_, K_, D_, modal_, modal_ratio_, mode_, return_, external_W_, loaded_);
-  if (!state.sets()) return;
-  if (auto shape = shape_->for_stiffness(stiffness_)) shape_ = std::move(shape);
-  take_modes();
+  state(version_, load_version_, K_, D_, modal_, modal_ratio_, mode_, return_, external_W_, loaded_);
+  if (state.sets()) take_modes();
 }
 
 void HeldBody::take_modes() {
@@ -91,10 +89,8 @@ void HeldBody::set_springs(const rod::PerDof& stiffness, const rod::PerDof& damp
 }
 
 void HeldBody::set_springs_and_dampers(const rod::PerDof& stiffness, const rod::PerDof& damping) {
-  if (auto shape = shape_->for_stiffness(stiffness)) shape_ = std::move(shape);
-  stiffness_ = stiffness;
   K_ = shape_->stiffness(stiffness);
-  D_ = shape_->stiffness(damping);  // (c_f / k_f) K_f, without dividing by k_f
+  D_ = shape_->damping(damping, stiffness);
   modal_ = false;
   changed();
 }
@@ -313,15 +309,12 @@ rod::StrainVector HeldBody::project_twist(const HandleForcing& h, const rod::Str
 
 double HeldBody::elastic_energy(double t, const StrainState& state) const {
   const StrainState full = full_state(t, state);
-  return 0.5 * full.q.dot(K_.cwiseProduct(full.q)) + shape_->condensed_energy(full.q);
+  return 0.5 * full.q.dot(K_.cwiseProduct(full.q));
 }
 
 rod::StrainVector HeldBody::elastic_force(double t, const rod::StrainVector& q) const {
   const StrainState full = full_state(t, {q, rod::StrainVector::Zero(size())});
-  rod::TipKinematics tip;
-  shape_->tip(full.q, full.q_dot, tip);
-  rod::StrainVector all = K_.cwiseProduct(full.q);
-  if (tip.condensed_force.size() > 0) all += tip.condensed_force;
+  const rod::StrainVector all = K_.cwiseProduct(full.q);
   rod::StrainVector force(size());
   for (int i = 0; i < size(); ++i) force[i] = all[active_[static_cast<std::size_t>(i)]];
   return force;

@@ -154,9 +154,6 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const motion::Fram
   }
   rod::TipOf<S> tip;
   shape_->tip(q_all, q_dot_all, tip);
-  if (tip.condensed) {
-    for (int i = 0; i < n; ++i) springs[i] -= tip.condensed_force[active_[static_cast<std::size_t>(i)]];
-  }
   const Rigid<S> rigid = without_strain_acceleration(h, tip, q_dot_all, q_ddot_all);
 
   if constexpr (n == 6) {

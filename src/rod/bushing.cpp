@@ -5,18 +5,20 @@
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::rod {
-StrainVector Bushing::stiffness(const PerDof& k) const {
-  const double slope = slope_per_bend_ ? k.bend * *slope_per_bend_ : k.bend * length() * length() / 3.0;
-  StrainVector K(6);
-  K << k.bend, k.bend, slope, slope, k.torsion, k.stretch;
-  return K;
+
+StrainVector Bushing::diagonal(const PerDof& per_dof, double slope) const {
+  StrainVector of(6);
+  of << per_dof.bend, per_dof.bend, slope, slope, per_dof.torsion, per_dof.stretch;
+  return of;
 }
 
-std::shared_ptr<const ShapeModel> Bushing::for_stiffness(const PerDof& k) const {
-  if (!slope_stiffness_ || !(k.bend > 0.0)) return nullptr;
-  auto shape = std::make_shared<Bushing>(*this);
-  shape->slope_per_bend_ = *slope_stiffness_ / k.bend;
-  return shape;
+StrainVector Bushing::stiffness(const PerDof& k) const {
+  return diagonal(k, slope_stiffness_ && k.bend > 0.0 ? *slope_stiffness_ : k.bend * length() * length() / 3.0);
+}
+
+StrainVector Bushing::damping(const PerDof& c, const PerDof& k) const {
+  const bool set = slope_stiffness_ && k.bend > 0.0;
+  return diagonal(c, c.bend * (set ? *slope_stiffness_ / k.bend : length() * length() / 3.0));
 }
 
 template <typename S>
@@ -42,7 +44,6 @@ SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S
   out.angular_bias = (k.b_slope * t_dot) * s + (k.c_slope * t_dot) * cross(phi, s) + k.c * cross(phi_dot, s);
   out.linear_bias = zero;
   out.separate = true;
-  out.condensed = false;
   out.inverse_angular = math::symmetric_and_skew(k.d, S(1.0 - k.d * t), S(S{} - 0.5), phi);
 }
 

@@ -15,7 +15,7 @@ class Bushing final : public ShapeModel {
   int size() const override { return 6; }
   CoordinateRange bend() const override { return {0, 4}; }
   StrainVector stiffness(const PerDof& k) const override;
-  std::shared_ptr<const ShapeModel> for_stiffness(const PerDof& k) const override;
+  StrainVector damping(const PerDof& c, const PerDof& k) const override;
   using ShapeModel::tip;
   void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
   void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const override;
@@ -30,8 +30,9 @@ class Bushing final : public ShapeModel {
   void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
   void tips(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const;
 
-  std::optional<double> slope_stiffness_;  ///< [N·m/rad]
-  std::optional<double> slope_per_bend_;   ///< its part of the bend stiffness [m²/rad]; by default L² / 3
+  StrainVector diagonal(const PerDof& per_dof, double slope) const;
+
+  std::optional<double> slope_stiffness_;  ///< [N·m/rad]; by default L² / 3 of the bend stiffness
 };
 
 }  // namespace spring_workbench::rod

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <array>
-#include <cmath>
-
 #include "spring_workbench/math/pack.h"
 
 namespace spring_workbench::rod {
@@ -32,32 +29,23 @@ SPRING_WORKBENCH_INLINE math::ThreeByThree<S> rotation_matrix(const QuaternionOf
   return math::symmetric_and_skew(S(S{} + 2.0), S(1.0 - 2.0 * dot(q.v, q.v)), S(2.0 * q.w), q.v);
 }
 
-/// The rotation along a piece of a rod whose strain is a polynomial of `degree`, as a power series of its quaternion
-/// about the middle. The series of q' = ½ q (a₀ + a₁ u + …) converges for every strain; pieces that turn by less
-/// than 2.5 rad leave 1e-13.
-template <int degree, typename S>
+/// The rotation along a piece of a rod whose strain is linear in the arc length, as a power series of its quaternion
+/// about the middle. The series of q' = ½ q (a + b u) converges for every strain; pieces that turn by less than 2.5 rad
+/// leave 1e-13.
+template <typename S>
 class SegmentRotation {
  public:
-  using Strain = std::array<math::Three<S>, degree + 1>;
-
-  /// The strain over the piece of length h is (a[0] + a[1] u + …) / h for u = −½ … ½.
-  /// `angle`: a bound of |a[0]| + |a[1]| / 2 + |a[2]| / 4 … [rad].
-  SPRING_WORKBENCH_INLINE SegmentRotation(const Strain& a, double angle) {
+  /// The strain over the piece of length h is (a + b u) / h for u = −½ … ½. `angle`: a bound of |a| + |b| / 2 [rad].
+  SPRING_WORKBENCH_INLINE SegmentRotation(const math::Three<S>& a, const math::Three<S>& b, double angle) {
     pairs_ = angle < 0.5 ? 7 : angle < 1.2 ? 8 : most_pairs;
     c_[0] = {math::none<S>(), S{} + 1.0};
-    c_[1] = {0.5 * a[0], S{}};
+    c_[1] = {0.5 * a, S{}};
     for (int n = 1; n + 1 < 2 * pairs_; ++n) {
-      QuaternionOf<S> sum = times(c_[n], a[0]);
-      for (int d = 1; d <= degree && d <= n; ++d) {
-        const QuaternionOf<S> term = times(c_[n - d], a[static_cast<std::size_t>(d)]);
-        sum.v += term.v;
-        sum.w += term.w;
-      }
+      const QuaternionOf<S> by_a = times(c_[n], a), by_b = times(c_[n - 1], b);
       const double f = 0.5 / (n + 1);
-      c_[n + 1] = {f * sum.v, f * sum.w};
+      c_[n + 1] = {f * (by_a.v + by_b.v), f * (by_a.w + by_b.w)};
     }
   }
-  SPRING_WORKBENCH_INLINE explicit SegmentRotation(const Strain& a) : SegmentRotation(a, bound(a)) {}
 
   struct Two {
     QuaternionOf<S> before, after;
@@ -76,14 +64,6 @@ class SegmentRotation {
  private:
   static constexpr int most_pairs = 11;
 
-  static double bound(const Strain& a) {
-    double angle = 0.0, power = 1.0;
-    for (const math::Three<S>& term : a) {
-      angle += power * std::sqrt(math::largest(dot(term, term)));
-      power *= 0.5;
-    }
-    return angle;
-  }
   SPRING_WORKBENCH_INLINE static QuaternionOf<S> times(const QuaternionOf<S>& q, const math::Three<S>& v) {
     return {q.w * v + math::cross(q.v, v), S{} - dot(q.v, v)};
   }

@@ -5,7 +5,7 @@
 namespace spring_workbench::rod {
 
 const std::vector<std::string>& names_of(ShapeKind) {
-  static const std::vector<std::string> names = {"constant", "linear", "quadratic", "bushing"};
+  static const std::vector<std::string> names = {"constant", "linear", "bushing"};
   return names;
 }
 

@@ -1,7 +1,6 @@
 #include "spring_workbench/rod/shape_model.h"
 
 #include "bushing.h"
-#include "quadratic_rod.h"
 #include "spring_workbench/validation/number_rule.h"
 #include "strain_rod.h"
 
@@ -20,15 +19,9 @@ void ShapeModel::tip(const StrainVector& q, const StrainVector& q_dot, TipKinema
   }
   out.angular_bias = math::vector(tip_of.angular_bias);
   out.linear_bias = math::vector(tip_of.linear_bias);
-  out.condensed_force.setZero(size());
-  if (tip_of.condensed) {
-    for (int i = 0; i < size(); ++i) out.condensed_force[i] = tip_of.condensed_force[i];
-  }
 }
 
-std::shared_ptr<const ShapeModel> ShapeModel::for_stiffness(const PerDof&) const { return nullptr; }
-
-double ShapeModel::condensed_energy(const StrainVector&) const { return 0.0; }
+StrainVector ShapeModel::damping(const PerDof& c, const PerDof&) const { return stiffness(c); }
 
 bool ShapeModel::rechart(StrainVector&, StrainVector&) const { return false; }
 
@@ -40,8 +33,6 @@ std::shared_ptr<const ShapeModel> make_shape_model(ShapeKind kind, double length
       return std::make_shared<StrainRod>(length, 1);
     case ShapeKind::linear:
       return std::make_shared<StrainRod>(length, 2);
-    case ShapeKind::quadratic:
-      return std::make_shared<QuadraticRod>(length, PerDof());
     case ShapeKind::bushing:
       break;
   }

@@ -86,8 +86,8 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
 
   for (int segment = 0; segment < count; ++segment) {
     const double s_begin = segment * h;
-    const SegmentRotation<1, S> rotation(
-        {h * (k.value + (s_begin + 0.5 * h - 0.5 * length()) * k.slope), (h * h) * k.slope}, angle / count);
+    const SegmentRotation<S> rotation(h * (k.value + (s_begin + 0.5 * h - 0.5 * length()) * k.slope), (h * h) * k.slope,
+                                      angle / count);
     const auto ends = rotation.at(0.5);
     const QuaternionOf<S> to_middle = turned * conjugate(ends.before);
     math::ThreeByThree<S> R[nodes];
@@ -153,7 +153,7 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   out.linear[stretch().begin] = p;
   out.angular_bias = bias;
   out.linear_bias = stretched * (cross(bias, p) - bias_cross_p + centripetal) + (2.0 * stretching) * coriolis;
-  out.separate = out.condensed = false;
+  out.separate = false;
 }
 
 template <typename S>
@@ -185,8 +185,8 @@ RigidTransform StrainRod::section(const StrainVector& q, double s) const {
   QuaternionOf<double> turned{math::none<double>(), 1.0};
   math::Three<double> p = math::none<double>();
   for (int segment = 0; segment < count; ++segment) {
-    const SegmentRotation<1, double> rotation(
-        {h * (k.value + ((segment + 0.5) * h - 0.5 * length()) * k.slope), (h * h) * k.slope}, angle / count);
+    const SegmentRotation<double> rotation(h * (k.value + ((segment + 0.5) * h - 0.5 * length()) * k.slope),
+                                           (h * h) * k.slope, angle / count);
     const auto ends = rotation.at(0.5);
     const QuaternionOf<double> to_middle = turned * conjugate(ends.before);
     for (int i = 0; i < most_nodes / 2; ++i) {

@@ -174,7 +174,6 @@ class HeldBody {
   double gravity_;
   long version_ = 0;
   long load_version_ = 0;
-  rod::PerDof stiffness_;    ///< of the families
   rod::StrainVector K_, D_;  ///< all coordinates; with modal damping D_ is zero
   bool modal_ = false;
   double modal_ratio_ = 0.0;

@@ -32,7 +32,7 @@ struct ForkDofs {
 };
 
 /// How the rod's curvature may vary along it (doc/model.md, "Shape models").
-enum class ShapeKind { constant, linear, quadratic, bushing };
+enum class ShapeKind { constant, linear, bushing };
 const std::vector<std::string>& names_of(ShapeKind);
 
 /// What the damping numbers are: a ratio per DOF (Kelvin–Voigt, that of each DOF alone), one ratio for every mode of

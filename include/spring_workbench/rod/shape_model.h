@@ -25,7 +25,6 @@ struct TipKinematics {
   StrainJacobian linear;                     ///< tip's velocity = linear · q̇
   Vector3d angular_bias = Vector3d::Zero();  ///< angular acceleration = angular · q̈ + angular_bias [rad/s²]
   Vector3d linear_bias = Vector3d::Zero();   ///< acceleration = linear · q̈ + linear_bias [m/s²]
-  StrainVector condensed_force;              ///< ∂U/∂q beyond K q, from coordinates that are condensed
 };
 
 /// The same for one strain (`S` double) or several.
@@ -40,9 +39,6 @@ struct TipOf {
   /// (q̇₂, q̇₃, q̇₄) = inverse_angular · angular velocity.
   bool separate = false;
   math::ThreeByThree<S> inverse_angular;
-  /// ∂U/∂q beyond K q, from coordinates that are condensed, where there are some.
-  bool condensed = false;
-  S condensed_force[max_strain_coordinates];
 };
 
 /// Which of the strain coordinates belong to which family: [begin, begin + count).
@@ -63,14 +59,11 @@ class ShapeModel {
   CoordinateRange torsion() const { return {size() - 2, 1}; }
   CoordinateRange stretch() const { return {size() - 1, 1}; }
 
-  /// Diagonal of the stiffness matrix K, `U = ½ qᵀ K q` [J] with nothing condensed, for the families' stiffness [N/m,
-  /// N/m, N·m/rad].
+  /// Diagonal of the stiffness matrix K, `U = ½ qᵀ K q` [J], for the DOFs' stiffness [N/m, N/m, N·m/rad].
   virtual StrainVector stiffness(const PerDof& k) const = 0;
-  /// The same shape for this stiffness, where the stiffness decides on the shape (by coordinates that are condensed);
-  /// else null. As made by make_shape_model a shape has none of them.
-  virtual std::shared_ptr<const ShapeModel> for_stiffness(const PerDof& k) const;
-  /// Elastic energy in condensed coordinates, beyond ½ qᵀ K q [J].
-  virtual double condensed_energy(const StrainVector& q) const;
+  /// Diagonal of the damping matrix D for the DOFs' damping coefficients `c` [N·s/m, N·s/m, N·m·s/rad]: within each DOF
+  /// D is c / k times K for the stiffness `k`, and its limit where k is zero.
+  virtual StrainVector damping(const PerDof& c, const PerDof& k) const;
 
   /// The tip for strain `q` and strain rate `q_dot`; both of length size().
   void tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const;

@@ -37,8 +37,7 @@ MarkerArray MarkerBuilder::build(const simulation::Simulation& simulation, const
 }
 
 void MarkerBuilder::deform(const tools::ToolState& tool) {
-  auto shape = rod::make_shape_model(tool.shape, tool.length);
-  if (auto stiff = shape->for_stiffness(tool.stiffness)) shape = std::move(stiff);
+  const auto shape = rod::make_shape_model(tool.shape, tool.length);
   fork_.deform(fork_mesh::make_fork_curve(fork_curve_, *shape, tool.strain, tool.X_WH_proxy),
                fork_mesh::coil_diameter(tool.length), fork_mesh_);
 }
