@@ -71,7 +71,8 @@ class FunctionHand final : public motion::FrameMotion {
     HandleMotion<math::Pack> handle;
     handle_motion(scene_, t, handle);
     handle.a_W.z += gravity;
-    return {handle.R_WH, handle.w_H, handle.alpha_H, math::transposed(handle.R_WH, handle.a_W)};
+    return {handle.R_WH, math::transposed(handle.R_WH, handle.v_W), handle.w_H, handle.alpha_H,
+            math::transposed(handle.R_WH, handle.a_W)};
   }
 
  private:

@@ -8,6 +8,7 @@
 
 namespace spring_workbench::contact {
 void ContactStepper::collide(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce) const {
+  if (rows.empty()) return;
   const motion::MotionState s = body.object();
   std::vector<ContactRow> impulses;
   for (const ContactRow& row : rows) {

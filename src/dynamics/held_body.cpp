@@ -1,16 +1,13 @@
 #include "spring_workbench/dynamics/held_body.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace spring_workbench::dynamics {
 namespace {
-
-/// After this many time constants a critically damped return is over: exp(−45) is below the rounding of its start.
-constexpr double return_is_over = 45.0;
 
 /// `2 ζ M^½ (M^-½ K M^-½)^½ M^½` for a diagonal `K`: of the stiff coordinates 2 ζ K^½ (K^½ M⁻¹ K^½)^-½ K^½, from the
 /// singular values of L⁻¹ K^½ with M = L Lᵀ. So soft coordinates keep their digits beside stiff ones; without stiffness
@@ -33,46 +30,29 @@ rod::StrainMatrix modal_damping(const rod::StrainMatrix& M, const rod::StrainVec
 }  // namespace
 
 HeldBody::HeldBody(std::shared_ptr<const rod::ShapeModel> shape, const BodyInertia& body, double gravity)
-    : shape_(std::move(shape)), body_(body), gravity_(gravity) {
+    : shape_(std::move(shape)), body_(body), gravity_(gravity), coordinates_(shape_->size()) {
   p_OE_ = body.X_OE.translation();
   p_EO_ = -(body.X_OE.linear().transpose() * p_OE_);
   R_EO_ = body.X_OE.linear().transpose();
-  inertia_E_ = R_EO_ * body.inertia_O * R_EO_.transpose();
-  inverse_inertia_O_ = body.inertia_O.inverse();
-  shape_size_ = shape_->size();
-  K_ = D_ = rod::StrainVector::Zero(shape_size_);
-  mode_.fill(Mode::active);
+  K_ = D_ = rod::StrainVector::Zero(coordinates_.count());
   changed();
 }
 
 void HeldBody::changed() {
   ++version_;
-  take_modes();
+  set_modal_damping();
 }
 
 void HeldBody::exchange(math::StateArchive& state) {
-  state(version_, load_version_, K_, D_, modal_, modal_ratio_, mode_, return_, external_W_, loaded_);
-  if (state.sets()) take_modes();
+  state(version_, load_version_, K_, D_, modal_, modal_ratio_, coordinates_, external_W_, loaded_);
+  if (state.sets()) set_modal_damping();
 }
 
-void HeldBody::take_modes() {
-  active_count_ = 0;
-  returning_ = 0;
-  for (int i = 0; i < shape_->size(); ++i) {
-    const auto c = static_cast<std::size_t>(i);
-    if (mode_[c] == Mode::active) active_[static_cast<std::size_t>(active_count_++)] = i;
-    if (mode_[c] == Mode::returning) ++returning_;
-  }
-  if (active_count_ == 1) {
-    const rod::StrainVector one = rod::StrainVector::Ones(shape_size_);
-    axial_unit_ = active_[0] == shape_->stretch().begin ? shape_->extension(one) : shape_->twist(one);
-  }
+void HeldBody::set_modal_damping() {
   if (!modal_) return;
-  Kinematics unstrained;
-  unstrained.q = unstrained.q_dot = rod::StrainVector::Zero(shape_size_);
-  kinematics(unstrained);
+  const rod::StrainVector zero = rod::StrainVector::Zero(coordinates_.count());
   Matrix3d I_H;
-  D_modal_ = modal_damping(mass_matrix(unstrained, I_H), stiffness(), modal_ratio_);
+  D_modal_ = modal_damping(mass_matrix(kinematics({zero, zero}), I_H), stiffness(), modal_ratio_);
 }
 
 double HeldBody::axial_inertia() const {
@@ -115,52 +95,23 @@ void HeldBody::set_springs(const rod::ForkSettings& fork) {
 
 StrainState HeldBody::zero_state() const { return {rod::StrainVector::Zero(size()), rod::StrainVector::Zero(size())}; }
 
-rod::StrainVector HeldBody::stiffness() const {
-  rod::StrainVector K(size());
-  for (int i = 0; i < size(); ++i) K[i] = K_[active_[static_cast<std::size_t>(i)]];
-  return K;
-}
+rod::StrainVector HeldBody::stiffness() const { return coordinates_.gather(K_); }
 
 rod::StrainMatrix HeldBody::damping() const {
   if (modal_) return D_modal_;
-  rod::StrainMatrix D = rod::StrainMatrix::Zero(size(), size());
-  for (int i = 0; i < size(); ++i) D(i, i) = D_[active_[static_cast<std::size_t>(i)]];
-  return D;
+  return rod::StrainMatrix(coordinates_.gather(D_).asDiagonal());
 }
 
 StrainState HeldBody::set_dofs(const rod::ForkDofs& dofs, double t, double return_time, const StrainState& full) {
-  const auto set_family = [&](const rod::CoordinateRange& range, bool on) {
-    for (int i = range.begin; i < range.begin + range.count; ++i) {
-      const auto c = static_cast<std::size_t>(i);
-      if (on) {
-        mode_[c] = Mode::active;
-      } else if (mode_[c] == Mode::active) {
-        const bool strained = full.q[i] != 0.0 || full.q_dot[i] != 0.0;
-        mode_[c] = strained ? Mode::returning : Mode::off;
-        return_[c] = {t, return_time, full.q[i], full.q_dot[i]};
-      }
-    }
-  };
-  set_family(shape_->bend(), dofs.bend);
-  set_family(shape_->torsion(), dofs.torsion);
-  set_family(shape_->stretch(), dofs.stretch);
+  coordinates_.set(shape_->bend(), dofs.bend, t, return_time, full);
+  coordinates_.set(shape_->torsion(), dofs.torsion, t, return_time, full);
+  coordinates_.set(shape_->stretch(), dofs.stretch, t, return_time, full);
   changed();
-  StrainState active = zero_state();
-  for (int i = 0; i < size(); ++i) {
-    active.q[i] = full.q[active_[static_cast<std::size_t>(i)]];
-    active.q_dot[i] = full.q_dot[active_[static_cast<std::size_t>(i)]];
-  }
-  return active;
+  return {coordinates_.gather(full.q), coordinates_.gather(full.q_dot)};
 }
 
 bool HeldBody::drop_finished_returns(double t) {
-  bool dropped = false;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(shape_->size()) && returning_ > 0; ++i) {
-    if (mode_[i] == Mode::returning && t - return_[i].t0 > return_is_over * return_[i].time_constant) {
-      mode_[i] = Mode::off;
-      dropped = true;
-    }
-  }
+  const bool dropped = coordinates_.drop_finished_returns(t);
   if (dropped) changed();
   return dropped;
 }
@@ -184,20 +135,6 @@ HandleForcing HeldBody::forcing(const motion::FrameMotion& handle, double t) con
   return f;
 }
 
-void HeldBody::expand(double t, const rod::StrainVector& q, const rod::StrainVector& q_dot, rod::StrainVector& q_all,
-                      rod::StrainVector& q_dot_all, rod::StrainVector& q_ddot_all) const {
-  q_all.setZero(shape_->size());
-  q_dot_all.setZero(shape_->size());
-  for (int i = 0; i < q.size(); ++i) {
-    q_all[active_[static_cast<std::size_t>(i)]] = q[i];
-    q_dot_all[active_[static_cast<std::size_t>(i)]] = q_dot[i];
-  }
-  if (returning_ > 0) {
-    q_ddot_all.setZero(shape_->size());
-    prescribe(t, 0, q_all.data(), q_dot_all.data(), q_ddot_all.data());
-  }
-}
-
 HandleForcings HeldBody::forcing(const motion::FrameMotion& handle, const math::Pack& t) const {
   return {t, handle.forcing(t, gravity_)};
 }
@@ -212,19 +149,36 @@ HandleForcing HandleForcings::at(int i) const {
   return f;
 }
 
-void HeldBody::kinematics(double t, const rod::StrainVector& q, const rod::StrainVector& q_dot, Kinematics& k) const {
-  rod::StrainVector q_ddot;
-  expand(t, q, q_dot, k.q, k.q_dot, q_ddot);
-  kinematics(k);
+const rod::TipOf<double>& HeldBody::tip(const double* q, const double* q_dot, bool of_rates) const {
+  const int n = coordinates_.count();
+  LastTip& last = last_tip_;
+  const bool same = last.known && std::equal(q, q + n, last.q.begin()) &&
+                    (!of_rates || std::equal(q_dot, q_dot + n, last.q_dot.begin()));
+  if (same) return last.tip;
+  std::copy_n(q, n, last.q.begin());
+  std::copy_n(q_dot, n, last.q_dot.begin());
+  shape_->tip(q, q_dot, last.tip);
+  last.known = true;
+  return last.tip;
 }
 
-void HeldBody::kinematics(Kinematics& k) const {
-  shape_->tip(k.q, k.q_dot, k.tip);
-  k.r_EO = k.tip.R_HE * p_EO_;
-  k.p_HO = k.tip.p_HE + k.r_EO;
-  k.R_HO = k.tip.R_HE * R_EO_;
-  k.linear.resize(3, shape_->size());
-  for (int i = 0; i < shape_->size(); ++i) k.linear.col(i) = k.tip.linear.col(i) + k.tip.angular.col(i).cross(k.r_EO);
+HeldBody::Kinematics HeldBody::kinematics(const StrainState& full) const {
+  const rod::TipOf<double>& of_tip = tip(full.q.data(), full.q_dot.data(), false);
+  Kinematics k;
+  const Matrix3d R_HE = math::matrix(of_tip.R_HE, 0);
+  const math::Three<double> r_EO = of_tip.R_HE * math::three(p_EO_);
+  k.R_HO = R_HE * R_EO_;
+  k.linear.resize(3, full.q.size());
+  k.angular.resize(3, full.q.size());
+  for (Eigen::Index i = 0; i < full.q.size(); ++i) {
+    k.linear.col(i) = math::vector(of_tip.linear[i] + math::cross(of_tip.angular[i], r_EO));
+    k.angular.col(i) = math::vector(of_tip.angular[i]);
+  }
+  return k;
+}
+
+HeldBody::Kinematics HeldBody::kinematics(double t, const rod::StrainVector& q) const {
+  return kinematics(full_state(t, {q, rod::StrainVector::Zero(size())}));
 }
 
 rod::StrainMatrix HeldBody::mass_matrix(const Kinematics& k, Matrix3d& I_H) const {
@@ -232,78 +186,49 @@ rod::StrainMatrix HeldBody::mass_matrix(const Kinematics& k, Matrix3d& I_H) cons
   const int n = size();
   rod::StrainMatrix M(n, n);
   for (int j = 0; j < n; ++j) {
-    const int cj = active_[static_cast<std::size_t>(j)];
-    const Vector3d momentum = body_.mass * k.linear.col(cj);
-    const Vector3d angular_momentum = I_H * k.tip.angular.col(cj);
+    const Vector3d momentum = body_.mass * k.linear.col(coordinates_[j]);
+    const Vector3d angular_momentum = I_H * k.angular.col(coordinates_[j]);
     for (int i = 0; i <= j; ++i) {
-      const int ci = active_[static_cast<std::size_t>(i)];
-      M(i, j) = M(j, i) = k.linear.col(ci).dot(momentum) + k.tip.angular.col(ci).dot(angular_momentum);
+      const int c = coordinates_[i];
+      M(i, j) = M(j, i) = k.linear.col(c).dot(momentum) + k.angular.col(c).dot(angular_momentum);
     }
   }
   return M;
 }
 
 rod::StrainMatrix HeldBody::mass_matrix(double t, const rod::StrainVector& q) const {
-  Kinematics k;
-  kinematics(t, q, rod::StrainVector::Zero(size()), k);
   Matrix3d I_H;
-  return mass_matrix(k, I_H);
-}
-
-StrainState HeldBody::full_state(double t, const StrainState& state) const {
-  StrainState full{rod::StrainVector::Zero(shape_->size()), rod::StrainVector::Zero(shape_->size())};
-  for (int i = 0; i < size(); ++i) {
-    full.q[active_[static_cast<std::size_t>(i)]] = state.q[i];
-    full.q_dot[active_[static_cast<std::size_t>(i)]] = state.q_dot[i];
-  }
-  if (returning_ > 0) {
-    rod::StrainVector q_ddot = rod::StrainVector::Zero(shape_->size());
-    prescribe(t, 0, full.q.data(), full.q_dot.data(), q_ddot.data());
-  }
-  return full;
+  return mass_matrix(kinematics(t, q), I_H);
 }
 
 bool HeldBody::rechart(StrainState& state) const {
-  if (returning_ > 0) return false;
+  if (returning()) return false;
   StrainState full = full_state(0.0, state);
   if (!shape_->rechart(full.q, full.q_dot)) return false;
-  for (int i = 0; i < size(); ++i) {
-    const int c = active_[static_cast<std::size_t>(i)];
-    state.q[i] = full.q[c];
-    state.q_dot[i] = full.q_dot[c];
-  }
+  state = {coordinates_.gather(full.q), coordinates_.gather(full.q_dot)};
   return true;
 }
 
 Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> HeldBody::object_jacobian(
     double t, const rod::StrainVector& q) const {
-  Kinematics k;
-  kinematics(t, q, rod::StrainVector::Zero(size()), k);
+  const Kinematics k = kinematics(t, q);
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> J(6, size());
-  for (int i = 0; i < size(); ++i) {
-    const int c = active_[static_cast<std::size_t>(i)];
-    J.col(i) << k.linear.col(c), k.tip.angular.col(c);
-  }
+  for (int i = 0; i < size(); ++i) J.col(i) << k.linear.col(coordinates_[i]), k.angular.col(coordinates_[i]);
   return J;
 }
 
 rod::StrainVector HeldBody::project_twist(const HandleForcing& h, const rod::StrainVector& q,
                                           const Twist& V_WO_W) const {
   if (size() == 0) return rod::StrainVector::Zero(0);
-  const rod::StrainVector zero = rod::StrainVector::Zero(size());
-  const motion::MotionState carried = object(h, {q, zero});
-  Kinematics k;
-  kinematics(h.t, q, zero, k);
+  const motion::MotionState carried = object(h, {q, rod::StrainVector::Zero(size())});
+  const Kinematics k = kinematics(h.t, q);
   Matrix3d I_H;
   const rod::StrainMatrix M = mass_matrix(k, I_H);
   const auto R_HW = h.X_WH.linear().transpose();
   const Vector3d momentum = body_.mass * (R_HW * (V_WO_W.linear - carried.velocity.linear));
   const Vector3d angular_momentum = I_H * (R_HW * (V_WO_W.angular - carried.velocity.angular));
-  rod::StrainVector p(size());
-  for (int i = 0; i < size(); ++i) {
-    const int c = active_[static_cast<std::size_t>(i)];
-    p[i] = k.linear.col(c).dot(momentum) + k.tip.angular.col(c).dot(angular_momentum);
-  }
+  const rod::StrainVector p =
+      coordinates_.gather(k.linear.transpose() * momentum + k.angular.transpose() * angular_momentum);
   return M.llt().solve(p);
 }
 
@@ -314,10 +239,7 @@ double HeldBody::elastic_energy(double t, const StrainState& state) const {
 
 rod::StrainVector HeldBody::elastic_force(double t, const rod::StrainVector& q) const {
   const StrainState full = full_state(t, {q, rod::StrainVector::Zero(size())});
-  const rod::StrainVector all = K_.cwiseProduct(full.q);
-  rod::StrainVector force(size());
-  for (int i = 0; i < size(); ++i) force[i] = all[active_[static_cast<std::size_t>(i)]];
-  return force;
+  return coordinates_.gather(K_.cwiseProduct(full.q));
 }
 
 double HeldBody::kinetic_energy(const Twist& V, const Matrix3d& R_WO) const {

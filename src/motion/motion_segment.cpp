@@ -59,7 +59,8 @@ FrameForcing<math::Pack> MotionSegment::at_frame(const FrameForcing<math::Pack>&
   const math::ThreeByThree<double> R = math::three_by_three(X_BC_.linear());
   const math::Three<double> p = math::three(X_BC_.translation());
   const math::Three<math::Pack> a = f.a_B + math::cross(f.alpha_B, p) + math::cross(f.w_B, math::cross(f.w_B, p));
-  return {f.R_WB * R, math::transposed(R, f.w_B), math::transposed(R, f.alpha_B), math::transposed(R, a)};
+  return {f.R_WB * R, math::transposed(R, f.v_B + math::cross(f.w_B, p)), math::transposed(R, f.w_B),
+          math::transposed(R, f.alpha_B), math::transposed(R, a)};
 }
 
 OwnAxesMotion MotionSegment::in_own_axes(double t) const {
@@ -104,16 +105,18 @@ SPRING_WORKBENCH_WIDE FrameForcing<math::Pack> MotionSegment::of_samples(const m
   const math::ThreeByThree<double> R_a = math::three_by_three(X_a_.linear());
   const math::Three<double> up = gravity * math::Three<double>{R_a.x.z, R_a.y.z, R_a.z.z};
   const math::Three<math::Pack> zero = math::none<math::Pack>();
-  FrameForcing<math::Pack> f{{zero + R_a.x, zero + R_a.y, zero + R_a.z}, zero, zero, zero + up};
+  FrameForcing<math::Pack> f{{zero + R_a.x, zero + R_a.y, zero + R_a.z}, zero, zero, zero, zero + up};
   if (!moving_) return f;
   const double per_second = 1.0 / (end_ - begin_);
   const math::Pack u = (t - begin_) * per_second;
+  f.v_B = math::transposed(R_a, per_second * position_.first(u));
   f.a_B += math::transposed(R_a, (per_second * per_second) * position_.second(u));
   if (!turning_) return f;
   const Turn<math::Pack> by = turn(u, per_second);
   f.R_WB = R_a * by.R;
   f.w_B = by.w_B;
   f.alpha_B = by.alpha_B;
+  f.v_B = math::transposed(by.R, f.v_B);
   f.a_B = math::transposed(by.R, f.a_B);
   return f;
 }

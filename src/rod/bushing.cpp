@@ -18,7 +18,7 @@ StrainVector Bushing::stiffness(const PerDof& k) const {
 
 StrainVector Bushing::damping(const PerDof& c, const PerDof& k) const {
   const bool set = slope_stiffness_ && k.bend > 0.0;
-  return diagonal(c, c.bend * (set ? *slope_stiffness_ / k.bend : length() * length() / 3.0));
+  return diagonal(c, set ? c.bend * (*slope_stiffness_ / k.bend) : c.bend * length() * length() / 3.0);
 }
 
 template <typename S>
@@ -43,8 +43,6 @@ SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S
   const S t_dot = 2.0 * dot(phi, phi_dot);
   out.angular_bias = (k.b_slope * t_dot) * s + (k.c_slope * t_dot) * cross(phi, s) + k.c * cross(phi_dot, s);
   out.linear_bias = zero;
-  out.separate = true;
-  out.inverse_angular = math::symmetric_and_skew(k.d, S(1.0 - k.d * t), S(S{} - 0.5), phi);
 }
 
 void Bushing::tip(const double* q, const double* q_dot, TipOf<double>& out) const { tip_of(q, q_dot, out); }

@@ -153,7 +153,6 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   out.linear[stretch().begin] = p;
   out.angular_bias = bias;
   out.linear_bias = stretched * (cross(bias, p) - bias_cross_p + centripetal) + (2.0 * stretching) * coriolis;
-  out.separate = false;
 }
 
 template <typename S>

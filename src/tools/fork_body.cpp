@@ -71,7 +71,8 @@ RigidTransform ForkBody::returned_offset(double h) const {
 
 RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
   const RigidTransform returned = returned_offset(h);
-  if (is_zero(contact_W)) return returned;
+  const bool gives_way = held_.size() < rod::max_strain_coordinates;
+  if (!gives_way || is_zero(contact_W)) return returned;
   const Vector6d given_way = proxy_compliance(h) * to_vector(contact_W);
   // A rotation about the object's centre of mass and a translation.
   const Vector3d centre = object().X.translation();
@@ -124,44 +125,32 @@ void ForkBody::accept() {
 }
 
 double ForkBody::added_energy(const Advance& advance) const {
-  const motion::MotionSegment& motion = advance.motion;
-  const dynamics::StrainState& begin = advance.begin;
-  const double t = advance.t, h = advance.h;
-  const dynamics::StrainState& end = state_.strain;
-  const double m = held_.body().mass;
-  const rod::StrainMatrix D = held_.damping();
-  double energy = 0.0, power = 0.0;
-  const auto look = [&](double at, const dynamics::StrainState& s, const rod::StrainVector& q_ddot) {
-    const dynamics::HandleForcing handle = held_.forcing(motion, at);
-    const motion::MotionState o = held_.object(handle, s, &q_ddot);
-    const Wrench& contact = held_.external_wrench();
-    const Vector3d up(0.0, 0.0, held_.gravity());
-    const auto [force, moment] = rod_load(o);
-    const Vector3d arm = o.X.translation() - handle.X_WH.translation();
-    energy =
-        held_.elastic_energy(at, s) + held_.kinetic_energy(o.velocity, o.X.linear()) + m * up.dot(o.X.translation());
-    power = force.dot(handle.v_WH_W) + (moment + arm.cross(force)).dot(handle.X_WH.linear() * handle.angular_velocity) +
-            contact.force.dot(o.velocity.linear) + contact.moment.dot(o.velocity.angular) - s.q_dot.dot(D * s.q_dot);
+  // Lobatto's rule of four points, exact to degree five, on the cubics through both ends.
+  constexpr double inner = 0.27639320225002103;  // (1 - 1/sqrt(5)) / 2
+  constexpr math::Pack nodes{0.0, inner, 1.0 - inner, 1.0}, weights{1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0};
+  const dynamics::StrainState &begin = advance.begin, &end = state_.strain;
+  const double h = advance.h;
+  math::Pack q[rod::max_strain_coordinates], q_dot[rod::max_strain_coordinates];
+  const auto curve = [&](bool straight) {
+    for (int i = 0; i < held_.size(); ++i) {
+      const double change = end.q[i] - begin.q[i], a = straight ? change : h * begin.q_dot[i],
+                   b = straight ? change : h * end.q_dot[i];
+      const double second = 3.0 * change - 2.0 * a - b, third = a + b - 2.0 * change;
+      q[i] = begin.q[i] + nodes * (a + nodes * (second + nodes * third));
+      q_dot[i] = (a + nodes * (2.0 * second + nodes * (3.0 * third))) / h;
+    }
   };
-  const rod::StrainVector a0 = held_.acceleration(held_.forcing(motion, t), begin.q, begin.q_dot);
-  const rod::StrainVector a1 = held_.acceleration(held_.forcing(motion, t + h), end.q, end.q_dot);
-  // The quintic through both ends, in the middle.
-  dynamics::StrainState middle;
-  middle.q = 0.5 * (begin.q + end.q) + 5.0 / 32.0 * h * (begin.q_dot - end.q_dot) + h * h / 64.0 * (a0 + a1);
-  middle.q_dot = 15.0 / 8.0 / h * (end.q - begin.q) - 7.0 / 16.0 * (begin.q_dot + end.q_dot) + h / 32.0 * (a1 - a0);
-  if (!held_.shape().admissible(
-          held_.full_state(t + 0.5 * h, middle).q)) {  // a jerk: no way of the fork; the straight one
-    middle = {0.5 * (begin.q + end.q), (end.q - begin.q) / h};
-  }
-  const rod::StrainVector a_middle = held_.acceleration(held_.forcing(motion, t + 0.5 * h), middle.q, middle.q_dot);
-  look(t, begin, a0);
-  const double energy_begin = energy;
-  double work = power;
-  look(t + 0.5 * h, middle, a_middle);
-  work += 4.0 * power;
-  look(t + h, end, a1);
-  work += power;
-  return energy - energy_begin - h / 6.0 * work;
+  const auto possible = [&](int node) {
+    dynamics::StrainState at = begin;
+    for (int i = 0; i < held_.size(); ++i) at.q[i] = q[i][node];
+    return held_.shape().admissible(held_.full_state(advance.t + nodes[node] * h, at).q);
+  };
+  curve(false);
+  if (!possible(1) || !possible(2)) curve(true);  // a jerk: no way of the fork; the straight one
+  const dynamics::EnergyBalance balance =
+      held_.energy_balance(held_.forcing(advance.motion, advance.t + nodes * h), q, q_dot);
+  const math::Pack work = weights * balance.power;
+  return balance.energy[3] - balance.energy[0] - h * (work[0] + work[1] + work[2] + work[3]);
 }
 
 void ForkBody::restore(const bodies::TrialStart& start) {

@@ -53,7 +53,7 @@ class ForkBody final : public ToolHold {
   motion::MotionState object_with_acceleration() const;
 
   /// Energy [J] that integration has added since the grasp: what the object and the fork have gained beyond the work of
-  /// hand, gravity, contact and damping. That work is a three-point quadrature over each step, so the figure means
+  /// hand, gravity, contact and damping. That work is a four-point quadrature over each step, so the figure means
   /// something where the step resolves the motion (ω·dt below about 1). While a family returns to zero nothing is
   /// added.
   double energy_added() const override { return state_.energy_added; }

@@ -3,7 +3,7 @@
 #include <array>
 #include <memory>
 
-#include "spring_workbench/math/state_archive.h"
+#include "spring_workbench/dynamics/active_coordinates.h"
 #include "spring_workbench/motion/pose_track.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/rod/shape_model.h"
@@ -34,12 +34,10 @@ struct HandleForcings {
   HandleForcing at(int i) const;  ///< without pose and velocity but for the rotation
 };
 
-/// State of the held body in the strain coordinates that are active.
-struct StrainState {
-  rod::StrainVector q;      ///< strain
-  rod::StrainVector q_dot;  ///< strain rate [1/s]
-
-  void exchange(math::StateArchive& state) { state(q, q_dot); }
+/// Energy of held body and springs at several moments, and what it should change by.
+struct EnergyBalance {
+  math::Pack energy;  ///< elastic and kinetic [J]
+  math::Pack power;   ///< of hand, gravity, contact and dampers [W]
 };
 
 /// The equation of motion of doc/model.md for a rigid body on a rod on a moving handle, in the active coordinates:
@@ -77,13 +75,13 @@ class HeldBody {
   /// Drops prescribed motions that have come to zero by time `t`. True when one was dropped.
   bool drop_finished_returns(double t);
   /// Whether a family that was switched off is still on its way to zero strain.
-  bool returning() const { return returning_ > 0; }
+  bool returning() const { return coordinates_.returning(); }
 
   /// A constant wrench on the body at its centre of mass, world axes (contact). Zero at first.
   void set_external_wrench(const Wrench& wrench_W);
   const Wrench& external_wrench() const { return external_W_; }
 
-  int size() const { return active_count_; }  ///< number of active coordinates
+  int size() const { return coordinates_.size(); }  ///< number of active coordinates
   StrainState zero_state() const;
   rod::StrainVector stiffness() const;  ///< diagonal of K, active coordinates
   rod::StrainMatrix damping() const;    ///< D, active coordinates
@@ -101,12 +99,14 @@ class HeldBody {
   template <int n>
   void acceleration(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot,
                     math::Pack* q_ddot) const;
+  /// Energy and power at several moments: size() packs each. Without the energy of a DOF that returns to zero strain.
+  EnergyBalance energy_balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot) const;
   /// Mass matrix M(q) of the active coordinates at time `t` (which matters while a family returns).
   rod::StrainMatrix mass_matrix(double t, const rod::StrainVector& q) const;
   /// ShapeModel::rechart of the active coordinates; not while a family returns to zero strain.
   bool rechart(StrainState& state) const;
   /// Active state at time `t` in all coordinates of the shape model.
-  StrainState full_state(double t, const StrainState& state) const;
+  StrainState full_state(double t, const StrainState& state) const { return coordinates_.full_state(t, state); }
 
   /// Pose, velocity and, where `q_ddot` is given, acceleration of the object frame O, in world axes.
   motion::MotionState object(const HandleForcing& handle, const StrainState& state,
@@ -127,50 +127,36 @@ class HeldBody {
   void exchange(math::StateArchive& state);
 
  private:
-  enum class Mode { active, off, returning };
-  struct Return {
-    double t0 = 0.0, time_constant = 1.0, q0 = 0.0, rate0 = 0.0;
-    void exchange(math::StateArchive& state) { state(t0, time_constant, q0, rate0); }
-  };
+  /// Jacobians of the velocity of O and of the angular velocity, axes of H, all coordinates.
   struct Kinematics {
-    rod::TipKinematics tip;
-    Vector3d r_EO;  ///< from tip to centre of mass, axes of H
-    Vector3d p_HO;  ///< axes of H
     Matrix3d R_HO;
-    rod::StrainJacobian linear;  ///< of O
-    rod::StrainVector q, q_dot;  ///< all coordinates
+    rod::StrainJacobian linear, angular;
   };
-  /// All coordinates' strain and rate at time `t` from the active ones' and what is prescribed.
-  void expand(double t, const rod::StrainVector& q, const rod::StrainVector& q_dot, rod::StrainVector& q_all,
-              rod::StrainVector& q_dot_all, rod::StrainVector& q_ddot_all) const;
+  /// The tip for strain and rates of all coordinates: that of the last call if it was for the same. What does not
+  /// depend on the rates is right for any of them if they are not `of_rates`.
+  const rod::TipOf<double>& tip(const double* q, const double* q_dot, bool of_rates) const;
   template <int n, typename S>
-  void accelerate(const S& t, const motion::FrameForcing<S>& handle, const S* q, const S* q_dot, S* q_ddot) const;
-  /// Acceleration of the extension where stretch alone is on, and of the twist where torsion alone is, under the force
-  /// or moment of spring and damper.
-  template <typename S>
-  S slide(const motion::FrameForcing<S>& handle, const S& extension, S force) const;
-  template <typename S>
-  S turn(const motion::FrameForcing<S>& handle, const S& twist, const S& rate, S moment) const;
+  void accelerate(const S& t, const motion::FrameForcing<S>& handle, const S* q, const S* q_dot, S* q_ddot,
+                  EnergyBalance* balance = nullptr) const;
+  template <int n>
+  void balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot, EnergyBalance& out) const;
   template <typename S>
   struct Rigid;  ///< the object's inertial and contact wrench for q̈ = 0
   template <typename S>
   Rigid<S> without_strain_acceleration(const motion::FrameForcing<S>& handle, const rod::TipOf<S>& tip, const S* q_dot,
                                        const S* q_ddot) const;
-  void kinematics(double t, const rod::StrainVector& q, const rod::StrainVector& q_dot, Kinematics& k) const;
-  void kinematics(Kinematics& k) const;  ///< from strain and rate of all coordinates, without what is prescribed
-  /// Sets lane `k` of the coordinates that follow a prescribed motion.
-  template <typename S>
-  void prescribe(double t, int k, S* q, S* q_dot, S* q_ddot) const;
+  /// For the strain of all coordinates.
+  Kinematics kinematics(const StrainState& full) const;
+  /// For the strain `q` of the active ones at time `t`.
+  Kinematics kinematics(double t, const rod::StrainVector& q) const;
   rod::StrainMatrix mass_matrix(const Kinematics& k, Matrix3d& I_H) const;
   void changed();
-  void take_modes();  ///< what is derived from modes, springs and dampers
+  void set_modal_damping();  ///< from what is active
 
   std::shared_ptr<const rod::ShapeModel> shape_;
   BodyInertia body_;
   Vector3d p_OE_, p_EO_;  ///< grasp in O; centre of mass in E
   Matrix3d R_EO_;
-  Matrix3d inertia_E_;  ///< about O, axes of E
-  Matrix3d inverse_inertia_O_;
   double gravity_;
   long version_ = 0;
   long load_version_ = 0;
@@ -178,15 +164,16 @@ class HeldBody {
   bool modal_ = false;
   double modal_ratio_ = 0.0;
   rod::StrainMatrix D_modal_;  ///< active coordinates; where modal_
-  std::array<Mode, rod::max_strain_coordinates> mode_{};
-  std::array<Return, rod::max_strain_coordinates> return_;
-  std::array<int, rod::max_strain_coordinates> active_{};  ///< indices of the active coordinates
-  int active_count_ = 0;
-  double axial_unit_ = 1.0;  ///< extension [m] or twist [rad] by strain 1, where that coordinate alone is active
-  int shape_size_ = 0;
-  int returning_ = 0;
+  ActiveCoordinates coordinates_;
   Wrench external_W_;
   bool loaded_ = false;  ///< the external wrench is not zero
+  /// A step asks for pose, Jacobian and mass matrix of one state several times over. Not for two threads at once.
+  struct LastTip {
+    bool known = false;
+    std::array<double, rod::max_strain_coordinates> q, q_dot;
+    rod::TipOf<double> tip;
+  };
+  mutable LastTip last_tip_;
 };
 
 }  // namespace spring_workbench::dynamics

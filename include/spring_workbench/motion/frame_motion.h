@@ -20,10 +20,11 @@ struct OwnAxesMotion {
   Vector3d alpha_B = Vector3d::Zero();            ///< [rad/s²]
 };
 
-/// What a moving frame B feels, in its own axes, at one moment or at several.
+/// How a frame B moves and what it feels, in its own axes, at one moment or at several.
 template <typename S>
 struct FrameForcing {
   math::ThreeByThree<S> R_WB;
+  math::Three<S> v_B;      ///< of the origin [m/s]
   math::Three<S> w_B;      ///< [rad/s]
   math::Three<S> alpha_B;  ///< [rad/s²]
   math::Three<S> a_B;      ///< of the origin, less gravity [m/s²]

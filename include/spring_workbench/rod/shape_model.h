@@ -35,10 +35,6 @@ struct TipOf {
   math::Three<S> angular[max_strain_coordinates];
   math::Three<S> linear[max_strain_coordinates];
   math::Three<S> angular_bias, linear_bias;
-  /// Whether, of six coordinates, 0, 1 and 5 shift the tip along x, y and z of H and 2, 3 and 4 only turn it. Then
-  /// (q̇₂, q̇₃, q̇₄) = inverse_angular · angular velocity.
-  bool separate = false;
-  math::ThreeByThree<S> inverse_angular;
 };
 
 /// Which of the strain coordinates belong to which family: [begin, begin + count).

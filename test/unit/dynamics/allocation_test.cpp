@@ -1,40 +1,17 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <random>
 #include <vector>
 
 #include "spring_workbench/dynamics/step_control.h"
+#include "support/count_allocations.h"
 #include "support/held_cases.h"
 #include "support/named.h"
 
-namespace {
-
-long allocations = 0;
-
-}  // namespace
-
-// Everything on the heap comes through one of these, Eigen's and operator new's too. Sanitizers bring their own.
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-#define COUNTS_ALLOCATIONS 1
-extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
-void* malloc(std::size_t size) {
-  ++allocations;
-  return __libc_malloc(size);
-}
-void* aligned_alloc(std::size_t alignment, std::size_t size) {
-  ++allocations;
-  return __libc_memalign(alignment, size);
-}
-}
-#else
-#define COUNTS_ALLOCATIONS 0
-#endif
-
 namespace spring_workbench::dynamics {
 namespace {
+
+using test_support::allocations;
 
 class Stepping : public testing::TestWithParam<std::string> {};
 

@@ -283,6 +283,71 @@ TEST(HeldBody, ModalDampingIsExactOverDecadesOfStiffness) {
   }
 }
 
+/// Along the motion, the energy changes by the work of hand, gravity, contact and dampers: the 3/8 rule over a short
+/// time.
+TEST(HeldBody, EnergyChangesByTheWorkThatIsTold) {
+  constexpr double h = 2e-4;
+  const motion::MotionSegment hand = moving_hand(0.5);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (const std::string& shape : test_support::shape_names()) {
+    for (const rod::ForkDofs& dofs : families) {
+      for (const bool modal : {false, true}) {
+        HeldBody held = held_by(shape, {200.0, 60.0, 1.0}, {0.3, 1.0, 2.0}, box_off_centre());
+        if (modal) held.set_springs_with_modal_damping({200.0, 60.0, 1.0}, 0.7);
+        only(held, dofs);
+        held.set_external_wrench({Vector3d(0.5, -2.0, 1.0), Vector3d(0.1, 0.05, -0.2)});
+        StrainState state = held.zero_state();
+        for (Eigen::Index i = 0; i < state.q.size(); ++i) {
+          state.q[i] = 0.05 * uniform(random);
+          state.q_dot[i] = uniform(random);
+        }
+        const auto integrator = make_integrator(IntegratorKind::rk4);
+        const math::Pack times{0.1, 0.1 + h, 0.1 + 2.0 * h, 0.1 + 3.0 * h};
+        math::Pack q[rod::max_strain_coordinates], q_dot[rod::max_strain_coordinates];
+        double expected[math::pack_size];
+        for (int k = 0; k < math::pack_size; ++k) {
+          if (k > 0) integrator->step(held, hand, times[k - 1], h, state);
+          for (int i = 0; i < held.size(); ++i) {
+            q[i][k] = state.q[i];
+            q_dot[i][k] = state.q_dot[i];
+          }
+          const motion::MotionState o = held.object(held.forcing(hand, times[k]), state);
+          expected[k] = held.elastic_energy(times[k], state) + held.kinetic_energy(o.velocity, o.X.linear());
+        }
+        const EnergyBalance balance = held.energy_balance(held.forcing(hand, times), q, q_dot);
+        const double scale = std::abs(expected[0]) + std::abs(balance.power[0]) * h;
+        for (int k = 0; k < math::pack_size; ++k) EXPECT_NEAR(balance.energy[k], expected[k], 1e-12 * scale) << shape;
+        const math::Pack& p = balance.power;
+        EXPECT_NEAR(balance.energy[3] - balance.energy[0], 3.0 * h / 8.0 * (p[0] + 3.0 * (p[1] + p[2]) + p[3]),
+                    1e-8 * scale)
+            << shape << ' ' << modal;
+      }
+    }
+  }
+}
+
+/// What is asked of one state again is the same as of a body that has not been asked anything.
+TEST(HeldBody, PoseJacobianAndMassMatrixDoNotDependOnWhatWasAskedBefore) {
+  const motion::MotionSegment hand = moving_hand(0.5);
+  for (const std::string& shape : test_support::shape_names()) {
+    const HeldBody fresh = held_by(shape, {2000.0, 500.0, 5.0}, {0.3, 1.0, 2.0}, box_off_centre());
+    HeldBody asked = fresh;
+    const rod::StrainVector one = rod::StrainVector::Constant(fresh.size(), 0.1), rate = 3.0 * one;
+    const HandleForcing handle = fresh.forcing(hand, 0.2);
+    asked.object(handle, {2.0 * one, rate});
+    asked.object_jacobian(0.2, one);
+    const motion::MotionState again = asked.object(handle, {one, rate}, &rate),
+                              now = HeldBody(fresh).object(handle, {one, rate}, &rate);
+    EXPECT_EQ(again.X.matrix(), now.X.matrix());
+    EXPECT_EQ(again.velocity.linear, now.velocity.linear);
+    EXPECT_EQ(again.acceleration.linear, now.acceleration.linear);
+    EXPECT_EQ(again.acceleration.angular, now.acceleration.angular);
+    EXPECT_EQ(asked.object_jacobian(0.2, one), HeldBody(fresh).object_jacobian(0.2, one));
+    EXPECT_EQ(asked.mass_matrix(0.2, 2.0 * one), HeldBody(fresh).mass_matrix(0.2, 2.0 * one));
+  }
+}
+
 TEST(HeldBody, DampingIsWhatTheAccelerationTakesFromTheRates) {
   const motion::MotionSegment rest{RigidTransform::Identity()};
   for (const bool modal : {false, true}) {

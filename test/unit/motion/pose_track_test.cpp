@@ -173,6 +173,7 @@ TEST(MotionSegment, OfAnotherFrameIsTheMotionOfThatFrame) {
       const OwnAxesMotion own = of_C.in_own_axes(times[i]);
       const Vector3d a_C = own.X.linear().transpose() * (own.a_W + 9.81 * Vector3d::UnitZ());
       EXPECT_LT((math::matrix(f.R_WB, i) - own.X.linear()).norm(), 1e-13);
+      EXPECT_LT((vector(f.v_B, i) - own.X.linear().transpose() * own.v_W).norm(), 1e-12 * (1.0 + own.v_W.norm()));
       EXPECT_LT((vector(f.w_B, i) - own.w_B).norm(), 1e-12 * (1.0 + own.w_B.norm()));
       EXPECT_LT((vector(f.alpha_B, i) - own.alpha_B).norm(), 1e-12 * (1.0 + own.alpha_B.norm()));
       EXPECT_LT((vector(f.a_B, i) - a_C).norm(), 1e-12 * (1.0 + a_C.norm()));

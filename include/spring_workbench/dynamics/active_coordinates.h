@@ -1,0 +1,84 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "spring_workbench/math/state_archive.h"
+#include "spring_workbench/rod/shape_model.h"
+
+namespace spring_workbench::dynamics {
+
+/// State of the held body in the strain coordinates that are active.
+struct StrainState {
+  rod::StrainVector q;      ///< strain
+  rod::StrainVector q_dot;  ///< strain rate [1/s]
+
+  void exchange(math::StateArchive& state) { state(q, q_dot); }
+};
+
+/// Which of a shape model's strain coordinates an equation of motion has. One of a DOF that is off is zero; one of a
+/// DOF that is being switched off returns to zero by a prescribed motion, critically damped.
+class ActiveCoordinates {
+ public:
+  /// All of `count` coordinates, 1 … max_strain_coordinates.
+  explicit ActiveCoordinates(int count);
+
+  int count() const { return count_; }  ///< of the shape model
+  int size() const { return size_; }    ///< active ones
+  /// Coordinate of the shape model that is the `i`-th active one.
+  int operator[](int i) const { return active_[static_cast<std::size_t>(i)]; }
+  bool returning() const { return returning_ > 0; }
+
+  /// Switches the coordinates of a DOF on or off. One that goes off while strained in the state `full` returns to zero
+  /// from time `t` [s] on with the time constant `return_time` [s].
+  void set(const rod::CoordinateRange& range, bool on, double t, double return_time, const StrainState& full);
+  /// Ends the returns that have come to zero by time `t` [s]. True if one has.
+  bool drop_finished_returns(double t);
+
+  /// The active ones of all coordinates.
+  rod::StrainVector gather(const rod::StrainVector& all) const;
+  /// All coordinates, of which those that are not active are zero, in place.
+  template <typename S>
+  void scatter(const S* active, S* all) const {
+    for (int c = 0; c < count_; ++c) all[c] = S{};
+    for (int i = 0; i < size_; ++i) all[(*this)[i]] = active[i];
+  }
+  /// All coordinates at time `t` [s], with the prescribed ones as they are then.
+  StrainState full_state(double t, const StrainState& active) const;
+  /// Sets lane `k` of the prescribed coordinates at time `t` [s] among all; the others stay.
+  template <typename S>
+  void prescribe(double t, int k, S* q, S* q_dot, S* q_ddot) const {
+    for (int c = 0; c < count_; ++c) {
+      if (mode_[static_cast<std::size_t>(c)] != Mode::returning) continue;
+      // (B + A τ) e^{−τ/T}: the paper's critically damped closed form (section 3.3).
+      const Return& r = return_[static_cast<std::size_t>(c)];
+      const double rate = 1.0 / r.time_constant;
+      const double tau = t - r.t0;
+      const double decay = std::exp(-rate * tau);
+      const double A = r.rate0 + rate * r.q0;
+      const double x = (r.q0 + A * tau) * decay, v = A * decay - rate * x;
+      math::set_lane(q[c], k, x);
+      math::set_lane(q_dot[c], k, v);
+      math::set_lane(q_ddot[c], k, -rate * A * decay - rate * v);
+    }
+  }
+
+  void exchange(math::StateArchive& state);
+
+ private:
+  enum class Mode { active, off, returning };
+  struct Return {
+    double t0 = 0.0, time_constant = 1.0, q0 = 0.0, rate0 = 0.0;
+    void exchange(math::StateArchive& state) { state(t0, time_constant, q0, rate0); }
+  };
+  void take_modes();
+
+  int count_;
+  std::array<Mode, rod::max_strain_coordinates> mode_{};
+  std::array<Return, rod::max_strain_coordinates> return_;
+  std::array<int, rod::max_strain_coordinates> active_{};
+  int size_ = 0;
+  int returning_ = 0;
+};
+
+}  // namespace spring_workbench::dynamics

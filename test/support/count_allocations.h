@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstddef>
+
+// Counts what the program takes from the heap. For one source of a program only: it defines malloc.
+
+namespace spring_workbench::test_support {
+inline long allocations = 0;
+}  // namespace spring_workbench::test_support
+
+// Everything on the heap comes through one of these, Eigen's and operator new's too. Sanitizers bring their own.
+#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#define COUNTS_ALLOCATIONS 1
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+void* malloc(std::size_t size) {
+  ++spring_workbench::test_support::allocations;
+  return __libc_malloc(size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++spring_workbench::test_support::allocations;
+  return __libc_memalign(alignment, size);
+}
+}
+#else
+#define COUNTS_ALLOCATIONS 0
+#endif
