@@ -38,8 +38,9 @@ struct StabilityCell {
 struct StabilityOutcome {
   bool finite = true;          ///< pose and twist of the object
   bool bounded = true;         ///< within 100 m of the hand; a free fall is 20 m
-  double energy_growth = 0.0;  ///< largest growth while the hand rests, over the largest energy then (see the .cpp)
-  int refused = 0;             ///< steps that Simulation's guard did not take
+  double energy_growth = 0.0;  ///< largest growth while the hand rests beyond the steps' own estimates of their
+                               ///< errors, over the largest energy then (see the .cpp)
+  int refused = 0;             ///< steps not taken, or of an explicit method stopped or done by the L-stable rule
   bool energy_kept() const { return energy_growth <= 1e-9; }
   bool held() const { return finite && bounded && energy_kept() && refused == 0; }
 };

@@ -6,22 +6,26 @@
 
 namespace spring_workbench::dynamics {
 
-/// Exponential collocation: the coupled linear part, frozen near a recent state, in closed form through its modes, with
-/// what it leaves over as the cubic through four Lobatto nodes of the step (collocation.h), found by sweeps that start
-/// from the last step's cubic and go on by Anderson's acceleration of depth two (Walker and Ni, SIAM J. Numer. Anal.
-/// 49, 2011). Order five, or six where the sweeps' error does not show; exact for linear systems whose handle
-/// accelerates as a cubic of time; no stiffness limits its step. Where the sweeps do not converge, the linear part is
-/// taken anew, then the step is halved.
+/// Exponential collocation: the coupled linear part, frozen near a recent state, in closed form through its modes
+/// (exponential_collocation.h), with what it leaves of the acceleration, the residual, as the cubic through four Radau
+/// nodes of the step. The residual is found by fixed-point iteration with Anderson's acceleration
+/// (math/anderson_mixer.h) from the last step's, to a fiftieth of what the cubic misses, as the rate of convergence
+/// says (Hairer and Wanner II, IV.8, equation (8.10)). Order seven where the step resolves every mode, five where it
+/// does not; exact for linear systems whose handle accelerates as a cubic of time; no stiffness limits its step. The
+/// estimate of the local error is the defect of the step's own interpolant, sampled. Where the iteration does not
+/// converge, the linear part is taken at the step's start, once; then the step is not solved.
 class Exponential final : public Integrator {
  public:
   Exponential();
   ~Exponential() override;
 
-  int order() const override { return 5; }
+  int order() const override { return 5; }  // at least: of a mode that the step does not resolve
   bool stiffly_stable() const override { return true; }
-  bool estimates_after_jumps() const override { return false; }  // the cubic's differences do not see what it misses
+  Energy energy() const override { return Energy::kept; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
+  void carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h, const StrainState& begin,
+             const StrainState& end, StrainState& deviation) override;
   Response response(const HeldBody& body, double t, double h, const StrainState& state) override;
   void exchange(math::StateArchive& state) override;
 

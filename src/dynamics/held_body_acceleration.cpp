@@ -2,6 +2,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "by_size.h"
 #include "spring_workbench/dynamics/held_body.h"
 #include "spring_workbench/math/positive_definite.h"
 #include "spring_workbench/math/so3.h"
@@ -166,41 +167,16 @@ SPRING_WORKBENCH_WIDE void HeldBody::balance(const HandleForcings& h, const math
   accelerate<n>(h.t, h.of_H, q, q_dot, q_ddot, &out);
 }
 
-namespace {
-
-/// `of(std::integral_constant<int, size>())` for a size of 1 … 6.
-template <typename Result, typename Of>
-Result by_size(int size, Result none, const Of& of) {
-  switch (size) {
-    case 1:
-      return of(std::integral_constant<int, 1>());
-    case 2:
-      return of(std::integral_constant<int, 2>());
-    case 3:
-      return of(std::integral_constant<int, 3>());
-    case 4:
-      return of(std::integral_constant<int, 4>());
-    case 5:
-      return of(std::integral_constant<int, 5>());
-    case 6:
-      return of(std::integral_constant<int, 6>());
-    default:
-      return none;
-  }
-}
-
-}  // namespace
-
 rod::StrainVector HeldBody::acceleration(const HandleForcing& h, const rod::StrainVector& q,
                                          const rod::StrainVector& q_dot) const {
-  return by_size(size(), rod::StrainVector(0), [&](auto size) -> rod::StrainVector {
+  return by_size(size(), [&](auto size) -> rod::StrainVector {
     constexpr int n = decltype(size)::value;
     return acceleration<n>(h, Eigen::Matrix<double, n, 1>(q), Eigen::Matrix<double, n, 1>(q_dot));
   });
 }
 
 EnergyBalance HeldBody::energy_balance(const HandleForcings& h, const math::Pack* q, const math::Pack* q_dot) const {
-  return by_size(size(), EnergyBalance{}, [&](auto size) {
+  return by_size(size(), [&](auto size) {
     EnergyBalance out;
     balance<decltype(size)::value>(h, q, q_dot, out);
     return out;

@@ -10,7 +10,8 @@ constexpr double strain_difference = 1e-6;  ///< over the length: for derivative
 constexpr double rate_difference = 1e-4;    ///< over the length [1/s]; the acceleration is quadratic in the rates
 constexpr double time_difference = 1e-4;    ///< of the step
 constexpr int most_newton_steps = 10;
-constexpr double newton_done = 1e-13;  ///< change of the strain against the step's own
+constexpr double newton_done = 1e-13;     ///< change of the strain against the step's own
+constexpr double newton_rounding = 1e-6;  ///< of the first change: one that grows again below this is rounding
 
 }  // namespace
 
@@ -55,39 +56,35 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
                                  StrainState& state) {
   const HandleForcing end = body.forcing(handle, t + h);
   const rod::StrainVector a_begin = body.acceleration(body.forcing(handle, t), state.q, state.q_dot);
-  // From the state carried on with its own rate; where Newton does not come to rest its first, linearly implicit, step.
   StrainState next = state;
   rod::StrainVector a = body.acceleration(end, next.q, next.q_dot);
   const LinearisedMotion motion(body, end, next, a);
   const ImplicitMatrix matrix(motion, h);
   double last_change = 0.0, first_change = 0.0;
-  StrainState linear;
-  for (int i = 0; i < most_newton_steps; ++i) {
+  bool converged = false;
+  for (int i = 0; i < most_newton_steps && !converged; ++i) {
     // q̇ is the unknown, q = q₀ + h q̇: residual q̇ − q̇₀ − h q̈.
     const rod::StrainVector off_q = state.q + h * next.q_dot - next.q;  // of the first iterate only
     const rod::StrainVector change =
         matrix.solve(motion.M * (state.q_dot - next.q_dot + h * a) - h * (motion.K * off_q));
     next.q_dot += change;
     next.q = state.q + h * next.q_dot;
+    a = body.acceleration(end, next.q, next.q_dot);
     const double size = change.norm();
-    if (i == 0) {
-      linear = next;
-      first_change = size;
-    } else if (!(size < last_change)) {
-      if (!(size < 1e-6 * first_change)) next = linear;
-      a = body.acceleration(end, next.q, next.q_dot);
+    if (i == 0) first_change = size;
+    converged = size <= newton_done * (first_change + next.q_dot.norm() + next.q.norm() / h);
+    if (i > 0 && !(size < last_change)) {
+      converged = converged || size < newton_rounding * first_change;
       break;
     }
     last_change = size;
-    a = body.acceleration(end, next.q, next.q_dot);
-    if (size <= newton_done * (first_change + next.q_dot.norm())) break;
   }
   // What the exact motion, with an acceleration linear in time, leaves over in the two equations of the rule.
   const rod::StrainVector left_q = -h * h / 6.0 * (a_begin + 2.0 * a);
   const rod::StrainVector left_v = -0.5 * h * (a - a_begin);
   const rod::StrainVector error_v = matrix.solve(h * (motion.K * left_q) - motion.M * left_v);
   state = next;
-  return {h * error_v - left_q, 0.0, error_v};
+  return {h * error_v - left_q, 0.0, error_v, converged};
 }
 
 namespace {
@@ -203,12 +200,6 @@ Integrator::Response Rosenbrock::response(const HeldBody& body, double t, double
   Response r{rod::StrainMatrix::Zero(n, n), rod::StrainMatrix::Zero(n, n)};
   carry_linear(LinearisedMotion(body, t, state.q), h, rod::StrainMatrix::Identity(n, n), r.q, r.q_dot);
   return r;
-}
-
-void carry_deviation(const LinearisedMotion& motion, double h, StrainState& deviation) {
-  rod::StrainMatrix q = deviation.q, v = deviation.q_dot;
-  carry_linear(motion, h, rod::StrainMatrix::Zero(q.rows(), 1), q, v);
-  deviation = {q, v};
 }
 
 }  // namespace spring_workbench::dynamics

@@ -33,6 +33,7 @@ class ImplicitEuler final : public Integrator {
  public:
   int order() const override { return 1; }
   bool stiffly_stable() const override { return true; }
+  Energy energy() const override { return Energy::dissipated; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
 };
@@ -44,12 +45,10 @@ class Rosenbrock final : public Integrator {
  public:
   int order() const override { return 4; }
   bool stiffly_stable() const override { return true; }
+  Energy energy() const override { return Energy::kept; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
   Response response(const HeldBody& body, double t, double h, const StrainState& state) override;
 };
-
-/// Carries a small deviation from the state that `motion` is about over a step of `h` [s].
-void carry_deviation(const LinearisedMotion& motion, double h, StrainState& deviation);
 
 }  // namespace spring_workbench::dynamics

@@ -40,6 +40,13 @@ std::unique_ptr<Integrator> make_integrator(IntegratorKind kind) {
   return std::make_unique<Exponential>();
 }
 
+void Integrator::carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                       const StrainState& begin, const StrainState& end, StrainState& deviation) {
+  StrainState other{begin.q + deviation.q, begin.q_dot + deviation.q_dot};
+  step(body, handle, t, h, other);
+  deviation = {other.q - end.q, other.q_dot - end.q_dot};
+}
+
 Integrator::Response Integrator::response(const HeldBody& body, double t, double h, const StrainState& state) {
   rod::StrainMatrix A = body.mass_matrix(t, state.q);
   A += h * body.damping();

@@ -5,54 +5,39 @@
 #include <cmath>
 #include <utility>
 
-#include "energy_limit.h"
-#include "implicit_integrators.h"
+#include "energy_account.h"
+#include "fallback_step.h"
+#include "range_stop.h"
+#include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/spatial.h"
-#include "strain_limit.h"
 
 namespace spring_workbench::dynamics {
 namespace {
 
-/// A guarded step with a larger estimate of its error is taken again in halves.
-constexpr double large_error = 0.05;  ///< of the fork's length; of a radian
-constexpr int most_halvings = 6;
-/// How much closer than a whole step two halves are, where an estimate is made of the two: 32 where the motion is
-/// smooth, 2 to 4 where a jump of the handle's acceleration sets off a fast mode.
-constexpr double halves_are_closer = 4.0;
-constexpr int halvings_to_stop =
-    2;  ///< a piece of a step that is no longer than this may end at the end of the fork's way
-constexpr double most_strain = 1e12;  ///< in the coordinates' own units; no state to go on from has more
-
-constexpr double safety = 0.9;
-constexpr double most_growth = 3.0, least_growth = 0.1;
+/// What a method that keeps energy may err by in energy, of the largest since the grasp, a second: 1 % in a minute.
+constexpr double energy_share = 0.01 / 60.0;
+constexpr double rounding = 1e-13;      ///< of the largest energy: what a step's error in energy cannot be below
+constexpr int most_halvings = 6;        ///< of a span
+constexpr double most_strain = 1e12;    ///< in the coordinates' own units; no state to go on from has more
+constexpr double safety = 0.8;          ///< of the next step's length, with a tolerance
+constexpr double most_growth = 3.0;     ///< from one step to the next
+constexpr double least_growth = 0.1;    ///< the same
 constexpr double longest_swing = 1.0;   ///< [s]; over this a rate that no spring stops becomes a strain
 constexpr double smallest_step = 1e-4;  ///< of the span; one shorter than two of these is taken whatever its error
-constexpr double shortest_step = 2e-6;  ///< [s]; the same where it is longer: pieces between contacts may be short
+constexpr double shortest_step = 2e-6;  ///< [s]; the same where it is longer: substeps between contacts may be short
 
-struct Sizes {
-  double position, angle;  ///< [m], [rad]
-};
-
-/// An error of the strain as one of the object's pose.
-Sizes sizes(const HeldBody& body, double t, const rod::StrainVector& q, const rod::StrainVector& error) {
-  const auto J = body.object_jacobian(t, q);
-  return {(J.topRows<3>() * error).norm(), (J.bottomRows<3>() * error).norm()};
+bool usable(const StrainState& state) {
+  return state.q.norm() + state.q_dot.norm() < most_strain;  // false for NaN
 }
 
-/// From rates to the strain that they swing to, mode by mode.
-rod::StrainMatrix swing_of(const LinearisedMotion& motion) {
-  const rod::StrainMatrix K = 0.5 * (motion.K + motion.K.transpose());
-  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> modes(K, motion.M);
-  const rod::StrainVector period =
-      modes.eigenvalues().cwiseAbs().cwiseMax(1.0 / (longest_swing * longest_swing)).cwiseSqrt();
-  return modes.eigenvectors() * period.cwiseInverse().asDiagonal() * modes.eigenvectors().transpose() * motion.M;
-}
-
-double stiffest_omega(const HeldBody& body, double t, const rod::StrainVector& q) {
-  const rod::StrainMatrix K = body.stiffness().asDiagonal();
-  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> modes(K, body.mass_matrix(t, q),
-                                                                          Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, modes.eigenvalues().maxCoeff()));
+/// From rates to the strain that they swing to, mode by mode, and the frequency of the stiffest mode.
+void set_modes(const HeldBody& body, double t, const rod::StrainVector& q, StepControl::Memory& memory) {
+  const rod::StrainMatrix K = body.stiffness().asDiagonal(), M = body.mass_matrix(t, q);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> modes(K, M);
+  const rod::StrainVector omega = modes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  memory.stiffest_omega = omega.maxCoeff();
+  memory.swing = modes.eigenvectors() * omega.cwiseMax(1.0 / longest_swing).cwiseInverse().asDiagonal() *
+                 modes.eigenvectors().transpose() * M;
 }
 
 }  // namespace
@@ -62,13 +47,22 @@ struct StepControl::Span {
   const motion::FrameMotion& handle;
   Memory& memory;
   ControlledStep report;
-  double longest_to_stop;  ///< [s]; a step up to this may end at the end of the fork's way
 
-  /// An error of the strain as one length.
-  double length(double t, const rod::StrainVector& q, const rod::StrainVector& error) const {
-    const Sizes s = sizes(body, t, q, error);
-    return std::hypot(s.position, radius_of_gyration(body.body().mass, body.body().inertia_O) * s.angle);
+  /// An error of the strain as one length: of the object's position, and of its attitude by its radius of gyration.
+  double length(double t, const StrainState& state, const rod::StrainVector& error) const {
+    const auto J = body.object_jacobian(t, state.q);
+    return std::hypot((J.topRows<3>() * error).norm(),
+                      radius_of_gyration(body.body().mass, body.body().inertia_O) * (J.bottomRows<3>() * error).norm());
   }
+};
+
+struct StepControl::Tried {
+  StrainState state;
+  StepEstimate estimate;
+  bool solved = false;
+  double energy_error = 0.0;                       ///< estimate [J]
+  double largest_energy = 0.0;                     ///< [J]
+  double position_error = 0.0, angle_error = 0.0;  ///< [m], [rad]
 };
 
 StepControl::StepControl(std::unique_ptr<Integrator> integrator, double tolerance)
@@ -76,127 +70,123 @@ StepControl::StepControl(std::unique_ptr<Integrator> integrator, double toleranc
 
 ControlledStep StepControl::advance(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                     StrainState& state, Memory& memory) const {
-  Span span{body, handle, memory, {}, (1.0 + 1e-9) * std::ldexp(h, -halvings_to_stop)};
+  Span span{body, handle, memory, {}};
   const Memory before = memory;
   StrainState next = state;
-  span.report.accepted = tolerance_ > 0.0                ? steps_to_tolerance(span, t, h, next)
-                         : integrator_->stiffly_stable() ? step_in_halves(span, t, h, 0, next)
-                                                         : [&] {
-                                                             StepEstimate estimate;
-                                                             return try_step(span, t, h, next, estimate);
-                                                           }();
+  span.report.accepted = usable(next) && body.shape().admissible(body.full_state(t, next).q);
+  if (!span.report.accepted) return span.report;
+  if (memory.version != body.version() || memory.t != t || memory.error.q.size() != body.size()) {
+    if (memory.version != body.version() || memory.swing.rows() != body.size()) set_modes(body, t, next.q, memory);
+    memory.error = body.zero_state();
+    memory.next_h = h;
+    memory.version = body.version();
+  }
+  if (tolerance_ > 0.0) {
+    steps_to_tolerance(span, t, h, next);
+  } else {
+    const int level = std::max(0, std::exchange(memory.level, 0) - 1);
+    for (int i = 0, count = 1 << level; i < count; ++i) {
+      step_in_halves(span, t + i * h / count, h / count, level, next);
+    }
+  }
+  span.report.accepted = usable(next);
   if (span.report.accepted) {
     state = next;
+    memory.t = t + h;
   } else {
     memory = before;
   }
   return span.report;
 }
 
-StepEstimate StepControl::step_with_estimate(const Span& span, double t, double h, StrainState& state) const {
-  const auto step = [&](double from, double length, StrainState& s) {
-    return integrator_->step(span.body, span.handle, from, length, s);
-  };
-  if (tolerance_ == 0.0 || integrator_->estimates_after_jumps()) return step(t, h, state);
-  StrainState whole = state;
-  StepEstimate estimate = step(t, h, whole);
-  step(t, 0.5 * h, state);
-  step(t + 0.5 * h, 0.5 * h, state);
-  estimate.q_error = (whole.q - state.q) / halves_are_closer;
-  estimate.q_dot_error = (whole.q_dot - state.q_dot) / halves_are_closer;
-  return estimate;
-}
-
-bool StepControl::try_step(Span& span, double t, double h, StrainState& state, StepEstimate& estimate) const {
+StepControl::Tried StepControl::try_step(const Span& span, double t, double h, const StrainState& state) const {
   const HeldBody& body = span.body;
-  const StrainState begin = state;
-  estimate = step_with_estimate(span, t, h, state);
-  if (!((state.q.norm() + state.q_dot.norm()) < most_strain)) return false;
-  if (!body.shape().admissible(body.full_state(t + h, state).q)) {
-    const bool stops =
-        integrator_->stiffly_stable() && h <= span.longest_to_stop && stop_at_limit(body, t + h, begin, state);
-    if (!stops) return false;
+  Tried tried;
+  tried.state = state;
+  tried.estimate = integrator_->step(body, span.handle, t, h, tried.state);
+  tried.solved = tried.estimate.converged && usable(tried.state);
+  if (!tried.solved) return tried;
+  const HandleForcing end = body.forcing(span.handle, t + h);
+  const StrainState truth{tried.state.q - tried.estimate.q_error, tried.state.q_dot - tried.estimate.q_dot_error};
+  const motion::MotionState as_is = body.object(end, tried.state), as_should_be = body.object(end, truth);
+  const double weight = body.body().mass * body.gravity();
+  const auto kinetic = [&](const motion::MotionState& o) { return body.kinetic_energy(o.velocity, o.X.linear()); };
+  const auto potential = [&](const motion::MotionState& o, const StrainState& s) {
+    return body.elastic_energy(end.t, s) + weight * (o.X.translation().z() - end.X_WH.translation().z());
+  };
+  const double found = potential(as_is, tried.state);
+  tried.energy_error = kinetic(as_is) - kinetic(as_should_be) + found - potential(as_should_be, truth);
+  tried.largest_energy = kinetic(as_is) + std::abs(found);
+  tried.position_error = (as_is.X.translation() - as_should_be.X.translation()).norm();
+  tried.angle_error = math::log_so3(as_is.X.linear().transpose() * as_should_be.X.linear()).norm();
+  return tried;
+}
+
+void StepControl::take(Span& span, double t, double h, const Tried& tried, StrainState& state) const {
+  const HeldBody& body = span.body;
+  StrainState next = tried.state;
+  if (!body.shape().admissible(body.full_state(t + h, next).q)) {
+    stop_at_range(body, t + h, h, state, next);
+    ++span.report.stops;
   }
-  // The estimate is in the coordinates of the step.
-  const Sizes s = sizes(body, t + h, state.q, estimate.q_error);
-  body.rechart(state);
+  if (!body.returning()) span.report.energy_added += energy_added(body, span.handle, t, h, state, next);
+  body.rechart(next);
+  state = next;
   ++span.report.steps;
-  if (integrator_->stiffly_stable() && hold_energy(body, span.handle, t, h, begin, state, span.memory)) {
-    ++span.report.energy_held;
-  }
-  span.report.position_error = std::max(span.report.position_error, s.position);
-  span.report.angle_error = std::max(span.report.angle_error, s.angle);
-  double omega_dt = estimate.omega_dt;
-  if (!(omega_dt > 0.0)) {
-    if (span.memory.omega_version != body.version()) {
-      span.memory.stiffest_omega = stiffest_omega(body, t, begin.q);
-      span.memory.omega_version = body.version();
-    }
-    omega_dt = span.memory.stiffest_omega * h;
-  }
-  span.report.omega_dt = std::max(span.report.omega_dt, omega_dt);
-  span.memory.t = t + h;
-  span.memory.version = body.version();
-  return true;
+  span.report.position_error = std::max(span.report.position_error, tried.position_error);
+  span.report.angle_error = std::max(span.report.angle_error, tried.angle_error);
+  span.report.energy_error += std::abs(tried.energy_error);
+  span.memory.largest_energy = std::max(span.memory.largest_energy, tried.largest_energy);
+  const double known = tried.estimate.omega_dt;
+  span.report.omega_dt = std::max(span.report.omega_dt, known > 0.0 ? known : span.memory.stiffest_omega * h);
 }
 
-bool StepControl::step_in_halves(Span& span, double t, double h, int level, StrainState& state) const {
-  const Memory memory = span.memory;
-  const ControlledStep report = span.report;
-  StrainState whole = state;
-  StepEstimate estimate;
-  const bool accepted = try_step(span, t, h, whole, estimate);
-  bool good = accepted;
-  if (accepted) {
-    const Sizes s = sizes(span.body, t + h, whole.q, estimate.q_error);
-    good = s.position < large_error * span.body.shape().length() && s.angle < large_error;
-  }
-  if (good || level == most_halvings) {
-    if (accepted) state = whole;
-    return accepted;
-  }
-  span.memory = memory;
-  span.report = report;
-  ++span.report.rejected;
-  return step_in_halves(span, t, 0.5 * h, level + 1, state) &&
-         step_in_halves(span, t + 0.5 * h, 0.5 * h, level + 1, state);
+void StepControl::fall_back(Span& span, double t, double h, StrainState& state) const {
+  Tried tried;
+  tried.state = state;
+  fallback_step(span.body, span.handle, t, h, tried.state);
+  ++span.report.fallback;
+  take(span, t, h, tried, state);
 }
 
-bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState& state) const {
+void StepControl::step_in_halves(Span& span, double t, double h, int level, StrainState& state) const {
+  span.memory.level = std::max(span.memory.level, level);
+  const Tried tried = try_step(span, t, h, state);
+  const double largest = std::max(span.memory.largest_energy, tried.largest_energy);
+  const double share = (energy_share * h + rounding) * largest;
+  const bool fine = integrator_->energy() == Integrator::Energy::kept ? std::abs(tried.energy_error) <= share
+                    : integrator_->energy() == Integrator::Energy::dissipated
+                        ? energy_gained(span.body, span.handle, t + h, state, tried.state) <= share
+                        : true;
+  const bool shortest = level == most_halvings || !integrator_->stiffly_stable();
+  if (tried.solved && fine) return take(span, t, h, tried, state);
+  if (shortest) return fall_back(span, t, h, state);
+  ++span.report.substeps;
+  step_in_halves(span, t, 0.5 * h, level + 1, state);
+  step_in_halves(span, t + 0.5 * h, 0.5 * h, level + 1, state);
+}
+
+void StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState& state) const {
   Memory& memory = span.memory;
-  if (memory.version != span.body.version() || memory.t != t || memory.error.q.size() != span.body.size()) {
-    memory.error = span.body.zero_state();
-    memory.next_h = h;
-  }
   const double end = t + h, shortest = std::max(smallest_step * h, shortest_step), order = integrator_->order();
-  int rejected = 0;
-  const HandleForcing begin = span.body.forcing(span.handle, t);
-  const LinearisedMotion motion(span.body, begin, state, span.body.acceleration(begin, state.q, state.q_dot));
-  const rod::StrainMatrix swing = swing_of(motion);
+  int tries = 0;
   while (end - t > 1e-9 * h) {
     const double left = end - t;
     const double dt = memory.next_h > 0.95 * left ? left : memory.next_h;
-    const Memory memory_before = memory;
-    const ControlledStep report_before = span.report;
-    StrainState next = state;
-    StepEstimate estimate;
-    const bool accepted =
-        try_step(span, t, dt, next, estimate) && estimate.q_error.allFinite() && estimate.q_dot_error.allFinite();
     const bool smallest = dt < 2.0 * shortest;
-    if (smallest && !accepted) return false;
+    const Tried tried = try_step(span, t, dt, state);
     StrainState error = memory.error;
     double growth = least_growth;
     bool good = false;
-    if (accepted) {
-      carry_deviation(motion, dt, error);
+    if (tried.solved) {
+      integrator_->carry(span.body, span.handle, t, dt, state, tried.state, error);
       const auto amplitude = [&](const rod::StrainVector& q, const rod::StrainVector& q_dot) {
-        return std::hypot(span.length(t + dt, next.q, q), span.length(t + dt, next.q, swing * q_dot));
+        return std::hypot(span.length(t + dt, tried.state, q), span.length(t + dt, tried.state, memory.swing * q_dot));
       };
-      const double left_over = tolerance_ - amplitude(error.q, error.q_dot);
-      const double allowed = std::max(left_over, tolerance_ * dt / undamped_horizon);
-      const double local = amplitude(estimate.q_error, estimate.q_dot_error);
-      error.q += estimate.q_error;
-      error.q_dot += estimate.q_dot_error;
+      const double allowed = std::max(tolerance_ - amplitude(error.q, error.q_dot), tolerance_ * dt / undamped_horizon);
+      const double local = amplitude(tried.estimate.q_error, tried.estimate.q_dot_error);
+      error.q += tried.estimate.q_error;
+      error.q_dot += tried.estimate.q_dot_error;
       const double size = amplitude(error.q, error.q_dot);
       good = local <= allowed || size <= tolerance_;
       if (!std::isfinite(size)) {
@@ -205,27 +195,23 @@ bool StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
         error.q *= tolerance_ / size;
         error.q_dot *= tolerance_ / size;
       }
-      const double power = rejected > 0 ? 0.5 : 1.0 / (order + 1.0);  // a stiff step may behave as one of low order
+      const double power = tries > 0 ? 0.5 : 1.0 / (order + 1.0);  // a stiff step may behave as one of low order
       growth = local > 0.0 ? safety * std::pow(allowed / local, power) : most_growth;
     }
-    growth = std::clamp(growth, least_growth, rejected > 0 ? 1.0 : most_growth);
+    growth = std::clamp(growth, least_growth, tries > 0 ? 1.0 : most_growth);
     if (good || smallest) {
-      memory.error = error;
       // A step that the span's end has cut short says nothing against a longer one.
-      memory.next_h = std::max({dt < memory_before.next_h ? memory_before.next_h : 0.0, dt * growth, shortest});
-      state = next;
+      memory.next_h = std::max({dt < memory.next_h ? memory.next_h : 0.0, dt * growth, shortest});
+      tried.solved ? take(span, t, dt, tried, state) : fall_back(span, t, dt, state);
+      memory.error = error;
       t += dt;
-      rejected = 0;
+      tries = 0;
     } else {
-      memory = memory_before;
-      span.report = report_before;
       memory.next_h = std::max(dt * std::min(growth, 0.8), shortest);
-      ++span.report.rejected;
-      ++rejected;
+      ++span.report.substeps;
+      ++tries;
     }
   }
-  memory.t = end;
-  return true;
 }
 
 }  // namespace spring_workbench::dynamics

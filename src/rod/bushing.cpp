@@ -75,9 +75,9 @@ bool Bushing::rechart(StrainVector& q, StrainVector& q_dot) const {
   return true;
 }
 
-bool Bushing::admissible(const StrainVector& q) const {
+double Bushing::range_used(const StrainVector& q) const {
   constexpr double largest_angle = 6.0;  // [rad]; the coordinates are singular at a full turn
-  return q.allFinite() && q.segment<3>(2).norm() < largest_angle;
+  return q.segment<3>(2).norm() / largest_angle;
 }
 
 }  // namespace spring_workbench::rod

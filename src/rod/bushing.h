@@ -23,7 +23,7 @@ class Bushing final : public ShapeModel {
   double twist(const StrainVector& q) const override { return q[4]; }
   RigidTransform section(const StrainVector& q, double s) const override;
   bool rechart(StrainVector& q, StrainVector& q_dot) const override;
-  bool admissible(const StrainVector& q) const override;
+  double range_used(const StrainVector& q) const override;
 
  private:
   template <typename S>

@@ -199,8 +199,8 @@ RigidTransform StrainRod::section(const StrainVector& q, double s) const {
                         (1.0 + q[stretch().begin]) * vector(p));
 }
 
-bool StrainRod::admissible(const StrainVector& q) const {
-  return q.allFinite() && 1.0 + q[stretch().begin] > least_stretch && turned_angle(curvature(q.data())) < most_turned;
+double StrainRod::range_used(const StrainVector& q) const {
+  return std::max(-q[stretch().begin] / (1.0 - least_stretch), turned_angle(curvature(q.data())) / most_turned);
 }
 
 }  // namespace spring_workbench::rod

@@ -19,7 +19,7 @@ class StrainRod final : public ShapeModel {
   double extension(const StrainVector& q) const override;
   double twist(const StrainVector& q) const override;
   RigidTransform section(const StrainVector& q, double s) const override;
-  bool admissible(const StrainVector& q) const override;
+  double range_used(const StrainVector& q) const override;
 
  private:
   /// Strain of the rod along its length: `value + slope (s − L/2)`.

@@ -27,7 +27,9 @@ void AdvanceReport::add(const AdvanceReport& later) {
   steps_among_movable += later.steps_among_movable;
   collision_queries += later.collision_queries;
   substeps += later.substeps;
-  energy_held += later.energy_held;
+  stops += later.stops;
+  steps_fallback += later.steps_fallback;
+  energy_error += later.energy_error;
   steps_blocked += later.steps_blocked;
   steps_rejected += later.steps_rejected;
   add_missing(later.active, active);

@@ -172,8 +172,10 @@ void Hand::end_step(AdvanceReport& report) {
   report.angle_error = std::max(report.angle_error, e.angle);
   report.stiffest_omega_dt = std::max(report.stiffest_omega_dt, e.omega_dt);
   report.steps += e.extra_steps;
-  report.substeps += e.rejected;
-  report.energy_held += e.energy_held;
+  report.substeps += e.substeps;
+  report.stops += e.stops;
+  report.steps_fallback += e.fallback;
+  report.energy_error += e.energy;
 }
 
 rod::ForkDofs Hand::dofs_run() const {

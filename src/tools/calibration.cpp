@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spring_workbench/dynamics/find_strain.h"
+#include "find_strain.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/spatial.h"
 #include "spring_workbench/scene/constants.h"
@@ -17,7 +17,7 @@ rod::StrainVector equilibrium(const dynamics::HeldBody& held, const RigidTransfo
   const auto force = [&](const rod::StrainVector& at) -> rod::StrainVector {
     return held.mass_matrix(0.0, at) * held.acceleration(handle, at, rod::StrainVector::Zero(at.size()));
   };
-  return dynamics::find_strain(held, 0.0, force, q, 1e-10 * held.gravity());
+  return find_strain(held, 0.0, force, q, 1e-10 * held.gravity());
 }
 
 }  // namespace

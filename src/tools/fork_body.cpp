@@ -104,11 +104,12 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
     estimates_.angle = std::max(estimates_.angle, step.angle_error);
     estimates_.omega_dt = std::max(estimates_.omega_dt, step.omega_dt);
     estimates_.extra_steps += step.steps - 1;
-    estimates_.rejected += step.rejected;
-    estimates_.energy_held += step.energy_held;
+    estimates_.substeps += step.substeps;
+    estimates_.stops += step.stops;
+    estimates_.fallback += step.fallback;
+    estimates_.energy += step.energy_error;
+    added_ = step.energy_added;
   }
-  last_.reset();
-  if (held_.size() > 0 && !held_.returning()) last_ = Advance{motion, state_.t, h, state_.strain};
   state_.t += h;
   state_.strain = next;
   state_.pull_W.reset();
@@ -119,48 +120,16 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   return hand_pose().translation().norm() < largest_distance;
 }
 
-void ForkBody::accept() {
-  if (last_) state_.energy_added += added_energy(*last_);
-  last_.reset();
-}
-
-double ForkBody::added_energy(const Advance& advance) const {
-  // Lobatto's rule of four points, exact to degree five, on the cubics through both ends.
-  constexpr double inner = 0.27639320225002103;  // (1 - 1/sqrt(5)) / 2
-  constexpr math::Pack nodes{0.0, inner, 1.0 - inner, 1.0}, weights{1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0};
-  const dynamics::StrainState &begin = advance.begin, &end = state_.strain;
-  const double h = advance.h;
-  math::Pack q[rod::max_strain_coordinates], q_dot[rod::max_strain_coordinates];
-  const auto curve = [&](bool straight) {
-    for (int i = 0; i < held_.size(); ++i) {
-      const double change = end.q[i] - begin.q[i], a = straight ? change : h * begin.q_dot[i],
-                   b = straight ? change : h * end.q_dot[i];
-      const double second = 3.0 * change - 2.0 * a - b, third = a + b - 2.0 * change;
-      q[i] = begin.q[i] + nodes * (a + nodes * (second + nodes * third));
-      q_dot[i] = (a + nodes * (2.0 * second + nodes * (3.0 * third))) / h;
-    }
-  };
-  const auto possible = [&](int node) {
-    dynamics::StrainState at = begin;
-    for (int i = 0; i < held_.size(); ++i) at.q[i] = q[i][node];
-    return held_.shape().admissible(held_.full_state(advance.t + nodes[node] * h, at).q);
-  };
-  curve(false);
-  if (!possible(1) || !possible(2)) curve(true);  // a jerk: no way of the fork; the straight one
-  const dynamics::EnergyBalance balance =
-      held_.energy_balance(held_.forcing(advance.motion, advance.t + nodes * h), q, q_dot);
-  const math::Pack work = weights * balance.power;
-  return balance.energy[3] - balance.energy[0] - h * (work[0] + work[1] + work[2] + work[3]);
-}
+void ForkBody::accept() { state_.energy_added += std::exchange(added_, 0.0); }
 
 void ForkBody::restore(const bodies::TrialStart& start) {
   state_ = start.kept<State>();
-  last_.reset();
+  added_ = 0.0;
 }
 
 void ForkBody::exchange(math::StateArchive& state) {
   state(held_, control_.integrator(), X_SH_, hand_, state_, estimates_, sleep_);
-  if (state.sets()) last_.reset();
+  if (state.sets()) added_ = 0.0;
 }
 
 ForkBody::Jacobian ForkBody::jacobian_W(const Matrix3d& R_WH, double t) const {
@@ -228,7 +197,7 @@ void ForkBody::take_twist(const Twist& V_WO_W) {
 }
 
 void ForkBody::block(double h) {
-  last_.reset();
+  added_ = 0.0;
   // The seen handle stays where it is, whatever the hand does next, and the strain with it.
   state_.strain.q_dot.setZero();
   const RigidTransform seen = state_.offset * hand_pose();
@@ -238,7 +207,7 @@ void ForkBody::block(double h) {
 }
 
 void ForkBody::follow_rigidly(double h) {
-  last_.reset();
+  added_ = 0.0;
   state_.strain.q_dot.setZero();
   state_.t += h;
 }

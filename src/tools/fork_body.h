@@ -96,14 +96,6 @@ class ForkBody final : public ToolHold {
   rod::StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const;
   /// The strain with the object at `X_WO`, `h` [s] after the last; `handle` the hand itself.
   void fit(const dynamics::HandleForcing& handle, const RigidTransform& X_WO, double h);
-  /// What the last advance() went from, along the handle's `motion`.
-  struct Advance {
-    motion::MotionSegment motion;
-    double t, h;
-    dynamics::StrainState begin;
-  };
-  /// Energy added (see energy_added()) by an advance to the present state.
-  double added_energy(const Advance& advance) const;
   using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates>;
   Jacobian jacobian_W() const { return jacobian_W(handle().X_WH.linear(), state_.t); }
   Jacobian jacobian_W(const Matrix3d& R_WH, double t) const;
@@ -114,7 +106,7 @@ class ForkBody final : public ToolHold {
   RigidTransform X_SH_;         ///< from one grip to the next
   motion::MotionSegment hand_;  ///< of the handle as the hand has it
   State state_;
-  std::optional<Advance> last_;  ///< while it may turn out to have been a trial
+  double added_ = 0.0;  ///< energy by the last advance(), which may turn out to have been a trial [J]
   StepEstimates estimates_;
   /// What a sleeper's rest rests on.
   struct Sleep {

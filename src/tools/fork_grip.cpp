@@ -2,8 +2,8 @@
 #include <Eigen/QR>
 
 #include "constants.h"
+#include "find_strain.h"
 #include "fork_body.h"
-#include "spring_workbench/dynamics/find_strain.h"
 
 namespace spring_workbench::tools {
 namespace {
@@ -36,7 +36,7 @@ rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R
     return f;
   };
   const double small = exact_pull * (missing(rod::StrainVector::Zero(present.size())).norm() + 1e-300);
-  const rod::StrainVector q = dynamics::find_strain(held_, state_.t, missing, present, small);
+  const rod::StrainVector q = find_strain(held_, state_.t, missing, present, small);
   return missing(q).norm() < 1e-6 * small / exact_pull ? q : present;
 }
 

@@ -9,11 +9,11 @@ namespace spring_workbench::dynamics {
 
 /// What one step says of itself.
 struct StepEstimate {
-  rod::StrainVector
-      q_error;  ///< estimate of the step's local error (what came out less the truth) in the active coordinates
-  double omega_dt =
-      0.0;  ///< frequency of the stiffest mode [rad/s] times the step; 0 where the method does not know it
-  rod::StrainVector q_dot_error = rod::StrainVector();  ///< the same of the strain rates [1/s]
+  /// Estimate of the step's local error (what came out less the truth) in the active coordinates.
+  rod::StrainVector q_error;
+  double omega_dt = 0.0;          ///< frequency of the stiffest mode [rad/s] times the step; 0: not known
+  rod::StrainVector q_dot_error;  ///< the same of the strain rates [1/s]
+  bool converged = true;          ///< whether an implicit method solved its equation; else the state is not to be used
 };
 
 /// One way to carry the held body's state over a step (doc/model.md, "Integrators"). An integrator may keep what it has
@@ -25,14 +25,22 @@ class Integrator {
 
   /// Order of accuracy for smooth motions.
   virtual int order() const = 0;
-  /// Whether no stiffness, however large, limits the step: what StepControl guards.
+  /// Whether no stiffness, however large, limits the step.
   virtual bool stiffly_stable() const { return false; }
-  /// Whether the estimate holds, too, in a step that begins with a jump of the handle's acceleration.
-  virtual bool estimates_after_jumps() const { return true; }
+  /// What the method does with the energy of a motion: nothing but by its error; take some away (implicit methods of
+  /// low order); or whatever its error is, which nothing bounds (explicit ones). StepControl holds the first to its
+  /// error, the second to its balance.
+  enum class Energy { kept, dissipated, unbounded };
+  virtual Energy energy() const { return Energy::unbounded; }
 
   /// Carries `state` from `t` to `t + h` [s], h > 0; `handle` must cover that time.
   virtual StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                             StrainState& state) = 0;
+
+  /// Carries a small deviation from `begin` over the step from there to `end`: as two steps of the method differ unless
+  /// it knows better.
+  virtual void carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                     const StrainState& begin, const StrainState& end, StrainState& deviation);
 
   /// How the state at the end of the step depends on a constant generalised force Q over the step, to first order:
   /// Δq = response.q Q, Δq̇ = response.q_dot Q. For contact.

@@ -8,46 +8,46 @@ namespace spring_workbench::dynamics {
 
 /// What a StepControl did over a span of time.
 struct ControlledStep {
-  bool accepted = true;         ///< false: no state to go on from was found, and none was taken
+  bool accepted = true;         ///< false: the state given was none to go on from, and none was taken
   int steps = 0;                ///< steps taken
-  int rejected = 0;             ///< steps tried and taken again shorter
-  int energy_held = 0;          ///< steps whose gain of energy was taken away (see StepControl)
+  int substeps = 0;             ///< steps tried and taken again shorter
+  int fallback = 0;             ///< steps done by fallback_step()
+  int stops = 0;                ///< steps that met the end of the rod's range
   double position_error = 0.0;  ///< largest estimate of a step's local error, at the object's centre of mass [m]
   double angle_error = 0.0;     ///< the same of its attitude [rad]
+  double energy_error = 0.0;    ///< sum of the estimates of the steps' errors in energy [J]
+  double energy_added = 0.0;    ///< beyond what hand, gravity, contact and dampers account for [J]
   double omega_dt = 0.0;        ///< largest ω·dt of the stiffest mode
 };
 
-/// Carries the held body over a span of time with an integrator: in one step, or, with a tolerance, in as many as it
-/// takes.
+/// Carries the held body over a span of time with an integrator: in one step, or in as many as it takes.
+///
+/// A method that no stiffness limits takes shorter steps (halves, to the 64th part of the span) if it does not solve
+/// its equation or does not keep to its energy (Integrator::Energy): its error in energy, by its own estimate, may be a
+/// hundredth, in a minute, of the largest energy since the grasp; one that takes energy away may gain as much. A step
+/// that still is not done then is done by an L-stable rule that always has a solution (fallback_step.h). A strain
+/// beyond the rod's range meets a stop (range_stop.h). So every span comes to its end.
 ///
 /// With a tolerance, what is held to it is the error that the run has at any time: the estimates of all local errors so
-/// far, each carried on by the linearised equations to the present. Its size is the distance of the object's centre of
-/// mass from where it should be [m] and the angle times the object's radius of gyration, as one length. Where nothing
-/// damps an error away, it may grow by the tolerance in each `undamped_horizon`. A step of less than 4 µs, or two
-/// ten-thousandths of the span, is taken whatever its error: a span ends, in up to 10,000 steps, where none keeps the
-/// tolerance.
-///
-/// An integrator that no stiffness limits is guarded besides. A step with a large local error is taken again in halves;
-/// a fork at the end of its way stops there. While the handle rests and no contact pushes, energy may not grow: what a
-/// step gains is taken from its speed, or else its way is cut short. The guard costs one more evaluation of the energy
-/// a step while the handle rests, nothing while it moves. Explicit methods are left as they are.
+/// far, each carried on by the method itself to the present. Its size is the distance of the object's centre of mass
+/// from where it should be [m] and the angle times the object's radius of gyration, as one length. Where nothing damps
+/// an error away, it may grow by the tolerance in each `undamped_horizon`. A step of less than 4 µs, or two
+/// ten-thousandths of the span, is taken whatever its error.
 class StepControl {
  public:
   /// What goes on from one span to the next; belongs to the state.
   struct Memory {
-    double next_h = 0.0;          ///< the next step to try [s]; 0: not known
+    double next_h = 0.0;          ///< with a tolerance: the next step to try [s]; 0: not known
+    int level = 0;                ///< without: the last span's shortest step was its 2^level-th part
     long version = -1;            ///< of the equations that the rest is about
     double t = 0.0;               ///< time that the rest is of [s]
     StrainState error;            ///< of the run
-    long omega_version = -1;      ///< of the equations that the next is of
-    double stiffest_omega = 0.0;  ///< of the undamped modes, where the integrator does not know its own [rad/s]
-    bool rests = false;           ///< the handle, since:
-    RigidTransform X_WH = RigidTransform::Identity();
-    double lowest_energy = 0.0;  ///< of the body and the fork [J]
-    double energy_scale = 0.0;   ///< what rounding is measured by [J]
+    rod::StrainMatrix swing;      ///< from rates to the strains that they swing to [s]
+    double stiffest_omega = 0.0;  ///< of the undamped modes [rad/s]
+    double largest_energy = 0.0;  ///< of body and fork since the grasp [J]
 
     void exchange(math::StateArchive& state) {
-      state(next_h, version, t, error, omega_version, stiffest_omega, rests, X_WH, lowest_energy, energy_scale);
+      state(next_h, level, version, t, error, swing, stiffest_omega, largest_energy);
     }
   };
 
@@ -65,13 +65,14 @@ class StepControl {
   static constexpr double largest_tolerance = 0.1;  ///< [m]
 
  private:
-  struct Span;  ///< one call's arguments
+  struct Span;   ///< one call's arguments
+  struct Tried;  ///< a step and what it says of itself
 
-  /// One step, or with a tolerance, where the integrator's own estimate would not do, the same in two halves.
-  StepEstimate step_with_estimate(const Span& span, double t, double h, StrainState& state) const;
-  bool try_step(Span& span, double t, double h, StrainState& state, StepEstimate& estimate) const;
-  bool step_in_halves(Span& span, double t, double h, int level, StrainState& state) const;
-  bool steps_to_tolerance(Span& span, double t, double h, StrainState& state) const;
+  Tried try_step(const Span& span, double t, double h, const StrainState& state) const;
+  void take(Span& span, double t, double h, const Tried& tried, StrainState& state) const;
+  void fall_back(Span& span, double t, double h, StrainState& state) const;
+  void step_in_halves(Span& span, double t, double h, int level, StrainState& state) const;
+  void steps_to_tolerance(Span& span, double t, double h, StrainState& state) const;
 
   std::unique_ptr<Integrator> integrator_;
   double tolerance_;

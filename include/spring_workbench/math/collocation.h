@@ -7,29 +7,35 @@
 
 namespace spring_workbench::math {
 
-/// Exponential collocation at the four Lobatto nodes of a step: in ẋ = λ x + N(t), N is the cubic through its values at
-/// the nodes, so that `x(c_i h) = e^{c_i h λ} x₀ + h Σ_j a_ij(hλ) N_j` (Hochbruck and Ostermann, Acta Numerica 2010,
-/// section 2.1).
+/// Exponential collocation at the four Radau nodes of a step: in ẋ = λ x + N(t), N is the cubic p through its values at
+/// the nodes, so that `x(c h) = e^{c h λ} x₀ + h Σ_j a_j(c, hλ) N_j` (Hochbruck and Ostermann, Acta Numerica 2010,
+/// section 2.1; the nodes: Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5). Of order seven where
+/// the step resolves λ. What the cubic misses, its defect, is sampled at four more moments.
 struct Collocation {
   static constexpr std::size_t count = 4;
-  /// 0, ½ ∓ √5/10, 1.
-  static constexpr std::array<double, count> nodes{0.0, 0.27639320225002103, 0.72360679774997897, 1.0};
+  /// The zeros of c⁴ − 16/7 c³ + 12/7 c² − 16/35 c + 1/35.
+  static constexpr std::array<double, count> nodes{0.08858795951270395, 0.40946686444073471, 0.78765946176084706, 1.0};
+  /// Where the defect is sampled: the start, and the extremes of that polynomial between the nodes.
+  static constexpr std::array<double, count> samples{0.0, 0.21234054, 0.59053314, 0.91141204};
 
   using Row = std::array<double, count>;
   /// `power[k][j]`: coefficient of cᵏ in the cubic that is 1 at node j and 0 at the others.
   static const std::array<Row, count>& power();
-  /// Third divided difference of values at the nodes, and the mean of their two second ones.
-  static const Row& third_difference();
-  static const Row& second_difference();
-  /// Weights that continue the cubic of the last step, `ratio` times as long as this one, to the nodes of this one.
-  static std::array<Row, count> continued(double ratio);
+  /// The cubic through values at the nodes, at `c`: its value is Σ_j row[j] N_j.
+  static Row interpolated(double c);
+  /// `defect_power()[k]`: coefficients of the polynomial of degree seven that vanishes at the nodes, is 1 at sample k
+  /// and 0 at the others.
+  static const std::array<std::array<double, 2 * count>, count>& defect_power();
 
   /// What one mode needs for a step, `Scalar` real or complex.
   template <typename Scalar>
   struct Weights {
-    std::array<Scalar, count> decay;                    ///< e^{c_i z}
-    std::array<std::array<Scalar, count>, count> node;  ///< a_ij; row 0 is zero
-    Scalar error;  ///< ∫₀¹ e^{(1−c)z} Π_j (c − c_j) dc: what one unit of the fourth divided difference does to the end
+    using Column = std::array<Scalar, count>;
+    Column constant;                   ///< c_i φ₁(c_i z), the sum of row i of `node`
+    std::array<Column, count> node;    ///< a_j(c_i, z)
+    Column sample_constant;            ///< the same at the samples
+    std::array<Column, count> sample;  ///< the same at the samples
+    Column defect;                     ///< what a defect at each sample does to the end, on the polynomials above
   };
   /// For `z` = h λ.
   template <typename Scalar>
@@ -39,11 +45,7 @@ struct Collocation {
 template <typename Scalar>
 Collocation::Weights<Scalar> Collocation::weights(Scalar z) {
   Weights<Scalar> w{};
-  w.decay[0] = 1.0;
-  for (std::size_t i = 1; i < count; ++i) {
-    const double c = nodes[i];
-    const std::array<Scalar, 6> phi = phi_functions(Scalar(c * z));
-    w.decay[i] = phi[0];
+  const auto row = [z](double c, const auto& phi, Scalar& constant, std::array<Scalar, count>& values) {
     // ∫₀ᶜ e^{(c−s)z} sᵏ ds = k! c^{k+1} φ_{k+1}(c z)
     std::array<Scalar, count> integral;
     double factor = c;
@@ -51,11 +53,23 @@ Collocation::Weights<Scalar> Collocation::weights(Scalar z) {
       integral[k] = factor * phi[k + 1];
       factor *= c * static_cast<double>(k + 1);
     }
+    constant = integral[0];
     for (std::size_t j = 0; j < count; ++j) {
-      for (std::size_t k = 0; k < count; ++k) w.node[i][j] += integral[k] * power()[k][j];
+      for (std::size_t k = 0; k < count; ++k) values[j] += integral[k] * power()[k][j];
     }
-    // Π (c − c_j) = c⁴ − 2 c³ + 6/5 c² − c/5
-    if (i == count - 1) w.error = 24.0 * phi[5] - 12.0 * phi[4] + 2.4 * phi[3] - 0.2 * phi[2];
+  };
+  for (std::size_t i = 0; i + 1 < count; ++i) {
+    row(nodes[i], phi_functions<count>(Scalar(nodes[i] * z)), w.constant[i], w.node[i]);
+  }
+  const auto end = phi_functions<2 * count>(z);
+  row(1.0, end, w.constant[count - 1], w.node[count - 1]);
+  for (std::size_t k = 1; k < count; ++k) {
+    row(samples[k], phi_functions<count>(Scalar(samples[k] * z)), w.sample_constant[k], w.sample[k]);
+  }
+  double factorial = 1.0;
+  for (std::size_t m = 0; m < 2 * count; ++m) {
+    for (std::size_t k = 0; k < count; ++k) w.defect[k] += factorial * defect_power()[k][m] * end[m + 1];
+    factorial *= static_cast<double>(m + 1);
   }
   return w;
 }

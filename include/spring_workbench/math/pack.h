@@ -43,6 +43,8 @@ SPRING_WORKBENCH_INLINE double largest(const S& p) {
   return most;
 }
 
+SPRING_WORKBENCH_INLINE double sum(const Pack& p) { return (p[0] + p[1]) + (p[2] + p[3]); }
+
 /// Three coordinates.
 template <typename S>
 struct Three {

@@ -79,7 +79,9 @@ class ShapeModel {
   virtual bool rechart(StrainVector& q, StrainVector& q_dot) const;
 
   /// Whether the strain is one that a rod can have: finite, not turned inside out, not wound up beyond `max_turns`.
-  virtual bool admissible(const StrainVector& q) const = 0;
+  bool admissible(const StrainVector& q) const { return q.allFinite() && range_used(q) < 1.0; }
+  /// How much of its range a rod with this strain has used: 0 at rest, 1 at the end; a convex function.
+  virtual double range_used(const StrainVector& q) const = 0;
 
   double length() const { return length_; }
 

@@ -29,7 +29,9 @@ struct AdvanceReport {
   int steps_among_movable = 0;     ///< of `steps`, with other movable objects (contact mode `dynamic`)
   int collision_queries = 0;
   int substeps = 0;                 ///< steps tried and taken again shorter, for their error
-  int energy_held = 0;              ///< steps whose gain of energy, with the hand at rest, was taken away
+  int stops = 0;                    ///< steps that met the end of the fork's range
+  int steps_fallback = 0;           ///< steps done by an L-stable rule, since the integrator's equation was not solved
+  double energy_error = 0.0;        ///< sum of the steps' estimated errors in energy [J]
   int steps_blocked = 0;            ///< steps in which contact left a body no way that was found, and it stayed
   int steps_rejected = 0;           ///< times a step was refused because it would not have been finite or bounded
   std::vector<std::string> active;  ///< e.g. "stretch", "gravity", "collision"

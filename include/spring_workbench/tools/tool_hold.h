@@ -14,10 +14,14 @@ struct StepEstimates {
   double angle = 0.0;     ///< [rad]
   double omega_dt = 0.0;  ///< of the stiffest mode
   int extra_steps = 0;    ///< beside one for each call of advance()
-  int rejected = 0;       ///< taken again shorter, for their error
-  int energy_held = 0;    ///< whose gain of energy was taken away
+  int substeps = 0;       ///< taken again shorter, for their error
+  int stops = 0;          ///< that met the end of the fork's range
+  int fallback = 0;       ///< done by an L-stable rule in place of the integrator
+  double energy = 0.0;    ///< sum of the estimated errors in energy [J]
 
-  void exchange(math::StateArchive& state) { state(position, angle, omega_dt, extra_steps, rejected, energy_held); }
+  void exchange(math::StateArchive& state) {
+    state(position, angle, omega_dt, extra_steps, substeps, stops, fallback, energy);
+  }
 };
 
 /// A tool's hold on an object: the object as the hand moves it through the tool.

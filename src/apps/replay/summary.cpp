@@ -69,9 +69,10 @@ std::string Summary::json() const {
       << ", \"angle_error\": " << number(advance.angle_error) << ", \"energy_drift\": " << number(advance.energy_added)
       << ", \"stiffest_omega_dt\": " << number(advance.stiffest_omega_dt) << ", \"contacts\": " << contacts_
       << ", \"collision_queries\": " << advance.collision_queries << ", \"substeps\": " << advance.substeps
-      << ", \"energy_held\": " << advance.energy_held << ", \"steps_blocked\": " << advance.steps_blocked
-      << ", \"steps_rejected\": " << advance.steps_rejected << ", \"state_hash\": \"" << simulation::to_hex(state_hash)
-      << "\", \"active\": " << list_of(advance.active) << ", \"skipped\": " << list_of(advance.skipped) << "}";
+      << ", \"stops\": " << advance.stops << ", \"steps_fallback\": " << advance.steps_fallback
+      << ", \"steps_blocked\": " << advance.steps_blocked << ", \"steps_rejected\": " << advance.steps_rejected
+      << ", \"state_hash\": \"" << simulation::to_hex(state_hash) << "\", \"active\": " << list_of(advance.active)
+      << ", \"skipped\": " << list_of(advance.skipped) << "}";
   return out.str();
 }
 

@@ -112,7 +112,9 @@ StepReport to_message(const simulation::AdvanceReport& report) {
   message.omega_dt = report.stiffest_omega_dt;
   message.collision_queries = static_cast<uint32_t>(report.collision_queries);
   message.substeps = static_cast<uint32_t>(report.substeps);
-  message.energy_held = static_cast<uint32_t>(report.energy_held);
+  message.stops = static_cast<uint32_t>(report.stops);
+  message.steps_fallback = static_cast<uint32_t>(report.steps_fallback);
+  message.energy_error = report.energy_error;
   message.steps_blocked = static_cast<uint32_t>(report.steps_blocked);
   message.steps_rejected = static_cast<uint32_t>(report.steps_rejected);
   message.active = report.active;

@@ -82,13 +82,13 @@ std::string what_is_wrong(const Cell& cell, const std::string& shape, const std:
     track.push({t, pose(cell.hand, t, random)});
   }
   StrainState state = held.zero_state();
-  double lowest = 0.0, scale = 0.0;
+  double lowest = 0.0, scale = 0.0, estimated = 0.0;
   const double rest_from = track.end();
   for (double t = 0.0; t < 0.8;) {
     const motion::MotionSegment segment = track.segment(t + 1e-9);
     const double h = std::min(cell.step, t < rest_from - 1e-9 ? segment.end() - t : 1.0);
     const ControlledStep step = control.advance(held, segment, t, h, state, memory);
-    if (!step.accepted) state.q_dot.setZero();  // as the simulation does: the body stays
+    if (!step.accepted) return "refused";
     t += h;
     if (!state.q.allFinite() || !state.q_dot.allFinite()) return "not finite";
     const motion::MotionState o = held.object(held.forcing(segment, t), state);
@@ -101,9 +101,14 @@ std::string what_is_wrong(const Cell& cell, const std::string& shape, const std:
       const double kinetic = held.kinetic_energy(o.velocity, o.X.linear());
       scale = kinetic + std::abs(e - kinetic);
     }
-    lowest = std::min(lowest, e);
-    // Beside it the rounding of the height, in metres.
-    if (e - lowest > 1e-9 * scale + 1e-15 * cell.mass * 9.81) return "energy grows";
+    estimated += step.energy_error;
+    if (e - lowest > estimated + 1e-9 * scale + 1e-15 * cell.mass * 9.81)
+      return "energy grows by " + std::to_string(e - lowest) + " J, " + std::to_string(estimated) + " estimated, of " +
+             std::to_string(scale);  // last: of the height
+    if (e < lowest) {
+      lowest = e;
+      estimated = 0.0;
+    }
   }
   return "";
 }
@@ -128,9 +133,49 @@ TEST_P(StableIntegrator, AnObjectThatFallsOntoItsHandleStopsThereAndTurnsOn) {
     }
     EXPECT_LT(fallen, -0.5);
     EXPECT_NEAR(state.q[1], -0.98, 1e-6);
-    EXPECT_EQ(state.q_dot[1], 0.0);
+    EXPECT_NEAR(state.q_dot[1], 0.0, 1e-12);
     EXPECT_NEAR(state.q_dot[0], 5.0, 1e-6);
     EXPECT_NEAR(state.q[0], 5.0 * t, 1e-6);
+  }
+}
+
+TEST(UndampedFork, KeepsItsEnergyWhileTheHandTremblesByANanometre) {
+  // After a leap of 1 m and after a half turn. What the hand's tremor can do is far below what is asked.
+  for (const Hand hand : {Hand::jump, Hand::flip}) {
+    const Cell cell{0.4, 1.0, 0.02, 0.0, 7, hand};
+    const HeldBody held = body_of(cell, "linear");
+    const StepControl control(make_integrator(IntegratorKind::exponential));
+    StepControl::Memory memory;
+    std::mt19937 random(5);
+    std::normal_distribution<double> normal;
+    motion::PoseTrack track;
+    for (double t = 0.0; t < 20.1; t += 0.02) {
+      RigidTransform X = pose(hand, t, random);
+      X.translation() += 1e-9 * Vector3d(normal(random), normal(random), normal(random));
+      track.push({t, X});
+    }
+    StrainState state = held.zero_state();
+    double largest = 0.0, highest_later = 0.0, estimated = 0.0;
+    int fallback = 0, taken = 0;
+    for (double t = 0.0; t < 20.0;) {
+      const motion::MotionSegment segment = track.segment(t + 1e-9);
+      const double h = segment.end() - t;
+      const ControlledStep step = control.advance(held, segment, t, h, state, memory);
+      ASSERT_TRUE(step.accepted) << t;
+      t += h;
+      estimated += step.energy_error;
+      fallback += step.fallback;
+      taken += step.steps;
+      const double e = energy(held, segment, t, state);
+      if (t < 0.3) {
+        largest = std::max(largest, e);
+      } else {
+        highest_later = std::max(highest_later, e);
+      }
+    }
+    EXPECT_LT(highest_later, largest + estimated + 1e-6 * largest) << static_cast<int>(hand);
+    EXPECT_LT(estimated, 0.01 * largest) << static_cast<int>(hand);
+    EXPECT_LT(fallback, 0.02 * taken) << static_cast<int>(hand);
   }
 }
 

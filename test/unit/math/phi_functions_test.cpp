@@ -17,7 +17,7 @@ TEST(PhiFunctions, AreTheirIntegrals) {
   for (const double length : {0.0, 1e-9, 1e-3, 0.3, 0.999, 1.001, 3.0, 20.0}) {
     for (const double angle : {M_PI, 2.5, 0.5 * M_PI, -2.0}) {
       const Complex z = std::polar(length, angle);
-      const auto phi = phi_functions(z);
+      const auto phi = phi_functions<5>(z);
       double factorial = 1.0;
       for (int k = 0; k < 5; ++k) {
         if (k > 0) factorial *= k;
@@ -37,8 +37,8 @@ TEST(PhiFunctions, AreTheirIntegrals) {
 
 TEST(PhiFunctions, RealAndComplexAgree) {
   for (const double z : {0.0, -1e-5, -0.7, -1.5, -40.0, -1e6}) {
-    const auto real = phi_functions(z);
-    const auto complex = phi_functions(Complex(z));
+    const auto real = phi_functions<5>(z);
+    const auto complex = phi_functions<5>(Complex(z));
     for (std::size_t k = 0; k < real.size(); ++k) EXPECT_LT(std::abs(real[k] - complex[k]), 1e-15) << z << " " << k;
   }
 }

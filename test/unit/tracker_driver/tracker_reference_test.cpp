@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cmath>
 #include <fstream>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "spring_workbench/ros/tracker_driver/tracker_driver.h"
+#include "spring_workbench/ros/tracker_driver/tracker_parameters.h"
 #include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::tracker_driver {

@@ -1,8 +1,8 @@
-#include "spring_workbench/dynamics/find_strain.h"
+#include "find_strain.h"
 
 #include <Eigen/LU>
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::tools {
 namespace {
 
 constexpr int most_iterations = 30, most_halvings = 20;
@@ -22,7 +22,7 @@ rod::StrainMatrix slope(const std::function<rod::StrainVector(const rod::StrainV
 
 }  // namespace
 
-rod::StrainVector find_strain(const HeldBody& held, double t,
+rod::StrainVector find_strain(const dynamics::HeldBody& held, double t,
                               const std::function<rod::StrainVector(const rod::StrainVector&)>& force,
                               rod::StrainVector q, double small) {
   const auto admissible = [&](const rod::StrainVector& tried) {
@@ -47,4 +47,4 @@ rod::StrainVector find_strain(const HeldBody& held, double t,
   return q;
 }
 
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::tools

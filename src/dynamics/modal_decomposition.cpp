@@ -1,10 +1,13 @@
-#include "linear_part.h"
+#include "modal_decomposition.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
 #include <limits>
+
+#include "spring_workbench/math/so3.h"
+#include "spring_workbench/math/spatial.h"
 
 namespace spring_workbench::dynamics {
 namespace {
@@ -14,7 +17,7 @@ namespace {
 constexpr double worst_condition = 1e5;
 constexpr int most_attempts = 6;
 
-using ModeMatrix = LinearPart::ModeMatrix;
+using ModeMatrix = ModalDecomposition::ModeMatrix;
 
 /// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences, where the springs'
 /// own part is linear.
@@ -34,7 +37,7 @@ rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& h
 
 /// Copies eigenvectors in real columns, a conjugate pair as its real and imaginary part, pairs first. So V⁻¹ is that of
 /// what is kept of the pair, with no more error than its condition makes.
-void sort_modes(const Eigen::EigenSolver<ModeMatrix>& solver, ModeMatrix& V, LinearPart& part) {
+void sort_modes(const Eigen::EigenSolver<ModeMatrix>& solver, ModeMatrix& V, ModalDecomposition& part) {
   const auto values = solver.eigenvalues();
   const auto vectors = solver.eigenvectors().eval();
   part.pairs = 0;
@@ -54,15 +57,29 @@ void sort_modes(const Eigen::EigenSolver<ModeMatrix>& solver, ModeMatrix& V, Lin
   }
 }
 
+/// The accelerations by a wrench and by the handle's.
+void set_forces(const HeldBody& body, double t, const rod::StrainVector& q, ModalDecomposition& part) {
+  part.by_wrench = part.inverse_mass * body.object_jacobian(t, q).transpose();
+  HandleForcing at_origin;
+  at_origin.t = t;
+  const RigidTransform X_HO = body.object(at_origin, {q, rod::StrainVector::Zero(q.size())}).X;
+  Matrix6d inertia = Matrix6d::Zero();  // of the object, for motions of the handle
+  inertia.topLeftCorner<3, 3>().diagonal().setConstant(body.body().mass);
+  inertia.topRightCorner<3, 3>() = -body.body().mass * math::skew(X_HO.translation());
+  inertia.bottomRightCorner<3, 3>() = X_HO.linear() * body.body().inertia_O * X_HO.linear().transpose();
+  part.by_handle = -part.by_wrench * inertia;
+}
+
 }  // namespace
 
-LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
+ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
   const int n = body.size();
-  LinearPart part;
+  ModalDecomposition part;
   part.q_reference = q;
   const rod::StrainMatrix M = body.mass_matrix(handle.t, q);
   part.mass = M.diagonal();
   part.inverse_mass = M.llt().solve(rod::StrainMatrix::Identity(n, n));
+  set_forces(body, handle.t, q, part);
   part.stiffness = stiffness_at_rest(body, handle, q);
 
   // Undamped modes of the springs first: in them, with displacements scaled by their frequencies, stiff and soft

@@ -7,17 +7,19 @@
 
 namespace spring_workbench::dynamics {
 
-/// The equation of motion linearised about a strain at rest, `q̈ = −stiffness (q − q_reference) − damping q̇ +
-/// remainder`, and its modes: in `x = to_modes · (q − q_reference, q̇)` it falls apart into single real modes, `ẋ = rate
-/// x`, and pairs.
-struct LinearPart {
+/// The linear part of the equation of motion about a strain at rest, `q̈ = −stiffness q − damping q̇ + …`, and its modes:
+/// in `x = to_modes · (q, q̇)` it falls apart into single real modes, `ẋ = rate x`, and pairs.
+struct ModalDecomposition {
   static constexpr int most_modes = 2 * rod::max_strain_coordinates;
   using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
 
   rod::StrainVector q_reference;
   rod::StrainMatrix stiffness, damping;  ///< M⁻¹ K with the loads' own stiffness, and M⁻¹ D
   rod::StrainMatrix inverse_mass;
-  rod::StrainVector mass;           ///< diagonal of M
+  rod::StrainVector mass;  ///< diagonal of M
+  /// Acceleration of the coordinates by a wrench [force; moment] on the object at its centre of mass, axes of H; and by
+  /// the handle's acceleration less gravity and its angular acceleration.
+  Eigen::Matrix<double, Eigen::Dynamic, 6, 0, rod::max_strain_coordinates, 6> by_wrench, by_handle;
   ModeMatrix to_modes, from_modes;  ///< inverse of each other; not finite where the equation overflows and has no modes
   /// The first 2 `pairs` modes are pairs (x₀, x₁) of which z = x₀ − i x₁ follows ż = rate z; the rest has real rates.
   int pairs = 0;
@@ -25,11 +27,12 @@ struct LinearPart {
   double fastest = 0.0;                                ///< largest |rate|
 
   void exchange(math::StateArchive& state) {
-    state(q_reference, stiffness, damping, inverse_mass, mass, to_modes, from_modes, pairs, rates, fastest);
+    state(q_reference, stiffness, damping, inverse_mass, mass, by_wrench, by_handle, to_modes, from_modes, pairs, rates,
+          fastest);
   }
 };
 
 /// About `state.q`, under the handle's acceleration and the loads of the moment.
-LinearPart linear_part(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q);
+ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q);
 
 }  // namespace spring_workbench::dynamics

@@ -1,0 +1,190 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+
+#include "modal_decomposition.h"
+#include "spring_workbench/math/collocation.h"
+
+namespace spring_workbench::dynamics {
+
+/// Variation of constants for the linear part of `n` coordinates over a step, as deviations from the state at its
+/// start: with y = (q − q₀, q̇ − q̇₀), ẏ = A y + (q̇₀, r), where the residual r = q̈ + S (q − q₀) + D (q̇ − q̇₀) is the
+/// cubic through its values at the nodes of math::Collocation. Taken from the start, y is no larger than what the step
+/// changes, and so is its rounding, however close to critical the damping is (when A has hardly any eigenvectors).
+/// Lane i of a pack belongs to node i, or to sample i.
+template <int n>
+class ExponentialCollocation {
+ public:
+  using Strain = Eigen::Matrix<double, n, 1>;
+  using Modes = Eigen::Matrix<double, 2 * n, 1>;
+  using Square = Eigen::Matrix<double, n, n>;
+  using NodeModes = std::array<math::Pack, 2 * n>;
+  using NodeStrains = std::array<math::Pack, n>;
+
+  /// Takes another linear part.
+  void set(const ModalDecomposition& modes) {
+    modes_ = modes;
+    stiffness_ = modes.stiffness;
+    damping_ = modes.damping;
+    to_modes_ = modes.to_modes;
+    from_modes_ = modes.from_modes;
+    h_ = 0.0;
+  }
+  const ModalDecomposition& modes() const { return modes_; }
+  const Square& stiffness() const { return stiffness_; }
+  const Square& damping() const { return damping_; }
+
+  /// Makes the operators for steps of `h` [s].
+  void prepare(double h) {
+    if (std::abs(h - h_) <= same_length * h) return;
+    h_ = h;
+    for (int m = 0; m < 2 * n; ++m) {
+      const double weight = 1.0 / std::max(1.0 / h, std::abs(modes_.rates[at(m)]));
+      squared_weight_[m] = weight * weight;
+    }
+    const auto take = [this, h](int m, const auto& w) {
+      for (std::size_t i = 0; i < count; ++i) {
+        set(constant_, i, m, h * w.constant[i]);
+        set(sample_constant_, i, m, h * w.sample_constant[i]);
+        set(defect_, i, m, h * w.defect[i]);
+        for (std::size_t j = 0; j < count; ++j) {
+          set(node_[j], i, m, h * w.node[i][j]);
+          set(sample_[j], i, m, h * w.sample[i][j]);
+        }
+      }
+    };
+    for (int m = 0; m < 2 * modes_.pairs; m += 2) take(m, math::Collocation::weights(h * modes_.rates[at(m)]));
+    for (int m = 2 * modes_.pairs; m < 2 * n; ++m) take(m, math::Collocation::weights(h * modes_.rates[at(m)].real()));
+  }
+
+  /// Squared weights of the modes: a displacement counts as it is, a velocity times what is left of it over the step.
+  const Modes& squared_weight() const { return squared_weight_; }
+
+  /// The modes at the nodes from the rate at the start alone, and at the samples.
+  SPRING_WORKBENCH_INLINE void begin(const Strain& q_dot, NodeModes& nodes, NodeModes& samples) const {
+    Modes rate = to_modes_.col(0) * q_dot[0];
+    for (int i = 1; i < n; ++i) rate += to_modes_.col(i) * q_dot[i];
+    for (int m = 0; m < 2 * n; ++m) {
+      nodes[at(m)] = constant_.own[at(m)] * rate[m] + constant_.other[at(m)] * rate[m ^ 1];
+      samples[at(m)] = sample_constant_.own[at(m)] * rate[m] + sample_constant_.other[at(m)] * rate[m ^ 1];
+    }
+  }
+  SPRING_WORKBENCH_INLINE NodeModes in_modes(const NodeStrains& residual) const {
+    NodeModes r;
+    for (int m = 0; m < 2 * n; ++m) {
+      r[at(m)] = to_modes_(m, n) * residual[0];
+      for (int i = 1; i < n; ++i) r[at(m)] += to_modes_(m, n + i) * residual[at(i)];
+    }
+    return r;
+  }
+  /// The modes at the nodes under the cubic through the residual, `from` begin().
+  SPRING_WORKBENCH_INLINE void drive(const NodeModes& from, const NodeModes& residual, NodeModes& x) const {
+    drive(node_, from, residual, x);
+  }
+  SPRING_WORKBENCH_INLINE void drive_samples(const NodeModes& from, const NodeModes& residual, NodeModes& x) const {
+    drive(sample_, from, residual, x);
+  }
+  /// Strain and rate, as deviations from the start.
+  SPRING_WORKBENCH_INLINE void deviation(const NodeModes& x, NodeStrains& q, NodeStrains& q_dot) const {
+    for (int i = 0; i < n; ++i) {
+      q[at(i)] = from_modes_(i, 0) * x[0];
+      q_dot[at(i)] = from_modes_(n + i, 0) * x[0];
+      for (int m = 1; m < 2 * n; ++m) {
+        q[at(i)] += from_modes_(i, m) * x[at(m)];
+        q_dot[at(i)] += from_modes_(n + i, m) * x[at(m)];
+      }
+    }
+  }
+  Modes deviation(const Modes& x) const { return from_modes_ * x; }
+  /// What the linear part gives of the acceleration at these deviations is taken off: q̈ becomes the residual.
+  SPRING_WORKBENCH_INLINE void take_linear_part(const NodeStrains& q, const NodeStrains& q_dot,
+                                                NodeStrains& q_ddot) const {
+    for (int i = 0; i < n; ++i) {
+      for (int j = 0; j < n; ++j) q_ddot[at(i)] += stiffness_(i, j) * q[at(j)] + damping_(i, j) * q_dot[at(j)];
+    }
+  }
+  /// What a defect of the residual at the samples, in modes, does to the modes at the end.
+  SPRING_WORKBENCH_INLINE Modes effect(const NodeModes& defect) const {
+    Modes e;
+    for (int m = 0; m < 2 * n; ++m) {
+      e[m] = math::sum(defect_.own[at(m)] * defect[at(m)] + defect_.other[at(m)] * defect[at(m ^ 1)]);
+    }
+    return e;
+  }
+  /// A small deviation (strain, rate) at the start of the last step prepared for, at its end.
+  Modes carried(const Modes& deviation) const {
+    const Modes x = to_modes_ * deviation;  // e^{hλ} = 1 + λ h φ₁(hλ)
+    Modes rate;
+    for (int m = 0; m < 2 * n; ++m) {
+      const std::complex<double> z = modes_.rates[at(m)];
+      const bool pair = m < 2 * modes_.pairs;
+      rate[m] = z.real() * x[m] + (pair ? (m % 2 == 0 ? z.imag() : -z.imag()) * x[m ^ 1] : 0.0);
+    }
+    Modes y = x;
+    for (int m = 0; m < 2 * n; ++m) {
+      y[m] += constant_.own[at(m)][count - 1] * rate[m] + constant_.other[at(m)][count - 1] * rate[m ^ 1];
+    }
+    return from_modes_ * y;
+  }
+  /// Strain and rate at the end of the step for constant accelerations, a column each.
+  Eigen::Matrix<double, 2 * n, n> response(const Square& acceleration) const {
+    const Eigen::Matrix<double, 2 * n, n> force = to_modes_.template rightCols<n>() * acceleration;
+    Eigen::Matrix<double, 2 * n, n> x;
+    for (int m = 0; m < 2 * n; ++m) {
+      x.row(m) = constant_.own[at(m)][count - 1] * force.row(m) + constant_.other[at(m)][count - 1] * force.row(m ^ 1);
+    }
+    return from_modes_ * x;
+  }
+
+  static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+  /// The operators are made again from the linear part and the step.
+  void exchange(math::StateArchive& state) {
+    double h = h_;
+    state(modes_, h);
+    if (!state.sets()) return;
+    set(ModalDecomposition(modes_));
+    if (h > 0.0) prepare(h);
+  }
+
+ private:
+  static constexpr std::size_t count = math::Collocation::count;
+  /// Steps whose lengths differ by less are equal: what differs is the rounding of times.
+  static constexpr double same_length = 1e-11;
+
+  /// A function of the linear part, in modes: x ↦ own x + other x with the members of each pair exchanged.
+  struct Operator {
+    NodeModes own{}, other{};
+  };
+  static void set(Operator& o, std::size_t lane, int m, double value) {
+    o.own[at(m)][lane] = value;
+    o.other[at(m)][lane] = 0.0;
+  }
+  static void set(Operator& o, std::size_t lane, int m, std::complex<double> value) {  // z = x₀ − i x₁
+    o.own[at(m)][lane] = o.own[at(m + 1)][lane] = value.real();
+    o.other[at(m)][lane] = value.imag();
+    o.other[at(m + 1)][lane] = -value.imag();
+  }
+  SPRING_WORKBENCH_INLINE static void drive(const std::array<Operator, count>& by, const NodeModes& from,
+                                            const NodeModes& residual, NodeModes& x) {
+    for (int m = 0; m < 2 * n; ++m) {
+      const math::Pack own = residual[at(m)], other = residual[at(m ^ 1)];
+      math::Pack sum = from[at(m)];
+      for (std::size_t j = 0; j < count; ++j) sum += by[j].own[at(m)] * own[j] + by[j].other[at(m)] * other[j];
+      x[at(m)] = sum;
+    }
+  }
+
+  ModalDecomposition modes_;
+  Square stiffness_, damping_;
+  Eigen::Matrix<double, 2 * n, 2 * n> to_modes_, from_modes_;
+  double h_ = 0.0;  ///< what the operators are for
+  Modes squared_weight_ = Modes::Zero();
+  Operator constant_, sample_constant_, defect_;
+  std::array<Operator, count> node_{}, sample_{};  ///< of the residual at each node
+};
+
+}  // namespace spring_workbench::dynamics

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "spring_workbench/dynamics/held_body.h"
+
+namespace spring_workbench::dynamics {
+
+/// The stop at the end of the rod's range (compressed to nothing, wound up), for a step of `h` to the time `t` [s] from
+/// the strain `begin` inside the range to `end` outside: a one-sided constraint. The strain goes back to the range as
+/// the stop's force over the step moves it, against springs and dampers; an impulse takes the rate that leads out, as a
+/// stop that gives nothing back (Moreau's time stepping).
+void stop_at_range(const HeldBody& body, double t, double h, const StrainState& begin, StrainState& end);
+
+}  // namespace spring_workbench::dynamics
