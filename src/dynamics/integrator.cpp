@@ -1,21 +1,44 @@
 #include "spring_workbench/dynamics/integrator.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "exponential.h"
 #include "implicit_integrators.h"
 #include "integrators.h"
 #include "quintic.h"
 #include "spring_workbench/math/damped_oscillator.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::dynamics {
 
-const std::vector<std::string>& names_of(IntegratorKind) {
-  static const std::vector<std::string> names = {"exponential", "rosenbrock",          "implicit_euler",
-                                                 "closed_form", "semi_implicit_euler", "rk4"};
-  return names;
+namespace {
+
+using MakeIntegrator = std::function<std::unique_ptr<Integrator>()>;
+
+template <typename OurOwn>
+std::unique_ptr<Integrator> make() {
+  return std::make_unique<OurOwn>();
 }
+
+/// By IntegratorKind: ours in its order, then those registered.
+struct Known {
+  std::vector<std::string> names = {"exponential", "rosenbrock",          "implicit_euler",
+                                    "closed_form", "semi_implicit_euler", "rk4"};
+  std::vector<MakeIntegrator> makers = {make<Exponential>, make<Rosenbrock>,        make<ImplicitEuler>,
+                                        make<ClosedForm>,  make<SemiImplicitEuler>, make<RungeKutta4>};
+};
+
+Known& known() {
+  static Known integrators;
+  return integrators;
+}
+
+}  // namespace
+
+const std::vector<std::string>& names_of(IntegratorKind) { return known().names; }
 
 const std::vector<std::string>& names_of(Inertia) {
   static const std::vector<std::string> names = {"exact", "point_mass"};
@@ -23,21 +46,17 @@ const std::vector<std::string>& names_of(Inertia) {
 }
 
 std::unique_ptr<Integrator> make_integrator(IntegratorKind kind) {
-  switch (kind) {
-    case IntegratorKind::rosenbrock:
-      return std::make_unique<Rosenbrock>();
-    case IntegratorKind::implicit_euler:
-      return std::make_unique<ImplicitEuler>();
-    case IntegratorKind::closed_form:
-      return std::make_unique<ClosedForm>();
-    case IntegratorKind::semi_implicit_euler:
-      return std::make_unique<SemiImplicitEuler>();
-    case IntegratorKind::rk4:
-      return std::make_unique<RungeKutta4>();
-    case IntegratorKind::exponential:
-      break;
+  return known().makers.at(static_cast<std::size_t>(kind))();
+}
+
+IntegratorKind register_integrator(const std::string& name, MakeIntegrator make) {
+  auto& [names, makers] = known();
+  if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) {
+    validation::refuse("register_integrator", "name", name, "none of " + validation::join(names) + ", nor empty");
   }
-  return std::make_unique<Exponential>();
+  names.push_back(name);
+  makers.push_back(std::move(make));
+  return static_cast<IntegratorKind>(names.size() - 1);
 }
 
 void Integrator::carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,

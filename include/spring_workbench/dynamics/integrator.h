@@ -1,6 +1,8 @@
 #pragma once
 
+#include <functional>
 #include <memory>
+#include <string>
 
 #include "spring_workbench/dynamics/held_body.h"
 #include "spring_workbench/dynamics/settings.h"
@@ -55,5 +57,12 @@ class Integrator {
 };
 
 std::unique_ptr<Integrator> make_integrator(IntegratorKind kind);
+
+/// Makes an integrator that was not given its name here known under `name`: from then on settings files, parameters,
+/// services and DynamicsSettings take it like one of our own. `make` is called for each object that is grasped, and
+/// again when the integrator is changed; its integrators share nothing. Call it before the first simulation is made, in
+/// the same order in each program that restores a state of another. Throws InputError for a name that is empty or
+/// taken.
+IntegratorKind register_integrator(const std::string& name, std::function<std::unique_ptr<Integrator>()> make);
 
 }  // namespace spring_workbench::dynamics
