@@ -38,12 +38,11 @@ function(add_module name)
     target_link_libraries(${target} INTERFACE ${MODULE_DEPENDS})
     set(target ${target}_engine)
     if(NOT MODULE_OPENED)
-      file(REMOVE ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_LIB_DESTINATION}/lib${target}.so)   # of a build that had it
+      file(REMOVE ${CMAKE_LIBRARY_OUTPUT_DIRECTORY}/lib${target}.so)   # of a build that had it
       return()
     endif()
     add_library(${target} SHARED ${sources})
     target_link_options(${target} PRIVATE -Wl,-Bsymbolic)
-    install(TARGETS ${target} LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
   elseif(sources)
     add_library(${target} STATIC ${sources})
   else()

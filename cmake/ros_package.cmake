@@ -28,5 +28,19 @@ if(dynamic_reconfigure_FOUND)
   generate_dynamic_reconfigure_options(cfg/Manipulation.cfg)
 endif()
 
-catkin_package(CATKIN_DEPENDS
+catkin_package(
+  INCLUDE_DIRS include
+  LIBRARIES spring_workbench_core
+  DEPENDS EIGEN3
+  CFG_EXTRAS library.cmake
+  CATKIN_DEPENDS
   interactive_markers message_runtime rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
+
+# Where things are installed, below the prefix, and where they are built.
+set(SPRING_WORKBENCH_BIN ${CATKIN_PACKAGE_BIN_DESTINATION})
+set(SPRING_WORKBENCH_LIB ${CATKIN_PACKAGE_LIB_DESTINATION})
+set(SPRING_WORKBENCH_SHARE ${CATKIN_PACKAGE_SHARE_DESTINATION})
+set(SPRING_WORKBENCH_CONFIG ${CATKIN_PACKAGE_SHARE_DESTINATION}/cmake)
+set(SPRING_WORKBENCH_PYTHON ${CATKIN_PACKAGE_PYTHON_DESTINATION})
+set(SPRING_WORKBENCH_BUILT ${CATKIN_DEVEL_PREFIX})
+set(SPRING_WORKBENCH_TESTING ${CATKIN_ENABLE_TESTING})

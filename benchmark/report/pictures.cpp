@@ -10,10 +10,10 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-/// In the devel space as after installation: `lib/spring_workbench/report` and `share/spring_workbench/…`.
+/// In the build as after installation: `report` and its script stand as far from each other.
 std::string script() {
   const std::filesystem::path executable = std::filesystem::read_symlink("/proc/self/exe");
-  return executable.parent_path().parent_path().parent_path() / "share" / "spring_workbench" / "plot_report.py";
+  return executable.parent_path() / SPRING_WORKBENCH_TO_SHARE / "plot_report.py";
 }
 
 /// Whether the program ran and ended well.

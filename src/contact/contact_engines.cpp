@@ -2,7 +2,6 @@
 
 #include <dlfcn.h>
 
-#include <filesystem>
 #include <string>
 
 #include "spring_workbench/validation/number_rule.h"
@@ -19,11 +18,9 @@ struct Engine {
 constexpr Engine fcl = {"libspring_workbench_collision_engine.so", "spring_workbench_new_collision_world"};
 constexpr Engine bullet = {"libspring_workbench_rigid_bodies_engine.so", "spring_workbench_new_rigid_world"};
 
-/// Opens the library, which then stays open.
+/// Opens the library, which then stays open. It is looked for where this code's own run path says.
 void* find_function(const Engine& engine, const scene::Scene& scene) {
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe");
-  const std::filesystem::path path = program.parent_path().parent_path() / engine.library;
-  void* library = dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL);
+  void* library = dlopen(engine.library, RTLD_NOW | RTLD_LOCAL);
   void* function = library == nullptr ? nullptr : dlsym(library, engine.function);
   if (function == nullptr) {
     const char* mode = scene.contact == scene::ContactMode::dynamic ? "dynamic" : "stop";

@@ -5,6 +5,9 @@
 #include <limits>
 #include <map>
 
+#include "spring_workbench/hand_input/playout_clock.h"
+#include "spring_workbench/hand_input/pose_filter.h"
+
 namespace spring_workbench::hand_input {
 namespace {
 
@@ -12,12 +15,27 @@ constexpr double kNever = -std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+struct Feed::Hand {
+  SampleGate gate;
+  PoseFilter smoothing;
+  Reacquisition reacquisition;
+  PlayoutClock playout;
+  bool has_sample = false;  ///< since the start
+};
+
 Feed::Feed(simulation::Simulation& simulation, const InputSettings& settings, bool simulated_time)
     : simulation_(simulation) {
   const double dropout_after = simulation.settings().dropout_after;
   const Hand hand{SampleGate(settings, dropout_after), PoseFilter(settings), Reacquisition(settings),
                   PlayoutClock(dropout_after, simulated_time)};
   hands_.assign(simulation::Simulation::most_hands, hand);
+}
+
+Feed::~Feed() = default;
+
+const GateCounts& Feed::gate_counts(std::size_t hand) const { return hands_.at(hand).gate.counts(); }
+const ReacquisitionCounts& Feed::reacquisition_counts(std::size_t hand) const {
+  return hands_.at(hand).reacquisition.counts();
 }
 
 GateResult Feed::push_stylus(const RawSample& sample, const RigidTransform& X_WP, const LocalTime& arrival,

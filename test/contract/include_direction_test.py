@@ -43,6 +43,8 @@ ENTRIES = {
 }
 PICTURE = re.compile(r"^## The way of a pose$.*?^```mermaid$(.*?)^```$", re.MULTILINE | re.DOTALL)
 WAY = ["fastrak", "tracker_driver", "manipulation", "hand_input", "simulation"]
+# Includes for users of the library; no module includes it.
+UMBRELLA = "spring_workbench.h"
 # The few names that every module has in common are in the namespace above the modules.
 COMMON_NAMES = {"include/spring_workbench/math/rigid_transform.h", "include/spring_workbench/math/spatial.h"}
 
@@ -98,6 +100,8 @@ def find_faults(root):
         for path in sorted(p for p in (root / base).rglob("*") if p.suffix in {".h", ".cpp"}):
             files += 1
             name = path.relative_to(root)
+            if str(path.relative_to(root / base)) == UMBRELLA:
+                continue
             module = layout.module_of(path.relative_to(root / base))
             if module is None:
                 faults.append(f"{name}: in the folder of no module: an add_module line must name it")
@@ -122,6 +126,8 @@ def include_faults(text, module, path, base, layout):
 def fault_of(header, module, path, private, layout):
     if header.startswith(OWN):
         inside = pathlib.Path(header[len(OWN) :])
+        if header == OWN + UMBRELLA:
+            return "is for users of the library"
         if len(inside.parts) == 1:  # generated from a message or service
             return None if module in ROS_MODULES else "messages belong to the ROS side"
         allowed, other = reach(layout.uses, module), layout.module_of(inside)
@@ -182,6 +188,8 @@ class IncludeDirection(unittest.TestCase):
             ("include/spring_workbench/low/a.h", "#  include <ros/ros.h>", True),
             ("src/low/a.cpp", "#include <geometry_msgs/Pose.h>", True),
             ("src/low/a.cpp", '#include "spring_workbench/ForkState.h"', True),
+            ("src/nodes/a.cpp", '#include "spring_workbench/spring_workbench.h"', True),
+            ("include/spring_workbench/spring_workbench.h", '#include "spring_workbench/high/a.h"', False),
             ("src/low/a.cpp", "#include <fcl/fcl.h>", True),
             ("src/collision/a.cpp", "#include <fcl/fcl.h>", False),
             ("include/spring_workbench/collision/a.h", "#include <fcl/fcl.h>", True),

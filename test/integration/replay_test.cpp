@@ -1,169 +1,16 @@
 // `replay` as a user runs it: its arguments, its files, its exit status.
-#include <gtest/gtest.h>
-#include <rosbag/bag.h>
-#include <sensor_msgs/Joy.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <tf2_msgs/TFMessage.h>
-#include <yaml-cpp/yaml.h>
 
 #include <cmath>
-#include <cstdio>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "integration/replay_fixture.h"
 #include "spring_workbench/simulation/settings.h"
-#include "support/temporary_folder.h"
 
 namespace spring_workbench {
 namespace {
-
-const char* const kScene = R"(<robot name="one_box">
-  <link name="workbench"/>
-  <link name="box">
-    <inertial><mass value="0.5"/><inertia ixx="4e-4" ixy="0" ixz="0" iyy="4e-4" iyz="0" izz="4e-4"/></inertial>
-    <collision><geometry><box size="0.06 0.06 0.06"/></geometry></collision>
-  </link>
-  <joint name="box_joint" type="floating">
-    <parent link="workbench"/><child link="box"/><origin xyz="0 0 0.03"/>
-  </joint>
-</robot>
-)";
-
-struct Sample {
-  long milliseconds;
-  double x, y, z, qx, qy, qz, qw;
-  bool button;
-};
-
-/// The hand stands over the box, fork down, takes it, lifts it, puts it aside, lets go.
-std::vector<Sample> lifting_hand() {
-  std::vector<Sample> samples;
-  for (long i = 0; i <= 100; ++i) {
-    const double u = static_cast<double>(i) / 100.0;
-    const double z = 0.24 + 0.1 * std::pow(std::sin(M_PI * u), 2);
-    const double turn = 0.2 * u;
-    samples.push_back({20 * i, 0.1 * u * u, 0.0, z, std::cos(turn), std::sin(turn), 0.0, 0.0, i > 10 && i < 90});
-  }
-  return samples;
-}
-
-std::string motion_text(const std::vector<Sample>& samples, double t_first = 0.0) {
-  std::string text = "# t x y z qx qy qz qw button\n";
-  for (const Sample& s : samples) {
-    char line[300];
-    std::snprintf(line, sizeof line, "%.3f %.17g %.17g %.17g %.17g %.17g %.17g %.17g %d\n",
-                  t_first + 1e-3 * static_cast<double>(s.milliseconds), s.x, s.y, s.z, s.qx, s.qy, s.qz, s.qw,
-                  s.button);
-    text += line;
-  }
-  return text;
-}
-
-struct BagFrames {
-  std::string parent = "workbench";
-  std::string child = "stylus";
-  std::string joy = "/stylus/joy";
-};
-
-void write_bag(const std::string& path, const std::vector<Sample>& samples, const BagFrames& frames = {},
-               rosbag::bagmode::BagMode mode = rosbag::bagmode::Write) {
-  rosbag::Bag bag(path, mode);
-  const ros::Time first(1500000000, 123456789);
-  for (const Sample& s : samples) {
-    const ros::Time stamp = first + ros::Duration().fromNSec(static_cast<int64_t>(s.milliseconds) * 1000000);
-    sensor_msgs::Joy joy;
-    joy.header.stamp = stamp;
-    joy.buttons = {s.button ? 1 : 0, 0};
-    bag.write(frames.joy, stamp, joy);
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = stamp;
-    transform.header.frame_id = frames.parent;
-    transform.child_frame_id = frames.child;
-    transform.transform.translation.x = s.x;
-    transform.transform.translation.y = s.y;
-    transform.transform.translation.z = s.z;
-    transform.transform.rotation.x = s.qx;
-    transform.transform.rotation.y = s.qy;
-    transform.transform.rotation.z = s.qz;
-    transform.transform.rotation.w = s.qw;
-    tf2_msgs::TFMessage tf;
-    tf.transforms = {transform};
-    bag.write("/tf", stamp, tf);
-  }
-}
-
-std::string content(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-}
-
-struct Outcome {
-  int status;
-  std::string out, err;
-};
-
-class Replay : public testing::Test {
- protected:
-  void SetUp() override {
-    folder_.write("box.urdf", kScene);
-    folder_.write("hand.tum", motion_text(lifting_hand()));
-  }
-
-  std::string path(const std::string& name) const { return folder_.path(name); }
-
-  /// Runs `replay` in the test's folder; `arguments` as typed into a shell.
-  Outcome run(const std::string& arguments) const {
-    const std::string command = "cd '" + path(".") + "' && '" REPLAY_EXECUTABLE "' " + arguments + " >stdout 2>stderr";
-    const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(path("stdout")), content(path("stderr"))};
-  }
-
-  YAML::Node summary_of(const Outcome& outcome) const {  // JSON is YAML
-    std::istringstream lines(outcome.out);
-    std::string last;
-    for (std::string line; std::getline(lines, line);) last = line;
-    return YAML::Load(last);
-  }
-
-  std::vector<std::vector<std::string>> table(const std::string& name) const {
-    std::vector<std::vector<std::string>> rows;
-    std::istringstream lines(content(path(name)));
-    for (std::string line; std::getline(lines, line);) {
-      rows.emplace_back();
-      std::istringstream cells(line);
-      for (std::string cell; std::getline(cells, cell, ',');) rows.back().push_back(cell);
-    }
-    return rows;
-  }
-
-  void expect_same_bytes(const std::string& a, const std::string& b) const {
-    EXPECT_GT(content(path(a)).size(), 1000u);
-    EXPECT_TRUE(content(path(a)) == content(path(b))) << a << " and " << b << " differ";
-  }
-
-  void expect_refused(const std::string& arguments, const std::vector<std::string>& words) const {
-    const Outcome outcome = run(arguments);
-    EXPECT_EQ(outcome.status, 2) << arguments;
-    EXPECT_EQ(outcome.out, "") << arguments;
-    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
-    EXPECT_EQ(outcome.err.rfind("replay: ", 0), 0u) << outcome.err;
-    for (const std::string& word : words) {
-      EXPECT_NE(outcome.err.find(word), std::string::npos) << "no '" << word << "' in: " << outcome.err;
-    }
-    for (const auto& entry : std::filesystem::directory_iterator(path("."))) {
-      EXPECT_EQ(entry.path().filename().string().rfind("run.", 0), std::string::npos)
-          << entry.path() << " left by " << arguments;
-    }
-  }
-
-  test_support::TemporaryFolder folder_;
-};
 
 TEST_F(Replay, WritesALinePerOutputTimeAndObject) {
   const Outcome outcome = run("--scene box.urdf --motion hand.tum --set rate=25 --out run.csv");
@@ -216,41 +63,6 @@ TEST_F(Replay, SameInputSameBytes) {
   ASSERT_EQ(run(arguments + "--out b.csv").status, 0);
   expect_same_bytes("a.csv", "b.csv");
   expect_same_bytes("a.fork.csv", "b.fork.csv");
-}
-
-TEST_F(Replay, ABagGivesTheSameBytesAsTheMotionFile) {
-  write_bag(path("hand.bag"), lifting_hand());
-  write_bag(path("slashes.bag"), lifting_hand(), {"/base", "/pen"});
-  ASSERT_EQ(run("--scene box.urdf --motion hand.tum --out a.csv").status, 0);
-  ASSERT_EQ(run("--scene box.urdf --bag hand.bag --out b.csv").status, 0);
-  ASSERT_EQ(run("--scene box.urdf --bag slashes.bag --parent base --child pen --out c.csv").status, 0);
-  for (const std::string name : {"b", "c"}) {
-    expect_same_bytes("a.csv", name + ".csv");
-    expect_same_bytes("a.fork.csv", name + ".fork.csv");
-  }
-}
-
-TEST_F(Replay, ABagOfTwoHandsGivesTheSameBytesAsTheirMotionFiles) {
-  std::vector<Sample> second = lifting_hand();
-  for (Sample& s : second) s.x += 0.02;
-  folder_.write("second.tum", motion_text(second));
-  write_bag(path("hands.bag"), lifting_hand());
-  write_bag(path("hands.bag"), second, {"workbench", "stylus_2", "stylus_2/joy"}, rosbag::bagmode::Append);
-  ASSERT_EQ(run("--scene box.urdf --motion hand.tum --motion second.tum --out a.csv").status, 0);
-  ASSERT_EQ(run("--scene box.urdf --bag hands.bag --out b.csv").status, 0);
-  expect_same_bytes("a.csv", "b.csv");
-  expect_same_bytes("a.fork.csv", "b.fork.csv");
-  const auto fork = table("a.fork.csv");
-  ASSERT_EQ(fork.size(), 2 * (table("a.csv").size() - 1) + 1);
-  int both_hold = 0;
-  for (std::size_t row = 1; row < fork.size(); row += 2) {
-    EXPECT_EQ(fork[row][1] + fork[row + 1][1], "forkfork_2");
-    EXPECT_EQ(fork[row][0], fork[row + 1][0]);
-    both_hold += fork[row][3] == "box" && fork[row + 1][3] == "box" ? 1 : 0;
-  }
-  EXPECT_GT(both_hold, 50);
-  expect_refused("--scene box.urdf --motion hand.tum --motion hand.tum --motion hand.tum --out run.csv",
-                 {"--motion", "2 times"});
 }
 
 TEST_F(Replay, TheStartOfTimeMakesNoDifference) {
@@ -337,8 +149,6 @@ TEST_F(Replay, BadArgumentsAreRefusedWithOneLine) {
       {"--scene none.urdf --motion hand.tum --out run.csv", {"none.urdf"}},
       {"--scene hand.tum --motion hand.tum --out run.csv", {"hand.tum"}},
       {"--scene box.urdf --motion none.tum --out run.csv", {"none.tum", "cannot be read"}},
-      {"--scene box.urdf --bag none.bag --out run.csv", {"none.bag", "cannot be read"}},
-      {"--scene box.urdf --bag hand.tum --out run.csv", {"hand.tum", "cannot be read"}},
       {"--scene box.urdf --motion hand.tum --out none/run.csv", {"none/run.csv", "cannot be written"}},
       {"--scene box.urdf --motion hand.tum --out .", {"cannot be written"}},
   };
@@ -367,41 +177,6 @@ TEST_F(Replay, BadFilesAreRefusedNamingTheirLine) {
     folder_.write(bad.file, bad.text);
     expect_refused(bad.arguments, bad.words);
   }
-}
-
-TEST_F(Replay, BadBagsAreRefused) {
-  auto samples = lifting_hand();
-  write_bag(path("frames.bag"), samples, {"odom", "base_link"});
-  expect_refused("--scene box.urdf --bag frames.bag --out run.csv",
-                 {"frames.bag: transform: workbench -> stylus", "odom -> base_link"});
-  samples[3].qx = samples[3].qy = samples[3].qz = samples[3].qw = 0.0;
-  write_bag(path("zero.bag"), samples);
-  expect_refused("--scene box.urdf --bag zero.bag --out run.csv",
-                 {"zero.bag: workbench -> stylus at 1500000000.183456789", "norm of rotation: 0"});
-  samples = lifting_hand();
-  samples[4].x = std::nan("");
-  write_bag(path("nan.bag"), samples);
-  expect_refused("--scene box.urdf --bag nan.bag --out run.csv", {"nan.bag", "translation.x: nan"});
-  std::filesystem::resize_file(path("frames.bag"), 5000);
-  expect_refused("--scene box.urdf --bag frames.bag --out run.csv", {"frames.bag"});
-  rosbag::Bag(path("empty.bag"), rosbag::bagmode::Write).close();
-  expect_refused("--scene box.urdf --bag empty.bag --out run.csv", {"empty.bag", "none"});
-}
-
-/// Bags of other people: lz4, the old tf/tfMessage.
-TEST_F(Replay, ReadsBagsFromElsewhere) {
-  const std::string bags = std::string(SPRING_WORKBENCH_SHARED_DIR) + "/data/bags/";
-  if (!std::ifstream(bags + "rosbagjs_turtlesim_tf.bag")) GTEST_SKIP() << "no bags in " << bags;
-  const Outcome old_tf =
-      run("--scene box.urdf --bag '" + bags + "rosbagjs_turtlesim_tf.bag' --parent world --child turtle1 --out a.csv");
-  ASSERT_EQ(old_tf.status, 0) << old_tf.err;
-  EXPECT_GT(table("a.csv").size(), 1000u);
-  const Outcome lz4 = run("--scene box.urdf --bag '" + bags +
-                          "evo_tf_example_lz4.bag' --parent odom --child base_footprint --out b.csv");
-  ASSERT_EQ(lz4.status, 0) << lz4.err;
-  EXPECT_EQ(summary_of(lz4)["samples"].as<int>(), 517);
-  expect_refused("--scene box.urdf --bag '" + bags + "rosbagjs_not-a-bag.bag' --out run.csv", {"not-a-bag.bag"});
-  expect_refused("--scene box.urdf --bag '" + bags + "rosbagjs_no-messages.bag' --out run.csv", {"no-messages.bag"});
 }
 
 /// Every recorded hand holds the box from first to last without anything that is not finite. Under a sanitizer the

@@ -2,8 +2,7 @@
 
 #include <vector>
 
-#include "spring_workbench/hand_input/playout_clock.h"
-#include "spring_workbench/hand_input/pose_filter.h"
+#include "spring_workbench/hand_input/local_time.h"
 #include "spring_workbench/hand_input/reacquisition.h"
 #include "spring_workbench/hand_input/sample_gate.h"
 #include "spring_workbench/simulation/simulation.h"
@@ -17,6 +16,7 @@ class Feed {
  public:
   /// Feeds `simulation`, which must outlive it. `simulated_time`: see PlayoutClock.
   Feed(simulation::Simulation& simulation, const InputSettings& settings, bool simulated_time = false);
+  ~Feed();
 
   /// A sample as it came, in a tracker's frame P that is at `X_WP` in world. What the gate rejects goes no further.
   GateResult push_stylus(const RawSample& sample, const RigidTransform& X_WP, const LocalTime& arrival,
@@ -43,19 +43,11 @@ class Feed {
   /// Forgets what the gate saw of one hand, for a jump of its time; keeps the counts.
   void restart_gate(std::size_t hand);
 
-  const GateCounts& gate_counts(std::size_t hand) const { return hands_.at(hand).gate.counts(); }
-  const ReacquisitionCounts& reacquisition_counts(std::size_t hand) const {
-    return hands_.at(hand).reacquisition.counts();
-  }
+  const GateCounts& gate_counts(std::size_t hand) const;
+  const ReacquisitionCounts& reacquisition_counts(std::size_t hand) const;
 
  private:
-  struct Hand {
-    SampleGate gate;
-    PoseFilter smoothing;
-    Reacquisition reacquisition;
-    PlayoutClock playout;
-    bool has_sample = false;  ///< since the start
-  };
+  struct Hand;
   void follow(const motion::PoseSample& sample, GateResult result, const RigidTransform* X_WP, const LocalTime& arrival,
               std::size_t hand);
 

@@ -12,8 +12,8 @@
 #include <set>
 #include <utility>
 
-#include "constants.h"
-#include "motion.h"
+#include "../constants.h"
+#include "../motion.h"
 #include "spring_workbench/simulation/simulation.h"
 #include "spring_workbench/validation/number_rule.h"
 #include "spring_workbench/validation/renamed.h"

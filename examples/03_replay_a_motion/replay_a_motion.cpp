@@ -1,0 +1,41 @@
+// A recorded hand (lines of `t x y z qx qy qz qw [button]`) or a scripted one (YAML) at work in a scene, as CSV; last,
+// a hash of the whole state: the same input gives the same bits. Usage: replay_a_motion SCENE.urdf MOTION > run.csv
+#include <spring_workbench/spring_workbench.h>
+
+#include <cstdio>
+#include <memory>
+
+using namespace spring_workbench;
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "replay_a_motion: needs a scene (URDF) and a motion\n");
+    return 2;
+  }
+  try {
+    simulation::Simulation simulation(scene::load_scene(argv[1]), {});
+    // What comes from a tracker goes through a feed: it leaves out what no hand can have done, and lets go when the
+    // hand is lost.
+    hand_input::Feed feed(simulation, {});
+    const std::unique_ptr<motion::StylusSource> hand = motion_files::open_motion(argv[2]);
+    bool pressed = false;
+    while (const auto sample = hand->next()) {
+      feed.push_stylus(*sample);
+      if (sample->button != pressed) feed.push_button(sample->t, pressed = sample->button);
+    }
+
+    std::printf("t,object,x,y,z,held\n");
+    const double end = simulation.newest_sample();
+    for (int i = 0; 0.1 * i <= end + 1e-9; ++i) {
+      feed.advance_to(0.1 * i);
+      for (const bodies::BodyState& object : simulation.objects()) {
+        const Vector3d p = object.X_WO.translation();
+        std::printf("%.1f,%s,%.6f,%.6f,%.6f,%d\n", 0.1 * i, object.name.c_str(), p.x(), p.y(), p.z(), object.held);
+      }
+    }
+    std::printf("# state %s\n", simulation::to_hex(simulation.state_hash()).c_str());
+  } catch (const validation::InputError& error) {
+    std::fprintf(stderr, "replay_a_motion: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,10 @@
+#include "../motion.h"
+#include "spring_workbench/validation/number_rule.h"
+
+namespace spring_workbench::replay {
+
+std::vector<Motion> read_bag(const std::string& path, const std::string&, const std::string&) {
+  validation::refuse("command line", "--bag", path, "given to a build with ROS (SPRING_WORKBENCH_ROS)");
+}
+
+}  // namespace spring_workbench::replay

@@ -1,0 +1,22 @@
+// A message of spring_workbench with what a simulation of its library says.
+#include <spring_workbench/ForkState.h>
+#include <spring_workbench/spring_workbench.h>
+
+#include <iostream>
+
+using namespace spring_workbench;
+
+int main(int, char** argv) {
+  simulation::SimulationSettings settings;
+  settings.contact = scene::ContactMode::none;
+  settings.grasp.object = "box";
+  simulation::Simulation simulation(scene::load_scene(argv[1]), settings);
+  for (const double t : {0.0, 10.0}) {
+    simulation.push_stylus({t, make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), {0.0, 0.0, 0.23})});
+  }
+  simulation.advance(10.0);
+  ForkState message;
+  message.held_object = simulation.fork().held_object;
+  message.stretch = simulation.fork().stretch;
+  std::cout << message;
+}

@@ -1,0 +1,123 @@
+// `replay` from bags.
+#include <rosbag/bag.h>
+#include <sensor_msgs/Joy.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "integration/replay_fixture.h"
+
+namespace spring_workbench {
+namespace {
+
+struct BagFrames {
+  std::string parent = "workbench";
+  std::string child = "stylus";
+  std::string joy = "/stylus/joy";
+};
+
+void write_bag(const std::string& path, const std::vector<Sample>& samples, const BagFrames& frames = {},
+               rosbag::bagmode::BagMode mode = rosbag::bagmode::Write) {
+  rosbag::Bag bag(path, mode);
+  const ros::Time first(1500000000, 123456789);
+  for (const Sample& s : samples) {
+    const ros::Time stamp = first + ros::Duration().fromNSec(static_cast<int64_t>(s.milliseconds) * 1000000);
+    sensor_msgs::Joy joy;
+    joy.header.stamp = stamp;
+    joy.buttons = {s.button ? 1 : 0, 0};
+    bag.write(frames.joy, stamp, joy);
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp = stamp;
+    transform.header.frame_id = frames.parent;
+    transform.child_frame_id = frames.child;
+    transform.transform.translation.x = s.x;
+    transform.transform.translation.y = s.y;
+    transform.transform.translation.z = s.z;
+    transform.transform.rotation.x = s.qx;
+    transform.transform.rotation.y = s.qy;
+    transform.transform.rotation.z = s.qz;
+    transform.transform.rotation.w = s.qw;
+    tf2_msgs::TFMessage tf;
+    tf.transforms = {transform};
+    bag.write("/tf", stamp, tf);
+  }
+}
+
+TEST_F(Replay, ABagGivesTheSameBytesAsTheMotionFile) {
+  write_bag(path("hand.bag"), lifting_hand());
+  write_bag(path("slashes.bag"), lifting_hand(), {"/base", "/pen"});
+  ASSERT_EQ(run("--scene box.urdf --motion hand.tum --out a.csv").status, 0);
+  ASSERT_EQ(run("--scene box.urdf --bag hand.bag --out b.csv").status, 0);
+  ASSERT_EQ(run("--scene box.urdf --bag slashes.bag --parent base --child pen --out c.csv").status, 0);
+  for (const std::string name : {"b", "c"}) {
+    expect_same_bytes("a.csv", name + ".csv");
+    expect_same_bytes("a.fork.csv", name + ".fork.csv");
+  }
+}
+
+TEST_F(Replay, ABagOfTwoHandsGivesTheSameBytesAsTheirMotionFiles) {
+  std::vector<Sample> second = lifting_hand();
+  for (Sample& s : second) s.x += 0.02;
+  folder_.write("second.tum", motion_text(second));
+  write_bag(path("hands.bag"), lifting_hand());
+  write_bag(path("hands.bag"), second, {"workbench", "stylus_2", "stylus_2/joy"}, rosbag::bagmode::Append);
+  ASSERT_EQ(run("--scene box.urdf --motion hand.tum --motion second.tum --out a.csv").status, 0);
+  ASSERT_EQ(run("--scene box.urdf --bag hands.bag --out b.csv").status, 0);
+  expect_same_bytes("a.csv", "b.csv");
+  expect_same_bytes("a.fork.csv", "b.fork.csv");
+  const auto fork = table("a.fork.csv");
+  ASSERT_EQ(fork.size(), 2 * (table("a.csv").size() - 1) + 1);
+  int both_hold = 0;
+  for (std::size_t row = 1; row < fork.size(); row += 2) {
+    EXPECT_EQ(fork[row][1] + fork[row + 1][1], "forkfork_2");
+    EXPECT_EQ(fork[row][0], fork[row + 1][0]);
+    both_hold += fork[row][3] == "box" && fork[row + 1][3] == "box" ? 1 : 0;
+  }
+  EXPECT_GT(both_hold, 50);
+  expect_refused("--scene box.urdf --motion hand.tum --motion hand.tum --motion hand.tum --out run.csv",
+                 {"--motion", "2 times"});
+}
+
+TEST_F(Replay, BadBagsAreRefused) {
+  auto samples = lifting_hand();
+  write_bag(path("frames.bag"), samples, {"odom", "base_link"});
+  expect_refused("--scene box.urdf --bag frames.bag --out run.csv",
+                 {"frames.bag: transform: workbench -> stylus", "odom -> base_link"});
+  samples[3].qx = samples[3].qy = samples[3].qz = samples[3].qw = 0.0;
+  write_bag(path("zero.bag"), samples);
+  expect_refused("--scene box.urdf --bag zero.bag --out run.csv",
+                 {"zero.bag: workbench -> stylus at 1500000000.183456789", "norm of rotation: 0"});
+  samples = lifting_hand();
+  samples[4].x = std::nan("");
+  write_bag(path("nan.bag"), samples);
+  expect_refused("--scene box.urdf --bag nan.bag --out run.csv", {"nan.bag", "translation.x: nan"});
+  std::filesystem::resize_file(path("frames.bag"), 5000);
+  expect_refused("--scene box.urdf --bag frames.bag --out run.csv", {"frames.bag"});
+  rosbag::Bag(path("empty.bag"), rosbag::bagmode::Write).close();
+  expect_refused("--scene box.urdf --bag empty.bag --out run.csv", {"empty.bag", "none"});
+  expect_refused("--scene box.urdf --bag none.bag --out run.csv", {"none.bag", "cannot be read"});
+  expect_refused("--scene box.urdf --bag hand.tum --out run.csv", {"hand.tum", "cannot be read"});
+}
+
+/// Bags of other people: lz4, the old tf/tfMessage.
+TEST_F(Replay, ReadsBagsFromElsewhere) {
+  const std::string bags = std::string(SPRING_WORKBENCH_SHARED_DIR) + "/data/bags/";
+  if (!std::ifstream(bags + "rosbagjs_turtlesim_tf.bag")) GTEST_SKIP() << "no bags in " << bags;
+  const Outcome old_tf =
+      run("--scene box.urdf --bag '" + bags + "rosbagjs_turtlesim_tf.bag' --parent world --child turtle1 --out a.csv");
+  ASSERT_EQ(old_tf.status, 0) << old_tf.err;
+  EXPECT_GT(table("a.csv").size(), 1000u);
+  const Outcome lz4 = run("--scene box.urdf --bag '" + bags +
+                          "evo_tf_example_lz4.bag' --parent odom --child base_footprint --out b.csv");
+  ASSERT_EQ(lz4.status, 0) << lz4.err;
+  EXPECT_EQ(summary_of(lz4)["samples"].as<int>(), 517);
+  expect_refused("--scene box.urdf --bag '" + bags + "rosbagjs_not-a-bag.bag' --out run.csv", {"not-a-bag.bag"});
+  expect_refused("--scene box.urdf --bag '" + bags + "rosbagjs_no-messages.bag' --out run.csv", {"no-messages.bag"});
+}
+
+}  // namespace
+}  // namespace spring_workbench

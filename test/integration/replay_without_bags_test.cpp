@@ -1,0 +1,11 @@
+#include "integration/replay_fixture.h"
+
+namespace spring_workbench {
+namespace {
+
+TEST_F(Replay, ABuildWithoutRosRefusesBags) {
+  expect_refused("--scene box.urdf --bag hand.bag --out run.csv", {"--bag: hand.bag is not allowed", "ROS"});
+}
+
+}  // namespace
+}  // namespace spring_workbench
