@@ -1,0 +1,48 @@
+#include "bindings.h"
+
+namespace spring_workbench::python {
+
+namespace py = pybind11;
+
+namespace {
+
+constexpr const char* pose_text = R"(The pose of a frame as a 4 x 4 array.
+
+position: x, y, z [m]; quaternion: x, y, z, w, normalised here. Raises InputError where one is of another length or not
+finite, or the quaternion is zero.)";
+
+RigidTransform pose(const std::vector<double>& position, const std::vector<double>& quaternion) {
+  const auto refuse = [](const char* what, const char* rule) {
+    throw validation::InputError(std::string("pose: ") + what + " is not allowed: must be " + rule);
+  };
+  if (position.size() != 3) refuse("position of another length", "3 numbers [m]");
+  if (quaternion.size() != 4) refuse("quaternion of another length", "4 numbers, x y z w");
+  const Quaterniond q(quaternion[3], quaternion[0], quaternion[1], quaternion[2]);
+  const Vector3d p(position[0], position[1], position[2]);
+  if (!p.allFinite() || !q.coeffs().allFinite()) refuse("a number that is not finite", "finite");
+  if (!(q.norm() > 0.0)) refuse("a quaternion that is zero", "of another length than zero");
+  return make_transform(q, p);
+}
+
+}  // namespace
+
+PYBIND11_MODULE(_core, module) {
+  module.doc() = "The compiled part of spring_workbench.";
+  py::register_exception<validation::InputError>(module, "InputError", PyExc_ValueError).attr("__doc__") =
+      "Bad input: the message names field, value and what is allowed. What was there before stays as it was.";
+  bind_settings(module);
+  bind_motions(module);
+  bind_states(module);
+  bind_simulation(module);
+  module.def(
+      "pose",
+      [](const std::vector<double>& position, const std::vector<double>& quaternion) {
+        return to_array(pose(position, quaternion));
+      },
+      py::arg("position"), py::arg("quaternion") = std::vector<double>{0.0, 0.0, 0.0, 1.0}, pose_text);
+  module.def(
+      "integrators", [] { return names_of(dynamics::IntegratorKind{}); },
+      "The names that the setting `integrator` takes.");
+}
+
+}  // namespace spring_workbench::python

@@ -1,0 +1,208 @@
+#include <map>
+
+#include "bindings.h"
+
+namespace spring_workbench::python {
+
+namespace py = pybind11;
+using simulation::Simulation;
+using simulation::SimulationSettings;
+
+namespace {
+
+/// Of stretching, bending and twisting.
+std::optional<rod::PerDof> per_dof(const std::optional<std::array<double, 3>>& values) {
+  if (!values) return std::nullopt;
+  return rod::PerDof{(*values)[0], (*values)[1], (*values)[2]};
+}
+
+void change(Simulation& of, const std::optional<std::array<double, 3>>& stiffness,
+            const std::optional<std::array<double, 3>>& damping_ratio, const std::optional<std::array<bool, 3>>& dofs,
+            const std::optional<std::string>& integrator, std::optional<double> step, std::optional<double> tolerance) {
+  simulation::ForkChange fork;
+  if (stiffness) {
+    fork.stretch_stiffness = (*stiffness)[0];
+    fork.bend_stiffness = (*stiffness)[1];
+    fork.torsion_stiffness = (*stiffness)[2];
+  }
+  fork.damping_ratio = per_dof(damping_ratio);
+  if (dofs) fork.dofs = rod::ForkDofs{(*dofs)[0], (*dofs)[1], (*dofs)[2]};
+  simulation::DynamicsChange dynamics;
+  if (integrator) dynamics.integrator = value_of<dynamics::IntegratorKind>(*integrator, "integrator");
+  dynamics.step = step;
+  dynamics.tolerance = tolerance;
+  of.change(fork, dynamics);
+}
+
+void push_motion(Simulation& to, const Motion& motion, std::size_t hand) {
+  bool pressed = false;
+  for (const motion::StylusSample& sample : motion.samples) {
+    to.push_stylus(sample, hand);
+    if (sample.button != pressed) to.push_button(sample.t, pressed = sample.button, hand);
+  }
+}
+
+std::map<std::string, RigidTransform> to_poses(const std::map<std::string, Array>& matrices) {
+  std::map<std::string, RigidTransform> poses;
+  for (const auto& [name, matrix] : matrices) poses[name] = to_pose(matrix, "place: " + name);
+  return poses;
+}
+
+Array twists(const Simulation& of) {
+  const auto& objects = of.objects();
+  Array all({objects.size(), std::size_t{6}});
+  for (std::size_t i = 0; i < objects.size(); ++i) {
+    for (int k = 0; k < 3; ++k) {
+      all.mutable_at(i, k) = objects[i].V_WO_W.linear[k];
+      all.mutable_at(i, 3 + k) = objects[i].V_WO_W.angular[k];
+    }
+  }
+  return all;
+}
+
+py::array_t<bool> flags(const Simulation& of, bool bodies::BodyState::*flag) {
+  py::array_t<bool> all(static_cast<py::ssize_t>(of.objects().size()));
+  for (std::size_t i = 0; i < of.objects().size(); ++i) all.mutable_at(i) = of.objects()[i].*flag;
+  return all;
+}
+
+std::vector<std::string> names(const Simulation& of) {
+  std::vector<std::string> all;
+  for (const bodies::BodyState& object : of.objects()) all.push_back(object.name);
+  return all;
+}
+
+void bind_scene(py::module_& module) {
+  using scene::Scene;
+  py::class_<Scene>(module, "Scene", "Bodies, materials and gravity, as read from a URDF and the YAML beside it.")
+      .def_readonly("name", &Scene::name)
+      .def_readonly("path", &Scene::path)
+      .def_readonly("gravity", &Scene::gravity, "[m/s2], along -z of world.")
+      .def_property_readonly(
+          "contact", [](const Scene& s) { return word(s.contact); }, "none, stop or dynamic.")
+      .def_readonly("tool", &Scene::tool)
+      .def_property_readonly(
+          "masses",
+          [](const Scene& s) {
+            std::map<std::string, double> masses;
+            for (const scene::Body& body : s.bodies) {
+              if (body.movable) masses[body.name] = body.mass_properties.mass;
+            }
+            return masses;
+          },
+          "Of the movable objects [kg], by name.")
+      .def_readonly("warnings", &Scene::warnings, "What was mended on loading, a line each.");
+  module.def("load_scene", &scene::load_scene, py::arg("path"), py::arg("roots") = std::vector<std::string>{},
+             R"(Reads a scene from a URDF (a path or package:// URI), with the YAML of the same name beside it.
+
+What it names must lie below one of the folders `roots` or in a ROS package; without any, anywhere.
+Raises InputError.)");
+}
+
+void bind_state_access(py::class_<Simulation>& type) {
+  type.def_property_readonly("time", &Simulation::time, "[s].")
+      .def_property_readonly("newest_sample", &Simulation::newest_sample, "Time of the newest sample of any hand [s].")
+      .def_property_readonly("names", &names, "Of the movable objects, in the order of all arrays.")
+      .def_property_readonly(
+          "poses",
+          [](const Simulation& s) {
+            return to_arrays(s.objects().size(), [&](std::size_t i) { return s.objects()[i].X_WO; });
+          },
+          "Of the objects at their centres of mass; shape (n, 4, 4).")
+      .def_property_readonly("twists", &twists, "Velocity [m/s] and angular velocity [rad/s], world; shape (n, 6).")
+      .def_property_readonly(
+          "held", [](const Simulation& s) { return flags(s, &bodies::BodyState::held); }, "Shape (n,).")
+      .def_property_readonly(
+          "in_contact", [](const Simulation& s) { return flags(s, &bodies::BodyState::in_contact); }, "Shape (n,).")
+      .def_property_readonly(
+          "asleep", [](const Simulation& s) { return flags(s, &bodies::BodyState::asleep); }, "Shape (n,).")
+      .def_property_readonly("contacts", &Simulation::contacts, "A list of Contact.")
+      .def("fork", &Simulation::fork, py::arg("hand") = 0, "The tool in a hand.")
+      .def("save", &Simulation::save, "The whole state, as a value.")
+      .def("restore", &Simulation::restore, py::arg("state"),
+           "Goes on from a saved state, bit by bit as the simulation that it is of. Raises InputError for a state of "
+           "other objects, another contact mode or another shape of the fork.")
+      .def_property_readonly(
+          "state_hash", [](const Simulation& s) { return simulation::to_hex(s.state_hash()); },
+          "Of the whole state: 16 hexadecimal digits.");
+}
+
+void bind_changes(py::class_<Simulation>& type) {
+  type.def(
+          "select_tool",
+          [](Simulation& s, const std::string& tool, std::size_t hand) {
+            s.select_tool(value_of<tools::Tool>(tool, "tool"), hand);
+          },
+          py::arg("tool"), py::arg("hand") = 0, "spring, spring_fork, spring_probe, direct or ray.")
+      .def("change", &change, py::kw_only(), py::arg("stiffness") = py::none(), py::arg("damping_ratio") = py::none(),
+           py::arg("dofs") = py::none(), py::arg("integrator") = py::none(), py::arg("step") = py::none(),
+           py::arg("tolerance") = py::none(),
+           R"(Changes every fork and the steps while running, all or nothing; what is not given stays.
+
+stiffness: of stretching, bending [N/m] and twisting [N m/rad]; damping_ratio: of the same; dofs: which of them are on;
+step [s]; tolerance [m], 0 for fixed steps. Raises InputError.)")
+      .def(
+          "calibrate", [](Simulation& s) { s.calibrate(); },
+          "Stiffness from the mass and size of what each hand holds. Raises InputError when nothing is held.")
+      .def(
+          "release", [](Simulation& s) { return s.release(); }, "Every hand lets go. False when nothing was held.")
+      .def(
+          "place", [](Simulation& s, const std::map<std::string, Array>& poses) { s.place(to_poses(poses)); },
+          py::arg("poses"), "Objects by name to where they are said to be, at rest; nothing is held then.")
+      .def("reset", &Simulation::reset, "Objects back to their start, nothing held, no sample known.");
+}
+
+}  // namespace
+
+void bind_settings(py::module_& module) {
+  using simulation::SettingDescription;
+  py::class_<SettingDescription>(module, "SettingDescription", "What one key means.")
+      .def_readonly("key", &SettingDescription::key)
+      .def_readonly("type", &SettingDescription::type)
+      .def_readonly("unit", &SettingDescription::unit)
+      .def_readonly("allowed", &SettingDescription::allowed)
+      .def_readonly("default", &SettingDescription::default_value)
+      .def_readonly("meaning", &SettingDescription::meaning);
+  module.def("setting_descriptions", &simulation::setting_descriptions, "All keys of Settings.");
+  const auto update = [](SimulationSettings& settings, const py::dict& values) {
+    simulation::apply_settings(to_yaml(values), "settings", settings);
+  };
+  py::class_<SimulationSettings>(module, "Settings",
+                                 "Everything that can be set from outside about a simulation: setting_descriptions().")
+      .def(py::init([=](const py::dict& values) {
+             SimulationSettings settings;
+             update(settings, values);
+             return settings;
+           }),
+           py::arg("values") = py::dict(),
+           "values: nested or with dotted keys, as a settings file has them. Raises InputError for an unknown key, a "
+           "wrong type or a value out of range.")
+      .def("update", update, py::arg("values"), "Sets these as well, all or none. Raises InputError.");
+}
+
+void bind_simulation(py::module_& module) {
+  bind_scene(module);
+  py::class_<Simulation> type(module, "Simulation",
+                              "A scene, two hands and their tools. It owns time: no clock, no thread; the same calls "
+                              "give the same bits.");
+  type.def(py::init<const scene::Scene&, const SimulationSettings&>(), py::arg("scene"),
+           py::arg_v("settings", SimulationSettings(), "Settings()"),
+           "Raises InputError when settings and scene do not fit.")
+      .def(
+          "push_stylus",
+          [](Simulation& s, double t, const Array& pose, std::size_t hand) {
+            return s.push_stylus({t, to_pose(pose, "pose")}, hand);
+          },
+          py::arg("t"), py::arg("pose"), py::arg("hand") = 0,
+          "A new pose of the stylus, shape (4, 4), at time t [s]; its z axis is the fork's, from the hand to the tip. "
+          "False when t is not later than the newest one's. Raises InputError when it is no pose.")
+      .def("push_button", &Simulation::push_button, py::arg("t"), py::arg("pressed"), py::arg("hand") = 0,
+           "The grasp button goes down or up at time t [s].")
+      .def("push_motion", &push_motion, py::arg("motion"), py::arg("hand") = 0, "All samples and button edges.")
+      .def("advance", &Simulation::advance, py::arg("t_end"), py::call_guard<py::gil_scoped_release>(),
+           "Goes to time t_end [s] in steps that also end at the samples.");
+  bind_state_access(type);
+  bind_changes(type);
+}
+
+}  // namespace spring_workbench::python

@@ -1,0 +1,45 @@
+"""Lift, carry and turn virtual objects with spring-based tools: the library of spring_workbench.
+
+    import spring_workbench as sw
+
+    simulation = sw.Simulation(sw.load_scene("box.urdf"), sw.Settings({"contact": "none"}))
+    simulation.push_motion(sw.read_motion("hand.tum"))
+    simulation.advance(1.0)
+    print(simulation.poses)
+
+SI units, right-handed frames, z up. A pose is a 4 x 4 array that takes coordinates of its frame to world; a quaternion
+is x y z w. Bad input raises InputError, which names field, value and rule; nothing has changed then.
+"""
+
+_NAMES = [
+    "Contact",
+    "Fork",
+    "InputError",
+    "Motion",
+    "Report",
+    "Scene",
+    "SettingDescription",
+    "Settings",
+    "Simulation",
+    "State",
+    "integrators",
+    "load_scene",
+    "pose",
+    "read_motion",
+    "setting_descriptions",
+]
+__all__ = _NAMES
+
+
+def __getattr__(name):
+    # Compiled code is loaded with its first use: those who want the ROS messages of this package do not wait for it.
+    if name not in _NAMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    from . import _core
+
+    globals().update({known: getattr(_core, known) for known in _NAMES})
+    return globals()[name]
+
+
+def __dir__():
+    return sorted({*globals(), *_NAMES})

@@ -1,0 +1,46 @@
+"""The stubs say what the compiled module is: mypy's stubtest, without the messages' modules beside it."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import spring_workbench
+
+BUILT = pathlib.Path(spring_workbench.__file__).parent
+
+
+class Stubs(unittest.TestCase):
+    def check(self, change):
+        with tempfile.TemporaryDirectory() as folder:
+            package = pathlib.Path(folder, "spring_workbench")
+            package.mkdir()
+            for file in BUILT.iterdir():
+                if file.is_file():
+                    (package / file.name).symlink_to(file)
+            stubs = package / "_core.pyi"
+            text = stubs.read_text()
+            stubs.unlink()
+            stubs.write_text(change(text))
+            return subprocess.run(
+                [sys.executable, "-m", "mypy.stubtest", "spring_workbench"],
+                cwd=folder,
+                env={**os.environ, "PYTHONPATH": folder},
+                capture_output=True,
+                text=True,
+                timeout=300,
+            )
+
+    def test_they_agree(self):
+        done = self.check(lambda text: text)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def test_a_fault_is_found(self):
+        done = self.check(lambda text: text.replace("def release(self)", "def let_go(self)"))
+        self.assertIn("let_go", done.stdout)
+        self.assertNotEqual(done.returncode, 0)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,160 @@
+"""The Python module: by laws, and by what it must refuse."""
+import pathlib
+import pickle
+
+import numpy as np
+import pytest
+
+import spring_workbench as sw
+
+BOX = str(pathlib.Path(__file__).resolve().parents[2] / "examples/01_lift_a_box/box.urdf")
+MOTION = str(pathlib.Path(__file__).resolve().parents[2] / "examples/03_replay_a_motion/lift_and_turn.yaml")
+MASS, GRAVITY = 0.5, 9.81  # [kg], [m/s2]; of the scene
+DOWN = [1.0, 0.0, 0.0, 0.0]  # the fork points down
+
+
+def holding(settings=None):
+    """A simulation with the box in a hand at rest, over the bench."""
+    simulation = sw.Simulation(
+        sw.load_scene(BOX), sw.Settings({"contact": "none", "grasp": {"object": "box"}, **(settings or {})})
+    )
+    for t in [0.0, 10.0]:
+        simulation.push_stylus(t, sw.pose([0.0, 0.0, 0.23], DOWN))
+    return simulation
+
+
+def test_a_fork_at_rest_carries_the_weight():
+    simulation = holding()
+    simulation.advance(10.0)
+    fork = simulation.fork()
+    assert fork.held_object == "box"
+    assert fork.weight == pytest.approx(MASS, rel=1e-9)
+    assert fork.stretch == pytest.approx(MASS * GRAVITY / fork.stiffness[0], rel=1e-9)
+    np.testing.assert_allclose(fork.tip_wrench[:3], [0.0, 0.0, MASS * GRAVITY], atol=1e-9)
+
+
+def test_states_are_arrays_of_the_shapes_that_are_told():
+    simulation = sw.Simulation(sw.load_scene(BOX))
+    simulation.push_motion(sw.read_motion(MOTION))
+    simulation.advance(1.0)
+    assert simulation.names == ["box"]
+    assert simulation.poses.shape == (1, 4, 4) and simulation.poses.dtype == np.float64
+    assert simulation.twists.shape == (1, 6)
+    assert simulation.held.tolist() == [True]
+    R = simulation.poses[0, :3, :3]
+    np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-12)
+    fork = simulation.fork()
+    assert fork.bend.shape == (2,) and fork.tip.shape == (4, 4) and fork.handle_wrench.shape == (6,)
+    poses = simulation.poses
+    poses[:] = 0.0  # a copy: the simulation does not see it
+    assert simulation.poses[0, 3, 3] == 1.0
+
+
+def test_a_free_body_falls_on_a_parabola():
+    simulation = sw.Simulation(sw.load_scene(BOX), sw.Settings({"contact": "none"}))
+    simulation.advance(0.0)
+    simulation.place({"box": sw.pose([0.0, 0.0, 5.0])})
+    simulation.advance(0.5)
+    assert simulation.poses[0, 2, 3] == pytest.approx(5.0 - 0.5 * GRAVITY * 0.5**2, abs=1e-9)
+    assert simulation.twists[0, 2] == pytest.approx(-GRAVITY * 0.5, abs=1e-9)
+
+
+def test_a_motion_is_the_file_s():
+    motion = sw.read_motion(MOTION)
+    assert len(motion) == 226 and motion.poses.shape == (226, 4, 4)
+    assert np.all(np.diff(motion.times) > 0.0)
+    pressed = motion.times[motion.buttons]
+    assert (pressed[0], pressed[-1]) == (0.7, 3.68)
+
+
+def test_a_restored_state_has_the_same_future():
+    simulation = sw.Simulation(sw.load_scene(BOX))
+    simulation.push_motion(sw.read_motion(MOTION))
+    simulation.advance(2.0)
+    state = pickle.loads(pickle.dumps(simulation.save()))
+    assert state == simulation.save() and state.hash == simulation.state_hash
+    simulation.advance(4.5)
+    ended = simulation.state_hash
+    assert ended != state.hash
+    simulation.restore(state)
+    assert simulation.time == pytest.approx(2.0)
+    simulation.advance(4.5)
+    assert simulation.state_hash == ended
+
+
+def test_two_simulations_do_the_same():
+    runs = []
+    for _ in range(2):
+        simulation = sw.Simulation(sw.load_scene(BOX))
+        simulation.push_motion(sw.read_motion(MOTION))
+        simulation.advance(4.5)
+        runs.append((simulation.state_hash, simulation.poses))
+    assert runs[0][0] == runs[1][0]
+    np.testing.assert_array_equal(runs[0][1], runs[1][1])
+
+
+def test_changes_are_taken_whole_or_not_at_all():
+    simulation = holding()
+    simulation.advance(1.0)
+    before = simulation.state_hash
+    with pytest.raises(sw.InputError, match="step"):
+        simulation.change(stiffness=[1000.0, 400.0, 3.0], step=-1.0)
+    assert simulation.state_hash == before
+    simulation.change(stiffness=[1000.0, 400.0, 3.0], integrator="rosenbrock")
+    assert simulation.fork().stiffness.tolist() == [1000.0, 400.0, 3.0]
+    assert simulation.fork().integrator == "rosenbrock"
+    simulation.advance(10.0)
+    assert simulation.fork().stretch == pytest.approx(MASS * GRAVITY / 1000.0, rel=1e-6)
+
+
+def test_settings_are_those_of_a_file():
+    fork = {"length": 0.25, "dofs": {"bend": False}}
+    simulation = holding({"fork.stiffness.stretch": np.float64(800.0), "fork": fork})
+    simulation.advance(0.1)
+    fork = simulation.fork()
+    assert (fork.length, fork.stiffness[0], fork.dofs) == (0.25, 800.0, [True, False, True])
+    keys = {description.key: description for description in sw.setting_descriptions()}
+    assert keys["step"].unit == "s" and keys["integrator"].default in sw.integrators()
+
+
+@pytest.mark.parametrize(
+    "values, words",
+    [
+        ({"gravity": -1}, ["gravity", "-1", "must be"]),
+        ({"gravity": float("nan")}, ["gravity", "nan", "must be"]),
+        ({"stepp": 0.01}, ["stepp", "unknown key"]),
+        ({"integrator": "euler"}, ["integrator", "euler", "exponential"]),
+        ({"step": None}, ["None", "must be"]),
+    ],
+)
+def test_bad_settings_are_refused(values, words):
+    settings = sw.Settings()
+    for call in [sw.Settings, settings.update]:
+        with pytest.raises(sw.InputError) as refused:
+            call(values)
+        for word in words:
+            assert word in str(refused.value)
+
+
+def test_what_is_no_pose_is_refused():
+    simulation = holding()
+    for matrix in [np.eye(3), np.full((4, 4), np.nan), 2.0 * np.eye(4), np.diag([1.0, 1.0, -1.0, 1.0])]:
+        with pytest.raises(sw.InputError, match="pose: .* must be"):
+            simulation.push_stylus(20.0, matrix)
+    with pytest.raises(sw.InputError):
+        sw.pose([0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0])
+    with pytest.raises(sw.InputError):
+        sw.pose([0.0, 0.0])
+    with pytest.raises(sw.InputError, match="none.urdf"):
+        sw.load_scene("none.urdf")
+    assert issubclass(sw.InputError, ValueError)
+    with pytest.raises(IndexError):
+        simulation.fork(hand=7)
+
+
+def test_everything_public_has_a_docstring():
+    for name in sw.__all__:
+        thing = getattr(sw, name)
+        assert thing.__doc__, name
+    for name in ["push_stylus", "push_motion", "advance", "save", "restore", "change", "poses", "twists"]:
+        assert getattr(sw.Simulation, name).__doc__, name
