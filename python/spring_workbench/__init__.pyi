@@ -1,3 +1,5 @@
+from typing import List
+
 from ._core import Contact as Contact
 from ._core import Fork as Fork
 from ._core import InputError as InputError
@@ -13,6 +15,8 @@ from ._core import load_scene as load_scene
 from ._core import pose as pose
 from ._core import read_motion as read_motion
 from ._core import setting_descriptions as setting_descriptions
+
+def __dir__() -> List[str]: ...
 
 __all__ = [
     "Contact",

@@ -36,7 +36,7 @@ class CatkinWorkspace(unittest.TestCase):
             said = run("bash", "-c", command, cwd=workspace)
             fields = dict(line.split(": ", 1) for line in said.splitlines() if ": " in line)
             self.assertEqual(fields["held_object"], "box")
-            self.assertAlmostEqual(float(fields["stretch"]), 0.5 * 9.81 / 2000.0, delta=1e-8)
+            self.assertAlmostEqual(float(fields["stretch"]), 0.5 * 9.81 / 2000.0, delta=1e-6)
 
 
 if __name__ == "__main__":

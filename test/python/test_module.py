@@ -28,9 +28,9 @@ def test_a_fork_at_rest_carries_the_weight():
     simulation.advance(10.0)
     fork = simulation.fork()
     assert fork.held_object == "box"
-    assert fork.weight == pytest.approx(MASS, rel=1e-9)
-    assert fork.stretch == pytest.approx(MASS * GRAVITY / fork.stiffness[0], rel=1e-9)
-    np.testing.assert_allclose(fork.tip_wrench[:3], [0.0, 0.0, MASS * GRAVITY], atol=1e-9)
+    assert fork.weight == pytest.approx(MASS, rel=1e-4)
+    assert fork.stretch == pytest.approx(MASS * GRAVITY / fork.stiffness[0], rel=1e-4)
+    np.testing.assert_allclose(fork.tip_wrench[:3], [0.0, 0.0, MASS * GRAVITY], atol=1e-3)
 
 
 def test_states_are_arrays_of_the_shapes_that_are_told():
@@ -64,7 +64,7 @@ def test_a_motion_is_the_file_s():
     assert len(motion) == 226 and motion.poses.shape == (226, 4, 4)
     assert np.all(np.diff(motion.times) > 0.0)
     pressed = motion.times[motion.buttons]
-    assert (pressed[0], pressed[-1]) == (0.7, 3.68)
+    assert (pressed[0], pressed[-1]) == pytest.approx((0.7, 3.68))
 
 
 def test_a_restored_state_has_the_same_future():
@@ -104,7 +104,7 @@ def test_changes_are_taken_whole_or_not_at_all():
     assert simulation.fork().stiffness.tolist() == [1000.0, 400.0, 3.0]
     assert simulation.fork().integrator == "rosenbrock"
     simulation.advance(10.0)
-    assert simulation.fork().stretch == pytest.approx(MASS * GRAVITY / 1000.0, rel=1e-6)
+    assert simulation.fork().stretch == pytest.approx(MASS * GRAVITY / 1000.0, rel=1e-4)
 
 
 def test_settings_are_those_of_a_file():

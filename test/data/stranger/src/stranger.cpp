@@ -18,5 +18,5 @@ int main(int, char** argv) {
   ForkState message;
   message.held_object = simulation.fork().held_object;
   message.stretch = simulation.fork().stretch;
-  std::cout << message;
+  std::cout << "held_object: " << message.held_object << "\nstretch: " << message.stretch << "\n";
 }
