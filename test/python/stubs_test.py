@@ -8,6 +8,9 @@ import unittest
 
 import spring_workbench
 
+# What pybind11's classes have and no stub says: their metaclass, and for those that are not made in Python an __init__.
+CLASSES = "|".join(name for name in spring_workbench.__all__ if name[0].isupper())
+OF_PYBIND11 = rf"spring_workbench(\._core)?\.({CLASSES})(\.__init__)?"
 BUILT = pathlib.Path(spring_workbench.__file__).parent
 
 
@@ -23,8 +26,9 @@ class Stubs(unittest.TestCase):
             text = stubs.read_text()
             stubs.unlink()
             stubs.write_text(change(text))
+            (package.parent / "allowed").write_text(OF_PYBIND11)
             return subprocess.run(
-                [sys.executable, "-m", "mypy.stubtest", "spring_workbench"],
+                [sys.executable, "-m", "mypy.stubtest", "spring_workbench", "--allowlist", "allowed"],
                 cwd=folder,
                 env={**os.environ, "PYTHONPATH": folder},
                 capture_output=True,
