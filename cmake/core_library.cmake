@@ -62,10 +62,10 @@ set(SPRING_WORKBENCH_HEADERS
   motion_files/open_motion.h
   rod/settings.h
   rod/shape_model.h
+  scene/constants.h
   scene/scene.h
   simulation/settings.h
   simulation/simulation.h
-  simulation/state.h
   tools/settings.h
   tools/tool.h
   tools/tool_state.h

@@ -1,4 +1,4 @@
-#include "spring_workbench/simulation/state.h"
+#include "spring_workbench/simulation/simulation.h"
 
 #include <yaml-cpp/yaml.h>
 
