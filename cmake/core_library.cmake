@@ -43,6 +43,7 @@ endif()
 set(SPRING_WORKBENCH_HEADERS
   bodies/body_state.h
   contact/contact_state.h
+  dynamics/active_coordinates.h
   dynamics/held_body.h
   dynamics/integrator.h
   dynamics/settings.h
@@ -62,7 +63,6 @@ set(SPRING_WORKBENCH_HEADERS
   motion_files/open_motion.h
   rod/settings.h
   rod/shape_model.h
-  scene/constants.h
   scene/scene.h
   simulation/settings.h
   simulation/simulation.h

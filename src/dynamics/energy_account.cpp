@@ -34,8 +34,7 @@ double energy_gained(const HeldBody& body, const motion::FrameMotion& handle, do
   HandleForcing origin;
   origin.t = t;
   const auto position = [&](const StrainState& s) -> Vector3d { return body.object(origin, s).X.translation(); };
-  // Weight, the handle's acceleration and the contact's force are one and the same force all the way; the other loads
-  // are taken as they are at the begin.
+  // Weight, the handle's acceleration and the contact's force are constant on the way; other loads are as at the begin.
   const Vector3d force =
       H.X_WH.linear().transpose() * body.external_wrench().force - body.body().mass * H.acceleration_less_gravity;
   const rod::StrainVector loads = body.mass_matrix(t, begin.q) * body.acceleration(H, begin.q, 0.0 * begin.q_dot) +

@@ -32,8 +32,8 @@ void stop_at_range(const HeldBody& body, double t, double h, const StrainState& 
   };
   const auto kinetic = [&](const StrainState& s) { return s.q_dot.dot(body.mass_matrix(t, s.q) * s.q_dot); };
   const double before = kinetic(end);
-  const rod::StrainMatrix M = body.mass_matrix(t, begin.q);
-  const ImplicitMatrix step(LinearisedMotion(body, t, begin.q), h);
+  const LinearisedMotion motion(body, t, begin.q);
+  const ImplicitMatrix step(motion, h);
   rod::StrainVector q = end.q, g;
   for (int i = 0; i < most_iterations && !(used(q) < 1.0); ++i) {
     g = slope(q);
@@ -50,7 +50,7 @@ void stop_at_range(const HeldBody& body, double t, double h, const StrainState& 
     g = slope(q);
   }
   end.q = q;
-  const rod::StrainVector moved = M.llt().solve(g);
+  const rod::StrainVector moved = motion.M.llt().solve(g);
   const double out = g.dot(end.q_dot);
   if (out > 0.0) end.q_dot -= out / g.dot(moved) * moved;
   const double after = kinetic(end);

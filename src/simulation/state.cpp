@@ -1,11 +1,10 @@
-#include "spring_workbench/simulation/simulation.h"
-
 #include <yaml-cpp/yaml.h>
 
 #include <cstddef>
 
 #include "constants.h"
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/simulation/simulation.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::simulation {

@@ -3,11 +3,10 @@
 // What several modules share: unit, what changing one does, and the test that notices: "noticed by" was seen to fail
 // with another value, "goes into" is by reading alone.
 
+#include "spring_workbench/scene/scene.h"
+
 namespace spring_workbench::scene {
 
-/// [m/s²] on Earth: a scene's default, and what tells a weight from a mass without gravity. Weights scale with it.
-/// Goes into `Calibration.NoLoadNoGravityStaysPositive`.
-constexpr double standard_gravity = 9.81;
 /// [m/s]; an approach that is slower does not bounce. Larger: bounces end sooner; at 0 a body never comes to rest.
 /// Goes into `RigidWorld.BallBouncesToTheSquareOfItsRestitution`.
 constexpr double rest_speed = 0.02;

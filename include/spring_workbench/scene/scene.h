@@ -7,9 +7,12 @@
 #include <vector>
 
 #include "spring_workbench/geometry/shapes.h"
-#include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::scene {
+
+/// [m/s²] on Earth: a scene's default, and what tells a weight from a mass without gravity. Weights scale with it.
+/// Goes into `Calibration.NoLoadNoGravityStaysPositive`.
+constexpr double standard_gravity = 9.81;
 
 /// Mass [kg], and inertia tensor [kg·m²] about the centre of mass in the axes of O.
 struct MassProperties {
