@@ -243,8 +243,8 @@ class Exponential::CoreOf final : public Core {
     const Modes missed = defect_effect(body, handle, t, h, q0, q_dot0, begin_samples, r, in_modes);
     squared_error_ = squared_size(missed);
     converged = converged || squared_left <= share_of_error * share_of_error * squared_error_;
-
-    const Modes end = collocation_.deviation(reached), error = -collocation_.deviation(Modes(missed + left * change));
+    const Modes end = collocation_.deviation(reached),
+                error = -collocation_.deviation(Modes((1.0 + left) * missed + left * change));
     state.q = q0 + end.template head<n>();
     state.q_dot = q_dot0 + end.template tail<n>();
     const Strain linear = collocation_.stiffness() * q0 + collocation_.damping() * q_dot0;

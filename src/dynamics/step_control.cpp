@@ -16,7 +16,7 @@ namespace {
 
 /// What a method that keeps energy may err by in energy, of the largest since the grasp, a second: 1 % in a minute.
 constexpr double energy_share = 0.01 / 60.0;
-constexpr double rounding = 1e-13;      ///< of the largest energy: what a step's error in energy cannot be below
+constexpr double most_saved = 0.1;      ///< [s]; so long steps may save of it for one that errs by more
 constexpr int most_halvings = 6;        ///< of a span
 constexpr double most_strain = 1e12;    ///< in the coordinates' own units; no state to go on from has more
 constexpr double safety = 0.8;          ///< of the next step's length, with a tolerance
@@ -58,11 +58,10 @@ struct StepControl::Span {
 
 struct StepControl::Tried {
   StrainState state;
-  StepEstimate estimate;
+  StepEstimate estimate{};
   bool solved = false;
-  double energy_error = 0.0;                       ///< estimate [J]
-  double largest_energy = 0.0;                     ///< [J]
-  double position_error = 0.0, angle_error = 0.0;  ///< [m], [rad]
+  double energy_error = 0.0, largest_energy = 0.0;  ///< estimate of the error; of the run [J]
+  double position_error = 0.0, angle_error = 0.0;   ///< [m], [rad]
 };
 
 StepControl::StepControl(std::unique_ptr<Integrator> integrator, double tolerance)
@@ -101,8 +100,7 @@ ControlledStep StepControl::advance(const HeldBody& body, const motion::FrameMot
 
 StepControl::Tried StepControl::try_step(const Span& span, double t, double h, const StrainState& state) const {
   const HeldBody& body = span.body;
-  Tried tried;
-  tried.state = state;
+  Tried tried{state};
   tried.estimate = integrator_->step(body, span.handle, t, h, tried.state);
   tried.solved = tried.estimate.converged && usable(tried.state);
   if (!tried.solved) return tried;
@@ -137,13 +135,14 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, Strai
   span.report.angle_error = std::max(span.report.angle_error, tried.angle_error);
   span.report.energy_error += std::abs(tried.energy_error);
   span.memory.largest_energy = std::max(span.memory.largest_energy, tried.largest_energy);
+  const double spent = std::abs(tried.energy_error) / std::max(energy_share * span.memory.largest_energy, 1e-300);
+  span.memory.energy_saved = std::clamp(span.memory.energy_saved + h - spent, 0.0, most_saved);
   const double known = tried.estimate.omega_dt;
   span.report.omega_dt = std::max(span.report.omega_dt, known > 0.0 ? known : span.memory.stiffest_omega * h);
 }
 
 void StepControl::fall_back(Span& span, double t, double h, StrainState& state) const {
-  Tried tried;
-  tried.state = state;
+  Tried tried{state};
   fallback_step(span.body, span.handle, t, h, tried.state);
   ++span.report.fallback;
   take(span, t, h, tried, state);
@@ -153,7 +152,7 @@ void StepControl::step_in_halves(Span& span, double t, double h, int level, Stra
   span.memory.level = std::max(span.memory.level, level);
   const Tried tried = try_step(span, t, h, state);
   const double largest = std::max(span.memory.largest_energy, tried.largest_energy);
-  const double share = (energy_share * h + rounding) * largest;
+  const double share = energy_share * (h + span.memory.energy_saved) * largest;
   const bool fine = integrator_->energy() == Integrator::Energy::kept ? std::abs(tried.energy_error) <= share
                     : integrator_->energy() == Integrator::Energy::dissipated
                         ? energy_gained(span.body, span.handle, t + h, state, tried.state) <= share

@@ -45,9 +45,10 @@ class StepControl {
     rod::StrainMatrix swing;      ///< from rates to the strains that they swing to [s]
     double stiffest_omega = 0.0;  ///< of the undamped modes [rad/s]
     double largest_energy = 0.0;  ///< of body and fork since the grasp [J]
+    double energy_saved = 0.0;    ///< of the error in energy that steps may have: what is left over, as a time [s]
 
     void exchange(math::StateArchive& state) {
-      state(next_h, level, version, t, error, swing, stiffest_omega, largest_energy);
+      state(next_h, level, version, t, error, swing, stiffest_omega, largest_energy, energy_saved);
     }
   };
 
