@@ -17,6 +17,7 @@ namespace {
 constexpr double kFarthest = 100.0;        // m from the hand
 constexpr double kTrackerInterval = 0.02;  // s
 constexpr double kWatchedSteps = 20.0;
+constexpr double most_estimated = 0.01;    // of the largest energy: steps that say they err by more do not excuse it
 constexpr std::size_t kFailuresKept = 12;  // of an integrator and a shape
 
 RodCase case_of(const StabilityCell& cell) {
@@ -45,7 +46,7 @@ class EnergyWatch {
     const double energy = moving + weight_ * simulation.objects()[0].X_WO.translation().z();
     largest_ = std::max(largest_, moving);
     estimated_ += estimated;
-    growth_ = std::max(growth_, energy - lowest_ - estimated_);
+    growth_ = std::max(growth_, energy - lowest_ - std::min(estimated_, most_estimated * largest_));
     if (energy > lowest_) return;
     lowest_ = energy;
     estimated_ = 0.0;

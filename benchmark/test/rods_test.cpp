@@ -195,7 +195,7 @@ TEST(StabilityMap, ManyHalvedStepsInALongFallAddNoEnergy) {
   EXPECT_LT(run_cell("implicit_euler", "linear", cell).energy_growth, 1e-10);
   EXPECT_LT(run_cell("exponential", "linear", cell).energy_growth, 1e-10);
   // Its estimate, a tenth of the difference of two halves to the whole, may be several times too small.
-  EXPECT_LT(run_cell("rosenbrock", "linear", cell).energy_growth, 1e-5);
+  EXPECT_LT(run_cell("rosenbrock", "linear", cell).energy_growth, 1e-4);
 }
 
 TEST(StabilityMap, OutcomesAreOrderedByWhatIsWorst) {

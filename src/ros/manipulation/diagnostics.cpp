@@ -84,7 +84,9 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   ros_common::DiagnosticStatusBuilder status(name_ + ": physics loop", "simulation");
   status.add("cycles", loop.cycles)
       .add("deadlines missed", loop.deadlines_missed)
-      .add("guards tripped", loop.steps_rejected)
+      .add("steps refused", loop.steps_rejected)
+      .add("steps done by the fallback", loop.steps_fallback)
+      .add("stops at the end of the fork's range", loop.stops)
       .add("leaps of time", loop.leaps)
       .add("longest cycle [s]", loop.longest_cycle);
   if (loop.steps_rejected > last_loop_.steps_rejected) {

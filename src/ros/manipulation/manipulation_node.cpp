@@ -101,6 +101,8 @@ void ManipulationNode::count(const CycleReport& report, bool deadline_missed) {
   ++loop_.cycles;
   loop_.deadlines_missed += deadline_missed ? 1 : 0;
   loop_.steps_rejected += static_cast<std::size_t>(report.advance.steps_rejected);
+  loop_.steps_fallback += static_cast<std::size_t>(report.advance.steps_fallback);
+  loop_.stops += static_cast<std::size_t>(report.advance.stops);
   loop_.leaps += report.leapt ? 1 : 0;
   loop_.longest_cycle = std::max(loop_.longest_cycle, report.wall_time);
 }
