@@ -89,6 +89,8 @@ std::vector<RodCase> bodies_and_forks() {
           with_dofs(soft, "stretch_only", {true, false, false})};
 }
 
+}  // namespace
+
 std::vector<motion::PoseSample> read_motion(const std::string& path) {
   std::ifstream file(path);
   std::vector<motion::PoseSample> samples;
@@ -101,8 +103,6 @@ std::vector<motion::PoseSample> read_motion(const std::string& path) {
   }
   return samples;
 }
-
-}  // namespace
 
 std::vector<motion::PoseSample> synthetic_hand(unsigned seed, double duration) {
   Random random(seed);

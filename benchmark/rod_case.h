@@ -25,6 +25,9 @@ struct RodCase {
 /// 0.15 m) and rotation (some 0.6 rad) with a tremor of 8 to 12 Hz (0.1 mm, 2 mrad). The fork points forward and up.
 std::vector<motion::PoseSample> synthetic_hand(unsigned seed, double duration);
 
+/// The samples of a file `t x y z qx qy qz qw`; none if it is not there.
+std::vector<motion::PoseSample> read_motion(const std::string& path);
+
 /// The cases of the package's own: soft, underdamped, stiff, heavy with large bends, and each family alone, each with
 /// every shape model; a few of them where `quick`.
 std::vector<RodCase> synthetic_cases(bool quick);

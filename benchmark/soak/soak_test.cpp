@@ -5,15 +5,16 @@
 #include <sstream>
 
 #include "spring_workbench/config/yaml_fields.h"
+#include "support/paths.h"
 
 namespace spring_workbench::benchmark {
 namespace {
 
 SoakResult short_soak(unsigned seed) {
   SoakOptions options;
-  options.scene = SPRING_WORKBENCH_SOURCE_DIR "/scenes/mini_world.urdf";
-  simulation::apply_settings(config::load_yaml_file(SPRING_WORKBENCH_SOURCE_DIR "/config/assembly.yaml"),
-                             "assembly.yaml", options.settings);
+  options.scene = test_support::checkout("scenes/mini_world.urdf");
+  simulation::apply_settings(config::load_yaml_file(test_support::checkout("config/assembly.yaml")), "assembly.yaml",
+                             options.settings);
   options.steps = 1000;
   options.seed = seed;
   std::ostringstream lines;

@@ -8,6 +8,7 @@
 
 #include "benchmark/report/html.h"
 #include "benchmark/report/page.h"
+#include "support/paths.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -59,7 +60,7 @@ struct Outcome {
 };
 
 Outcome report(const std::string& arguments) {
-  FILE* pipe = popen(("'" REPORT_EXECUTABLE "' " + arguments + " 2>&1").c_str(), "r");
+  FILE* pipe = popen(("'" + test_support::program("report") + "' " + arguments + " 2>&1").c_str(), "r");
   Outcome outcome{-1, {}};
   if (pipe == nullptr) return outcome;
   for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) outcome.output += static_cast<char>(c);

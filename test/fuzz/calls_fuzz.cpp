@@ -9,6 +9,7 @@
 #include "fuzz/targets.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/tools/tool.h"
+#include "support/paths.h"
 
 namespace spring_workbench::fuzz {
 namespace {
@@ -119,7 +120,7 @@ void call(Choices& next, simulation::Simulation& simulation, motion::PoseSample&
 }  // namespace
 
 void calls(std::string_view bytes) {
-  static const scene::Scene scene = scene::load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf");
+  static const scene::Scene scene = scene::load_scene(test_support::checkout("scenes/single_box.urdf"));
   constexpr int most_calls = 60;
   Choices next(bytes);
   simulation::SimulationSettings settings;

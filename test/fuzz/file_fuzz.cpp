@@ -7,6 +7,7 @@
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/motion_files/motion_file.h"
 #include "spring_workbench/motion_files/scripted_source.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace spring_workbench::fuzz {
@@ -66,7 +67,7 @@ void motion(std::string_view bytes) {
 }
 
 void settings(std::string_view bytes) {
-  static const scene::Scene scene = scene::load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf");
+  static const scene::Scene scene = scene::load_scene(test_support::checkout("scenes/single_box.urdf"));
   folder().write("settings.yaml", std::string(bytes));
   accepted([] {
     simulation::SimulationSettings chosen;

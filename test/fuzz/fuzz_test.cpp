@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "fuzz/targets.h"
+#include "support/paths.h"
 
 namespace spring_workbench::fuzz {
 namespace {
@@ -23,8 +24,7 @@ std::ostream& operator<<(std::ostream& out, const Target& target) { return out <
 
 std::vector<std::string> corpus(const std::string& name) {
   std::set<std::filesystem::path> paths;  // in order
-  for (const auto& entry :
-       std::filesystem::directory_iterator(SPRING_WORKBENCH_SOURCE_DIR "/test/fuzz/corpus/" + name)) {
+  for (const auto& entry : std::filesystem::directory_iterator(test_support::checkout("test/fuzz/corpus/") + name)) {
     paths.insert(entry.path());
   }
   std::vector<std::string> inputs;

@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Every recorded motion and every bag of ../shared/data through `replay`, which feeds a hand as the nodes do, with
-an object held: nothing that is no number, and speed, acceleration and wrench within limits, through every gap, flip
-and jump.
+"""A hand by formula, spoilt on purpose, and every recorded motion and bag of a folder, through `replay`, which feeds a
+hand as the nodes do, with an object held: nothing that is no number, and speed, acceleration and wrench within limits,
+through every gap, flip and jump.
 
-Usage: recordings_test.py REPLAY SHARED_DIR SCENE
+Usage: recordings_test.py REPLAY SCENE [FOLDER of the recordings]
 """
 import csv
 import glob
@@ -15,8 +15,9 @@ import sys
 import tempfile
 import unittest
 
-REPLAY, SHARED, SCENE = sys.argv[1:4]
-SKIPPED = 77  # exit status that ctest takes for a skipped test
+REPLAY, SCENE = sys.argv[1:3]
+RECORDED = sys.argv[3] if len(sys.argv) > 3 else None
+recorded = unittest.skipUnless(RECORDED, "SPRING_WORKBENCH_TEST_DATA is not given")
 
 # The hands of the recordings move at up to 2.5 m/s; catching up adds 0.5 m/s. The object on its fork may swing faster
 # than the hand by the fork's own motion. Mass 1 kg: the weight is 9.81 N.
@@ -98,8 +99,9 @@ class Recordings(unittest.TestCase):
         self.assertLess(hardest_turn, HARDEST_TURN)
         return summary
 
+    @recorded
     def test_every_motion(self):
-        files = sorted(glob.glob(SHARED + "/data/motions/*.tum"))
+        files = sorted(glob.glob(RECORDED + "/data/motions/*.tum"))
         self.assertGreaterEqual(len(files), 8)
         for path in files:
             with self.subTest(path=path):
@@ -109,10 +111,32 @@ class Recordings(unittest.TestCase):
                 self.assertEqual(summary["dropouts"], DROPOUTS.get(name, 0))
                 self.assertEqual(summary["reacquisitions"], DROPOUTS.get(name, 0))
 
-    def test_a_lost_hand_lets_go(self):
+    def write(self, samples):
+        path = os.path.join(self.folder.name, "hand.tum")
+        with open(path, "w") as file:
+            file.writelines(" ".join(map(str, words)) + "\n" for words in samples)
+        return path
+
+    def test_a_hand_that_is_lost_lets_go(self):
+        hand = hand_by_formula()
+        del hand[1500:1700]
         summary = self.check(
             "--motion",
-            SHARED + "/data/motions/tumvi_room2_gaps_60s.tum",
+            self.write(hand),
+            "--set",
+            "input.on_loss=release",
+            "--set",
+            "input.loss_timeout=1.0",
+            may_lose=True,
+        )
+        self.assertEqual(summary["dropouts"], 1)
+        self.assertEqual(summary["losses"], 1)
+
+    @recorded
+    def test_a_recorded_hand_that_is_lost_lets_go(self):
+        summary = self.check(
+            "--motion",
+            RECORDED + "/data/motions/tumvi_room2_gaps_60s.tum",
             "--set",
             "input.on_loss=release",
             "--set",
@@ -121,8 +145,9 @@ class Recordings(unittest.TestCase):
         )
         self.assertGreaterEqual(summary["losses"], 1)
 
+    @recorded
     def test_every_bag(self):
-        files = sorted(glob.glob(SHARED + "/data/bags/*.bag"))
+        files = sorted(glob.glob(RECORDED + "/data/bags/*.bag"))
         self.assertEqual({os.path.basename(f) for f in files}, set(BAGS))
         for path in files:
             expected = BAGS[os.path.basename(path)]
@@ -135,11 +160,8 @@ class Recordings(unittest.TestCase):
                     self.assertIn(expected, done.stderr)
                     self.assertFalse(os.path.exists(out))
 
-    def test_every_ugliness_in_one_hand(self):
-        """A recording spoilt on purpose: lone outliers, flips, jumps to the origin and away, a gap."""
-        source = SHARED + "/data/motions/vicon_handheld_primesense1_60s.tum"
-        with open(source) as file:
-            lines = [line.split() for line in file if line.strip() and not line.startswith("#")][:3000]
+    def check_spoilt(self, lines):
+        """Lone outliers, flips, jumps to the origin and away, a gap."""
         for k, words in enumerate(lines):
             if k % 97 == 50:
                 words[1] = str(float(words[1]) + 1.5)
@@ -150,19 +172,34 @@ class Recordings(unittest.TestCase):
             if k >= 2000:
                 words[2] = str(float(words[2]) + 2.0)
         del lines[1500:1700]
-        path = os.path.join(self.folder.name, "spoilt.tum")
-        with open(path, "w") as file:
-            file.writelines(" ".join(words) + "\n" for words in lines)
-        summary = self.check("--motion", path)
+        summary = self.check("--motion", self.write(lines))
         left_out = summary["rejected"]
         self.assertGreater(left_out["too fast"], 20)
         self.assertEqual(left_out["out of view"], 100)
         self.assertEqual(summary["dropouts"], 2)
         self.assertGreaterEqual(summary["reacquisitions"], 3)
 
+    def test_every_ugliness_in_one_hand(self):
+        self.check_spoilt(hand_by_formula())
+
+    @recorded
+    def test_every_ugliness_in_one_recorded_hand(self):
+        with open(RECORDED + "/data/motions/vicon_handheld_primesense1_60s.tum") as file:
+            lines = [line.split() for line in file if line.strip() and not line.startswith("#")][:3000]
+        self.check_spoilt(lines)
+
+
+def hand_by_formula():
+    """30 s at 100 Hz: slow sines of 0.2 m and 0.5 rad, away from the origin."""
+    lines = []
+    for k in range(3000):
+        t = 0.01 * k
+        angle = 0.5 * math.sin(0.9 * t)
+        place = [0.5 + 0.2 * math.sin(1.3 * t), 0.2 * math.sin(1.7 * t + 1.0), 0.4 + 0.1 * math.sin(1.1 * t)]
+        s, c = math.sin(angle / 2), math.cos(angle / 2)
+        lines.append(list(map(str, [t, *place, 0.6 * s, 0.0, 0.8 * s, c])))
+    return lines
+
 
 if __name__ == "__main__":
-    if not os.path.isdir(SHARED + "/data"):
-        print("skipped: no recordings in " + SHARED)
-        sys.exit(SKIPPED)
     unittest.main(argv=sys.argv[:1])

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace spring_workbench {
@@ -82,7 +83,8 @@ class Replay : public testing::Test {
 
   /// Runs `replay` in the test's folder; `arguments` as typed into a shell.
   Outcome run(const std::string& arguments) const {
-    const std::string command = "cd '" + path(".") + "' && '" REPLAY_EXECUTABLE "' " + arguments + " >stdout 2>stderr";
+    const std::string command =
+        "cd '" + path(".") + "' && '" + test_support::program("replay") + "' " + arguments + " >stdout 2>stderr";
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content(path("stdout")), content(path("stderr"))};
   }

@@ -99,8 +99,8 @@ TEST_F(Replay, RepeatedStampsAreLeftOutAndCounted) {
 TEST_F(Replay, APipeIsWrittenInPlace) {
   ASSERT_EQ(mkfifo(path("pipe.csv").c_str(), 0600), 0);
   ASSERT_EQ(run("--scene box.urdf --motion hand.tum --out a.csv").status, 0);
-  const std::string command = "cd '" + path(".") +
-                              "' && { cat pipe.csv >read.csv & '" REPLAY_EXECUTABLE
+  const std::string command = "cd '" + path(".") + "' && { cat pipe.csv >read.csv & '" +
+                              test_support::program("replay") +
                               "' --scene box.urdf --motion hand.tum --out pipe.csv >stdout; wait; }";
   ASSERT_EQ(std::system(command.c_str()), 0);
   EXPECT_TRUE(std::filesystem::is_fifo(path("pipe.csv")));
@@ -179,36 +179,44 @@ TEST_F(Replay, BadFilesAreRefusedNamingTheirLine) {
   }
 }
 
-/// Every recorded hand holds the box from first to last without anything that is not finite. Under a sanitizer the
-/// first 500 lines of each: refused steps, a few there and 1,287 in all of a hand that leaps (falcon5), take more than
-/// eleven minutes with it.
-TEST_F(Replay, RecordedMotionsRun) {
+/// Hands of a folder that hold the box from first to last without anything that is not finite. Under a sanitizer the
+/// first 500 lines of each.
+class FoldersOfMotions : public Replay {
+ protected:
+  void expect_finite(const std::string& folder, int least_outputs) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  constexpr int most_lines = 500, least_outputs = 100;
+    constexpr int most_lines = 500;
+    least_outputs = std::min(least_outputs, 100);
 #else
-  constexpr int most_lines = std::numeric_limits<int>::max(), least_outputs = 1000;
+    constexpr int most_lines = std::numeric_limits<int>::max();
 #endif
-  const std::string motions = std::string(SPRING_WORKBENCH_SHARED_DIR) + "/data/motions/";
-  if (!std::filesystem::exists(motions)) GTEST_SKIP() << "no motions in " << motions;
-  for (const auto& entry : std::filesystem::directory_iterator(motions)) {
-    if (entry.path().extension() != ".tum") continue;
-    SCOPED_TRACE(entry.path().filename());
-    std::ifstream recorded(entry.path());
-    std::string motion;
-    int lines = 0;
-    for (std::string line; lines < most_lines && std::getline(recorded, line); ++lines) motion += line + "\n";
-    folder_.write("recorded.tum", motion);
-    const Outcome outcome =
-        run("--scene box.urdf --motion recorded.tum --set grasp.object=box --set start.follow=true "
-            "--set contact=none --out run.csv");
-    ASSERT_EQ(outcome.status, 0) << outcome.err;
-    const std::string objects = content(path("run.csv"));
-    EXPECT_EQ(objects.find("nan"), std::string::npos);
-    EXPECT_EQ(objects.find("inf"), std::string::npos);
-    EXPECT_EQ(outcome.out.find("nan"), std::string::npos) << outcome.out;
-    EXPECT_EQ(outcome.out.find("inf"), std::string::npos) << outcome.out;
-    EXPECT_GT(summary_of(outcome)["outputs"].as<int>(), least_outputs);
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() != ".tum") continue;
+      SCOPED_TRACE(entry.path().filename());
+      std::ifstream file(entry.path());
+      std::string motion;
+      int lines = 0;
+      for (std::string line; lines < most_lines && std::getline(file, line); ++lines) motion += line + "\n";
+      folder_.write("recorded.tum", motion);
+      const Outcome outcome =
+          run("--scene box.urdf --motion recorded.tum --set grasp.object=box --set start.follow=true "
+              "--set contact=none --out run.csv");
+      ASSERT_EQ(outcome.status, 0) << outcome.err;
+      for (const std::string& text : {content(path("run.csv")), outcome.out}) {
+        EXPECT_EQ(text.find("nan"), std::string::npos);
+        EXPECT_EQ(text.find("inf"), std::string::npos);
+      }
+      EXPECT_GT(summary_of(outcome)["outputs"].as<int>(), least_outputs);
+    }
   }
+};
+
+TEST_F(FoldersOfMotions, HandsByFormulaRun) { expect_finite(test_support::checkout("test/data/reference"), 49); }
+
+TEST_F(FoldersOfMotions, RecordedHandsRun) {
+  const std::string folder = test_support::extra_data("data/motions");
+  if (folder.empty()) GTEST_SKIP() << "SPRING_WORKBENCH_TEST_DATA is not given";
+  expect_finite(folder, 1000);
 }
 
 }  // namespace

@@ -5,11 +5,12 @@
 #include "spring_workbench/assembly/trial.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/input_error.h"
+#include "support/paths.h"
 
 namespace spring_workbench::assembly {
 namespace {
 
-const std::string mini_world = SPRING_WORKBENCH_SOURCE_DIR "/scenes/mini_world.urdf";
+const std::string mini_world = test_support::checkout("scenes/mini_world.urdf");
 
 simulation::SimulationSettings assembly_settings() {
   simulation::SimulationSettings settings;

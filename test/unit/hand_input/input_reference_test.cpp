@@ -4,12 +4,13 @@
 #include <string>
 
 #include "spring_workbench/hand_input/settings.h"
+#include "support/paths.h"
 
 namespace spring_workbench::hand_input {
 namespace {
 
 TEST(InputReference, SettingsAreThoseOfTheCode) {
-  std::ifstream file(SPRING_WORKBENCH_SOURCE_DIR "/doc/reference.md");
+  std::ifstream file(test_support::checkout("doc/reference.md"));
   std::string given, right;
   for (std::string line; std::getline(file, line);) {
     if (line.rfind("| `input.", 0) == 0) given += line + "\n";

@@ -7,6 +7,7 @@
 
 #include "spring_workbench/scene/scene.h"
 #include "support/meshes.h"
+#include "support/paths.h"
 
 namespace spring_workbench::manipulation {
 namespace {
@@ -35,7 +36,7 @@ class MarkersOfALift : public testing::Test {
     return builder_.build(simulation_, header);
   }
 
-  simulation::Simulation simulation_{scene::load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf"),
+  simulation::Simulation simulation_{scene::load_scene(test_support::checkout("scenes/single_box.urdf")),
                                      simulation::SimulationSettings()};
   MarkerBuilder builder_{"rod", 2.0};
   double t_ = 0.0;
@@ -152,7 +153,7 @@ TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
 }
 
 TEST(Markers, AMeshIsSentByItsFile) {
-  scene::Scene scene = scene::load_scene(SPRING_WORKBENCH_SOURCE_DIR "/scenes/single_box.urdf");
+  scene::Scene scene = scene::load_scene(test_support::checkout("scenes/single_box.urdf"));
   geometry::TriangleMesh mesh = *test_support::box_mesh(Vector3d(0.2, 0.1, 0.1));
   mesh.uri = "package://somewhere/meshes/box.stl";
   mesh.scale = Vector3d(0.5, 1.0, 2.0);

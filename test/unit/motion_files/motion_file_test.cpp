@@ -10,6 +10,7 @@
 
 #include "spring_workbench/motion_files/open_motion.h"
 #include "spring_workbench/validation/input_error.h"
+#include "support/paths.h"
 #include "support/temporary_folder.h"
 
 namespace spring_workbench::motion_files {
@@ -138,32 +139,37 @@ TEST(RecordedSource, GivesEverySampleOnce) {
   EXPECT_FALSE(source.next());
 }
 
-/// Every recorded motion can be read, and interpolated without anything that is not finite.
+/// The motion in a file can be interpolated without anything that is not finite; its end [s].
+double end_of_finite_motion(const std::string& path) {
+  SCOPED_TRACE(path);
+  motion::PoseTrack track;
+  const auto source = open_motion(path);
+  while (const auto sample = source->next()) track.push(*sample);
+  EXPECT_EQ(track.begin(), 0.0);
+  for (double t = 0.0; t < track.end(); t += 0.007) {
+    const motion::MotionState state = track.segment(t).at(t);
+    const bool finite = state.X.matrix().allFinite() && state.velocity.linear.allFinite() &&
+                        state.velocity.angular.allFinite() && state.acceleration.linear.allFinite() &&
+                        state.acceleration.angular.allFinite();
+    EXPECT_TRUE(finite) << "at t = " << t;
+    if (!finite) break;
+  }
+  return track.end();
+}
+
+TEST(MotionsByFormula, GiveFiniteMotion) {
+  for (const char* name : {"motion_swing", "motion_reach", "motion_reach_1s"}) {
+    EXPECT_GE(end_of_finite_motion(test_support::checkout("test/data/reference/") + name + ".tum"), 1.0);
+  }
+}
+
 TEST(RecordedMotions, GiveFiniteMotion) {
-  const std::string folder = std::string(SPRING_WORKBENCH_SHARED_DIR) + "/data/motions/";
-  const char* const names[] = {"falcon5_unsorted_stamps",
-                               "plus_probe_watertank_updown",
-                               "plus_stylus_8landmarks_60s",
-                               "tango_hard_caligula_60s",
-                               "tum_fr1_xyz",
-                               "tumvi_room2_gaps_60s",
-                               "tumvi_room5_fast_45s",
-                               "vicon_handheld_primesense1_60s"};
-  if (!std::ifstream(folder + names[0] + ".tum")) GTEST_SKIP() << "no recorded motions in " << folder;
-  for (const std::string name : names) {
-    SCOPED_TRACE(name);
-    motion::PoseTrack track;
-    const auto source = open_motion(folder + name + ".tum");
-    while (const auto sample = source->next()) track.push(*sample);
-    EXPECT_EQ(track.begin(), 0.0);
-    EXPECT_GT(track.end(), 20.0);
-    for (double t = 0.0; t < track.end(); t += 0.007) {
-      const motion::MotionState state = track.segment(t).at(t);
-      ASSERT_TRUE(state.X.matrix().allFinite() && state.velocity.linear.allFinite() &&
-                  state.velocity.angular.allFinite() && state.acceleration.linear.allFinite() &&
-                  state.acceleration.angular.allFinite())
-          << "at t = " << t;
-    }
+  const std::string folder = test_support::extra_data("data/motions/");
+  if (folder.empty()) GTEST_SKIP() << "SPRING_WORKBENCH_TEST_DATA is not given";
+  for (const char* name : {"falcon5_unsorted_stamps", "plus_probe_watertank_updown", "plus_stylus_8landmarks_60s",
+                           "tango_hard_caligula_60s", "tum_fr1_xyz", "tumvi_room2_gaps_60s", "tumvi_room5_fast_45s",
+                           "vicon_handheld_primesense1_60s"}) {
+    EXPECT_GT(end_of_finite_motion(folder + name + ".tum"), 20.0);
   }
 }
 

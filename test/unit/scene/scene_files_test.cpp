@@ -1,4 +1,4 @@
-// Every scene that is shipped, and every URDF of the shared collection.
+// Every scene that is shipped, and a collection of other people's URDFs; load_scene_test.cpp has each of its defects.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -12,14 +12,15 @@
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/validation/input_error.h"
+#include "support/paths.h"
 
 namespace spring_workbench::scene {
 namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path scenes = fs::path(SPRING_WORKBENCH_SOURCE_DIR) / "scenes";
-const fs::path collection = fs::path(SPRING_WORKBENCH_SHARED_DIR) / "data" / "urdf";
+const fs::path scenes = test_support::checkout("scenes");
+const fs::path collection = test_support::extra_data("data/urdf");
 
 /// Whatever is loaded can be simulated.
 void expect_sound(const Scene& scene) {
@@ -105,7 +106,7 @@ TEST(ShippedScenes, TheMiniWorldFitsIntoTheBlueBox) {
 class Collection : public testing::Test {
  protected:
   void SetUp() override {
-    if (!fs::exists(collection / "README.md")) GTEST_SKIP() << "no URDF collection at " << collection;
+    if (collection.empty()) GTEST_SKIP() << "SPRING_WORKBENCH_TEST_DATA is not given";
     const char* before = std::getenv("ROS_PACKAGE_PATH");
     saved_ = before != nullptr ? before : "";
     setenv("ROS_PACKAGE_PATH", collection.c_str(), 1);

@@ -1,4 +1,4 @@
-// Every well-formed URDF of the shared collection in the hand.
+// Every object of the shipped scenes and of a collection of other people's URDFs in the hand.
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -9,13 +9,12 @@
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/validation/input_error.h"
 #include "support/bench_scenes.h"
+#include "support/paths.h"
 
 namespace spring_workbench::simulation {
 namespace {
 
 namespace fs = std::filesystem;
-
-const fs::path collection = fs::path(SPRING_WORKBENCH_SHARED_DIR) / "data" / "urdf";
 
 /// Grasped at its centre by a calibrated fork, lifted 0.2 m, put down and let go.
 void lift_and_put_down(const scene::Scene& scene, const scene::Body& body) {
@@ -47,11 +46,10 @@ void lift_and_put_down(const scene::Scene& scene, const scene::Body& body) {
   EXPECT_LT(object(simulation, body.name).X_WO.translation().z(), start.z() + 0.02);
 }
 
-TEST(RealUrdfs, EveryMovableLinkIsGraspedLiftedAndPutDown) {
-  if (!fs::exists(collection / "README.md")) GTEST_SKIP() << "no URDF collection at " << collection;
-  setenv("ROS_PACKAGE_PATH", collection.c_str(), 1);
+/// Every movable body of every URDF below `folder`; how many there were.
+int lift_all(const fs::path& folder) {
   int held = 0;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(collection)) {
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".urdf") continue;
     SCOPED_TRACE(entry.path().string());
     scene::Scene scene;
@@ -66,7 +64,18 @@ TEST(RealUrdfs, EveryMovableLinkIsGraspedLiftedAndPutDown) {
       lift_and_put_down(scene, body);
     }
   }
-  EXPECT_GE(held, 10);
+  return held;
+}
+
+TEST(RealUrdfs, EveryObjectOfTheShippedScenesIsGraspedLiftedAndPutDown) {
+  EXPECT_GE(lift_all(test_support::checkout("scenes")), 8);
+}
+
+TEST(RealUrdfs, EveryMovableLinkOfOthersIsGraspedLiftedAndPutDown) {
+  const std::string collection = test_support::extra_data("data/urdf");
+  if (collection.empty()) GTEST_SKIP() << "SPRING_WORKBENCH_TEST_DATA is not given";
+  setenv("ROS_PACKAGE_PATH", collection.c_str(), 1);
+  EXPECT_GE(lift_all(collection), 10);
 }
 
 }  // namespace

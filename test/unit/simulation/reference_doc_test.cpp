@@ -5,6 +5,7 @@
 #include <string>
 
 #include "spring_workbench/simulation/settings.h"
+#include "support/paths.h"
 
 namespace spring_workbench::simulation {
 namespace {
@@ -43,7 +44,7 @@ std::string settings_table() {
 }
 
 TEST(ReferenceDoc, SettingsAreThoseOfTheCode) {
-  const std::string text = whole_file(SPRING_WORKBENCH_SOURCE_DIR "/doc/reference.md");
+  const std::string text = whole_file(test_support::checkout("doc/reference.md"));
   ASSERT_NE(text, "") << "doc/reference.md cannot be read";
   const std::string right = settings_table();
   EXPECT_TRUE(block_between_markers(text) == right) << "put this between the settings markers of doc/reference.md:\n"

@@ -12,13 +12,14 @@
 #include "spring_workbench/ros/tracker_driver/tracker_driver.h"
 #include "spring_workbench/ros/tracker_driver/tracker_parameters.h"
 #include "spring_workbench/validation/input_error.h"
+#include "support/paths.h"
 
 namespace spring_workbench::tracker_driver {
 namespace {
 
 /// The lines of doc/reference.md under a heading.
 std::vector<std::string> section(const std::string& heading) {
-  std::ifstream file(SPRING_WORKBENCH_SOURCE_DIR "/doc/reference.md");
+  std::ifstream file(test_support::checkout("doc/reference.md"));
   std::vector<std::string> lines;
   bool inside = false;
   for (std::string line; std::getline(file, line);) {
