@@ -1,0 +1,125 @@
+#!/usr/bin/env python3
+"""Numbers in documents that come from a table of benchmark/results carry a marker right behind them, invisible when the
+document is shown:
+
+    in 12 µm<!-- max penetration_um of contact_extremes.csv where extreme=stack of ten --> at most
+
+`the`, `max`, `min` or `mean` of a column, over the rows where all the cells named are as said (numbers as numbers);
+`the` wants one row alone. `times X` at the end gives another unit. The number is the last one before the marker, and
+must be what the table says, rounded to as many digits as it has.
+
+Usage: numbers.py            tells numbers that are stale, and markers that say nothing; status 1 where there are any
+       numbers.py --write    puts the tables' numbers in"""
+import csv
+import math
+import pathlib
+import re
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+RESULTS = "benchmark/results"
+DOCUMENTS = ["README.md", "benchmark/README.md", "doc/*.md"]
+MARKER = re.compile(
+    r"<!--\s*(the|max|min|mean)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?(?:\s+times\s+([-+.\deE]+))?\s*-->"
+)
+NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?")
+
+
+class Stale(Exception):
+    """What is wrong with a marker."""
+
+
+def rows_of(path):
+    if not path.is_file():
+        raise Stale(f"no table {path.name}")
+    with path.open(encoding="utf-8", newline="") as file:
+        return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def same(cell, wanted):
+    try:
+        return float(cell) == float(wanted)
+    except ValueError:
+        return cell == wanted
+
+
+def value_of(marker, results):
+    """The number that a marker (a match of MARKER) stands for."""
+    kind, column, table, where, times = marker.groups()
+    rows = rows_of(results / table)
+    for condition in filter(None, (part.strip() for part in (where or "").split(","))):
+        key, _, wanted = condition.partition("=")
+        if rows and key not in rows[0]:
+            raise Stale(f"{table} has no column {key}")
+        rows = [row for row in rows if same(row[key], wanted)]
+    if not rows:
+        raise Stale(f"no such row in {table}")
+    if column not in rows[0]:
+        raise Stale(f"{table} has no column {column}")
+    if kind == "the" and len(rows) > 1:
+        raise Stale(f"{len(rows)} such rows in {table}, not one")
+    try:
+        values = [float(row[column]) for row in rows]
+    except ValueError as error:
+        raise Stale(f"{column} of {table} is no number") from error
+    of_kind = {"the": max, "max": max, "min": min, "mean": lambda v: sum(v) / len(v)}
+    return of_kind[kind](values) * float(times or 1.0)
+
+
+def written_like(text, value):
+    """`value` with as many digits as the number `text` has."""
+    mantissa, is_power, _ = text.partition("e")
+    decimals = len(mantissa.partition(".")[2])
+    if is_power:
+        if value == 0.0:
+            return "0"
+        digits, _, exponent = f"{value:.{decimals}e}".partition("e")
+        return f"{digits}e{int(exponent)}"
+    if not math.isfinite(value):
+        raise Stale("the table's number is not finite")
+    return f"{value:,.{decimals}f}" if "," in text else f"{value:.{decimals}f}"
+
+
+def checked(text, results):
+    """(the text with the tables' numbers, what is wrong with it line by line)."""
+    lines, wrong = [], []
+    for number, line in enumerate(text.split("\n"), 1):
+        done, at = "", 0
+        for marker in MARKER.finditer(line):
+            before = line[at : marker.start()]
+            at = marker.end()
+            found = list(NUMBER.finditer(before))
+            try:
+                if not found:
+                    raise Stale("no number before the marker")
+                now = written_like(found[-1].group(), value_of(marker, results))
+                if now != found[-1].group():
+                    wrong.append(f"{number}: {found[-1].group()} is stale: {now} by {marker.group()}")
+                    before = before[: found[-1].start()] + now + before[found[-1].end() :]
+            except Stale as what:
+                wrong.append(f"{number}: {what}: {marker.group()}")
+            done += before + marker.group()
+        lines.append(done + line[at:])
+        if "<!--" in MARKER.sub("", line) and ".csv" in MARKER.sub("", line).partition("<!--")[2]:
+            wrong.append(f"{number}: a marker that is not understood: {line.strip()}")
+    return "\n".join(lines), wrong
+
+
+def main(arguments):
+    if arguments not in ([], ["--write"]):
+        sys.exit(__doc__)
+    left = 0
+    for path in sorted(path for pattern in DOCUMENTS for path in ROOT.glob(pattern)):
+        text = path.read_text(encoding="utf-8")
+        new, wrong = checked(text, ROOT / RESULTS)
+        if arguments and new != text:
+            path.write_text(new, encoding="utf-8")
+            _, wrong = checked(new, ROOT / RESULTS)
+        for what in wrong:
+            print(f"{path.relative_to(ROOT)}:{what}")
+        left += len(wrong)
+    return 1 if left else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,84 @@
+#!/usr/bin/python3
+"""Every number in a document that has a marker is what its table says (benchmark/report/numbers.py)."""
+import importlib.util
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PROGRAM = ROOT / "benchmark/report/numbers.py"
+spec = importlib.util.spec_from_file_location("numbers_of_documents", PROGRAM)
+numbers = importlib.util.module_from_spec(spec)
+spec.loader.exec_module(numbers)
+
+TABLE = '# machine: any\nkind,"depth [um]",n\nstack,12.4,3\nstack,9.6,3e0\nwall,21,12345.6\n'
+
+
+class Documents(unittest.TestCase):
+    def test_are_up_to_date(self):
+        run = subprocess.run([sys.executable, PROGRAM], capture_output=True, text=True, check=False)
+        self.assertEqual(run.returncode, 0, run.stdout + run.stderr)
+
+    def test_have_markers(self):
+        marked = sum(
+            len(numbers.MARKER.findall(path.read_text(encoding="utf-8")))
+            for pattern in numbers.DOCUMENTS
+            for path in ROOT.glob(pattern)
+        )
+        self.assertGreaterEqual(marked, 20)
+
+
+class Markers(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.results = pathlib.Path(folder.name)
+        (self.results / "t.csv").write_text(TABLE, encoding="utf-8")
+
+    def check(self, text):
+        return numbers.checked(text, self.results)
+
+    def test_right_numbers_are_left(self):
+        for text in (
+            "12 µm<!-- max depth [um] of t.csv where kind=stack --> deep",
+            "at 9.6 <!-- min depth [um] of t.csv -->",
+            "11.0 <!-- mean depth [um] of t.csv where kind=stack -->",
+            "| 2.1e-5 m <!-- the depth [um] of t.csv where kind=wall times 1e-6 --> |",
+            "12,346 <!-- the n of t.csv where kind=wall -->",
+            "3 of them: 10 <!-- the depth [um] of t.csv where depth [um]=9.6, n=3 -->",
+            "a remark <!-- without a table --> 5",
+        ):
+            self.assertEqual(self.check(text), (text, []))
+
+    def test_stale_numbers_are_told_and_mended(self):
+        text = (
+            "1 and 13 µm<!-- max depth [um] of t.csv where kind=stack -->, "
+            "2.0e-5<!-- max depth [um] of t.csv times 1e-6 -->"
+        )
+        mended, wrong = self.check("first line\n" + text)
+        self.assertEqual(len(wrong), 2)
+        self.assertTrue(all(what.startswith("2: ") for what in wrong), wrong)
+        self.assertEqual(mended, "first line\n" + text.replace("13 µm", "12 µm").replace("2.0e-5", "2.1e-5"))
+        self.assertEqual(self.check(mended), (mended, []))
+
+    def test_markers_that_say_nothing_are_told(self):
+        for marker, word in (
+            ("<!-- the depth [um] of t.csv where kind=stack -->", "not one"),
+            ("<!-- max depth [um] of none.csv -->", "no table"),
+            ("<!-- max width of t.csv -->", "no column width"),
+            ("<!-- max n of t.csv where colour=red -->", "no column colour"),
+            ("<!-- max n of t.csv where kind=pile -->", "no such row"),
+            ("<!-- max kind of t.csv -->", "no number"),
+            ("<!-- largest n of t.csv -->", "not understood"),
+        ):
+            text = "7 " + marker
+            mended, wrong = self.check(text)
+            self.assertEqual(mended, text)
+            self.assertIn(word, "".join(wrong), marker)
+        self.assertIn("no number before", "".join(self.check("<!-- max n of t.csv -->")[1]))
+
+
+if __name__ == "__main__":
+    unittest.main()
