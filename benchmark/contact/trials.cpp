@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "benchmark/contact/bodies.h"
+#include "benchmark/contact/drops.h"
 #include "benchmark/contact/scale.h"
 #include "benchmark/contact/wild_motions.h"
 #include "spring_workbench/validation/number_rule.h"
@@ -136,12 +137,15 @@ void run_contact_trials(const std::vector<std::string>& arguments, std::ostream&
   } else if (what == "record" && arguments.size() == 6) {
     record(arguments[1], scenes_at(arguments, 2).front(), modes_at(arguments, 3).front(), count_at(arguments, 4, 0),
            count_at(arguments, 5, 0), out);
+  } else if (what == "drops" && arguments.size() <= 3) {
+    run_drops(count_at(arguments, 1, 100), count_at(arguments, 2, 0), out);
   } else if (what == "scale" && arguments.size() <= 2) {
     run_scale(count_at(arguments, 1, 10000), out);
   } else {
     validation::refuse(
         where, "arguments", what,
-        "wild [N [FIRST_SEED [SCENE [CONTACT]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED, or scale [MOST]");
+        "wild [N [FIRST_SEED [SCENE [CONTACT]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED, drops [N "
+        "[FIRST_SEED]], or scale [MOST]");
   }
 }
 

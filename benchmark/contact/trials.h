@@ -11,6 +11,7 @@ namespace spring_workbench::benchmark {
 ///     default contact_trials record FILE SCENE CONTACT FIRST LAST      each seed's result is added to FILE; those that
 ///     are there stay contact_trials scale [MOST]                              10, 100, … MOST (default 10,000) resting
 ///     objects in every contact mode
+///     contact_trials drops [N [FIRST_SEED]]   N (default 100) seeded things let go above the bench, in both modes
 /// Throws InputError for other arguments.
 void run_contact_trials(const std::vector<std::string>& arguments, std::ostream& out);
 

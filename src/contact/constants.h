@@ -14,6 +14,9 @@ constexpr double slack = 0.5 * touching;
 /// [m] by which the body is pushed to see what it touches. Goes into
 /// `StopContact.BetweenTwoSurfacesItSlidesAndStaysOutOfBoth`.
 constexpr double probe_depth = 1e-4;
+/// [m] by which a body that hits something is pushed to see what lands with it. Smaller: what lands almost flush lands
+/// with one corner after the other, and tumbles. Goes into `Drops.WithoutRestitutionNothingLeavesTheBench`.
+constexpr double landing_depth = 1e-3;
 /// [m]; contacts nearer to each other are one. Larger: small faces lose corners. Goes into
 /// `StopContact.APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling`.
 constexpr double same_point = 2e-3;

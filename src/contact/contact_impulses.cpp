@@ -7,7 +7,8 @@
 #include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::contact {
-void ContactStepper::collide(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce) const {
+void ContactStepper::collide(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce,
+                             double h) const {
   if (rows.empty()) return;
   const motion::MotionState s = body.object();
   std::vector<ContactRow> impulses;
@@ -17,10 +18,13 @@ void ContactStepper::collide(bodies::SteppedBody& body, const std::vector<Contac
     impulse.load_W.setZero();
     const Vector3d v = s.velocity.linear + s.velocity.angular.cross(impulse.lever_W);
     const double approach = v.dot(row.point.n_W);
-    const bool bounces = bounce == Bounce::of_materials && approach < -scene::rest_speed;
+    const double may_approach = std::max(0.0, row.gap) / h;
+    const bool hits = approach < -std::max(scene::rest_speed, may_approach);
     const double restitution =
-        bounces ? std::sqrt(material(body.index()).restitution * material(row.point.other).restitution) : 0.0;
-    impulse.gap = (1.0 + restitution) * approach;
+        bounce == Bounce::of_materials && hits
+            ? std::sqrt(material(body.index()).restitution * material(row.point.other).restitution)
+            : 0.0;
+    impulse.gap = restitution > 0.0 ? (1.0 + restitution) * approach : approach + may_approach;
     impulse.slip_W = v - approach * row.point.n_W;
     impulses.push_back(impulse);
   }
@@ -38,7 +42,7 @@ void ContactStepper::settle(bodies::SteppedBody& body, const std::vector<Contact
     if (!rolls) impulse.lever_W = of_point;
     const Vector3d v = s.velocity.linear + s.velocity.angular.cross(impulse.lever_W);
     impulse.load_W *= h;
-    impulse.gap = std::min(0.0, v.dot(n));
+    impulse.gap = v.dot(n) + std::max(0.0, impulse.gap) / h;
     impulse.slip_W = v - n * v.dot(n);
   }
   const Wrench given = total_load(impulses);

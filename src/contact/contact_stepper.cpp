@@ -57,7 +57,7 @@ void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, 
   }
 }
 
-void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<ContactRow>& rows,
+void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<ContactRow>& rows, double depth,
                              ContactOutcome& outcome) const {
   if (rows.empty()) return;
   const std::vector<ContactRow> before = std::move(rows);
@@ -71,12 +71,12 @@ void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<Contac
     if (known) continue;
     directions.push_back(n);
     RigidTransform pushed = X_WO;
-    pushed.translation() -= probe_depth * n;
+    pushed.translation() -= depth * n;
     std::vector<ContactRow> seen;
     add_contacts(body.index(), pushed, touching, seen, outcome);
     for (ContactRow& row_seen : seen) {
       if (row_seen.point.n_W.dot(n) < 0.9) continue;
-      row_seen.gap += probe_depth * row_seen.point.n_W.dot(n);
+      row_seen.gap += depth * row_seen.point.n_W.dot(n);
       row_seen.point.depth = -row_seen.gap;
       rows.push_back(row_seen);
     }
@@ -167,12 +167,14 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
     const bool known = at < work.size();
     if (known && work[at].gap <= row.gap + 0.1 * touching) continue;
     const Vector3d load = known ? work[at].load_W : Vector3d(Vector3d::Zero());
+    const Vector3d start = moved(X1, X0, row.point.p_W);
+    const Vector3d path = row.point.p_W - start;
+    // One that is open at first is for the sweep to find: what reverses would bounce from a load that holds it.
+    if (!known && body.reverses() && row.gap - path.dot(row.point.n_W) > closed) continue;
     if (!known) {
       work.emplace_back();
       starts.emplace_back();
     }
-    const Vector3d start = moved(X1, X0, row.point.p_W);
-    const Vector3d path = row.point.p_W - start;
     work[at] = row;
     work[at].load_W = load;
     // It presses there when it has come: at its own point, which an unloaded piece carries deep into the other.
@@ -271,8 +273,8 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
     left -= duration;
     substep = left;
   };
-  refresh(body, rows, outcome);
-  collide(body, rows, Bounce::of_materials);
+  refresh(body, rows, probe_depth, outcome);
+  collide(body, rows, Bounce::of_materials, h);
   for (int i = 0; i < most_tries && left > 1e-9 * h; ++i) {
     substep = std::min(substep, left);
     Piece tried = try_substep(body, substep, left == h ? may_go : on_the_way, rows, outcome);
@@ -281,15 +283,15 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
       left -= substep;
       substep *= tried.next;
       if (left > 1e-9 * h) {
-        refresh(body, rows, outcome);
-        collide(body, rows, Bounce::none);
+        refresh(body, rows, probe_depth, outcome);
+        collide(body, rows, Bounce::none, h);
       }
       continue;
     }
     if (!tried.solved) ++unsolved;
     if (unsolved <= most_unsolved && tried.next * substep > shortest_share * h) {
       substep *= tried.next;
-    } else if (tried.touched.empty() || !meet(body, tried.touched, rows)) {
+    } else if (tried.touched.empty() || !meet(body, tried.touched, h, rows, outcome)) {
       block(std::min(left, std::max(substep, blocked_share * h)));
     }
   }
@@ -300,8 +302,8 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
   return true;
 }
 
-bool ContactStepper::meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched,
-                          std::vector<ContactRow>& rows) const {
+bool ContactStepper::meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, double h,
+                          std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
   const motion::MotionState s = body.object();
   bool met = false;
   for (const ContactRow& row : touched) {
@@ -318,8 +320,10 @@ bool ContactStepper::meet(bodies::SteppedBody& body, const std::vector<ContactRo
     known->point = row.point;
     known->gap = std::min(known->gap, row.gap);
   }
-  if (met) collide(body, rows, Bounce::of_materials);
-  return met;
+  if (!met) return false;
+  refresh(body, rows, landing_depth, outcome);
+  collide(body, rows, Bounce::of_materials, h);
+  return true;
 }
 
 }  // namespace spring_workbench::contact

@@ -32,14 +32,16 @@ class ContactStepper {
 
  private:
   const scene::Material& material(std::size_t body) const;  ///< also of the bench
-  /// Contacts of the last step that are still there, with their gaps at the present pose.
-  void refresh(const bodies::SteppedBody& body, std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
+  /// Contacts that are still there, or within `depth` [m] along their normals, with their gaps at the present pose.
+  void refresh(const bodies::SteppedBody& body, std::vector<ContactRow>& rows, double depth,
+               ContactOutcome& outcome) const;
   /// Adds contacts found with the body at `X_WO`; gaps as they are there.
   void add_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance, std::vector<ContactRow>& rows,
                     ContactOutcome& outcome) const;
   /// Takes away the speed with which the contacts approach, perfectly inelastic or with the materials' restitution.
+  /// What is open may approach so fast that it closes in `h` [s]: so what lands with several points lands at once.
   enum class Bounce { none, of_materials };
-  void collide(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce) const;
+  void collide(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce, double h) const;
   /// Goes `h` on, from the start of the present trial, under loads that leave the rows' gaps closed or open. False when
   /// it did not come out free.
   bool advance_in_contact(bodies::SteppedBody& body, double h, std::vector<ContactRow>& rows,
@@ -69,7 +71,8 @@ class ContactStepper {
   /// it.
   void settle(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, double h) const;
   /// Adds those contacts that are new and takes away the speed with which they approach. False when none was.
-  bool meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, std::vector<ContactRow>& rows) const;
+  bool meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, double h, std::vector<ContactRow>& rows,
+            ContactOutcome& outcome) const;
   /// How far the way between two states, `h` apart, is from the straight one [m].
   double chord_deviation(std::size_t body, const motion::MotionState& begin, const motion::MotionState& end,
                          double h) const;

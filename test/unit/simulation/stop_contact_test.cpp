@@ -249,5 +249,34 @@ TEST(StopContact, ADroppedBoxBouncesByItsRestitution) {
   }
 }
 
+/// Lowered onto the bench, pressed by 100 N and moved along it without friction: short steps go the way of long ones,
+/// and nothing hovers.
+TEST(StopContact, ShortStepsGoTheWayOfLongOnes) {
+  const auto heights = [](double step) {
+    SimulationSettings settings;
+    settings.fork.stiffness = {2000.0, 2000.0, 20.0};
+    settings.dynamics.step = step;
+    settings.grasp.object = "box";
+    Simulation simulation(
+        scene_of({box("box", Vector3d(0.1, 0.06, 0.04), 1.0, Vector3d(0, 0, 0.03), 0.0)}, scene::ContactMode::stop),
+        settings);
+    const Vector3d above(0, 0, 0.03 + settings.fork.length);
+    push_move(simulation, 0.0, 0.1, above, above + Vector3d(0.02, 0, -0.06));
+    push_move(simulation, 0.12, 0.16, above + Vector3d(0.02, 0, -0.06), above + Vector3d(0.03, 0, -0.06));
+    std::vector<double> z;
+    for (int i = 1; i <= 7; ++i) {
+      EXPECT_EQ(simulation.advance(0.02 * i).steps_blocked, 0) << step;
+      z.push_back(object(simulation, "box").X_WO.translation().z());
+    }
+    return z;
+  };
+  const std::vector<double> long_steps = heights(0.02);
+  EXPECT_NEAR(long_steps.back(), 0.02, 3e-6);
+  for (const double step : {5e-3, 1e-3, 3e-4, 1e-4, 4e-5, 1e-5}) {
+    const std::vector<double> z = heights(step);
+    for (std::size_t i = 4; i < z.size(); ++i) EXPECT_NEAR(z[i], long_steps[i], 3e-5) << step << ' ' << i;
+  }
+}
+
 }  // namespace
 }  // namespace spring_workbench::simulation
