@@ -9,7 +9,7 @@ namespace {
 constexpr const char* kHeader =
     "scene,stiffness_factor,shape,method,hand,step,tolerance,own_reference,reference_uncertainty,error,angle_error,"
     "error_over_hand_amplitude,error_over_largest_deflection,wall_us_per_simulated_second,steps_per_second,"
-    "error_over_tolerance,finite,given_up";
+    "error_over_tolerance,model_error,finite,given_up";
 
 }  // namespace
 
@@ -26,8 +26,10 @@ void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out) {
           << row.error_over_largest_deflection << ',' << row.wall_us_per_simulated_second << ',' << row.steps_per_second
           << ',';
       if (row.error_over_tolerance > 0.0) out << row.error_over_tolerance;
+      out << ',';
+      if (row.own_reference) out << row.model_error;
     } else {
-      out << ",,,,,,";
+      out << ",,,,,,,";
     }
     out << ',' << row.finite << ',' << row.given_up << '\n';
   }

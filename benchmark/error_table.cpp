@@ -124,10 +124,13 @@ std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, co
   const bool own = !method.has_scene_law(scene);
   const ReferenceSolution measured_against =
       own ? own_solution(method, scene, plan.own_solution_steps, plan.time_limit) : reference;
+  const bool comparable = own && !measured_against.outputs.empty() && !reference.outputs.empty();
+  const double model_error = comparable ? output_error(scene, reference, measured_against.outputs) : 0.0;
   std::vector<ErrorRow> rows;
   for (const double setting : settings) {
     rows.push_back(error_row(method, scene, measured_against, setting, plan));
     rows.back().own_reference = own;
+    rows.back().model_error = model_error;
     if (line_is_over(rows, plan.longest_run)) break;
   }
   return rows;

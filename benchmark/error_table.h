@@ -42,6 +42,7 @@ struct ErrorRow {
   double wall_us_per_simulated_second = 0.0;
   double steps_per_second = 0.0;      ///< taken, per simulated second; 0: not known
   double error_over_tolerance = 0.0;  ///< of rods run to a tolerance: error_as_length() over it
+  double model_error = 0.0;           ///< with `own_reference`: how far that solution is from the exact one [as error]
   bool finite = false;
   bool given_up = false;  ///< of rods run to a tolerance: not finished in the time that was left for it
 };
@@ -50,7 +51,8 @@ template <typename Fields>
 void each_field(ErrorRow& r, Fields& fields) {
   fields(r.scene, r.stiffness_factor, r.shape, r.method, r.hand, r.step, r.tolerance, r.own_reference,
          r.reference_uncertainty, r.error, r.angle_error, r.error_over_hand_amplitude, r.error_over_largest_deflection,
-         r.wall_us_per_simulated_second, r.steps_per_second, r.error_over_tolerance, r.finite, r.given_up);
+         r.wall_us_per_simulated_second, r.steps_per_second, r.error_over_tolerance, r.model_error, r.finite,
+         r.given_up);
 }
 
 /// The limit to which a method converges: three runs with steps halved twice from `output_interval / steps`, by

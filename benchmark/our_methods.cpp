@@ -220,11 +220,14 @@ RunResult run_in_long_steps(const Scenario& scene, const std::string& name, doub
 
 class OurMethod : public Method {
  public:
-  OurMethod(std::string integrator, bool samples) : integrator_(std::move(integrator)), samples_(samples) {}
+  OurMethod(std::string integrator, bool samples)
+      : integrator_(std::move(integrator)), samples_(samples), solves_(solves_the_equation_of_motion(integrator_)) {}
 
   std::string name() const override { return integrator_; }
   std::string hand() const override { return samples_ ? "samples" : "function"; }
   bool dense() const override { return !samples_; }
+  /// A single spring is the same to all.
+  bool has_scene_law(const Scenario& scene) const override { return solves_ || scene.kind != SceneKind::six_dof; }
 
   RunResult run(const Scenario& given, double step) const override {
     const Scenario scene = with_length_of_its_slopes(given);
@@ -235,10 +238,15 @@ class OurMethod : public Method {
 
  private:
   std::string integrator_;
-  bool samples_;
+  bool samples_, solves_;
 };
 
 }  // namespace
+
+bool solves_the_equation_of_motion(const std::string& integrator) {
+  return dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(integrator, "benchmark", "integrator"))
+      ->solves_the_equation_of_motion();
+}
 
 std::vector<MethodPtr> our_methods() {
   std::vector<MethodPtr> methods;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "benchmark/method.h"
@@ -13,5 +14,8 @@ namespace spring_workbench::benchmark {
 /// loop holds all of it: the hand at the samples, the segments between them, the steps, the object's pose at the
 /// outputs.
 std::vector<MethodPtr> our_methods();
+
+/// Of an integrator of this package by its name. Throws InputError if there is none.
+bool solves_the_equation_of_motion(const std::string& integrator);
 
 }  // namespace spring_workbench::benchmark

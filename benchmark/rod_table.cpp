@@ -8,10 +8,12 @@
 #include <cstring>
 #include <utility>
 
+#include "benchmark/our_methods.h"
 #include "benchmark/parallel.h"
 #include "benchmark/rod_reference.h"
 #include "benchmark/simulated_rod.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/names.h"
 #include "spring_workbench/validation/run_in_child.h"
 
@@ -184,13 +186,40 @@ std::vector<RodReference> rod_references(const std::vector<std::pair<const RodCa
   return references;
 }
 
+/// Where a method of order one goes with its step, from two runs, the second with half the step.
+std::vector<RigidTransform> extrapolated(const RodRun& coarse, const RodRun& fine) {
+  std::vector<RigidTransform> limit = fine.X_WO;
+  for (std::size_t i = 0; i < limit.size(); ++i) {
+    const RigidTransform &X0 = coarse.X_WO[i], &X1 = fine.X_WO[i];
+    limit[i].translation() = 2.0 * X1.translation() - X0.translation();
+    limit[i].linear() = X1.linear() * math::exp_so3(math::log_so3(X0.linear().transpose() * X1.linear()));
+  }
+  return limit;
+}
+
+/// What an integrator that does not solve the equation of motion converges to. Its uncertainty is what the last
+/// halving has changed.
+RodReference own_limit(const RodCase& one, const std::string& shape, const std::string& integrator,
+                       const RodReference& exact) {
+  constexpr int kStepsPerOutput = 64;
+  RodRun runs[3];
+  for (int i = 0; i < 3; ++i) runs[i] = run_rod(one, shape, integrator, kOutputInterval / (kStepsPerOutput << i));
+  RodReference limit = exact;
+  limit.X_WO = extrapolated(runs[1], runs[2]);
+  limit.uncertainty = largest_distance(limit.X_WO, extrapolated(runs[0], runs[1])).position;
+  return limit;
+}
+
 class Line {
  public:
-  Line(const RodTablePlan& plan, const RodCase& one, const std::string& shape, const RodReference& reference,
+  Line(const RodTablePlan& plan, const RodCase& one, const std::string& shape, const RodReference& exact,
        const std::string& integrator)
-      : plan_(plan), case_(one), shape_(shape), reference_(reference), integrator_(integrator) {}
+      : plan_(plan), case_(one), shape_(shape), exact_(exact), integrator_(integrator) {}
 
-  std::vector<ErrorRow> rows() const {
+  std::vector<ErrorRow> rows() {
+    own_ = !solves_the_equation_of_motion(integrator_);
+    reference_ = own_ ? own_limit(case_, shape_, integrator_, exact_) : exact_;
+    model_error_ = largest_distance(reference_.X_WO, exact_.X_WO).position;
     std::vector<ErrorRow> all, rows;
     for (const int n : plan_.steps_per_output) {
       const double step = kOutputInterval / n;
@@ -220,6 +249,8 @@ class Line {
     r.shape = shape_;
     r.method = integrator_;
     r.hand = "samples";
+    r.own_reference = own_;
+    r.model_error = model_error_;
     r.reference_uncertainty = reference_.uncertainty;
     r.finite = run.finite;
     r.given_up = run.given_up;
@@ -237,8 +268,11 @@ class Line {
   const RodTablePlan& plan_;
   const RodCase& case_;
   const std::string& shape_;
-  const RodReference& reference_;
+  const RodReference& exact_;
   const std::string& integrator_;
+  RodReference reference_;    ///< what it is measured against
+  bool own_ = false;          ///< its own limit
+  double model_error_ = 0.0;  ///< how far that is from the exact one [m]
 };
 
 }  // namespace
@@ -250,7 +284,7 @@ std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto& [one, shape] = pairs[i];
     for (const std::string& integrator : validation::names<dynamics::IntegratorKind>()) {
-      const Line line(plan, *one, shape, references[i], integrator);
+      Line line(plan, *one, shape, references[i], integrator);
       const std::vector<ErrorRow> rows =
           units.rows<ErrorRow>(i, one->name + ' ' + shape + ' ' + integrator, [&] { return line.rows(); });
       all.insert(all.end(), rows.begin(), rows.end());

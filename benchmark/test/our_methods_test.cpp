@@ -60,10 +60,13 @@ TEST(OurMethods, EveryIntegratorIsThereWithBothHands) {
 TEST(OurMethods, EachConvergesToTheReferencesWithItsOrder) {
   for (const Scenario& scene : {stretch_scene(1e3), torsion_scene(10.0), six_dof_scene(1.0)}) {
     for (const MethodPtr& method : our_methods()) {
-      if (!knows_function(*method)) continue;
-      const double order = dynamics::make_integrator(
-                               validation::named<dynamics::IntegratorKind>(method->name(), "benchmark", "integrator"))
-                               ->order();
+      if (!knows_function(*method) || !method->has_scene_law(scene)) continue;
+      // With a single spring the paper's load, the mean over a step, gives one order more.
+      const double order = method->name() == "paper"
+                               ? 2
+                               : dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(
+                                                               method->name(), "benchmark", "integrator"))
+                                     ->order();
       const int steps = order < 2.0 ? 32 : (scene.kind == SceneKind::six_dof ? 8 : 4);
       const double coarse = error_at(*method, scene, steps), fine = error_at(*method, scene, 2 * steps);
       EXPECT_LT(coarse, 5e-3) << method->name() << " in " << scene.name;

@@ -54,7 +54,7 @@ struct Work {
     rods.cases[0].shapes.resize(2);
     rods.steps_per_output = {1, 2};
     rods.tolerances.clear();
-    map.integrators = {"rk4", "closed_form"};
+    map.integrators = {"rk4", "paper"};
     map.stiffness_factors = {1.0, 1e6, 1e12};
     map.masses = {1.0};
     map.hands = {MapHand::jump};

@@ -219,7 +219,11 @@ ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, dou
   const bool in_contact = !rows.empty();
   std::vector<ContactRow> solved = rows;
   body.save(start_);
-  const bool possible = in_contact ? advance_in_contact(body, h, solved, outcome) : body.advance(h, Wrench());
+  const auto is_free = [this, index](const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
+    return !collision_.may_touch(index, X0_WO, X1_WO, most_chord_deviation) ||
+           !collision_.sweep(index, X0_WO, X1_WO, touching, sweep_resolution, 1).hit;
+  };
+  const bool possible = in_contact ? advance_in_contact(body, h, solved, outcome) : body.advance_freely(h, is_free);
   if (!possible || !bodies::is_finite(body.object())) {
     body.restore(start_);
     outcome.refused = outcome.refused || !in_contact;

@@ -5,8 +5,9 @@
 #include <limits>
 
 #include "by_size.h"
-#include "exponential_collocation.h"
+#include "modal_decomposition.h"
 #include "spring_workbench/math/anderson_mixer.h"
+#include "spring_workbench/math/exponential_collocation.h"
 
 namespace spring_workbench::dynamics {
 namespace {
@@ -91,7 +92,7 @@ class Exponential::CoreOf final : public Core {
   }
 
  private:
-  using Collocation = ExponentialCollocation<n>;
+  using Collocation = math::ExponentialCollocation<n, ModalDecomposition>;
   using Strain = typename Collocation::Strain;
   using Modes = typename Collocation::Modes;
   using NodeModes = typename Collocation::NodeModes;

@@ -7,8 +7,8 @@
 namespace spring_workbench::dynamics {
 
 /// Exponential collocation: the coupled linear part, frozen near a recent state, in closed form through its modes
-/// (exponential_collocation.h), with what it leaves of the acceleration, the residual, as the cubic through four Radau
-/// nodes of the step. The residual is found by fixed-point iteration with Anderson's acceleration
+/// (math/exponential_collocation.h), with what it leaves of the acceleration, the residual, as the cubic through four
+/// Radau nodes of the step. The residual is found by fixed-point iteration with Anderson's acceleration
 /// (math/anderson_mixer.h) from the last step's, to a fiftieth of what the cubic misses, as the rate of convergence
 /// says (Hairer and Wanner II, IV.8, equation (8.10)). Order seven where the step resolves every mode, five where it
 /// does not; exact for linear systems whose handle accelerates as a cubic of time; no stiffness limits its step. The

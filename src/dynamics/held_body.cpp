@@ -44,7 +44,8 @@ void HeldBody::changed() {
 }
 
 void HeldBody::exchange(math::StateArchive& state) {
-  state(version_, load_version_, K_, D_, modal_, modal_ratio_, coordinates_, external_W_, loaded_);
+  state(version_, load_version_, stiffness_, damping_, K_, D_, modal_, modal_ratio_, coordinates_, external_W_,
+        loaded_);
   if (state.sets()) set_modal_damping();
 }
 
@@ -60,15 +61,21 @@ double HeldBody::axial_inertia() const {
   return axis.dot(body_.inertia_O * axis) + body_.mass * axis.cross(p_OE_).squaredNorm();
 }
 
-void HeldBody::set_springs(const rod::PerDof& stiffness, const rod::PerDof& damping_ratio) {
+rod::PerDof HeldBody::damping_of(const rod::PerDof& stiffness, const rod::PerDof& ratio) const {
   rod::PerDof c;
-  c.stretch = 2.0 * damping_ratio.stretch * std::sqrt(body_.mass * stiffness.stretch);
-  c.bend = 2.0 * damping_ratio.bend * std::sqrt(body_.mass * stiffness.bend);
-  c.torsion = 2.0 * damping_ratio.torsion * std::sqrt(axial_inertia() * stiffness.torsion);
-  set_springs_and_dampers(stiffness, c);
+  c.stretch = 2.0 * ratio.stretch * std::sqrt(body_.mass * stiffness.stretch);
+  c.bend = 2.0 * ratio.bend * std::sqrt(body_.mass * stiffness.bend);
+  c.torsion = 2.0 * ratio.torsion * std::sqrt(axial_inertia() * stiffness.torsion);
+  return c;
+}
+
+void HeldBody::set_springs(const rod::PerDof& stiffness, const rod::PerDof& damping_ratio) {
+  set_springs_and_dampers(stiffness, damping_of(stiffness, damping_ratio));
 }
 
 void HeldBody::set_springs_and_dampers(const rod::PerDof& stiffness, const rod::PerDof& damping) {
+  stiffness_ = stiffness;
+  damping_ = damping;
   K_ = shape_->stiffness(stiffness);
   D_ = shape_->damping(damping, stiffness);
   modal_ = false;
@@ -77,6 +84,7 @@ void HeldBody::set_springs_and_dampers(const rod::PerDof& stiffness, const rod::
 
 void HeldBody::set_springs_with_modal_damping(const rod::PerDof& stiffness, double damping_ratio) {
   set_springs_and_dampers(stiffness, rod::PerDof());
+  damping_ = damping_of(stiffness, {damping_ratio, damping_ratio, damping_ratio});
   modal_ = true;
   modal_ratio_ = damping_ratio;
   changed();

@@ -7,7 +7,7 @@
 #include "exponential.h"
 #include "implicit_integrators.h"
 #include "integrators.h"
-#include "spring_workbench/math/damped_oscillator.h"
+#include "paper.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::dynamics {
@@ -23,9 +23,9 @@ std::unique_ptr<Integrator> make() {
 /// By IntegratorKind: ours in its order, then those registered.
 struct Known {
   std::vector<std::string> names = {"exponential", "rosenbrock",          "implicit_euler",
-                                    "closed_form", "semi_implicit_euler", "rk4"};
+                                    "paper",       "semi_implicit_euler", "rk4"};
   std::vector<MakeIntegrator> makers = {make<Exponential>, make<Rosenbrock>,        make<ImplicitEuler>,
-                                        make<ClosedForm>,  make<SemiImplicitEuler>, make<RungeKutta4>};
+                                        make<Paper>,       make<SemiImplicitEuler>, make<RungeKutta4>};
 };
 
 Known& known() {
@@ -163,37 +163,6 @@ StepEstimate RungeKutta4::step(const HeldBody& body, const motion::FrameMotion& 
   const rod::StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
   last_.keep(body, end, state, a_end);
   return end_error(body, handle, t, h, {s0, a1}, {state, a_end});
-}
-
-StepEstimate ClosedForm::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
-                              StrainState& state) {
-  const rod::StrainVector a = last_.get(body, body.forcing(handle, t), state);
-  const rod::StrainMatrix M = body.mass_matrix(t, state.q);
-  const rod::StrainVector K = body.stiffness(), D = body.damping().diagonal();
-  rod::StrainVector held(
-      body.size());  // what is left of the acceleration beside the coordinate's own spring and damper
-  rod::StrainVector per_force(body.size()), per_rate(body.size());
-  for (int i = 0; i < body.size(); ++i) {
-    const double omega_squared = K[i] / M(i, i), two_alpha = D[i] / M(i, i);
-    const math::OscillatorStep s = math::damped_oscillator(0.5 * two_alpha, omega_squared, h);
-    held[i] = a[i] + two_alpha * state.q_dot[i] + omega_squared * state.q[i];
-    const double q = state.q[i], v = state.q_dot[i];
-    state.q[i] = s.xx * q + s.xv * v + s.xg * held[i];
-    state.q_dot[i] = s.vx * q + s.vv * v + s.vg * held[i];
-    per_force[i] = s.xg;
-    per_rate[i] = s.vg;
-  }
-  const HandleForcing end = body.forcing(handle, t + h);
-  const rod::StrainVector a_end = body.acceleration(end, state.q, state.q_dot);
-  last_.keep(body, end, state, a_end);
-  StepEstimate estimate;
-  estimate.q_error = estimate.q_dot_error = rod::StrainVector(body.size());
-  for (int i = 0; i < body.size(); ++i) {
-    const double held_end = a_end[i] + D[i] / M(i, i) * state.q_dot[i] + K[i] / M(i, i) * state.q[i];
-    estimate.q_error[i] = per_force[i] / 3.0 * (held[i] - held_end);  // a constant instead of a ramp
-    estimate.q_dot_error[i] = per_rate[i] / 2.0 * (held[i] - held_end);
-  }
-  return estimate;
 }
 
 }  // namespace spring_workbench::dynamics

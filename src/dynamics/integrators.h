@@ -47,18 +47,4 @@ class RungeKutta4 final : public Integrator {
   LastAcceleration last_;
 };
 
-/// The paper's scheme (section 3.3): every coordinate on its own, the closed form of its damped oscillator initialised
-/// anew each step with the coordinate's own inertia; what couples it to the others and to the hand is held over the
-/// step. Here for any damping ratio. First order.
-class ClosedForm final : public Integrator {
- public:
-  int order() const override { return 1; }
-  StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
-                    StrainState& state) override;
-  void exchange(math::StateArchive& state) override { state(last_); }
-
- private:
-  LastAcceleration last_;
-};
-
 }  // namespace spring_workbench::dynamics

@@ -120,6 +120,13 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   return hand_pose().translation().norm() < largest_distance;
 }
 
+bool ForkBody::advance_freely(double h, const PathCheck& is_free) {
+  held_.set_path_check(is_free);
+  const bool advanced = advance(h, Wrench());
+  held_.set_path_check({});
+  return advanced;
+}
+
 void ForkBody::accept() { state_.energy_added += std::exchange(added_, 0.0); }
 
 void ForkBody::restore(const bodies::TrialStart& start) {

@@ -19,6 +19,7 @@ class ForkBody final : public ToolHold {
   std::size_t index() const override { return index_; }
   motion::MotionState object() const override;
   bool advance(double h, const Wrench& contact_W) override;
+  bool advance_freely(double h, const PathCheck& is_free) override;
   void save(bodies::TrialStart& start) const override { start.keep(state_); }
   void restore(const bodies::TrialStart& start) override;
   void accept() override;

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "spring_workbench/validation/one_line.h"
+#include "spring_workbench/validation/renamed.h"
 
 namespace spring_workbench::validation {
 namespace {
@@ -39,7 +40,9 @@ std::string NumberRule::text() const {
 
 void refuse(const std::string& where, const std::string& key, const std::string& value, const std::string& rule) {
   const std::string given = value.empty() ? "(nothing)" : value;
-  throw InputError(one_line(where + ": " + key + ": " + given + " is not allowed: must be " + rule));
+  const auto now = renamed_values().find(value);
+  const std::string allowed = now == renamed_values().end() ? rule : now->second + ", which has taken its place";
+  throw InputError(one_line(where + ": " + key + ": " + given + " is not allowed: must be " + allowed));
 }
 
 void check_number(const std::string& where, const std::string& key, double value, const NumberRule& rule) {

@@ -29,6 +29,11 @@ const std::map<std::string, std::string>& renamed() {
   return names;
 }
 
+const std::map<std::string, std::string>& renamed_values() {
+  static const std::map<std::string, std::string> names = {{"closed_form", "paper"}};
+  return names;
+}
+
 std::string unknown_key(const std::string& key, const std::string& known) {
   const auto found = renamed().find(key);
   return found != renamed().end() ? "unknown key; it is called " + found->second + " now"

@@ -33,12 +33,12 @@ class LiveTuning(unittest.TestCase):
     def test_what_services_change_is_shown(self):
         rospy.ServiceProxy("manipulation/set_stiffness", SetForkStiffness)(0.0, 0.0, 7.25, 0)
         rospy.ServiceProxy("manipulation/set_dofs", SetForkDofs)(False, True, True, 0)
-        rospy.ServiceProxy("manipulation/set_integrator", SetIntegrator)("closed_form", 0.005, 0.0)
+        rospy.ServiceProxy("manipulation/set_integrator", SetIntegrator)("paper", 0.005, 0.0)
         shown = lambda: self.client.get_configuration(timeout=DEADLINE)
         wait_for(
             lambda: shown()["torsion_stiffness"] == 7.25
             and not shown()["stretch"]
-            and shown()["integrator"] == "closed_form"
+            and shown()["integrator"] == "paper"
             and shown()["step"] == 0.005,
             "the changes to be shown",
         )

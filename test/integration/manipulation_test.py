@@ -226,7 +226,7 @@ class Manipulation(unittest.TestCase):
         self.lift()
         resting = self.box().pose.position.z
         for name, step, tolerance in [
-            ("closed_form", 0.01, 0.0),
+            ("paper", 0.01, 0.0),
             ("rk4", 1e-3, 0.0),
             ("semi_implicit_euler", 1e-3, 0.0),
             ("implicit_euler", 0.02, 0.0),

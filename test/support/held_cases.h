@@ -60,7 +60,7 @@ inline Case random_case(const std::string& shape, double damping_ratio, double d
 /// Whether the stiffest mode limits the steps of an integrator: of all but those that are made for stiff forks.
 inline bool limited_by_stiffness(const std::string& integrator) {
   return integrator != "exponential" && integrator != "rosenbrock" && integrator != "implicit_euler" &&
-         integrator != "closed_form";
+         integrator != "paper";
 }
 
 /// Position error of the object [m], and angle times the body's radius of gyration.

@@ -25,4 +25,13 @@ inline std::unique_ptr<dynamics::Integrator> make_integrator(const std::string& 
 }
 inline std::vector<std::string> integrator_names() { return validation::names<dynamics::IntegratorKind>(); }
 
+/// Those whose limit for short steps is the equation of motion.
+inline std::vector<std::string> equation_of_motion_integrator_names() {
+  std::vector<std::string> names;
+  for (const std::string& name : integrator_names()) {
+    if (make_integrator(name)->solves_the_equation_of_motion()) names.push_back(name);
+  }
+  return names;
+}
+
 }  // namespace spring_workbench::test_support

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <any>
+#include <functional>
 
 #include "spring_workbench/math/spatial.h"
 #include "spring_workbench/math/state_archive.h"
@@ -48,6 +49,10 @@ class SteppedBody {
   /// Goes `h` [s] on under a constant wrench at the centre of mass, world axes; false where the result is not one to go
   /// on from (not finite, or out of bounds), and then nothing has changed.
   virtual bool advance(double h, const Wrench& contact_W) = 0;
+  /// Whether the body meets nothing on its straight path between two poses of the object frame.
+  using PathCheck = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
+  /// advance() without contact, of a body that may aim for a pose first and look what is in the way there.
+  virtual bool advance_freely(double h, const PathCheck&) { return advance(h, Wrench()); }
   /// The last advance() was not a trial: the body stays there.
   virtual void accept() {}
   /// What to come back to before a trial, and coming back to it, bit by bit.

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <utility>
 
 #include "spring_workbench/dynamics/active_coordinates.h"
 #include "spring_workbench/motion/pose_track.h"
@@ -67,6 +69,10 @@ class HeldBody {
   void set_springs(const rod::ForkSettings& fork);
   /// Moment of inertia about the fork's axis through the grasp [kg·m²].
   double axial_inertia() const;
+  /// Stiffness [N/m, N/m, N·m/rad] and damping coefficients [the same times s] of the DOFs; with one ratio for every
+  /// mode those of each DOF alone.
+  const rod::PerDof& dof_stiffness() const { return stiffness_; }
+  const rod::PerDof& dof_damping() const { return damping_; }
 
   /// Switches families. One that goes off while strained follows, from time `t` [s] on, the critically damped return
   /// with the time constant `return_time` [s]; `full` is the state in all coordinates at `t`. Returns the new active
@@ -81,7 +87,14 @@ class HeldBody {
   void set_external_wrench(const Wrench& wrench_W);
   const Wrench& external_wrench() const { return external_W_; }
 
+  /// Whether the object meets nothing on its straight path between two poses. Of the step that follows, for methods
+  /// that aim for a pose (`paper`); no part of the state. Empty: nothing can be in the way.
+  using PathCheck = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
+  void set_path_check(PathCheck check) { path_check_ = std::move(check); }
+  const PathCheck& path_check() const { return path_check_; }
+
   int size() const { return coordinates_.size(); }  ///< number of active coordinates
+  const ActiveCoordinates& coordinates() const { return coordinates_; }
   StrainState zero_state() const;
   rod::StrainVector stiffness() const;  ///< diagonal of K, active coordinates
   rod::StrainMatrix damping() const;    ///< D, active coordinates
@@ -150,6 +163,8 @@ class HeldBody {
   /// For the strain `q` of the active ones at time `t`.
   Kinematics kinematics(double t, const rod::StrainVector& q) const;
   rod::StrainMatrix mass_matrix(const Kinematics& k, Matrix3d& I_H) const;
+  /// Coefficients of the DOFs' dampers for these damping ratios.
+  rod::PerDof damping_of(const rod::PerDof& stiffness, const rod::PerDof& ratio) const;
   void changed();
   void set_modal_damping();  ///< from what is active
 
@@ -160,13 +175,15 @@ class HeldBody {
   double gravity_;
   long version_ = 0;
   long load_version_ = 0;
-  rod::StrainVector K_, D_;  ///< all coordinates; with modal damping D_ is zero
+  rod::PerDof stiffness_, damping_;  ///< of the DOFs
+  rod::StrainVector K_, D_;          ///< all coordinates; with modal damping D_ is zero
   bool modal_ = false;
   double modal_ratio_ = 0.0;
   rod::StrainMatrix D_modal_;  ///< active coordinates; where modal_
   ActiveCoordinates coordinates_;
   Wrench external_W_;
   bool loaded_ = false;  ///< the external wrench is not zero
+  PathCheck path_check_;
   /// A step asks for pose, Jacobian and mass matrix of one state several times over. Not for two threads at once.
   struct LastTip {
     bool known = false;

@@ -30,10 +30,13 @@ class Integrator {
   /// Whether no stiffness, however large, limits the step.
   virtual bool stiffly_stable() const { return false; }
   /// What the method does with the energy of a motion: nothing but by its error; take some away (implicit methods of
-  /// low order); or whatever its error is, which nothing bounds (explicit ones). StepControl holds the first to its
-  /// error, the second to its balance.
-  enum class Energy { kept, dissipated, unbounded };
+  /// low order); whatever its error is, which nothing bounds (explicit ones); or it has an energy of its own, because
+  /// it does not solve the equation of motion (HeldBody) but relaxes to a target. StepControl holds the first to its
+  /// error, the second to its balance. Estimates of the last are of the distance from the method's own limit.
+  enum class Energy { kept, dissipated, unbounded, of_its_own };
   virtual Energy energy() const { return Energy::unbounded; }
+  /// Whether short steps lead to the equation of motion.
+  bool solves_the_equation_of_motion() const { return energy() != Energy::of_its_own; }
 
   /// Carries `state` from `t` to `t + h` [s], h > 0; `handle` must cover that time.
   virtual StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,

@@ -6,7 +6,7 @@
 namespace spring_workbench::dynamics {
 
 /// How the held body's state is carried over a step (doc/model.md, "Integrators").
-enum class IntegratorKind { exponential, rosenbrock, implicit_euler, closed_form, semi_implicit_euler, rk4 };
+enum class IntegratorKind { exponential, rosenbrock, implicit_euler, paper, semi_implicit_euler, rk4 };
 const std::vector<std::string>& names_of(IntegratorKind);
 
 /// The held object's own inertia, or the paper's I = r² m (section 3.1).

@@ -9,6 +9,9 @@ namespace spring_workbench::validation {
 /// in a file, on the parameter server or in a bag, says the new one.
 const std::map<std::string, std::string>& renamed();
 
+/// The same for words that a setting may be: refuse() says the new one.
+const std::map<std::string, std::string>& renamed_values();
+
 /// "unknown key; it is called X now" for a renamed key, else "unknown key; known are `known`".
 std::string unknown_key(const std::string& key, const std::string& known);
 

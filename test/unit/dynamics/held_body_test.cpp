@@ -68,7 +68,7 @@ TEST(DampedOscillator, SolvesItsEquationForEveryDamping) {
 }
 
 TEST(HeldBody, HangingObjectSagsByItsWeightOverTheStiffness) {
-  for (const char* name : {"exponential", "closed_form"}) {
+  for (const char* name : {"exponential", "paper"}) {
     BodyInertia body = box_off_centre();
     body.mass = 1.0;
     body.X_OE = make_transform(Quaterniond::Identity(), Vector3d(0.0, 0.0, -0.05));
@@ -82,7 +82,7 @@ TEST(HeldBody, HangingObjectSagsByItsWeightOverTheStiffness) {
 }
 
 TEST(HeldBody, StretchAloneIsTheExactOscillatorAtAnyStepAndDamping) {
-  for (const char* name : {"exponential", "closed_form"}) {
+  for (const char* name : {"exponential", "paper"}) {
     for (double zeta : {0.0, 0.1, 1.0, 3.0, 10.0}) {
       BodyInertia body;
       body.mass = 0.8;

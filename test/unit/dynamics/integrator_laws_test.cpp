@@ -92,7 +92,8 @@ TEST_P(EveryIntegrator, EstimatesItsLocalErrorWithinAFactorOfTenInNineStepsOfTen
   EXPECT_GT(within, 0.9 * all) << within << " of " << all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator, testing::ValuesIn(test_support::integrator_names()),
+INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator,
+                         testing::ValuesIn(test_support::equation_of_motion_integrator_names()),
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace

@@ -78,6 +78,7 @@ class SteppedWithATolerance : public testing::TestWithParam<std::string> {};
 TEST_P(SteppedWithATolerance, LandsWithinAFactorOfThreeOfItsTolerance) {
   const bool first_order = test_support::make_integrator(GetParam())->order() == 1;
   const double tolerance = first_order ? 1e-3 : 1e-7;
+  if (!test_support::make_integrator(GetParam())->solves_the_equation_of_motion()) return;
   for (const ReferenceRun& run : runs()) {
     Case c = run.rod;
     const StepControl control(test_support::make_integrator(GetParam()), tolerance);

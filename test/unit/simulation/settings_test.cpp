@@ -218,5 +218,12 @@ TEST(Settings, ARenamedKeyIsToldItsNewName) {
   }
 }
 
+TEST(Settings, ARenamedWordIsToldItsNewOne) {
+  SimulationSettings settings;
+  const std::string message = refusal("integrator: closed_form", settings);
+  EXPECT_TRUE(contains(message, "integrator: closed_form is not allowed: must be paper, which has taken its place"))
+      << message;
+}
+
 }  // namespace
 }  // namespace spring_workbench::simulation

@@ -383,7 +383,7 @@ TEST(Simulation, EveryIntegratorTellsTheStiffestModeAndItsErrors) {
     simulation.push_button(0.0, true);
     const AdvanceReport report = simulation.advance(0.1);
     EXPECT_NEAR(report.stiffest_omega_dt, 1e-3 * std::sqrt(2000.0), 1e-9) << name;
-    const bool exact = name == "exponential" || name == "closed_form";
+    const bool exact = name == "exponential" || name == "paper";
     EXPECT_TRUE(exact || report.position_error > 0.0) << name;
     EXPECT_LT(report.position_error, 1e-4) << name;
   }

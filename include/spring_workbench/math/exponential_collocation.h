@@ -5,24 +5,24 @@
 #include <cmath>
 #include <complex>
 
-#include "modal_decomposition.h"
 #include "spring_workbench/math/collocation.h"
+#include "spring_workbench/math/state_archive.h"
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::math {
 
 /// Variation of constants for the linear part of `n` coordinates over a step, as deviations from the state at its
 /// start: with y = (q − q₀, q̇ − q̇₀), ẏ = A y + (q̇₀, r), where the residual r = q̈ + S (q − q₀) + D (q̇ − q̇₀) is the
-/// cubic through its values at the nodes of math::Collocation. Taken from the start, y is no larger than what the step
+/// cubic through its values at the nodes of Collocation. Taken from the start, y is no larger than what the step
 /// changes, and so is its rounding, however close to critical the damping is (when A has hardly any eigenvectors).
-/// Lane i of a pack belongs to node i, or to sample i.
-template <int n>
+/// Lane i of a pack belongs to node i, or to sample i. The linear part comes as `ModalDecomposition` (of dynamics).
+template <int n, typename ModalDecomposition>
 class ExponentialCollocation {
  public:
   using Strain = Eigen::Matrix<double, n, 1>;
   using Modes = Eigen::Matrix<double, 2 * n, 1>;
   using Square = Eigen::Matrix<double, n, n>;
-  using NodeModes = std::array<math::Pack, 2 * n>;
-  using NodeStrains = std::array<math::Pack, n>;
+  using NodeModes = std::array<Pack, 2 * n>;
+  using NodeStrains = std::array<Pack, n>;
 
   /// Takes another linear part.
   void set(const ModalDecomposition& modes) {
@@ -56,8 +56,8 @@ class ExponentialCollocation {
         }
       }
     };
-    for (int m = 0; m < 2 * modes_.pairs; m += 2) take(m, math::Collocation::weights(h * modes_.rates[at(m)]));
-    for (int m = 2 * modes_.pairs; m < 2 * n; ++m) take(m, math::Collocation::weights(h * modes_.rates[at(m)].real()));
+    for (int m = 0; m < 2 * modes_.pairs; m += 2) take(m, Collocation::weights(h * modes_.rates[at(m)]));
+    for (int m = 2 * modes_.pairs; m < 2 * n; ++m) take(m, Collocation::weights(h * modes_.rates[at(m)].real()));
   }
 
   /// Squared weights of the modes: a displacement counts as it is, a velocity times what is left of it over the step.
@@ -110,7 +110,7 @@ class ExponentialCollocation {
   SPRING_WORKBENCH_INLINE Modes effect(const NodeModes& defect) const {
     Modes e;
     for (int m = 0; m < 2 * n; ++m) {
-      e[m] = math::sum(defect_.own[at(m)] * defect[at(m)] + defect_.other[at(m)] * defect[at(m ^ 1)]);
+      e[m] = sum(defect_.own[at(m)] * defect[at(m)] + defect_.other[at(m)] * defect[at(m ^ 1)]);
     }
     return e;
   }
@@ -142,7 +142,7 @@ class ExponentialCollocation {
   static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
   /// The operators are made again from the linear part and the step.
-  void exchange(math::StateArchive& state) {
+  void exchange(StateArchive& state) {
     double h = h_;
     state(modes_, h);
     if (!state.sets()) return;
@@ -151,7 +151,7 @@ class ExponentialCollocation {
   }
 
  private:
-  static constexpr std::size_t count = math::Collocation::count;
+  static constexpr std::size_t count = Collocation::count;
   /// Steps whose lengths differ by less are equal: what differs is the rounding of times.
   static constexpr double same_length = 1e-11;
 
@@ -171,8 +171,8 @@ class ExponentialCollocation {
   SPRING_WORKBENCH_INLINE static void drive(const std::array<Operator, count>& by, const NodeModes& from,
                                             const NodeModes& residual, NodeModes& x) {
     for (int m = 0; m < 2 * n; ++m) {
-      const math::Pack own = residual[at(m)], other = residual[at(m ^ 1)];
-      math::Pack sum = from[at(m)];
+      const Pack own = residual[at(m)], other = residual[at(m ^ 1)];
+      Pack sum = from[at(m)];
       for (std::size_t j = 0; j < count; ++j) sum += by[j].own[at(m)] * own[j] + by[j].other[at(m)] * other[j];
       x[at(m)] = sum;
     }
@@ -187,4 +187,4 @@ class ExponentialCollocation {
   std::array<Operator, count> node_{}, sample_{};  ///< of the residual at each node
 };
 
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::math

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <array>
+
+#include "spring_workbench/math/spatial.h"
+#include "spring_workbench/rod/shape_model.h"
+
+namespace spring_workbench::rod {
+
+/// A strain and how it changes with the generalised force: what a fork under a load comes to rest at.
+struct RestStrain {
+  StrainVector q;
+  StrainMatrix compliance;  ///< symmetric, ≥ 0; zero for coordinates without stiffness
+  StrainVector imbalance;   ///< elastic force less that of the load, which is left; none at the end of the range
+};
+
+/// The fork at rest under a load at the object's centre of mass that keeps its direction in the handle frame H
+/// (paper, sections 3.3 and 4). Coordinates without stiffness have no rest and stay at zero.
+class StaticDeformation {
+ public:
+  using Active = std::array<bool, max_strain_coordinates>;
+  /// Keeps a reference to `shape`. `stiffness`: diagonal of K; the coordinates that are not `active` stay as they are.
+  /// `p_EO`: the object's centre of mass in the tip frame [m]; `load_H` there, axes of H [N, N·m].
+  StaticDeformation(const ShapeModel& shape, const StrainVector& stiffness, const Active& active, const Vector3d& p_EO,
+                    const Wrench& load_H)
+      : shape_(shape), K_(stiffness), active_(active), p_EO_(p_EO), load_H_(load_H) {}
+
+  /// In the paper's order (section 5): bend and stretch with the twist of `from`, then the twist with these. So a
+  /// load that stays is followed, twist and bend by turns, to the equilibrium of all. Newton's method with a line
+  /// search, from `from`; where the rod's range ends, it stays at the end.
+  RestStrain under_load(const StrainVector& from) const;
+
+  /// Generalised force of the load, or of another at the same place [force; moment].
+  StrainVector force(const StrainVector& q) const { return force(q, to_vector(load_H_)); }
+  StrainVector force(const StrainVector& q, const Vector6d& load_H) const;
+
+ private:
+  /// Active coordinates that are found together.
+  struct Block {
+    int count = 0;
+    int index[max_strain_coordinates] = {};
+  };
+  struct Slope;
+  Block block(bool torsion) const;
+  StrainVector imbalance(const StrainVector& q) const;  ///< elastic force less that of the load
+  /// Derivative of the imbalance by the block's coordinates; and how far each moves the tip per unit, over the
+  /// fork's length or in radians.
+  Slope slope(const StrainVector& q, const Block& block) const;
+  /// Equilibrium of the block's coordinates; returns those that are not at the end of the rod's range.
+  Block find(Block block, StrainVector& q) const;
+  /// Puts coordinates that `change` alone leads out of the range to its end, and takes them from the block.
+  bool stop(const StrainVector& change, Block& block, StrainVector& q) const;
+
+  const ShapeModel& shape_;
+  StrainVector K_;
+  Active active_;
+  Vector3d p_EO_;
+  Wrench load_H_;
+};
+
+}  // namespace spring_workbench::rod

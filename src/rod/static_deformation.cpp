@@ -1,0 +1,172 @@
+#include "spring_workbench/rod/static_deformation.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/math/spatial.h"
+
+namespace spring_workbench::rod {
+namespace {
+
+constexpr double difference = 1e-6;  ///< of the tip's way, for slopes
+constexpr double digits = 1e-8;      ///< of a strain far off, for the same
+constexpr double done = 1e-10;       ///< change of the tip over its way; the next one is smaller by `difference`
+constexpr double first_reach = 1.0;  ///< change of the tip over which the slope is taken to mean something
+constexpr double longer = 4.0;       ///< by which the reach grows where it did
+constexpr double overshot = 0.5;     ///< of the force along a change that may be left, the other way, at its end
+constexpr int most_changes = 60;     ///< what is off after so many is told
+constexpr int most_halvings = 40;
+constexpr int halvings_to_stop = 52;
+constexpr double flat = 1e-12;  ///< of the largest stiffness: one that is none
+
+}  // namespace
+
+/// Scaled by the springs: x = √K q, so that of small loads the matrix is near 1.
+struct StaticDeformation::Slope {
+  StrainMatrix A;      ///< of the scaled force by the scaled coordinates
+  StrainVector scale;  ///< 1 / √K
+  StrainVector moves;  ///< the tip, per unit of q; the stretch, which is linear, counts as none
+  Eigen::SelfAdjointEigenSolver<StrainMatrix> modes;
+
+  bool is_stable() const { return modes.eigenvalues().minCoeff() > flat * largest(); }
+  double largest() const { return modes.eigenvalues().cwiseAbs().maxCoeff(); }
+  /// With every mode's stiffness taken as positive: downhill at a maximum and a saddle, too.
+  StrainMatrix inverse() const {
+    const StrainVector d = modes.eigenvalues().cwiseAbs().cwiseMax(flat * largest()).cwiseInverse();
+    return modes.eigenvectors() * d.asDiagonal() * modes.eigenvectors().transpose();
+  }
+  StrainVector change(const StrainVector& imbalance) const {
+    const StrainVector force = scale.cwiseProduct(imbalance);
+    const StrainVector x = is_stable() ? StrainVector(A.partialPivLu().solve(force)) : inverse() * force;
+    return -scale.cwiseProduct(x);
+  }
+};
+
+StaticDeformation::Block StaticDeformation::block(bool torsion) const {
+  Block b;
+  for (int i = 0; i < shape_.size(); ++i) {
+    const bool sought = active_[static_cast<std::size_t>(i)] && K_[i] > 0.0;
+    if (sought && (i == shape_.torsion().begin) == torsion) b.index[b.count++] = i;
+  }
+  return b;
+}
+
+StrainVector StaticDeformation::force(const StrainVector& q, const Vector6d& load_H) const {
+  TipKinematics tip;
+  shape_.tip(q, StrainVector::Zero(q.size()), tip);
+  const Vector3d force = load_H.head<3>(), moment = load_H.tail<3>() + (tip.R_HE * p_EO_).cross(force);
+  return tip.linear.transpose() * force + tip.angular.transpose() * moment;
+}
+
+StrainVector StaticDeformation::imbalance(const StrainVector& q) const { return K_.cwiseProduct(q) - force(q); }
+
+StaticDeformation::Slope StaticDeformation::slope(const StrainVector& q, const Block& b) const {
+  TipKinematics tip;
+  shape_.tip(q, StrainVector::Zero(q.size()), tip);
+  const StrainVector here = force(q);
+  const double length = shape_.length();
+  Slope s;
+  s.A.resize(b.count, b.count);
+  s.scale.resize(b.count);
+  s.moves.resize(b.count);
+  for (int j = 0; j < b.count; ++j) s.scale[j] = 1.0 / std::sqrt(K_[b.index[j]]);
+  for (int j = 0; j < b.count; ++j) {
+    const int c = b.index[j];
+    const double moved = tip.linear.col(c).norm() / length + tip.angular.col(c).norm();
+    StrainVector ahead = q;
+    ahead[c] += difference / std::max(moved, 1e-3 * length) + digits * std::abs(q[c]);
+    const double step = ahead[c] - q[c];
+    // The load's alone: the springs' own part is 1, so that none, stiff or soft, costs digits.
+    const StrainVector rise = here - force(ahead);
+    for (int i = 0; i < b.count; ++i) s.A(i, j) = s.scale[i] * s.scale[j] * rise[b.index[i]] / step + (i == j);
+    s.moves[j] = c == shape_.stretch().begin ? 0.0 : moved;
+  }
+  s.modes.compute(0.5 * (s.A + s.A.transpose()));
+  return s;
+}
+
+bool StaticDeformation::stop(const StrainVector& change, Block& b, StrainVector& q) const {
+  Block free;
+  for (int i = 0; i < b.count; ++i) {
+    const auto moved = [&](double share) {
+      StrainVector tried = q;
+      tried[b.index[i]] += share * change[i];
+      return tried;
+    };
+    if (shape_.admissible(moved(1.0))) {
+      free.index[free.count++] = b.index[i];
+      continue;
+    }
+    double least = 0.0, most = 1.0;
+    for (int k = 0; k < halvings_to_stop; ++k) {
+      const double middle = 0.5 * (least + most);
+      (shape_.admissible(moved(middle)) ? least : most) = middle;
+    }
+    q = moved(least);
+  }
+  const bool stopped = free.count < b.count;
+  b = free;
+  return stopped;
+}
+
+StaticDeformation::Block StaticDeformation::find(Block b, StrainVector& q) const {
+  double reach = first_reach;
+  for (int n = 0; n < most_changes && b.count > 0; ++n) {
+    const StrainVector unbalanced = imbalance(q);
+    const Slope s = slope(q, b);
+    const auto of_block = [&](const StrainVector& all) {
+      StrainVector v(b.count);
+      for (int i = 0; i < b.count; ++i) v[i] = all[b.index[i]];
+      return v;
+    };
+    const StrainVector r = of_block(unbalanced);
+    StrainVector change = s.change(r);
+    const double moved = s.moves.dot(change.cwiseAbs());
+    const double whole = std::min(moved, reach);
+    if (moved > reach) change *= reach / moved;
+    if (stop(change, b, q)) continue;
+    bool went = false;
+    // At its end the force along the change has fallen, and has not grown the other way.
+    for (int halving = 0; halving < most_halvings; ++halving, change *= 0.5) {
+      StrainVector tried = q;
+      for (int i = 0; i < b.count; ++i) tried[b.index[i]] += change[i];
+      if (!shape_.admissible(tried)) continue;
+      if (!(of_block(imbalance(tried)).dot(change) <= overshot * std::abs(r.dot(change)))) continue;
+      q = tried;
+      went = true;
+      break;
+    }
+    if (!went || moved < done * (1.0 + s.moves.dot(of_block(q).cwiseAbs()))) break;
+    const double gone = s.moves.dot(change.cwiseAbs());
+    reach = gone < 0.75 * whole ? gone : moved > reach ? longer * reach : reach;
+  }
+  return b;
+}
+
+RestStrain StaticDeformation::under_load(const StrainVector& from) const {
+  RestStrain rest;
+  rest.q = from;
+  for (int i = 0; i < shape_.size(); ++i) {
+    if (active_[static_cast<std::size_t>(i)] && !(K_[i] > 0.0)) rest.q[i] = 0.0;
+  }
+  Block free = find(block(false), rest.q);
+  const Block free_torsion = find(block(true), rest.q);
+  rest.compliance.setZero(shape_.size(), shape_.size());
+  for (int i = 0; i < free_torsion.count; ++i) free.index[free.count++] = free_torsion.index[i];
+  rest.imbalance.setZero(shape_.size());
+  if (free.count == 0) return rest;
+  const StrainVector unbalanced = imbalance(rest.q);
+  const Slope s = slope(rest.q, free);
+  const StrainMatrix inverse = s.inverse();
+  for (int j = 0; j < free.count; ++j) {
+    rest.imbalance[free.index[j]] = unbalanced[free.index[j]];
+    for (int i = 0; i < free.count; ++i) {
+      rest.compliance(free.index[i], free.index[j]) = s.scale[i] * s.scale[j] * inverse(i, j);
+    }
+  }
+  return rest;
+}
+
+}  // namespace spring_workbench::rod
