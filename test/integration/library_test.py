@@ -84,6 +84,21 @@ class Library(unittest.TestCase):
             for engine, modes in ENGINES.items():
                 self.assertEqual(engine in mapped, mode in modes, f"{engine}, contact: {mode}")
 
+    @unittest.skipUnless("stop" in MODES, "contact mode stop is left out")
+    def test_the_lines_of_the_readme_lift_the_box(self):
+        lines = re.search(r"^```cpp\n(.*?)^```", (ROOT / "README.md").read_text(), re.M | re.S).group(1)
+        source = self.folder / "01_readme"
+        shutil.copytree(self.folder / "01_lift_a_box", source)
+        (source / "CMakeLists.txt").write_text((source / "CMakeLists.txt").read_text().replace("lift_a_box", "readme"))
+        (source / "readme.cpp").write_text(
+            "#include <spring_workbench/spring_workbench.h>\n#include <cstdio>\n"
+            f"int main() {{\n{lines}"
+            'std::printf("%.6f %.6f", simulation.objects()[0].X_WO.translation().z(), simulation.fork().weight);\n}\n'
+        )
+        height, weight = map(float, run(self.program("01_readme"), cwd=ROOT).stdout.split())
+        self.assertAlmostEqual(height, 0.03 + 0.1 - 0.5 * 9.81 / 2000.0, delta=2e-4)  # weight over stiffness
+        self.assertAlmostEqual(weight, 0.5, places=3)
+
     def test_02_an_own_integrator_has_its_order(self):
         program = self.program("02_own_integrator")
         rows = numbers(run(program, self.box).stdout)

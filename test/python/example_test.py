@@ -1,11 +1,13 @@
-"""examples/04_python as a user runs it."""
+"""examples/04_python as a user runs it, and the lines of the README."""
 import pathlib
+import re
 import subprocess
 import sys
 import tempfile
 import unittest
 
-DRAW = pathlib.Path(__file__).resolve().parents[2] / "examples/04_python/draw.py"
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DRAW = ROOT / "examples/04_python/draw.py"
 
 
 class Example(unittest.TestCase):
@@ -25,6 +27,15 @@ class Example(unittest.TestCase):
         self.assertGreater(len(errors), 3)
         self.assertLess(max(errors["exponential"]), 1e-6)
         self.assertAlmostEqual(errors["implicit_euler"][-2] / errors["implicit_euler"][-1], 2.0, delta=0.2)  # order 1
+
+    def test_the_lines_of_the_readme_lift_the_box(self):
+        lines = re.search(r"^```python\n(.*?)^```", (ROOT / "README.md").read_text(), re.M | re.S).group(1)
+        lines += "print(simulation.poses[0, 2, 3], simulation.fork().weight)\n"
+        command = [sys.executable, "-c", lines]
+        said = subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout
+        height, weight = map(float, said.split())
+        self.assertAlmostEqual(height, 0.03 + 0.1 - 0.5 * 9.81 / 2000.0, delta=2e-4)  # weight over stiffness
+        self.assertAlmostEqual(weight, 0.5, places=3)
 
 
 if __name__ == "__main__":
