@@ -38,9 +38,9 @@ const std::vector<Entry>& entries() {
   static const std::vector<Entry> table = {
       number("quaternion_tolerance", "–", between(0.0, 0.99),
              "how far a quaternion's norm may be from 1; within, it is normalised", &T::quaternion_tolerance),
-      number("max_distance", "m", between(1e-3, 1e6), "a position farther from the origin of its frame is left out",
+      number("max_distance", "m", between(1e-3, 1e6), "a position farther from the origin of its frame is rejected",
              &T::max_distance),
-      number("max_speed", "m/s", positive_or_infinite(), "a sample that could be reached only faster is left out",
+      number("max_speed", "m/s", positive_or_infinite(), "a sample that could be reached only faster is rejected",
              &T::max_speed),
       number("max_turn_rate", "rad/s", positive_or_infinite(), "likewise", &T::max_turn_rate),
       {{"accept_after", "–", "an integer in [1, 10000]", std::to_string(T().accept_after),

@@ -43,6 +43,7 @@ class KilledNodes(unittest.TestCase):
         kill_and_wait(node)
         self.see_it_move()
         self.assertEqual(pid_of("/manipulation"), manipulation)
+        self.assertGreater(len(self.steps.messages), seen)
         self.assertEqual(sum(m.steps_rejected for m in self.steps.messages[seen:]), 0)
 
     def test_the_tracker_driver(self):

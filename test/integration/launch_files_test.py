@@ -47,6 +47,7 @@ class LaunchFiles(unittest.TestCase):
             )
             objects.next(is_there, "the box to be lifted and carried")
             self.assertLess(objects.last.header.stamp.to_sec(), 1010.0)  # the bag's time
+            self.assertGreater(len(steps.messages), 0)
             self.assertEqual(sum(m.steps_rejected for m in steps.messages), 0)
         shutil.rmtree(folder)
 

@@ -162,7 +162,7 @@ class Limits(unittest.TestCase):
             self.scene_yaml = text.replace("⏎", "\n") + "\n"
             return self.replay()
 
-        self.walk("Scenes, the YAML beside it", answer)
+        self.walk("Scenes, the YAML file", answer)
 
     def test_motions(self):
         def answer(name, text):
