@@ -62,9 +62,10 @@ tools::Grasp Hand::grasp_of(std::size_t object) const {
 }
 
 void Hand::fit_size(tools::Grasp& grasp) const {
-  if (tool_ != tools::Tool::spring_fork || objects_.massless(grasp.object)) return;
+  if (tool_ != tools::Tool::spring_fork || to_world() || objects_.massless(grasp.object)) return;
   const scene::MassProperties& mass = objects_.body(grasp.object).mass_properties;
-  grasp.length = tools::calibrated_length({mass.mass, mass.inertia_O, RigidTransform::Identity()});
+  grasp.length =
+      tools::calibrated_length({mass.mass, mass.inertia_O, RigidTransform::Identity()}, settings_.grasp.object_goal);
 }
 
 void Hand::make_hold(double now) {
@@ -75,10 +76,9 @@ void Hand::make_hold(double now) {
 bool Hand::calibrate_hold() {
   if (!hold_ || tool_ == tools::Tool::direct || tool_ == tools::Tool::ray) return false;
   if (objects_.massless(grasp_.object)) return true;
-  fork_.stiffness = hold_->fitting_stiffness(fork_, scene_.gravity);
-  const double ratio = fork_.damping_ratio.stretch;
-  const bool one_ratio = fork_.damping_ratio == rod::PerDof{ratio, ratio, ratio};
-  if (one_ratio && fork_.damping_law == rod::DampingLaw::per_dof) fork_.damping_law = rod::DampingLaw::modal;
+  fork_.stiffness = to_world() ? settings_.fork.stiffness
+                               : hold_->fitting_stiffness(fork_, scene_.gravity, settings_.grasp.object_goal);
+  tools::damp_calibrated(fork_);
   hold_->set_springs(fork_);
   return true;
 }

@@ -90,7 +90,9 @@ class Hand {
   void fit_size(tools::Grasp& grasp) const;
   tools::HoldMaker maker() const { return {fork_, settings_.dynamics, scene_.gravity}; }
   void make_hold(double now);
-  /// Springs and dampers for what is held; the settings tell the stiffness. False where the tool has no springs.
+  bool to_world() const { return settings_.grasp.calibrate == tools::Calibration::world; }
+  /// Springs and dampers for what is held, or the world's; the settings tell the stiffness. False where the tool has no
+  /// springs.
   bool calibrate_hold();
   /// The held object goes on with this twist, whatever families are off.
   void keep_twist(const Twist& V_WO_W);

@@ -138,6 +138,32 @@ std::vector<Field> fork_fields(rod::ForkSettings& f) {
   };
 }
 
+std::vector<Field> calibration_fields(tools::GraspSettings& s) {
+  tools::ObjectGoal& of_object = s.object_goal;
+  tools::WorldGoal& of_world = s.world_goal;
+  return {
+      choice(
+          "calibrate",
+          "world: springs of the tool once for all objects of the scene, so that it stretches, bends and twists in "
+          "proportion to what it lifts; object: size, springs and dampers from each object at its grasp; none: as set",
+          s.calibrate),
+      number("calibration.object.sag", "–", between(1e-3, 0.6),
+             "part of the fork's length by which the object's weight extends and deflects it", of_object.sag),
+      number("calibration.object.twist", "rad", between(1e-3, 1.5),
+             "twist by the weight of an object as dense as water at a lever of its radius of gyration",
+             of_object.twist),
+      number("calibration.world.stretch", "–", between(1e-3, 3.0),
+             "part of the fork's length by which the weight of the heaviest object extends it", of_world.stretch),
+      number("calibration.world.bend", "–", between(1e-3, 0.6),
+             "part of the fork's length by which that weight, held level at its centre, deflects the tip",
+             of_world.bend),
+      number("calibration.world.twist", "rad", between(1e-3, 1.0),
+             "twist by that weight at a lever of the object's radius of gyration", of_world.twist),
+      number("calibration.world.heaviest", "kg", between(1e-6, 1e6), "the end of the range of weights",
+             of_world.heaviest, "the scene's heaviest object"),
+  };
+}
+
 std::vector<Field> grasp_fields(S& s) {
   std::string& object = s.grasp.object;
   std::optional<RigidTransform>& tip = s.grasp.X_OE;
@@ -146,10 +172,6 @@ std::vector<Field> grasp_fields(S& s) {
              "what would take a larger force at the tip than this is let go", s.limit.force),
       number("limit.moment", "N·m", validation::positive_or_infinite(),
              "what would take a larger moment at the tip than this is let go", s.limit.moment),
-      choice(
-          "calibrate",
-          "object: size, springs and dampers of the tool from the object and its grasp, on every grasp; none: as set",
-          s.grasp.calibrate),
       {{"grasp.object", "string", "–", "the name of a movable object of the scene", "none: grasped by button",
         "this object is held from the first sample to the last"},
        [&](const auto& node, const auto& where) { object = config::read_string(node, where, "grasp.object"); },
@@ -174,7 +196,8 @@ std::vector<Field> grasp_fields(S& s) {
 /// Every key there is: the one table.
 std::vector<Field> fields(S& s) {
   std::vector<Field> all;
-  for (auto& group : {scene_fields(s), dynamics_fields(s.dynamics), fork_fields(s.fork), grasp_fields(s)}) {
+  for (auto& group : {scene_fields(s), dynamics_fields(s.dynamics), fork_fields(s.fork), calibration_fields(s.grasp),
+                      grasp_fields(s)}) {
     all.insert(all.end(), group.begin(), group.end());
   }
   return all;

@@ -11,6 +11,7 @@
 #include "objects.h"
 #include "spring_workbench/bodies/shared_body.h"
 #include "spring_workbench/rod/shape_model.h"
+#include "spring_workbench/tools/calibration.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::simulation {
@@ -54,9 +55,17 @@ struct Simulation::Impl {
   Impl(const scene::Scene& s, const SimulationSettings& set)
       : settings(set), scene(set_up(s, set)), objects(scene, set.bisection_levels) {
     const auto tool = validation::named<tools::Tool>(scene.tool, scene.path, "tool");
+    if (settings.grasp.calibrate == tools::Calibration::world) fit_to_world();
     for (std::size_t i = 0; i < most_hands; ++i) hands.emplace_back(scene, settings, objects, tool);
   }
   Hand& hand(std::size_t index) { return hands.at(index); }
+  /// One fork for all objects (doc/model.md, "Calibration").
+  void fit_to_world() {
+    const tools::WorldGoal& goal = settings.grasp.world_goal;
+    settings.fork.stiffness =
+        tools::world_stiffness(settings.fork, tools::world_load(scene, goal), scene.gravity, goal);
+    tools::damp_calibrated(settings.fork);
+  }
 
   /// The time of the first sample of all; infinity before there is one.
   double first_sample() const;

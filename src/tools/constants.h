@@ -51,5 +51,8 @@ constexpr double no_give = 1e-9;
 /// [m], one standard deviation: how well a tracker knows where the probe's tip is. The uncertainty that it tells is
 /// in proportion. Goes into `Probe.ReadsTheMaterialStiffnessInSeriesWithItsOwn`.
 constexpr double position_uncertainty = 1e-4;
+/// [kg/m³]: objects of another density have a larger or smaller tool than their size asks. Larger: smaller tools. Goes
+/// into `Calibration.LengthGrowsWithTheObjectAndWithItsWeight`.
+constexpr double density_of_water = 1000.0;
 
 }  // namespace spring_workbench::tools

@@ -40,7 +40,7 @@ class ForkBody final : public ToolHold {
   /// Sets strain rates so that the object's twist comes as near as it can to this one.
   void take_twist(const Twist& V_WO_W) override;
   void set_springs(const rod::ForkSettings& fork) override { held_.set_springs(fork); }
-  rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity) const override;
+  rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity, const ObjectGoal& goal) const override;
   bool set_dofs(const rod::ForkDofs& dofs, double switch_off_time) override;
   void set_step_control(const dynamics::DynamicsSettings& settings) override { control_ = make_step_control(settings); }
   static dynamics::StepControl make_step_control(const dynamics::DynamicsSettings& settings);

@@ -4,8 +4,8 @@
 
 namespace spring_workbench::tools {
 
-rod::PerDof ForkBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity) const {
-  return calibrated_stiffness(fork.shape, length(), held_.body(), gravity);
+rod::PerDof ForkBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity, const ObjectGoal& goal) const {
+  return calibrated_stiffness(fork.shape, length(), held_.body(), gravity, goal);
 }
 
 bool ForkBody::set_dofs(const rod::ForkDofs& dofs, double switch_off_time) {

@@ -35,8 +35,8 @@ void SpringBody::set_springs(const rod::ForkSettings& fork) {
   c_ = rod::stretch_damping(fork, mass_);
 }
 
-rod::PerDof SpringBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity) const {
-  return {calibrated_spring(mass_, fork.length, gravity), fork.stiffness.bend, fork.stiffness.torsion};
+rod::PerDof SpringBody::fitting_stiffness(const rod::ForkSettings& fork, double gravity, const ObjectGoal& goal) const {
+  return {calibrated_spring(mass_, goal.sag * fork.length, gravity), fork.stiffness.bend, fork.stiffness.torsion};
 }
 
 Wrench SpringBody::spring_pull() const {

@@ -34,7 +34,7 @@ class SpringBody final : public ToolHold {
   void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) override;
   void take_twist(const Twist& V_WO_W) override { state_.free.set_twist(V_WO_W); }
   void set_springs(const rod::ForkSettings& fork) override;
-  rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity) const override;
+  rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity, const ObjectGoal& goal) const override;
   bool set_dofs(const rod::ForkDofs&, double) override { return false; }
   void set_step_control(const dynamics::DynamicsSettings&) override {}  // it has a rule of its own
   bool sleeps(double, bool) override { return false; }

@@ -14,7 +14,7 @@ NOT_YET = set(  # modules whose constants still stand where they are used; only 
 # What a standard, a device or a file says: not to be tuned, and at home where it is read and written.
 FORMATS = {"fastrak/fastrak_protocol.cpp", "fastrak/fastrak_device.cpp", "motion_files/motion_file.cpp"}
 FORMATS |= {"fastrak/fastrak_protocol.h"}
-MOST_UNNOTICED = 36  # constants that no test notices; only ever made smaller
+MOST_UNNOTICED = 35  # constants that no test notices; only ever made smaller
 TYPE = r"(?:unsigned |signed )?(?:double|float|bool|char|short|int|long|unsigned|(?:std::)?u?int\d+_t|(?:std::)?size_t)"
 DEFINITION = re.compile(rf"^(?:inline |static )*const(?:expr)? (?:inline )?{TYPE} (\w+)\s*[={{][^;]*\d", re.MULTILINE)
 ENTRY = re.compile(rf"((?:^///[^\n]*\n)*)^constexpr {TYPE} (\w+) =", re.MULTILINE)

@@ -93,7 +93,7 @@ class Simulation {
   Simulation& operator=(Simulation&&) noexcept;
 
   const scene::Scene& scene() const;
-  /// As given; `dynamics` as changed since.
+  /// As given; `dynamics` as changed since, `fork` as calibrated to the world.
   const SimulationSettings& settings() const;
   /// The fork in a hand: as given, changed and calibrated since.
   const rod::ForkSettings& fork_settings(std::size_t hand = 0) const;
@@ -135,8 +135,8 @@ class Simulation {
   void change(const DynamicsChange& change);
   /// Both, or neither.
   void change(const ForkChange& of_fork, const DynamicsChange& of_dynamics);
-  /// Stiffness from the mass and size of the held object, of the fork in each hand that holds one; the damping ratios
-  /// stay. Throws InputError when nothing is held.
+  /// Stiffness from the mass and size of the held object, or of the world with `calibrate: world`, of the fork in each
+  /// hand that holds one; the damping ratios stay. Throws InputError when nothing is held.
   ChangeReport calibrate();
 
   const std::vector<bodies::BodyState>& objects() const;

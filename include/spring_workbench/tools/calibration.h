@@ -1,14 +1,10 @@
 #pragma once
 
 #include "spring_workbench/dynamics/held_body.h"
+#include "spring_workbench/scene/scene.h"
+#include "spring_workbench/tools/settings.h"
 
 namespace spring_workbench::tools {
-
-/// What a calibrated fork does under the weight of the object that it holds (paper, sections 3.1 and 4).
-struct CalibrationGoal {
-  double sag = 0.1;     ///< static extension, hanging, and static deflection of the tip, held level: part of the length
-  double twist = 0.35;  ///< static twist under the weight at a lever of the object's radius of gyration [rad]
-};
 
 /// The acceleration [m/s²] that tells a weight from a mass: the scene's gravity, and without any the Earth's.
 double weighing_gravity(double gravity);
@@ -19,14 +15,35 @@ double weighing_gravity(double gravity);
 /// direction, twisting too, has near to the natural frequency `ω = sqrt(g / (sag · length))`, whatever the mass.
 /// Without gravity as on Earth.
 rod::PerDof calibrated_stiffness(rod::ShapeKind shape, double length, const dynamics::BodyInertia& body, double gravity,
-                                 const CalibrationGoal& goal = {});
+                                 const ObjectGoal& goal = {});
 
-/// Stiffness [N/m] of the tool `spring` that the weight of `mass` [kg] extends by `goal.sag` of `length` [m]. Without
-/// gravity as on Earth.
-double calibrated_spring(double mass, double length, double gravity, const CalibrationGoal& goal = {});
+/// Stiffness [N/m] of the tool `spring` that the weight of `mass` [kg] extends by `sag` [m]. Without gravity as on
+/// Earth.
+double calibrated_spring(double mass, double sag, double gravity);
 
-/// Length [m] of a fork for a body, from its size: the one with which the weight at a lever of the body's radius of
-/// gyration ρ twists the fork by `goal.twist`, `2 twist ρ / sag`. Limited to 1 mm … 100 m.
-double calibrated_length(const dynamics::BodyInertia& body, const CalibrationGoal& goal = {});
+/// Length [m] of a fork for a body, from its size and its weight (paper, section 3.1): `2 twist r / sag`, with r the
+/// geometric mean of the body's radius of gyration and of that of a ball of water of the body's mass. The weight of a
+/// body as dense as water, at a lever of its radius of gyration, then twists the fork by `goal.twist`. Limited to
+/// 1 mm … 100 m.
+double calibrated_length(const dynamics::BodyInertia& body, const ObjectGoal& goal = {});
+
+/// The largest load of a scene: the mass [kg] of its heaviest movable body, and its radius of gyration [m] as the lever
+/// of that weight. 1 kg at 50 mm where nothing has mass; `goal.heaviest` in place of the mass, if it is given.
+struct WorldLoad {
+  double mass = 1.0;
+  double lever = 0.05;
+};
+WorldLoad world_load(const scene::Scene& scene, const WorldGoal& goal);
+
+/// Stiffness [N/m, N/m, N·m/rad] of the one fork for all bodies of a world (paper, section 4), of `shape`, `length` and
+/// `slope_stiffness` as in `fork`: hanging from the upright fork, `load.mass` extends it by `goal.stretch` of its
+/// length; held level at its centre it deflects the tip by `goal.bend` of the length; held level at a lever of
+/// `load.lever` beside its centre it twists the fork by `goal.twist`: each in the full nonlinear equilibrium. What
+/// weighs less does so in proportion. Without gravity as on Earth.
+rod::PerDof world_stiffness(const rod::ForkSettings& fork, const WorldLoad& load, double gravity,
+                            const WorldGoal& goal = {});
+
+/// The damping law of a calibrated fork: `modal`, if the damping ratios of its degrees of freedom are one.
+void damp_calibrated(rod::ForkSettings& fork);
 
 }  // namespace spring_workbench::tools

@@ -4,6 +4,7 @@
 
 #include "spring_workbench/bodies/coupled_tool.h"
 #include "spring_workbench/dynamics/settings.h"
+#include "spring_workbench/tools/settings.h"
 #include "spring_workbench/tools/tool_state.h"
 
 namespace spring_workbench::tools {
@@ -46,7 +47,8 @@ class ToolHold : public bodies::SteppedBody, public bodies::CoupledTool {
   /// New stiffness and damping ratios; the strain stays.
   virtual void set_springs(const rod::ForkSettings& fork) = 0;
   /// The stiffness that fits the object as it is held (doc/model.md, "Calibration"). The object's mass must be > 0.
-  virtual rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity) const = 0;
+  virtual rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity,
+                                        const ObjectGoal& goal) const = 0;
   /// Switches families; true when one is on its way to zero strain. For the fork alone.
   virtual bool set_dofs(const rod::ForkDofs& dofs, double switch_off_time) = 0;
   virtual void set_step_control(const dynamics::DynamicsSettings& settings) = 0;

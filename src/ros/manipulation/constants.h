@@ -43,27 +43,5 @@ constexpr double longest_catch_up = 5.0;
 /// [s] by which a second stylus may begin before the simulated time and still join. At least 1: in simulated time an
 /// epoch begins at a whole second. Test: tools_test.py::test_second_stylus_takes_the_object_over.
 constexpr double joining_slip = 1.5;
-/// [m] arrows of force and moment below it are not drawn. Test: none: a look.
-constexpr double shortest_arrow = 1e-3;
-/// [m] arrows of force and moment are cut to it. Test: none: a look.
-constexpr double longest_arrow = 1.0;
-/// [m] between the hand and the seen handle from which on a line is drawn. Less: it flickers with rounding. Test: none:
-/// a look.
-constexpr double smallest_gap = 1e-5;
-/// [m] above the bench from which on an object throws a shadow. Less: those at rest flicker. Test:
-/// MarkersOfALift.ARaisedBoxThrowsItsOwnOutlineOnTheBench.
-constexpr double least_shadow_height = 2e-3;
-/// [m] less: the bench shines through. Test: MarkersOfALift.ARaisedBoxThrowsItsOwnOutlineOnTheBench.
-constexpr double shadow_above_bench = 1e-3;
-/// of the ghosts where objects belong. Test: none: a look.
-constexpr double target_opacity = 0.25;
-/// corners of a circle's shadow. Test: none: a look.
-constexpr int outline_sides = 24;
-/// colours in the column of loads. Test: MarkersOfALift.LoadIsColouredAndToldInVirtualKilograms.
-constexpr int legend_steps = 16;
-/// [m] of one colour in the column of loads. Test: none: a look.
-constexpr double legend_edge = 0.014;
-/// [m] height of the letters beside the column of loads. Test: none: a look.
-constexpr double legend_letters = 0.024;
 
 }  // namespace spring_workbench::manipulation

@@ -128,7 +128,11 @@ void SimulationRunner::load(const scene::Scene& scene) {
   const std::lock_guard<std::mutex> lock(mutex_);
   simulation::Simulation simulation(scene, simulation_.settings());
   for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-    simulation.change(simulation::change_to(simulation_.fork_settings(hand)), hand);
+    simulation::ForkChange change = simulation::change_to(simulation_.fork_settings(hand));
+    if (simulation.settings().grasp.calibrate == tools::Calibration::world) {  // the fork is the new scene's
+      change.stretch_stiffness = change.bend_stiffness = change.torsion_stiffness = std::nullopt;
+    }
+    simulation.change(change, hand);
   }
   places_.clear();
   begin_with(std::move(simulation));

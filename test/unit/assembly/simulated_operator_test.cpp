@@ -12,9 +12,9 @@ namespace {
 
 const std::string mini_world = test_support::checkout("scenes/mini_world.urdf");
 
-simulation::SimulationSettings assembly_settings() {
+simulation::SimulationSettings assembly_settings(tools::Calibration calibration = tools::Calibration::world) {
   simulation::SimulationSettings settings;
-  settings.grasp.calibrate = tools::Calibration::object;
+  settings.grasp.calibrate = calibration;
   settings.grasp.release = tools::Release::dropped;
   return settings;
 }
@@ -45,9 +45,10 @@ TEST(SimulatedOperator, AssemblesTheMiniWorldWithEveryFork) {
   const scene::Scene scene = scene::load_scene(mini_world);
   for (const rod::ForkDofs& dofs :
        {rod::ForkDofs{true, true, true}, rod::ForkDofs{true, true, false}, rod::ForkDofs{false, true, false}}) {
-    simulation::SimulationSettings settings = assembly_settings();
-    settings.fork.dofs = dofs;
     for (unsigned seed = 1; seed <= 2; ++seed) {
+      simulation::SimulationSettings settings =
+          assembly_settings(seed == 1 ? tools::Calibration::world : tools::Calibration::object);
+      settings.fork.dofs = dofs;
       OperatorSettings hand;
       hand.seed = seed;
       const Trial trial = run_trial(scene, settings, hand);

@@ -7,6 +7,7 @@
 
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/so3.h"
+#include "support/named.h"
 
 namespace spring_workbench::tools {
 namespace {
@@ -29,8 +30,8 @@ const std::vector<Vector3d> grasps = {Vector3d::Zero(), Vector3d(0.05, 0.0, 0.0)
 
 /// The body on the calibrated fork, where it comes to rest by itself: no solver of equilibria here.
 struct Held {
-  Held(const dynamics::BodyInertia& body, const rod::PerDof& stiffness, const Vector3d& turn)
-      : held(rod::make_shape_model(rod::ShapeKind::linear, length), body, gravity),
+  Held(rod::ShapeKind shape, const dynamics::BodyInertia& body, const rod::PerDof& stiffness, const Vector3d& turn)
+      : held(rod::make_shape_model(shape, length), body, gravity),
         integrator(dynamics::make_integrator(dynamics::IntegratorKind::exponential)),
         hand(pose(turn)) {
     const int size = held.shape().size();
@@ -49,6 +50,7 @@ struct Held {
       integrator->step(held, motion::MotionSegment(hand), t, h, state);
   }
   double extension() const { return held.shape().extension(state.q); }
+  double twist() const { return std::abs(held.shape().twist(state.q)); }
   double deflection() const { return held.shape().section(state.q, length).translation().head<2>().norm(); }
 
   dynamics::HeldBody held;
@@ -61,12 +63,12 @@ struct Held {
 const Vector3d hanging(pi, 0.0, 0.0), level(0.0, -0.5 * pi, 0.0);
 
 TEST(Calibration, StaticSagIsTheSetPartOfTheLengthOverTwelveDecadesOfMassWhereverTheGraspIs) {
-  const CalibrationGoal goal;
+  const ObjectGoal goal;
   for (double mass = 1e-6; mass < 2e6; mass *= 1e4) {
     for (const Vector3d& p_OE : grasps) {
       const dynamics::BodyInertia body = box(mass, p_OE);
       const rod::PerDof fork = calibrated_stiffness(rod::ShapeKind::linear, length, body, gravity, goal);
-      Held down(body, fork, hanging), across(body, fork, level);
+      Held down(rod::ShapeKind::linear, body, fork, hanging), across(rod::ShapeKind::linear, body, fork, level);
       down.run(3.0);
       across.run(3.0);
       EXPECT_NEAR(down.extension(), goal.sag * length, 0.01 * goal.sag * length) << mass << ": " << p_OE.transpose();
@@ -129,7 +131,7 @@ double settling_time(const dynamics::BodyInertia& body, int direction) {
 /// Held at its centre it settles alike in every direction. Held at an edge or a corner a push turns it as well, which
 /// takes up to 1.4 times as long: three stiffnesses cannot make six directions equal there.
 TEST(Calibration, EveryDirectionSettlesAlikeOverTwelveDecadesOfMass) {
-  const double omega = std::sqrt(gravity / (CalibrationGoal().sag * length));
+  const double omega = std::sqrt(gravity / (ObjectGoal().sag * length));
   const double critical = 5.834 / omega;  // (1 + ωt) exp(−ωt) = 0.02
   for (const Vector3d& p_OE : grasps) {
     for (const int direction : {0, 1, 2, 5}) {
@@ -149,12 +151,61 @@ TEST(Calibration, NoLoadNoGravityStaysPositive) {
   EXPECT_GT(fork.torsion, 0.0);
 }
 
-TEST(Calibration, LengthGrowsWithTheObjectAndNotWithItsMass) {
-  const double one = calibrated_length(box(1.0, Vector3d::Zero()));
-  EXPECT_NEAR(calibrated_length(box(1e6, Vector3d::Zero())), one, 1e-12);
-  dynamics::BodyInertia large = box(1.0, Vector3d::Zero());
-  large.inertia_O *= 4.0;
-  EXPECT_NEAR(calibrated_length(large), 2.0 * one, 1e-12);
+TEST(Calibration, LengthGrowsWithTheObjectAndWithItsWeight) {
+  double before = 0.0;
+  for (const double mass : {1e-3, 0.1, 1.0, 10.0, 300.0}) {  // of one size
+    const double found = calibrated_length(box(mass, Vector3d::Zero()));
+    EXPECT_GT(found, 1.1 * before) << mass;
+    before = found;
+  }
+  before = 0.0;
+  for (const double scale : {0.3, 1.0, 3.0}) {  // of one weight
+    dynamics::BodyInertia body = box(1.0, Vector3d::Zero());
+    body.inertia_O *= scale * scale;
+    const double found = calibrated_length(body);
+    EXPECT_GT(found, 1.1 * before) << scale;
+    before = found;
+  }
+  // A ball of water of 1 kg: at a lever of its radius of gyration its weight twists the fork by the goal.
+  const double rho = std::sqrt(0.4) * std::cbrt(0.75e-3 / pi);
+  dynamics::BodyInertia water{1.0, rho * rho * Matrix3d::Identity(), RigidTransform::Identity()};
+  water.X_OE.translation().y() = -rho;
+  const double found = calibrated_length(water);
+  const rod::PerDof fork = calibrated_stiffness(rod::ShapeKind::linear, found, water, gravity);
+  EXPECT_NEAR(gravity * rho / fork.torsion, ObjectGoal().twist, 0.02 * ObjectGoal().twist);
+}
+
+/// Over every shape of the fork: the heaviest body reaches the goals, and a lighter one a part of them in proportion,
+/// where the deflection is small.
+TEST(Calibration, OneForkForAWorldShowsEveryWeightInProportion) {
+  const WorldGoal goal;
+  const WorldLoad load{30.0, 0.04};
+  for (const std::string& shape : test_support::shape_names()) {
+    rod::ForkSettings fork;
+    fork.shape = test_support::shape_named(shape);
+    fork.length = length;
+    const rod::PerDof k = world_stiffness(fork, load, gravity, goal);
+    const auto settled = [&](double mass, const Vector3d& p_OE, const Vector3d& turn) {
+      Held held(fork.shape, box(mass, p_OE), k, turn);
+      held.run(6.0);
+      return held;
+    };
+    const Vector3d centre = Vector3d::Zero(), beside(0.0, -load.lever, 0.0);
+    EXPECT_NEAR(settled(load.mass, centre, hanging).extension(), goal.stretch * length, 0.02 * goal.stretch * length);
+    EXPECT_NEAR(settled(load.mass, centre, level).deflection(), goal.bend * length, 0.02 * goal.bend * length);
+    EXPECT_NEAR(settled(load.mass, beside, level).twist(), goal.twist, 0.02 * goal.twist) << shape;
+    const double light = 0.1;
+    const double extends = settled(light, centre, hanging).extension() / light;
+    const double deflects = settled(light, centre, level).deflection() / light;
+    const double twists = settled(light, beside, level).twist() / light;
+    for (const double mass : {0.3, 1.0, 3.0, 9.0, 30.0}) {
+      EXPECT_NEAR(settled(mass, centre, hanging).extension() / mass, extends, 0.01 * extends) << shape << mass;
+      const Held across = settled(mass, centre, level);
+      if (across.deflection() > 0.1 * length) continue;
+      EXPECT_NEAR(across.deflection() / mass, deflects, 0.01 * deflects) << shape << mass;
+      EXPECT_NEAR(settled(mass, beside, level).twist() / mass, twists, 0.01 * twists) << shape << mass;
+    }
+  }
 }
 
 }  // namespace

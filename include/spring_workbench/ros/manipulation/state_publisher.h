@@ -6,8 +6,8 @@
 #include <string>
 
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
-#include "spring_workbench/ros/manipulation/markers.h"
 #include "spring_workbench/ros/manipulation/simulation_runner.h"
+#include "spring_workbench/ros/markers/markers.h"
 
 namespace spring_workbench::manipulation {
 
@@ -36,7 +36,7 @@ class StatePublisher {
   ros::Time last_transforms_;
   bool had_contacts_ = false;
   bool markers_were_built_ = false;  ///< in this cycle
-  MarkerBuilder markers_;
+  markers::MarkerBuilder markers_;
   tf2_ros::TransformBroadcaster transforms_;
   ros::Publisher objects_publisher_, fork_publisher_, second_fork_publisher_, wrench_publisher_, contacts_publisher_,
       markers_publisher_, steps_publisher_, task_publisher_;

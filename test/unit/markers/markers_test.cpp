@@ -1,4 +1,4 @@
-#include "spring_workbench/ros/manipulation/markers.h"
+#include "spring_workbench/ros/markers/markers.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "support/meshes.h"
 #include "support/paths.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::markers {
 namespace {
 
 using visualization_msgs::Marker;
@@ -152,6 +152,40 @@ TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
   }
 }
 
+/// 0.1 to 30 vkg: by their logarithm, from the lightest on in another colour each, with a mark that tells the weight.
+TEST(LoadScale, EveryWeightOfTheMiniWorldHasItsPlace) {
+  const scene::Scene scene = scene::load_scene(test_support::checkout("scenes/mini_world.urdf"));
+  simulation::SimulationSettings settings;
+  settings.grasp.calibrate = tools::Calibration::world;
+  settings.contact = scene::ContactMode::none;
+  std::set<std::string> marks;
+  std::map<double, Vector3d> colors;
+  for (const scene::Body& body : scene.bodies) {
+    if (!body.movable) continue;
+    settings.grasp.object = body.name;
+    simulation::Simulation simulation(scene, settings);
+    const Vector3d hand = body.X_WO.translation() + Vector3d(0, 0, 0.2);
+    for (const double t : {0.0, 0.1}) simulation.push_stylus({t, make_transform(Quaterniond(0, 1, 0, 0), hand)});
+    simulation.advance(4.0);
+    const MarkerArray markers = MarkerBuilder("rod", 2.0).build(simulation, std_msgs::Header());
+    const auto color = find(markers, "fork", 0)->color;
+    colors[body.mass_properties.mass] = Eigen::Vector3f(color.r, color.g, color.b).cast<double>();
+    ASSERT_NE(find(markers, "legend load", 0), nullptr) << body.name;
+    EXPECT_GT(find(markers, "legend load", 0)->points[1].z, find(markers, "legend", 0)->points[0].z) << body.name;
+    for (const Marker& marker : markers.markers) {
+      if (marker.ns == "legend marks") marks.insert(marker.text);
+    }
+  }
+  Vector3d before(0.52, 0.66, 0.84);  // steel blue: no load
+  for (const auto& [mass, color] : colors) {
+    EXPECT_GT((color - before).norm(), 0.1) << mass;
+    before = color;
+  }
+  EXPECT_EQ(marks.size(), colors.size());
+  EXPECT_EQ(marks.count("0.1 vkg  0.2 mm"), 1u);
+  EXPECT_EQ(marks.count("30 vkg  60 mm"), 1u);
+}
+
 TEST(Markers, AMeshIsSentByItsFile) {
   scene::Scene scene = scene::load_scene(test_support::checkout("scenes/single_box.urdf"));
   geometry::TriangleMesh mesh = *test_support::box_mesh(Vector3d(0.2, 0.1, 0.1));
@@ -189,4 +223,4 @@ TEST_F(MarkersOfALift, AnInsertedObjectIsHighlighted) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::markers

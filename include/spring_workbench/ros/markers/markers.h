@@ -5,16 +5,20 @@
 #include <set>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "spring_workbench/fork_mesh/fork_model.h"
 #include "spring_workbench/simulation/simulation.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::markers {
+
+class LoadScale;
+class MarkerList;
 
 /// Draws the simulation for rviz: bodies, targets, shadows on the bench, the deformed fork in the colour of its load
-/// with a legend, force and moment at the tip as arrows and text, contact points with their normals. Every marker keeps
-/// its namespace and id while what it shows is there and is deleted by name when it is gone, so that nothing flickers;
-/// rviz drops by itself what is no longer sent.
+/// with a legend, force and moment at the tip of each as arrows and text, contact points with their normals. Every
+/// marker keeps its namespace and id while what it shows is there and is deleted by name when it is gone, so that
+/// nothing flickers; rviz drops by itself what is no longer sent.
 class MarkerBuilder {
  public:
   /// `fork_curve`: one of fork_curve_names(). `lifetime` [s] of a marker that is not sent again.
@@ -25,6 +29,8 @@ class MarkerBuilder {
  private:
   using MarkerKey = std::pair<std::string, int>;
 
+  /// The tool of a hand and what it carries.
+  void draw_hand(const simulation::Simulation& simulation, const LoadScale& scale, std::size_t hand, MarkerList& list);
   void deform(const tools::ToolState& tool);
   void delete_what_is_gone(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers);
 
@@ -32,7 +38,8 @@ class MarkerBuilder {
   double lifetime_;
   fork_mesh::ForkModel fork_;
   fork_mesh::ForkMesh fork_mesh_;
+  std::vector<std::vector<Vector3d>> forks_W_;  ///< corners of each hand's fork
   std::set<MarkerKey> shown_;
 };
 
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::markers

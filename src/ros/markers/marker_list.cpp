@@ -2,7 +2,7 @@
 
 #include "spring_workbench/ros/common/conversions.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::markers {
 
 using visualization_msgs::Marker;
 
@@ -60,4 +60,4 @@ void MarkerList::add_text(const std::string& ns, int id, const Vector3d& p_W, do
   marker.text = text;
 }
 
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::markers

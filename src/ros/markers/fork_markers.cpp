@@ -6,7 +6,7 @@
 #include "constants.h"
 #include "spring_workbench/ros/common/conversions.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::markers {
 namespace {
 
 using visualization_msgs::Marker;
@@ -36,14 +36,15 @@ void draw_arrow(const std::string& ns, const tools::ToolState& tool, const Vecto
   markers.add_arrow(ns, 0, begin, begin + arrow * std::min(1.0, longest_arrow / length), 0.03 * tool.length, color);
 }
 
-void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, MarkerList& markers) {
+void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, const std::string& number,
+                  MarkerList& markers) {
   const double force = tool.tip_wrench_W.force.norm();
   char text[100];
   std::snprintf(text, sizeof text, "%.2f vkg   %.2f N   %.3f N m", virtual_kilograms(force, scene),
                 force / scene.force_scale, tool.tip_wrench_W.moment.norm() / scene.force_scale);
   const Vector3d place =
       tool.X_WH_proxy * Vector3d(0.0, 0.0, -0.5 * tool.length) + 0.35 * tool.length * Vector3d::UnitZ();
-  markers.add_text("readout", 0, place, 0.13 * tool.length, text, text_color);
+  markers.add_text("readout" + number, 0, place, 0.13 * tool.length, text, text_color);
 }
 
 }  // namespace
@@ -57,15 +58,16 @@ void draw_fork(const fork_mesh::ForkModel& model, const fork_mesh::ForkMesh& mes
   markers.add_points("gap" + number, 0, Marker::LINE_LIST, {hand, seen}, gap_color).scale.x = 0.01 * tool.length;
 }
 
-void draw_load(const scene::Scene& scene, const tools::ToolState& tool, MarkerList& markers) {
+void draw_load(const scene::Scene& scene, const tools::ToolState& tool, const std::string& number,
+               MarkerList& markers) {
   const auto held = scene::find_body(scene, tool.held_object);
   if (!held) return;
   const double weight = scene.bodies[*held].mass_properties.mass * std::max(scene.gravity, 1.0);
   if (weight > 0.0) {
-    draw_arrow("force", tool, 0.5 * tool.length / weight * tool.tip_wrench_W.force, force_color, markers);
-    draw_arrow("moment", tool, 2.5 / weight * tool.tip_wrench_W.moment, moment_color, markers);
+    draw_arrow("force" + number, tool, 0.5 * tool.length / weight * tool.tip_wrench_W.force, force_color, markers);
+    draw_arrow("moment" + number, tool, 2.5 / weight * tool.tip_wrench_W.moment, moment_color, markers);
   }
-  draw_readout(scene, tool, markers);
+  draw_readout(scene, tool, number, markers);
 }
 
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::markers

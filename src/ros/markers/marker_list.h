@@ -7,7 +7,7 @@
 
 #include "spring_workbench/math/rigid_transform.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::markers {
 
 using Color = Eigen::Vector4d;  ///< r, g, b, alpha in 0 … 1
 
@@ -43,4 +43,4 @@ class MarkerList {
   visualization_msgs::MarkerArray markers_;
 };
 
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::markers

@@ -1,11 +1,11 @@
-#include "spring_workbench/ros/manipulation/markers.h"
+#include "spring_workbench/ros/markers/markers.h"
 
 #include "fork_markers.h"
 #include "load_scale.h"
 #include "marker_list.h"
 #include "scene_markers.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::markers {
 
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
@@ -15,25 +15,31 @@ MarkerBuilder::MarkerBuilder(std::string fork_curve, double lifetime)
 
 MarkerArray MarkerBuilder::build(const simulation::Simulation& simulation, const std_msgs::Header& header) {
   const scene::Scene& scene = simulation.scene();
-  const tools::ToolState tool = simulation.fork();
-  const LoadScale scale(scene);
-  deform(tool);
-
+  const LoadScale scale(simulation);
   MarkerList list(header, lifetime_);
   draw_bodies(simulation, list);
   draw_targets(scene, list);
-  draw_shadows(simulation, fork_mesh_.vertices, list);
-  draw_fork(fork_, fork_mesh_, tool, scale.color(LoadScale::load(tool)), "", list);
-  if (const tools::ToolState second = simulation.fork(1); second.present) {
-    deform(second);
-    draw_fork(fork_, fork_mesh_, second, scale.color(LoadScale::load(second)), "_2", list);
-  }
-  draw_load(scene, tool, list);
-  scale.draw_legend(scene, list);
-  draw_contacts(simulation.contacts(), tool.length, list);
+  scale.draw_legend(list);
+  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand)
+    draw_hand(simulation, scale, hand, list);
+  draw_shadows(simulation, forks_W_, list);
+  draw_contacts(simulation.contacts(), simulation.fork().length, list);
   MarkerArray markers = list.take();
   delete_what_is_gone(header, markers);
   return markers;
+}
+
+void MarkerBuilder::draw_hand(const simulation::Simulation& simulation, const LoadScale& scale, std::size_t hand,
+                              MarkerList& list) {
+  if (hand == 0) forks_W_.clear();
+  const tools::ToolState tool = simulation.fork(hand);
+  if (hand > 0 && !tool.present) return;
+  const std::string number = hand > 0 ? "_" + std::to_string(hand + 1) : "";
+  deform(tool);
+  forks_W_.push_back(fork_mesh_.vertices);
+  draw_fork(fork_, fork_mesh_, tool, scale.color(LoadScale::load(tool)), number, list);
+  draw_load(simulation.scene(), tool, number, list);
+  if (!tool.held_object.empty()) scale.draw_load(tool, number, list);
 }
 
 void MarkerBuilder::deform(const tools::ToolState& tool) {
@@ -57,4 +63,4 @@ void MarkerBuilder::delete_what_is_gone(const std_msgs::Header& header, MarkerAr
   shown_ = std::move(now);
 }
 
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::markers

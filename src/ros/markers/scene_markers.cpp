@@ -7,7 +7,7 @@
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/ros/common/conversions.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::markers {
 namespace {
 
 using visualization_msgs::Marker;
@@ -133,7 +133,8 @@ void draw_targets(const scene::Scene& scene, MarkerList& markers) {
   }
 }
 
-void draw_shadows(const simulation::Simulation& simulation, const std::vector<Vector3d>& fork_W, MarkerList& markers) {
+void draw_shadows(const simulation::Simulation& simulation, const std::vector<std::vector<Vector3d>>& forks_W,
+                  MarkerList& markers) {
   const scene::Scene& scene = simulation.scene();
   int id = 0;
   for (const bodies::BodyState& object : simulation.objects()) {
@@ -143,7 +144,7 @@ void draw_shadows(const simulation::Simulation& simulation, const std::vector<Ve
     }
     draw_shadow(id++, outline, scene.bench_height, markers);
   }
-  draw_shadow(id, fork_W, scene.bench_height, markers);
+  for (const std::vector<Vector3d>& fork_W : forks_W) draw_shadow(id++, fork_W, scene.bench_height, markers);
 }
 
 void draw_contacts(const std::vector<contact::ContactState>& contacts, double fork_length, MarkerList& markers) {
@@ -159,4 +160,4 @@ void draw_contacts(const std::vector<contact::ContactState>& contacts, double fo
   }
 }
 
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::markers

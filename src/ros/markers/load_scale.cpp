@@ -1,0 +1,113 @@
+#include "load_scale.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "constants.h"
+#include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/tools/calibration.h"
+
+namespace spring_workbench::markers {
+namespace {
+
+const Color text_color(0.9, 0.9, 0.9, 1.0);
+
+/// Left, back and bottom of all bodies where they start, but the bench.
+Vector3d legend_corner(const scene::Scene& scene) {
+  Eigen::AlignedBox3d all;
+  for (const scene::Body& body : scene.bodies) {
+    for (const geometry::Shape& shape : body.visual)
+      all.extend(geometry::bounding_box(shape.geometry, body.X_WO * shape.X_OS));
+  }
+  return all.isEmpty() ? Vector3d(0.0, 0.0, scene.bench_height)
+                       : Vector3d(all.min().x(), all.max().y(), scene.bench_height);
+}
+
+}  // namespace
+
+double virtual_kilograms(double force, const scene::Scene& scene) {
+  return force / tools::weighing_gravity(scene.gravity);
+}
+
+LoadScale::LoadScale(const simulation::Simulation& simulation)
+    : gravity_(tools::weighing_gravity(simulation.scene().gravity)),
+      foot_(legend_corner(simulation.scene()) + Vector3d(0.5 * legend_edge, -0.5 * legend_edge, 0.05)) {
+  const tools::GraspSettings& grasp = simulation.settings().grasp;
+  full_ = tools::world_load(simulation.scene(), grasp.world_goal).mass * gravity_;
+  for (const scene::Body& body : simulation.scene().bodies) {
+    if (body.mass_properties.mass > 0.0) weights_.push_back(body.mass_properties.mass * gravity_);
+  }
+  std::sort(weights_.rbegin(), weights_.rend());
+  if (!weights_.empty() && full_ > one_decade * weights_.back()) none_ = below_lightest * weights_.back();
+  if (grasp.calibrate == tools::Calibration::world) stretch_stiffness_ = simulation.settings().fork.stiffness.stretch;
+}
+
+double LoadScale::load(const tools::ToolState& tool) {
+  return std::max(tool.tip_wrench_W.force.norm(), tool.tip_wrench_W.moment.norm() / tool.length);
+}
+
+double LoadScale::place(double load) const {
+  if (none_ > 0.0) return load > none_ ? std::min(std::log(load / none_) / std::log(full_ / none_), 1.0) : 0.0;
+  return std::clamp(load / full_, 0.0, 1.0);
+}
+
+Color LoadScale::color(double load) const {
+  static const Color stops[] = {{0.52, 0.66, 0.84, 1.0}, {1.0, 0.85, 0.2, 1.0}, {0.88, 0.08, 0.05, 1.0}};
+  const double at = 2.0 * place(load);
+  const int below = at < 1.0 ? 0 : 1;
+  return stops[below] + (at - below) * (stops[below + 1] - stops[below]);
+}
+
+double LoadScale::height(double place) const { return (0.5 + place * (legend_steps - 1)) * legend_edge; }
+
+std::string LoadScale::label(double weight) const {
+  char text[80];
+  const int end = std::snprintf(text, sizeof text, "%.3g vkg", weight / gravity_);
+  if (stretch_stiffness_ > 0.0) {
+    std::snprintf(text + end, sizeof text - static_cast<std::size_t>(end), "  %.3g mm",
+                  1e3 * weight / stretch_stiffness_);
+  }
+  return text;
+}
+
+/// The heaviest, the lightest, then the others, as far as there is room for their letters.
+void LoadScale::draw_marks(MarkerList& markers) const {
+  std::vector<double> in_order = weights_;
+  if (in_order.size() > 1) std::rotate(in_order.begin() + 1, in_order.end() - 1, in_order.end());
+  std::vector<double> taken;
+  for (const double weight : in_order) {
+    const double z = height(place(weight));
+    const auto near = [&](double other) { return std::abs(other - z) < 0.9 * legend_letters; };
+    if (std::any_of(taken.begin(), taken.end(), near)) continue;
+    taken.push_back(z);
+    markers.add_text("legend marks", static_cast<int>(taken.size()), foot_ + Vector3d(6.0 * legend_letters, 0.0, z),
+                     legend_letters, label(weight), text_color);
+  }
+}
+
+void LoadScale::draw_legend(MarkerList& markers) const {
+  std::vector<Vector3d> centres;
+  for (int i = 0; i < legend_steps; ++i) centres.push_back(foot_ + Vector3d(0.0, 0.0, (i + 0.5) * legend_edge));
+  visualization_msgs::Marker& column =
+      markers.add_points("legend", 0, visualization_msgs::Marker::CUBE_LIST, centres, text_color);
+  column.scale = ros_common::to_vector(Vector3d::Constant(legend_edge));
+  for (int i = 0; i < legend_steps; ++i) {
+    const double at = static_cast<double>(i) / (legend_steps - 1);
+    column.colors.push_back(to_color(color(none_ > 0.0 ? none_ * std::pow(full_ / none_, at) : full_ * at)));
+  }
+  char full[80];
+  std::snprintf(full, sizeof full, "%.3g N = %.3g vkg", full_, full_ / gravity_);
+  markers.add_text("legend", 2, foot_ + Vector3d(0.0, 0.0, legend_steps * legend_edge + 1.6 * legend_letters),
+                   legend_letters, full, text_color);
+  draw_marks(markers);
+}
+
+void LoadScale::draw_load(const tools::ToolState& tool, const std::string& number, MarkerList& markers) const {
+  const Vector3d at = foot_ + Vector3d(-0.5 * legend_edge, 0.0, height(place(load(tool))));
+  markers.add_arrow("legend load" + number, 0, at - Vector3d(4.0 * legend_edge, 0.0, 0.0), at, 0.4 * legend_edge,
+                    text_color);
+}
+
+}  // namespace spring_workbench::markers

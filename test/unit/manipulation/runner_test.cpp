@@ -1,0 +1,29 @@
+#include <gtest/gtest.h>
+
+#include "spring_workbench/ros/manipulation/simulation_runner.h"
+#include "support/paths.h"
+
+namespace spring_workbench::manipulation {
+namespace {
+
+scene::Scene shipped(const std::string& name) {
+  return scene::load_scene(test_support::checkout("scenes/" + name + ".urdf"));
+}
+
+/// With `calibrate: world` another scene has another fork; what was switched stays.
+TEST(SimulationRunner, AnotherSceneHasAForkOfItsOwn) {
+  simulation::SimulationSettings settings;
+  settings.grasp.calibrate = tools::Calibration::world;
+  SimulationRunner runner(shipped("single_box"), settings, hand_input::InputSettings(), 0.0);
+  simulation::ForkChange stiff;
+  stiff.dofs = rod::ForkDofs{true, true, false};
+  runner.locked([&](simulation::Simulation& s) { return s.change(stiff); });
+  runner.load(shipped("heavy"));
+  const rod::ForkSettings fork = runner.locked([](simulation::Simulation& s) { return s.fork_settings(1); });
+  const simulation::Simulation alone(shipped("heavy"), settings);
+  EXPECT_EQ(fork.stiffness, alone.fork_settings(1).stiffness);
+  EXPECT_FALSE(fork.dofs.torsion);
+}
+
+}  // namespace
+}  // namespace spring_workbench::manipulation
