@@ -39,7 +39,9 @@ class SceneLoader {
 
   Scene load() {
     const fs::path yaml = fs::path(path_).replace_extension(".yaml");
-    if (fs::exists(yaml)) file_ = read_scene_file(yaml.string());
+    if (fs::symlink_status(yaml).type() != fs::file_type::not_found) {
+      file_ = read_scene_file(resolve_file(yaml.string(), "", roots_, path_, "the YAML beside it"));
+    }
     scene_ = file_.settings;
     scene_.name = fs::path(path_).stem().string();
     scene_.path = path_;

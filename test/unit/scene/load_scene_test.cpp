@@ -540,6 +540,30 @@ std::string refusal_from(const std::string& path, const std::vector<std::string>
   return "(loaded)";
 }
 
+/// A FIFO is not waited for, a device not read, and no link leads out of the folders that are allowed.
+TEST_F(LoadScene, TheYamlBesideItIsHeldToTheSameFolders) {
+  folder_.write("allowed/scene.urdf", "<robot name='test'><link name='world'/></robot>");
+  folder_.write("secret.yaml", "password: 1");
+  const std::vector<std::string> roots = {folder_.path("allowed")};
+  const std::string yaml = folder_.path("allowed/scene.yaml");
+  const auto refusal = [&] {
+    const std::string text = refusal_from(folder_.path("allowed/scene.urdf"), roots);
+    std::filesystem::remove(yaml);
+    return text;
+  };
+  EXPECT_EQ(refusal(), "(loaded)");
+  ASSERT_EQ(mkfifo(yaml.c_str(), 0600), 0);
+  EXPECT_TRUE(has(refusal(), "a file that is there"));
+  for (const std::string target : {"/dev/zero", "/nowhere"}) {
+    std::filesystem::create_symlink(target, yaml);
+    EXPECT_TRUE(has(refusal(), "a file that is there"));
+  }
+  std::filesystem::create_symlink(folder_.path("secret.yaml"), yaml);
+  const std::string text = refusal();
+  EXPECT_TRUE(has(text, "one of the folders"));
+  EXPECT_EQ(text.find("password"), std::string::npos);
+}
+
 TEST_F(LoadScene, ReadsFromTheFoldersAllowedAndFromPackagesAlone) {
   folder_.write("allowed/scene.urdf", one_link);
   folder_.write("elsewhere/scene.urdf", one_link);
