@@ -4,7 +4,7 @@ target_include_directories(spring_workbench_ros_common SYSTEM PUBLIC
   ${catkin_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 add_dependencies(spring_workbench_ros_common ${PROJECT_NAME}_generate_messages_cpp)
 add_module(markers FOLDER ros/markers DEPENDS ros_common simulation fork_mesh)
-add_module(manipulation FOLDER ros/manipulation DEPENDS ros_common assembly fork_mesh markers)
+add_module(manipulation FOLDER ros/manipulation DEPENDS ros_common live fork_mesh markers)
 add_module(tracker_driver FOLDER ros/tracker_driver DEPENDS ros_common assembly fastrak motion_files registration)
 add_module(contact_sound FOLDER ros/contact_sound DEPENDS ros_common sound)
 add_module(register_tracker FOLDER ros/register_tracker DEPENDS ros_common motion_files registration)

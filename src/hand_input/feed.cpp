@@ -7,6 +7,7 @@
 
 #include "spring_workbench/hand_input/playout_clock.h"
 #include "spring_workbench/hand_input/pose_filter.h"
+#include "spring_workbench/motion/pose_predictor.h"
 
 namespace spring_workbench::hand_input {
 namespace {
@@ -20,14 +21,14 @@ struct Feed::Hand {
   PoseFilter smoothing;
   Reacquisition reacquisition;
   PlayoutClock playout;
+  motion::PosePredictor ahead;
   bool has_sample = false;  ///< since the start
 };
 
-Feed::Feed(simulation::Simulation& simulation, const InputSettings& settings, bool simulated_time)
-    : simulation_(simulation) {
+Feed::Feed(simulation::Simulation& simulation, const InputSettings& settings) : simulation_(simulation) {
   const double dropout_after = simulation.settings().dropout_after;
   const Hand hand{SampleGate(settings, dropout_after), PoseFilter(settings), Reacquisition(settings),
-                  PlayoutClock(dropout_after, simulated_time)};
+                  PlayoutClock(dropout_after), motion::PosePredictor()};
   hands_.assign(simulation::Simulation::most_hands, hand);
 }
 
@@ -61,11 +62,15 @@ void Feed::follow(const motion::PoseSample& sample, GateResult result, const Rig
   motion::PoseSample smoothed = input.smoothing.filter(sample);
   if (X_WP != nullptr) smoothed.X = *X_WP * smoothed.X;
   const double simulated_until = has_sample_ ? simulation_.time() : kNever;
+  if (relocation) input.ahead.restart();
   for (const motion::PoseSample& followed : input.reacquisition.follow(smoothed, relocation, simulated_until)) {
-    input.has_sample |= simulation_.push_stylus(followed, hand);
+    if (!simulation_.push_stylus(followed, hand)) continue;
+    input.has_sample = true;
+    input.ahead.push(followed);
+    note(Accepted::Kind::pose, hand, followed.t, followed.X);
   }
   has_sample_ |= input.has_sample;
-  input.playout.sample(sample.t, arrival);  // a late one, too: simulated time waits for what is under way
+  input.playout.sample(sample.t, arrival);  // a late one, too: what is under way is waited for
 }
 
 void Feed::restart_gate(std::size_t hand) {
@@ -77,12 +82,35 @@ void Feed::buttons_known(double t, const LocalTime& arrival, std::size_t hand) {
   hands_.at(hand).playout.buttons(t, arrival);
 }
 
-double Feed::target(const LocalTime& now) const {
-  double target = std::numeric_limits<double>::infinity();
+void Feed::push_button(double t, bool pressed, std::size_t hand) {
+  simulation_.push_button(t, pressed, hand);
+  note(pressed ? Accepted::Kind::button_down : Accepted::Kind::button_up, hand, t);
+}
+
+void Feed::push_next_tool(double t, std::size_t hand) {
+  simulation_.push_next_tool(t, hand);
+  note(Accepted::Kind::next_tool, hand, t);
+}
+
+void Feed::note(Accepted::Kind kind, std::size_t hand, double t, const RigidTransform& X_WH) const {
+  if (record_) record_({kind, hand, t, X_WH, committed()});
+}
+
+double Feed::committed() const { return began_ ? simulation_.time() : kNever; }
+
+std::optional<double> Feed::next_stop(const LocalTime& now) const {
+  double known = -kNever, rests = kNever;
   for (const Hand& hand : hands_) {
-    if (hand.has_sample) target = std::min(target, hand.playout.target(now));
+    if (!hand.has_sample) continue;
+    known = std::min(known, hand.playout.known_until(now));
+    rests = std::max(rests, hand.playout.rests_until(now));
   }
-  return std::isfinite(target) ? target : kNever;
+  const bool silent = has_sample_ && known == -kNever;
+  const double limit = silent ? rests : known, edge = simulation_.next_edge();
+  if (has_sample_ && edge <= limit) return edge;
+  const double step = simulation_.settings().dynamics.step, begin = simulation_.time();
+  const double steps = silent ? std::floor((rests - begin) / step) : 0.0;
+  return steps >= 1.0 ? std::optional<double>(begin + steps * step) : std::nullopt;
 }
 
 simulation::AdvanceReport Feed::advance_to(double t) {
@@ -91,21 +119,42 @@ simulation::AdvanceReport Feed::advance_to(double t) {
     while (const auto release = hands_[hand].reacquisition.take_release(t)) releases.emplace(*release, hand);
   }
   simulation::AdvanceReport report;
+  const auto go_to = [&](double end) {
+    const double edge = simulation_.next_edge();
+    report.add(simulation_.advance(end));
+    began_ = true;
+    if (edge > end) note(Accepted::Kind::rest, 0, end);
+  };
   for (const auto& [at, hand] : releases) {
-    report.add(simulation_.advance(std::max(at, simulation_.time())));
+    go_to(std::max(at, simulation_.time()));
     simulation_.release(hand);
+    note(Accepted::Kind::lost, hand, at);
   }
-  report.add(simulation_.advance(t));
+  go_to(t);
   return report;
+}
+
+void Feed::predict(double t, simulation::Simulation& copy) const {
+  for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
+    if (const auto sample = hands_[hand].ahead.predict(t)) copy.push_stylus(*sample, hand);
+  }
+}
+
+double Feed::waited(const LocalTime& now) const {
+  const auto newest = std::max_element(hands_.begin(), hands_.end(), [](const Hand& a, const Hand& b) {
+    return a.playout.newest() < b.playout.newest();
+  });
+  return newest->playout.waited(now);
 }
 
 void Feed::restart() {
   for (Hand& hand : hands_) {
     hand.playout.clear();
     hand.reacquisition.restart();
+    hand.ahead.restart();
     hand.has_sample = false;
   }
-  has_sample_ = false;
+  has_sample_ = began_ = false;
 }
 
 }  // namespace spring_workbench::hand_input

@@ -17,15 +17,16 @@ void PlayoutClock::sample(double t, const LocalTime& arrival) {
   arrival_ = arrival;
 }
 
-double PlayoutClock::target(const LocalTime& now) const {
-  const double waited = std::max(now.loop - arrival_.loop, 0.0);
-  const double target = newest_ + waited - interval_;
-  if (!simulated_time_) return waited > dropout_after_ ? target : std::min(target, newest_);
-  const bool silent = waited > dropout_after_ && now.attended - arrival_.attended > shortest_silence;
-  if (silent) return std::max(target, before_newest_);
+double PlayoutClock::waited(const LocalTime& now) const { return std::max(now.loop - arrival_.loop, 0.0); }
+
+double PlayoutClock::known_until(const LocalTime& now) const {
+  const bool silent = waited(now) > dropout_after_ && now.attended - arrival_.attended > shortest_silence;
+  if (silent && std::isfinite(newest_)) return std::numeric_limits<double>::infinity();
   const bool buttons_come = now.attended - buttons_arrival_ < shortest_silence;
   return buttons_come ? std::min(before_newest_, buttons_until_) : before_newest_;
 }
+
+double PlayoutClock::rests_until(const LocalTime& now) const { return newest_ + waited(now) - interval_; }
 
 void PlayoutClock::buttons(double t, const LocalTime& arrival) {
   buttons_until_ = std::max(buttons_until_, t);
@@ -34,7 +35,7 @@ void PlayoutClock::buttons(double t, const LocalTime& arrival) {
 
 void PlayoutClock::clear() {
   const double buttons_arrival = buttons_arrival_;
-  *this = PlayoutClock(dropout_after_, simulated_time_);
+  *this = PlayoutClock(dropout_after_);
   buttons_arrival_ = buttons_arrival;
 }
 

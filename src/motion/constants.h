@@ -22,5 +22,16 @@ constexpr std::size_t monitored_samples = 50;
 /// [m, rad]; a follower so near to its goal is there. Goes into
 /// `PoseFollower.ComesToEveryGoalNeverFasterThanAHandAndNeverAway`.
 constexpr double arrived = 1e-9;
+/// [s] before the newest sample from which a line is fitted. Longer: less noise, more lag. Goes into
+/// `PosePredictor.FollowsAParabolaExactlyAndALineThroughNoise`.
+constexpr double line_window = 0.03;
+/// [s] ahead up to which a line predicts. Goes into `PosePredictor.FollowsAParabolaExactlyAndALineThroughNoise`.
+constexpr double line_horizon = 0.02;
+/// [s] before the newest sample from which a parabola is fitted. Goes into
+/// `PosePredictor.FollowsAParabolaExactlyAndALineThroughNoise`.
+constexpr double parabola_window = 0.12;
+/// Of the determinant of a fit to the product of its diagonal; samples closer together than that say no parabola. Goes
+/// into `PosePredictor.FollowsAParabolaExactlyAndALineThroughNoise`.
+constexpr double least_spread = 1e-6;
 
 }  // namespace spring_workbench::motion

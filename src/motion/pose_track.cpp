@@ -1,6 +1,7 @@
 #include "spring_workbench/motion/pose_track.h"
 
 #include <algorithm>
+#include <limits>
 #include <sstream>
 #include <stdexcept>
 
@@ -54,12 +55,36 @@ bool PoseTrack::push(const PoseSample& sample) {
 
 const MotionSegment& PoseTrack::segment(double t) {
   if (current_valid_ && current_.begin() <= t && t < current_.end()) return current_;
-  if (nodes_.empty() || !(t >= begin())) throw std::logic_error("PoseTrack::segment: no sample at or before this time");
-  const auto later = std::upper_bound(nodes_.begin(), nodes_.end(), t,
-                                      [](double time, const Node& node) { return time < node.sample.t; });
-  current_ = make_segment(static_cast<std::size_t>(later - nodes_.begin()) - 1);
+  const std::size_t k = index_at(t);
+  if (joined(k)) {
+    nodes_[k] = with_velocity(k);
+    nodes_[k + 1] = with_velocity(k + 1);
+  }
+  current_ = make_segment(k);
   current_valid_ = true;
   return current_;
+}
+
+MotionSegment PoseTrack::provisional(double t) const { return make_segment(index_at(t)); }
+
+RigidTransform PoseTrack::pose(double t) const {
+  const std::size_t k = index_at(t);
+  return nodes_[k].sample.t == t ? nodes_[k].sample.X : make_segment(k).at(t).X;
+}
+
+double PoseTrack::next_after(double t) const {
+  const auto later = first_after(t);
+  return later == nodes_.end() ? std::numeric_limits<double>::infinity() : later->sample.t;
+}
+
+std::deque<PoseTrack::Node>::const_iterator PoseTrack::first_after(double t) const {
+  return std::upper_bound(nodes_.begin(), nodes_.end(), t,
+                          [](double time, const Node& node) { return time < node.sample.t; });
+}
+
+std::size_t PoseTrack::index_at(double t) const {
+  if (nodes_.empty() || !(t >= begin())) throw std::logic_error("PoseTrack: no sample at or before this time");
+  return static_cast<std::size_t>(first_after(t) - nodes_.begin()) - 1;
 }
 
 void PoseTrack::forget_before(double t) {
@@ -81,17 +106,17 @@ bool PoseTrack::joined(std::size_t k) const {
   return k + 1 < nodes_.size() && nodes_[k + 1].sample.t - nodes_[k].sample.t <= dropout_after_;
 }
 
-MotionSegment PoseTrack::make_segment(std::size_t k) {
+MotionSegment PoseTrack::make_segment(std::size_t k) const {
   const PoseSample& a = nodes_[k].sample;
   if (k + 1 == nodes_.size()) return MotionSegment(a.X, a.t);
   if (!joined(k)) return MotionSegment(a.X, a.t, nodes_[k + 1].sample.t);
-  const Node& node_a = with_velocity(k);
-  const Node& node_b = with_velocity(k + 1);
+  const Node node_a = with_velocity(k);
+  const Node node_b = with_velocity(k + 1);
   return MotionSegment(node_a.sample, node_a.v_W, node_a.w_B, node_b.sample, node_b.v_W, node_b.w_B);
 }
 
-const PoseTrack::Node& PoseTrack::with_velocity(std::size_t k) {
-  Node& node = nodes_[k];
+PoseTrack::Node PoseTrack::with_velocity(std::size_t k) const {
+  Node node = nodes_[k];
   if (node.velocity_fixed) return node;
   const bool has_before = k > 0 && joined(k - 1);
   const bool has_after = joined(k);

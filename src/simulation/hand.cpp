@@ -70,7 +70,7 @@ void Hand::fit_size(tools::Grasp& grasp) const {
 
 void Hand::make_hold(double now) {
   hold_ = maker().make(grasp_, grasped_body(), now);
-  hold_->set_hand(stylus_.motion(now), now);
+  hold_->set_hand(stylus_.provisional(now), now);
 }
 
 bool Hand::calibrate_hold() {
@@ -121,7 +121,7 @@ void Hand::select_tool(tools::Tool tool, double now) {
 }
 
 void Hand::take_over(const Wrench& pull_W, double now) {
-  hold_->set_hand(stylus_.motion(now), now);
+  hold_->set_hand(stylus_.provisional(now), now);
   hold_->regrasp(object().X_WO, pull_W);
   hold_->take_twist(object().V_WO_W);
 }

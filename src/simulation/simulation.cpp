@@ -7,6 +7,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "constants.h"
 #include "hand.h"
 #include "objects.h"
 #include "spring_workbench/bodies/shared_body.h"
@@ -78,7 +79,9 @@ struct Simulation::Impl {
   std::map<std::size_t, std::vector<Hand*>> holders();
   /// Lets go what a tool cannot hold, now or over the next `h` [s] (doc/model.md, "Breaking away").
   void break_away(double h);
-  double end_of_step(double t_end);
+  double next_sample(double after) const;
+  double next_button() const;
+  double end_of_step(double t_end) const;
   void step(double end, AdvanceReport& report);
   /// What must be the same in a simulation that goes on from a state of this one.
   std::string signature() const;
@@ -152,13 +155,21 @@ void Simulation::Impl::act() {
   });
 }
 
+double Simulation::Impl::next_sample(double after) const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Hand& hand : hands) next = std::min(next, hand.stylus().next_sample(after));
+  return next;
+}
+
+double Simulation::Impl::next_button() const {
+  double next = std::numeric_limits<double>::infinity();
+  for (const Hand& hand : hands) next = std::min(next, hand.stylus().next_button(now));
+  return next;
+}
+
 /// Where a step from now ends: at the next sample or button edge, or sooner.
-double Simulation::Impl::end_of_step(double t_end) {
-  double next_sample = std::numeric_limits<double>::infinity(), next_button = next_sample;
-  for (Hand& hand : hands) {
-    next_sample = std::min(next_sample, hand.stylus().next_sample(now));
-    next_button = std::min(next_button, hand.stylus().next_button(now));
-  }
+double Simulation::Impl::end_of_step(double t_end) const {
+  const double next_sample = this->next_sample(now), next_button = this->next_button();
   // Equal steps up to the sample or the end rather than a last small one.
   const double stretch_end = next_sample < t_end + same_time ? next_sample : t_end;
   const double count = std::ceil((stretch_end - now) / settings.dynamics.step - 1e-9);
@@ -287,6 +298,11 @@ double Simulation::newest_sample() const {
     if (!hand.stylus().track().empty()) newest = std::max(newest, hand.stylus().track().end());
   }
   return std::isfinite(newest) ? newest : time();
+}
+
+double Simulation::next_edge() const {
+  if (!impl_->started) return impl_->first_sample();
+  return std::min(impl_->next_sample(impl_->now + same_time), impl_->next_button());
 }
 
 AdvanceReport Simulation::advance(double t_end) {

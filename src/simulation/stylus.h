@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <limits>
 #include <optional>
@@ -32,11 +33,10 @@ class Stylus {
   bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
   /// Its motion from `now` to the next sample.
   const motion::MotionSegment& motion(double now) { return track_.segment(now); }
+  /// The same before it is gone along: the next sample may still say another velocity at its end.
+  motion::MotionSegment provisional(double now) const { return track_.provisional(std::max(now, track_.begin())); }
   /// The time after `now` at which the next piece of the motion begins; infinity where there is none.
-  double next_sample(double now) {
-    if (track_.empty()) return std::numeric_limits<double>::infinity();
-    return known(now) ? track_.segment(now).end() : track_.begin();
-  }
+  double next_sample(double now) const { return track_.next_after(now); }
   /// The time after `now` of the next button edge; infinity where there is none.
   double next_button(double now) const {
     const bool later = !presses_.empty() && presses_.front().t > now + same_time;
@@ -52,7 +52,7 @@ class Stylus {
 
   /// Goes to where it is at `now`, where that is known.
   void follow(double now) {
-    if (known(now)) X_WS_ = track_.segment(now).at(now).X;
+    if (known(now)) X_WS_ = track_.pose(std::max(now, track_.begin()));
   }
   /// The pose that was followed to last.
   const RigidTransform& X_WS() const { return X_WS_; }

@@ -30,19 +30,20 @@ WITHOUT_YAML = set("math validation geometry motion rod fork_mesh dynamics bodie
 EXECUTABLES = {  # folders of executables, which have no module of their own: what they may use
     "rviz_plugin": {"fork_mesh", "tools"},
     "nodes": NODES,
-    "apps": {"hand_input", "motion_files", "fastrak", "assembly"},
+    "apps": {"live", "motion_files", "fastrak", "assembly"},
 }
 # A pose enters each module once: hand_input is entered by these headers, from these modules. Gate, smoothing,
 # re-acquisition and playout clock are the feed's own, and what hands a pose on towards it knows none of them.
 ENTRIES = {
     "hand_input": {
-        "feed.h": {"manipulation", "assembly", "apps"},
-        "settings.h": {"manipulation", "apps"},
+        "feed.h": {"live", "assembly", "apps"},
+        "accepted.h": {"live"},
+        "settings.h": {"manipulation", "live", "apps"},
         "local_time.h": {"ros_common"},
     }
 }
 PICTURE = re.compile(r"^## The way of a pose$.*?^```mermaid$(.*?)^```$", re.MULTILINE | re.DOTALL)
-WAY = ["fastrak", "tracker_driver", "manipulation", "hand_input", "simulation"]
+WAY = ["fastrak", "tracker_driver", "manipulation", "live", "hand_input", "simulation"]
 # Includes for users of the library; no module includes it.
 UMBRELLA = "spring_workbench.h"
 # The few names that every module has in common are in the namespace above the modules.
@@ -129,7 +130,8 @@ def fault_of(header, module, path, private, layout):
         if header == OWN + UMBRELLA:
             return "is for users of the library"
         if len(inside.parts) == 1:  # generated from a message or service
-            return None if module in ROS_MODULES else "messages belong to the ROS side"
+            of_ros = module in ROS_MODULES or "bags" in pathlib.Path(path).parts
+            return None if of_ros else "messages belong to the ROS side"
         allowed, other = reach(layout.uses, module), layout.module_of(inside)
         if other not in allowed:
             return f"must be one of {', '.join(sorted(allowed))}"

@@ -142,8 +142,8 @@ class PlayedRecordings(unittest.TestCase):
         if not os.path.isdir(DATA + "/bags"):
             self.skipTest("no recordings in " + DATA)
         for name, parent, child, states in [
-            ("evo_tf_example_lz4", "odom", "base_footprint", 4000),
-            ("rosbagjs_turtlesim_tf", "world", "turtle1", 1500),
+            ("evo_tf_example_lz4", "odom", "base_footprint", 450),
+            ("rosbagjs_turtlesim_tf", "world", "turtle1", 1200),
         ]:
             with self.subTest(bag=name):
                 watch = Watch()

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <functional>
+#include <optional>
 #include <vector>
 
+#include "spring_workbench/hand_input/accepted.h"
 #include "spring_workbench/hand_input/local_time.h"
 #include "spring_workbench/hand_input/reacquisition.h"
 #include "spring_workbench/hand_input/sample_gate.h"
@@ -10,12 +13,12 @@
 namespace spring_workbench::hand_input {
 
 /// The one way of all hands into a simulation, live and offline. Each hand goes through gate, smoothing and
-/// re-acquisition; its playout clock says how far to simulate, to those who have a clock. A hand is a number as for
-/// Simulation. Times are the simulation's [s]. No thread, no log, no ROS: the same calls give the same bits.
+/// re-acquisition; its playout clock says how far all is known of it, to those who have a clock. A hand is a number as
+/// for Simulation. Times are the simulation's [s]. No thread, no log, no ROS: the same calls give the same bits.
 class Feed {
  public:
-  /// Feeds `simulation`, which must outlive it. `simulated_time`: see PlayoutClock.
-  Feed(simulation::Simulation& simulation, const InputSettings& settings, bool simulated_time = false);
+  /// Feeds `simulation`, which must outlive it.
+  Feed(simulation::Simulation& simulation, const InputSettings& settings);
   ~Feed();
 
   /// A sample as it came, in a tracker's frame P that is at `X_WP` in world. What the gate rejects goes no further.
@@ -25,17 +28,27 @@ class Feed {
   /// nothing is smoothed and the hand was not lost.
   GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
   /// See Simulation.
-  void push_button(double t, bool pressed, std::size_t hand = 0) { simulation_.push_button(t, pressed, hand); }
-  void push_next_tool(double t, std::size_t hand = 0) { simulation_.push_next_tool(t, hand); }
+  void push_button(double t, bool pressed, std::size_t hand = 0);
+  void push_next_tool(double t, std::size_t hand = 0);
   /// The buttons of a hand are known up to `t`, whether or not one of them changed.
   void buttons_known(double t, const LocalTime& arrival, std::size_t hand = 0);
 
   /// Whether any hand was pushed since the start.
   bool has_sample() const { return has_sample_; }
-  /// As far as the slowest hand allows to simulate; −infinity before the first sample.
-  double target(const LocalTime& now) const;
+  /// The time to which to commit the simulation next, by advance_to: the next sample or button edge up to which all is
+  /// known of every hand, a silent one aside; whole steps where all are silent. Nothing while there is no such time.
+  std::optional<double> next_stop(const LocalTime& now) const;
+  /// Simulated time reached since the start [s]; −infinity before it went on.
+  double committed() const;
   /// Goes to `t`; lets go of what a hand holds where that is lost on the way, in the order of time.
   simulation::AdvanceReport advance_to(double t);
+  /// Gives every hand of a copy of the simulation its predicted pose at `t` (motion::PosePredictor), where that is
+  /// later than its newest sample.
+  void predict(double t, simulation::Simulation& copy) const;
+  /// How long ago the newest sample of all came [s].
+  double waited(const LocalTime& now) const;
+  /// From now on `record` is called with all that the simulation is given; none: nothing is recorded.
+  void record(std::function<void(const Accepted&)> record) { record_ = std::move(record); }
 
   /// Forgets the hands, after the simulation was reset or changed: the next sample is a first one. Gates and counts
   /// stay.
@@ -51,9 +64,14 @@ class Feed {
   void follow(const motion::PoseSample& sample, GateResult result, const RigidTransform* X_WP, const LocalTime& arrival,
               std::size_t hand);
 
+  void note(Accepted::Kind kind, std::size_t hand, double t,
+            const RigidTransform& X_WH = RigidTransform::Identity()) const;
+
   simulation::Simulation& simulation_;
   std::vector<Hand> hands_;
+  std::function<void(const Accepted&)> record_;
   bool has_sample_ = false;
+  bool began_ = false;  ///< time has gone on since the start
 };
 
 }  // namespace spring_workbench::hand_input

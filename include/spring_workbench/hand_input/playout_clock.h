@@ -6,33 +6,36 @@
 
 namespace spring_workbench::hand_input {
 
-/// Says how far to simulate: one sample interval behind the tracker as long as samples come, so that every segment of
-/// the hand's motion is known before it is walked; and on past the newest sample, the hand held at rest, once they have
-/// stopped for longer than `dropout_after`. Needs no common clock with the tracker: only intervals of the local one
-/// count.
+/// Says up to when all is known of one hand. Its motion is known up to the sample before the newest, whose velocity
+/// hangs on the newest; its buttons, as long as messages about them come, up to the newest of these, so that a button
+/// takes effect at its own stamp, by whatever way it comes. So it depends on the messages alone when a hand does what,
+/// and not on the moments at which anybody looks.
 ///
-/// In simulated time, where messages and clock come at moments of their own, it never goes past the sample before the
-/// newest, so that what is simulated depends on the samples alone; and silence must also have lasted 0.2 s of attended
-/// time, so that a bag played quickly is not taken for one that stopped. While messages about buttons come it does not
-/// go past the newest of these either, so that a button takes effect at its own stamp, by whatever way it comes.
+/// A hand that has been silent for longer than `dropout_after` rests, and nothing more is waited for. That must also
+/// have lasted 0.2 s of attended time, so that a bag played quickly, or a process that stood, is not taken for a hand
+/// that is lost. Needs no common clock with the tracker: only intervals of the local one count.
 class PlayoutClock {
  public:
-  /// `dropout_after` [s], > 0. `simulated_time`: whether the local clock is ROS time that somebody publishes.
-  explicit PlayoutClock(double dropout_after, bool simulated_time = false)
-      : dropout_after_(dropout_after), simulated_time_(simulated_time) {}
+  /// `dropout_after` [s], > 0.
+  explicit PlayoutClock(double dropout_after) : dropout_after_(dropout_after) {}
 
   /// A sample stamped `t` [s] came.
   void sample(double t, const LocalTime& arrival);
   /// The buttons are known up to `t` [s].
   void buttons(double t, const LocalTime& arrival);
-  /// The time to simulate to [s]; −infinity before the first sample.
-  double target(const LocalTime& now) const;
+  /// The time up to which all is known [s]: −infinity before the second sample, infinity while the hand is silent.
+  double known_until(const LocalTime& now) const;
+  /// Where a silent hand's time is by the local clock, an interval behind as its samples were [s]; −infinity before the
+  /// first sample.
+  double rests_until(const LocalTime& now) const;
+  /// The newest sample's stamp, and how long ago it came [s].
+  double newest() const { return newest_; }
+  double waited(const LocalTime& now) const;
   /// Forgets all samples; of the buttons, all but that there are some.
   void clear();
 
  private:
   double dropout_after_;
-  bool simulated_time_;
   double newest_ = -std::numeric_limits<double>::infinity();
   double before_newest_ = -std::numeric_limits<double>::infinity();
   LocalTime arrival_;

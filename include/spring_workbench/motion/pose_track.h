@@ -28,6 +28,12 @@ class PoseTrack {
   /// The reference is good until the next call of a function that is not const.
   /// Throws std::logic_error when the track is empty or `t` lies before begin().
   const MotionSegment& segment(double t);
+  /// The same, but fixes no velocity: what is known so far of a motion that nobody has gone along yet.
+  MotionSegment provisional(double t) const;
+  /// The pose at `t`, as of provisional(); at a sample that sample's.
+  RigidTransform pose(double t) const;
+  /// Stamp of the first sample later than `t` [s]; infinity where there is none.
+  double next_after(double t) const;
   /// Forgets samples that no segment at or after `t` needs.
   void forget_before(double t);
   void clear();
@@ -43,9 +49,11 @@ class PoseTrack {
     void exchange(math::StateArchive& state) { state(sample, velocity_fixed, v_W, w_B); }
   };
 
-  bool joined(std::size_t k) const;          ///< sample k + 1 exists and follows sample k without a dropout
-  const Node& with_velocity(std::size_t k);  ///< sample k must be joined to a neighbour
-  MotionSegment make_segment(std::size_t k);
+  std::deque<Node>::const_iterator first_after(double t) const;
+  std::size_t index_at(double t) const;     ///< of the sample at or before `t`
+  bool joined(std::size_t k) const;         ///< sample k + 1 exists and follows sample k without a dropout
+  Node with_velocity(std::size_t k) const;  ///< sample k must be joined to a neighbour
+  MotionSegment make_segment(std::size_t k) const;
 
   double dropout_after_;
   std::deque<Node> nodes_;

@@ -111,6 +111,10 @@ class Simulation {
   void push_next_tool(double t, std::size_t hand = 0);
   /// Time of the newest sample of any hand, or time() where there is none.
   double newest_sample() const;
+  /// The next time after time() at which a hand has a sample or a button an edge, or of the first sample; infinity
+  /// where there is none. Where every call of `advance` ends at one of these, it is of no effect how many calls there
+  /// are.
+  double next_edge() const;
 
   /// Goes from time() to `t_end` in steps of at most `settings().dynamics.step` that end at the samples.
   AdvanceReport advance(double t_end);

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <utility>
 
 #include "constants.h"
 #include "csv_rows.h"
@@ -92,8 +93,48 @@ void push_motion(const Motion& motion, std::size_t hand, bool with_grasp, hand_i
   for (const ButtonEvent& event : motion.buttons) feed.push_button(event.t, event.pressed, hand);
 }
 
+/// Goes through a live run again; a line for each time to which it was committed.
+Summary run_journal(const Options& options, const std::vector<live::Entry>& journal) {
+  OutputFile objects(options.out);
+  OutputFile fork(fork_path(options.out));
+  objects.write(object_header());
+  fork.write(fork_header());
+  Summary summary;
+  bool first = true;
+  live::Replayer replayer([&](const std::string& scene) {
+    Options of_scene = options;
+    if (!std::exchange(first, false)) of_scene.scene = scene;  // the first is given
+    return make_simulation(of_scene);
+  });
+  const auto started = std::chrono::steady_clock::now();
+  for (const live::Entry& entry : journal) {
+    replayer.play(entry, [&](simulation::Simulation& simulation, const simulation::AdvanceReport& report) {
+      summary.advance.add(report);
+      summary.add_contacts(simulation.contacts());
+      ++summary.outputs;
+      objects.write(object_rows(simulation.time(), simulation));
+      for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+        if (hand == 0 || simulation.fork(hand).present) fork.write(fork_row(simulation.time(), simulation, hand));
+      }
+    });
+    const auto* accepted = std::get_if<hand_input::Accepted>(&entry.what);
+    if (accepted != nullptr && accepted->kind == hand_input::Accepted::Kind::pose) ++summary.samples;
+  }
+  summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+  if (replayer.simulation() == nullptr) validation::refuse(options.bag, "~changes", "none", "at least one message");
+  summary.changes = replayer.changes();
+  summary.state_hash = replayer.simulation()->state_hash();
+  fork.commit();
+  objects.commit();
+  return summary;
+}
+
 /// Loads the scene, moves the hand through it, writes both files; where it throws, no file is left.
 Summary run(const Options& options) {
+  if (!options.bag.empty()) {
+    const std::vector<live::Entry> journal = read_journal(options.bag);
+    if (!journal.empty()) return run_journal(options, journal);
+  }
   const std::vector<Motion> motions = load_motions(options);
   simulation::Simulation simulation = make_simulation(options);
   OutputFile objects(options.out);

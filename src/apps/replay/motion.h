@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "spring_workbench/live/journal.h"
 #include "spring_workbench/motion/stylus_source.h"
 
 namespace spring_workbench::replay {
@@ -28,5 +29,9 @@ Motion read_motion(motion::StylusSource& source);
 /// The transforms `parent` → `child` of a bag with buttons 0 and 1 of stylus/joy, and where the bag has them those of
 /// further styluses (`child`_2, stylus_2/joy). Times from the first sample of all. Throws InputError.
 std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child);
+
+/// What a live run published on ~accepted and ~changes, in order; empty where the bag has none of it. Throws
+/// InputError.
+std::vector<live::Entry> read_journal(const std::string& path);
 
 }  // namespace spring_workbench::replay

@@ -95,7 +95,8 @@ replay --scene SCENE.urdf (--motion FILE [--motion FILE] | --bag FILE.bag) [--se
               Given twice: a hand each, both from their own first sample on
   --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus) of any topic but
               /tf_static, and buttons 0 (grasp) and 1 (next tool) of stylus/joy; a second hand from CHILD_2 (stylus_2)
-              and stylus_2/joy, where the bag has them
+              and stylus_2/joy, where the bag has them. A bag of ~accepted and ~changes of manipulation is a live run,
+              which is gone through again bit by bit, a line for each time that was committed
   --settings  a YAML file of the keys below
   --set       one key; may be given several times; wins over --settings
   --out       writes RUN.csv and RUN.fork.csv; nothing is written when something fails

@@ -71,8 +71,8 @@ std::string Summary::json() const {
       << ", \"collision_queries\": " << advance.collision_queries << ", \"substeps\": " << advance.substeps
       << ", \"stops\": " << advance.stops << ", \"steps_fallback\": " << advance.steps_fallback
       << ", \"steps_blocked\": " << advance.steps_blocked << ", \"steps_rejected\": " << advance.steps_rejected
-      << ", \"state_hash\": \"" << simulation::to_hex(state_hash) << "\", \"active\": " << list_of(advance.active)
-      << ", \"skipped\": " << list_of(advance.skipped) << "}";
+      << ", \"changes\": " << changes << ", \"state_hash\": \"" << simulation::to_hex(state_hash)
+      << "\", \"active\": " << list_of(advance.active) << ", \"skipped\": " << list_of(advance.skipped) << "}";
   return out.str();
 }
 

@@ -17,6 +17,7 @@ class Summary {
   simulation::AdvanceReport advance;
   int outputs = 0;               ///< output times
   double wall_time = 0.0;        ///< [s]
+  std::size_t changes = 0;       ///< of a live run
   std::uint64_t state_hash = 0;  ///< of the simulation at the end
 
   void add(const hand_input::GateCounts& of_hand);

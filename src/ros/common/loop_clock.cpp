@@ -49,4 +49,22 @@ void sleep_until_loop_time(double t) {
       steady_clock::time_point(std::chrono::duration_cast<steady_clock::duration>(duration<double>(t))));
 }
 
+void Alarm::ring() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  rung_ = true;
+  bell_.notify_one();
+}
+
+void Alarm::sleep_until(double t) {
+  const bool simulated = ros::Time::isSimTime();
+  const double give_up = steady_time() + stopped_clock_patience, begin = loop_time();
+  std::unique_lock<std::mutex> lock(mutex_);
+  // In slices: a simulated clock has to be looked at, and time counts as attended only while it is.
+  for (double now = begin; !rung_ && now < t && ros::ok(); now = loop_time()) {
+    if (simulated && (now < begin || steady_time() >= give_up)) break;
+    bell_.wait_for(lock, duration<double>(simulated ? clock_poll : std::min(t - now, longest_attended)));
+  }
+  rung_ = false;
+}
+
 }  // namespace spring_workbench::ros_common

@@ -13,7 +13,7 @@ const std::string kKey = "resume";
 
 }  // namespace
 
-Checkpoint::Checkpoint(const ros::NodeHandle& private_node, SimulationRunner& runner,
+Checkpoint::Checkpoint(const ros::NodeHandle& private_node, live::SimulationRunner& runner,
                        const std::vector<std::string>& scene_roots)
     : private_node_(private_node), runner_(runner) {
   resume(scene_roots);

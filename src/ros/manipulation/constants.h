@@ -31,17 +31,14 @@ constexpr double jump_patience = 1.0;
 constexpr double told_again_after = 5.0;
 /// [s] between two hints why no sample of the stylus is used. Test: none: a line for people.
 constexpr double hint_patience = 10.0;
+/// [s] without an answer after which the master counts as gone. Shorter: a busy one counts, too. Test:
+/// master_test.py::test_nothing_is_noticed_without_a_master.
+constexpr double master_patience = 3.0;
 /// [s] between checkpoints. Longer: a killed node goes on from an older state. Test:
 /// faults_test.py::test_a_killed_node_comes_back_as_it_was.
 constexpr double checkpoint_period = 0.5;
-/// of a grid step: what rounding may take from it. More: steps of the grid are skipped. Test:
-/// played_recordings_test.py::test_a_hundred_rounds_are_the_same.
-constexpr double grid_slack = 1e-6;
-/// [s] beyond which time has leapt and the scene starts anew. Longer: a leap is simulated in full. Test:
-/// manipulation_test.py::test_starts_anew_when_time_jumps_ahead.
-constexpr double longest_catch_up = 5.0;
-/// [s] by which a second stylus may begin before the simulated time and still join. At least 1: in simulated time an
-/// epoch begins at a whole second. Test: tools_test.py::test_second_stylus_takes_the_object_over.
-constexpr double joining_slip = 1.5;
+/// [s] after which a state that stays as it is is sent again, for who came late. Longer: they wait. Test:
+/// manipulation_test.py::test_bad_calls_change_nothing.
+constexpr double repeat_after = 0.1;
 
 }  // namespace spring_workbench::manipulation

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <sstream>
 
+#include "constants.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::manipulation {
@@ -50,7 +51,7 @@ std::vector<DiagnosticStatus> ManipulationDiagnostics::report(const TrackerInput
 DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, const TrackerInput& tracker,
                                                        const TrackerInput& last, double now) const {
   const InputStatistics& input = tracker.input;
-  const HandStatistics& hand = tracker.hand;
+  const live::HandStatistics& hand = tracker.hand;
   ros_common::DiagnosticStatusBuilder status(name_ + ": " + what, "tracker");
   ros_common::add_stream(hand.stream, status);
   status.add("dropouts", hand.gate.dropouts)
@@ -88,7 +89,13 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("steps done by the fallback", loop.steps_fallback)
       .add("stops at the end of the fork's range", loop.stops)
       .add("leaps of time", loop.leaps)
-      .add("longest cycle [s]", loop.longest_cycle);
+      .add("longest cycle [s]", loop.longest_cycle)
+      .add("prediction error, 99 % [m]", loop.prediction_error);
+  status.add("since the master answered [s]", loop.master_silence);
+  if (loop.master_silence > master_patience) {
+    status.raise(DiagnosticStatus::WARN,
+                 "the ROS master does not answer: who is connected stays so, nobody else comes");
+  }
   if (loop.steps_rejected > last_loop_.steps_rejected) {
     status.raise(DiagnosticStatus::ERROR, "steps refused: they would not have been finite or bounded");
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 
 #include "constants.h"
 #include "spring_workbench/ros/common/conversions.h"
@@ -12,12 +13,12 @@
 namespace spring_workbench::manipulation {
 namespace {
 
-/// The nodes that the master says publish /tf, this one left out.
-std::vector<std::string> senders_of_tf() {
+/// The nodes that the master says publish /tf, this one left out; nothing where there is no master.
+std::optional<std::vector<std::string>> senders_of_tf() {
   XmlRpc::XmlRpcValue request, response, state;
   request[0] = ros::this_node::getName();
   std::vector<std::string> senders;
-  if (!ros::master::execute("getSystemState", request, response, state, false)) return senders;
+  if (!ros::master::execute("getSystemState", request, response, state, false)) return std::nullopt;
   XmlRpc::XmlRpcValue& topics = state[0];
   for (int i = 0; i < topics.size(); ++i) {
     if (std::string(topics[i][0]) != "/tf") continue;
@@ -28,7 +29,7 @@ std::vector<std::string> senders_of_tf() {
 }
 
 /// The folders that are given, and that of the scene at the start.
-std::vector<std::string> scene_roots(const ManipulationParameters& parameters, SimulationRunner& runner) {
+std::vector<std::string> scene_roots(const ManipulationParameters& parameters, live::SimulationRunner& runner) {
   std::vector<std::string> roots = parameters.scene_roots;
   runner.locked([&](const simulation::Simulation& simulation) {
     roots.push_back(std::filesystem::path(simulation.scene().path).parent_path().string());
@@ -41,17 +42,21 @@ std::vector<std::string> scene_roots(const ManipulationParameters& parameters, S
 ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node)
     : parameters_(
           read_manipulation_parameters(ros_common::private_parameters(private_node), private_node.getNamespace())),
-      runner_(scene::load_scene(parameters_.scene), parameters_.simulation, parameters_.input,
-              ros::Time::isSimTime() ? 1.0 / parameters_.rate : 0.0),
-      input_(node, parameters_, parameters_.stylus_frame, "stylus/joy"),
-      second_input_(node, parameters_, parameters_.stylus_frame + "_2", "stylus_2/joy"),
+      runner_(scene::load_scene(parameters_.scene), parameters_.simulation, parameters_.input, ros::Time::isSimTime()),
+      input_(input_thread_.handle(node), parameters_, parameters_.stylus_frame, "stylus/joy",
+             [this] { alarm_.ring(); }),
+      second_input_(input_thread_.handle(node), parameters_, parameters_.stylus_frame + "_2", "stylus_2/joy",
+                    [this] { alarm_.ring(); }),
       publisher_(private_node, parameters_),
       services_(advertise_services(private_node, runner_, scene_roots(parameters_, runner_))),
       live_tuning_(make_live_tuning(private_node, runner_)),
-      checkpoint_(private_node, runner_, scene_roots(parameters_, runner_)),
+      checkpoint_(master_thread_.handle(private_node), runner_, scene_roots(parameters_, runner_)),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
       every_second_(node.createWallTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
+      asks_master_(master_thread_.handle(node).createWallTimer(ros::WallDuration(1.0),
+                                                               [this](const ros::WallTimerEvent&) { ask_master(); })),
+      master_answered_(ros_common::steady_time()),
       physics_([this] { run_physics(); }) {
   runner_.locked([](const simulation::Simulation& simulation) {
     for (const std::string& warning : simulation.scene().warnings) ROS_WARN_STREAM(warning);
@@ -61,6 +66,7 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
 
 ManipulationNode::~ManipulationNode() {
   stop_ = true;
+  alarm_.ring();
   physics_.join();
 }
 
@@ -68,34 +74,36 @@ void ManipulationNode::run_physics() {
   const double period = 1.0 / parameters_.rate;
   double due = ros_common::loop_time();
   while (!stop_ && ros::ok()) {
-    while (!stop_ && run_step(due)) continue;
+    const double begin = ros_common::loop_time();
+    while (!stop_ && run_step(std::min(begin, due))) continue;
     const double now = ros_common::loop_time();
-    const bool on_time = due + period > now && due <= now + period;  // else the cycle was late, or the clock jumped
-    due = on_time ? due + period : now + period;
-    ros_common::sleep_until_loop_time(due);
+    const bool clock_went_back = due > now + period;
+    if (now >= due) due = due + period > now ? due + period : now + period;
+    if (clock_went_back) due = now + period;
+    alarm_.sleep_until(due);
   }
 }
 
-bool ManipulationNode::run_step(double due) {
+/// Whether there is more to do at once. `begin`: when this was due, or a sample woke the thread.
+bool ManipulationNode::run_step(double begin) {
   const hand_input::LocalTime local = ros_common::local_time();
-  const double now = local.loop;
-  const CycleReport report = runner_.cycle({input_.take_events(), second_input_.take_events()}, local);
+  const live::CycleReport report = runner_.cycle({input_.take_events(), second_input_.take_events()}, local);
   input_.count_rejected(report.rejected[0]);
   second_input_.count_rejected(report.rejected[1]);
-  const ros::Time stamp = runner_.stamp(ros::Time::now());
-  runner_.locked([&](const simulation::Simulation& simulation) { publisher_.publish(simulation, stamp, now); });
   // In simulated time the clock may have gone on by itself.
-  const double deadline = (ros::Time::isSimTime() ? std::max(due, now) : due) + 1.0 / parameters_.rate;
+  const double deadline = (ros::Time::isSimTime() ? std::max(begin, local.loop) : begin) + 1.0 / parameters_.rate;
+  if (!report.more) {
+    const double horizon = runner_.show(parameters_.display_latency, local);
+    publisher_.publish_shown(runner_, horizon, local.loop);
+  }
   const bool deadline_missed = ros_common::loop_time() > deadline;
-  const std::string integrator = runner_.locked(
-      [](const simulation::Simulation& s) { return validation::name_of(s.settings().dynamics.integrator); });
-  publisher_.publish_task(runner_, stamp);
-  publisher_.publish_steps(report, integrator, stamp, deadline_missed);
+  publisher_.publish_committed(runner_, report, deadline_missed);
+  publisher_.publish_journal(runner_);
   count(report, deadline_missed);
   return report.more;
 }
 
-void ManipulationNode::count(const CycleReport& report, bool deadline_missed) {
+void ManipulationNode::count(const live::CycleReport& report, bool deadline_missed) {
   if (report.leapt) ROS_WARN("time leapt: starting anew");
   const std::lock_guard<std::mutex> lock(loop_mutex_);
   ++loop_.cycles;
@@ -109,22 +117,36 @@ void ManipulationNode::count(const CycleReport& report, bool deadline_missed) {
 
 void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
   place_workbench();
-  end_with_its_master();
+  runner_.note_state();
   LoopStatistics loop;
   {
     const std::lock_guard<std::mutex> lock(loop_mutex_);
     loop = loop_;
   }
+  loop.prediction_error = runner_.prediction_error_99();
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
   TrackerInput first{input_.statistics(), runner_.hand_statistics(0), ""};
-  first.hint = hint_for_silence(first, first.input.messages == 0 ? senders_of_tf() : std::vector<std::string>(),
-                                parameters_.stylus_frame);
+  {
+    const std::lock_guard<std::mutex> lock(master_mutex_);
+    first.hint = hint_for_silence(first, senders_of_tf_, parameters_.stylus_frame);
+    loop.master_silence = ros_common::steady_time() - master_answered_;
+  }
   if (!first.hint.empty())
     ROS_WARN_STREAM_DELAYED_THROTTLE(hint_patience, "no sample of the stylus yet: " << first.hint);
   const TrackerInput second{second_input_.statistics(), runner_.hand_statistics(1), ""};
   message.status = diagnostics_.report(first, second, loop, ros_common::loop_time());
   diagnostics_publisher_.publish(message);
+}
+
+/// In a thread of its own: it takes as long as the master does, and nothing waits for it.
+void ManipulationNode::ask_master() {
+  end_with_its_master();
+  const std::optional<std::vector<std::string>> senders = senders_of_tf();
+  if (!senders) return;
+  const std::lock_guard<std::mutex> lock(master_mutex_);
+  senders_of_tf_ = *senders;
+  master_answered_ = ros_common::steady_time();
 }
 
 /// A master that was started anew knows nothing of this node, and nothing brings it back but a new start.

@@ -2,6 +2,7 @@
 
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/fork_mesh/fork_curve.h"
+#include "spring_workbench/motion/pose_predictor.h"
 #include "spring_workbench/ros/common/parameters.h"
 
 namespace spring_workbench::manipulation {
@@ -35,6 +36,8 @@ ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters
     for (const YAML::Node& root : roots) result.scene_roots.push_back(config::read_string(root, where, "scene_roots"));
   }
   take_number(rest, where, "rate", validation::between(1.0, 2000.0), result.rate);
+  take_number(rest, where, "display_latency", validation::between(0.0, motion::PosePredictor::farthest),
+              result.display_latency);
   take_number(rest, where, "markers_rate", validation::between(0.1, 200.0), result.markers_rate);
   if (const YAML::Node curve = ros_common::take(rest, "fork_curve")) {
     result.fork_curve = config::read_choice(curve, where, "fork_curve", fork_mesh::fork_curve_names());

@@ -102,6 +102,25 @@ TaskState to_message(const std::vector<assembly::Placement>& placements, const a
   return message;
 }
 
+Accepted to_message(const hand_input::Accepted& accepted) {
+  Accepted message;
+  message.kind = static_cast<uint8_t>(accepted.kind);
+  message.stylus = static_cast<uint8_t>(accepted.hand + 1);
+  message.time = accepted.t;
+  message.committed = accepted.committed;
+  Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(message.handle.data()) = accepted.X_WH.affine();
+  return message;
+}
+
+Change to_message(const live::Change& change) {
+  Change message;
+  message.what = change.what;
+  message.scene = change.scene;
+  message.hash_before = simulation::to_hex(change.hash_before);
+  if (change.state != simulation::SimulationState()) message.state = serialise(change.state);
+  return message;
+}
+
 StepReport to_message(const simulation::AdvanceReport& report) {
   StepReport message;
   message.simulated_time = report.simulated_time;

@@ -2,13 +2,15 @@
 
 #include <vector>
 
+#include "spring_workbench/Accepted.h"
+#include "spring_workbench/Change.h"
 #include "spring_workbench/Contacts.h"
 #include "spring_workbench/ForkState.h"
 #include "spring_workbench/ObjectStates.h"
 #include "spring_workbench/StepReport.h"
 #include "spring_workbench/TaskState.h"
 #include "spring_workbench/assembly/task_monitor.h"
-#include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/live/journal.h"
 
 namespace spring_workbench::manipulation {
 
@@ -17,6 +19,8 @@ ObjectStates to_message(const std::vector<bodies::BodyState>& objects);
 ForkState to_message(const tools::ToolState& tool);
 TaskState to_message(const std::vector<assembly::Placement>& placements, const assembly::TaskScore& score);
 Contacts to_message(const std::vector<contact::ContactState>& contacts);
+Accepted to_message(const hand_input::Accepted& accepted);
+Change to_message(const live::Change& change);
 /// Everything but `wall_time`, `integrator` and `deadline_missed`, which the core does not know.
 StepReport to_message(const simulation::AdvanceReport& report);
 

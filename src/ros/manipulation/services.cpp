@@ -32,25 +32,25 @@ std::optional<std::size_t> hand_of(unsigned stylus, const std::string& service) 
   return stylus > 0 ? std::optional<std::size_t>(stylus - 1) : std::nullopt;
 }
 
-void select_tool(SimulationRunner& runner, const SelectTool::Request& request, SelectTool::Response& response) {
+void select_tool(live::SimulationRunner& runner, const SelectTool::Request& request, SelectTool::Response& response) {
   const auto tool = validation::named<tools::Tool>(request.tool, "select_tool", "tool");
   const std::size_t hand = hand_of(request.stylus, "select_tool").value_or(0);
-  fill(runner.locked([&](simulation::Simulation& s) { return s.select_tool(tool, hand); }), response);
+  fill(runner.change("select_tool", [&](simulation::Simulation& s) { return s.select_tool(tool, hand); }), response);
 }
 
 template <typename Response>
-void change_fork(SimulationRunner& runner, const simulation::ForkChange& change, std::optional<std::size_t> hand,
+void change_fork(live::SimulationRunner& runner, const simulation::ForkChange& change, std::optional<std::size_t> hand,
                  Response& response) {
-  fill(runner.locked([&](simulation::Simulation& s) { return s.change(change, hand); }), response);
+  fill(runner.change("fork", [&](simulation::Simulation& s) { return s.change(change, hand); }), response);
 }
 
-void set_dofs(SimulationRunner& runner, const SetForkDofs::Request& request, SetForkDofs::Response& response) {
+void set_dofs(live::SimulationRunner& runner, const SetForkDofs::Request& request, SetForkDofs::Response& response) {
   simulation::ForkChange change;
   change.dofs = {request.stretch != 0, request.bend != 0, request.torsion != 0};
   change_fork(runner, change, hand_of(request.stylus, "set_dofs"), response);
 }
 
-void set_stiffness(SimulationRunner& runner, const SetForkStiffness::Request& request,
+void set_stiffness(live::SimulationRunner& runner, const SetForkStiffness::Request& request,
                    SetForkStiffness::Response& response) {
   const auto given = [](double k) { return k != 0.0 ? std::optional<double>(k) : std::nullopt; };
   simulation::ForkChange change;
@@ -60,7 +60,8 @@ void set_stiffness(SimulationRunner& runner, const SetForkStiffness::Request& re
   change_fork(runner, change, hand_of(request.stylus, "set_stiffness"), response);
 }
 
-void set_damping(SimulationRunner& runner, const SetForkDamping::Request& request, SetForkDamping::Response& response) {
+void set_damping(live::SimulationRunner& runner, const SetForkDamping::Request& request,
+                 SetForkDamping::Response& response) {
   const rod::PerDof numbers{request.stretch, request.bend, request.torsion};
   simulation::ForkChange change;
   if (!request.law.empty()) {
@@ -70,13 +71,13 @@ void set_damping(SimulationRunner& runner, const SetForkDamping::Request& reques
   change_fork(runner, change, hand_of(request.stylus, "set_damping"), response);
 }
 
-void set_integrator(SimulationRunner& runner, const SetIntegrator::Request& request,
+void set_integrator(live::SimulationRunner& runner, const SetIntegrator::Request& request,
                     SetIntegrator::Response& response) {
   simulation::DynamicsChange change;
   change.integrator = validation::named<dynamics::IntegratorKind>(request.name, "set_integrator", "name");
   if (request.step != 0.0) change.step = request.step;
   if (request.tolerance != SetIntegrator::Request::KEEP_TOLERANCE) change.tolerance = request.tolerance;
-  const dynamics::DynamicsSettings now = runner.locked([&](simulation::Simulation& s) {
+  const dynamics::DynamicsSettings now = runner.change("set_integrator", [&](simulation::Simulation& s) {
     s.change(change);
     return s.settings().dynamics;
   });
@@ -87,29 +88,30 @@ void set_integrator(SimulationRunner& runner, const SetIntegrator::Request& requ
   response.message = text;
 }
 
-void load_scene(SimulationRunner& runner, const std::vector<std::string>& roots, const LoadScene::Request& request,
-                LoadScene::Response& response) {
+void load_scene(live::SimulationRunner& runner, const std::vector<std::string>& roots,
+                const LoadScene::Request& request, LoadScene::Response& response) {
   const scene::Scene scene = scene::load_scene(request.scene, roots);
   runner.load(scene);
   response.message = scene.name + ": " + std::to_string(scene.bodies.size()) + " bodies";
   if (!scene.warnings.empty()) response.message += "; " + validation::join(scene.warnings, "; ");
 }
 
-std::string calibrate(SimulationRunner& runner) {
-  const simulation::ChangeReport report = runner.locked([](simulation::Simulation& s) { return s.calibrate(); });
+std::string calibrate(live::SimulationRunner& runner) {
+  const simulation::ChangeReport report =
+      runner.change("calibrate", [](simulation::Simulation& s) { return s.calibrate(); });
   char text[80];
   std::snprintf(text, sizeof text, "; elastic energy %.6g J -> %.6g J", report.elastic_energy_before,
                 report.elastic_energy_after);
   return report.message + text;
 }
 
-std::string reset(SimulationRunner& runner) {
+std::string reset(live::SimulationRunner& runner) {
   runner.restart();
   return "all objects are back at their start";
 }
 
-std::string release(SimulationRunner& runner) {
-  const std::string held = runner.locked([](simulation::Simulation& s) {
+std::string release(live::SimulationRunner& runner) {
+  const std::string held = runner.change("release", [](simulation::Simulation& s) {
     std::vector<std::string> names;
     for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
       const std::string name = s.fork(hand).held_object;
@@ -124,7 +126,7 @@ std::string release(SimulationRunner& runner) {
 
 }  // namespace
 
-std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, SimulationRunner& runner,
+std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, live::SimulationRunner& runner,
                                                    const std::vector<std::string>& scene_roots) {
   std::vector<ros::ServiceServer> servers;
   const auto serve = [&](const char* name, auto change, auto of_service) {
@@ -149,7 +151,7 @@ std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, Simulat
     };
     serve(name, with_runner, of_service);
   };
-  const auto trigger = [&](const char* name, std::string (*act)(SimulationRunner&)) {
+  const auto trigger = [&](const char* name, std::string (*act)(live::SimulationRunner&)) {
     serve(
         name, [&runner, act](auto&, auto& response) { response.message = act(runner); }, std_srvs::Trigger());
   };

@@ -7,12 +7,17 @@
 #include "constants.h"
 #include "messages.h"
 #include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::manipulation {
 namespace {
 
 const std::string handle_frame = "fork_handle";
 const std::string tip_frame = "fork_tip";
+
+std::int64_t nanoseconds(const ros::Time& stamp) { return static_cast<std::int64_t>(stamp.toNSec()); }
+ros::Time at(std::int64_t nanoseconds) { return ros::Time().fromNSec(static_cast<std::uint64_t>(nanoseconds)); }
 
 /// What `make` makes, only where somebody listens.
 template <typename Make>
@@ -34,20 +39,93 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
       second_fork_publisher_(private_node.advertise<ForkState>("fork_2", state_queue)),
       wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", state_queue)),
       contacts_publisher_(private_node.advertise<Contacts>("contacts", state_queue)),
-      markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 10)),
       steps_publisher_(private_node.advertise<StepReport>("steps", state_queue)),
-      task_publisher_(private_node.advertise<TaskState>("task", state_queue)) {}
+      task_publisher_(private_node.advertise<TaskState>("task", state_queue)),
+      shown_objects_publisher_(private_node.advertise<ObjectStates>("display/objects", 5)),
+      shown_fork_publisher_(private_node.advertise<ForkState>("display/fork", 5)),
+      shown_second_fork_publisher_(private_node.advertise<ForkState>("display/fork_2", 5)),
+      markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 5)),
+      accepted_publisher_(private_node.advertise<Accepted>("accepted", state_queue)),
+      changes_publisher_(private_node.advertise<Change>("changes", state_queue)) {}
 
-void StatePublisher::publish(const simulation::Simulation& simulation, const ros::Time& stamp, double now) {
+void StatePublisher::publish_journal(live::SimulationRunner& runner) {
+  const std::uint32_t listeners =
+      std::min(accepted_publisher_.getNumSubscribers(), changes_publisher_.getNumSubscribers());
+  // Who comes late begins with the state as it is then.
+  if (listeners > journal_listeners_) runner.keep_journal(true);
+  if (listeners == 0 && journal_listeners_ > 0) runner.keep_journal(false);
+  journal_listeners_ = listeners;
+  for (const live::Entry& entry : runner.take_journal()) {
+    if (const auto* accepted = std::get_if<hand_input::Accepted>(&entry.what)) {
+      Accepted message = to_message(*accepted);
+      message.header = header_at(at(runner.stamp_of(accepted->t)));
+      message.index = entry.index;
+      accepted_publisher_.publish(message);
+    } else {
+      Change message = to_message(std::get<live::Change>(entry.what));
+      message.header = header_at(at(runner.stamp(nanoseconds(ros::Time::now()))));
+      message.index = entry.index;
+      message.committed = entry.committed;
+      changes_publisher_.publish(message);
+    }
+  }
+}
+
+bool StatePublisher::Repeat::due(const ros::Time& now, std::size_t new_revision) {
+  const double steady = ros_common::steady_time();
+  if (now == stamp && new_revision == revision && steady < sent + repeat_after) return false;
+  stamp = now;
+  revision = new_revision;
+  sent = steady;
+  return true;
+}
+
+void StatePublisher::publish_committed(const live::SimulationRunner& runner, const live::CycleReport& report,
+                                       bool deadline_missed) {
+  const ros::Time stamp = at(runner.stamp(nanoseconds(ros::Time::now())));
+  // Before the first sample the stamp goes on by itself.
+  if (!committed_.due(runner.has_sample() ? stamp : ros::Time(), runner.revision())) return;
   const std_msgs::Header header = header_at(stamp);
-  const tools::ToolState tool = simulation.fork();
+  runner.locked([&](const simulation::Simulation& simulation) {
+    const tools::ToolState tool = simulation.fork();
+    publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
+    publish_made(fork_publisher_, header, [&] { return to_message(tool); });
+    if (const tools::ToolState second = simulation.fork(1); second.present)
+      publish_made(second_fork_publisher_, header, [&] { return to_message(second); });
+    publish_wrench(tool, header);
+    publish_contacts(simulation, header);
+  });
+  publish_made(task_publisher_, header, [&] {
+    const assembly::TaskMonitor task = runner.task();
+    return to_message(task.placements(), task.score());
+  });
+  publish_made(steps_publisher_, header, [&] {
+    StepReport message = to_message(report.advance);
+    (markers_were_built_ ? message.active : message.skipped).push_back("markers");
+    message.wall_time = report.wall_time;
+    message.integrator = runner.locked([](const simulation::Simulation& simulation) {
+      return validation::name_of(simulation.settings().dynamics.integrator);
+    });
+    message.deadline_missed = deadline_missed;
+    message.input_age = report.input_age;
+    message.horizon = horizon_;
+    message.prediction_error = report.prediction.position;
+    message.prediction_angle_error = report.prediction.angle;
+    return message;
+  });
+}
+
+void StatePublisher::publish_shown(const live::SimulationRunner& runner, double horizon, double now) {
+  horizon_ = horizon;
+  const ros::Time stamp = at(runner.shown_stamp(nanoseconds(ros::Time::now())));
+  if (!shown_.due(runner.has_sample() ? stamp : ros::Time(), runner.revision())) return;
+  const simulation::Simulation& simulation = runner.shown();
+  const std_msgs::Header header = header_at(stamp);
   publish_transforms(simulation, stamp);
-  publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
-  publish_made(fork_publisher_, header, [&] { return to_message(tool); });
+  publish_made(shown_objects_publisher_, header, [&] { return to_message(simulation.objects()); });
+  publish_made(shown_fork_publisher_, header, [&] { return to_message(simulation.fork()); });
   if (const tools::ToolState second = simulation.fork(1); second.present)
-    publish_made(second_fork_publisher_, header, [&] { return to_message(second); });
-  publish_wrench(tool, header);
-  publish_contacts(simulation, header);
+    publish_made(shown_second_fork_publisher_, header, [&] { return to_message(second); });
   publish_markers(simulation, header, now);
 }
 
@@ -62,9 +140,17 @@ void StatePublisher::publish_transforms(const simulation::Simulation& simulation
     transforms.push_back(ros_common::to_transform(tool.X_WH, world_frame_, handle_frame + number, stamp));
     transforms.push_back(ros_common::to_transform(tool.X_WE, world_frame_, tip_frame + number, stamp));
   }
-  for (const bodies::BodyState& object : simulation.objects()) {
-    const scene::Body& body = simulation.scene().bodies[*scene::find_body(simulation.scene(), object.name)];
-    transforms.push_back(ros_common::to_transform(object.X_WO * body.X_OL, world_frame_, object.name, stamp));
+  const double steady = ros_common::steady_time();
+  const bool all = steady >= all_transforms_ + repeat_after || sent_X_.size() != simulation.objects().size();
+  if (all) all_transforms_ = steady;
+  sent_X_.resize(simulation.objects().size(), RigidTransform::Identity());
+  auto body = simulation.scene().bodies.begin();
+  for (std::size_t i = 0; i < simulation.objects().size(); ++i) {
+    const bodies::BodyState& object = simulation.objects()[i];
+    while (body->name != object.name) ++body;  // the objects are in the order of the scene
+    if (!all && sent_X_[i].matrix() == object.X_WO.matrix()) continue;
+    sent_X_[i] = object.X_WO;
+    transforms.push_back(ros_common::to_transform(object.X_WO * body->X_OL, world_frame_, object.name, stamp));
   }
   transforms_.sendTransform(transforms);
 }
@@ -99,25 +185,6 @@ void StatePublisher::publish_markers(const simulation::Simulation& simulation, c
                                                                                : now + marker_period_;
   markers_were_built_ = true;
   markers_publisher_.publish(markers_.build(simulation, header));
-}
-
-void StatePublisher::publish_steps(const CycleReport& report, const std::string& integrator, const ros::Time& stamp,
-                                   bool deadline_missed) {
-  publish_made(steps_publisher_, header_at(stamp), [&] {
-    StepReport message = to_message(report.advance);
-    (markers_were_built_ ? message.active : message.skipped).push_back("markers");
-    message.wall_time = report.wall_time;
-    message.integrator = integrator;
-    message.deadline_missed = deadline_missed;
-    return message;
-  });
-}
-
-void StatePublisher::publish_task(const SimulationRunner& runner, const ros::Time& stamp) {
-  publish_made(task_publisher_, header_at(stamp), [&] {
-    const assembly::TaskMonitor task = runner.task();
-    return to_message(task.placements(), task.score());
-  });
 }
 
 std_msgs::Header StatePublisher::header_at(const ros::Time& stamp) const {

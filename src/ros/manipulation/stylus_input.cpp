@@ -64,8 +64,8 @@ std::string number(double value) {
 }  // namespace
 
 StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame,
-                         std::string joy)
-    : parameters_(parameters), frame_(std::move(frame)), joy_(std::move(joy)) {
+                         std::string joy, std::function<void()> wake)
+    : parameters_(parameters), frame_(std::move(frame)), joy_(std::move(joy)), wake_(std::move(wake)) {
   if (parameters.workbench_frame != parameters.world_frame) {
     static_frames_.setTransform(identity(parameters.world_frame, parameters.workbench_frame), "default", true);
   }
@@ -75,7 +75,7 @@ StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& par
   joy_subscriber_ = node.subscribe(joy_, input_queue, &StylusInput::on_joy, this, hints);
 }
 
-std::vector<StylusEvent> StylusInput::take_events() {
+std::vector<live::StylusEvent> StylusInput::take_events() {
   const std::lock_guard<std::mutex> lock(mutex_);
   return std::exchange(events_, {});
 }
@@ -146,10 +146,11 @@ void StylusInput::on_stylus(const geometry_msgs::TransformStamped& transform, co
   }
   go_on_to(transform.header.stamp, poses_, early_poses_);
   const hand_input::RawSample sample = raw(transform.transform, seconds(transform.header.stamp));
-  events_.push_back(StylusPose{sample, transform.header.frame_id, X_WP, ros_common::local_time(), age});
+  events_.push_back(live::StylusPose{sample, transform.header.frame_id, X_WP, ros_common::local_time(), age});
+  wake_();
 }
 
-void StylusInput::count_rejected(const std::vector<RejectedPose>& poses) {
+void StylusInput::count_rejected(const std::vector<live::RejectedPose>& poses) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const auto& [result, pose] : poses) {
     reject(hand_input::to_string(result),
@@ -179,12 +180,13 @@ void StylusInput::on_buttons(const sensor_msgs::Joy& message, const ros::Time& n
   const double t = seconds(usable_stamp ? stamp : now);
   if (usable_stamp) go_on_to(stamp, buttons_, early_buttons_);
   const bool pressed = message.buttons[0] != 0;
-  if (pressed != pressed_) events_.push_back(StylusButton{t, pressed});
+  if (pressed != pressed_) events_.push_back(live::StylusButton{t, pressed});
   pressed_ = pressed;
   const bool next_tool = message.buttons.size() > 1 && message.buttons[1] != 0;
-  if (next_tool && !next_tool_) events_.push_back(NextTool{t});
+  if (next_tool && !next_tool_) events_.push_back(live::NextTool{t});
   next_tool_ = next_tool;
-  events_.push_back(ButtonsKnown{t, ros_common::local_time()});
+  events_.push_back(live::ButtonsKnown{t, ros_common::local_time()});
+  wake_();
 }
 
 /// A stream that goes on shows that what was kept of it was out of order, and not after a jump.
@@ -242,7 +244,7 @@ double StylusInput::seconds(const ros::Time& stamp) {
   if (zero_.isZero()) {
     // In simulated time a whole second: a bag played again gives the same times to the bit, whatever comes first.
     zero_ = ros::Time::isSimTime() && stamp.sec > 0 ? ros::Time(stamp.sec, 0) : stamp;
-    events_.push_back(NewEpoch{zero_});
+    events_.push_back(live::NewEpoch{static_cast<std::int64_t>(zero_.toNSec())});
   }
   return (stamp - zero_).toSec();
 }

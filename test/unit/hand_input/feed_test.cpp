@@ -144,27 +144,63 @@ TEST(Feed, HandsThatAreLostOnTheWayLetGoEachAtItsTime) {
   }
 }
 
-TEST(Feed, TheSlowestHandSaysHowFarToGo) {
+/// All stops up to now, and time there.
+void commit(Feed& feed, const LocalTime& now) {
+  while (const auto stop = feed.next_stop(now)) feed.advance_to(*stop);
+}
+
+TEST(Feed, TheSlowestHandSaysHowFarToGoUntilItIsSilent) {
   simulation::Simulation simulation = make_simulation();
   Feed feed(simulation, InputSettings());
   const RigidTransform X_WP = RigidTransform::Identity();
   const RawSample at_left{0.0, left, Quaterniond(pointing_down(left).linear())};
   EXPECT_FALSE(feed.has_sample());
-  EXPECT_EQ(feed.target({1.0, 1.0}), -kInf);
+  EXPECT_FALSE(feed.next_stop({1.0, 1.0}));
   for (int k = 0; k < 100; ++k) {
     RawSample sample = at_left;
     sample.t = kInterval * k;
     feed.push_stylus(sample, X_WP, {sample.t, sample.t}, 0);
     if (k <= 50) feed.push_stylus(sample, X_WP, {sample.t, sample.t}, 1);
   }
-  EXPECT_NEAR(feed.target({0.99, 0.99}), kInterval * 50, 1e-12);
+  commit(feed, {0.99, 0.99});
+  EXPECT_EQ(simulation.time(), kInterval * 49);
+  commit(feed, {1.01, 1.01});  // the second is silent now: only the first counts
+  EXPECT_EQ(simulation.time(), kInterval * 98);
+  commit(feed, {2.0, 2.0});  // both are
+  const double steps = (simulation.time() - kInterval * 99) / simulation.settings().dynamics.step;
+  EXPECT_NEAR(steps, std::round(steps), 1e-6);
+  EXPECT_NEAR(simulation.time(), 1.98, simulation.settings().dynamics.step);
   feed.restart();
   EXPECT_FALSE(feed.has_sample());
-  EXPECT_EQ(feed.target({1.0, 1.0}), -kInf);
+  EXPECT_FALSE(feed.next_stop({3.0, 3.0}));
   EXPECT_EQ(feed.gate_counts(0).accepted, 100u);
   EXPECT_FALSE(usable(feed.push_stylus(at_left, X_WP, {}, 0)));  // the gate goes on
   feed.restart_gate(0);
   EXPECT_TRUE(usable(feed.push_stylus(at_left, X_WP, {}, 0)));
+}
+
+/// Committed at moments of any kind, often or seldom, with buttons at any time: the same bits.
+TEST(Feed, WhatIsCommittedDependsOnTheMessagesAlone) {
+  std::vector<simulation::SimulationState> ends;
+  for (const unsigned every : {1u, 3u, 17u}) {
+    simulation::Simulation simulation = make_simulation();
+    Feed feed(simulation, InputSettings());
+    unsigned count = 0;
+    for (const motion::PoseSample& sample : shaking_hand()) {
+      if (sample.t > 1.985) break;
+      const LocalTime now{10.0 + sample.t, 10.0 + sample.t};
+      const Quaterniond q(sample.X.linear());
+      if (count % 7 == 0) feed.push_button(sample.t + 0.3 * kInterval, count % 70 != 63);
+      if (count % 7 == 0) feed.buttons_known(sample.t + 0.3 * kInterval, now);
+      feed.push_stylus({sample.t, sample.X.translation(), q}, RigidTransform::Identity(), now);
+      if (++count % every == 0) commit(feed, now);
+    }
+    commit(feed, {10.0 + 2.3, 10.0 + 2.3});
+    EXPECT_EQ(simulation.time(), kInterval * 197);
+    ends.push_back(simulation.save());
+  }
+  EXPECT_EQ(ends[1].hash(), ends[0].hash());
+  EXPECT_EQ(ends[2].hash(), ends[0].hash());
 }
 
 /// Samples of every kind of wrongness, mixed with those of a hand.

@@ -2,6 +2,9 @@
 
 #include <ros/time.h>
 
+#include <condition_variable>
+#include <mutex>
+
 #include "spring_workbench/hand_input/local_time.h"
 
 namespace spring_workbench::ros_common {
@@ -18,5 +21,19 @@ hand_input::LocalTime local_time();
 /// Sleeps until `loop_time()` is `t`. Under `use_sim_time` it also returns when the clock goes back, when it stood for
 /// 0.1 s, and on shutdown.
 void sleep_until_loop_time(double t);
+
+/// Wakes one thread that sleeps.
+class Alarm {
+ public:
+  /// Ends the present sleep, or the next at once.
+  void ring();
+  /// As sleep_until_loop_time(), or until somebody rings.
+  void sleep_until(double t);
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable bell_;
+  bool rung_ = false;
+};
 
 }  // namespace spring_workbench::ros_common

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "spring_workbench/ros/manipulation/simulation_runner.h"
+#include "spring_workbench/live/simulation_runner.h"
 
 namespace spring_workbench::manipulation {
 
@@ -16,7 +16,7 @@ class Checkpoint {
  public:
   /// Brings the runner to the checkpoint, where there is one of a node that was started with the same scene; one that
   /// cannot be used is told, and nothing of it is. `runner` must outlive this; `scene_roots`: as of load_scene().
-  Checkpoint(const ros::NodeHandle& private_node, SimulationRunner& runner,
+  Checkpoint(const ros::NodeHandle& private_node, live::SimulationRunner& runner,
              const std::vector<std::string>& scene_roots);
   ~Checkpoint();
   Checkpoint(const Checkpoint&) = delete;
@@ -30,7 +30,7 @@ class Checkpoint {
   void keep();
 
   ros::NodeHandle private_node_;
-  SimulationRunner& runner_;
+  live::SimulationRunner& runner_;
   XmlRpc::XmlRpcValue parameters_;  ///< of the node, at its start
   std::string kept_scene_;          ///< path; empty: nothing is kept
   simulation::SimulationState kept_state_;

@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/ros/common/diagnostic_status.h"
-#include "spring_workbench/ros/manipulation/simulation_runner.h"
+#include "spring_workbench/ros/manipulation/stylus_input.h"
 
 namespace spring_workbench::manipulation {
 
@@ -19,12 +20,14 @@ struct LoopStatistics {
   std::size_t stops = 0;           ///< steps that met the end of a fork's range
   std::size_t leaps = 0;           ///< times the simulation was started anew because time leapt
   double longest_cycle = 0.0;      ///< wall time in the simulation [s]
+  double master_silence = 0.0;     ///< since the ROS master last answered [s]
+  double prediction_error = 0.0;   ///< see LookAhead::position_error_99() [m]
 };
 
 /// What came of one stylus, and what became of the hand.
 struct TrackerInput {
   InputStatistics input;
-  HandStatistics hand;
+  live::HandStatistics hand;
   std::string hint;  ///< of `hint_for_silence`
 };
 

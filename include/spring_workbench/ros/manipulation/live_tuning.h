@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "spring_workbench/ros/manipulation/simulation_runner.h"
+#include "spring_workbench/live/simulation_runner.h"
 
 namespace spring_workbench::manipulation {
 
@@ -17,6 +17,6 @@ class LiveTuning {
 };
 
 /// Null where the package was built without dynamic_reconfigure. `runner` must outlive the result.
-std::unique_ptr<LiveTuning> make_live_tuning(const ros::NodeHandle& private_node, SimulationRunner& runner);
+std::unique_ptr<LiveTuning> make_live_tuning(const ros::NodeHandle& private_node, live::SimulationRunner& runner);
 
 }  // namespace spring_workbench::manipulation

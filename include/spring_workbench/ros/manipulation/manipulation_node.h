@@ -1,27 +1,45 @@
 #pragma once
 
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <atomic>
 #include <mutex>
+#include <string>
 #include <thread>
 #include <vector>
 
+#include "spring_workbench/live/simulation_runner.h"
+#include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/manipulation/checkpoint.h"
 #include "spring_workbench/ros/manipulation/diagnostics.h"
 #include "spring_workbench/ros/manipulation/live_tuning.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
 #include "spring_workbench/ros/manipulation/services.h"
-#include "spring_workbench/ros/manipulation/simulation_runner.h"
 #include "spring_workbench/ros/manipulation/state_publisher.h"
 #include "spring_workbench/ros/manipulation/stylus_input.h"
 
 namespace spring_workbench::manipulation {
 
-/// The node `manipulation`: tf and buttons in; physics in its own thread, on the steady clock or, under `use_sim_time`,
-/// on ROS time; states, markers and reports out. Call the callbacks of the global queue beside it. It ends in order
-/// when it is destroyed before ros::shutdown().
+/// A queue of callbacks with a thread of its own, which nothing else keeps waiting.
+class CallbackThread {
+ public:
+  CallbackThread() : spinner_(1, &queue_) { spinner_.start(); }
+  /// Its callbacks come from the queue.
+  ros::NodeHandle handle(ros::NodeHandle node) {
+    node.setCallbackQueue(&queue_);
+    return node;
+  }
+
+ private:
+  ros::CallbackQueue queue_;
+  ros::AsyncSpinner spinner_;
+};
+
+/// The node `manipulation`: tf and buttons in; physics in its own thread, woken by samples, on the steady clock or,
+/// under `use_sim_time`, on ROS time; states, markers and reports out. Call the callbacks of the global queue beside
+/// it. It ends in order when it is destroyed before ros::shutdown().
 class ManipulationNode {
  public:
   /// Reads parameters and scene. Throws InputError when one cannot be used.
@@ -32,14 +50,17 @@ class ManipulationNode {
 
  private:
   void run_physics();
-  bool run_step(double due);
-  void count(const CycleReport& report, bool deadline_missed);
+  bool run_step(double begin);
+  void count(const live::CycleReport& report, bool deadline_missed);
   void on_every_second(const ros::WallTimerEvent&);
   void place_workbench();
+  void ask_master();
   void end_with_its_master();
 
   const ManipulationParameters parameters_;
-  SimulationRunner runner_;
+  live::SimulationRunner runner_;
+  ros_common::Alarm alarm_;
+  CallbackThread input_thread_, master_thread_;
   StylusInput input_, second_input_;
   StatePublisher publisher_;
   std::vector<ros::ServiceServer> services_;
@@ -51,7 +72,10 @@ class ManipulationNode {
   bool workbench_placed_ = false;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   ros::Publisher diagnostics_publisher_;
-  ros::WallTimer every_second_;
+  ros::WallTimer every_second_, asks_master_;
+  std::mutex master_mutex_;
+  std::vector<std::string> senders_of_tf_;  ///< by the master's last answer
+  double master_answered_;                  ///< when that came [s], by the steady clock
   std::atomic<bool> stop_{false};
   std::thread physics_;
 };

@@ -5,25 +5,35 @@
 
 #include <string>
 
+#include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
-#include "spring_workbench/ros/manipulation/simulation_runner.h"
 #include "spring_workbench/ros/markers/markers.h"
 
 namespace spring_workbench::manipulation {
 
-/// Sends what the simulation shows: /tf, ~objects, ~fork, ~fork_2, ~wrench, ~contacts, ~markers, ~steps and ~task.
-/// Messages are made only while somebody listens; /tf is sent when the simulated time has gone on.
+/// Sends the committed simulation, to be recorded (~objects, ~fork, ~fork_2, ~wrench, ~contacts, ~steps and ~task),
+/// the journal (~accepted, ~changes), and what is shown, to be looked at (/tf, ~display/objects, ~display/fork,
+/// ~display/fork_2, ~markers). Messages are made only while somebody listens. What has not changed is sent again ten
+/// times a second.
 class StatePublisher {
  public:
   StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters);
 
-  /// Call once per cycle of the physics loop. `stamp`: the simulated time; `now` [s]: local time.
-  void publish(const simulation::Simulation& simulation, const ros::Time& stamp, double now);
-  void publish_steps(const CycleReport& report, const std::string& integrator, const ros::Time& stamp,
-                     bool deadline_missed);
-  void publish_task(const SimulationRunner& runner, const ros::Time& stamp);
+  /// After each cycle of the physics loop, with what it did.
+  void publish_committed(const live::SimulationRunner& runner, const live::CycleReport& report, bool deadline_missed);
+  /// After show(), which brought what is shown `horizon` [s] beyond the newest sample. `now` [s]: local time.
+  void publish_shown(const live::SimulationRunner& runner, double horizon, double now);
+  /// The journal, while somebody listens to both of its topics.
+  void publish_journal(live::SimulationRunner& runner);
 
  private:
+  /// Whether something has to be sent again, or for the first time.
+  struct Repeat {
+    ros::Time stamp;
+    std::size_t revision = 0;
+    double sent = -1.0;  ///< [s], by the steady clock
+    bool due(const ros::Time& stamp, std::size_t revision);
+  };
   void publish_transforms(const simulation::Simulation& simulation, const ros::Time& stamp);
   void publish_wrench(const tools::ToolState& tool, std_msgs::Header header);
   void publish_contacts(const simulation::Simulation& simulation, const std_msgs::Header& header);
@@ -34,12 +44,18 @@ class StatePublisher {
   double marker_period_;  ///< [s]
   double next_markers_ = 0.0;
   ros::Time last_transforms_;
+  double all_transforms_ = -1.0;        ///< when all were sent last [s], by the steady clock
+  std::vector<RigidTransform> sent_X_;  ///< of the objects
+  Repeat committed_, shown_;
+  double horizon_ = 0.0;
   bool had_contacts_ = false;
   bool markers_were_built_ = false;  ///< in this cycle
   markers::MarkerBuilder markers_;
   tf2_ros::TransformBroadcaster transforms_;
   ros::Publisher objects_publisher_, fork_publisher_, second_fork_publisher_, wrench_publisher_, contacts_publisher_,
-      markers_publisher_, steps_publisher_, task_publisher_;
+      steps_publisher_, task_publisher_, shown_objects_publisher_, shown_fork_publisher_, shown_second_fork_publisher_,
+      markers_publisher_, accepted_publisher_, changes_publisher_;
+  std::uint32_t journal_listeners_ = 0;
 };
 
 }  // namespace spring_workbench::manipulation

@@ -6,51 +6,18 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <deque>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <set>
 #include <string>
-#include <variant>
 #include <vector>
 
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/live/stylus_events.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
 
 namespace spring_workbench::manipulation {
-
-/// The input starts anew: all times that follow count from `zero`.
-struct NewEpoch {
-  ros::Time zero;
-};
-/// A pose of the handle as it came, in the frame P that is its parent on /tf, and when it came.
-struct StylusPose {
-  hand_input::RawSample sample;
-  std::string parent;  ///< P's name
-  RigidTransform X_WP = RigidTransform::Identity();
-  hand_input::LocalTime arrival;
-  double age = 0.0;  ///< when it came, by its stamp [s]
-};
-/// One that the gate did not let through.
-struct RejectedPose {
-  hand_input::GateResult result;
-  StylusPose pose;
-};
-/// The grasp button went down or up at time `t` [s].
-struct StylusButton {
-  double t = 0.0;
-  bool pressed = false;
-};
-/// The buttons are known up to time `t` [s]: a message about them came, whether or not one of them changed.
-struct ButtonsKnown {
-  double t = 0.0;
-  hand_input::LocalTime arrival;
-};
-/// The button for the next tool went down at time `t` [s].
-struct NextTool {
-  double t = 0.0;
-};
-using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, NextTool, ButtonsKnown>;
 
 /// What came in so far.
 struct InputStatistics {
@@ -67,13 +34,14 @@ struct InputStatistics {
 class StylusInput {
  public:
   /// Listens to the child frame `frame` and to `joy` (`stylus/joy`: button 0 grasps while it is down, 1 takes the next
-  /// tool).
-  StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame, std::string joy);
+  /// tool). `wake` is called when something has come.
+  StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame, std::string joy,
+              std::function<void()> wake);
 
-  /// What came since the last call. The first event ever, and the first after a jump of time, is a NewEpoch.
-  std::vector<StylusEvent> take_events();
+  /// What came since the last call. The first event ever, and the first after a jump of time, is a live::NewEpoch.
+  std::vector<live::StylusEvent> take_events();
   /// Counts and tells what the gate did not let through.
-  void count_rejected(const std::vector<RejectedPose>& poses);
+  void count_rejected(const std::vector<live::RejectedPose>& poses);
   InputStatistics statistics() const;
   /// Whether /tf_static said where the workbench is.
   bool workbench_known() const;
@@ -94,10 +62,11 @@ class StylusInput {
 
   const ManipulationParameters parameters_;
   const std::string frame_, joy_;
+  const std::function<void()> wake_;
   mutable std::mutex mutex_;
   tf2::BufferCore static_frames_;
   bool workbench_known_ = false;
-  std::vector<StylusEvent> events_;
+  std::vector<live::StylusEvent> events_;
   InputStatistics statistics_;
   /// What was stamped before the newest: it waits for the clock, or for the other stream, to jump back.
   std::deque<geometry_msgs::TransformStamped> early_poses_;

@@ -14,6 +14,8 @@
 
 #include "../constants.h"
 #include "../motion.h"
+#include "spring_workbench/Accepted.h"
+#include "spring_workbench/Change.h"
 #include "spring_workbench/simulation/simulation.h"
 #include "spring_workbench/validation/number_rule.h"
 #include "spring_workbench/validation/renamed.h"
@@ -42,6 +44,26 @@ RigidTransform to_pose(const geometry_msgs::Transform& transform, const std::str
   const Quaterniond rotation(q.w, q.x, q.y, q.z);
   validation::check_number(where, "norm of rotation", rotation.norm(), validation::between(0.5, 2.0));
   return make_transform(rotation, Vector3d(p.x, p.y, p.z));
+}
+
+live::Entry to_entry(const Accepted& message) {
+  hand_input::Accepted accepted;
+  validation::check_number("~accepted", "kind", message.kind, validation::between(0, Accepted::REST));
+  validation::check_number("~accepted", "stylus", message.stylus,
+                           validation::between(1, simulation::Simulation::most_hands));
+  accepted.kind = static_cast<hand_input::Accepted::Kind>(message.kind);
+  accepted.hand = message.stylus - 1u;
+  accepted.t = message.time;
+  accepted.committed = message.committed;
+  accepted.X_WH.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(message.handle.data());
+  return {message.index, message.committed, accepted};
+}
+
+live::Entry to_entry(const Change& message) {
+  const simulation::SimulationState state =
+      message.state.empty() ? simulation::SimulationState() : simulation::parse_state(message.state);
+  return {message.index, message.committed,
+          live::Change{message.what, message.scene, std::stoull(message.hash_before, nullptr, 16), state}};
 }
 
 /// Collects the hands from the messages of a bag.
@@ -151,14 +173,33 @@ class BagReader {
 
 }  // namespace
 
-std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child) {
+/// Calls `read`. rosbag, ros::serialization and the decompressors have a family of exceptions each.
+template <typename Read>
+auto reading(const std::string& path, Read&& read) {
   try {
-    return BagReader(path, parent, child).read();
+    return read();
   } catch (const validation::InputError&) {
     throw;
-  } catch (const std::exception& e) {  // rosbag, ros::serialization and the decompressors have a family each
+  } catch (const std::exception& e) {
     throw validation::InputError(path + ": cannot be read: " + e.what() + ": must be a bag");
   }
+}
+
+std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child) {
+  return reading(path, [&] { return BagReader(path, parent, child).read(); });
+}
+
+std::vector<live::Entry> read_journal(const std::string& path) {
+  return reading(path, [&] {
+    rosbag::Bag bag(path, rosbag::bagmode::Read);
+    std::vector<live::Entry> entries;
+    for (const rosbag::MessageInstance& message : rosbag::View(bag)) {
+      if (const auto accepted = message.instantiate<Accepted>()) entries.push_back(to_entry(*accepted));
+      if (const auto change = message.instantiate<Change>()) entries.push_back(to_entry(*change));
+    }
+    std::sort(entries.begin(), entries.end(), [](const auto& a, const auto& b) { return a.index < b.index; });
+    return entries;
+  });
 }
 
 }  // namespace spring_workbench::replay

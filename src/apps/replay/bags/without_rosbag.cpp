@@ -7,4 +7,8 @@ std::vector<Motion> read_bag(const std::string& path, const std::string&, const 
   validation::refuse("command line", "--bag", path, "given to a build with ROS (SPRING_WORKBENCH_ROS)");
 }
 
+std::vector<live::Entry> read_journal(const std::string& path) {
+  validation::refuse("command line", "--bag", path, "given to a build with ROS (SPRING_WORKBENCH_ROS)");
+}
+
 }  // namespace spring_workbench::replay

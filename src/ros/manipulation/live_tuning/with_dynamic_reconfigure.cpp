@@ -54,7 +54,7 @@ bool same(const ManipulationConfig& a, const ManipulationConfig& b) { return a._
 
 class Reconfigure final : public LiveTuning {
  public:
-  Reconfigure(const ros::NodeHandle& private_node, SimulationRunner& runner)
+  Reconfigure(const ros::NodeHandle& private_node, live::SimulationRunner& runner)
       : runner_(runner), node_(private_node, "live"), server_(mutex_, node_) {
     server_.setCallback([this](ManipulationConfig& config, uint32_t level) { on_change(config, level); });
     follow_timer_ = node_.createWallTimer(ros::WallDuration(0.2), [this](const ros::WallTimerEvent&) { follow(); });
@@ -64,14 +64,14 @@ class Reconfigure final : public LiveTuning {
   static constexpr uint32_t at_start = ~uint32_t{0};  ///< the server's level for what it read from old parameters
 
   void on_change(ManipulationConfig& config, uint32_t level) {
-    runner_.locked([&](simulation::Simulation& simulation) {
-      try {
-        if (level != at_start) give_to(simulation, config);
-      } catch (const validation::InputError& error) {
-        ROS_WARN_STREAM(error.what());
+    try {
+      if (level != at_start) {
+        runner_.change("live", [&](simulation::Simulation& simulation) { give_to(simulation, config); });
       }
-      take_from(simulation, config);
-    });
+    } catch (const validation::InputError& error) {
+      ROS_WARN_STREAM(error.what());
+    }
+    runner_.locked([&](const simulation::Simulation& simulation) { take_from(simulation, config); });
     told_ = config;
   }
 
@@ -84,7 +84,7 @@ class Reconfigure final : public LiveTuning {
     server_.updateConfig(now);
   }
 
-  SimulationRunner& runner_;
+  live::SimulationRunner& runner_;
   ros::NodeHandle node_;
   boost::recursive_mutex mutex_;
   dynamic_reconfigure::Server<ManipulationConfig> server_;
@@ -94,7 +94,7 @@ class Reconfigure final : public LiveTuning {
 
 }  // namespace
 
-std::unique_ptr<LiveTuning> make_live_tuning(const ros::NodeHandle& private_node, SimulationRunner& runner) {
+std::unique_ptr<LiveTuning> make_live_tuning(const ros::NodeHandle& private_node, live::SimulationRunner& runner) {
   return std::make_unique<Reconfigure>(private_node, runner);
 }
 

@@ -2,6 +2,6 @@
 
 namespace spring_workbench::manipulation {
 
-std::unique_ptr<LiveTuning> make_live_tuning(const ros::NodeHandle&, SimulationRunner&) { return nullptr; }
+std::unique_ptr<LiveTuning> make_live_tuning(const ros::NodeHandle&, live::SimulationRunner&) { return nullptr; }
 
 }  // namespace spring_workbench::manipulation

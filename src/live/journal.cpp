@@ -1,0 +1,76 @@
+#include "spring_workbench/live/journal.h"
+
+#include "spring_workbench/validation/number_rule.h"
+
+namespace spring_workbench::live {
+
+using hand_input::Accepted;
+
+void Replayer::play(const Entry& entry, const AtStop& at_stop) {
+  const auto* change = std::get_if<Change>(&entry.what);
+  if (simulation_.empty() && (change == nullptr || change->state == simulation::SimulationState())) return;
+  if (simulation_.empty()) {
+    scene_ = change->scene;
+    simulation_.push_back(make_simulation_(scene_));
+    simulation_.front().restore(change->state);
+    next_ = entry.index + 1;
+    return;
+  }
+  if (entry.index != next_) {
+    validation::refuse("journal", "index", std::to_string(entry.index),
+                       std::to_string(next_) + ", the next one; a message was lost when it was recorded");
+  }
+  ++next_;
+  go_to(entry.committed, at_stop);
+  std::visit([&](const auto& what) { apply(what); }, entry.what);
+}
+
+void Replayer::go_to(double t, const AtStop& at_stop) {
+  simulation::Simulation& simulation = simulation_.front();
+  for (double edge = simulation.next_edge(); edge <= t; edge = simulation.next_edge()) {
+    const simulation::AdvanceReport report = simulation.advance(edge);
+    at_stop(simulation, report);
+  }
+  if (simulation.time() >= t) return;
+  const simulation::AdvanceReport report = simulation.advance(t);
+  at_stop(simulation, report);
+}
+
+void Replayer::apply(const Accepted& accepted) {
+  simulation::Simulation& simulation = simulation_.front();
+  switch (accepted.kind) {
+    case Accepted::Kind::pose:
+      simulation.push_stylus({accepted.t, accepted.X_WH}, accepted.hand);
+      break;
+    case Accepted::Kind::button_down:
+    case Accepted::Kind::button_up:
+      simulation.push_button(accepted.t, accepted.kind == Accepted::Kind::button_down, accepted.hand);
+      break;
+    case Accepted::Kind::next_tool:
+      simulation.push_next_tool(accepted.t, accepted.hand);
+      break;
+    case Accepted::Kind::lost:
+      simulation.release(accepted.hand);
+      break;
+    case Accepted::Kind::rest:
+      break;
+  }
+}
+
+void Replayer::apply(const Change& change) {
+  const std::uint64_t hash = simulation_.front().state_hash();
+  if (hash != change.hash_before) {
+    validation::refuse("journal",
+                       "state before \"" + change.what + "\" at " + std::to_string(simulation_.front().time()) + " s",
+                       simulation::to_hex(hash), simulation::to_hex(change.hash_before) + ", as it was");
+  }
+  if (change.state == simulation::SimulationState()) return;
+  ++changes_;
+  if (change.scene != scene_) {
+    scene_ = change.scene;
+    simulation_.front() = make_simulation_(scene_);
+  }
+  simulation_.front().restore(change.state);
+}
+
+}  // namespace spring_workbench::live

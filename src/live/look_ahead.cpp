@@ -1,0 +1,66 @@
+#include "spring_workbench/live/look_ahead.h"
+
+#include <algorithm>
+
+#include "constants.h"
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::live {
+
+void LookAhead::show(const simulation::Simulation& committed, const hand_input::Feed& feed, double t) {
+  copy_.restore(committed.save());
+  if (feed.has_sample()) {
+    feed.predict(t, copy_);
+    copy_.advance(t);
+  }
+  for (const Held& one : held(copy_)) shown_.push_back(one);
+}
+
+PredictionError LookAhead::compare(const simulation::Simulation& committed) {
+  const std::vector<Held> now = held(committed);
+  PredictionError worst;
+  while (!shown_.empty() && shown_.front().at.t <= committed.time()) {
+    const Held shown = shown_.front();
+    shown_.pop_front();
+    const auto same = [&](const Held& other) { return other.object == shown.object; };
+    const auto a = std::find_if(before_.begin(), before_.end(), same);
+    const auto b = std::find_if(now.begin(), now.end(), same);
+    if (a == before_.end() || b == now.end() || !(a->at.t <= shown.at.t) || !(a->at.t < b->at.t)) continue;
+    const auto in_own_axes = [](const Held& h) { return Vector3d(h.at.X.linear().transpose() * h.V_WO_W.angular); };
+    const motion::MotionSegment path(a->at, a->V_WO_W.linear, in_own_axes(*a), b->at, b->V_WO_W.linear,
+                                     in_own_axes(*b));
+    const RigidTransform X = path.at(shown.at.t).X;
+    const double error = (X.translation() - shown.at.X.translation()).norm();
+    worst.position = std::max(worst.position, error);
+    worst.angle = std::max(worst.angle, math::turn_between(X, shown.at.X).norm());
+    errors_.push_back(error);
+    if (errors_.size() > most_errors) errors_.pop_front();
+  }
+  before_ = now;
+  return worst;
+}
+
+double LookAhead::position_error_99() const {
+  if (errors_.empty()) return 0.0;
+  std::vector<double> sorted(errors_.begin(), errors_.end());
+  const auto at =
+      sorted.begin() + static_cast<std::ptrdiff_t>(share_of_errors * static_cast<double>(sorted.size() - 1));
+  std::nth_element(sorted.begin(), at, sorted.end());
+  return *at;
+}
+
+void LookAhead::restart() {
+  shown_.clear();
+  before_.clear();
+}
+
+std::vector<LookAhead::Held> LookAhead::held(const simulation::Simulation& simulation) {
+  std::vector<Held> result;
+  for (std::size_t i = 0; i < simulation.objects().size(); ++i) {
+    const bodies::BodyState& object = simulation.objects()[i];
+    if (object.held) result.push_back({i, {simulation.time(), object.X_WO}, object.V_WO_W});
+  }
+  return result;
+}
+
+}  // namespace spring_workbench::live

@@ -1,0 +1,236 @@
+#include "spring_workbench/live/simulation_runner.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "constants.h"
+
+namespace spring_workbench::live {
+
+SimulationRunner::Noted::Noted(SimulationRunner& runner, std::string what)
+    : runner_(runner), what_(std::move(what)), committed_(runner.feed_.committed()) {
+  if (runner_.keeps_journal_) hash_before_ = runner_.simulation_.state_hash();
+}
+
+SimulationRunner::Noted::~Noted() {
+  ++runner_.revision_;
+  runner_.ahead_.restart();
+  if (!runner_.keeps_journal_) return;
+  const std::string& scene = runner_.simulation_.scene().path;
+  runner_.note(committed_, Change{what_, scene, hash_before_, runner_.simulation_.save()});
+}
+
+SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
+                                   const hand_input::InputSettings& input, bool simulated_time)
+    : simulation_(scene, settings),
+      feed_(simulation_, input),
+      ahead_(scene, settings),
+      task_(scene),
+      simulated_time_(simulated_time) {
+  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+    inputs_.emplace_back(hand, settings.dropout_after);
+  }
+}
+
+CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::LocalTime& now) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto begin = std::chrono::steady_clock::now();
+  for (HandInput& input : inputs_)
+    input.waiting.insert(input.waiting.end(), events[input.hand].begin(), events[input.hand].end());
+  feed(now);
+  CycleReport report;
+  if (const std::optional<double> stop = feed_.next_stop(now)) commit(*stop, report);
+  report.more = feed_.next_stop(now).has_value();
+  for (HandInput& input : inputs_) {
+    report.more |= !input.waiting.empty();
+    report.rejected[input.hand] = std::exchange(input.rejected, {});
+    report.input_age = std::max(report.input_age, input.newest_age);
+  }
+  report.input_age += feed_.waited(now);
+  report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return report;
+}
+
+void SimulationRunner::feed(const hand_input::LocalTime& now) {
+  for (HandInput& input : inputs_) {
+    while (!input.waiting.empty()) {
+      const auto* epoch = std::get_if<NewEpoch>(&input.waiting.front());
+      const bool restarts = epoch != nullptr && !joins(input, *epoch);
+      if (restarts && simulated_time_ && feed_.next_stop(now)) break;
+      // What comes from before a jump of time that another hand has told of already is of no use.
+      if (input.in_epoch || epoch != nullptr)
+        std::visit([&](const auto& e) { apply(input, e); }, input.waiting.front());
+      input.waiting.pop_front();
+    }
+  }
+}
+
+void SimulationRunner::commit(double stop, CycleReport& report) {
+  if (stop > simulation_.time() + longest_catch_up) {
+    const Noted noted(*this, "time leapt");
+    report.leapt = true;
+    return start_anew();
+  }
+  report.advance = feed_.advance_to(stop);
+  report.prediction = ahead_.compare(simulation_);
+  task_.observe(simulation_);
+  ++revision_;
+}
+
+double SimulationRunner::show(double latency, const hand_input::LocalTime& now) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const double newest = simulation_.newest_sample();
+  const double horizon = latency > 0.0 ? std::min(latency + feed_.waited(now), motion::PosePredictor::farthest) : 0.0;
+  if (feed_.has_sample()) shown_until_ = std::max({newest + horizon, simulation_.time(), shown_until_});
+  const double t = feed_.has_sample() ? shown_until_ : simulation_.time();
+  ahead_.show(simulation_, feed_, t);
+  return std::max(t - newest, 0.0);
+}
+
+/// Whether a stylus that begins there comes to the others that are under way, rather than that all time has jumped.
+bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
+  return feed_.has_sample() && !input.in_epoch &&
+         1e-9 * static_cast<double>(epoch.zero - zero_) > simulation_.time() - joining_slip;
+}
+
+void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
+  if (!joins(input, epoch)) {
+    const Noted noted(*this, "the hand's time begins");
+    start_anew();
+    simulation_.place(std::exchange(places_, {}));
+    zero_ = epoch.zero;
+    for (HandInput& other : inputs_) other.in_epoch = false;
+  }
+  feed_.restart_gate(input.hand);
+  input.monitor.restart();
+  input.in_epoch = true;
+  input.shift = 1e-9 * static_cast<double>(epoch.zero - zero_);
+}
+
+void SimulationRunner::apply(HandInput& input, const StylusPose& pose) {
+  hand_input::RawSample sample = pose.sample;
+  sample.t += input.shift;
+  const hand_input::GateResult result = feed_.push_stylus(sample, pose.X_WP, pose.arrival, input.hand);
+  if (!hand_input::usable(result)) return input.rejected.push_back({result, pose});
+  input.monitor.sample(sample.t, sample.t + pose.age);
+  input.newest_arrival = pose.arrival.loop;
+  input.newest_age = pose.age;
+}
+
+void SimulationRunner::apply(HandInput& input, const StylusButton& button) {
+  feed_.push_button(button.t + input.shift, button.pressed, input.hand);
+}
+
+void SimulationRunner::apply(HandInput& input, const NextTool& press) {
+  feed_.push_next_tool(press.t + input.shift, input.hand);
+}
+
+void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {
+  feed_.buttons_known(known.t + input.shift, known.arrival, input.hand);
+}
+
+void SimulationRunner::start_anew() {
+  simulation_.reset();
+  task_.reset();
+  feed_.restart();
+  shown_until_ = -std::numeric_limits<double>::infinity();
+}
+
+void SimulationRunner::restart() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Noted noted(*this, "reset");
+  places_.clear();
+  start_anew();
+}
+
+void SimulationRunner::load(const scene::Scene& scene) {
+  // The copy is made without the lock: it may take its time.
+  const auto [settings, forks] = locked([](const simulation::Simulation& present) {
+    std::vector<rod::ForkSettings> of_hands;
+    for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+      of_hands.push_back(present.fork_settings(hand));
+    }
+    return std::make_pair(present.settings(), of_hands);
+  });
+  simulation::Simulation simulation(scene, settings);
+  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+    simulation::ForkChange change = simulation::change_to(forks[hand]);
+    if (settings.grasp.calibrate == tools::Calibration::world) {  // the fork is the new scene's
+      change.stretch_stiffness = change.bend_stiffness = change.torsion_stiffness = std::nullopt;
+    }
+    simulation.change(change, hand);
+  }
+  LookAhead ahead(scene, settings);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Noted noted(*this, "load_scene");
+  places_.clear();
+  begin_with(std::move(simulation), std::move(ahead));
+}
+
+void SimulationRunner::resume(const scene::Scene& scene, const simulation::SimulationState& state) {
+  const simulation::SimulationSettings settings =
+      locked([](const simulation::Simulation& present) { return present.settings(); });
+  simulation::Simulation simulation(scene, settings);
+  simulation.restore(state);
+  std::map<std::string, RigidTransform> places;
+  for (const bodies::BodyState& object : simulation.objects()) places[object.name] = object.X_WO;
+  simulation.reset();
+  simulation.place(places);
+  LookAhead ahead(scene, settings);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Noted noted(*this, "resume");
+  places_ = std::move(places);
+  begin_with(std::move(simulation), std::move(ahead));
+}
+
+void SimulationRunner::begin_with(simulation::Simulation simulation, LookAhead ahead) {
+  task_ = assembly::TaskMonitor(simulation.scene());
+  simulation_ = std::move(simulation);
+  ahead_ = std::move(ahead);
+  feed_.restart();
+  shown_until_ = -std::numeric_limits<double>::infinity();
+}
+
+void SimulationRunner::keep_journal(bool keep) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  keeps_journal_ = keep;
+  if (!keep) return feed_.record(nullptr);
+  feed_.record([this](const hand_input::Accepted& accepted) { note(accepted.committed, accepted); });
+  const Noted noted(*this, "the journal begins");
+}
+
+void SimulationRunner::note_state() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (!keeps_journal_) return;
+  note(feed_.committed(), Change{"for comparison", simulation_.scene().path, simulation_.state_hash(), {}});
+}
+
+void SimulationRunner::note(double committed, std::variant<hand_input::Accepted, Change> what) {
+  journal_.push_back({next_entry_++, committed, std::move(what)});
+}
+
+std::vector<Entry> SimulationRunner::take_journal() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(journal_, {});
+}
+
+std::int64_t SimulationRunner::stamp_of(double t) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return zero_ + std::llround(1e9 * t);
+}
+
+std::int64_t SimulationRunner::stamp(std::int64_t now) const {
+  return has_sample() ? stamp_of(locked([](const auto& simulation) { return simulation.time(); })) : now;
+}
+
+std::int64_t SimulationRunner::shown_stamp(std::int64_t now) const {
+  return has_sample() ? stamp_of(ahead_.shown().time()) : now;
+}
+
+HandStatistics SimulationRunner::hand_statistics(std::size_t hand) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const HandInput& input = inputs_.at(hand);
+  return {input.monitor.figures(), feed_.gate_counts(hand), feed_.reacquisition_counts(hand), input.newest_arrival};
+}
+
+}  // namespace spring_workbench::live
