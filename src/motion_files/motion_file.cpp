@@ -40,7 +40,7 @@ long double read_word(const std::string& word, const std::string& where, const s
 double whole_nanoseconds(long double seconds) { return static_cast<double>(std::round(seconds * 1e9L)) / 1e9; }
 
 struct Line {
-  long double stamp;
+  long double stamp = 0.0;
   motion::StylusSample sample;
 };
 

@@ -57,7 +57,7 @@ bool write_all(int file, const std::string& data) {
 
 std::string read_all(int file) {
   std::string data;
-  std::array<char, 65536> part;
+  std::array<char, 65536> part{};
   for (;;) {
     const ssize_t got = read(file, part.data(), part.size());
     if (got < 0 && errno == EINTR) continue;
