@@ -2,9 +2,10 @@
 
 namespace spring_workbench::assembly {
 
-// Each with its unit, what changing it does, and the test that notices.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
-/// at one object. Fewer: more objects stay where they are. Test: none: every fork places all at the first.
+/// at one object. Fewer: more objects stay where they are. Test:
+/// SimulatedOperator.GivesAnObjectUpAfterFourAttempts.
 constexpr int most_attempts = 4;
 /// of one reach. Fewer: objects are set down off their goal. Test:
 /// SimulatedOperator.AssemblesTheMiniWorldWithEveryFork.

@@ -63,8 +63,9 @@ std::optional<motion::StylusSample> SimulatedOperator::next() {
   motion::StylusSample sample;
   sample.t = t_;
   sample.button = button_;
-  const Vector3d p = X_WH_.translation() + settings_.position_noise * gauss3();
-  sample.X = make_transform(Quaterniond(X_WH_.linear() * math::exp_so3(settings_.angle_noise * gauss3())), p);
+  const Vector3d p = X_WH_.translation() + settings_.position_noise * random_.next_vector();
+  sample.X =
+      make_transform(Quaterniond(X_WH_.linear() * math::exp_so3(settings_.angle_noise * random_.next_vector())), p);
   return sample;
 }
 
@@ -213,7 +214,7 @@ void SimulatedOperator::reach(const RigidTransform& X_WH, Phase then, bool look)
   const double distance = std::hypot(way.norm(), lever * turn);
   X_WH_from_ = X_WH_to_;
   X_WH_to_ = X_WH;
-  X_WH_to_.translation() += settings_.aim_scatter * way.norm() * gauss3();
+  X_WH_to_.translation() += settings_.aim_scatter * way.norm() * random_.next_vector();
   t_from_ = t_;
   t_to_ = t_ + 0.1 + fitts_slope * std::log2(1.0 + distance / fitts_width);
   t_decide_ = t_to_ + (look ? settings_.reaction : 0.0);
@@ -223,19 +224,6 @@ void SimulatedOperator::reach(const RigidTransform& X_WH, Phase then, bool look)
 void SimulatedOperator::wait(double seconds, Phase then) {
   t_decide_ = t_ + std::max(seconds, 3.0 / settings_.rate);
   phase_ = then;
-}
-
-/// Standard normal by Box and Muller, so that the numbers are the same with every standard library.
-double SimulatedOperator::gauss() {
-  constexpr double scale = 1.0 / 4294967296.0;
-  const double a = (static_cast<double>(random_()) + 0.5) * scale;
-  const double b = static_cast<double>(random_()) * scale;
-  return std::sqrt(-2.0 * std::log(a)) * std::cos(2.0 * M_PI * b);
-}
-
-Vector3d SimulatedOperator::gauss3() {
-  const double x = gauss(), y = gauss(), z = gauss();
-  return {x, y, z};
 }
 
 }  // namespace spring_workbench::assembly

@@ -2,36 +2,34 @@
 
 #include <cstddef>
 
-// The constants of the module: unit, what changing one does, and the test that notices: "noticed by" was seen to fail
-// with another value, "goes into" is by reading alone.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 namespace spring_workbench::collision {
 
-/// [m] of the way, between the free and the touching end of a time of impact. Goes into
-/// `Sweep.TheTimeOfImpactIsExact`.
+/// [m] of the way, between the free and the touching end of a time of impact. Test: Sweep.TheTimeOfImpactIsExact at
+/// 1e-06.
 constexpr double impact_precision = 1e-8;
-/// By what is surely clear, before the rest of a way is halved. Fewer: more queries. Goes into
-/// `Sweep.TheTimeOfImpactIsExact`.
+/// By what is surely clear, before the rest of a way is halved. Fewer: more queries. Test: Sweep.TheTimeOfImpactIsExact
+/// at 0.
 constexpr int most_advances = 50;
 /// Of a shape on the bench that are kept as they are; of more, those furthest out are. Fewer: a box loses corners.
-/// Goes into `Bench.FlushFacesGivePointsThatSpanThem`.
+/// Test: none: no value tried makes one fail.
 constexpr std::size_t most_bench_points = 8;
-/// [m]; contacts nearer to each other are one. Goes into `Bench.AFineMeshGivesFewPointsThatKeepItsExtent`.
+/// [m]; contacts nearer to each other are one. Test: Pairs.MeshesOfBoxesTouchAsTheBoxesDo at 0.
 constexpr double same_place = 1e-7;
-/// Sine of the angle at an edge, below which it is a seam within a face and touches nothing. Goes into
-/// `Pairs.HowFinelyAFloorIsCutDoesNotShow`.
+/// Sine of the angle at an edge, below which it is a seam within a face and touches nothing. Test:
+/// Pairs.MeshesOfBoxesTouchAsTheBoxesDo at 1.
 constexpr double flat_edge = 1e-6;
-/// Cosine to how two surfaces meet on the whole; a way out that goes along it less is none. Goes into
-/// `Pairs.HowFinelyAFloorIsCutDoesNotShow`.
+/// Cosine to how two surfaces meet on the whole; a way out that goes along it less is none. Test:
+/// Pairs.HowFinelyAFloorIsCutDoesNotShow at 5.
 constexpr double least_along = 0.5;
-/// Of that cosine; of ways that differ by less the least deep is taken. Goes into
-/// `Pairs.HowFinelyAFloorIsCutDoesNotShow`.
+/// Of that cosine; of ways that differ by less the least deep is taken. Test: none: no value tried makes one fail.
 constexpr double as_good = 0.1;
-/// That FCL may give of two boxes, of which there are eight. Fewer: faces lose corners. Goes into
-/// `Pairs.FlushBoxesGivePointsThatSpanTheCommonFace`.
+/// That FCL may give of two boxes, of which there are eight. Fewer: faces lose corners. Test:
+/// Pairs.FlushBoxesGivePointsThatSpanTheCommonFace at 1.
 constexpr std::size_t most_box_points = 16;
-/// Of the prism that stands for a cylinder among triangles. Fewer: less round; more: slower. Goes into
-/// `Pairs.AFlushCylinderStandsOnThePointsOfItsRim`.
+/// Of the prism that stands for a cylinder among triangles. Fewer: less round; more: slower. Test:
+/// Pairs.AFlushCylinderStandsOnThePointsOfItsRim at 0.
 constexpr int cylinder_sides = 48;
 
 }  // namespace spring_workbench::collision

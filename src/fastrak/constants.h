@@ -4,7 +4,7 @@
 
 namespace spring_workbench::fastrak {
 
-// Each with its unit, what changing it does, and the test that notices.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 /// [s] that give the first cadence. Shorter: a worse one. Test: StationStream.StampsByTheCadenceThatItMeasures.
 constexpr double cadence_measured_for = 3.0;
@@ -12,13 +12,13 @@ constexpr double cadence_measured_for = 3.0;
 constexpr double bucket = 0.5;
 /// of them kept. Fewer: more jitter. Test: CadenceClock.JitterIsAtLeastTenTimesLessWhateverTheDrift.
 constexpr std::size_t buckets = 20;
-/// [s] before drift counts. Shorter: jitter passes for it. Test: none: the first seconds are in no bound.
+/// [s] before drift counts. Shorter: jitter passes for it. Test: CadenceClock.DriftIsFollowedAfterTwoSeconds.
 constexpr double shortest_fit = 2.0;
 /// relative. Larger: a wrong cadence is followed. Test: StationStream.MeasuresAnewACadenceThatProvesWrong.
 constexpr double largest_drift = 5e-3;
 /// [s] late: records were lost. Longer: wrong for longer. Test: CadenceClock.LostRecordsAndStallsAreGotOver.
 constexpr double late_for = 0.5;
-/// receipts, the same at low rates. Test: none: at 120 Hz the time above is longer.
+/// receipts, the same at low rates. Test: CadenceClock.AfterALostRecordAtALowRateSixteenReceiptsDecide.
 constexpr double late_in_a_row = 16.0;
 /// [s] of silence in a stream, in which records were lost. Test: CadenceClock.LostRecordsAndStallsAreGotOver.
 constexpr double stream_silence = 0.25;
@@ -50,7 +50,7 @@ constexpr double norm_tolerance = 0.01;
 constexpr double extended_resolution = 1e-5;
 /// [bytes] More: a false start costs more. Test: FastrakDecoder.GetsOutOfAFalseStart.
 constexpr std::size_t longest_reply = 256;
-/// [bytes] of a fault. More: more records lost at once. Test: none: any length is a fault.
+/// [bytes] of a fault. More: more records lost at once. Test: LineFaults.AddEightyBytesOfNoiseAtMost.
 constexpr std::size_t longest_noise = 80;
 /// [bytes] nobody read. Fewer: dropped. Test: FastrakSource.LosesNoRecordInTenMinutesOfFourStations.
 constexpr std::size_t most_waiting = 4096;

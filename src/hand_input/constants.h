@@ -2,7 +2,7 @@
 
 namespace spring_workbench::hand_input {
 
-// Each with its unit, what changing it does, and the test that notices.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 /// [s] from rest to the full speed of catching up. Longer: gentler. Test:
 /// Reacquisition.ComesInOverItsRampAndArrivesWithItsTimeConstant.

@@ -2,7 +2,7 @@
 
 namespace spring_workbench::motion_files {
 
-// Each with its unit, what changing it does, and the test that notices.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 /// [s] of a waypoint. More: samples closer than their rounding. Test:
 /// ScriptedSource.BadScriptsNameFileLineFieldAndRule.

@@ -2,62 +2,56 @@
 
 #include <cstddef>
 
-// The constants of the module: unit, what changing one does, and the test that notices: "noticed by" was seen to fail
-// with another value, "goes into" is by reading alone.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 namespace spring_workbench::rigid_bodies {
 
 /// [m] from which boxes and planes see a box, so that what comes near fast is stopped where it touches. Bullet's own
-/// boxes see each other where they overlap. Noticed by `RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother`.
+/// boxes see each other where they overlap. Test: RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother at 0.
 constexpr double seen_from = 3e-3;
 /// [m] by which every shape is larger all round; contact is closed where two overlap by twice as much: so that the
-/// solver sees it before. Larger: spheres roll on a larger radius. Noticed by
-/// `RigidWorld.SphereRollsAtFiveSeventhsOfItsSpeed`.
+/// solver sees it before. Larger: spheres roll on a larger radius. Test:
+/// RigidWorld.SphereRollsAtFiveSeventhsOfItsSpeed.
 constexpr double contact_skin = 1e-4;
 /// [m]; what comes nearer than this to an awake body enters Bullet's world. Contact mode `dynamic` itself looks for
-/// what is touched from 0.5 mm: no reason known. Noticed by `RigidWorld.SleepersCostNothingAndStay`.
+/// what is touched from 0.5 mm: no reason known. Test: RigidWorld.SleepersCostNothingAndStay at 0.2.
 constexpr double margin_near = 2e-3;
 /// Without anything awake near, after which a sleeper leaves Bullet's world. Fewer: it goes and comes; more: it costs
-/// longer. Noticed by `RigidWorld.SleepersCostNothingAndStay`.
+/// longer. Test: RigidWorld.SleepersCostNothingAndStay at 5000.
 constexpr int steps_until_left = 50;
-/// [s] for which a body is slow before it sleeps. With contact mode `stop` 0.2 s: no reason known. Noticed by
-/// `RigidWorld.StackOfTenStandsAndSleeps`.
+/// [s] for which a body is slow before it sleeps. With contact mode `stop` 0.2 s: no reason known. Test:
+/// RigidWorld.StackOfTenStandsAndSleeps at 5.
 constexpr double asleep_after = 0.5;
-/// Of a penetration that is undone in a step, where that pushes free bodies. Larger: piles tremble. Noticed by
-/// `RigidWorld.StackOfTenStandsAndSleeps`.
+/// Of a penetration that is undone in a step, where that pushes free bodies. Larger: piles tremble. Test:
+/// RigidWorld.StackOfTenStandsAndSleeps at 2.
 constexpr double penetration_share = 0.2;
 /// [m] that a body may go towards what is near, where the shapes are not boxes. Larger: deeper; smaller: held back.
-/// Goes into `RigidWorld.AWayEndsWhereItTouches`.
+/// Test: none: no value tried makes one fail.
 constexpr double blind_way = 2e-4;
-/// [m]; no deeper goes a box into another. Smaller: held bodies are held back more often. Noticed by
-/// `RigidWorld.AWayEndsWhereItTouches`.
+/// [m]; no deeper goes a box into another. Smaller: held bodies are held back more often. Test:
+/// RigidWorld.AWayEndsWhereItTouches.
 constexpr double deepest_way = 5e-5;
-/// [m]; a contact without impulse is told while its gap is smaller. Goes into
-/// `RigidWorld.SlidingBoxStopsWhereItMust`.
+/// [m]; a contact without impulse is told while its gap is smaller. Test: none: no value tried makes one fail.
 constexpr double closed_gap = 1e-5;
-/// [m]; a step in which no contact misses its law by more is solved. Goes into
-/// `RigidWorld.PressedAndDraggedLagsByFrictionOverStiffness`.
+/// [m]; a step in which no contact misses its law by more is solved. Test: none: no value tried makes one fail.
 constexpr double small_miss = 1e-6;
-/// Sweeps of the solver. Noticed by `RigidWorld.PressedAndDraggedLagsByFrictionOverStiffness`.
+/// Sweeps of the solver. Test: RigidWorld.PressedAndDraggedLagsByFrictionOverStiffness at 0.
 constexpr int most_iterations = 1000;
-/// Contacts whose equations are solved at once, where the sweeps are not done. More: steps of seconds. Goes into
-/// `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
+/// Contacts whose equations are solved at once, where the sweeps are not done. More: steps of seconds. Test: none: none
+/// that was tried fails.
 constexpr std::size_t most_at_once = 150;
-/// Of the largest impulse; the sweeps end where none changes by more. Noticed by
-/// `RigidWorld.StackOfTenStandsAndSleeps`.
+/// Of the largest impulse; the sweeps end where none changes by more. Test: none: no value tried makes one fail.
 constexpr double small_change = 1e-8;
-/// After which they also end where `small_displacement` says so. Goes into `RigidWorld.StackOfTenStandsAndSleeps`.
+/// After which they also end where `small_displacement` says so. Test: none: no value tried makes one fail.
 constexpr int enough_sweeps = 30;
-/// [m]; no way changes, and no contact is off, by more. Noticed by `RigidWorld.StackOfTenStandsAndSleeps`.
+/// [m]; no way changes, and no contact is off, by more. Test: RigidWorld.StackOfTenStandsAndSleeps at 1e-06.
 constexpr double small_displacement = 1e-8;
-/// [m]; a contact with a smaller gap is stopped by an impulse. Goes into
-/// `RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother`.
+/// [m]; a contact with a smaller gap is stopped by an impulse. Test: none: no value tried makes one fail.
 constexpr double closed = 5e-5;
 /// [s] in which a penetration by a driven body is undone. Shorter: it becomes a speed. With contact mode `stop` 5 ms:
-/// no reason known. Goes into `DynamicContact.LightAndHeavyStiffAndSoftAgainstAWallStayBounded`.
+/// no reason known. Test: none: no value tried makes one fail.
 constexpr double recovery_time = 2e-3;
-/// [m/s]; a slower approach of a driven body is none. Goes into
-/// `RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother`.
+/// [m/s]; a slower approach of a driven body is none. Test: none: no value tried makes one fail.
 constexpr double slow = 1e-7;
 
 }  // namespace spring_workbench::rigid_bodies

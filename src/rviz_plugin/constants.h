@@ -2,7 +2,7 @@
 
 namespace spring_workbench::rviz_plugin {
 
-// Each with its unit, what changing it does, and the test that notices.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 /// [s] without a message after which panel and fork say so. Longer: a dead node seems alive. Test:
 /// rviz_recovery_test.py::test_fork_of_the_display.

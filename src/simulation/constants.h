@@ -2,31 +2,29 @@
 
 #include <cstddef>
 
-// The constants of the module: unit, what changing one does, and the test that notices: "noticed by" was seen to fail
-// with another value, "goes into" is by reading alone.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 namespace spring_workbench::simulation {
 
-/// [s]; stamps nearer to each other are one. Smaller: a rounding error makes a step of its own. Goes into
-/// `Simulation.ACallThatEndsARoundingErrorBesideASampleMakesNoStepOfItsOwn`.
+/// [s]; stamps nearer to each other are one. Smaller: a rounding error makes a step of its own. Test:
+/// Simulation.ACallThatEndsARoundingErrorBesideASampleMakesNoStepOfItsOwn at 0.
 constexpr double same_time = 1e-9;
 /// [s] for which a free body is slow before it sleeps. Larger: it costs longer. With contact mode `dynamic` 0.5 s: no
-/// reason known. Goes into `Simulation.BoxThatIsDroppedComesToRestOnTheBench`.
+/// reason known. Test: Simulation.BoxThatIsDroppedComesToRestOnTheBench at 20.
 constexpr double asleep_after = 0.2;
-/// [m]; what is nearer above an object that is taken lies on it, and wakes. Smaller: it may go on floating. Goes into
-/// `Simulation.WhatLiesOnAGraspedObjectWakes`.
+/// [m]; what is nearer above an object that is taken lies on it, and wakes. Smaller: it may go on floating. Test: none:
+/// no value tried makes one fail.
 constexpr double support_gap = 1e-4;
-/// [m] from the origin; a body that flies further stops there. Goes into
-/// `Simulation.WhatFliesAwayStopsAtTheEndOfTheWorld`.
+/// [m] from the origin; a body that flies further stops there. Test: Simulation.WhatFliesAwayStopsAtTheEndOfTheWorld.
 constexpr double world_limit = 100.0;
-/// [m] of a rigid tool, whose length means nothing but to be there. Goes into `Tools.DirectAndRayAreRigid`.
+/// [m] of a rigid tool, whose length means nothing but to be there. Test: Tools.DirectAndRayAreRigid at 0.
 constexpr double least_length = 1e-4;
-/// [m] that the ray reaches. Goes into `Tools.DirectAndRayAreRigid`.
+/// [m] that the ray reaches. Test: Tools.DirectAndRayAreRigid at 0.2.
 constexpr double longest_ray = 2.0;
 /// Times as far as the present object another one must be to be taken instead. 1: a tip that trembles between two
-/// changes all the time. Goes into `Overlapping.OneIsTakenAndTheOtherOnlyWhenItIsNearerByAFifth`.
+/// changes all the time. Test: Overlapping.OneIsTakenAndTheOtherOnlyWhenItIsNearerByAFifth.
 constexpr double another_is_nearer = 0.8;
-/// Hexadecimal digits of a word of a state's text. Goes into `State.RestoredAfterAnythingGivesTheSameFuture`.
+/// Hexadecimal digits of a word of a state's text. Test: State.RestoredAfterAnythingGivesTheSameFuture.
 constexpr std::size_t word_digits = 16;
 
 }  // namespace spring_workbench::simulation

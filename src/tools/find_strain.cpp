@@ -2,20 +2,19 @@
 
 #include <Eigen/LU>
 
+#include "constants.h"
+
 namespace spring_workbench::tools {
 namespace {
-
-constexpr int most_iterations = 30, most_halvings = 20;
-constexpr double difference = 1e-6;  ///< of the strain, for the slope
 
 rod::StrainMatrix slope(const std::function<rod::StrainVector(const rod::StrainVector&)>& force,
                         const rod::StrainVector& q) {
   rod::StrainMatrix slope(q.size(), q.size());
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     rod::StrainVector ahead = q, behind = q;
-    ahead[i] += difference;
-    behind[i] -= difference;
-    slope.col(i) = (force(ahead) - force(behind)) / (2.0 * difference);
+    ahead[i] += strain_difference;
+    behind[i] -= strain_difference;
+    slope.col(i) = (force(ahead) - force(behind)) / (2.0 * strain_difference);
   }
   return slope;
 }
@@ -29,11 +28,11 @@ rod::StrainVector find_strain(const dynamics::HeldBody& held, double t,
     return held.shape().admissible(held.full_state(t, {tried, rod::StrainVector::Zero(tried.size())}).q);
   };
   rod::StrainVector f = force(q);
-  for (int iteration = 0; iteration < most_iterations && f.norm() > small; ++iteration) {
+  for (int iteration = 0; iteration < most_strain_iterations && f.norm() > small; ++iteration) {
     rod::StrainVector change = -slope(force, q).partialPivLu().solve(f);
     if (!change.allFinite()) break;
     bool nearer = false;
-    for (int halving = 0; halving < most_halvings && !nearer; ++halving, change *= 0.5) {
+    for (int halving = 0; halving < most_strain_halvings && !nearer; ++halving, change *= 0.5) {
       const rod::StrainVector tried = q + change;
       if (!admissible(tried)) continue;
       const rod::StrainVector f_tried = force(tried);

@@ -2,12 +2,11 @@
 
 #include <deque>
 #include <functional>
-#include <map>
 #include <optional>
-#include <random>
 #include <string>
 #include <vector>
 
+#include "spring_workbench/assembly/standard_normal.h"
 #include "spring_workbench/motion/stylus_source.h"
 #include "spring_workbench/simulation/simulation.h"
 
@@ -81,8 +80,6 @@ class SimulatedOperator final : public motion::StylusSource {
   /// Moves the hand; `look` says whether what comes then waits until the end of the reach is seen.
   void reach(const RigidTransform& X_WH, Phase then, bool look = true);
   void wait(double seconds, Phase then);
-  double gauss();
-  Vector3d gauss3();
 
   const OperatorSettings settings_;
   const Look look_;
@@ -90,7 +87,7 @@ class SimulatedOperator final : public motion::StylusSource {
   Job* job_ = nullptr;
   double carry_height_;  ///< how far objects are lifted above their target to be carried [m]
   Matrix3d R_WH_;        ///< attitude of the hand that takes things up
-  std::mt19937 random_;
+  StandardNormal random_;
   std::deque<Seen> seen_;  ///< the first one is what the operator is aware of
   Phase phase_ = Phase::choose;
   long samples_ = 0;

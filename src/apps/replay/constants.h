@@ -2,7 +2,7 @@
 
 namespace spring_workbench::replay {
 
-// Each with its unit, what changing it does, and the test that notices.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 /// [s] an output time this much after the motion's end is still given. Less: rounding takes the last line. Test:
 /// Replay.WritesALinePerOutputTimeAndObject.

@@ -2,7 +2,7 @@
 
 namespace spring_workbench::ros_common {
 
-// Each with its unit, what changing it does, and the test that notices.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 /// [s] between looks at a simulated clock. Longer: cycles begin later after their time. Test: none: later cycles give
 /// the same states.

@@ -2,7 +2,7 @@
 
 namespace spring_workbench::contact_sound {
 
-// Each with its unit, what changing it does, and the test that notices.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 /// [s] between pieces of sound. Longer: sound comes later after the contact. Test: none: the file has the same sound.
 constexpr double render_period = 0.02;

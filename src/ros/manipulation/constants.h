@@ -5,7 +5,7 @@
 
 namespace spring_workbench::manipulation {
 
-// Each with its unit, what changing it does, and the test that notices.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 /// messages of one topic that wait for a slow subscriber. Fewer: a run of steps without pause loses some. Test:
 /// played_recordings_test.py::test_a_hundred_rounds_are_the_same.

@@ -2,7 +2,7 @@
 
 namespace spring_workbench::tracker_driver {
 
-// Each with its unit, what changing it does, and the test that notices.
+// Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 /// [s] for which the menu holds the button for the next tool. Shorter than a sample: it is missed. Test:
 /// moved_by_messages_test.py::test_marker.

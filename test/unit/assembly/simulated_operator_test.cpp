@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "spring_workbench/assembly/trial.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/input_error.h"
@@ -131,6 +133,19 @@ TEST(SimulatedOperator, NoiseHasTheSetSize) {
   // The relative standard deviation of the estimates is 1 / sqrt(2 · 3000) = 1.3 %.
   EXPECT_NEAR(std::sqrt(p2), 1e-3, 0.06e-3);
   EXPECT_NEAR(std::sqrt(a2), 2e-3, 0.12e-3);
+}
+
+/// In a world in which the tip never gets into anything, the hand comes down over each object four times.
+TEST(SimulatedOperator, GivesAnObjectUpAfterFourAttempts) {
+  const scene::Scene scene = scene::load_scene(mini_world);
+  SimulatedOperator hand(scene, still_hand(), [&] { return view_of(scene); });
+  std::vector<double> heights;
+  while (const auto sample = hand.next()) heights.push_back(sample->X.translation().z());
+  const auto [lowest, highest] = std::minmax_element(heights.begin(), heights.end());
+  const double middle = 0.5 * (*lowest + *highest);
+  std::size_t descents = 0;
+  for (std::size_t k = 1; k < heights.size(); ++k) descents += heights[k - 1] > middle && heights[k] <= middle;
+  EXPECT_EQ(descents, 4 * scene.targets.size());
 }
 
 TEST(SimulatedOperator, LeavesAloneWhatIsInPlace) {

@@ -79,6 +79,31 @@ TEST(CadenceClock, JitterIsAtLeastTenTimesLessWhateverTheDrift) {
   }
 }
 
+TEST(CadenceClock, AfterALostRecordAtALowRateSixteenReceiptsDecide) {
+  constexpr double interval = 1.0 / 15.0;
+  CadenceClock clock(interval);
+  int early = 0;
+  for (int k = 0; k < 300; ++k) {
+    if (k == 100) continue;  // no longer silence than between two others
+    const double t = k * interval;
+    early += t - clock.stamp(t) > 0.5 * interval;
+  }
+  EXPECT_NEAR(early, 16, 2);
+}
+
+TEST(CadenceClock, DriftIsFollowedAfterTwoSeconds) {
+  constexpr double drift = 2e-3;
+  CadenceClock clock(kInterval);
+  for (int k = 0; k * kInterval < 10.0; ++k) {
+    const double t = k * kInterval * (1.0 + drift), late = t - clock.stamp(t);
+    if (t < 1.9) {
+      EXPECT_NEAR(late, drift * t, 1e-4) << t;
+    } else if (t > 2.6) {
+      EXPECT_LT(late, 1e-4) << t;
+    }
+  }
+}
+
 TEST(CadenceClock, LostRecordsAndStallsAreGotOver) {
   std::mt19937 random(9);
   std::exponential_distribution<double> delay(1.0 / 0.001);

@@ -5,6 +5,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <deque>
 #include <iostream>
@@ -315,6 +316,14 @@ TEST(FastrakSource, StopsTheStreamWhenItEnds) {
     terminal.read(1.0);
   }
   EXPECT_EQ(terminal.read(kDeadline), "c");
+}
+
+TEST(LineFaults, AddEightyBytesOfNoiseAtMost) {
+  LineFaults faults({Fault()}, 3);
+  const std::string record(60, ' ');
+  std::size_t longest = 0;
+  for (int k = 0; k < 10000; ++k) longest = std::max(longest, faults.pass(record, 0.0).size());
+  EXPECT_EQ(longest, record.size() + 80);
 }
 
 }  // namespace

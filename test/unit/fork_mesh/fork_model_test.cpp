@@ -153,6 +153,19 @@ TEST_F(DeformedFork, TorsionTurnsEachPlaceByItsShare) {
   }
 }
 
+TEST_F(DeformedFork, TheCoilIsAsWideAsItsDiameterAndAFifthOfItThickAreTheDiscs) {
+  ForkMesh straight;
+  model_.deform(rod_curve(*shape_, rod::StrainVector::Zero(6), RigidTransform::Identity()), diameter, straight);
+  double widest = 0.0, disc_ends = L;
+  for (const Vector3d& p : straight.vertices) {
+    const double radius = p.head<2>().norm();
+    widest = std::max(widest, radius);
+    if (std::abs(radius - (0.5 + fine().wire_radius) * diameter) < 1e-12) disc_ends = std::max(disc_ends, p.z());
+  }
+  EXPECT_NEAR(widest, (0.5 + fine().wire_radius) * diameter, 1e-12);
+  EXPECT_NEAR(disc_ends, L + 0.2 * diameter, 1e-12);
+}
+
 TEST(ForkModel, RefusesALookThatIsNoSurface) {
   ForkLook look;
   look.wire_sides = 2;

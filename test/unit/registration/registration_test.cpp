@@ -138,8 +138,16 @@ TEST(PivotCalibration, RefusesTooLittleTurningAndASlip) {
   const Vector3d tip(0.0, 0.0, 0.15);
   EXPECT_THROW(calibrate_tip(pivoted(tip, 0.05, 0.0, random), 1e-3), validation::InputError);
   EXPECT_THROW(calibrate_tip(pivoted(tip, 0.5, 5e-3, random), 1e-3), validation::InputError);
-  auto few = pivoted(tip, 0.5, 0.0, random);
-  few.resize(5);
+}
+
+TEST(PivotCalibration, TakesTenPosesAndNoFewer) {
+  std::mt19937 random(6);
+  const std::vector<RigidTransform> all = pivoted(Vector3d(0.0, 0.0, 0.15), 0.5, 0.0, random);
+  std::vector<RigidTransform> few;
+  for (std::size_t k = 0; k < all.size(); k += 30) few.push_back(all[k]);
+  ASSERT_EQ(few.size(), 10u);
+  EXPECT_NO_THROW(calibrate_tip(few, 1e-3));
+  few.pop_back();
   EXPECT_THROW(calibrate_tip(few, 1e-3), validation::InputError);
 }
 

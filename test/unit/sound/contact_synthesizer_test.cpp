@@ -81,6 +81,13 @@ TEST(ContactSynthesizer, HalfOfTheLoudestIsWhereItIsSaid) {
   EXPECT_NEAR(half - low, 0.5 * (high - low), 0.1 * (high - low));
 }
 
+/// White noise of variance 1/3 through a band-pass filter of quality 1 at 2.8 kHz, of which a quarter is heard.
+TEST(ContactSynthesizer, TheLoudestScrapeHasTheLoudnessOfItsFilter) {
+  const double share_of_band = 0.5 * M_PI * 2800.0 / (0.5 * ContactSynthesizer::sample_rate);
+  const double rms = std::sqrt(energy(scraping(1e9)) / static_cast<double>(second));
+  EXPECT_NEAR(rms, 0.25 * std::sqrt(share_of_band / 3.0), 0.15 * rms);
+}
+
 TEST(ContactSynthesizer, SamplesAreBoundedWhateverComes) {
   ContactSynthesizer synthesizer(1.0);
   for (const double value : {std::nan(""), std::numeric_limits<double>::infinity(), -1.0, 1e300, 0.0, 0.3}) {
