@@ -1,6 +1,9 @@
 #include "spring_workbench/assembly/task_monitor.h"
 
 #include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
 
 #include "constants.h"
 
@@ -21,34 +24,28 @@ void TaskMonitor::reset() {
   placements_.clear();
   for (const Watched& w : watched_) placements_.push_back(judge_placement(w.body, w.target, w.body.X_WO, false));
   started_ = false;
-  last_ = Last();
-  last_touch_.clear();
+  hands_ = {};
+  carried_.clear();
   released_height_.clear();
 }
 
 void TaskMonitor::observe(const simulation::Simulation& simulation) {
   if (watched_.empty()) return;
   const std::vector<bodies::BodyState>& objects = simulation.objects();
-  const tools::ToolState tool = simulation.fork();
   const double t = simulation.time();
-  const auto found = std::find_if(objects.begin(), objects.end(), [](const bodies::BodyState& o) { return o.held; });
-  const bodies::BodyState* held = found == objects.end() ? nullptr : &*found;
-  if (!started_) {
-    begin_ = t;
-    last_ = {t, tool.X_WS.translation(), "", Vector3d::Zero()};
-    started_ = true;
-  }
-  note_hold(t, held);
+  if (!started_) begin_ = t;
+  started_ = true;
+  note_holds(simulation);
   note_drops(objects);
   if (!score_.complete()) {
-    add_ways(tool, held);
-    note_contacts(t, simulation.contacts(), last_.held);
+    add_ways(simulation);
+    note_contacts(t, simulation.contacts());
     score_.time = t - begin_;
   }
   judge(objects);
-  last_.t = t;
-  last_.hand = tool.X_WS.translation();
-  if (held) last_.p_held = held->X_WO.translation();
+  for (const bodies::BodyState& o : objects) {
+    if (const auto c = carried_.find(o.name); c != carried_.end()) c->second.p = o.X_WO.translation();
+  }
 }
 
 void TaskMonitor::judge(const std::vector<bodies::BodyState>& objects) {
@@ -69,18 +66,24 @@ void TaskMonitor::judge(const std::vector<bodies::BodyState>& objects) {
   if (angles > 0) score_.angle_error /= angles;
 }
 
-void TaskMonitor::note_hold(double t, const bodies::BodyState* held) {
-  const std::string name = held ? held->name : "";
-  if (name == last_.held) return;
-  if (!last_.held.empty()) released_height_[last_.held] = last_.p_held.z();
-  if (held) {
+void TaskMonitor::note_holds(const simulation::Simulation& simulation) {
+  std::set<std::string> held;
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const std::string name = simulation.fork(i).held_object;
+    const std::string before = std::exchange(hands_[i].held, name);
+    if (name.empty()) continue;
+    held.insert(name);
+    if (name == before) continue;
     ++score_.grasps;
-    held_since_ = t;
-    last_touch_.clear();
     released_height_.erase(name);
-    last_.p_held = held->X_WO.translation();
   }
-  last_.held = name;
+  for (auto c = carried_.begin(); c != carried_.end();) {
+    if (held.count(c->first) == 0) released_height_[c->first] = c->second.p.z();
+    c = held.count(c->first) == 0 ? carried_.erase(c) : std::next(c);
+  }
+  for (const bodies::BodyState& o : simulation.objects()) {
+    if (held.count(o.name) != 0) carried_.insert({o.name, {o.X_WO.translation(), simulation.time(), {}}});
+  }
 }
 
 void TaskMonitor::note_drops(const std::vector<bodies::BodyState>& objects) {
@@ -96,24 +99,34 @@ void TaskMonitor::note_drops(const std::vector<bodies::BodyState>& objects) {
   }
 }
 
-void TaskMonitor::add_ways(const tools::ToolState& tool, const bodies::BodyState* held) {
-  score_.hand_path += (tool.X_WS.translation() - last_.hand).norm();
-  if (held) score_.object_path += (held->X_WO.translation() - last_.p_held).norm();
+void TaskMonitor::add_ways(const simulation::Simulation& simulation) {
+  for (std::size_t i = 0; i < hands_.size(); ++i) {
+    const tools::ToolState tool = simulation.fork(i);
+    if (!tool.present) continue;
+    const Vector3d p = tool.X_WS.translation();
+    score_.hand_path += (p - hands_[i].p.value_or(p)).norm();
+    hands_[i].p = p;
+  }
+  for (const bodies::BodyState& o : simulation.objects()) {
+    const auto c = carried_.find(o.name);
+    if (c != carried_.end()) score_.object_path += (o.X_WO.translation() - c->second.p).norm();
+  }
 }
 
-void TaskMonitor::note_contacts(double t, const std::vector<contact::ContactState>& contacts, const std::string& held) {
+void TaskMonitor::note_contacts(double t, const std::vector<contact::ContactState>& contacts) {
   std::map<std::pair<std::string, std::string>, double> forces;
   for (const contact::ContactState& c : contacts) {
     if (c.phase == contact::ContactPhase::ended) continue;
     double& force = forces[{c.object, c.other}];
     force += c.force;
     score_.largest_force = std::max(score_.largest_force, force);
-    if (c.object != held) continue;
-    const auto touch = last_touch_.find(c.other);
+    const auto held = carried_.find(c.object);
+    if (held == carried_.end()) continue;
+    const auto touch = held->second.last_touch.find(c.other);
     const bool carried = c.n_W.z() > from_below && is_fixed(c.other);
-    const bool began = touch == last_touch_.end() ? t > held_since_ + same_contact : t > touch->second + same_contact;
-    if (began && !carried) ++score_.collisions;
-    last_touch_[c.other] = t;
+    const double last = touch == held->second.last_touch.end() ? held->second.since : touch->second;
+    if (t > last + same_contact && !carried) ++score_.collisions;
+    held->second.last_touch[c.other] = t;
   }
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +12,8 @@
 
 namespace spring_workbench::assembly {
 
-/// Watches an assembly: which object is in place, and the score. It only looks, and changes nothing.
+/// Watches an assembly: which object is in place, and the score of all hands together. It only looks, and changes
+/// nothing.
 class TaskMonitor {
  public:
   /// Judges by the targets of `scene`; one without targets has no task, and `observe` does nothing.
@@ -30,18 +33,22 @@ class TaskMonitor {
     scene::Body body;
     scene::Target target;
   };
-  /// What was seen at the last call.
-  struct Last {
-    double t = 0.0;
-    Vector3d hand = Vector3d::Zero();
-    std::string held;  ///< empty: nothing
-    Vector3d p_held = Vector3d::Zero();
+  /// What was seen of a hand at the last call.
+  struct Hand {
+    std::optional<Vector3d> p;  ///< none: no sample yet
+    std::string held;           ///< empty: nothing
+  };
+  /// Of an object that a hand holds, or several.
+  struct Carried {
+    Vector3d p = Vector3d::Zero();             ///< at the last call
+    double since = 0.0;                        ///< [s]
+    std::map<std::string, double> last_touch;  ///< by the other's name [s]
   };
 
   void judge(const std::vector<bodies::BodyState>& objects);
-  void add_ways(const tools::ToolState& tool, const bodies::BodyState* held);
-  void note_hold(double t, const bodies::BodyState* held);
-  void note_contacts(double t, const std::vector<contact::ContactState>& contacts, const std::string& held);
+  void add_ways(const simulation::Simulation& simulation);
+  void note_holds(const simulation::Simulation& simulation);
+  void note_contacts(double t, const std::vector<contact::ContactState>& contacts);
   void note_drops(const std::vector<bodies::BodyState>& objects);
   bool is_fixed(const std::string& name) const;
 
@@ -51,9 +58,8 @@ class TaskMonitor {
   TaskScore score_;
   bool started_ = false;
   double begin_ = 0.0;
-  Last last_;
-  double held_since_ = 0.0;
-  std::map<std::string, double> last_touch_;       ///< of the held object: by the other's name [s]
+  std::array<Hand, simulation::Simulation::most_hands> hands_;
+  std::map<std::string, Carried> carried_;
   std::map<std::string, double> released_height_;  ///< of objects that may be falling [m]
 };
 

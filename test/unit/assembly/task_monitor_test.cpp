@@ -152,6 +152,33 @@ TEST(TaskMonitor, ResetForgetsAll) {
   EXPECT_EQ(score_csv(assembly.score()), score_csv(TaskMonitor(box_scene()).score()));
 }
 
+/// Two hands lift a box each and let go in the air: both count. Then both lift the same one: each has grasped, and the
+/// way of the box counts once.
+TEST(TaskMonitor, EveryHandScores) {
+  scene::Scene scene = box_scene();
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.bodies.back().name = "other";
+  scene.bodies.back().X_WO.translation().y() = 0.3;
+  for (const bool same : {false, true}) {
+    simulation::Simulation simulation(scene, Assembly::settings(tools::Release::dropped));
+    TaskMonitor monitor(scene);
+    for (int k = 0; k <= 150; ++k) {
+      const double t = 0.02 * k, z = 0.25 + 0.1 * std::min(t, 1.0);
+      for (std::size_t hand = 0; hand < 2; ++hand) {
+        const double y = hand == 0 ? 0.0 : (same ? 0.02 : 0.3);
+        simulation.push_stylus({t, make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, y, z))}, hand);
+        if (k == 1 || k == 100) simulation.push_button(t, k == 1, hand);
+      }
+      simulation.advance(t);
+      monitor.observe(simulation);
+    }
+    EXPECT_EQ(monitor.score().grasps, 2) << same;
+    EXPECT_NEAR(monitor.score().hand_path, 0.2, 1e-9) << same;
+    EXPECT_NEAR(monitor.score().object_path, same ? 0.1 : 0.2, 0.03) << same;
+    EXPECT_EQ(monitor.score().drops, same ? 1 : 2);
+  }
+}
+
 TEST(TaskScore, OneColumnPerValue) {
   const auto commas = [](const std::string& s) { return std::count(s.begin(), s.end(), ','); };
   EXPECT_EQ(commas(score_csv(TaskScore())), commas(score_csv_header()));
