@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "spring_workbench/ros/manipulation/simulation_runner.h"
+#include "spring_workbench/live/simulation_runner.h"
 #include "support/paths.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::live {
 namespace {
 
 scene::Scene shipped(const std::string& name) {
@@ -14,16 +14,16 @@ scene::Scene shipped(const std::string& name) {
 TEST(SimulationRunner, AnotherSceneHasAForkOfItsOwn) {
   simulation::SimulationSettings settings;
   settings.grasp.calibrate = tools::Calibration::world;
-  SimulationRunner runner(shipped("single_box"), settings, hand_input::InputSettings(), 0.0);
+  SimulationRunner runner(shipped("single_box"), settings, hand_input::InputSettings(), false);
   simulation::ForkChange stiff;
   stiff.dofs = rod::ForkDofs{true, true, false};
-  runner.locked([&](simulation::Simulation& s) { return s.change(stiff); });
+  runner.change("stiff", [&](simulation::Simulation& s) { return s.change(stiff); });
   runner.load(shipped("heavy"));
-  const rod::ForkSettings fork = runner.locked([](simulation::Simulation& s) { return s.fork_settings(1); });
+  const rod::ForkSettings fork = runner.locked([](const auto& s) { return s.fork_settings(1); });
   const simulation::Simulation alone(shipped("heavy"), settings);
   EXPECT_EQ(fork.stiffness, alone.fork_settings(1).stiffness);
   EXPECT_FALSE(fork.dofs.torsion);
 }
 
 }  // namespace
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::live
