@@ -26,17 +26,88 @@ bool is_plane(const btCollisionObjectWrapper& object) {
   return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
 
-std::vector<geometry::BoxContact> contacts_above(const btCollisionObjectWrapper& box,
-                                                 const btCollisionObjectWrapper& plane) {
+/// The point of a cylinder or a mesh that lies furthest along a direction, both in the shape's frame.
+Vector3d furthest(const btCollisionShape& shape, const Vector3d& along_S) {
+  if (shape.getShapeType() == CYLINDER_SHAPE_PROXYTYPE) {
+    const Vector3d half = from_bullet(static_cast<const btCylinderShapeZ&>(shape).getHalfExtentsWithMargin());
+    const double size = along_S.head<2>().norm();
+    Vector3d p(0.0, 0.0, std::copysign(half.z() - contact_skin, along_S.z()));
+    if (size > 0.0) p.head<2>() = (half.x() - contact_skin) / size * along_S.head<2>();
+    return p;
+  }
+  const auto& mesh = *static_cast<const geometry::TriangleMesh*>(shape.getUserPointer());
+  return *std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
+                           [&](const Vector3d& a, const Vector3d& b) { return a.dot(along_S) < b.dot(along_S); });
+}
+
+/// Up to four of the contacts with a plane: the deepest, the one furthest from it, and on either side of the line
+/// between them the one furthest from that.
+std::vector<geometry::BoxContact> spanning(const std::vector<geometry::BoxContact>& all) {
+  const auto best_by = [&](const auto& score) {
+    return *std::max_element(all.begin(), all.end(), [&](const auto& a, const auto& b) { return score(a) < score(b); });
+  };
+  if (all.empty()) return {};
+  const geometry::BoxContact deepest = best_by([](const auto& c) { return -c.gap; });
+  const auto from_deepest = [&](const geometry::BoxContact& c) { return Vector3d(c.p_W - deepest.p_W); };
+  const geometry::BoxContact across = best_by([&](const auto& c) { return from_deepest(c).norm(); });
+  const Vector3d aside_W = deepest.n_W.cross(from_deepest(across));
+  std::vector<geometry::BoxContact> kept{deepest};
+  if (from_deepest(across).norm() < contact_skin) return kept;
+  kept.push_back(across);
+  for (const double side : {1.0, -1.0}) {
+    const auto aside = [&](const auto& c) { return side * aside_W.dot(from_deepest(c)) / aside_W.norm(); };
+    const geometry::BoxContact widest = best_by(aside);
+    if (aside(widest) > contact_skin) kept.push_back(widest);
+  }
+  return kept;
+}
+
+/// Contacts of a cylinder or a mesh above the half-space `n · x < height`: of the points that lie furthest down, and
+/// furthest down with a slope to one of eight sides. So what lands almost flush lands with all of its face.
+std::vector<geometry::BoxContact> contacts_of_points(const btCollisionObjectWrapper& body, const Vector3d& n_W,
+                                                     double height, double reach) {
+  const RigidTransform X_WS = from_bullet(body.getWorldTransform());
+  const Vector3d u_W = X_WS.linear().col(std::abs(n_W.dot(X_WS.linear().col(0))) < 0.7 ? 0 : 1).cross(n_W).normalized();
+  std::vector<geometry::BoxContact> found;
+  for (int i = 0; i <= 8; ++i) {
+    const double turn = 0.25 * M_PI * i;
+    const Vector3d side_W = std::cos(turn) * u_W + std::sin(turn) * n_W.cross(u_W);
+    const Vector3d along_W = i < 8 ? Vector3d(slope_of_landing * side_W - n_W) : Vector3d(-n_W);
+    const Vector3d p_W = X_WS * furthest(*body.getCollisionShape(), X_WS.linear().transpose() * along_W);
+    const double gap = n_W.dot(p_W) - height;
+    if (gap < reach) found.push_back({p_W - gap * n_W, n_W, gap});
+  }
+  return spanning(found);
+}
+
+std::vector<geometry::BoxContact> contacts_above(const btCollisionObjectWrapper& body,
+                                                 const btCollisionObjectWrapper& plane, double reach) {
   const auto& shape = static_cast<const btStaticPlaneShape&>(*plane.getCollisionShape());
   const RigidTransform X_WP = from_bullet(plane.getWorldTransform());
   const Vector3d n_W = X_WP.linear() * from_bullet(shape.getPlaneNormal());
-  return geometry::box_contacts(outline_of(box), n_W,
-                                n_W.dot(X_WP.translation()) + shape.getPlaneConstant() - contact_skin, seen_from);
+  const double height = n_W.dot(X_WP.translation()) + shape.getPlaneConstant() - contact_skin;
+  if (body.getCollisionShape()->getShapeType() == BOX_SHAPE_PROXYTYPE) {
+    return geometry::box_contacts(outline_of(body), n_W, height, reach);
+  }
+  return contacts_of_points(body, n_W, height, reach);
 }
 
-/// Contacts of a box with a box or a plane, in either order, found anew in every step; each begins with the impulses of
-/// the one before that is nearest to it.
+/// From how far [m] two are seen by each other: what comes near in a step.
+double reach_of(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double h) {
+  double speed = 0.0;
+  for (const btCollisionObjectWrapper* w : {&a, &b}) {
+    const btRigidBody* body = btRigidBody::upcast(w->getCollisionObject());
+    if (body == nullptr || body->isStaticObject()) continue;
+    btVector3 centre;
+    btScalar radius = 0.0;
+    body->getCollisionShape()->getBoundingSphere(centre, radius);
+    speed += body->getLinearVelocity().length() + body->getAngularVelocity().length() * (centre.length() + radius);
+  }
+  return std::max(seen_from, h * speed);
+}
+
+/// Contacts of boxes with each other, and of a box, a cylinder or a mesh with a plane, in either order, found anew in
+/// every step; each begins with the impulses of the one before that is nearest to it.
 class BoxContacts final : public btActivatingCollisionAlgorithm {
  public:
   BoxContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
@@ -48,14 +119,14 @@ class BoxContacts final : public btActivatingCollisionAlgorithm {
   }
   ~BoxContacts() override { m_dispatcher->releaseManifold(manifold_); }
 
-  void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b, const btDispatcherInfo&,
-                        btManifoldResult* result) override {
+  void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+                        const btDispatcherInfo& info, btManifoldResult* result) override {
     std::vector<btManifoldPoint> before;
     for (int i = 0; i < manifold_->getNumContacts(); ++i) before.push_back(manifold_->getContactPoint(i));
     manifold_->clearManifold();
     result->setPersistentManifold(manifold_);
     // Not by the result's own addContactPoint(), which takes near ones for one.
-    for (const geometry::BoxContact& c : find(*a, *b)) {
+    for (const geometry::BoxContact& c : find(*a, *b, reach_of(*a, *b, info.m_timeStep))) {
       btManifoldPoint point = made(c, *a->getCollisionObject(), *b->getCollisionObject());
       point.m_index0 = a->m_index;
       point.m_index1 = b->m_index;
@@ -70,10 +141,11 @@ class BoxContacts final : public btActivatingCollisionAlgorithm {
   void getAllContactManifolds(btManifoldArray& all) override { all.push_back(manifold_); }
 
  private:
-  static std::vector<geometry::BoxContact> find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
-    if (is_plane(b)) return contacts_above(a, b);
-    if (!is_plane(a)) return geometry::box_contacts(outline_of(a), outline_of(b), seen_from);
-    std::vector<geometry::BoxContact> contacts = contacts_above(b, a);
+  static std::vector<geometry::BoxContact> find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
+                                                double reach) {
+    if (is_plane(b)) return contacts_above(a, b, reach);
+    if (!is_plane(a)) return geometry::box_contacts(outline_of(a), outline_of(b), reach);
+    std::vector<geometry::BoxContact> contacts = contacts_above(b, a, reach);
     for (geometry::BoxContact& c : contacts) {
       c.p_W += c.gap * c.n_W;
       c.n_W = -c.n_W;
@@ -113,9 +185,12 @@ void SeenBox::getAabb(const btTransform& X_WS, btVector3& least, btVector3& most
 }
 
 btCollisionAlgorithmCreateFunc* BoxesSeenEarly::getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) {
-  const bool box_a = proxy_a == BOX_SHAPE_PROXYTYPE, box_b = proxy_b == BOX_SHAPE_PROXYTYPE;
-  const bool plane_a = proxy_a == STATIC_PLANE_PROXYTYPE, plane_b = proxy_b == STATIC_PLANE_PROXYTYPE;
-  if ((box_a || plane_a) && (box_b || plane_b) && !(plane_a && plane_b)) return &create_;
+  const auto with_plane = [](int a, int b) {
+    return b == STATIC_PLANE_PROXYTYPE && (a == BOX_SHAPE_PROXYTYPE || a == CYLINDER_SHAPE_PROXYTYPE ||
+                                           a == CONVEX_HULL_SHAPE_PROXYTYPE || a == GIMPACT_SHAPE_PROXYTYPE);
+  };
+  const bool boxes = proxy_a == BOX_SHAPE_PROXYTYPE && proxy_b == BOX_SHAPE_PROXYTYPE;
+  if (boxes || with_plane(proxy_a, proxy_b) || with_plane(proxy_b, proxy_a)) return &create_;
   return btDefaultCollisionConfiguration::getCollisionAlgorithmCreateFunc(proxy_a, proxy_b);
 }
 

@@ -14,7 +14,8 @@ class SeenBox final : public btBoxShape {
   void getAabb(const btTransform& X_WS, btVector3& least, btVector3& most) const override;
 };
 
-/// Bullet's configuration, but for contacts of boxes with boxes and planes, which are those of `box_contacts`.
+/// Bullet's configuration, but for contacts of boxes with boxes and planes, which are those of `box_contacts`, and
+/// those of cylinders and meshes with planes, which are exact, too. A mesh's shape has the mesh for its user pointer.
 class BoxesSeenEarly final : public btDefaultCollisionConfiguration {
  public:
   btCollisionAlgorithmCreateFunc* getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) override;

@@ -81,6 +81,7 @@ void BulletShape::add_mesh(const geometry::TriangleMesh& mesh, bool movable, con
     meshes_.push_back(std::move(triangles));
   }
   part->setMargin(contact_skin);
+  part->setUserPointer(const_cast<geometry::TriangleMesh*>(&mesh));  // is only read
   compound_.addChildShape(X_BS, part.get());
   parts_.push_back(std::move(part));
 }

@@ -28,6 +28,10 @@ BulletWorld::BulletWorld(const scene::Scene& scene)
   static const double set_once = gDeactivationTime = asleep_after;  // worlds may be made in several threads
   static_cast<void>(set_once);
   btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
+  for (const auto& [a, b] : {std::pair(GIMPACT_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE),
+                             std::pair(STATIC_PLANE_PROXYTYPE, GIMPACT_SHAPE_PROXYTYPE)}) {
+    dispatcher_.registerCollisionCreateFunc(a, b, configuration_.getCollisionAlgorithmCreateFunc(a, b));
+  }
   configuration_.setPlaneConvexMultipointIterations(4,
                                                     4);  // a flush face touches with its corners from the first step on
   configuration_.setConvexConvexMultipointIterations(4, 4);

@@ -6,9 +6,13 @@
 
 namespace spring_workbench::rigid_bodies {
 
-/// [m] from which boxes and planes see a box, so that what comes near fast is stopped where it touches. Bullet's own
-/// boxes see each other where they overlap. Test: RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother at 0.
+/// [m], or as far as they come in a step, from which boxes and planes see what they know the shape of, so that what
+/// comes near fast is stopped where it touches. Bullet's own boxes see each other where they overlap. Test:
+/// RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother at 0.
 constexpr double seen_from = 3e-3;
+/// Of a face, against a plane, that touches it with all its sides. Smaller: what lands tilted by more lands with one
+/// point; larger: those of the sides above are taken for it. Test: Drops.WithoutRestitutionNothingLeavesTheBench at 0.
+constexpr double slope_of_landing = 0.1;
 /// [m] by which every shape is larger all round; contact is closed where two overlap by twice as much: so that the
 /// solver sees it before. Larger: spheres roll on a larger radius. Test:
 /// RigidWorld.SphereRollsAtFiveSeventhsOfItsSpeed.
