@@ -103,6 +103,8 @@ void bind_report(py::module_& module) {
       .def_readonly("stiffest_omega_dt", &AdvanceReport::stiffest_omega_dt,
                     "Frequency of the stiffest mode times the step.")
       .def_readonly("steps_blocked", &AdvanceReport::steps_blocked, "Steps in which contact left an object no way.")
+      .def_readonly("time_lost", &AdvanceReport::time_lost,
+                    "Of the steps, in which a body did not follow its equation [s].")
       .def_readonly("steps_rejected", &AdvanceReport::steps_rejected, "Steps refused: not finite, or beyond bounds.")
       .def_readonly("active", &AdvanceReport::active, "Parts that ran.")
       .def_readonly("skipped", &AdvanceReport::skipped, "Parts that were not needed.");

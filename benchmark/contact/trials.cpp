@@ -29,8 +29,8 @@ int count_at(const std::vector<std::string>& arguments, std::size_t index, int o
 
 void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes,
               const std::vector<scene::ContactMode>& modes, std::ostream& out) {
-  out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,steps_blocked,refused,cpu_s_per_"
-         "motion\n";
+  out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,steps_blocked,time_lost_s,"
+         "refused,cpu_s_per_motion\n";
   for (const scene::ContactMode mode : modes) {
     for (const WildScene scene : scenes) {
       WildResult sum;
@@ -42,12 +42,13 @@ void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes,
         passed += r.passed_through ? 1 : 0;
         over += r.penetration > 1e-4 ? 1 : 0;
         sum.steps_blocked += r.steps_blocked;
+        sum.time_lost += r.time_lost;
         sum.refused += r.refused;
         sum.seconds += r.seconds;
       }
       out << name_of(mode) << ',' << name_of(scene) << ',' << motions << ',' << passed << ',' << over << ','
-          << 1e3 * sum.penetration << ',' << worst_seed << ',' << sum.steps_blocked << ',' << sum.refused << ','
-          << sum.seconds / std::max(motions, 1) << std::endl;
+          << 1e3 * sum.penetration << ',' << worst_seed << ',' << sum.steps_blocked << ',' << sum.time_lost << ','
+          << sum.refused << ',' << sum.seconds / std::max(motions, 1) << std::endl;
     }
   }
 }

@@ -209,6 +209,7 @@ WildResult run(const WildMotion& motion) {
     const simulation::AdvanceReport report = simulation.advance(t);
     result.steps += report.steps;
     result.steps_blocked += report.steps_blocked;
+    result.time_lost += report.time_lost;
     result.refused += report.steps_rejected;
     look(motion, setting, simulation.objects()[0].X_WO, result);
   }

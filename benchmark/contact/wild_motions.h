@@ -27,8 +27,9 @@ struct WildResult {
   bool passed_through = false;  ///< outside at the end, or no longer linked
   double seconds = 0.0;         ///< processor time
   int steps = 0;
-  int steps_blocked = 0;  ///< steps
-  int refused = 0;        ///< steps
+  int steps_blocked = 0;   ///< steps
+  double time_lost = 0.0;  ///< of the steps, in which it did not follow its equation [s]
+  int refused = 0;         ///< steps
 };
 
 WildResult run(const WildMotion& motion);

@@ -14,6 +14,8 @@ TEST_P(RodInRoom, GoesThroughNoWall) {
     EXPECT_FALSE(result.passed_through) << seed;
     EXPECT_LE(result.penetration, 1e-4) << seed;
     EXPECT_GT(result.steps, 0) << seed;
+    EXPECT_EQ(result.time_lost > 0.0, result.steps_blocked > 0) << seed;
+    EXPECT_LE(result.time_lost, 0.2) << seed;
     EXPECT_EQ(result.refused, 0) << seed;
   }
 }

@@ -272,7 +272,7 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
   int unsolved = 0;
   const auto block = [&](double duration) {
     body.block(duration);
-    outcome.steps_blocked = true;
+    outcome.time_lost += duration;
     for (ContactRow& row : rows) row.load_W.setZero();  // a search from these loads has failed
     left -= duration;
     substep = left;

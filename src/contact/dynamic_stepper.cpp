@@ -52,6 +52,7 @@ void DynamicStepper::go_freely(const std::vector<Candidate>& candidates, double 
       c.body->restore(c.start);
       c.body->block(h);
       outcome.refused = true;
+      outcome.time_lost += h;
     }
     c.body->accept();
     load_W_.erase(c.body->index());
@@ -177,7 +178,7 @@ void DynamicStepper::hold_back(const std::vector<bodies::SteppedBody*>& held, do
     take(*body, Wrench());
   }
   add_contacts();
-  outcome.steps_blocked = true;
+  outcome.time_lost += h;
 }
 
 void DynamicStepper::take(bodies::SteppedBody& body, const Wrench& contact_W) {

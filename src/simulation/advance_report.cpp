@@ -31,6 +31,7 @@ void AdvanceReport::add(const AdvanceReport& later) {
   steps_fallback += later.steps_fallback;
   energy_error += later.energy_error;
   steps_blocked += later.steps_blocked;
+  time_lost += later.time_lost;
   steps_rejected += later.steps_rejected;
   add_missing(later.active, active);
   add_missing(later.skipped, skipped);

@@ -148,12 +148,14 @@ bool Objects::carry(bodies::SteppedBody& stepped, std::size_t object, double h,
       stepped.restore(start_);
       stepped.follow_rigidly(h);
       outcome.refused = true;
+      report.time_lost += h;
     }
   }
   ++report.steps;
   take_state(object, stepped.object());
   report.collision_queries += outcome.queries;
-  if (outcome.steps_blocked) ++report.steps_blocked;
+  if (outcome.time_lost > 0.0) ++report.steps_blocked;
+  report.time_lost += outcome.time_lost;
   if (outcome.refused) ++report.steps_rejected;
   states_[object].in_contact = !outcome.rows.empty();
   contacts_.note(object, states_[object], outcome.rows, h);
@@ -206,7 +208,8 @@ void Objects::step_together(const std::vector<Carried>& held, double h, AdvanceR
   report.steps += outcome.substeps;
   report.steps_among_movable += outcome.substeps;
   report.collision_queries += outcome.substeps;
-  if (outcome.steps_blocked) ++report.steps_blocked;
+  if (outcome.time_lost > 0.0) ++report.steps_blocked;
+  report.time_lost += outcome.time_lost;
   if (outcome.refused) ++report.steps_rejected;
   for (const Carried& c : held) take_state(c.object, c.body->object());
   const rigid_bodies::RigidWorld& world = dynamic_stepper_->world();

@@ -149,6 +149,7 @@ class Manipulation(unittest.TestCase):
         force = sum(c.impulse for c in pressed.contacts) * step.steps / step.simulated_time
         self.assertAlmostEqual(force, MASS * GRAVITY - self.fork.next().tip_wrench.force.z, delta=0.02 * force)
         self.assertEqual(step.steps_blocked, 0)
+        self.assertEqual(step.time_lost, 0.0)
         dragged = len(self.contacts.messages)
         self.hand.move((0.23, 0.0, 0.01 + LENGTH), DOWN, 1.0)  # at 0.3 m/s where it is fastest
         slipping = max(c.slip_speed for m in self.contacts.messages[dragged:] for c in m.contacts)

@@ -13,8 +13,8 @@ namespace spring_workbench::contact {
 struct ContactOutcome {
   std::vector<ContactRow> rows;  ///< the contacts at the end of the step; `load_W` [N]
   int queries = 0;
-  bool steps_blocked = false;  ///< nothing fitted and the body was stopped
-  bool refused = false;        ///< a step without contact would not have been finite or bounded
+  double time_lost = 0.0;  ///< [s] for which nothing fitted and the body was stopped
+  bool refused = false;    ///< a step without contact would not have been finite or bounded
 };
 
 /// Contact mode `stop` (doc/model.md; the paper's section 5): the candidate step is swept, cut at the first contact by

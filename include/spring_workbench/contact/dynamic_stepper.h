@@ -20,8 +20,9 @@ class DynamicStepper {
 
   struct Outcome {
     int substeps = 0;
-    bool steps_blocked = false;  ///< contact left a held body no way, and it was stopped
-    bool refused = false;        ///< a piece without contact would not have been finite or bounded
+    double time_lost =
+        0.0;               ///< [s] for which contact left a held body no way, and it was stopped; or it was refused one
+    bool refused = false;  ///< a piece without contact would not have been finite or bounded
   };
   /// Carries the held bodies and the world over `h` [s].
   Outcome step(const std::vector<bodies::SteppedBody*>& held, double h);

@@ -64,6 +64,7 @@ struct AdvanceReport {
   int steps_fallback = 0;           ///< steps done by an L-stable rule, since the integrator's equation was not solved
   double energy_error = 0.0;        ///< sum of the steps' estimated errors in energy [J]
   int steps_blocked = 0;            ///< steps in which contact left a body no way that was found, and it stayed
+  double time_lost = 0.0;           ///< of the steps, in which a body did not follow its equation [s]
   int steps_rejected = 0;           ///< times a step was refused because it would not have been finite or bounded
   std::vector<std::string> active;  ///< e.g. "stretch", "gravity", "collision"
   std::vector<std::string> skipped;

@@ -121,8 +121,8 @@ samples, samples_rejected (by the rules of input.*; rejected says why), reacquis
 position_error [m] and angle_error [rad] (the largest estimate of a step's local error), energy_drift [J] (added by
 integration beyond hand, gravity, damping and contact), stiffest_omega_dt, contacts (pairs that came into
 contact, as seen at the output times), collision_queries, steps_blocked (steps in which contact left an object
-no way and it stayed), steps_rejected, state_hash (of the whole state at the end, 16 hexadecimal digits), active,
-skipped.
+no way and it stayed), time_lost [s] (of steps, in which an object did not follow its equation), steps_rejected,
+state_hash (of the whole state at the end, 16 hexadecimal digits), active, skipped.
 Exit status: 0 done; 2 bad arguments or input, with one line on standard error.
 
 Keys (unit; allowed; default): meaning

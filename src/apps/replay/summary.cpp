@@ -70,9 +70,10 @@ std::string Summary::json() const {
       << ", \"stiffest_omega_dt\": " << number(advance.stiffest_omega_dt) << ", \"contacts\": " << contacts_
       << ", \"collision_queries\": " << advance.collision_queries << ", \"substeps\": " << advance.substeps
       << ", \"stops\": " << advance.stops << ", \"steps_fallback\": " << advance.steps_fallback
-      << ", \"steps_blocked\": " << advance.steps_blocked << ", \"steps_rejected\": " << advance.steps_rejected
-      << ", \"changes\": " << changes << ", \"state_hash\": \"" << simulation::to_hex(state_hash)
-      << "\", \"active\": " << list_of(advance.active) << ", \"skipped\": " << list_of(advance.skipped) << "}";
+      << ", \"steps_blocked\": " << advance.steps_blocked << ", \"time_lost\": " << number(advance.time_lost)
+      << ", \"steps_rejected\": " << advance.steps_rejected << ", \"changes\": " << changes << ", \"state_hash\": \""
+      << simulation::to_hex(state_hash) << "\", \"active\": " << list_of(advance.active)
+      << ", \"skipped\": " << list_of(advance.skipped) << "}";
   return out.str();
 }
 

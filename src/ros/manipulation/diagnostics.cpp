@@ -86,6 +86,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   status.add("cycles", loop.cycles)
       .add("deadlines missed", loop.deadlines_missed)
       .add("steps refused", loop.steps_rejected)
+      .add("time lost in steps [s]", loop.time_lost)
       .add("steps done by the fallback", loop.steps_fallback)
       .add("stops at the end of the fork's range", loop.stops)
       .add("leaps of time", loop.leaps)

@@ -109,6 +109,7 @@ void ManipulationNode::count(const live::CycleReport& report, bool deadline_miss
   ++loop_.cycles;
   loop_.deadlines_missed += deadline_missed ? 1 : 0;
   loop_.steps_rejected += static_cast<std::size_t>(report.advance.steps_rejected);
+  loop_.time_lost += report.advance.time_lost;
   loop_.steps_fallback += static_cast<std::size_t>(report.advance.steps_fallback);
   loop_.stops += static_cast<std::size_t>(report.advance.stops);
   loop_.leaps += report.leapt ? 1 : 0;

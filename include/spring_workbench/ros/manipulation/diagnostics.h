@@ -16,6 +16,7 @@ struct LoopStatistics {
   std::size_t cycles = 0;
   std::size_t deadlines_missed = 0;
   std::size_t steps_rejected = 0;  ///< steps refused by the simulation
+  double time_lost = 0.0;          ///< of steps, in which an object did not follow its equation [s]
   std::size_t steps_fallback = 0;  ///< steps done by an L-stable rule in place of the integrator
   std::size_t stops = 0;           ///< steps that met the end of a fork's range
   std::size_t leaps = 0;           ///< times the simulation was started anew because time leapt
