@@ -10,8 +10,6 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kMoving = 0.2;  // s
-constexpr double kResting = 0.1;
 constexpr int kLeastRests = 5;  // samples
 constexpr int kRestsBefore = 3;
 constexpr double kGap = 1.0;
@@ -46,56 +44,81 @@ bool same(const motion::PoseSample& a, const motion::PoseSample& b) { return a.X
 
 std::string name_of(MapHand hand) {
   switch (hand) {
-    case MapHand::lissajous:
-      return "lissajous";
     case MapHand::jump:
       return "jump";
     case MapHand::flip:
       return "flip";
     case MapHand::dropout:
-      return "dropout";
-    case MapHand::noise:
       break;
   }
-  return "noise";
+  return "dropout";
 }
 
-MapHandMotion map_hand_motion(MapHand hand, double interval, double step) {
+std::string name_of(MapTail tail) {
+  switch (tail) {
+    case MapTail::rest:
+      return "rest";
+    case MapTail::nanometre:
+      return "1 nm";
+    case MapTail::micrometre:
+      return "1 um";
+    case MapTail::tenth_of_a_millimetre:
+      return "0.1 mm";
+    case MapTail::millimetre:
+      return "1 mm";
+    case MapTail::lissajous:
+      break;
+  }
+  return "lissajous";
+}
+
+namespace {
+
+double tremor(MapTail tail) {  // [m]
+  switch (tail) {
+    case MapTail::nanometre:
+      return 1e-9;
+    case MapTail::micrometre:
+      return 1e-6;
+    case MapTail::tenth_of_a_millimetre:
+      return 1e-4;
+    case MapTail::millimetre:
+      return 1e-3;
+    case MapTail::rest:
+    case MapTail::lissajous:
+      break;
+  }
+  return 0.0;
+}
+
+}  // namespace
+
+MapHandMotion map_hand_motion(MapHand hand, MapTail tail, double seconds, double interval, double step) {
   MapHandMotion motion;
   std::vector<motion::PoseSample>& samples = motion.samples;
-  const auto count = [&](double seconds) {
-    return std::max(kLeastRests, static_cast<int>(std::lround(seconds / interval)));
-  };
   const auto next = [&] { return samples.empty() ? 0.0 : samples.back().t + interval; };
-  const auto stay = [&](const RigidTransform& X, double seconds) {
-    for (int i = 0, n = count(seconds); i < n; ++i) samples.push_back({next(), X});
-  };
-  std::mt19937 engine(7);
-  const auto random = [&] { return 2.0 * (static_cast<double>(engine()) + 0.5) / 4294967296.0 - 1.0; };
+  for (int i = 0; i < kRestsBefore; ++i) samples.push_back({next(), home()});
   switch (hand) {
-    case MapHand::lissajous:
-      for (int i = 0, n = count(kMoving); i < n; ++i) samples.push_back({next(), lissajous(i * interval)});
-      break;
     case MapHand::jump:
-      for (int i = 0; i < kRestsBefore; ++i) samples.push_back({next(), home()});
       samples.push_back({next(), moved(Vector3d(0.6, 0.0, 0.8), Vector3d::Zero())});
       break;
     case MapHand::flip:
-      for (int i = 0; i < kRestsBefore; ++i) samples.push_back({next(), home()});
       samples.push_back({next(), moved(Vector3d::Zero(), kPi * Vector3d(1.0, 1.0, 0.5).normalized())});
       break;
     case MapHand::dropout:
-      for (int i = 0; i < kLeastRests; ++i) samples.push_back({next(), lissajous(i * interval)});
-      samples.push_back({samples.back().t + kGap, moved(Vector3d(0.3, 0.0, 0.0), Vector3d(0.0, 0.0, 0.5))});
-      break;
-    case MapHand::noise:
-      for (int i = 0, n = count(kMoving); i < n; ++i) {
-        const Vector3d shift = 1e-3 * Vector3d(random(), random(), random());
-        samples.push_back({next(), moved(shift, kPi / 180.0 * Vector3d(random(), random(), random()))});
-      }
+      samples.push_back({next() + kGap, moved(Vector3d(0.3, 0.0, 0.0), Vector3d(0.0, 0.0, 0.5))});
       break;
   }
-  stay(RigidTransform(samples.back().X), kResting);
+  std::mt19937 engine(7);
+  const auto random = [&] { return 2.0 * (static_cast<double>(engine()) + 0.5) / 4294967296.0 - 1.0; };
+  const RigidTransform here = samples.back().X;
+  const double size = tremor(tail);
+  for (int i = 1, n = std::max(kLeastRests, static_cast<int>(std::lround(seconds / interval))); i <= n; ++i) {
+    RigidTransform X = here;
+    if (tail == MapTail::lissajous) X = here * lissajous(0.0).inverse() * lissajous(i * interval);
+    if (size > 0.0) X.translation() += size * Vector3d(random(), random(), random());
+    samples.push_back({next(), X});
+  }
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
     const bool gap = samples[i + 1].t - samples[i].t > kLongestHeld;
     // The hand's speed drops to zero as the gap begins, and its place changes where it ends.

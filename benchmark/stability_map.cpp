@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <random>
 #include <sstream>
 #include <tuple>
 
+#include "benchmark/contact/processor_time.h"
 #include "benchmark/parallel.h"
 #include "benchmark/simulated_rod.h"
 #include "spring_workbench/dynamics/integrator.h"
@@ -14,7 +16,9 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kFarthest = 100.0;        // m from the hand
+constexpr double kFarthest = 100.0;        // m from the hand,
+constexpr double kFlight = 400.0;          // m/s; beside what an object on no spring flies that half a turn has thrown
+constexpr double kFall = 0.5 * 9.81;       // m/s²; and falls
 constexpr double kTrackerInterval = 0.02;  // s
 constexpr double kWatchedSteps = 20.0;
 constexpr double most_estimated = 0.01;    // of the largest energy: steps that say they err by more do not excuse it
@@ -64,11 +68,15 @@ class EnergyWatch {
 class CellRun {
  public:
   CellRun(const RodCase& one, const std::string& integrator, const std::string& shape, double step,
-          const std::vector<motion::PoseSample>& hand)
+          const std::vector<motion::PoseSample>& hand, bool hand_goes_on)
       : simulation_(rod_scene(one), rod_settings(one, shape, integrator, step)),
         explicit_(
             !dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(integrator, "map", "integrator"))
-                 ->stiffly_stable()) {
+                 ->stiffly_stable()),
+        has_energy_(
+            dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(integrator, "map", "integrator"))
+                ->solves_the_equation_of_motion()),
+        hand_goes_on_(hand_goes_on) {
     for (const motion::PoseSample& sample : hand) simulation_.push_stylus(sample);
   }
 
@@ -76,23 +84,28 @@ class CellRun {
   bool advance(double t) {
     const simulation::AdvanceReport report = simulation_.advance(t);
     outcome_.refused += report.steps_rejected;
+    outcome_.steps += report.steps;
+    outcome_.stops += report.stops;
+    outcome_.fallback += report.steps_fallback;
     if (explicit_) outcome_.refused += report.steps_fallback + report.stops;  // it has left what a rod can have
     estimated_ = report.energy_error;
     const bodies::BodyState& object = simulation_.objects()[0];
     const Twist& V = object.V_WO_W;
     outcome_.finite = object.X_WO.matrix().allFinite() && V.linear.allFinite() && V.angular.allFinite();
-    outcome_.bounded =
-        outcome_.finite && (object.X_WO.translation() - simulation_.fork().X_WH.translation()).norm() < kFarthest;
+    const double distance = (object.X_WO.translation() - simulation_.fork().X_WH.translation()).norm();
+    // A hand that goes on turning throws an object on no spring ever faster: no bound.
+    outcome_.bounded = outcome_.finite && (hand_goes_on_ || distance < kFarthest + t * (kFlight + kFall * t));
     return outcome_.bounded;
   }
 
   const simulation::Simulation& simulation() const { return simulation_; }
+  bool has_energy() const { return has_energy_; }  ///< that of the equation of motion
   StabilityOutcome& outcome() { return outcome_; }
   double estimated() const { return estimated_; }  ///< error in energy of the last advance() [J]
 
  private:
   simulation::Simulation simulation_;
-  bool explicit_;
+  bool explicit_, has_energy_, hand_goes_on_;
   StabilityOutcome outcome_;
   double estimated_ = 0.0;
 };
@@ -115,8 +128,17 @@ std::vector<double> decades(double low, double high, double factor) {
   return values;
 }
 
-void add(const StabilityOutcome& outcome, StabilityRow& row) {
+void add(const StabilityCell& cell, const StabilityOutcome& outcome, StabilityRow& row) {
+  if (cell.cannot_fail()) {
+    ++row.cannot_fail;
+    return;
+  }
   ++row.cells;
+  row.real_time += outcome.processor < 1.0;
+  row.three_times += outcome.processor < 3.0;
+  row.steps += outcome.steps;
+  row.stops += outcome.stops;
+  row.fallback += outcome.fallback;
   row.finite += outcome.finite;
   row.bounded += outcome.bounded;
   row.energy_kept += outcome.energy_kept();
@@ -143,7 +165,7 @@ std::vector<StabilityRow> rows_of_cells(const StabilityPlan& plan, const std::st
     if (rows.empty() || !is_of(cell, rows.back())) {
       rows.push_back({integrator, shape, factor, cell.mass, cell.step, cell.damping_ratio});
     }
-    add(outcomes[i], rows.back());
+    add(cell, outcomes[i], rows.back());
     if (!outcomes[i].held()) failures.push_back({integrator, shape, cell, outcomes[i]});
   }
   keep_the_worst(failures);
@@ -165,52 +187,76 @@ StabilityPlan stability_plan(bool quick) {
   plan.shapes = {"linear"};
   plan.stiffness_factors = decades(1e-6, 1e12, quick ? 1e6 : 1e2);
   plan.masses = quick ? std::vector<double>{0.0, 1e-6, 1.0, 1e6} : std::vector<double>{0.0, 1e-6, 1e-3, 1.0, 1e3, 1e6};
-  plan.steps = quick ? std::vector<double>{0.05} : std::vector<double>{0.05, 0.02, 0.005, 0.001};
-  plan.in_turn = {40, 24, 8, 4};
-  plan.damping_ratios = quick ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.0, 0.1, 1.0, 10.0};
+  plan.steps = quick ? std::vector<double>{0.05, 0.005} : std::vector<double>{0.05, 0.02, 0.005, 0.001};
+  plan.damping_ratios = quick ? std::vector<double>{0.0, 1.0} : std::vector<double>{0.0, 0.001, 0.01, 0.05, 1.0, 10.0};
+  if (quick) plan.cells = 120;
+  if (quick) plan.seconds = 0.2;
   for (int i = 0; i < 8; ++i) plan.families.push_back({(i & 1) != 0, (i & 2) != 0, (i & 4) != 0});
-  plan.hands = {MapHand::lissajous, MapHand::jump, MapHand::flip, MapHand::dropout, MapHand::noise};
+  plan.hands = {MapHand::jump, MapHand::flip, MapHand::dropout};
+  plan.tails = {MapTail::rest,       MapTail::nanometre, MapTail::micrometre, MapTail::tenth_of_a_millimetre,
+                MapTail::millimetre, MapTail::lissajous};
   return plan;
 }
 
 std::vector<StabilityCell> cells_of(const StabilityPlan& plan, double stiffness_factor) {
+  std::mt19937 random(20);
+  const auto any = [&](const auto& values) { return values[random() % values.size()]; };
   std::vector<StabilityCell> cells;
-  const std::size_t hands = plan.hands.size(), pairs = plan.families.size() * hands;
-  std::vector<std::size_t> next(plan.steps.size(), 0);
-  for (const double mass : plan.masses) {
-    for (std::size_t s = 0; s < plan.steps.size(); ++s) {
-      for (const double zeta : plan.damping_ratios) {
-        for (std::size_t i = 0; i < std::min(plan.in_turn[s], pairs); ++i) {
-          const std::size_t pair = next[s]++ % pairs;
-          cells.push_back(
-              {stiffness_factor, mass, plan.steps[s], zeta, plan.families[pair / hands], plan.hands[pair % hands]});
-        }
-      }
-    }
+  for (std::size_t i = 0; i < plan.cells; ++i) {
+    StabilityCell cell;
+    cell.stiffness_factor = any(plan.stiffness_factors);
+    cell.mass = any(plan.masses);
+    cell.step = any(plan.steps);
+    cell.damping_ratio = any(plan.damping_ratios);
+    cell.families = any(plan.families);
+    cell.hand = any(plan.hands);
+    cell.tail = any(plan.tails);
+    cell.seconds = plan.seconds * (random() % plan.long_one == 0 ? 6.0 : 1.0);
+    if (cell.stiffness_factor == stiffness_factor) cells.push_back(cell);
   }
+  std::stable_sort(cells.begin(), cells.end(), [](const StabilityCell& a, const StabilityCell& b) {
+    return std::tuple(a.mass, a.step, a.damping_ratio) < std::tuple(b.mass, b.step, b.damping_ratio);
+  });
   return cells;
 }
 
-StabilityOutcome run_cell(const std::string& integrator, const std::string& shape, const StabilityCell& cell) {
-  const RodCase one = case_of(cell);
-  const MapHandMotion hand = map_hand_motion(cell.hand, std::max(cell.step, kTrackerInterval), cell.step);
-  CellRun run(one, integrator, shape, cell.step, hand.samples);
+namespace {
+
+void follow(const RodCase& one, const MapHandMotion& hand, double step, CellRun& run) {
   double reached = 0.0;
-  for (const auto& [begin, end] : hand.rests) {
-    const int looks = std::max(1, static_cast<int>(std::ceil((begin - reached) / kTrackerInterval)));
+  const auto go_to = [&](double t) {
+    const int looks = std::max(1, static_cast<int>(std::ceil((t - reached) / kTrackerInterval)));
     for (int i = 1; i <= looks; ++i) {
-      if (!run.advance(reached + (begin - reached) * i / looks)) return run.outcome();
+      if (!run.advance(reached + (t - reached) * i / looks)) return false;
     }
+    reached = t;
+    return true;
+  };
+  for (const auto& [begin, end] : hand.rests) {
+    if (!go_to(begin)) return;
     EnergyWatch watch(one.mass * 9.81, one.fork.length);
     // Every step at first, and then every 20 ms: what has grown stays above the lowest.
     for (reached = begin; reached < end + 1e-9;
-         reached += reached - begin < kWatchedSteps * cell.step ? cell.step : kTrackerInterval) {
-      if (!run.advance(reached)) return run.outcome();
-      if (one.mass > 0.0) watch.look(run.simulation(), run.estimated());
+         reached += reached - begin < kWatchedSteps * step ? step : kTrackerInterval) {
+      if (!run.advance(reached)) return;
+      if (one.mass > 0.0 && run.has_energy()) watch.look(run.simulation(), run.estimated());
     }
     reached = end;
     run.outcome().energy_growth = std::max(run.outcome().energy_growth, watch.relative_growth());
   }
+  if (hand.samples.back().t > reached) go_to(hand.samples.back().t);
+}
+
+}  // namespace
+
+StabilityOutcome run_cell(const std::string& integrator, const std::string& shape, const StabilityCell& cell) {
+  const RodCase one = case_of(cell);
+  const double interval = std::max(cell.step, kTrackerInterval);
+  const MapHandMotion hand = map_hand_motion(cell.hand, cell.tail, cell.seconds, interval, cell.step);
+  const double begun = processor_time();
+  CellRun run(one, integrator, shape, cell.step, hand.samples, cell.tail == MapTail::lissajous);
+  follow(one, hand, cell.step, run);
+  run.outcome().processor = (processor_time() - begun) / hand.samples.back().t;
   return run.outcome();
 }
 
@@ -245,24 +291,27 @@ StabilityMap stability_map(const StabilityPlan& plan, Units& units) {
 std::string stability_csv(const StabilityMap& map) {
   std::ostringstream out;
   out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,cells,finite,bounded,energy_kept,none_refused,"
-         "held\n";
+         "held,cannot_fail,real_time,three_times,steps,stops,steps_fallback\n";
   for (const StabilityRow& row : map.rows) {
     out << row.integrator << ',' << row.shape << ',' << row.stiffness_factor << ',' << row.mass << ',' << row.step
         << ',' << row.damping_ratio << ',' << row.cells << ',' << row.finite << ',' << row.bounded << ','
-        << row.energy_kept << ',' << row.none_refused << ',' << row.held << '\n';
+        << row.energy_kept << ',' << row.none_refused << ',' << row.held << ',' << row.cannot_fail << ','
+        << row.real_time << ',' << row.three_times << ',' << row.steps << ',' << row.stops << ',' << row.fallback
+        << '\n';
   }
   return out.str();
 }
 
 std::string failures_csv(const StabilityMap& map) {
   std::ostringstream out;
-  out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,families,hand,finite,bounded,energy_growth,steps_"
-         "refused\n";
+  out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,families,hand,tail,seconds,finite,bounded,"
+         "energy_growth,steps_refused,steps,stops,steps_fallback,processor_time\n";
   for (const StabilityFailure& f : map.failures) {
     out << f.integrator << ',' << f.shape << ',' << f.cell.stiffness_factor << ',' << f.cell.mass << ',' << f.cell.step
         << ',' << f.cell.damping_ratio << ',' << families_name(f.cell.families) << ',' << name_of(f.cell.hand) << ','
-        << f.outcome.finite << ',' << f.outcome.bounded << ',' << f.outcome.energy_growth << ',' << f.outcome.refused
-        << '\n';
+        << name_of(f.cell.tail) << ',' << f.cell.seconds << ',' << f.outcome.finite << ',' << f.outcome.bounded << ','
+        << f.outcome.energy_growth << ',' << f.outcome.refused << ',' << f.outcome.steps << ',' << f.outcome.stops
+        << ',' << f.outcome.fallback << ',' << f.outcome.processor << '\n';
   }
   return out.str();
 }

@@ -10,17 +10,20 @@
 
 namespace spring_workbench::benchmark {
 
-/// What is varied. Every combination is a cell; of short steps, which cost most, some in turn are run.
+/// What is varied. The cells are drawn from all combinations, seeded, so many that every pair of values is met.
 struct StabilityPlan {
   std::vector<std::string> integrators;
   std::vector<std::string> shapes;
   std::vector<double> stiffness_factors;  ///< over 2000 N/m, 500 N/m, 5 N·m/rad on 0.2 m
   std::vector<double> masses;             ///< [kg]; 0: massless
   std::vector<double> steps;              ///< [s]
-  std::vector<std::size_t> in_turn;       ///< by step: how many of families × hands are run with each of the rest
   std::vector<double> damping_ratios;
   std::vector<rod::ForkDofs> families;
   std::vector<MapHand> hands;
+  std::vector<MapTail> tails;
+  std::size_t cells = 4000;    ///< of an integrator and a shape
+  double seconds = 10.0;       ///< of the hand's tail
+  std::size_t long_one = 200;  ///< one in so many has six times that
 };
 StabilityPlan stability_plan(bool quick);
 
@@ -31,16 +34,22 @@ struct StabilityCell {
   double step = 0.02;
   double damping_ratio = 1.0;
   rod::ForkDofs families;
-  MapHand hand = MapHand::lissajous;
+  MapHand hand = MapHand::jump;
+  MapTail tail = MapTail::rest;
+  double seconds = 0.1;
+  /// Without mass or with every DOF rigid nothing is integrated.
+  bool cannot_fail() const { return mass == 0.0 || !(families.stretch || families.bend || families.torsion); }
 };
 
 /// What came of it.
 struct StabilityOutcome {
   bool finite = true;          ///< pose and twist of the object
-  bool bounded = true;         ///< within 100 m of the hand; a free fall is 20 m
+  bool bounded = true;         ///< no further from the hand than free flight may be (see the .cpp)
   double energy_growth = 0.0;  ///< largest growth while the hand rests beyond the steps' own estimates of their
                                ///< errors, over the largest energy then (see the .cpp)
   int refused = 0;             ///< steps not taken, or of an explicit method stopped or done by the L-stable rule
+  int steps = 0, stops = 0, fallback = 0;  ///< of the integrator; that met a stop; done by the L-stable rule
+  double processor = 0.0;                  ///< time over simulated time
   bool energy_kept() const { return energy_growth <= 1e-9; }
   bool held() const { return finite && bounded && energy_kept() && refused == 0; }
 };
@@ -52,17 +61,21 @@ bool worse(const StabilityOutcome& a, const StabilityOutcome& b);
 /// where that is longer, since a step ends at every sample.
 StabilityOutcome run_cell(const std::string& integrator, const std::string& shape, const StabilityCell& cell);
 
-/// Counts over families and hands.
+/// Counts over families and hands, of the cells that can fail.
 struct StabilityRow {
   std::string integrator, shape;
   double stiffness_factor = 0.0, mass = 0.0, step = 0.0, damping_ratio = 0.0;
+  int cannot_fail = 0;  ///< cells that were drawn beside
   int cells = 0, finite = 0, bounded = 0, energy_kept = 0, none_refused = 0, held = 0;
+  int real_time = 0, three_times = 0;  ///< processor time below the simulated time; below three times that
+  double steps = 0.0, stops = 0.0, fallback = 0.0;
 };
 
 template <typename Fields>
 void each_field(StabilityRow& r, Fields& fields) {
   fields(r.integrator, r.shape, r.stiffness_factor, r.mass, r.step, r.damping_ratio, r.cells, r.finite, r.bounded,
-         r.energy_kept, r.none_refused, r.held);
+         r.energy_kept, r.none_refused, r.held, r.cannot_fail, r.real_time, r.three_times, r.steps, r.stops,
+         r.fallback);
 }
 
 /// A cell that did not hold.
@@ -76,7 +89,8 @@ void each_field(StabilityFailure& f, Fields& fields) {
   StabilityCell& c = f.cell;
   StabilityOutcome& o = f.outcome;
   fields(f.integrator, f.shape, c.stiffness_factor, c.mass, c.step, c.damping_ratio, c.families.stretch,
-         c.families.bend, c.families.torsion, c.hand, o.finite, o.bounded, o.energy_growth, o.refused);
+         c.families.bend, c.families.torsion, c.hand, c.tail, c.seconds, o.finite, o.bounded, o.energy_growth,
+         o.refused, o.steps, o.stops, o.fallback, o.processor);
 }
 
 struct StabilityMap {
@@ -84,8 +98,7 @@ struct StabilityMap {
   std::vector<StabilityFailure> failures;  ///< the worst few of each integrator and shape, worst first
 };
 
-/// The cells of one stiffness. Of a step with fewer in turn than there are pairs of families and hands, each pair has
-/// its turn with some of the masses and damping ratios.
+/// Those of the plan's cells that have this stiffness, in the order of mass, step and damping ratio.
 std::vector<StabilityCell> cells_of(const StabilityPlan& plan, double stiffness_factor);
 
 /// Number of units of progress, and the map; runs cells on all processors at once.

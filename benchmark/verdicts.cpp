@@ -264,12 +264,16 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
       sum.bounded += row.bounded;
       sum.energy_kept += row.energy_kept;
       sum.none_refused += row.none_refused;
+      sum.stops += row.stops;
+      sum.fallback += row.fallback;
+      sum.steps += row.steps;
     }
     if (sum.cells == 0) continue;
     const std::string figure = "of " + std::to_string(sum.cells) + " cells finite " + std::to_string(sum.finite) +
                                ", bounded " + std::to_string(sum.bounded) + ", energy kept " +
                                std::to_string(sum.energy_kept) + "; a step was refused in " +
-                               std::to_string(sum.cells - sum.none_refused) + " cells";
+                               std::to_string(sum.cells - sum.none_refused) + " cells; of " + text(sum.steps) +
+                               " steps " + text(sum.fallback) + " by the fallback, " + text(sum.stops) + " at a stop";
     const std::string claim = "Stability map, " + name;
     if (kExplicit.count(name) != 0) {
       out.push_back({claim + " (a baseline with a stability limit)", "none", figure, Verdict::Result::not_measured});
@@ -277,9 +281,10 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
       out.push_back(judged(claim, "every cell finite and bounded, no step refused", figure,
                            sum.finite == sum.cells && sum.bounded == sum.cells && sum.none_refused == sum.cells));
     } else {
-      out.push_back(
-          judged(claim, "every cell finite, bounded, energy never growing with the hand at rest; a step may be refused",
-                 figure, sum.finite == sum.cells && sum.bounded == sum.cells && sum.energy_kept == sum.cells));
+      out.push_back(judged(claim, "every cell finite, bounded, no step refused, no energy gained with the hand at rest",
+                           figure,
+                           sum.finite == sum.cells && sum.bounded == sum.cells && sum.energy_kept == sum.cells &&
+                               sum.none_refused == sum.cells));
     }
   }
 }

@@ -345,6 +345,29 @@ def shares(rows, line_of, column_of):
     }, f"{sum(held.values())} of {sum(cells.values())} cells hold"
 
 
+def layer_of_counters(axes, rows, stiffnesses, masses, mass_names):
+    """Steps that met a stop or were done by the fallback, by mass and stiffness, in per cent."""
+    counted, steps = defaultdict(float), defaultdict(float)
+    for row in rows:
+        place = float(row["mass"]), float(row["stiffness_factor"])
+        counted[place] += float(row["stops"]) + float(row["steps_fallback"])
+        steps[place] += float(row["steps"])
+    share = [[counted[m, k] / steps[m, k] if steps[m, k] else math.nan for k in stiffnesses] for m in masses]
+    axes.imshow(share, origin="lower", aspect="auto", cmap="Reds", vmin=0.0, vmax=0.1)
+    for y, line in enumerate(share):
+        for x, value in enumerate(line):
+            if value > 0.0:
+                axes.text(x, y, f"{100.0 * value:.1g}", ha="center", va="center", fontsize=6.5)
+    axes.set_xticks(range(len(stiffnesses)), [f"{math.log10(k):.0f}" for k in stiffnesses])
+    axes.set_yticks(range(len(masses)), mass_names)
+    total = {name: sum(float(row[name]) for row in rows) for name in ("steps", "stops", "steps_fallback")}
+    axes.set(
+        title=f"{total['stops']:.0f} stops, {total['steps_fallback']:.0f} fallback of {total['steps']:.3g} steps",
+        xlabel="stiffness factor, power of ten",
+        ylabel="mass [kg]",
+    )
+
+
 def stability(table, picture, extremes):
     rows = read(table)
     shape = rows[0]["shape"]
@@ -354,7 +377,7 @@ def stability(table, picture, extremes):
     masses = sorted({float(row["mass"]) for row in rows})
     contact_rows = read(extremes)
     modes = in_order(row["contact"] for row in contact_rows)
-    figure, panels = grid(len(names) + len(modes))
+    figure, panels = grid(2 * len(names) + len(modes))
     mass_names = ["0" if m == 0.0 else f"1e{math.log10(m):.0f}" for m in masses]
     for axes, name in zip(panels, names):
         share, total = shares(
@@ -366,7 +389,10 @@ def stability(table, picture, extremes):
             axes, [[share.get((m, k), 0.0) for k in stiffnesses] for m in masses], stiffnesses, mass_names
         )
         axes.set(title=f"{name}\n{total}", xlabel="stiffness factor, power of ten", ylabel="mass [kg]")
-    for axes, mode in zip(panels[len(names) :], modes):
+    for axes, name in zip(panels[len(names) :], names):
+        layer_of_counters(axes, [row for row in rows if row["integrator"] == name], stiffnesses, masses, mass_names)
+        axes.set_title(f"{name}: {axes.get_title()}")
+    for axes, mode in zip(panels[2 * len(names) :], modes):
         here = [row for row in contact_rows if row["contact"] == mode]
         forks, lines = sorted({float(row["stiffness"]) for row in here}), in_order(row["extreme"] for row in here)
         share, total = shares(here, lambda row: row["extreme"], lambda row: float(row["stiffness"]))

@@ -148,12 +148,21 @@ std::string map_summary_csv(const StabilityMap& map) {
     sum.energy_kept += row.energy_kept;
     sum.none_refused += row.none_refused;
     sum.held += row.held;
+    sum.cannot_fail += row.cannot_fail;
+    sum.real_time += row.real_time;
+    sum.three_times += row.three_times;
+    sum.steps += row.steps;
+    sum.stops += row.stops;
+    sum.fallback += row.fallback;
   }
   std::ostringstream csv;
-  csv << "integrator,shape,cells,finite,bounded,energy kept,no step refused,all of these\n";
+  csv << "integrator,shape,cells,finite,bounded,energy kept,no step refused,all of these,faster than real "
+         "time,below three times that,steps,stops,steps_fallback,cells that cannot fail\n";
   for (const StabilityRow& sum : sums) {
     csv << sum.integrator << ',' << sum.shape << ',' << sum.cells << ',' << sum.finite << ',' << sum.bounded << ','
-        << sum.energy_kept << ',' << sum.none_refused << ',' << sum.held << '\n';
+        << sum.energy_kept << ',' << sum.none_refused << ',' << sum.held << ',' << sum.real_time << ','
+        << sum.three_times << ',' << sum.steps << ',' << sum.stops << ',' << sum.fallback << ',' << sum.cannot_fail
+        << '\n';
   }
   return csv.str();
 }

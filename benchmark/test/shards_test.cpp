@@ -69,8 +69,14 @@ struct Work {
     const StabilityMap stability = stability_map(map, units);
     std::string text;
     for (const ErrorRow& row : rows) text += row_text(row) + '\n';
-    for (const StabilityRow& row : stability.rows) text += row_text(row) + '\n';
-    for (const StabilityFailure& failure : stability.failures) text += row_text(failure) + '\n';
+    for (StabilityRow row : stability.rows) {
+      row.real_time = row.three_times = 0;
+      text += row_text(row) + '\n';
+    }
+    for (StabilityFailure failure : stability.failures) {
+      failure.outcome.processor = 0.0;
+      text += row_text(failure) + '\n';
+    }
     return text;
   }
 };
