@@ -100,14 +100,8 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
     held_.set_external_wrench(contact_W);
     const dynamics::ControlledStep step = control_.advance(held_, motion, state_.t, h, next, state_.stepping);
     if (!step.accepted) return false;
-    estimates_.position = std::max(estimates_.position, step.position_error);
-    estimates_.angle = std::max(estimates_.angle, step.angle_error);
-    estimates_.omega_dt = std::max(estimates_.omega_dt, step.omega_dt);
-    estimates_.extra_steps += step.steps - 1;
-    estimates_.substeps += step.substeps;
-    estimates_.stops += step.stops;
-    estimates_.fallback += step.fallback;
-    estimates_.energy += step.energy_error;
+    trial_ = {step.position_error, step.angle_error, step.omega_dt, step.steps - 1,
+              step.substeps,       step.stops,       step.fallback, step.energy_error};
     added_ = step.energy_added;
   }
   state_.t += h;
@@ -127,16 +121,21 @@ bool ForkBody::advance_freely(double h, const PathCheck& is_free) {
   return advanced;
 }
 
-void ForkBody::accept() { state_.energy_added += std::exchange(added_, 0.0); }
+void ForkBody::accept() {
+  state_.energy_added += std::exchange(added_, 0.0);
+  estimates_.add(std::exchange(trial_, {}));
+}
 
 void ForkBody::restore(const bodies::TrialStart& start) {
   state_ = start.kept<State>();
   added_ = 0.0;
+  trial_ = {};
 }
 
 void ForkBody::exchange(math::StateArchive& state) {
   state(held_, control_.integrator(), X_SH_, hand_, state_, estimates_, sleep_);
   if (state.sets()) added_ = 0.0;
+  if (state.sets()) trial_ = {};
 }
 
 ForkBody::Jacobian ForkBody::jacobian_W(const Matrix3d& R_WH, double t) const {

@@ -107,8 +107,8 @@ class ForkBody final : public ToolHold {
   RigidTransform X_SH_;         ///< from one grip to the next
   motion::MotionSegment hand_;  ///< of the handle as the hand has it
   State state_;
-  double added_ = 0.0;  ///< energy by the last advance(), which may turn out to have been a trial [J]
-  StepEstimates estimates_;
+  double added_ = 0.0;               ///< energy by the last advance(), which may turn out to have been a trial [J]
+  StepEstimates trial_, estimates_;  ///< the same of what steps say: of that advance(); of those that were none
   /// What a sleeper's rest rests on.
   struct Sleep {
     long version = -1;  ///< of the equations; −1: awake

@@ -111,6 +111,27 @@ class Recordings(unittest.TestCase):
                 self.assertEqual(summary["dropouts"], DROPOUTS.get(name, 0))
                 self.assertEqual(summary["reacquisitions"], DROPOUTS.get(name, 0))
 
+    @recorded
+    def test_every_motion_whatever_the_damping(self):
+        """On a fork that takes the box where it is, metres away with some hands: a stiff lever."""
+        for path in sorted(glob.glob(RECORDED + "/data/motions/*.tum")):
+            with open(path) as file:
+                part = [line.split() for line in file if line.strip() and not line.startswith("#")][:600]
+            for ratio in (1.0, 0.1, 0.05):
+                with self.subTest(path=path, ratio=ratio):
+                    damping = [f"fork.damping.{dof}={ratio}" for dof in ("stretch", "bend", "torsion")]
+                    settings = ["contact=none", "grasp.object=box", "start.follow=true", *damping]
+                    out = os.path.join(self.folder.name, "run.csv")
+                    command = [REPLAY, "--scene", SCENE, "--motion", self.write(part), "--out", out]
+                    for setting in settings:
+                        command += ["--set", setting]
+                    done = subprocess.run(command, capture_output=True, text=True)
+                    self.assertEqual(done.returncode, 0, done.stderr)
+                    summary = json.loads(done.stdout.splitlines()[-1])
+                    self.assertGreater(summary["steps"], 100)
+                    self.assertEqual(summary["steps_rejected"], 0)
+                    self.assertLessEqual(summary["steps_fallback"], 0.01 * summary["steps"])
+
     def write(self, samples):
         path = os.path.join(self.folder.name, "hand.tum")
         with open(path, "w") as file:

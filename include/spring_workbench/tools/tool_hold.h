@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <string>
 
 #include "spring_workbench/bodies/coupled_tool.h"
@@ -9,7 +10,7 @@
 
 namespace spring_workbench::tools {
 
-/// What the steps since the last call said of their errors.
+/// What the steps since the last call said of their errors. Trials that were not gone on from do not count.
 struct StepEstimates {
   double position = 0.0;  ///< [m]
   double angle = 0.0;     ///< [rad]
@@ -19,6 +20,17 @@ struct StepEstimates {
   int stops = 0;          ///< that met the end of the fork's range
   int fallback = 0;       ///< done by an L-stable rule in place of the integrator
   double energy = 0.0;    ///< sum of the estimated errors in energy [J]
+
+  void add(const StepEstimates& next) {
+    position = std::max(position, next.position);
+    angle = std::max(angle, next.angle);
+    omega_dt = std::max(omega_dt, next.omega_dt);
+    extra_steps += next.extra_steps;
+    substeps += next.substeps;
+    stops += next.stops;
+    fallback += next.fallback;
+    energy += next.energy;
+  }
 
   void exchange(math::StateArchive& state) {
     state(position, angle, omega_dt, extra_steps, substeps, stops, fallback, energy);
