@@ -7,18 +7,18 @@
 namespace spring_workbench::motion {
 
 /// [s] between samples, half of what ROS time resolves; one that comes sooner is left out. Test:
-/// PoseTrack.EqualAndBackwardStampsAreLeftOut.
+/// PoseTrack.EqualAndBackwardStampsAreLeftOut at 0.
 constexpr double shortest_interval = 0.5e-9;
-/// [s]; a stamp beyond it is refused. Test: PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas.
+/// [s]; a stamp beyond it is refused. Test: PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas at 0.
 constexpr double farthest_time = 1e12;
-/// [m]; a coordinate beyond it is refused. Test: PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas.
+/// [m]; a coordinate beyond it is refused. Test: PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas at 0.
 constexpr double farthest_position = 1e9;
-/// Of RᵀR − I; what is off by more is no rotation and refused. Test: PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas.
+/// Of RᵀR − I; what is off by more is no rotation and refused. Test: PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas at
+/// 0.
 constexpr double rotation_tolerance = 1e-6;
-/// Over which the figures of a stream are smoothed. Test: StreamMonitor.SaysRateJitterGapsAndAge.
+/// Over which the figures of a stream are smoothed. Test: StreamMonitor.SaysRateJitterGapsAndAge at 5.
 constexpr std::size_t monitored_samples = 50;
-/// [m, rad]; a follower so near to its goal is there. Test:
-/// PoseFollower.ComesToEveryGoalNeverFasterThanAHandAndNeverAway.
+/// [m, rad]; a follower so near to its goal is there. Test: none: no value tried makes one fail.
 constexpr double arrived = 1e-9;
 /// [s] before the newest sample from which a line is fitted. Longer: less noise, more lag. Test: none: not tried yet.
 constexpr double line_window = 0.03;
