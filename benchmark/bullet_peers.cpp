@@ -126,7 +126,7 @@ class BulletSpring2 : public Method {
   bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    const double h = scene.output_interval / steps_per_output(scene, step);
+    const double h = step_length(scene, step);
     BulletWorld world(scene);
     btSphereShape hand_shape(0.01);
     btRigidBody hand(0.0, nullptr, &hand_shape);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -26,6 +27,18 @@ std::optional<double> run_time_for_error(std::vector<CurvePoint> points, double 
     before = &point;
   }
   return std::nullopt;
+}
+
+double first_error(const std::vector<CurvePoint>& points) {
+  const auto cheapest = std::min_element(
+      points.begin(), points.end(), [](const CurvePoint& a, const CurvePoint& b) { return a.run_time < b.run_time; });
+  return cheapest == points.end() ? std::numeric_limits<double>::infinity() : cheapest->error;
+}
+
+double least_error(const std::vector<CurvePoint>& points) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const CurvePoint& point : points) least = std::min(least, point.error);
+  return least;
 }
 
 std::vector<CurvePoint> curve(const std::vector<ErrorRow>& rows, const std::function<bool(const ErrorRow&)>& wanted,

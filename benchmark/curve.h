@@ -19,6 +19,11 @@ struct CurvePoint {
 /// nothing where none is.
 std::optional<double> run_time_for_error(std::vector<CurvePoint> points, double error);
 
+/// The error of the cheapest of the points: a line begins there. Infinite for no points.
+double first_error(const std::vector<CurvePoint>& points);
+/// The least error of the points. Infinite for no points.
+double least_error(const std::vector<CurvePoint>& points);
+
 /// Which of the errors of a row.
 using ErrorMeasure = double ErrorRow::*;
 

@@ -5,6 +5,7 @@
 #include <sundials/sundials_context.h>
 #include <sunlinsol/sunlinsol_dense.h>
 #include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -29,23 +30,29 @@ void ignore_message(int, const char*, const char*, char*, void*) {}
 }  // namespace
 
 struct CvodeIntegrator::Impl {
-  Impl(int size, Rates given) : rates(std::move(given)) {
+  Impl(int size, Rates given, Formula formula) : rates(std::move(given)) {
     require(SUNContext_Create(nullptr, &context), "SUNContext_Create");
     y = N_VNew_Serial(size, context);
     absolute_tolerance = N_VNew_Serial(size, context);
     N_VConst(0.0, y);
     matrix = SUNDenseMatrix(size, size, context);
     linear_solver = SUNLinSol_Dense(y, matrix, context);
-    cvode = CVodeCreate(CV_BDF, context);
+    cvode = CVodeCreate(formula == Formula::bdf ? CV_BDF : CV_ADAMS, context);
     require(CVodeInit(cvode, right_side, 0.0, y), "CVodeInit");
     require(CVodeSetUserData(cvode, &rates), "CVodeSetUserData");
     require(CVodeSetErrHandlerFn(cvode, ignore_message, nullptr), "CVodeSetErrHandlerFn");
     require(CVodeSetMaxNumSteps(cvode, 10000000), "CVodeSetMaxNumSteps");
-    require(CVodeSetLinearSolver(cvode, linear_solver, matrix), "CVodeSetLinearSolver");
+    if (formula == Formula::bdf) {
+      require(CVodeSetLinearSolver(cvode, linear_solver, matrix), "CVodeSetLinearSolver");
+    } else {
+      fixed_point = SUNNonlinSol_FixedPoint(y, 0, context);
+      require(CVodeSetNonlinearSolver(cvode, fixed_point), "CVodeSetNonlinearSolver");
+    }
   }
 
   ~Impl() {
     CVodeFree(&cvode);
+    if (fixed_point != nullptr) SUNNonlinSolFree(fixed_point);
     SUNLinSolFree(linear_solver);
     SUNMatDestroy(matrix);
     N_VDestroy(absolute_tolerance);
@@ -59,11 +66,13 @@ struct CvodeIntegrator::Impl {
   N_Vector absolute_tolerance = nullptr;
   SUNMatrix matrix = nullptr;
   SUNLinearSolver linear_solver = nullptr;
+  SUNNonlinearSolver fixed_point = nullptr;
   void* cvode = nullptr;
   double reached = 0.0;
 };
 
-CvodeIntegrator::CvodeIntegrator(int size, Rates rates) : impl_(std::make_unique<Impl>(size, std::move(rates))) {}
+CvodeIntegrator::CvodeIntegrator(int size, Rates rates, Formula formula)
+    : impl_(std::make_unique<Impl>(size, std::move(rates), formula)) {}
 CvodeIntegrator::~CvodeIntegrator() = default;
 
 void CvodeIntegrator::begin(double t, const std::vector<double>& y, double tolerance,

@@ -1,27 +1,28 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <vector>
 
+#include "benchmark/ode_solver.h"
+
 namespace spring_workbench::benchmark {
 
-/// SUNDIALS CVODE (BDF, Newton, dense Jacobian by differences) on a system of first-order equations.
-class CvodeIntegrator {
+/// SUNDIALS CVODE on a system of first-order equations.
+class CvodeIntegrator final : public OdeSolver {
  public:
-  /// Rates of the state `y` at `t` into `rate`; false where the state is out of the equations' range.
-  using Rates = std::function<bool(double t, const double* y, double* rate)>;
+  enum class Formula {
+    bdf,   ///< Newton, dense Jacobian by differences
+    adams  ///< fixed-point iteration
+  };
 
-  CvodeIntegrator(int size, Rates rates);
-  ~CvodeIntegrator();
+  CvodeIntegrator(int size, Rates rates, Formula formula = Formula::bdf);
+  ~CvodeIntegrator() override;
   CvodeIntegrator(const CvodeIntegrator&) = delete;
   CvodeIntegrator& operator=(const CvodeIntegrator&) = delete;
 
-  /// Begins at `t` with `y`. Tolerances: relative as given, absolute the same times `scale` of each entry.
-  void begin(double t, const std::vector<double>& y, double tolerance, const std::vector<double>& scale);
-  /// Goes on to `t`. What lies beyond `t` is not looked at where `stop_there`; restart() after that where the rates are
-  /// not smooth at `t`. Throws std::runtime_error when CVODE gives up.
-  const double* advance(double t, bool stop_there = false);
+  void begin(double t, const std::vector<double>& y, double tolerance, const std::vector<double>& scale) override;
+  /// restart() after a stop where the rates are not smooth there.
+  const double* advance(double t, bool stop_there = false) override;
   void restart(double t);
 
  private:

@@ -129,7 +129,7 @@ class DartJointSprings : public Method {
   bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    DartWorld world(scene, scene.output_interval / steps_per_output(scene, step));
+    DartWorld world(scene, step_length(scene, step));
     return stepping_loop(
         scene, step, [&](double t, double) { world.step(t); }, [&](double t) { return world.output(t); });
   }

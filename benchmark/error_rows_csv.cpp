@@ -7,20 +7,22 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr const char* kHeader =
-    "scene,stiffness_factor,shape,method,hand,step,tolerance,own_reference,reference_uncertainty,error,angle_error,"
-    "error_over_hand_amplitude,error_over_largest_deflection,wall_us_per_simulated_second,steps_per_second,"
-    "error_over_tolerance,model_error,finite,given_up";
+    "scene,stiffness_factor,mass,shape,method,ours,hand,step,tolerance,own_reference,reference_uncertainty,hand_error,"
+    "largest_deflection,error,angle_error,error_over_hand_amplitude,error_over_largest_deflection,"
+    "wall_us_per_simulated_second,steps_per_second,error_over_tolerance,model_error,finite,steps_fallback,given_up";
 
 }  // namespace
 
 void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out) {
   out << kHeader << '\n' << std::setprecision(6);
   for (const ErrorRow& row : rows) {
-    out << row.scene << ',' << row.stiffness_factor << ',' << row.shape << ',' << row.method << ',' << row.hand << ',';
+    out << row.scene << ',' << row.stiffness_factor << ',' << row.mass << ',' << row.shape << ',' << row.method << ','
+        << row.ours << ',' << row.hand << ',';
     if (row.step > 0.0) out << row.step;
     out << ',';
     if (row.tolerance > 0.0) out << row.tolerance;
-    out << ',' << row.own_reference << ',' << row.reference_uncertainty << ',';
+    out << ',' << row.own_reference << ',' << row.reference_uncertainty << ',' << row.hand_error << ','
+        << row.largest_deflection << ',';
     if (row.finite) {
       out << row.error << ',' << row.angle_error << ',' << row.error_over_hand_amplitude << ','
           << row.error_over_largest_deflection << ',' << row.wall_us_per_simulated_second << ',' << row.steps_per_second
@@ -31,7 +33,7 @@ void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out) {
     } else {
       out << ",,,,,,,";
     }
-    out << ',' << row.finite << ',' << row.given_up << '\n';
+    out << ',' << row.finite << ',' << row.steps_fallback << ',' << row.given_up << '\n';
   }
 }
 

@@ -2,32 +2,56 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::benchmark {
+namespace {
 
-ErrorTablePlan error_table_plan(bool quick) {
-  ErrorTablePlan plan;
+std::vector<Scenario> scenes_of(bool quick) {
   const std::vector<double> springs = quick ? std::vector<double>{1e4} : std::vector<double>{1e2, 1e4, 1e6, 1e8};
   const std::vector<double> twists = quick ? std::vector<double>{1e4} : std::vector<double>{1.0, 1e2, 1e4, 1e6};
   const std::vector<double> factors =
       quick ? std::vector<double>{1.0, 100.0} : std::vector<double>{1.0, 100.0, 1e4, 1e6};
-  for (const double k : springs) plan.scenes.push_back(stretch_scene(k));
-  for (const double k : twists) plan.scenes.push_back(torsion_scene(k));
-  for (const double factor : factors) plan.scenes.push_back(six_dof_scene(factor));
-  plan.outputs_per_step =
-      quick ? std::vector<double>{8, 4, 2} : std::vector<double>{25, 20, 15, 12, 10, 8, 6.5, 5, 4, 3, 2, 1.5};
-  for (int n = 1; n <= 8192; n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
-  for (double tolerance = 1e-3; tolerance > 5e-12; tolerance *= quick ? 1e-2 : 1e-1) {
-    plan.tolerances.push_back(tolerance);
+  std::vector<Scenario> known, sampled;
+  for (const double k : springs) known.push_back(stretch_scene(k));
+  for (const double k : twists) known.push_back(torsion_scene(k));
+  for (const double factor : factors) known.push_back(six_dof_scene(factor));
+  // What a user has: a tracker's poses; soft and stiff, light and heavy.
+  for (const double factor : factors) sampled.push_back(six_dof_scene(factor));
+  if (!quick) {
+    // A tonne on the soft fork would hang metres below the hand, turned round and round.
+    for (const auto& [factor, mass] : {std::pair{1.0, 1e-3}, {1e6, 1e-3}, {1e4, 1e3}, {1e6, 1e3}}) {
+      sampled.push_back(six_dof_scene(factor, 1.0, mass));
+    }
+    sampled.push_back(stretch_scene(1e4));
+    sampled.push_back(torsion_scene(1e4));
   }
-  plan.own_solution_steps = quick ? 32 : 256;
-  plan.longest_run = quick ? 0.002 : 0.025;
-  plan.repetition = quick ? Repetition{1, 0.0025} : Repetition{2, 0.025};
+  if (quick) {
+    for (std::vector<Scenario>* scenes : {&known, &sampled}) {
+      for (Scenario& scene : *scenes) scene.duration = 2.0;
+    }
+  }
+  for (const Scenario& scene : sampled) known.push_back(with_sampled_hand(scene));
+  return known;
+}
+
+}  // namespace
+
+ErrorTablePlan error_table_plan(bool quick) {
+  ErrorTablePlan plan;
+  plan.scenes = scenes_of(quick);
+  plan.outputs_per_step = quick ? std::vector<double>{4} : std::vector<double>{16, 8, 4, 2};
+  for (int n = 1; n <= 8192; n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
+  for (int digits = 0; digits <= 12; digits += quick ? 3 : 1) plan.tolerances.push_back(std::pow(10.0, -digits));
+  plan.own_solution_steps = quick ? 32 : 128;
+  plan.longest_run = quick ? 0.002 : 0.01;
+  plan.repetition = quick ? Repetition{1, 0.0025} : Repetition{2, 0.01};
   return plan;
 }
 
@@ -70,20 +94,25 @@ namespace {
 
 ErrorRow error_row(const Method& method, const Scenario& scene, const ReferenceSolution& reference, double setting,
                    const ErrorTablePlan& plan) {
-  const RunResult run = run_isolated(method, scene, setting, plan.repetition, plan.time_limit);
+  const RunResult run = run_isolated(method, scene, setting, plan.repetition, plan.run_limit);
   ErrorRow row;
   row.scene = scene.name;
   row.stiffness_factor = scene.stiffness_factor;
   row.method = method.name();
-  row.hand = method.hand();
+  row.ours = method.ours();
+  row.mass = scene.mass;
+  row.hand = scene.samples ? "samples" : "function";
   if (method.knob() == Method::Knob::step) {
     row.step = setting;
-    row.steps_per_second =
-        setting > scene.output_interval ? 1.0 / setting : steps_per_output(scene, setting) / scene.output_interval;
+    row.steps_per_second = 1.0 / step_length(scene, setting);
   } else {
     row.tolerance = setting;
   }
   row.reference_uncertainty = reference.uncertainty;
+  row.hand_error = reference.hand_error;
+  row.largest_deflection = reference.largest_deflection;
+  row.steps_fallback = run.steps_fallback;
+  row.given_up = run.given_up;
   row.finite = run.finite && !reference.outputs.empty();
   if (!row.finite) return row;
   row.error = output_error(scene, reference, run.outputs);
@@ -94,6 +123,12 @@ ErrorRow error_row(const Method& method, const Scenario& scene, const ReferenceS
 }
 
 }  // namespace
+
+std::string title_of(const ErrorRow& row) {
+  std::ostringstream title;
+  title << row.scene << " × " << row.stiffness_factor << ", " << row.mass << " kg, hand by " << row.hand;
+  return title.str();
+}
 
 bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run) {
   const ErrorRow& last = rows.back();
@@ -117,21 +152,22 @@ std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, co
   if (method.knob() == Method::Knob::step) {
     settings.clear();
     for (const double n : plan.outputs_per_step) {
-      if (method.dense()) settings.push_back(scene.output_interval * n);
+      if (method.takes_long_steps() && !scene.samples) settings.push_back(scene.output_interval * n);
     }
     for (const int n : plan.steps_per_output) settings.push_back(scene.output_interval / n);
   }
   const bool own = !method.has_scene_law(scene);
-  const ReferenceSolution measured_against =
+  ReferenceSolution measured_against =
       own ? own_solution(method, scene, plan.own_solution_steps, plan.time_limit) : reference;
   const bool comparable = own && !measured_against.outputs.empty() && !reference.outputs.empty();
   const double model_error = comparable ? output_error(scene, reference, measured_against.outputs) : 0.0;
+  measured_against.hand_error = reference.hand_error;
   std::vector<ErrorRow> rows;
   for (const double setting : settings) {
     rows.push_back(error_row(method, scene, measured_against, setting, plan));
     rows.back().own_reference = own;
     rows.back().model_error = model_error;
-    if (line_is_over(rows, plan.longest_run)) break;
+    if (rows.back().given_up || line_is_over(rows, plan.longest_run)) break;
   }
   return rows;
 }
@@ -148,7 +184,7 @@ std::vector<ErrorRow> timed_again(const Method& method, const Scenario& scene, s
   for (ErrorRow& row : rows) {
     if (!row.finite) continue;
     const double setting = method.knob() == Method::Knob::step ? row.step : row.tolerance;
-    const RunResult run = run_isolated(method, scene, setting, plan.repetition, plan.time_limit);
+    const RunResult run = run_isolated(method, scene, setting, plan.repetition, plan.run_limit);
     row.wall_us_per_simulated_second = 1e6 * run.wall_seconds / scene.duration;
   }
   return rows;
@@ -168,7 +204,8 @@ std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, con
     std::optional<ReferenceSolution> reference;
     for (const Method* method : methods) {
       std::ostringstream name;
-      name << scene.name << " × " << scene.stiffness_factor << ' ' << method->name() << ", hand by " << method->hand();
+      name << scene.name << " × " << scene.stiffness_factor << ", " << scene.mass << " kg, hand by "
+           << (scene.samples ? "samples " : "function ") << method->name();
       const auto measure = [&] {
         if (!reference) reference = reference_solution(scene);
         return error_rows(*method, scene, *reference, plan);

@@ -12,13 +12,14 @@ namespace spring_workbench::benchmark {
 /// What an error table covers.
 struct ErrorTablePlan {
   std::vector<Scenario> scenes;
-  std::vector<double> outputs_per_step;  ///< dense methods with a step take output_interval times these
+  std::vector<double> outputs_per_step;  ///< methods that take long steps on a known hand: output_interval times these
   std::vector<int> steps_per_output;     ///< methods with a step take output_interval divided by these
   std::vector<double> tolerances;        ///< methods with a tolerance
   int own_solution_steps = 0;            ///< steps per output of the coarsest of the three runs of own_solution()
   double longest_run = 0.025;            ///< a line ends with the first run that takes longer [s per simulated second]
   Repetition repetition;
-  double time_limit = 20.0;  ///< of a run [s]
+  double run_limit = 2.0;    ///< of a run and its repetitions: given up after that, and so are finer ones [s]
+  double time_limit = 20.0;  ///< of a run for own_solution() [s]
 };
 
 /// The plan for the report: all stiffnesses and steps, or a few of them.
@@ -28,13 +29,19 @@ ErrorTablePlan error_table_plan(bool quick);
 struct ErrorRow {
   std::string scene;
   double stiffness_factor = 1.0;
+  double mass = 0.0;  ///< [kg]
   std::string shape = "bushing";
   std::string method;
-  std::string hand = "function";       ///< how the method knows the hand: as in Method::hand()
+  bool ours = false;
+  /// What everybody knows of the hand: "function" of time, asked for whenever they like, or "samples": the poses of a
+  /// tracker, a motion through which is the same for all.
+  std::string hand = "function";
   double step = 0.0;                   ///< [s]; 0 for a method with a tolerance
   double tolerance = 0.0;              ///< 0 for a method with a step
   bool own_reference = false;          ///< measured against the method's own solution
   double reference_uncertainty = 0.0;  ///< [m or rad]
+  double hand_error = 0.0;             ///< as of ReferenceSolution [m or rad]
+  double largest_deflection = 0.0;     ///< of the reference [m or rad]
   double error = 0.0;                  ///< largest [m; in B rad]
   double angle_error = 0.0;            ///< largest [rad]; of rods alone
   double error_over_hand_amplitude = 0.0;
@@ -44,16 +51,20 @@ struct ErrorRow {
   double error_over_tolerance = 0.0;  ///< of rods run to a tolerance: error_as_length() over it
   double model_error = 0.0;           ///< with `own_reference`: how far that solution is from the exact one [as error]
   bool finite = false;
-  bool given_up = false;  ///< of rods run to a tolerance: not finished in the time that was left for it
+  long steps_fallback = 0;  ///< as of RunResult
+  bool given_up = false;    ///< not finished in the time that was left for it
 };
 
 template <typename Fields>
 void each_field(ErrorRow& r, Fields& fields) {
-  fields(r.scene, r.stiffness_factor, r.shape, r.method, r.hand, r.step, r.tolerance, r.own_reference,
-         r.reference_uncertainty, r.error, r.angle_error, r.error_over_hand_amplitude, r.error_over_largest_deflection,
-         r.wall_us_per_simulated_second, r.steps_per_second, r.error_over_tolerance, r.model_error, r.finite,
-         r.given_up);
+  fields(r.scene, r.stiffness_factor, r.mass, r.shape, r.method, r.ours, r.hand, r.step, r.tolerance, r.own_reference,
+         r.reference_uncertainty, r.hand_error, r.largest_deflection, r.error, r.angle_error,
+         r.error_over_hand_amplitude, r.error_over_largest_deflection, r.wall_us_per_simulated_second,
+         r.steps_per_second, r.error_over_tolerance, r.model_error, r.finite, r.steps_fallback, r.given_up);
 }
+
+/// What a row is about: scene, stiffness, mass and what is known of the hand, for tables and verdicts.
+std::string title_of(const ErrorRow& row);
 
 /// The limit to which a method converges: three runs with steps halved twice from `output_interval / steps`, by
 /// Richardson's extrapolation of the terms in h and h². Its uncertainty is the last correction of that. Where a run is

@@ -94,4 +94,9 @@ Vector3d rigid_output(const Scenario& scene, double t) {
   return hand.p_WT + hand.R_WT * scene.p_EO;
 }
 
+Vector3d scene_output(const Scenario& scene, const RigidTransform& X_WO) {
+  if (scene.kind != SceneKind::torsion) return X_WO.translation();
+  return {0.0, 0.0, math::log_so3(X_WO.linear()).z()};
+}
+
 }  // namespace spring_workbench::benchmark

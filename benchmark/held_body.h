@@ -53,4 +53,7 @@ BodyState start_state(const Scenario& scene);
 /// Where the object would be if the fork were rigid: A and C its centre [m], B (0, 0, twist) [rad].
 Vector3d rigid_output(const Scenario& scene, double t);
 
+/// The same output for an object at `X_WO`.
+Vector3d scene_output(const Scenario& scene, const RigidTransform& X_WO);
+
 }  // namespace spring_workbench::benchmark

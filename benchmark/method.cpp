@@ -1,6 +1,7 @@
 #include "benchmark/method.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 
@@ -14,6 +15,7 @@ constexpr double kBound = 1000.0;  // m or rad
 /// What goes before the outputs.
 struct Header {
   double wall_seconds;
+  long steps_fallback;
   bool finite;
 };
 
@@ -29,7 +31,7 @@ RunResult run_repeatedly(const Method& method, const Scenario& scene, double set
 }
 
 std::string packed(const RunResult& result) {
-  const Header header{result.wall_seconds, result.finite};
+  const Header header{result.wall_seconds, result.steps_fallback, result.finite};
   std::string data(sizeof(header) + result.outputs.size() * sizeof(Vector3d), '\0');
   std::memcpy(data.data(), &header, sizeof(header));
   if (!result.outputs.empty()) {
@@ -46,13 +48,18 @@ bool wants_another(const Repetition& repetition, int runs, double spent) {
 
 RunResult run_isolated(const Method& method, const Scenario& scene, double setting, const Repetition& repetition,
                        double time_limit) {
+  const auto start = std::chrono::steady_clock::now();
   const auto data = validation::run_in_child([&] { return packed(run_repeatedly(method, scene, setting, repetition)); },
                                              {time_limit});
   RunResult result;
-  if (!data) return result;
+  if (!data) {
+    result.given_up = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() >= time_limit;
+    return result;
+  }
   Header header{};
   std::memcpy(&header, data->data(), sizeof(header));
   result.wall_seconds = header.wall_seconds;
+  result.steps_fallback = header.steps_fallback;
   result.finite = header.finite;
   result.outputs.resize((data->size() - sizeof(header)) / sizeof(Vector3d));
   for (std::size_t i = 0; i < result.outputs.size(); ++i) {

@@ -13,7 +13,9 @@ namespace spring_workbench::benchmark {
 struct RunResult {
   std::vector<Vector3d> outputs;  ///< at output_times(scene): A and C centre of mass [m], B (0, 0, twist) [rad]
   double wall_seconds = std::numeric_limits<double>::infinity();  ///< of the stepping loop alone
-  bool finite = false;                                            ///< reached the end, finite and within 1000 m or rad
+  long steps_fallback = 0;  ///< of ours on samples: steps done by the rule that takes over from the integrator
+  bool given_up = false;    ///< at the time limit
+  bool finite = false;      ///< reached the end, finite and within 1000 m or rad
 };
 
 /// A way to simulate the scenes, behind which every peer and every integrator of ours stands.
@@ -26,21 +28,21 @@ class Method {
   /// Name in reports, e.g. "bullet_explicit".
   virtual std::string name() const = 0;
 
+  /// Whether it is one of this package's own.
+  virtual bool ours() const { return false; }
+
   /// What `setting` of run() means: the largest step [s], or a relative tolerance.
   virtual Knob knob() const { return Knob::step; }
-
-  /// How it knows the hand between the 50 Hz samples: "function" (asked for pose and velocity whenever it likes) or
-  /// "samples" (poses alone, as from a tracker). Ours ask for the acceleration as well.
-  virtual std::string hand() const { return "function"; }
 
   /// Whether its own law is that of `Scenario` in this scene. Where it is not (its rotation is parametrised in another
   /// way), its error is taken against its own solution at a tiny step.
   virtual bool has_scene_law(const Scenario&) const { return true; }
 
-  /// Whether it gives outputs between the ends of its steps, so that a step may be longer than the output interval.
-  virtual bool dense() const { return false; }
+  /// Whether its steps may be longer than the interval of the outputs, between which it is then interpolated. Ours end
+  /// at them, as a user's end at samples.
+  virtual bool takes_long_steps() const { return knob() == Knob::step && !ours(); }
 
-  /// One run over the scene. A step divides the output interval, or is longer where dense().
+  /// One run over the scene. A step divides the output interval, or is longer where takes_long_steps().
   virtual RunResult run(const Scenario& scene, double setting) const = 0;
 };
 

@@ -29,7 +29,7 @@ class MujocoWorld {
     model_ = mj_loadXML("model.xml", files.get(), error.data(), static_cast<int>(error.size()));
     mj_deleteVFS(files.get());
     if (model_ == nullptr) throw std::runtime_error(std::string("MuJoCo: ") + error.data());
-    model_->opt.timestep = scene.output_interval / steps_per_output(scene, step);
+    model_->opt.timestep = step_length(scene, step);
     data_ = mj_makeData(model_);
   }
   ~MujocoWorld() {
@@ -140,6 +140,9 @@ class MujocoJoints : public Method {
  public:
   explicit MujocoJoints(mjtIntegrator integrator) : integrator_(integrator) {}
   std::string name() const override {
+#if mjVERSION_HEADER >= 235
+    if (integrator_ == mjINT_IMPLICITFAST) return "mujoco_joints_implicitfast";
+#endif
     return integrator_ == mjINT_EULER ? "mujoco_joints_euler" : "mujoco_joints_implicit";
   }
   bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
@@ -244,6 +247,9 @@ std::vector<MethodPtr> mujoco_peers() {
   peers.push_back(std::make_unique<MujocoForce>(mjINT_RK4));
   peers.push_back(std::make_unique<MujocoJoints>(mjINT_EULER));
   peers.push_back(std::make_unique<MujocoJoints>(mjINT_IMPLICIT));
+#if mjVERSION_HEADER >= 235  // Debian 12 has 2.2.2
+  peers.push_back(std::make_unique<MujocoJoints>(mjINT_IMPLICITFAST));
+#endif
   peers.push_back(std::make_unique<MujocoWeld>());
   return peers;
 }

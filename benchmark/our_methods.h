@@ -7,12 +7,11 @@
 
 namespace spring_workbench::benchmark {
 
-/// The integrators of this package, each of integrator_names(), on the `bushing`, under their own names, twice: once
-/// they know the hand as a function of time, as the peers do (hand() is "function": pose and velocity at the ends of
-/// every step, though of no more than 64 in an output interval), and once by the poses of a 50 Hz tracker alone
-/// ("samples": PoseTrack makes the velocities; the tracker runs since before the start and a sample ahead). The timed
-/// loop holds all of it: the hand at the samples, the segments between them, the steps, the object's pose at the
-/// outputs.
+/// The integrators of this package, each of integrator_names(), on the `bushing`, under their own names, in steps that
+/// end at the outputs. On a sampled hand: simulation::Simulation as its user runs it (run_simulated). On a hand that is
+/// a function of time, which Simulation does not take: the library's integrator on a dynamics::HeldBody and a
+/// motion::FrameMotion, which is asked for pose, velocity and acceleration at the moments that the rule needs, four at
+/// once; the timed loop holds the hand, the steps and the object's pose at the outputs.
 std::vector<MethodPtr> our_methods();
 
 /// Of an integrator of this package by its name. Throws InputError if there is none.

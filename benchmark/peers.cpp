@@ -19,7 +19,8 @@ Peers all_peers() {
   Peers peers;
   append(hand_written_peers(), peers.methods);
   append(cvode_peers(), peers.methods);
-  peers.found.push_back("CVODE " SPRING_WORKBENCH_CVODE_VERSION);
+  append(solver_peers(), peers.methods);
+  peers.found.push_back("CVODE and ARKODE " SPRING_WORKBENCH_CVODE_VERSION);
 #ifdef SPRING_WORKBENCH_BULLET_VERSION
   append(bullet_peers(), peers.methods);
   append(bullet_drags(), peers.drags);

@@ -15,6 +15,10 @@ std::vector<MethodPtr> hand_written_peers();
 /// the deflection, with tolerances that know its size.
 std::vector<MethodPtr> cvode_peers();
 
+/// General methods on the library's own equation of motion: RK4, DOP853, Radau IIA, CVODE by BDF and Adams, ARKODE
+/// explicit and diagonally implicit (solver_run.h).
+std::vector<MethodPtr> solver_peers();
+
 /// Bullet, double precision: the spring as an explicit force, and the 6-DOF spring 2 constraint to a kinematic hand
 /// with its silent stiffness limit on (its default) and off.
 std::vector<MethodPtr> bullet_peers();

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <random>
 #include <sstream>
+#include <tuple>
 
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/names.h"
@@ -13,7 +14,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kOutputInterval = 0.02;  // s
+constexpr double kSampleInterval = 0.02;  // s
 constexpr double kSameTime = 1e-9;        // s
 constexpr double kTwoPi = 6.283185307179586476925286766559;
 
@@ -89,6 +90,27 @@ std::vector<RodCase> bodies_and_forks() {
           with_dofs(soft, "stretch_only", {true, false, false})};
 }
 
+/// The default fork under a light body and about the heaviest that it bears, and stiffer ones: a light body on one a
+/// thousand times as stiff is off by 60 nm at most, beyond which digits end, a tonne wants one a million times as
+/// stiff.
+std::vector<RodCase> soft_and_stiff() {
+  std::vector<RodCase> cases;
+  for (const auto& [name, factor, mass] : {std::tuple{"soft_light", 1.0, 1e-3},
+                                           {"soft_heavy", 1.0, 1.0},
+                                           {"stiff_light", 1e3, 1e-3},
+                                           {"stiff_heavy", 1e6, 1e3}}) {
+    RodCase one;
+    one.name = name;
+    one.stiffness_factor = factor;
+    one.mass = mass;
+    one.inertia *= mass;
+    one.fork.stiffness = {2000.0 * factor, 500.0 * factor, 5.0 * factor};
+    one.shapes = {validation::name_of(one.fork.shape)};
+    cases.push_back(one);
+  }
+  return cases;
+}
+
 }  // namespace
 
 std::vector<motion::PoseSample> read_motion(const std::string& path) {
@@ -111,8 +133,8 @@ std::vector<motion::PoseSample> synthetic_hand(unsigned seed, double duration) {
   for (auto& coordinate : turn) coordinate = one_coordinate(0.4, 2e-3, random);
   const Matrix3d forward_and_up = math::exp_so3(Vector3d(0.0, 1.0, 0.0));
   std::vector<motion::PoseSample> samples;
-  for (int i = 0; i * kOutputInterval < duration + 0.5 * kOutputInterval; ++i) {
-    const double t = i * kOutputInterval;
+  for (int i = 0; i * kSampleInterval < duration + 0.5 * kSampleInterval; ++i) {
+    const double t = i * kSampleInterval;
     motion::PoseSample sample{t, RigidTransform::Identity()};
     Vector3d angle;
     for (int axis = 0; axis < 3; ++axis) {
@@ -128,11 +150,12 @@ std::vector<motion::PoseSample> synthetic_hand(unsigned seed, double duration) {
 std::vector<RodCase> synthetic_cases(bool quick) {
   std::vector<RodCase> cases = bodies_and_forks();
   if (quick) cases = {cases[0], cases[3]};
+  for (RodCase& one : cases) one.shapes = validation::names<rod::ShapeKind>();
+  for (const RodCase& one : soft_and_stiff()) cases.push_back(one);
   unsigned seed = 1;
   for (RodCase& one : cases) {
     one.duration = quick ? 1.0 : 4.0;
     one.hand = synthetic_hand(seed++, one.duration + 0.5);
-    one.shapes = validation::names<rod::ShapeKind>();
   }
   return cases;
 }
@@ -155,14 +178,37 @@ std::vector<RodCase> recorded_cases(const std::string& folder) {
   return there;
 }
 
+RodCase rod_case(const Scenario& scene) {
+  const auto families = [](const Vector6d& of) { return rod::PerDof{of[2], of[0], of[5]}; };
+  RodCase one;
+  one.name = scene.name;
+  one.mass = scene.mass;
+  one.inertia = scene.inertia;
+  one.p_OE = -scene.p_EO;
+  one.fork.length = scene.length;
+  one.fork.stiffness = families(scene.stiffness);
+  one.fork.damping_law = rod::DampingLaw::coefficients;
+  one.fork.damping_coefficient = families(scene.damping);
+  if (scene.kind == SceneKind::six_dof) {
+    one.fork.slope_stiffness = scene.stiffness[3];
+  } else {
+    one.fork.dofs = {scene.kind == SceneKind::stretch, false, scene.kind == SceneKind::torsion};
+  }
+  one.shapes = {"bushing"};
+  if (scene.samples) one.hand = scene.samples->poses();
+  one.duration = scene.duration;
+  one.output_interval = scene.output_interval;
+  return one;
+}
+
 dynamics::HeldBody held_body(const RodCase& one, const std::string& shape) {
   dynamics::BodyInertia inertia;
   inertia.mass = one.mass;
   inertia.inertia_O = one.inertia.asDiagonal();
   inertia.X_OE.translation() = one.p_OE;
-  dynamics::HeldBody body(
-      rod::make_shape_model(validation::named<rod::ShapeKind>(shape, "benchmark", "shape"), one.fork.length), inertia,
-      9.81);
+  dynamics::HeldBody body(rod::make_shape_model(validation::named<rod::ShapeKind>(shape, "benchmark", "shape"),
+                                                one.fork.length, one.fork.slope_stiffness),
+                          inertia, 9.81);
   body.set_springs(one.fork);
   body.set_dofs(one.fork.dofs, 0.0, 1.0, body.zero_state());
   return body;
@@ -191,7 +237,7 @@ double hand_amplitude(const RodCase& one) {
 
 std::vector<double> output_times(const RodCase& one) {
   std::vector<double> times;
-  for (int i = 0; i <= std::lround(one.duration / kOutputInterval); ++i) times.push_back(i * kOutputInterval);
+  for (int i = 0; i <= std::lround(one.duration / one.output_interval); ++i) times.push_back(i * one.output_interval);
   return times;
 }
 

@@ -54,6 +54,16 @@ dynamics::StrainState unpacked(const double* y, int size) {
 
 }  // namespace
 
+std::vector<double> tolerance_scale(const RodCase& one, const dynamics::HeldBody& body) {
+  const int n = body.size();
+  std::vector<double> scale;
+  for (int i = 0; i < 2 * n; ++i) {
+    const double strain = one.mass * 9.81 * one.fork.length / body.stiffness()[i % n];
+    scale.push_back((i < n ? 1.0 : 10.0) * std::min(strain, 1.0));
+  }
+  return scale;
+}
+
 std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& shape, double tolerance) {
   const dynamics::HeldBody body = held_body(one, shape);
   const int n = body.size();
@@ -66,12 +76,8 @@ std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& s
     Eigen::Map<Eigen::VectorXd>(rate + n, n) = body.acceleration(body.forcing(*segment, t), state.q, state.q_dot);
     return true;
   });
-  std::vector<double> y(static_cast<std::size_t>(2 * n), 0.0), scale;
-  for (int i = 0; i < 2 * n; ++i) {
-    const double strain = one.mass * 9.81 * one.fork.length / body.stiffness()[i % n];  // roughly the static one
-    scale.push_back((i < n ? 1.0 : 10.0) * std::min(strain, 1.0));
-  }
-  cvode.begin(0.0, y, tolerance, scale);
+  const std::vector<double> y(static_cast<std::size_t>(2 * n), 0.0);
+  cvode.begin(0.0, y, tolerance, tolerance_scale(one, body));
   std::vector<RigidTransform> poses{body.object(body.forcing(*segment, 0.0), unpacked(y.data(), n)).X};
   const std::vector<double> ends = step_ends(one), times = output_times(one);
   for (std::size_t i = 0; i + 1 < ends.size(); ++i) {

@@ -22,6 +22,9 @@ RodReference rod_reference(const RodCase& one, const std::string& shape);
 /// The same by CVODE for every case.
 std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& shape, double tolerance);
 
+/// The scale of a solver's absolute tolerance for the strain, roughly the static one, and its rate.
+std::vector<double> tolerance_scale(const RodCase& one, const dynamics::HeldBody& body);
+
 /// Largest distance of two trajectories in position [m] and angle [rad].
 struct PoseDistance {
   double position = 0.0;

@@ -1,9 +1,6 @@
 #include "benchmark/rod_table.h"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -11,8 +8,8 @@
 #include "benchmark/our_methods.h"
 #include "benchmark/parallel.h"
 #include "benchmark/rod_reference.h"
-#include "benchmark/simulated_rod.h"
-#include "spring_workbench/dynamics/integrator.h"
+#include "benchmark/solver_run.h"
+#include "spring_workbench/dynamics/settings.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/names.h"
 #include "spring_workbench/validation/run_in_child.h"
@@ -20,15 +17,7 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kSameTime = 1e-9;  // s
 constexpr double kOutputInterval = 0.02;
-
-using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-bool is_bounded(const RigidTransform& X) {
-  return X.matrix().allFinite() && X.translation().cwiseAbs().maxCoeff() < 1000.0;
-}
 
 /// The fastest of some runs.
 template <typename Run>
@@ -53,70 +42,15 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
   }
   for (int n = 1; n <= (quick ? 16 : 1024); n *= quick ? 4 : 2) plan.steps_per_output.push_back(n);
   plan.tolerances = quick ? std::vector<double>{1e-5} : std::vector<double>{1e-3, 1e-4, 1e-5, 1e-6, 1e-7};
-  plan.longest_run = quick ? 0.005 : 0.025;
+  for (int digits = 0; digits <= 12; digits += quick ? 4 : 1) plan.peer_tolerances.push_back(std::pow(10.0, -digits));
+  plan.longest_run = quick ? 0.005 : 0.01;
   plan.tolerance_time_limit = quick ? 0.1 : 1.0;
-  plan.repetition = quick ? Repetition{1, 0.005} : Repetition{3, 0.05};
+  plan.repetition = quick ? Repetition{1, 0.005} : Repetition{2, 0.02};
   return plan;
-}
-
-RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& integrator_name, double step) {
-  const dynamics::HeldBody body = held_body(one, shape);
-  const std::unique_ptr<dynamics::Integrator> integrator = dynamics::make_integrator(
-      validation::named<dynamics::IntegratorKind>(integrator_name, "benchmark", "integrator"));
-  dynamics::StrainState state = body.zero_state();
-  motion::PoseTrack track = hand_track(one);
-  const std::vector<double> ends = step_ends(one), times = output_times(one);
-  RodRun run;
-  run.X_WO.reserve(times.size());
-  run.X_WO.push_back(body.object(body.forcing(track.segment(0.0), 0.0), state).X);
-  const Clock::time_point start = Clock::now();
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    const double span = ends[i + 1] - ends[i];
-    const motion::MotionSegment& segment = track.segment(ends[i] + 0.5 * span);
-    const int count = static_cast<int>(std::ceil(span / step * (1.0 - 1e-9)));
-    const double h = span / count;
-    for (int j = 0; j < count; ++j) integrator->step(body, segment, ends[i] + j * h, h, state);
-    run.steps += count;
-    if (ends[i + 1] < times[run.X_WO.size()] - kSameTime) continue;
-    run.X_WO.push_back(body.object(body.forcing(segment, ends[i + 1]), state).X);
-    if (!is_bounded(run.X_WO.back())) return run;
-  }
-  run.wall_seconds = seconds_since(start);
-  run.finite = true;
-  return run;
-}
-
-RodRun run_rod_to_tolerance(const RodCase& one, const std::string& shape, const std::string& integrator,
-                            double tolerance) {
-  simulation::SimulationSettings settings = rod_settings(one, shape, integrator, kOutputInterval);
-  YAML::Node values;
-  values["tolerance"] = tolerance;
-  simulation::apply_settings(values, "report", settings);
-  simulation::Simulation simulation(rod_scene(one), settings);
-  for (const motion::PoseSample& sample : one.hand) simulation.push_stylus(sample);
-  RodRun run;
-  const std::vector<double> times = output_times(one);
-  run.X_WO.reserve(times.size());
-  const Clock::time_point start = Clock::now();
-  for (const double t : times) {
-    const simulation::AdvanceReport report = simulation.advance(t);
-    run.steps += report.steps;
-    run.X_WO.push_back(simulation.objects()[0].X_WO);
-    if (!is_bounded(run.X_WO.back()) || report.steps_rejected > 0) return run;
-  }
-  run.wall_seconds = seconds_since(start);
-  run.finite = true;
-  return run;
 }
 
 double error_as_length(const RodCase& one, double position, double angle) {
   return std::max(position, angle * std::sqrt(0.5 * one.inertia.sum() / one.mass));
-}
-
-std::size_t line_count(const RodTablePlan& plan) {
-  std::size_t pairs = 0;
-  for (const RodCase& one : plan.cases) pairs += one.shapes.size();
-  return pairs * (1 + validation::names<dynamics::IntegratorKind>().size());
 }
 
 namespace {
@@ -124,14 +58,14 @@ namespace {
 /// What comes before the poses.
 struct Header {
   double wall_seconds;
-  long steps;
+  long steps, steps_fallback;
   bool finite;
 };
 
 using PoseNumbers = Eigen::Matrix<double, 3, 4>;
 
 std::string packed(const RodRun& run) {
-  const Header header{run.wall_seconds, run.steps, run.finite};
+  const Header header{run.wall_seconds, run.steps, run.steps_fallback, run.finite};
   std::string data(reinterpret_cast<const char*>(&header), sizeof(header));
   for (const RigidTransform& X : run.X_WO) {
     const PoseNumbers numbers = X.matrix().topRows<3>();
@@ -146,6 +80,7 @@ RodRun unpacked(const std::string& data) {
   RodRun run;
   run.wall_seconds = header.wall_seconds;
   run.steps = header.steps;
+  run.steps_fallback = header.steps_fallback;
   run.finite = header.finite;
   for (std::size_t at = sizeof(header); at < data.size(); at += sizeof(double) * 12) {
     PoseNumbers numbers;
@@ -157,14 +92,12 @@ RodRun unpacked(const std::string& data) {
 }
 
 /// In a child process, given up after `time_limit` [s].
-RodRun run_rod_to_tolerance_isolated(const RodCase& one, const std::string& shape, const std::string& integrator,
-                                     double tolerance, double time_limit) {
-  const auto data = validation::run_in_child(
-      [&] { return packed(run_rod_to_tolerance(one, shape, integrator, tolerance)); }, {time_limit});
-  if (data) return unpacked(*data);
-  RodRun run;
-  run.given_up = true;
-  return run;
+template <typename Run>
+RodRun run_in_time(double time_limit, Run&& run) {
+  if (const auto data = validation::run_in_child([&] { return packed(run()); }, {time_limit})) return unpacked(*data);
+  RodRun given_up;
+  given_up.given_up = true;
+  return given_up;
 }
 
 std::vector<std::pair<const RodCase*, std::string>> pairs_of(const std::vector<RodCase>& cases) {
@@ -203,7 +136,7 @@ RodReference own_limit(const RodCase& one, const std::string& shape, const std::
                        const RodReference& exact) {
   constexpr int kStepsPerOutput = 64;
   RodRun runs[3];
-  for (int i = 0; i < 3; ++i) runs[i] = run_rod(one, shape, integrator, kOutputInterval / (kStepsPerOutput << i));
+  for (int i = 0; i < 3; ++i) runs[i] = run_simulated(one, shape, integrator, kOutputInterval / (kStepsPerOutput << i));
   RodReference limit = exact;
   limit.X_WO = extrapolated(runs[1], runs[2]);
   limit.uncertainty = largest_distance(limit.X_WO, extrapolated(runs[0], runs[1])).position;
@@ -213,25 +146,20 @@ RodReference own_limit(const RodCase& one, const std::string& shape, const std::
 class Line {
  public:
   Line(const RodTablePlan& plan, const RodCase& one, const std::string& shape, const RodReference& exact,
-       const std::string& integrator)
-      : plan_(plan), case_(one), shape_(shape), exact_(exact), integrator_(integrator) {}
+       const std::string& method)
+      : plan_(plan), case_(one), shape_(shape), exact_(exact), method_(method), reference_(exact) {}
 
+  /// Of one of ours.
   std::vector<ErrorRow> rows() {
-    own_ = !solves_the_equation_of_motion(integrator_);
-    reference_ = own_ ? own_limit(case_, shape_, integrator_, exact_) : exact_;
+    own_ = !solves_the_equation_of_motion(method_);
+    if (own_) reference_ = own_limit(case_, shape_, method_, exact_);
     model_error_ = largest_distance(reference_.X_WO, exact_.X_WO).position;
-    std::vector<ErrorRow> all, rows;
-    for (const int n : plan_.steps_per_output) {
-      const double step = kOutputInterval / n;
-      rows.push_back(row(fastest(plan_.repetition, [&] { return run_rod(case_, shape_, integrator_, step); })));
-      rows.back().step = step;
-      if (line_is_over(rows, plan_.longest_run)) break;
-    }
-    all.insert(all.end(), rows.begin(), rows.end());
-    rows.clear();
+    std::vector<ErrorRow> all = rows_by_step([&](double step) { return run_simulated(case_, shape_, method_, step); });
+    std::vector<ErrorRow> rows;
     for (const double tolerance : plan_.tolerances) {
-      rows.push_back(
-          row(run_rod_to_tolerance_isolated(case_, shape_, integrator_, tolerance, plan_.tolerance_time_limit)));
+      rows.push_back(row(run_in_time(plan_.tolerance_time_limit, [&] {
+        return run_simulated(case_, shape_, method_, kOutputInterval, tolerance);
+      })));
       ErrorRow& last = rows.back();
       last.tolerance = tolerance;
       if (last.given_up) break;
@@ -239,15 +167,44 @@ class Line {
       if (1e-6 * rows.back().wall_us_per_simulated_second > plan_.longest_run) break;
     }
     all.insert(all.end(), rows.begin(), rows.end());
+    for (ErrorRow& row : all) row.ours = true;
     return all;
   }
 
+  /// Of a general method.
+  std::vector<ErrorRow> peer_rows() const {
+    const auto run = [&](double setting) { return run_solver(case_, shape_, method_, setting); };
+    if (takes_step(method_)) return rows_by_step(run);
+    std::vector<ErrorRow> rows;
+    for (const double tolerance : plan_.peer_tolerances) {
+      rows.push_back(row(run_in_time(plan_.tolerance_time_limit,
+                                     [&] { return fastest(plan_.repetition, [&] { return run(tolerance); }); })));
+      rows.back().tolerance = tolerance;
+      if (rows.back().given_up || line_is_over(rows, plan_.longest_run)) break;
+    }
+    return rows;
+  }
+
  private:
+  template <typename Run>
+  std::vector<ErrorRow> rows_by_step(Run&& run) const {
+    std::vector<ErrorRow> rows;
+    for (const int n : plan_.steps_per_output) {
+      const double step = kOutputInterval / n;
+      rows.push_back(row(fastest(plan_.repetition, [&] { return run(step); })));
+      rows.back().step = step;
+      if (line_is_over(rows, plan_.longest_run)) break;
+    }
+    return rows;
+  }
+
   ErrorRow row(const RodRun& run) const {
     ErrorRow r;
     r.scene = case_.name;
     r.shape = shape_;
-    r.method = integrator_;
+    r.stiffness_factor = case_.stiffness_factor;
+    r.mass = case_.mass;
+    r.method = method_;
     r.hand = "samples";
     r.own_reference = own_;
     r.model_error = model_error_;
@@ -258,9 +215,11 @@ class Line {
     const PoseDistance distance = largest_distance(run.X_WO, reference_.X_WO);
     r.error = distance.position;
     r.angle_error = distance.angle;
+    r.largest_deflection = reference_.largest_deflection;
     r.error_over_hand_amplitude = r.error / hand_amplitude(case_);
     r.error_over_largest_deflection = r.error / reference_.largest_deflection;
     r.wall_us_per_simulated_second = 1e6 * run.wall_seconds / case_.duration;
+    r.steps_fallback = run.steps_fallback;
     r.steps_per_second = static_cast<double>(run.steps) / case_.duration;
     return r;
   }
@@ -269,13 +228,27 @@ class Line {
   const RodCase& case_;
   const std::string& shape_;
   const RodReference& exact_;
-  const std::string& integrator_;
+  const std::string& method_;
   RodReference reference_;    ///< what it is measured against
   bool own_ = false;          ///< its own limit
   double model_error_ = 0.0;  ///< how far that is from the exact one [m]
 };
 
+/// Whether general methods run a pair, too: the default shape, or that of a recording.
+bool has_peers(const RodCase& one, const std::string& shape) {
+  return shape == validation::name_of(rod::ForkSettings().shape) || !one.recorded.empty();
+}
+
 }  // namespace
+
+std::size_t line_count(const RodTablePlan& plan) {
+  std::size_t lines = 0;
+  for (const auto& [one, shape] : pairs_of(plan.cases)) {
+    lines +=
+        1 + validation::names<dynamics::IntegratorKind>().size() + (has_peers(*one, shape) ? solver_names().size() : 0);
+  }
+  return lines;
+}
 
 std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units) {
   const auto pairs = pairs_of(plan.cases);
@@ -287,6 +260,13 @@ std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units) {
       Line line(plan, *one, shape, references[i], integrator);
       const std::vector<ErrorRow> rows =
           units.rows<ErrorRow>(i, one->name + ' ' + shape + ' ' + integrator, [&] { return line.rows(); });
+      all.insert(all.end(), rows.begin(), rows.end());
+    }
+    if (!has_peers(*one, shape)) continue;
+    for (const std::string& solver : solver_names()) {
+      const Line line(plan, *one, shape, references[i], solver);
+      const std::vector<ErrorRow> rows =
+          units.rows<ErrorRow>(i, one->name + ' ' + shape + ' ' + solver, [&] { return line.peer_rows(); });
       all.insert(all.end(), rows.begin(), rows.end());
     }
   }

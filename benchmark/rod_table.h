@@ -10,9 +10,10 @@ namespace spring_workbench::benchmark {
 /// What the table of rod cases covers.
 struct RodTablePlan {
   std::vector<RodCase> cases;
-  std::vector<int> steps_per_output;  ///< largest steps of 0.02 s over these; a step also ends at every sample
-  std::vector<double> tolerances;     ///< [m]; with integrators that choose their steps
-  double longest_run = 0.025;         ///< as in ErrorTablePlan [s per simulated second]
+  std::vector<int> steps_per_output;    ///< largest steps of 0.02 s over these; a step also ends at every sample
+  std::vector<double> tolerances;       ///< [m]; with integrators that choose their steps
+  std::vector<double> peer_tolerances;  ///< of general methods
+  double longest_run = 0.025;           ///< as in ErrorTablePlan [s per simulated second]
   double tolerance_time_limit = 1.0;  ///< a run to a tolerance that takes longer is given up, and so are finer ones [s]
   Repetition repetition;
 };
@@ -20,24 +21,9 @@ struct RodTablePlan {
 /// The synthetic cases, and the recorded ones where `recorded_folder` has them.
 RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder);
 
-/// One run of an integrator with the largest step `step` [s], on the body and the integrator alone; the timed loop
-/// holds the segments between the samples, the steps and the poses at the outputs.
-struct RodRun {
-  std::vector<RigidTransform> X_WO;  ///< at output_times(one)
-  double wall_seconds = 0.0;
-  long steps = 0;
-  bool finite = false;
-  bool given_up = false;  ///< at the time limit
-};
-RodRun run_rod(const RodCase& one, const std::string& shape, const std::string& integrator, double step);
-
-/// The same with a tolerance [m] that chooses the steps, through Simulation.
-RodRun run_rod_to_tolerance(const RodCase& one, const std::string& shape, const std::string& integrator,
-                            double tolerance);
-
 /// Number of units of progress, and the rows of all: every integrator × shape × step of every case, with hand()
-/// "samples". A unit of work is an integrator's line; the lines of a case and shape, which share a reference, are one
-/// shard's.
+/// "samples"; with the default shape general methods beside them. A unit of work is a method's line; the lines of a
+/// case and shape, which share a reference, are one shard's.
 std::size_t line_count(const RodTablePlan& plan);
 std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units);
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "benchmark/sine_and_cosine.h"
+#include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -159,20 +160,51 @@ SPRING_WORKBENCH_INLINE HandAcceleration acceleration(const HandleMotion<double>
 
 }  // namespace
 
-ScalarMotion scalar_hand(const Scenario& scene, double t) { return scalar_motion(scene, t); }
-SPRING_WORKBENCH_WIDE void scalar_hand(const Scenario& scene, const math::Pack& t, math::Pack& values) {
-  values = scalar_motion(scene, t).value;
+namespace {
+
+HandState state(const motion::OwnAxesMotion& m) { return {m.X.linear(), m.X.translation(), m.v_W, m.w_B}; }
+
+}  // namespace
+
+ScalarMotion scalar_hand(const Scenario& scene, double t) {
+  if (!scene.samples) return scalar_motion(scene, t);
+  const motion::OwnAxesMotion m = scene.samples->tip(t).in_own_axes(t);
+  if (scene.kind == SceneKind::stretch) return {m.X.translation().z(), m.v_W.z(), m.a_W.z()};
+  return {math::log_so3(m.X.linear()).z(), m.w_B.z(), m.alpha_B.z()};
 }
 
-HandState hand_state(const Scenario& scene, double t) { return state(tip_motion(scene, t)); }
-HandAcceleration hand_acceleration(const Scenario& scene, double t) { return acceleration(tip_motion(scene, t)); }
-HandState handle_state(const Scenario& scene, double t) { return state(motion_of_handle(scene, t)); }
+HandState hand_state(const Scenario& scene, double t) {
+  return scene.samples ? state(scene.samples->tip(t).in_own_axes(t)) : state(tip_motion(scene, t));
+}
+HandAcceleration hand_acceleration(const Scenario& scene, double t) {
+  if (!scene.samples) return acceleration(tip_motion(scene, t));
+  const motion::OwnAxesMotion m = scene.samples->tip(t).in_own_axes(t);
+  return {m.a_W, m.alpha_B};
+}
+HandState handle_state(const Scenario& scene, double t) {
+  return scene.samples ? state(scene.samples->handle(t).in_own_axes(t)) : state(motion_of_handle(scene, t));
+}
 HandAcceleration handle_acceleration(const Scenario& scene, double t) {
-  return acceleration(motion_of_handle(scene, t));
+  if (!scene.samples) return acceleration(motion_of_handle(scene, t));
+  const motion::OwnAxesMotion m = scene.samples->handle(t).in_own_axes(t);
+  return {m.a_W, m.alpha_B};
 }
 HandleMotion<double> handle_motion(const Scenario& scene, double t) { return motion_of_handle(scene, t); }
 SPRING_WORKBENCH_WIDE void handle_motion(const Scenario& scene, const math::Pack& t, HandleMotion<math::Pack>& out) {
   out = motion_of_handle(scene, t);
+}
+
+Scenario with_sampled_hand(Scenario scene) {
+  scene.samples.reset();
+  std::vector<motion::PoseSample> poses;
+  constexpr int beyond = 2;  // so that the last interval has its velocities
+  for (std::size_t i = 0; i < output_times(scene).size() + beyond; ++i) {
+    const double t = static_cast<double>(i) * scene.output_interval;
+    const HandState handle = handle_state(scene, t);
+    poses.push_back({t, make_transform(Quaterniond(handle.R_WT), handle.p_WT)});
+  }
+  scene.samples = std::make_shared<const SampledHand>(std::move(poses), scene.length);
+  return scene;
 }
 
 std::vector<double> output_times(const Scenario& scene) {
@@ -184,6 +216,10 @@ std::vector<double> output_times(const Scenario& scene) {
 
 int steps_per_output(const Scenario& scene, double step) {
   return static_cast<int>(std::ceil(scene.output_interval / step * (1.0 - 1e-9)));
+}
+
+double step_length(const Scenario& scene, double step) {
+  return step > scene.output_interval ? step : scene.output_interval / steps_per_output(scene, step);
 }
 
 double hand_amplitude(const Scenario& scene) {

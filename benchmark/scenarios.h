@@ -1,8 +1,10 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "benchmark/sampled_hand.h"
 #include "spring_workbench/math/pack.h"
 
 namespace spring_workbench::benchmark {
@@ -29,18 +31,21 @@ enum class SceneKind {
 struct Scenario {
   std::string name;  ///< "A", "B" or "C"
   SceneKind kind = SceneKind::six_dof;
-  double stiffness_factor = 1.0;          ///< over the scene's nominal stiffness (A: 1e4 N/m, B: 1e4 N·m/rad)
-  double mass = 1.0;                      ///< [kg]
-  Vector3d inertia = Vector3d::Ones();    ///< about and in O, principal [kg m²]
-  Vector3d p_EO = Vector3d::Zero();       ///< centre of mass seen from the tip [m]
-  double length = 0.2;                    ///< L of the fork [m]: where H is; the motion does not depend on it
-  double damping_ratio = 1.0;             ///< ζ of every family
+  double stiffness_factor = 1.0;        ///< over the scene's nominal stiffness (A: 1e4 N/m, B: 1e4 N·m/rad)
+  double mass = 1.0;                    ///< [kg]
+  Vector3d inertia = Vector3d::Ones();  ///< about and in O, principal [kg m²]
+  Vector3d p_EO = Vector3d::Zero();     ///< centre of mass seen from the tip [m]
+  double length = 0.2;                  ///< L of the fork [m]: where H is; a known hand's motion does not depend on it
+  double damping_ratio = 1.0;           ///< ζ of every family
   Vector6d stiffness = Vector6d::Zero();  ///< of dx, dy, dz [N/m], φx, φy, φz [N·m/rad]; unused ones are 0
   Vector6d damping = Vector6d::Zero();    ///< of dx, dy, dz [N·s/m], φx, φy, φz [N·m·s/rad]
   double gravity = 9.81;                  ///< [m/s²]
   double duration = 4.0;                  ///< [s]
   double output_interval = 0.02;          ///< [s]; outputs at 0, 0.02, …, duration
   double settled_after = 0.1;             ///< errors are measured after this time [s]
+  /// Where the hand is known by the poses of a tracker alone: those, and the motion through them. Null where it is
+  /// known as a function of time.
+  std::shared_ptr<const SampledHand> samples;
 
   /// The one coordinate of scenes A and B as an index of q: 2 or 5.
   int single_coordinate() const { return kind == SceneKind::stretch ? 2 : 5; }
@@ -60,6 +65,10 @@ Scenario torsion_scene(double k, double damping_ratio = 1.0);
 /// α = 0.6 sin(2π 1.1 t), β = 0.6 sin(2π 1.4 t + 1) rad.
 /// The box may have another mass.
 Scenario six_dof_scene(double stiffness_factor, double damping_ratio = 1.0, double mass = 5.0);
+
+/// The same scene on a hand that is known by the poses of a tracker alone, one each output interval: everybody gets the
+/// C¹ motion through them, with the velocities that the library makes of them.
+Scenario with_sampled_hand(Scenario scene);
 
 /// Pose and velocity of the tip's rest frame T.
 struct HandState {
@@ -82,8 +91,8 @@ HandAcceleration hand_acceleration(const Scenario& scene, double t);
 HandState handle_state(const Scenario& scene, double t);
 HandAcceleration handle_acceleration(const Scenario& scene, double t);
 
-/// All of the handle frame's motion, at one moment (`S` double) or at four (Pack). Vectors in the axes of W, w and
-/// alpha in those of H.
+/// All of the handle frame's motion where it is a function of time, at one moment (`S` double) or at four (Pack).
+/// Vectors in the axes of W, w and alpha in those of H.
 template <typename S>
 struct HandleMotion {
   math::ThreeByThree<S> R_WH;
@@ -100,14 +109,16 @@ struct ScalarMotionOf {
 };
 using ScalarMotion = ScalarMotionOf<double>;
 ScalarMotion scalar_hand(const Scenario& scene, double t);
-/// Its values at four times.
-void scalar_hand(const Scenario& scene, const math::Pack& t, math::Pack& values);
 
 /// Output times: 0, output_interval, …, duration.
 std::vector<double> output_times(const Scenario& scene);
 
 /// Number of equal steps in an output interval for a largest step of `step` [s].
 int steps_per_output(const Scenario& scene, double step);
+
+/// Length of the steps of a run in steps of at most `step` [s]: it divides the output interval, or is `step` where that
+/// is longer.
+double step_length(const Scenario& scene, double step);
 
 /// What errors are relative to: the hand's amplitude, 0.1 m, 0.8 rad or 0.15 m.
 double hand_amplitude(const Scenario& scene);

@@ -26,9 +26,7 @@ StabilityCount count_stable(const Method& method, SceneKind kind) {
   return count;
 }
 
-bool has_stability_counts(const Method& method) {
-  return method.knob() == Method::Knob::step && method.hand() == "function";
-}
+bool has_stability_counts(const Method& method) { return method.knob() == Method::Knob::step; }
 
 std::vector<StabilityCount> stability_table(const std::vector<const Method*>& methods, Units& units) {
   std::vector<StabilityCount> counts;

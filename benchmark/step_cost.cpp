@@ -1,7 +1,10 @@
 #include "benchmark/step_cost.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "benchmark/least_time.h"
-#include "benchmark/scenarios.h"
+#include "benchmark/simulated_rod.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/validation/names.h"
 
@@ -9,6 +12,7 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr int calls = 200;
+constexpr double interval = 0.02;  // s
 
 motion::MotionSegment hand_of(const Scenario& scene, double t) {
   const auto sample = [&](double at) {
@@ -77,6 +81,64 @@ void add(const std::string& shape, const rod::ForkDofs& dofs, std::vector<StepCo
   });
 }
 
+/// Simulation on the default fork with the hand of a tracker all known, at the end of the first 20 ms of the grasp or
+/// before it.
+simulation::Simulation simulation_of(const RodCase& one, bool grasped) {
+  simulation::Simulation simulation(rod_scene(one), rod_settings(one, "linear", "exponential", interval));
+  for (const motion::PoseSample& sample : one.hand) simulation.push_stylus(sample);
+  if (grasped) simulation.advance(interval);
+  return simulation;
+}
+
+/// Mean cost [ns] of 20 ms of Simulation after a `change` before each of them, the least of some runs.
+template <typename Change>
+double advance_cost(const RodCase& one, Change&& change) {
+  constexpr int runs = 5;
+  double best = std::numeric_limits<double>::infinity();
+  for (int run = 0; run < runs; ++run) {
+    simulation::Simulation simulation = simulation_of(one, true);
+    const double begin = thread_nanoseconds();
+    for (int i = 2; i < calls; ++i) {
+      change(simulation, i % 2 == 0);
+      simulation.advance(i * interval);
+    }
+    best = std::min(best, (thread_nanoseconds() - begin) / (calls - 2));
+  }
+  return best;
+}
+
+/// The same for the 20 ms that begin with a grasp.
+double grasp_cost(const RodCase& one) {
+  double best = std::numeric_limits<double>::infinity();
+  for (int run = 0; run < calls; ++run) {
+    simulation::Simulation simulation = simulation_of(one, false);
+    const double begin = thread_nanoseconds();
+    simulation.advance(interval);
+    best = std::min(best, thread_nanoseconds() - begin);
+  }
+  return best;
+}
+
+/// What a user pays who runs Simulation, contact off, and changes something.
+void add_advances(std::vector<StepCost>& costs) {
+  RodCase one;
+  one.name = "default fork";
+  one.hand = synthetic_hand(1, (calls + 2) * interval);
+  const auto note = [&](const char* part, double nanoseconds) { costs.push_back({"linear", 6, part, nanoseconds}); };
+  note("advance by 20 ms", advance_cost(one, [](simulation::Simulation&, bool) {}));
+  note("advance after a change of stiffness", advance_cost(one, [](simulation::Simulation& simulation, bool even) {
+         simulation::ForkChange change;
+         change.bend_stiffness = even ? 500.0 : 510.0;
+         simulation.change(change);
+       }));
+  note("advance after a switch of DOFs", advance_cost(one, [](simulation::Simulation& simulation, bool even) {
+         simulation::ForkChange change;
+         change.dofs = rod::ForkDofs{true, true, even};
+         simulation.change(change);
+       }));
+  note("advance after a grasp", grasp_cost(one));
+}
+
 }  // namespace
 
 std::vector<StepCost> step_costs() {
@@ -97,6 +159,7 @@ std::vector<StepCost> step_costs() {
     add(shape, {true, true, true}, costs);
     add(shape, {true, false, false}, costs);
   }
+  add_advances(costs);
   return costs;
 }
 

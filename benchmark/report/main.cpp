@@ -1,11 +1,13 @@
 // report [--quick] [--out DIR]
 // report [--quick] --shard I/N > PART
 // report [--out DIR] --merge PART...
+// report [--quick] [--out DIR] --scene SCENE (--bag FILE | --motion FILE...) [--settings FILE]
 // Error against run time of our integrators, shape models and the peers that were found,
-// and the stability map, as CSV, pictures, one page and a table of verdicts.
+// and the stability map, as CSV, pictures, one page and a table of verdicts; or that of a recording of one's own.
 #include <iostream>
 
 #include "benchmark/report/options.h"
+#include "benchmark/report/recording.h"
 #include "benchmark/report/report.h"
 #include "benchmark/report/run_facts.h"
 #include "spring_workbench/validation/input_error.h"
@@ -14,7 +16,8 @@ int main(int argc, char** argv) {
   using namespace spring_workbench;
   try {
     const benchmark::ReportOptions options = benchmark::parse_report_options(argc, argv);
-    benchmark::make_report(options, benchmark::command_of(argc, argv), std::cout, std::cerr);
+    const auto make = options.of_recording() ? benchmark::report_recording : benchmark::make_report;
+    make(options, benchmark::command_of(argc, argv), std::cout, std::cerr);
     return 0;
   } catch (const validation::InputError& error) {
     std::cerr << "report: " << error.what() << '\n';

@@ -24,6 +24,25 @@ Shard shard_of(const std::string& text) {
   return shard;
 }
 
+/// Where the path behind an argument that is about a recording goes; null for other arguments.
+std::string* path_of_recording(const std::string& argument, ReportOptions& options) {
+  if (argument == "--scene") return &options.scene;
+  if (argument == "--bag") return &options.bag;
+  if (argument == "--settings") return &options.settings;
+  if (argument == "--motion") return &options.motions.emplace_back();
+  return nullptr;
+}
+
+void check_recording(const ReportOptions& options) {
+  if (options.scene.empty() != (options.bag.empty() && options.motions.empty())) {
+    validation::refuse(kWhere, "--scene, --bag, --motion", "one without the other", "a scene and a bag or motions");
+  }
+  if (options.scene.empty() && !options.settings.empty())
+    validation::refuse(kWhere, "--settings", options.settings, "given with --scene");
+  if (options.of_recording() && (options.shard || !options.parts.empty()))
+    validation::refuse(kWhere, "--scene", "together with --shard or --merge", "without: it is one report by itself");
+}
+
 }  // namespace
 
 ReportOptions parse_report_options(int argc, char** argv) {
@@ -38,15 +57,22 @@ ReportOptions parse_report_options(int argc, char** argv) {
       if (!has_value) validation::refuse(kWhere, "--out", "(nothing)", "a folder to write to");
       options.out = argv[++i];
       has_out = true;
+    } else if (std::string* field = path_of_recording(argument, options)) {
+      if (!has_value) validation::refuse(kWhere, argument, "(nothing)", "a path");
+      *field = argv[++i];
     } else if (argument == "--shard") {
       options.shard = shard_of(has_value ? argv[++i] : "(nothing)");
     } else if (argument == "--merge") {
       if (!has_value) validation::refuse(kWhere, "--merge", "(nothing)", "the files of all shards");
       while (i + 1 < argc && std::string(argv[i + 1]).rfind("--", 0) != 0) options.parts.emplace_back(argv[++i]);
     } else {
-      validation::refuse(kWhere, "argument", argument, "one of --quick, --out DIR, --shard I/N, --merge PART...");
+      validation::refuse(
+          kWhere, "argument", argument,
+          "one of --quick, --out DIR, --shard I/N, --merge PART..., --scene FILE, --bag FILE, --motion FILE, "
+          "--settings FILE");
     }
   }
+  check_recording(options);
   if (options.shard && has_out)
     validation::refuse(kWhere, "--shard, --out", "both", "one of both: a shard goes to the standard output");
   if (!options.parts.empty() && (options.shard || options.quick)) {

@@ -1,8 +1,12 @@
 #!/usr/bin/env python3
 """Draws the report's pictures from its CSV files, without a display.
-Usage: plot_report.py scene    error_table.csv PICTURE.png SCENE    a column per stiffness, a row per measure of error
-       plot_report.py overview error_table.csv PICTURE.png          scene C x 1 and x 100: ours and the best of each
-       peer plot_report.py rods     rod_table.csv PICTURE.png            a panel per case, a line per integrator
+Usage: plot_report.py scene    error_table.csv PICTURE.png SCENE HAND    a column per stiffness and
+       mass, a row per measure of error
+       plot_report.py overview rod_table.csv PICTURE.png contact_drag.csv
+                                                                    the default rod, soft and stiff, light and heavy,
+                                                                    beside general methods; contact beside engines
+       plot_report.py recording recording.csv PICTURE.png           a line per integrator
+       plot_report.py rods     rod_table.csv PICTURE.png            a panel per case, a line per integrator
        plot_report.py shapes   elastica.csv PICTURE.png rod_table.csv  error of the model beside that of integration
        plot_report.py tolerance rod_table.csv PICTURE.png           error reached against tolerance asked
        plot_report.py stability stability_map.csv PICTURE.png contact_extremes.csv
@@ -31,15 +35,6 @@ OURS = ["#d62728", "#1f77b4", "#2ca02c", "#9467bd", "#8c564b", "#e377c2", "#17be
 PEERS = ["#ff7f0e", "#7f7f7f", "#2ca02c", "#1f77b4", "#9467bd", "#8c564b", "#17becf", "#bcbd22"]
 DEFAULT = "exponential"
 MARKERS = "s^vD<>pPX*hd"
-ENGINES = {
-    "bullet": "Bullet",
-    "mujoco": "MuJoCo",
-    "ode": "ODE",
-    "dart": "DART",
-    "cvode": "CVODE",
-    "hand": "hand-written",
-}
-
 
 def read(path):
     with open(path, encoding="utf-8", newline="") as file:
@@ -103,134 +98,124 @@ def save(figure, picture, legend_from, right=False):
 
 
 def our_names(rows):
-    return in_order(row["method"] for row in rows if row["hand"] == "samples")
+    return in_order(row["method"] for row in rows if row["ours"] == "1")
 
 
 def styles(rows):
-    """Ours bold and in full, by poses alone dashed; peers thin with open markers."""
+    """Ours bold; peers thin with open markers."""
     ours = our_names(rows)
     peers = in_order(row["method"] for row in rows if row["method"] not in ours)
     style = {}
     for i, name in enumerate(ours):
-        colour = OURS[i % len(OURS)]
-        style[name, "function"] = dict(
-            color=colour, linewidth=2.4, marker="o", markersize=4, zorder=3, label=f"{name} (ours)"
-        )
-        style[name, "samples"] = dict(
-            color=colour,
-            linewidth=1.6,
-            linestyle=":",
-            marker=".",
-            markersize=4,
-            zorder=3,
-            label=f"{name} (ours),\nhand by 50 Hz poses alone",
+        style[name] = dict(
+            color=OURS[i % len(OURS)], linewidth=2.4, marker="o", markersize=4, zorder=3, label=f"{name} (ours)"
         )
     tab20 = pyplot.get_cmap("tab20").colors
     for i, name in enumerate(peers):
-        style[name, "function"] = dict(
+        style[name] = dict(
             color=tab20[i % 20], marker=MARKERS[i % len(MARKERS)], linewidth=0.9, markersize=3.5, zorder=2, label=name
         )
     return style
 
 
-def scene(table, picture, name):
-    rows = [row for row in by_step(read(table)) if row["scene"] == name]
+def scene(table, picture, name, hand):
+    rows = [row for row in by_step(read(table)) if row["scene"] == name and row["hand"] == hand]
     if not rows:
-        sys.exit(f"plot_report.py: no finite run of scene {name} in {table}")
+        sys.exit(f"plot_report.py: no finite run of scene {name} with the hand by {hand} in {table}")
     style = styles(rows)
-    factors = sorted({float(row["stiffness_factor"]) for row in rows})
+    places = sorted({(float(row["mass"]), float(row["stiffness_factor"])) for row in rows})
     figure, panels = pyplot.subplots(
         len(MEASURES),
-        len(factors),
-        figsize=(2.9 + max(6.0, 3.8 * len(factors)), 10.0),
+        len(places),
+        figsize=(2.9 + max(6.0, 3.8 * len(places)), 10.0),
         sharex="col",
         sharey="row",
         squeeze=False,
     )
     for line_of_panels, (measure, label) in zip(panels, MEASURES.items()):
-        for axes, factor in zip(line_of_panels, factors):
-            here = [row for row in rows if float(row["stiffness_factor"]) == factor]
-            for (method, hand), look in style.items():
-                line = points([r for r in here if (r["method"], r["hand"]) == (method, hand)], measure)
-                draw_line(axes, line, **look)
+        for axes, place in zip(line_of_panels, places):
+            here = [row for row in rows if (float(row["mass"]), float(row["stiffness_factor"])) == place]
+            for method, look in style.items():
+                draw_line(axes, points([r for r in here if r["method"] == method], measure), **look)
             log_axes(axes, ylim=(0.5 * LEAST_ERROR, 10.0))
         line_of_panels[0].set_ylabel(label)
-    for axes, factor in zip(panels[0], factors):
-        axes.set_title(f"scene {name}, stiffness × {factor:g}")
+    for axes, (mass, factor) in zip(panels[0], places):
+        axes.set_title(f"scene {name}, stiffness × {factor:g}, {mass:g} kg")
     for axes in panels[-1]:
         axes.set_xlabel(TIME_LABEL)
     save(figure, picture, panels[0], right=True)
 
 
-def merit(line, error=1e-6):
-    """Decades of run time that an error of 1e-6 costs, by a power law between two points; a line that does not reach it
-    comes after all that do, by the best of its error times run time."""
-    line = sorted(line)
-    for (t0, e0), (t1, e1) in zip(line, line[1:]):
-        if e0 > error >= e1:
-            return math.log10(t0) + math.log10(t1 / t0) * math.log10(e0 / error) / math.log10(e0 / e1)
-    if line and line[0][1] <= error:
-        return math.log10(line[0][0])
-    return 20.0 + min((math.log10(t) + math.log10(e) for t, e in line), default=20.0)
+SOLVERS = "solver_"  # how general methods on our equation of motion are called
 
 
-def overview(table, picture):
-    rows = [
-        row for row in by_step(read(table)) if row["scene"] == "C" and float(row["stiffness_factor"]) in (1.0, 100.0)
-    ]
-    ours = our_names(rows)
-    figure, panels = pyplot.subplots(1, 2, figsize=(12.0, 5.0), sharey=True)
-    lines = defaultdict(dict)
-    for row in rows:
-        key = (row["method"], row["hand"])
-        lines[key].setdefault(float(row["stiffness_factor"]), []).append(row)
-    measure = "error_over_hand_amplitude"
-    total = {key: sum(merit(points(found.get(f, []), measure)) for f in (1.0, 100.0)) for key, found in lines.items()}
-    chosen = [
-        (
-            (DEFAULT, "function"),
-            dict(color=OURS[0], linewidth=3, marker="o", markersize=5, zorder=4, label=f"{DEFAULT} (ours)"),
-        ),
-        (
-            (DEFAULT, "samples"),
-            dict(
-                color=OURS[0],
-                linewidth=1.6,
-                linestyle=":",
-                marker="o",
-                markersize=3,
-                zorder=3,
-                label="the same, the hand known\nby 50 Hz poses alone",
-            ),
-        ),
-    ]
-    groups = {
-        prefix: [key for key in lines if key[0] not in ours and key[0].split("_")[0] == prefix] for prefix in ENGINES
-    }
-    groups = {prefix: keys for prefix, keys in groups.items() if keys}
-    for i, (prefix, keys) in enumerate(groups.items()):
-        cheapest = min(keys, key=total.get)
-        rest = cheapest[0][len(prefix) + 1 :].replace("_", " ")
-        chosen.append(
-            (
-                cheapest,
-                dict(
-                    color=PEERS[i % len(PEERS)],
-                    linewidth=1.3,
-                    marker=MARKERS[i],
-                    markersize=4,
-                    zorder=2,
-                    label=f"{ENGINES[prefix]}: {rest}",
-                ),
-            )
-        )
-    for axes, factor in zip(panels, (1.0, 100.0)):
-        for key, look in chosen:
-            line = points(lines[key].get(factor, []), measure)
-            draw_line(axes, line if key[1] == "samples" else best(line), **look)
-        log_axes(axes, title=f"scene C, stiffness × {factor:g}", xlabel=TIME_LABEL, ylim=(1e-11, 3.0))
-    panels[0].set_ylabel(MEASURES[measure])
-    save(figure, picture, panels, right=True)
+def rod_panel(axes, rows, name):
+    """The default method and the general ones on a rod under a tracked hand."""
+    here = [row for row in rows if row["scene"] == name and row["shape"] == "linear"]
+    methods = in_order(row["method"] for row in here if row["method"].startswith(SOLVERS))
+    for i, method in enumerate(methods):
+        line = points([row for row in here if row["method"] == method], "error_over_largest_deflection")
+        look = dict(color=PEERS[i % len(PEERS)], marker=MARKERS[i], linewidth=1.1, markersize=4, zorder=2)
+        draw_line(axes, line, label=method[len(SOLVERS) :].replace("_", " "), **look)
+    line = points([row for row in here if row["method"] == DEFAULT], "error_over_largest_deflection")
+    draw_line(axes, line, color=OURS[0], marker="o", linewidth=3, markersize=5, zorder=3, label=f"{DEFAULT} (ours)")
+    one = here[0]
+    log_axes(
+        axes,
+        title=f"rod, stiffness × {float(one['stiffness_factor']):g}, {float(one['mass']):g} kg",
+        ylim=(1e-11, 10.0),
+    )
+    axes.set_xlabel(TIME_LABEL)
+    axes.set_ylabel("largest error / largest deflection")
+
+
+def drag_panel(axes, rows, factor):
+    """Ours, bold, and the engines on a box that is pressed on a plane and dragged."""
+    here = [r for r in rows if r["finite"] == "1" and float(r["stiffness_factor"]) == factor and r["box"] == "turns"]
+    ours = ("stop", "dynamic")
+    for i, method in enumerate(in_order(row["method"] for row in here)):
+        line = [
+            (float(r["cpu_us_per_simulated_second"]), max(1e-2 * float(r["lag_error_percent"]), LEAST_ERROR))
+            for r in here
+            if r["method"] == method
+        ]
+        if method in ours:
+            look = dict(color=OURS[0], linewidth=3, markersize=5, marker="o")
+            look["linestyle"] = "-" if method == "stop" else "--"
+            label = f"contact: {method} (ours)"
+        else:
+            colour = pyplot.get_cmap("tab20").colors[2 * i % 20 + 1]
+            look = dict(color=colour, linewidth=1.1, markersize=4, marker=MARKERS[i % len(MARKERS)])
+            label = "contact: " + method.replace("_", " ")
+        draw_line(axes, line, label=label, **look)
+    log_axes(axes, title=f"dragged with friction, stiffness × {factor:g}")
+    axes.set_xlabel("processor time [µs per simulated second]")
+    axes.set_ylabel("error of the lag / lag")
+
+
+def overview(table, picture, drags):
+    rows, contact_rows = by_step(read(table)), read(drags)
+    figure, panels = pyplot.subplots(2, 3, figsize=(16.5, 8.6))
+    names = (("soft_light", "stiff_light"), ("soft_heavy", "stiff_heavy"))
+    factors = sorted({float(row["stiffness_factor"]) for row in contact_rows})
+    for line, of_line, factor in zip(panels, names, (factors[0], factors[-1])):
+        for axes, name in zip(line, of_line):
+            rod_panel(axes, rows, name)
+        drag_panel(line[2], contact_rows, factor)
+    save(figure, picture, [axes for line in panels for axes in line], right=True)
+
+
+def recording(table, picture):
+    rows = read(table)
+    figure, axes = pyplot.subplots(figsize=(9.0, 5.0))
+    for i, name in enumerate(in_order(row["integrator"] for row in rows)):
+        line = [(float(r[TIME]), max(float(r["error"]), LEAST_ERROR)) for r in rows if r["integrator"] == name]
+        draw_line(axes, line, color=OURS[i % len(OURS)], marker="o", linewidth=1.8, markersize=4, label=name)
+    uncertainty = float(rows[0]["reference_uncertainty"])
+    if uncertainty > 0.0:
+        axes.axhline(uncertainty, color="#7f7f7f", linestyle=":", label="what the reference is good for")
+    log_axes(axes, title="the recording, every setting", xlabel=TIME_LABEL, ylabel="largest error of a position [m]")
+    save(figure, picture, [axes], right=True)
 
 
 def grid(count):
@@ -246,16 +231,16 @@ def grid(count):
 def rods(table, picture):
     rows = [row for row in by_step(read(table)) if row["shape"] in ("linear", "constant")]
     names = in_order(row["scene"] for row in rows)
-    methods = in_order(row["method"] for row in rows)
+    style = styles(rows)
     figure, panels = grid(len(names))
     for axes, name in zip(panels, names):
         here = [row for row in rows if row["scene"] == name]
         shape = "linear" if any(row["shape"] == "linear" for row in here) else "constant"
-        for i, method in enumerate(methods):
+        for method, look in style.items():
             line = points(
                 [r for r in here if r["method"] == method and r["shape"] == shape], "error_over_largest_deflection"
             )
-            draw_line(axes, line, color=OURS[i % len(OURS)], marker="o", markersize=3.5, linewidth=1.8, label=method)
+            draw_line(axes, line, **look)
         log_axes(axes, title=f"{name}\n({shape})", xlabel=TIME_LABEL, ylim=(1e-12, 10.0))
         axes.set_ylabel("largest error / largest deflection")
     save(figure, picture, panels)
@@ -475,6 +460,7 @@ KINDS = {
     "contact": contact,
     "scene": scene,
     "overview": overview,
+    "recording": recording,
     "rods": rods,
     "shapes": shapes,
     "tolerance": tolerance,

@@ -23,12 +23,6 @@ std::string text(const T& value) {
   return out.str();
 }
 
-std::string column_of(const ErrorRow& row) { return row.scene + " × " + text(row.stiffness_factor); }
-
-std::string line_of(const ErrorRow& row) {
-  return row.method + (row.hand == "samples" ? " (hand by 50 Hz poses alone)" : "");
-}
-
 bool one_per_sample(const ErrorRow& row) { return std::abs(row.step - kOnePerSample) < 1e-9; }
 
 }  // namespace
@@ -36,16 +30,16 @@ bool one_per_sample(const ErrorRow& row) { return std::abs(row.step - kOnePerSam
 std::string run_time_for_error_csv(const std::vector<ErrorRow>& rows, double error, ErrorMeasure measure) {
   std::vector<std::string> columns, lines;
   for (const ErrorRow& row : rows) {
-    add_new(column_of(row), columns);
-    add_new(line_of(row), lines);
+    add_new(title_of(row), columns);
+    add_new(row.method, lines);
   }
   std::ostringstream csv;
   csv << "method";
-  for (const std::string& column : columns) csv << ',' << column;
+  for (const std::string& column : columns) csv << ",\"" << column << '"';
   for (const std::string& line : lines) {
     csv << '\n' << line;
     for (const std::string& column : columns) {
-      const auto wanted = [&](const ErrorRow& row) { return line_of(row) == line && column_of(row) == column; };
+      const auto wanted = [&](const ErrorRow& row) { return row.method == line && title_of(row) == column; };
       const auto time = run_time_for_error(curve(rows, wanted, measure), error);
       csv << ',' << (time ? text(*time) : "-");
     }

@@ -10,9 +10,8 @@
 
 namespace spring_workbench::benchmark {
 
-/// For each scene and stiffness (columns) and method (rows) the run time [µs per simulated second] that an error of
-/// `error` in `measure` costs, as CSV; "-" where no setting reaches it. A method of ours that knows the hand by samples
-/// alone says so.
+/// For each scene as title_of() names it (columns) and method (rows) the run time [µs per simulated second] that an
+/// error of `error` in `measure` costs, as CSV; "-" where no setting reaches it.
 std::string run_time_for_error_csv(const std::vector<ErrorRow>& rows, double error, ErrorMeasure measure);
 
 /// Rod cases (rows) by integrator (columns): error over the largest deflection with one step per sample and what it

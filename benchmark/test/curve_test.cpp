@@ -47,6 +47,7 @@ ErrorRow row(const std::string& method, double time, double error, bool finite =
   ErrorRow r;
   r.scene = "C";
   r.stiffness_factor = 100.0;
+  r.mass = 5.0;
   r.method = method;
   r.wall_us_per_simulated_second = time;
   r.error = r.error_over_hand_amplitude = error;
@@ -55,15 +56,19 @@ ErrorRow row(const std::string& method, double time, double error, bool finite =
   return r;
 }
 
-TEST(Curve, TableOfRunTimesHasALineForEachMethodAndTellsWhoKnowsTheHandByPosesAlone) {
+TEST(Curve, TableOfRunTimesHasALineForEachMethodAndAColumnForEachSceneMassAndHand) {
   std::vector<ErrorRow> rows = {row("m", 1.0, 1e-2), row("m", 100.0, 1e-6), row("m", 2.0, 0.0, false),
                                 row("n", 7.0, 1e-3)};
   rows.push_back(row("m", 9.0, 1e-4));
   rows.back().hand = "samples";
+  rows.push_back(row("n", 3.0, 1e-5));
+  rows.back().mass = 2.0;
   EXPECT_EQ(run_time_for_error_csv(rows, 1e-4, &ErrorRow::error_over_hand_amplitude),
-            "method,C × 100\nm,10\nn,-\nm (hand by 50 Hz poses alone),9\n");
+            "method,\"C × 100, 5 kg, hand by function\",\"C × 100, 5 kg, hand by samples\","
+            "\"C × 100, 2 kg, hand by function\"\nm,10,9,-\nn,-,-,3\n");
   EXPECT_EQ(run_time_for_error_csv(rows, 1e-5, &ErrorRow::error_over_largest_deflection),
-            "method,C × 100\nm,100\nn,-\nm (hand by 50 Hz poses alone),-\n");
+            "method,\"C × 100, 5 kg, hand by function\",\"C × 100, 5 kg, hand by samples\","
+            "\"C × 100, 2 kg, hand by function\"\nm,100,-,-\nn,-,-,-\n");
 }
 
 TEST(ErrorTable, ALineEndsAtItsFloorAtItsReferenceOrWhenItTakesTooLong) {

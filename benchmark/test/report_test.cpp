@@ -1,13 +1,20 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
 #include <random>
 #include <sstream>
 
 #include "benchmark/report/html.h"
 #include "benchmark/report/page.h"
+#include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/validation/names.h"
 #include "support/paths.h"
 
 namespace spring_workbench::benchmark {
@@ -81,6 +88,11 @@ TEST(Report, RefusesBadArgumentsInOneLineThatNamesArgumentValueAndRule) {
       {"--merge", {"--merge", "(nothing)", "files"}},
       {"--quick --merge /dev/null", {"--merge", "--quick", "the files say"}},
       {"--out ''", {"--out", "(nothing)", "folder"}},
+      {"--bag", {"--bag", "(nothing)", "path"}},
+      {"--bag x.bag", {"--scene, --bag, --motion", "one without the other", "a scene and"}},
+      {"--scene s.urdf", {"--scene, --bag, --motion", "one without the other", "a scene and"}},
+      {"--settings s.yaml", {"--settings", "s.yaml", "--scene"}},
+      {"--scene s.urdf --bag x.bag --shard 1/2", {"--scene", "--shard", "by itself"}},
       {"--out /dev/null/x", {"--out", "/dev/null/x", "folder"}},
   };
   for (const auto& [arguments, words] : cases) {
@@ -89,6 +101,50 @@ TEST(Report, RefusesBadArgumentsInOneLineThatNamesArgumentValueAndRule) {
     EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
     for (const std::string& word : words) EXPECT_NE(outcome.output.find(word), std::string::npos) << outcome.output;
   }
+}
+
+TEST(Report, ARecordingHasALineForEachIntegratorAndStepWhoseErrorFallsWithIt) {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("report_" + std::to_string(getpid()));
+  std::filesystem::create_directories(folder);
+  std::ofstream motion(folder / "hand.tum");
+  for (int i = 0; i <= 50; ++i) {
+    const double t = 0.02 * i;
+    motion << t << ' ' << 0.05 * std::sin(8.0 * t) << " 0 " << 0.5 + 0.02 * std::sin(11.0 * t) << " 0 1 0 0\n";
+  }
+  motion.close();
+  std::ofstream(folder / "own settings.yaml")
+      << "{contact: none, grasp: {object: box, tip_in_object: [0, 0, 0, 0, 1, 0, 0]}, start: {follow: true}}\n";
+  const Outcome outcome = report("--quick --scene '" + test_support::checkout("scenes/single_box.urdf") +
+                                 "' --motion '" + (folder / "hand.tum").string() + "' --settings '" +
+                                 (folder / "own settings.yaml").string() + "' --out '" + folder.string() + "'");
+  ASSERT_EQ(outcome.code, 0) << outcome.output;
+  std::ifstream table(folder / "recording.csv");
+  std::map<std::string, std::vector<double>> errors;
+  for (std::string line; std::getline(table, line);) {
+    if (line[0] == '#' || line.rfind("integrator,", 0) == 0) continue;
+    std::istringstream in(line);
+    std::string name, step, error;
+    std::getline(in, name, ',');
+    std::getline(in, step, ',');
+    std::getline(in, error, ',');
+    errors[name].push_back(std::stod(error));
+  }
+  EXPECT_EQ(errors.size(), validation::names<dynamics::IntegratorKind>().size());
+  for (const auto& [name, of_it] : errors) {
+    ASSERT_EQ(of_it.size(), 2U) << name;
+    const auto kind = validation::named<dynamics::IntegratorKind>(name, "test", "integrator");
+    if (!dynamics::make_integrator(kind)->stiffly_stable()) continue;
+    EXPECT_LT(of_it[1], of_it[0]) << name;
+  }
+  EXPECT_LT(errors.at("exponential")[1], 1e-6);
+  EXPECT_GT(errors.at("implicit_euler")[1], 1e-5);
+  std::filesystem::remove_all(folder);
+}
+
+TEST(Report, ARecordingThatReplayRefusesIsToldInItsWords) {
+  const Outcome outcome = report("--scene /nowhere.urdf --motion /nowhere.tum --out .");
+  EXPECT_EQ(outcome.code, 1);
+  EXPECT_NE(outcome.output.find("/nowhere.tum: cannot be read"), std::string::npos) << outcome.output;
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ TEST(RodCases, ReferenceAgreesWithRungeKuttaAtATinyStepInEveryShape) {
     const RodReference reference = rod_reference(one, shape);
     EXPECT_LT(reference.uncertainty, 1e-8) << shape;
     EXPECT_GT(reference.largest_deflection, 1e-3) << shape;
-    const PoseDistance distance = largest_distance(run_rod(one, shape, "rk4", 5e-5).X_WO, reference.X_WO);
+    const PoseDistance distance = largest_distance(run_simulated(one, shape, "rk4", 5e-5).X_WO, reference.X_WO);
     EXPECT_LT(distance.position, 1e-8) << shape;
     EXPECT_LT(distance.angle, 1e-7) << shape;
   }
@@ -100,19 +100,6 @@ TEST(RodCases, ReferenceMeetsTheRecordedTrajectoriesOfAnotherSolver) {
   const std::vector<RodCase> recorded = recorded_cases(folder);
   EXPECT_EQ(recorded.size(), 9u);
   for (const RodCase& one : recorded) expect_to_meet_its_trajectory(one);
-}
-
-TEST(RodCases, SimulationRunsTheSameCase) {
-  const RodCase one = case_called("soft_6dof", 0.4);
-  const RodRun bare = run_rod(one, "linear", "rk4", 1e-3);
-  simulation::Simulation simulation(rod_scene(one), rod_settings(one, "linear", "rk4", 1e-3));
-  for (const motion::PoseSample& sample : one.hand) simulation.push_stylus(sample);
-  std::vector<RigidTransform> poses;
-  for (const double t : output_times(one)) {
-    simulation.advance(t);
-    poses.push_back(simulation.objects()[0].X_WO);
-  }
-  EXPECT_LT(largest_distance(bare.X_WO, poses).position, 1e-12);
 }
 
 TEST(Elastica, ExactSolutionSatisfiesItsDifferentialEquation) {

@@ -45,10 +45,10 @@ struct Work {
   /// Little of each; no line ends by its run time.
   Work() {
     scenes.scenes.resize(2);
-    scenes.outputs_per_step = {4};
     scenes.steps_per_output = {1, 4};
     scenes.longest_run = rods.longest_run = std::numeric_limits<double>::infinity();
     scenes.repetition = rods.repetition = {};
+    scenes.run_limit = rods.tolerance_time_limit = 60.0;
     for (std::size_t i = 0; i < 3; ++i) methods.push_back(ours[i].get());
     rods.cases.resize(1);
     rods.cases[0].shapes.resize(2);

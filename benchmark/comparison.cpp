@@ -1,0 +1,71 @@
+#include "benchmark/comparison.h"
+
+#include <algorithm>
+#include <limits>
+#include <sstream>
+
+namespace spring_workbench::benchmark {
+namespace {
+
+constexpr const char* kOurs = "exponential";
+
+}  // namespace
+
+std::string ErrorTarget::text() const {
+  std::ostringstream out;
+  out << error
+      << (measure == &ErrorRow::error_over_hand_amplitude ? " of the amplitude" : " of the largest deflection");
+  return out.str();
+}
+
+std::optional<double> Pair::ratio() const {
+  if (ours && peer_time) return *peer_time / *ours;
+  if (ours) return std::numeric_limits<double>::infinity();
+  if (peer_time) return 0.0;
+  return std::nullopt;
+}
+
+double SceneRows::share_of_deflection(const ErrorTarget& target) const {
+  if (target.measure == &ErrorRow::error_over_largest_deflection) return target.error;
+  for (const ErrorRow& row : rows) {
+    if (row.finite && row.error > 0.0 && !row.own_reference) {
+      return target.error * row.error / row.error_over_hand_amplitude / row.largest_deflection;
+    }
+  }
+  return 0.0;
+}
+
+std::vector<Pair> SceneRows::pairs(const ErrorTarget& target,
+                                   const std::function<bool(const std::string&)>& wanted) const {
+  const auto line_of = [&](const std::string& method) {
+    return curve(
+        rows, [&](const ErrorRow& row) { return row.method == method; }, target.measure);
+  };
+  const std::vector<CurvePoint> ours = line_of(kOurs);
+  std::vector<Pair> pairs;
+  for (const ErrorRow& row : rows) {
+    const auto same = [&](const Pair& pair) { return pair.peer == row.method; };
+    if (row.ours || !wanted(row.method) || std::any_of(pairs.begin(), pairs.end(), same)) continue;
+    const std::vector<CurvePoint> line = line_of(row.method);
+    const double error = std::min(target.error, std::max(first_error(line), least_error(ours)));
+    pairs.push_back({row.method, error, run_time_for_error(ours, error), run_time_for_error(line, error)});
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    const double none = std::numeric_limits<double>::infinity();
+    return std::pair(!a.ratio(), a.ratio().value_or(none)) < std::pair(!b.ratio(), b.ratio().value_or(none));
+  });
+  return pairs;
+}
+
+std::vector<SceneRows> by_scene(const std::vector<ErrorRow>& rows) {
+  std::vector<SceneRows> scenes;
+  for (const ErrorRow& row : rows) {
+    auto found = std::find_if(scenes.begin(), scenes.end(),
+                              [&](const SceneRows& scene) { return title_of(scene.rows[0]) == title_of(row); });
+    if (found == scenes.end()) found = scenes.insert(scenes.end(), SceneRows{});
+    found->rows.push_back(row);
+  }
+  return scenes;
+}
+
+}  // namespace spring_workbench::benchmark

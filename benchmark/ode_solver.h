@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace spring_workbench::benchmark {
+
+/// A general solver of y' = f(t, y) that chooses its steps.
+class OdeSolver {
+ public:
+  /// Rates of the state `y` at `t` into `rate`; false where the state is out of the equations' range.
+  using Rates = std::function<bool(double t, const double* y, double* rate)>;
+
+  virtual ~OdeSolver() = default;
+
+  /// Begins at `t` with `y`. Tolerances: relative as given, absolute the same times `scale` of each entry.
+  virtual void begin(double t, const std::vector<double>& y, double tolerance, const std::vector<double>& scale) = 0;
+  /// Goes on to `t` and interpolates; what lies beyond `t` is not looked at where `stop_there`: the rates need not be
+  /// continuous at `t` then. The state is good until the next call. Throws std::runtime_error when it gives up.
+  virtual const double* advance(double t, bool stop_there) = 0;
+};
+
+/// Twelve stages of order eight with error estimates of order five and three and dense output of order seven (Dormand
+/// and Prince; Hairer, Nørsett and Wanner, Solving ODEs I, II.5 and II.10), up to twelve equations.
+std::unique_ptr<OdeSolver> make_dop853(int size, OdeSolver::Rates rates);
+
+/// The three-stage Radau IIA method of order five with simplified Newton iteration (Hairer and Wanner, Solving ODEs II,
+/// IV.8), Jacobian by differences, dense output by the collocation polynomial, up to twelve equations.
+std::unique_ptr<OdeSolver> make_radau(int size, OdeSolver::Rates rates);
+
+/// SUNDIALS ARKODE of order five with dense output, explicit or diagonally implicit (Newton, dense Jacobian by
+/// differences).
+std::unique_ptr<OdeSolver> make_arkode(bool implicit, int size, OdeSolver::Rates rates);
+
+}  // namespace spring_workbench::benchmark

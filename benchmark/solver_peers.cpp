@@ -1,0 +1,33 @@
+#include <utility>
+
+#include "benchmark/function_hand.h"
+#include "benchmark/peers.h"
+#include "benchmark/solver_run.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+class SolverPeer : public Method {
+ public:
+  explicit SolverPeer(std::string name) : name_(std::move(name)) {}
+  std::string name() const override { return name_; }
+  Knob knob() const override { return takes_step(name_) ? Knob::step : Knob::tolerance; }
+
+  RunResult run(const Scenario& scene, double setting) const override {
+    const FunctionHand hand(scene);
+    return as_result(scene, run_solver(rod_case(scene), "bushing", name_, setting, scene.samples ? nullptr : &hand));
+  }
+
+ private:
+  std::string name_;
+};
+
+}  // namespace
+
+std::vector<MethodPtr> solver_peers() {
+  std::vector<MethodPtr> peers;
+  for (const std::string& name : solver_names()) peers.push_back(std::make_unique<SolverPeer>(name));
+  return peers;
+}
+
+}  // namespace spring_workbench::benchmark
