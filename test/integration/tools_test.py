@@ -138,7 +138,8 @@ class Tools(unittest.TestCase):
         self.hand.run(2.0)
         fork = self.fork.next()
         gyration = math.sqrt((0.1**2 + 0.06**2 + 0.04**2) / 18.0)
-        self.assertAlmostEqual(fork.length, 7.0 * gyration, delta=1e-9)
+        of_water = math.sqrt(0.4) * (3.0 / (4000.0 * math.pi)) ** (1.0 / 3.0)  # radius of gyration of a ball of 1 kg
+        self.assertAlmostEqual(fork.length, 7.0 * math.sqrt(gyration * of_water), delta=1e-9)
         self.assertAlmostEqual(fork.stretch, 0.1 * fork.length, delta=1e-3 * fork.length)
         self.assertAlmostEqual(self.box().pose.position.z, before, delta=1e-5)
 
