@@ -152,7 +152,7 @@ SOLVERS = "solver_"  # how general methods on our equation of motion are called
 def rod_panel(axes, rows, name):
     """The default method and the general ones on a rod under a tracked hand."""
     here = [row for row in rows if row["scene"] == name and row["shape"] == "linear"]
-    methods = in_order(row["method"] for row in here if row["method"].startswith(SOLVERS))
+    methods = sorted({row["method"] for row in rows if row["method"].startswith(SOLVERS)})
     for i, method in enumerate(methods):
         line = points([row for row in here if row["method"] == method], "error_over_largest_deflection")
         look = dict(color=PEERS[i % len(PEERS)], marker=MARKERS[i], linewidth=1.1, markersize=4, zorder=2)
@@ -173,7 +173,7 @@ def drag_panel(axes, rows, factor):
     """Ours, bold, and the engines on a box that is pressed on a plane and dragged."""
     here = [r for r in rows if r["finite"] == "1" and float(r["stiffness_factor"]) == factor and r["box"] == "turns"]
     ours = ("stop", "dynamic")
-    for i, method in enumerate(in_order(row["method"] for row in here)):
+    for i, method in enumerate(in_order(row["method"] for row in rows)):
         line = [
             (float(r["cpu_us_per_simulated_second"]), max(1e-2 * float(r["lag_error_percent"]), LEAST_ERROR))
             for r in here

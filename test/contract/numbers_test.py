@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Every number in a document that has a marker is what its table says (benchmark/report/numbers.py)."""
+"""Every number in a document that has a marker is what its table says (benchmark/report/document_numbers.py)."""
 import importlib.util
 import pathlib
 import subprocess
@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-PROGRAM = ROOT / "benchmark/report/numbers.py"
+PROGRAM = ROOT / "benchmark/report/document_numbers.py"
 spec = importlib.util.spec_from_file_location("numbers_of_documents", PROGRAM)
 numbers = importlib.util.module_from_spec(spec)
 spec.loader.exec_module(numbers)

@@ -8,8 +8,8 @@ document is shown:
 `the` wants one row alone. `times X` at the end gives another unit. The number is the last one before the marker, and
 must be what the table says, rounded to as many digits as it has.
 
-Usage: numbers.py            tells numbers that are stale, and markers that say nothing; status 1 where there are any
-       numbers.py --write    puts the tables' numbers in"""
+Usage: document_numbers.py            tells stale numbers and markers that say nothing; status 1 if there are any
+       document_numbers.py --write    puts the tables' numbers in"""
 import csv
 import math
 import pathlib
