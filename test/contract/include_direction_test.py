@@ -37,7 +37,6 @@ EXECUTABLES = {  # folders of executables, which have no module of their own: wh
 ENTRIES = {
     "hand_input": {
         "feed.h": {"live", "assembly", "apps"},
-        "accepted.h": {"live"},
         "settings.h": {"manipulation", "live", "apps"},
         "local_time.h": {"ros_common"},
     }

@@ -24,7 +24,7 @@ from std_srvs.srv import Trigger
 from stack import DEADLINE, DOWN, Hand, Launched, Listener, kill_and_wait, pid_of, slave_api, wait_for
 
 SCENE = "scene:=package://spring_workbench/scenes/single_box.urdf"
-STACK = ["workbench.launch", SCENE, "tracker:=false", "rviz:=false", "respawn:=true"]
+STACK = ["workbench.launch", SCENE, "tracker:=false", "rviz:=false", "calibrate:=none", "respawn:=true"]
 SERVICES = {
     "set_dofs": SetForkDofs,
     "set_stiffness": SetForkStiffness,

@@ -42,7 +42,7 @@ class LaunchFiles(unittest.TestCase):
         ):
             is_there = lambda m: (
                 m.objects[0].held
-                and m.objects[0].pose.position.z > 0.15
+                and m.objects[0].pose.position.z > 0.12
                 and abs(m.objects[0].pose.position.x - 0.2) < 0.01
             )
             objects.next(is_there, "the box to be lifted and carried")

@@ -1,16 +1,38 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <vector>
 
-#include "spring_workbench/hand_input/accepted.h"
 #include "spring_workbench/hand_input/local_time.h"
 #include "spring_workbench/hand_input/reacquisition.h"
 #include "spring_workbench/hand_input/sample_gate.h"
+#include "spring_workbench/math/rigid_transform.h"
 #include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench::hand_input {
+
+/// One thing that a feed gave to its simulation. The same things in the same order, each once the simulation has gone
+/// to the same time, give the same future, bit by bit.
+struct Accepted {
+  enum class Kind {
+    pose,         ///< of the handle at time `t`, as it is followed
+    button_down,  ///< the grasp button, at time `t`
+    button_up,
+    next_tool,  ///< the second button, at time `t`
+    lost,       ///< the hand lets go of what it holds, for it was lost until `t`
+    rest,       ///< nothing: all hands rested until `t`
+  };
+
+  Kind kind = Kind::rest;
+  std::size_t hand = 0;
+  double t = 0.0;                                               ///< [s]
+  RigidTransform X_WH = RigidTransform::Identity();             ///< of a pose
+  double committed = -std::numeric_limits<double>::infinity();  ///< simulated time reached before it [s];
+                                                                ///< −infinity before the simulation began
+};
 
 /// The one way of all hands into a simulation, live and offline. Each hand goes through gate, smoothing and
 /// re-acquisition; its playout clock says how far all is known of it, to those who have a clock. A hand is a number as
