@@ -202,6 +202,7 @@ def overview(table, picture, drags):
         for axes, name in zip(line, of_line):
             rod_panel(axes, rows, name)
         drag_panel(line[2], contact_rows, factor)
+    panels[1][2].set_visible(len(factors) > 1)
     save(figure, picture, [axes for line in panels for axes in line], right=True)
 
 
@@ -326,7 +327,7 @@ def shares(rows, line_of, column_of):
         held[place] += int(row["held"])
         cells[place] += int(row.get("cells", 1))
     return {
-        place: held[place] / cells[place] for place in cells
+        place: held[place] / cells[place] for place in cells if cells[place]
     }, f"{sum(held.values())} of {sum(cells.values())} cells hold"
 
 
@@ -342,12 +343,14 @@ def layer_of_counters(axes, rows, stiffnesses, masses, mass_names):
     for y, line in enumerate(share):
         for x, value in enumerate(line):
             if value > 0.0:
-                axes.text(x, y, f"{100.0 * value:.1g}", ha="center", va="center", fontsize=6.5)
+                text = f"{100.0 * value:.0f}" if value >= 0.01 else "<1"
+                color = "white" if value > 0.06 else "black"
+                axes.text(x, y, text, ha="center", va="center", fontsize=6.5, color=color)
     axes.set_xticks(range(len(stiffnesses)), [f"{math.log10(k):.0f}" for k in stiffnesses])
     axes.set_yticks(range(len(masses)), mass_names)
     total = {name: sum(float(row[name]) for row in rows) for name in ("steps", "stops", "steps_fallback")}
     axes.set(
-        title=f"{total['stops']:.0f} stops, {total['steps_fallback']:.0f} fallback of {total['steps']:.3g} steps",
+        title=f"{total['stops']:.0f} stops, {total['steps_fallback']:.0f} fallback\nof {total['steps']:.0f} steps",
         xlabel="stiffness factor, power of ten",
         ylabel="mass [kg]",
     )
@@ -371,12 +374,12 @@ def stability(table, picture, extremes):
             lambda row: float(row["stiffness_factor"]),
         )
         image = share_panel(
-            axes, [[share.get((m, k), 0.0) for k in stiffnesses] for m in masses], stiffnesses, mass_names
+            axes, [[share.get((m, k), math.nan) for k in stiffnesses] for m in masses], stiffnesses, mass_names
         )
         axes.set(title=f"{name}\n{total}", xlabel="stiffness factor, power of ten", ylabel="mass [kg]")
     for axes, name in zip(panels[len(names) :], names):
         layer_of_counters(axes, [row for row in rows if row["integrator"] == name], stiffnesses, masses, mass_names)
-        axes.set_title(f"{name}: {axes.get_title()}")
+        axes.set_title(f"{name}\n{axes.get_title()}")
     for axes, mode in zip(panels[2 * len(names) :], modes):
         here = [row for row in contact_rows if row["contact"] == mode]
         forks, lines = sorted({float(row["stiffness"]) for row in here}), in_order(row["extreme"] for row in here)
