@@ -140,9 +140,6 @@ class MujocoJoints : public Method {
  public:
   explicit MujocoJoints(mjtIntegrator integrator) : integrator_(integrator) {}
   std::string name() const override {
-#if mjVERSION_HEADER >= 235
-    if (integrator_ == mjINT_IMPLICITFAST) return "mujoco_joints_implicitfast";
-#endif
     return integrator_ == mjINT_EULER ? "mujoco_joints_euler" : "mujoco_joints_implicit";
   }
   bool has_scene_law(const Scenario& scene) const override { return scene.kind != SceneKind::six_dof; }
@@ -247,9 +244,6 @@ std::vector<MethodPtr> mujoco_peers() {
   peers.push_back(std::make_unique<MujocoForce>(mjINT_RK4));
   peers.push_back(std::make_unique<MujocoJoints>(mjINT_EULER));
   peers.push_back(std::make_unique<MujocoJoints>(mjINT_IMPLICIT));
-#if mjVERSION_HEADER >= 235  // Debian 12 has 2.2.2
-  peers.push_back(std::make_unique<MujocoJoints>(mjINT_IMPLICITFAST));
-#endif
   peers.push_back(std::make_unique<MujocoWeld>());
   return peers;
 }
