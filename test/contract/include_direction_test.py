@@ -41,7 +41,7 @@ ENTRIES = {
         "local_time.h": {"ros_common"},
     }
 }
-PICTURE = re.compile(r"^## The way of a pose$.*?^```mermaid$(.*?)^```$", re.MULTILINE | re.DOTALL)
+PICTURE = re.compile(r"^## The path of a pose$.*?^```mermaid$(.*?)^```$", re.MULTILINE | re.DOTALL)
 WAY = ["fastrak", "tracker_driver", "manipulation", "live", "hand_input", "simulation"]
 # Includes for users of the library; no module includes it.
 UMBRELLA = "spring_workbench.h"

@@ -97,7 +97,7 @@ class Tutorials(unittest.TestCase):
 
     def test_your_own_urdf(self):
         rospy.set_param("/use_sim_time", False)
-        self.run_tutorial("your_own_urdf.md", bad=["## What bad input looks like"])
+        self.run_tutorial("your_own_urdf.md", bad=["## Bad input"])
 
 
 if __name__ == "__main__":
