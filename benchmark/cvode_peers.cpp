@@ -1,22 +1,25 @@
 #include <chrono>
 #include <stdexcept>
+#include <utility>
 
-#include "benchmark/cvode_solver.h"
 #include "benchmark/peers.h"
+#include "benchmark/scene_solver.h"
 
 namespace spring_workbench::benchmark {
 namespace {
 
 class Cvode : public Method {
  public:
-  explicit Cvode(CvodeCoordinates coordinates) : coordinates_(coordinates) {}
+  explicit Cvode(SceneCoordinates coordinates) : coordinates_(coordinates) {}
   std::string name() const override {
-    return coordinates_ == CvodeCoordinates::world ? "cvode_world" : "cvode_deflection";
+    return coordinates_ == SceneCoordinates::world ? "cvode_world" : "cvode_deflection";
   }
   Knob knob() const override { return Knob::tolerance; }
 
   RunResult run(const Scenario& scene, double tolerance) const override {
-    CvodeSolver solver(scene, coordinates_);
+    SceneSolver solver(scene, coordinates_, [](int size, OdeSolver::Rates rates) {
+      return make_cvode(CvodeFormula::bdf, size, std::move(rates));
+    });
     RunResult result;
     const auto start = std::chrono::steady_clock::now();
     try {
@@ -31,15 +34,15 @@ class Cvode : public Method {
   }
 
  private:
-  CvodeCoordinates coordinates_;
+  SceneCoordinates coordinates_;
 };
 
 }  // namespace
 
 std::vector<MethodPtr> cvode_peers() {
   std::vector<MethodPtr> peers;
-  peers.push_back(std::make_unique<Cvode>(CvodeCoordinates::world));
-  peers.push_back(std::make_unique<Cvode>(CvodeCoordinates::deflection));
+  peers.push_back(std::make_unique<Cvode>(SceneCoordinates::world));
+  peers.push_back(std::make_unique<Cvode>(SceneCoordinates::deflection));
   return peers;
 }
 

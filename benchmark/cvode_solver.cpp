@@ -1,22 +1,99 @@
-#include "benchmark/cvode_solver.h"
+#include <cvode/cvode.h>
+#include <nvector/nvector_serial.h>
+#include <sundials/sundials_context.h>
+#include <sunlinsol/sunlinsol_dense.h>
+#include <sunmatrix/sunmatrix_dense.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "benchmark/ode_solver.h"
 
 namespace spring_workbench::benchmark {
+namespace {
 
-CvodeSolver::CvodeSolver(const Scenario& scene, CvodeCoordinates coordinates)
-    : scene_(scene),
-      problem_(make_cvode_problem(scene, coordinates)),
-      integrator_(problem_->size(), [problem = problem_.get()](double t, const double* y, double* rate) {
-        return problem->rates(t, y, rate);
-      }) {}
+int right_side(realtype t, N_Vector y, N_Vector rate, void* rates) {
+  const bool fine = (*static_cast<const OdeSolver::Rates*>(rates))(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rate));
+  return fine ? 0 : 1;  // 1: try a smaller step
+}
 
-std::vector<Vector3d> CvodeSolver::solve(double tolerance) {
-  std::vector<double> y(static_cast<std::size_t>(problem_->size())), scale = y;
-  problem_->start(y.data());
-  problem_->tolerance_scale(scale.data());
-  integrator_.begin(0.0, y, tolerance, scale);
-  std::vector<Vector3d> outputs;
-  for (const double end : output_times(scene_)) outputs.push_back(problem_->output(end, integrator_.advance(end)));
-  return outputs;
+void require(int status, const char* call) {
+  if (status < 0) throw std::runtime_error(std::string(call) + " failed with status " + std::to_string(status));
+}
+
+void ignore_message(int, const char*, const char*, char*, void*) {}
+
+class Cvode final : public OdeSolver {
+ public:
+  Cvode(CvodeFormula formula, int size, Rates rates) : rates_(std::move(rates)) {
+    require(SUNContext_Create(nullptr, &context_), "SUNContext_Create");
+    y_ = N_VNew_Serial(size, context_);
+    absolute_ = N_VNew_Serial(size, context_);
+    N_VConst(0.0, y_);
+    matrix_ = SUNDenseMatrix(size, size, context_);
+    linear_solver_ = SUNLinSol_Dense(y_, matrix_, context_);
+    cvode_ = CVodeCreate(formula == CvodeFormula::bdf ? CV_BDF : CV_ADAMS, context_);
+    require(CVodeInit(cvode_, right_side, 0.0, y_), "CVodeInit");
+    require(CVodeSetUserData(cvode_, &rates_), "CVodeSetUserData");
+    require(CVodeSetErrHandlerFn(cvode_, ignore_message, nullptr), "CVodeSetErrHandlerFn");
+    require(CVodeSetMaxNumSteps(cvode_, 10000000), "CVodeSetMaxNumSteps");
+    if (formula == CvodeFormula::bdf) {
+      require(CVodeSetLinearSolver(cvode_, linear_solver_, matrix_), "CVodeSetLinearSolver");
+    } else {
+      fixed_point_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
+      require(CVodeSetNonlinearSolver(cvode_, fixed_point_), "CVodeSetNonlinearSolver");
+    }
+  }
+  Cvode(const Cvode&) = delete;
+  Cvode& operator=(const Cvode&) = delete;
+  ~Cvode() override {
+    CVodeFree(&cvode_);
+    if (fixed_point_ != nullptr) SUNNonlinSolFree(fixed_point_);
+    SUNLinSolFree(linear_solver_);
+    SUNMatDestroy(matrix_);
+    N_VDestroy(absolute_);
+    N_VDestroy(y_);
+    SUNContext_Free(&context_);
+  }
+
+  void begin(double t, const std::vector<double>& y, double tolerance, const std::vector<double>& scale) override {
+    std::copy(y.begin(), y.end(), N_VGetArrayPointer(y_));
+    std::copy(scale.begin(), scale.end(), N_VGetArrayPointer(absolute_));
+    N_VScale(tolerance, absolute_, absolute_);
+    begin_anew(t);
+    require(CVodeSVtolerances(cvode_, tolerance, absolute_), "CVodeSVtolerances");
+  }
+
+  const double* advance(double t, bool stop_there) override {
+    if (stop_there) require(CVodeSetStopTime(cvode_, t), "CVodeSetStopTime");
+    if (t > reached_) require(CVode(cvode_, t, y_, &reached_, CV_NORMAL), "CVode");
+    if (stop_there) begin_anew(t);
+    return N_VGetArrayPointer(y_);
+  }
+
+ private:
+  void begin_anew(double t) {
+    reached_ = t;
+    require(CVodeReInit(cvode_, t, y_), "CVodeReInit");
+  }
+
+  Rates rates_;
+  SUNContext context_ = nullptr;
+  N_Vector y_ = nullptr, absolute_ = nullptr;
+  SUNMatrix matrix_ = nullptr;
+  SUNLinearSolver linear_solver_ = nullptr;
+  SUNNonlinearSolver fixed_point_ = nullptr;
+  void* cvode_ = nullptr;
+  double reached_ = 0.0;
+};
+
+}  // namespace
+
+std::unique_ptr<OdeSolver> make_cvode(CvodeFormula formula, int size, OdeSolver::Rates rates) {
+  return std::make_unique<Cvode>(formula, size, std::move(rates));
 }
 
 }  // namespace spring_workbench::benchmark

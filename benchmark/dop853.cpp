@@ -5,14 +5,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmark/ode_solver.h"
+#include "benchmark/adaptive_solver.h"
 
 namespace spring_workbench::benchmark {
 namespace {
 
 constexpr int kStepStages = 12;  // of a step; the 13th are the rates at its end, three more are for the dense output
 constexpr int kStages = 16;
-constexpr int kMostEquations = 12;
 
 constexpr double kC[kStages] = {0.0,
                                 0.05260015195876773,
@@ -84,34 +83,12 @@ constexpr double kDense[4][kStages] = {
 constexpr double kOf3[3] = {0.244094488188976377952755905512, 0.733846688281611857341361741547,
                             0.220588235294117647058823529412e-1};
 
-using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostEquations, 1>;
-
-class Dop853 final : public OdeSolver {
+class Dop853 final : public AdaptiveSolver {
  public:
   Dop853(int size, Rates rates) : rates_(std::move(rates)), k_(size, kStages) {}
 
   void begin(double t, const std::vector<double>& y, double tolerance, const std::vector<double>& scale) override {
-    t_ = before_ = t;
-    y_ = Eigen::Map<const Eigen::VectorXd>(y.data(), k_.rows());
-    tolerance_ = tolerance;
-    absolute_ = tolerance * Eigen::Map<const Eigen::VectorXd>(scale.data(), k_.rows());
-    h_ = 0.0;
-    known_ = false;
-  }
-
-  const double* advance(double t, bool stop_there) override {
-    while (t_ < t) {
-      const double left = t - t_;
-      if (stop_there && left < 1e-12 * std::max(1.0, std::abs(t))) {
-        t_ = t;
-        break;
-      }
-      step(stop_there ? left : std::numeric_limits<double>::infinity());
-    }
-    if (stop_there) known_ = false;
-    if (t >= t_) return y_.data();
-    interpolate((t - before_) / (t_ - before_));
-    return output_.data();
+    set_start(t, y, tolerance, scale);
   }
 
  private:
@@ -124,9 +101,6 @@ class Dop853 final : public OdeSolver {
       if (kA[i][j] != 0.0) y += h * kA[i][j] * k_.col(j);
     }
     return evaluate(t_ + kC[i] * h, y, i);
-  }
-  double norm(const State& v, const State& scale) const {
-    return std::sqrt(v.cwiseQuotient(scale).squaredNorm() / static_cast<double>(v.size()));
   }
 
   /// As of Hairer, Nørsett and Wanner, II.4.
@@ -149,8 +123,8 @@ class Dop853 final : public OdeSolver {
     return sum > 0.0 ? h * e5 / std::sqrt(sum * static_cast<double>(y.size())) : 0.0;
   }
 
-  void step(double longest) {
-    if (!known_ && !evaluate(t_, y_, 0)) throw std::runtime_error("DOP853: no rates at the start of a step");
+  void step(double longest) override {
+    if (!rates_known_ && !evaluate(t_, y_, 0)) throw std::runtime_error("DOP853: no rates at the start of a step");
     if (h_ == 0.0) h_ = first_step();
     for (bool rejected = false;; rejected = true) {
       if (!(h_ > 1e-14 * std::max(1.0, std::abs(t_))))
@@ -185,16 +159,15 @@ class Dop853 final : public OdeSolver {
     dense_ = false;
     first_ = k_.col(0);
     k_.col(0) = k_.col(kStepStages);
-    known_ = true;
+    rates_known_ = true;
   }
 
   /// The polynomial of the last step: three more evaluations, once.
-  void interpolate(double share) {
-    const double h = t_ - before_;
-    if (!dense_) make_dense(h);
-    output_ = share * polynomial_[6];
-    for (int i = 5; i >= 0; --i) output_ = (i % 2 == 0 ? share : 1.0 - share) * (polynomial_[i] + output_);
-    output_ += from_;
+  State within_last_step(double share) override {
+    if (!dense_) make_dense(t_ - before_);
+    State y = share * polynomial_[6];
+    for (int i = 5; i >= 0; --i) y = (i % 2 == 0 ? share : 1.0 - share) * (polynomial_[i] + y);
+    return from_ + y;
   }
 
   void make_dense(double h) {
@@ -220,11 +193,10 @@ class Dop853 final : public OdeSolver {
   }
 
   Rates rates_;
-  Eigen::Matrix<double, Eigen::Dynamic, kStages, 0, kMostEquations, kStages> k_;
-  double t_ = 0.0, before_ = 0.0, h_ = 0.0, tolerance_ = 0.0;
-  State y_, from_, first_, absolute_, output_;
+  Eigen::Matrix<double, Eigen::Dynamic, kStages, 0, most_equations, kStages> k_;
+  State from_, first_;  ///< the last step's start and the rates there
   State polynomial_[7];
-  bool known_ = false, dense_ = false;  ///< the rates at t_; the last step's polynomial
+  bool dense_ = false;  ///< the last step's polynomial is known
 };
 
 }  // namespace

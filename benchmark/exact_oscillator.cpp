@@ -59,4 +59,25 @@ Vector3d exact_output(const Scenario& scene, double t) {
   return Vector3d(0.0, 0.0, scalar_hand(scene, t).value + exact_deflection(scene, t).value);
 }
 
+std::vector<Vector3d> exact_outputs_on_samples(const Scenario& scene) {
+  const double inertia = scene.single_inertia();
+  const double k = scene.stiffness[scene.single_coordinate()];
+  const double c = scene.damping[scene.single_coordinate()];
+  const double gravity = scene.kind == SceneKind::stretch ? scene.gravity : 0.0;
+  const std::vector<double> times = output_times(scene);
+  std::vector<Vector3d> outputs{Vector3d(0.0, 0.0, scalar_hand(scene, 0.0).value)};
+  double x = 0.0, v = 0.0;
+  for (std::size_t i = 0; i + 1 < times.size(); ++i) {
+    const double t = times[i], h = times[i + 1] - t;
+    const double start = scalar_hand(scene, t).acceleration, middle = scalar_hand(scene, t + 0.5 * h).acceleration;
+    const double slope = -inertia * (middle - start) / (0.5 * h * k);
+    const double steady = (-inertia * (gravity + start) - c * slope) / k;
+    const ScalarMotion rest = transient(std::sqrt(k / inertia), scene.damping_ratio, x - steady, v - slope, h);
+    x = steady + slope * h + rest.value;
+    v = slope + rest.rate;
+    outputs.emplace_back(0.0, 0.0, scalar_hand(scene, times[i + 1]).value + x);
+  }
+  return outputs;
+}
+
 }  // namespace spring_workbench::benchmark

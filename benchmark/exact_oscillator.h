@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "benchmark/scenarios.h"
 
 namespace spring_workbench::benchmark {
@@ -13,5 +15,10 @@ ScalarMotion exact_deflection(const Scenario& scene, double t);
 
 /// Exact output of scenes A and B: (0, 0, height) [m] or (0, 0, twist) [rad] of the object in world.
 Vector3d exact_output(const Scenario& scene, double t);
+
+/// Exact outputs of scenes A and B on a sampled hand, at output_times(scene), which are those of its samples: between
+/// two of them the hand moves along a cubic, so its acceleration and the steady part of the deflection are linear in
+/// time, and the transient goes on from what is left of the last piece.
+std::vector<Vector3d> exact_outputs_on_samples(const Scenario& scene);
 
 }  // namespace spring_workbench::benchmark

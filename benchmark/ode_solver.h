@@ -30,6 +30,11 @@ std::unique_ptr<OdeSolver> make_dop853(int size, OdeSolver::Rates rates);
 /// IV.8), Jacobian by differences, dense output by the collocation polynomial, up to twelve equations.
 std::unique_ptr<OdeSolver> make_radau(int size, OdeSolver::Rates rates);
 
+/// SUNDIALS CVODE: backward differentiation with Newton's method and a dense Jacobian by differences, or Adams'
+/// formulas with fixed-point iteration.
+enum class CvodeFormula { bdf, adams };
+std::unique_ptr<OdeSolver> make_cvode(CvodeFormula formula, int size, OdeSolver::Rates rates);
+
 /// SUNDIALS ARKODE of order five with dense output, explicit or diagonally implicit (Newton, dense Jacobian by
 /// differences).
 std::unique_ptr<OdeSolver> make_arkode(bool implicit, int size, OdeSolver::Rates rates);

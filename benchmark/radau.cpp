@@ -7,15 +7,15 @@
 #include <stdexcept>
 #include <utility>
 
-#include "benchmark/ode_solver.h"
+#include "benchmark/adaptive_solver.h"
 
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr int kMostEquations = 12;
+constexpr int kMostEquations = AdaptiveSolver::most_equations;
 constexpr int kMostIterations = 6;  // of Newton's method
 using Complex = std::complex<double>;
-using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostEquations, 1>;
+using State = AdaptiveSolver::State;
 using ComplexState = Eigen::Matrix<Complex, Eigen::Dynamic, 1, 0, kMostEquations, 1>;
 using Jacobian = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostEquations, kMostEquations>;
 using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, kMostEquations, kMostEquations>;
@@ -39,43 +39,21 @@ const Eigen::Matrix3d kDense =
      -8.0 / 3.0, 10.0 / 3.0)
         .finished();
 
-class Radau final : public OdeSolver {
+class Radau final : public AdaptiveSolver {
  public:
   Radau(int size, Rates rates) : rates_(std::move(rates)), size_(size) {}
 
   void begin(double t, const std::vector<double>& y, double tolerance, const std::vector<double>& scale) override {
-    t_ = before_ = t;
-    y_ = Eigen::Map<const Eigen::VectorXd>(y.data(), size_);
-    tolerance_ = tolerance;
+    set_start(t, y, tolerance, scale);
     newton_tolerance_ =
         std::max(10.0 * std::numeric_limits<double>::epsilon() / tolerance, std::min(0.03, std::sqrt(tolerance)));
-    absolute_ = tolerance * Eigen::Map<const Eigen::VectorXd>(scale.data(), size_);
-    h_ = 0.0;
-    jacobian_known_ = factored_ = stepped_ = rates_known_ = false;
-  }
-
-  const double* advance(double t, bool stop_there) override {
-    while (t_ < t) {
-      const double left = t - t_;
-      if (stop_there && left < 1e-12 * std::max(1.0, std::abs(t))) {
-        t_ = t;
-        break;
-      }
-      step(stop_there ? left : std::numeric_limits<double>::infinity());
-    }
-    if (stop_there) rates_known_ = false;
-    if (t >= t_) return y_.data();
-    output_ = from_ + polynomial((t - before_) / (t_ - before_));
-    return output_.data();
+    jacobian_known_ = factored_ = stepped_ = false;
   }
 
  private:
   bool evaluate(double t, const State& y, State& f) const {
     f.resize(size_);
     return rates_(t, y.data(), f.data()) && f.allFinite();
-  }
-  double norm(const State& v, const State& scale) const {
-    return std::sqrt(v.cwiseQuotient(scale).squaredNorm() / static_cast<double>(size_));
   }
   State polynomial(double share) const { return dense_ * Eigen::Vector3d(share, share * share, share * share * share); }
 
@@ -141,7 +119,9 @@ class Radau final : public OdeSolver {
     return std::min(1.0, before) * std::pow(e, -0.25);
   }
 
-  void step(double longest) {
+  State within_last_step(double share) override { return from_ + polynomial(share); }
+
+  void step(double longest) override {
     if (!rates_known_ && !evaluate(t_, y_, f_)) throw std::runtime_error("Radau: no rates at the start of a step");
     rates_known_ = true;
     const State scale = absolute_ + tolerance_ * y_.cwiseAbs();
@@ -161,7 +141,7 @@ class Radau final : public OdeSolver {
         factor(h);
         z.setZero();
         if (stepped_) {
-          for (int i = 0; i < 3; ++i) z.col(i) = from_ + polynomial((t_ + kC[i] * h - before_) / (t_ - before_)) - y_;
+          for (int i = 0; i < 3; ++i) z.col(i) = within_last_step((t_ + kC[i] * h - before_) / (t_ - before_)) - y_;
         }
         converged = solve_stages(h, z);
         if (!converged && fresh) break;
@@ -201,20 +181,20 @@ class Radau final : public OdeSolver {
     last_error_ = error;
     stepped_ = true;
     if (iterations_ > 2 && rate_ > 1e-3) jacobian_known_ = false;
-    const double next = h * std::min(change, 10.0);
+    const double next = h * std::clamp(change, 0.2, 10.0);
     if (next > 1.2 * h_ || next < h_ || !jacobian_known_) h_ = next;
   }
 
   Rates rates_;
   int size_;
-  double t_ = 0.0, before_ = 0.0, h_ = 0.0, tolerance_ = 0.0, newton_tolerance_ = 0.0;
-  State y_, from_, f_, absolute_, output_;
+  double newton_tolerance_ = 0.0;
+  State from_, f_;  ///< the last step's start; the rates at its end
   Jacobian jacobian_;
   Eigen::PartialPivLU<Jacobian> real_;
   Eigen::PartialPivLU<ComplexMatrix> complex_;
   double factored_for_ = 0.0, rate_ = 0.0, last_h_ = 0.0, last_error_ = 0.0;
   int iterations_ = 0;
-  bool jacobian_known_ = false, factored_ = false, stepped_ = false, rates_known_ = false;
+  bool jacobian_known_ = false, factored_ = false, stepped_ = false;
   Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostEquations, 3> dense_;
 };
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "benchmark/cvode_solver.h"
 #include "benchmark/exact_oscillator.h"
 #include "benchmark/rod_reference.h"
+#include "benchmark/scene_solver.h"
 
 namespace spring_workbench::benchmark {
 
@@ -34,34 +34,45 @@ ReferenceSolution reference_from_outputs(const Scenario& scene, std::vector<Vect
 
 namespace {
 
-ReferenceSolution sampled_reference(const Scenario& scene) {
-  const RodCase one = rod_case(scene);
-  const auto outputs = [&](double tolerance) {
-    std::vector<Vector3d> found;
-    for (const RigidTransform& X : cvode_poses(one, "bushing", tolerance)) found.push_back(scene_output(scene, X));
-    return found;
-  };
-  ReferenceSolution reference = reference_from_outputs(scene, outputs(1e-12), 0.0);
-  reference.uncertainty = output_error(scene, reference, outputs(1e-11));
-  Scenario known = scene;
-  known.samples.reset();
-  reference.hand_error = output_error(scene, reference, reference_solution(known).outputs);
+/// From `outputs(tolerance)`, with the distance from the same at ten times the tolerance as its uncertainty.
+template <typename Outputs>
+ReferenceSolution reference_by_tolerance(const Scenario& scene, Outputs&& outputs) {
+  ReferenceSolution reference = reference_from_outputs(scene, outputs(kFineTolerance), 0.0);
+  reference.uncertainty = output_error(scene, reference, outputs(10.0 * kFineTolerance));
   return reference;
+}
+
+ReferenceSolution six_dof_reference(const Scenario& scene) {
+  if (scene.samples) {
+    const RodCase one = rod_case(scene);
+    return reference_by_tolerance(scene, [&](double tolerance) {
+      std::vector<Vector3d> outputs;
+      for (const RigidTransform& X : fine_poses(one, "bushing", tolerance)) outputs.push_back(scene_output(scene, X));
+      return outputs;
+    });
+  }
+  SceneSolver solver(scene, SceneCoordinates::deflection, &make_radau);
+  return reference_by_tolerance(scene, [&](double tolerance) { return solver.solve(tolerance); });
+}
+
+ReferenceSolution single_reference(const Scenario& scene) {
+  constexpr double rounding = 1e-15;
+  if (scene.samples) return reference_from_outputs(scene, exact_outputs_on_samples(scene), rounding);
+  std::vector<Vector3d> outputs;
+  for (const double t : output_times(scene)) outputs.push_back(exact_output(scene, t));
+  return reference_from_outputs(scene, std::move(outputs), rounding);
 }
 
 }  // namespace
 
 ReferenceSolution reference_solution(const Scenario& scene) {
-  if (scene.samples) return sampled_reference(scene);
-  if (scene.kind == SceneKind::six_dof) {
-    CvodeSolver solver(scene, CvodeCoordinates::deflection);
-    ReferenceSolution reference = reference_from_outputs(scene, solver.solve(1e-12), 0.0);
-    reference.uncertainty = output_error(scene, reference, solver.solve(1e-11));
-    return reference;
+  ReferenceSolution reference = scene.kind == SceneKind::six_dof ? six_dof_reference(scene) : single_reference(scene);
+  if (scene.samples) {
+    Scenario known = scene;
+    known.samples.reset();
+    reference.hand_error = output_error(scene, reference, reference_solution(known).outputs);
   }
-  std::vector<Vector3d> outputs;
-  for (const double t : output_times(scene)) outputs.push_back(exact_output(scene, t));
-  return reference_from_outputs(scene, std::move(outputs), 1e-15);
+  return reference;
 }
 
 double output_error(const Scenario& scene, const ReferenceSolution& reference, const std::vector<Vector3d>& outputs) {

@@ -15,10 +15,10 @@ struct ReferenceSolution {
                                     ///< nobody knows how it moved between two samples [m or rad]
 };
 
-/// A sampled hand: SUNDIALS CVODE at 1e-12 on the library's equation of motion, begun anew at every sample, where the
-/// hand's acceleration jumps. Otherwise scenes A and B: the exact solution. Scene C: SUNDIALS CVODE (BDF, dense) on
-/// `bushing_acceleration`, rtol 1e-12, atol 1e-12 of the static deflection's scale; its uncertainty is the distance
-/// from the same at 1e-11. Throws std::runtime_error when CVODE gives up.
+/// Scenes A and B: the exact solution, piece by piece on a sampled hand. Scene C: the Radau IIA method of order five at
+/// kFineTolerance, on `bushing_acceleration` where the hand is a function of time, on the library's equation of motion
+/// from sample to sample where it is sampled; its uncertainty is the distance from the same at ten times the tolerance.
+/// Throws std::runtime_error when the method gives up.
 ReferenceSolution reference_solution(const Scenario& scene);
 
 /// A reference from given outputs: adds the largest deflection.

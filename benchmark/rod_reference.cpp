@@ -4,8 +4,9 @@
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
-#include "benchmark/cvode_integrator.h"
+#include "benchmark/solver_run.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::benchmark {
@@ -48,47 +49,12 @@ double largest_deflection(const RodCase& one, const std::vector<RigidTransform>&
   return largest;
 }
 
-dynamics::StrainState unpacked(const double* y, int size) {
-  return {Eigen::Map<const Eigen::VectorXd>(y, size), Eigen::Map<const Eigen::VectorXd>(y + size, size)};
-}
-
 }  // namespace
 
-std::vector<double> tolerance_scale(const RodCase& one, const dynamics::HeldBody& body) {
-  const int n = body.size();
-  std::vector<double> scale;
-  for (int i = 0; i < 2 * n; ++i) {
-    const double strain = one.mass * 9.81 * one.fork.length / body.stiffness()[i % n];
-    scale.push_back((i < n ? 1.0 : 10.0) * std::min(strain, 1.0));
-  }
-  return scale;
-}
-
-std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& shape, double tolerance) {
-  const dynamics::HeldBody body = held_body(one, shape);
-  const int n = body.size();
-  motion::PoseTrack track = hand_track(one);
-  const motion::MotionSegment* segment = &track.segment(0.0);
-  CvodeIntegrator cvode(2 * n, [&](double t, const double* y, double* rate) {
-    const dynamics::StrainState state = unpacked(y, n);
-    if (!body.shape().admissible(body.full_state(t, state).q)) return false;
-    Eigen::Map<Eigen::VectorXd>(rate, n) = state.q_dot;
-    Eigen::Map<Eigen::VectorXd>(rate + n, n) = body.acceleration(body.forcing(*segment, t), state.q, state.q_dot);
-    return true;
-  });
-  const std::vector<double> y(static_cast<std::size_t>(2 * n), 0.0);
-  cvode.begin(0.0, y, tolerance, tolerance_scale(one, body));
-  std::vector<RigidTransform> poses{body.object(body.forcing(*segment, 0.0), unpacked(y.data(), n)).X};
-  const std::vector<double> ends = step_ends(one), times = output_times(one);
-  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
-    segment = &track.segment(0.5 * (ends[i] + ends[i + 1]));
-    cvode.restart(ends[i]);
-    const dynamics::StrainState state = unpacked(cvode.advance(ends[i + 1], true), n);
-    if (ends[i + 1] > times[poses.size()] - kSameTime) {
-      poses.push_back(body.object(body.forcing(*segment, ends[i + 1]), state).X);
-    }
-  }
-  return poses;
+std::vector<RigidTransform> fine_poses(const RodCase& one, const std::string& shape, double tolerance) {
+  RodRun run = run_solver(one, shape, "solver_radau", tolerance);
+  if (!run.finite) throw std::runtime_error(one.name + ' ' + shape + ": Radau IIA does not reach the end");
+  return std::move(run.X_WO);
 }
 
 PoseDistance largest_distance(const std::vector<RigidTransform>& a, const std::vector<RigidTransform>& b) {
@@ -103,8 +69,8 @@ PoseDistance largest_distance(const std::vector<RigidTransform>& a, const std::v
 RodReference rod_reference(const RodCase& one, const std::string& shape) {
   RodReference reference;
   if (one.recorded.empty()) {
-    reference.X_WO = cvode_poses(one, shape, 1e-12);
-    reference.uncertainty = largest_distance(reference.X_WO, cvode_poses(one, shape, 1e-11)).position;
+    reference.X_WO = fine_poses(one, shape, kFineTolerance);
+    reference.uncertainty = largest_distance(reference.X_WO, fine_poses(one, shape, 10.0 * kFineTolerance)).position;
   } else {
     reference.X_WO = recorded_poses(one);
     reference.uncertainty = kRecordedUncertainty;

@@ -14,16 +14,17 @@ struct RodReference {
   double uncertainty = 0.0;          ///< estimated error of the positions [m]
 };
 
-/// SUNDIALS CVODE at 1e-12 on the equation of motion, begun anew at every sample of the hand, where its acceleration
-/// jumps; its uncertainty is the distance from the same at 1e-11. A recorded case: the trajectory in its file, by
-/// another solver. Throws std::runtime_error when CVODE gives up or the file has too few rows.
+/// The tolerance of references that have no closed form, relative, and absolute over what a strain is under the weight.
+constexpr double kFineTolerance = 1e-13;
+
+/// The Radau IIA method of order five at kFineTolerance on the equation of motion, from sample to sample of the hand,
+/// where its acceleration jumps; its uncertainty is the distance from the same at ten times that. A recorded case: the
+/// trajectory in its file, by another solver. Throws std::runtime_error when the method gives up or the file has too
+/// few rows.
 RodReference rod_reference(const RodCase& one, const std::string& shape);
 
-/// The same by CVODE for every case.
-std::vector<RigidTransform> cvode_poses(const RodCase& one, const std::string& shape, double tolerance);
-
-/// The scale of a solver's absolute tolerance for the strain, roughly the static one, and its rate.
-std::vector<double> tolerance_scale(const RodCase& one, const dynamics::HeldBody& body);
+/// The same by Radau IIA for every case.
+std::vector<RigidTransform> fine_poses(const RodCase& one, const std::string& shape, double tolerance);
 
 /// Largest distance of two trajectories in position [m] and angle [rad].
 struct PoseDistance {

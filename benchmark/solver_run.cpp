@@ -6,8 +6,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "benchmark/cvode_integrator.h"
-#include "benchmark/rod_reference.h"
+#include "benchmark/ode_solver.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -18,13 +17,11 @@ constexpr double kFarthest = 1000.0;  // m
 bool is_cvode(const std::string& solver) { return solver.find("cvode") != std::string::npos; }
 
 std::unique_ptr<OdeSolver> make_solver(const std::string& name, int size, OdeSolver::Rates rates) {
-  using Formula = CvodeIntegrator::Formula;
   if (name == "solver_dop853") return make_dop853(size, std::move(rates));
   if (name == "solver_radau") return make_radau(size, std::move(rates));
   if (name == "solver_arkode_erk") return make_arkode(false, size, std::move(rates));
   if (name == "solver_arkode_dirk") return make_arkode(true, size, std::move(rates));
-  const Formula formula = name == "solver_cvode_adams" ? Formula::adams : Formula::bdf;
-  return std::make_unique<CvodeIntegrator>(size, std::move(rates), formula);
+  return make_cvode(name == "solver_cvode_adams" ? CvodeFormula::adams : CvodeFormula::bdf, size, std::move(rates));
 }
 
 /// What a run needs of the library: the rates of the strain and its rate, and the object.
@@ -63,14 +60,16 @@ class Equations {
   const motion::FrameMotion* hand_;
 };
 
-/// Rates may be wrong by as much as makes the strains wrong by their own share, each swinging by itself: only where the
-/// object is is asked for.
+/// The scale of the absolute tolerances: of the strain roughly the static one; rates may be wrong by as much as makes
+/// the strains wrong by their own share, each swinging by itself: only where the object is is asked for.
 std::vector<double> scale_of(const RodCase& one, const dynamics::HeldBody& body) {
-  std::vector<double> scale = tolerance_scale(one, body);
+  const int n = body.size();
   const rod::StrainMatrix mass = body.mass_matrix(0.0, body.zero_state().q);
-  for (int i = 0; i < body.size(); ++i) {
-    const double omega = std::sqrt(body.stiffness()[i] / mass(i, i));
-    scale[static_cast<std::size_t>(body.size() + i)] = std::max(10.0, omega) * scale[static_cast<std::size_t>(i)];
+  std::vector<double> scale(static_cast<std::size_t>(2 * n));
+  for (int i = 0; i < n; ++i) {
+    const double strain = std::min(one.mass * 9.81 * one.fork.length / body.stiffness()[i], 1.0);
+    scale[static_cast<std::size_t>(i)] = strain;
+    scale[static_cast<std::size_t>(n + i)] = std::max(10.0, std::sqrt(body.stiffness()[i] / mass(i, i))) * strain;
   }
   return scale;
 }

@@ -5,10 +5,11 @@
 #include <cmath>
 #include <random>
 
-#include "benchmark/cvode_solver.h"
 #include "benchmark/exact_oscillator.h"
 #include "benchmark/held_body.h"
 #include "benchmark/reference_solution.h"
+#include "benchmark/rod_reference.h"
+#include "benchmark/scene_solver.h"
 #include "benchmark/sine_and_cosine.h"
 #include "spring_workbench/math/so3.h"
 
@@ -212,14 +213,47 @@ TEST(Scenarios, StiffSpringsFollowTheHandWithTheSagOfTheirWeight) {
   }
 }
 
+std::vector<Vector3d> cvode_outputs(const Scenario& scene, SceneCoordinates coordinates) {
+  const auto make = [](int size, OdeSolver::Rates rates) {
+    return make_cvode(CvodeFormula::bdf, size, std::move(rates));
+  };
+  return SceneSolver(scene, coordinates, make).solve(1e-12);
+}
+
 TEST(Reference, CvodeAgreesWithTheExactSolutionOfScenesAAndB) {
   for (const double k : {1e2, 1e4, 1e6, 1e8}) {
     for (const Scenario& scene : {stretch_scene(k), torsion_scene(k)}) {
       const ReferenceSolution exact = reference_solution(scene);
-      for (const CvodeCoordinates coordinates : {CvodeCoordinates::deflection, CvodeCoordinates::world}) {
-        EXPECT_LT(output_error(scene, exact, CvodeSolver(scene, coordinates).solve(1e-12)), 1e-9)
-            << scene.name << " k " << k;
+      for (const SceneCoordinates coordinates : {SceneCoordinates::deflection, SceneCoordinates::world}) {
+        EXPECT_LT(output_error(scene, exact, cvode_outputs(scene, coordinates)), 1e-9) << scene.name << " k " << k;
       }
+    }
+  }
+}
+
+TEST(Reference, SceneCAgreesWithCvodeInEitherFormulation) {
+  for (const auto& [factor, mass] : {std::pair{1.0, 5.0}, {1e4, 5.0}, {1.0, 1e-3}, {1e4, 1e3}}) {
+    Scenario scene = six_dof_scene(factor, 1.0, mass);
+    scene.duration = 1.0;
+    const ReferenceSolution reference = reference_solution(scene);
+    EXPECT_LT(reference.uncertainty, 1e-13) << factor << ' ' << mass;
+    EXPECT_LT(output_error(scene, reference, cvode_outputs(scene, SceneCoordinates::deflection)), 1e-11)
+        << factor << ' ' << mass;
+    EXPECT_LT(output_error(scene, reference, cvode_outputs(scene, SceneCoordinates::world)), 1e-9)
+        << factor << ' ' << mass;
+  }
+}
+
+TEST(Reference, OnASampledHandTheExactPiecesAreWhatRadauComesTo) {
+  for (const double zeta : {0.1, 1.0, 3.0}) {
+    for (const Scenario& known : {stretch_scene(1e2, zeta), stretch_scene(1e6, zeta), torsion_scene(1e4, zeta)}) {
+      const Scenario scene = with_sampled_hand(known);
+      const ReferenceSolution exact = reference_solution(scene);
+      std::vector<Vector3d> fine;
+      for (const RigidTransform& X : fine_poses(rod_case(scene), "bushing", 1e-12))
+        fine.push_back(scene_output(scene, X));
+      EXPECT_LT(output_error(scene, exact, fine), 1e-12) << scene.name << ' ' << scene.stiffness_factor << ' ' << zeta;
+      EXPECT_GT(exact.hand_error, 1e-9);
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "benchmark/cvode_problem.h"
+#include "benchmark/scene_problem.h"
 
 #include <algorithm>
 
@@ -11,7 +11,7 @@ namespace {
 using Vector13d = Eigen::Matrix<double, 13, 1>;
 
 /// Scenes A and B in the deflection and its rate.
-class SingleDeflection : public CvodeProblem {
+class SingleDeflection : public SceneProblem {
  public:
   explicit SingleDeflection(const Scenario& scene) : spring_(scene) {}
   int size() const override { return 2; }
@@ -35,7 +35,7 @@ class SingleDeflection : public CvodeProblem {
 };
 
 /// Scenes A and B in the object's height or twist and its rate.
-class SingleWorld : public CvodeProblem {
+class SingleWorld : public SceneProblem {
  public:
   explicit SingleWorld(const Scenario& scene) : spring_(scene) {}
   int size() const override { return 2; }
@@ -56,7 +56,7 @@ class SingleWorld : public CvodeProblem {
 };
 
 /// Scene C in Lagrange's coordinates.
-class BushingDeflection : public CvodeProblem {
+class BushingDeflection : public SceneProblem {
  public:
   explicit BushingDeflection(const Scenario& scene) : scene_(scene) {}
   int size() const override { return 12; }
@@ -85,7 +85,7 @@ class BushingDeflection : public CvodeProblem {
 };
 
 /// Scene C in the object's position, velocity, quaternion and angular velocity.
-class BodyWorld : public CvodeProblem {
+class BodyWorld : public SceneProblem {
  public:
   explicit BodyWorld(const Scenario& scene) : scene_(scene) {}
   int size() const override { return 13; }
@@ -118,8 +118,8 @@ class BodyWorld : public CvodeProblem {
 
 }  // namespace
 
-std::unique_ptr<CvodeProblem> make_cvode_problem(const Scenario& scene, CvodeCoordinates coordinates) {
-  const bool world = coordinates == CvodeCoordinates::world;
+std::unique_ptr<SceneProblem> make_scene_problem(const Scenario& scene, SceneCoordinates coordinates) {
+  const bool world = coordinates == SceneCoordinates::world;
   if (scene.kind == SceneKind::six_dof) {
     if (world) return std::make_unique<BodyWorld>(scene);
     return std::make_unique<BushingDeflection>(scene);

@@ -7,9 +7,9 @@
 namespace spring_workbench::benchmark {
 
 /// A scene as a system of first-order equations for a general solver.
-class CvodeProblem {
+class SceneProblem {
  public:
-  virtual ~CvodeProblem() = default;
+  virtual ~SceneProblem() = default;
 
   virtual int size() const = 0;
 
@@ -26,11 +26,11 @@ class CvodeProblem {
   virtual Vector3d output(double t, const double* y) const = 0;
 };
 
-enum class CvodeCoordinates {
+enum class SceneCoordinates {
   deflection,  ///< (q, q̇) of the bushing: tolerances act on the deflection
   world        ///< pose and velocity of the object in world, as a user keeps them: tolerances act on the position
 };
 
-std::unique_ptr<CvodeProblem> make_cvode_problem(const Scenario& scene, CvodeCoordinates coordinates);
+std::unique_ptr<SceneProblem> make_scene_problem(const Scenario& scene, SceneCoordinates coordinates);
 
 }  // namespace spring_workbench::benchmark

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "benchmark/ode_solver.h"
+
+namespace spring_workbench::benchmark {
+
+/// A solver whose steps are its own: how they end where one is to stop.
+class AdaptiveSolver : public OdeSolver {
+ public:
+  static constexpr int most_equations = 12;
+  using State = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, most_equations, 1>;
+
+  const double* advance(double t, bool stop_there) final {
+    while (t_ < t) {
+      const double left = t - t_;
+      if (stop_there && left < 1e-12 * std::max(1.0, std::abs(t))) {
+        t_ = t;
+        break;
+      }
+      step(stop_there ? left : std::numeric_limits<double>::infinity());
+    }
+    if (stop_there) rates_known_ = false;
+    if (t >= t_) return y_.data();
+    output_ = within_last_step((t - before_) / (t_ - before_));
+    return output_.data();
+  }
+
+ protected:
+  void set_start(double t, const std::vector<double>& y, double tolerance, const std::vector<double>& scale) {
+    const auto size = static_cast<Eigen::Index>(y.size());
+    t_ = before_ = t;
+    y_ = Eigen::Map<const Eigen::VectorXd>(y.data(), size);
+    tolerance_ = tolerance;
+    absolute_ = tolerance * Eigen::Map<const Eigen::VectorXd>(scale.data(), size);
+    h_ = 0.0;
+    rates_known_ = false;
+  }
+  static double norm(const State& v, const State& scale) {
+    return std::sqrt(v.cwiseQuotient(scale).squaredNorm() / static_cast<double>(v.size()));
+  }
+
+  double t_ = 0.0, before_ = 0.0;  ///< the last step's end and start
+  double h_ = 0.0;                 ///< what is to be the next step; 0: to be found
+  double tolerance_ = 0.0;
+  State y_, absolute_;        ///< the state at t_; the absolute tolerances
+  bool rates_known_ = false;  ///< those at t_
+
+ private:
+  /// One step, no longer than `longest`.
+  virtual void step(double longest) = 0;
+  /// The state after this share of the last step.
+  virtual State within_last_step(double share) = 0;
+
+  State output_;
+};
+
+}  // namespace spring_workbench::benchmark
