@@ -1,8 +1,12 @@
 #pragma once
 
+#include <cmath>
+#include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/scene/scene.h"
 
 namespace spring_workbench::benchmark {
@@ -43,6 +47,37 @@ inline RigidTransform at(const Vector3d& p_WO) { return RigidTransform(Eigen::Tr
 inline scene::Body box(const std::string& name, const Vector3d& size, double mass, const Vector3d& p_WO,
                        double friction = 0.5) {
   return movable(name, geometry::Box{size}, at(p_WO), friction, mass, box_inertia(mass, size));
+}
+
+/// A prism over a polygon with corners at these radii around the z axis, evenly apart.
+inline geometry::MeshPtr prism(const std::vector<double>& radii, double height) {
+  auto mesh = std::make_shared<geometry::TriangleMesh>();
+  const int n = static_cast<int>(radii.size());
+  for (const double z : {-0.5 * height, 0.5 * height}) {
+    for (int i = 0; i < n; ++i) {
+      const double a = 2.0 * M_PI * i / n, r = radii[static_cast<std::size_t>(i)];
+      mesh->vertices.emplace_back(r * std::cos(a), r * std::sin(a), z);
+    }
+  }
+  mesh->vertices.emplace_back(0.0, 0.0, -0.5 * height);
+  mesh->vertices.emplace_back(0.0, 0.0, 0.5 * height);
+  for (int i = 0; i < n; ++i) {
+    const int j = (i + 1) % n;
+    mesh->triangles.emplace_back(i, j, n + j);
+    mesh->triangles.emplace_back(i, n + j, n + i);
+    mesh->triangles.emplace_back(2 * n, j, i);
+    mesh->triangles.emplace_back(2 * n + 1, n + i, n + j);
+  }
+  return mesh;
+}
+
+/// A movable one of uniform density.
+inline scene::Body uniform(const std::string& name, const geometry::Geometry& geometry, const RigidTransform& X_WO,
+                           double friction, double mass) {
+  const geometry::VolumeProperties of = geometry::volume_properties(geometry);
+  scene::Body body = movable(name, geometry, X_WO, friction, mass, Vector3d::Ones());
+  body.mass_properties.inertia_O = mass / of.volume * of.inertia_per_density;
+  return body;
 }
 
 }  // namespace spring_workbench::benchmark

@@ -20,28 +20,6 @@ constexpr double held = 0.06, after = 0.2;                                      
 constexpr std::array<double, 8> steps{0.02, 0.01, 5e-3, 2e-3, 1e-3, 5e-4, 2e-4, 1e-4};  // s
 constexpr std::array<const char*, 4> shape_names{"box", "hull", "cylinder", "mesh"};
 
-/// A prism over a polygon with corners at these radii around the z axis, evenly apart.
-geometry::MeshPtr prism(const std::vector<double>& radii, double height) {
-  auto mesh = std::make_shared<geometry::TriangleMesh>();
-  const int n = static_cast<int>(radii.size());
-  for (const double z : {-0.5 * height, 0.5 * height}) {
-    for (int i = 0; i < n; ++i) {
-      const double a = 2.0 * M_PI * i / n, r = radii[static_cast<std::size_t>(i)];
-      mesh->vertices.emplace_back(r * std::cos(a), r * std::sin(a), z);
-    }
-  }
-  mesh->vertices.emplace_back(0.0, 0.0, -0.5 * height);
-  mesh->vertices.emplace_back(0.0, 0.0, 0.5 * height);
-  for (int i = 0; i < n; ++i) {
-    const int j = (i + 1) % n;
-    mesh->triangles.emplace_back(i, j, n + j);
-    mesh->triangles.emplace_back(i, n + j, n + i);
-    mesh->triangles.emplace_back(2 * n, j, i);
-    mesh->triangles.emplace_back(2 * n + 1, n + i, n + j);
-  }
-  return mesh;
-}
-
 struct Thrown {
   scene::Body body;
   std::vector<Vector3d> corners;  ///< lowest among them is the lowest point; of a cylinder's rims finely enough
@@ -64,12 +42,7 @@ Thrown thrown_of(unsigned seed) {
       Eigen::AngleAxisd(between(0.0, 6.28), Vector3d::UnitZ()).toRotationMatrix();
   RigidTransform X_WO = at(Vector3d(0.0, 0.0, radius * t.tilt + height + between(0.02, 0.3)));
   X_WO.linear() = R;
-  const auto made = [&](const geometry::Geometry& geometry) {
-    const geometry::VolumeProperties uniform = geometry::volume_properties(geometry);
-    scene::Body body = movable("held", geometry, X_WO, friction, mass, Vector3d::Ones());
-    body.mass_properties.inertia_O = mass / uniform.volume * uniform.inertia_per_density;
-    return body;
-  };
+  const auto made = [&](const geometry::Geometry& geometry) { return uniform("held", geometry, X_WO, friction, mass); };
   const auto mesh_body = [&](const std::vector<double>& radii) {
     const geometry::MeshPtr mesh = prism(radii, height);
     t.body = made(mesh);

@@ -10,6 +10,7 @@
 #include "benchmark/contact/bodies.h"
 #include "benchmark/contact/drops.h"
 #include "benchmark/contact/scale.h"
+#include "benchmark/contact/throws.h"
 #include "benchmark/contact/wild_motions.h"
 #include "spring_workbench/validation/number_rule.h"
 
@@ -140,13 +141,15 @@ void run_contact_trials(const std::vector<std::string>& arguments, std::ostream&
            count_at(arguments, 5, 0), out);
   } else if (what == "drops" && arguments.size() <= 3) {
     run_drops(count_at(arguments, 1, 100), count_at(arguments, 2, 0), out);
+  } else if (what == "throws" && arguments.size() <= 3) {
+    run_throws(count_at(arguments, 1, 100), count_at(arguments, 2, 0), out);
   } else if (what == "scale" && arguments.size() <= 2) {
     run_scale(count_at(arguments, 1, 10000), out);
   } else {
     validation::refuse(
         where, "arguments", what,
         "wild [N [FIRST_SEED [SCENE [CONTACT]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED, drops [N "
-        "[FIRST_SEED]], or scale [MOST]");
+        "[FIRST_SEED]], throws [N [FIRST_SEED]], or scale [MOST]");
   }
 }
 

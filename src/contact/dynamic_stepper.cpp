@@ -211,6 +211,20 @@ void DynamicStepper::set_free(std::size_t body, const RigidTransform& X_WO, cons
   held_.erase(std::remove(held_.begin(), held_.end(), body), held_.end());
 }
 
+std::vector<std::size_t> DynamicStepper::alone(const std::vector<std::size_t>& moving, double h) const {
+  std::vector<std::size_t> alone;
+  for (const std::size_t body : world_->bodies_near()) {
+    const bool held = std::find(held_.begin(), held_.end(), body) != held_.end();
+    if (held || !world_->awake(body) || !(scene_.bodies[body].mass_properties.mass > 0.0)) continue;
+    const RigidTransform& X0 = world_->pose(body);
+    RigidTransform X1 = X0;
+    X1.translation() += h * world_->velocity(body).linear;
+    X1.linear() = math::exp_so3(h * world_->velocity(body).angular) * X0.linear();
+    if (!world_->near_movable(body, X0, X1, h, moving)) alone.push_back(body);
+  }
+  return alone;
+}
+
 bool DynamicStepper::others_awake() const {
   const std::vector<std::size_t>& near = world_->bodies_near();
   return std::any_of(near.begin(), near.end(), [&](std::size_t body) {

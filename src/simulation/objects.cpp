@@ -31,9 +31,8 @@ void Objects::reset() {
   free_.clear();
   in_contact_.clear();
   for (std::size_t i = 0; i < objects_.size(); ++i) {
-    Object of_body;
-    of_body.body = objects_[i].body;
-    objects_[i] = std::move(of_body);
+    const std::size_t in_scene = std::exchange(objects_[i], Object()).body;
+    objects_[i].body = in_scene;
     states_[i].name = body(i).name;
     states_[i].X_WO = body(i).X_WO;
     if (collision_) collision_->set_pose(objects_[i].body, body(i).X_WO);
@@ -57,10 +56,7 @@ std::optional<std::size_t> Objects::find(const std::string& name) const {
   return std::nullopt;
 }
 
-bool Objects::any_free() const {
-  if (dynamic_stepper_) return dynamic_stepper_->others_awake();
-  return !free_.empty();
-}
+bool Objects::any_free() const { return !free_.empty() || (dynamic_stepper_ && dynamic_stepper_->others_awake()); }
 
 void Objects::take_state(std::size_t object, const motion::MotionState& s) {
   states_[object].X_WO = s.X;
@@ -90,9 +86,7 @@ void Objects::let_go(std::size_t object, Grip grip, bool thrown, double now) {
 }
 
 void Objects::place(std::size_t object, const RigidTransform& X_WO, double now) {
-  motion::MotionState at_rest;
-  at_rest.X = X_WO;
-  take_state(object, at_rest);
+  take_state(object, {X_WO, Twist(), {}});
   let_fly(object, now);
 }
 
@@ -108,10 +102,7 @@ void Objects::let_fly(std::size_t object, double now) {
 
 void Objects::set_free(std::size_t object, const Twist& V_WO_W, double now) {
   states_[object].asleep = false;
-  if (dynamic_stepper_) {
-    dynamic_stepper_->set_free(objects_[object].body, states_[object].X_WO, V_WO_W);
-    return;
-  }
+  if (dynamic_stepper_) dynamic_stepper_->world().place(objects_[object].body, states_[object].X_WO, V_WO_W, false);
   objects_[object].free_body = std::make_unique<bodies::FreeBody>(objects_[object].body, body(object), scene_.gravity,
                                                                   states_[object].X_WO, V_WO_W);
   free_.insert(object);
@@ -163,10 +154,7 @@ bool Objects::carry(bodies::SteppedBody& stepped, std::size_t object, double h,
 }
 
 void Objects::step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report) {
-  if (dynamic_stepper_) {
-    step_among_movable(held, h, report);
-    return;
-  }
+  if (dynamic_stepper_) return step_among_movable(held, now, h, report);
   const auto anywhere = [](const RigidTransform&, const RigidTransform&) { return true; };
   for (const Carried& c : held) carry(*c.body, c.object, h, anywhere, report);
   const std::set<std::size_t> free = free_;
@@ -176,32 +164,42 @@ void Objects::step(const std::vector<Carried>& held, double now, double h, Advan
   }
 }
 
-void Objects::step_among_movable(const std::vector<Carried>& held, double h, AdvanceReport& report) {
-  std::vector<std::size_t> bodies;
-  for (const Carried& c : held) bodies.push_back(objects_[c.object].body);
+void Objects::step_among_movable(const std::vector<Carried>& held, double now, double h, AdvanceReport& report) {
   rigid_bodies::RigidWorld& world = dynamic_stepper_->world();
-  std::vector<Carried> among_others, alone;
-  for (const Carried& c : held) {
-    const std::size_t body = objects_[c.object].body;
+  std::vector<Carried> carried = held, among_others, alone;
+  for (const std::size_t object : free_) carried.push_back({object, objects_[object].free_body.get()});
+  std::vector<std::size_t> moving;
+  for (const Carried& c : carried) moving.push_back(objects_[c.object].body);
+  for (const Carried& c : carried) {
+    Object& object = objects_[c.object];
+    const bodies::BodyState& o = states_[c.object];
     const auto among_fixed = [&](const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
-      return !world.near_movable(body, X0_WO, X1_WO, h, bodies);
+      return !world.near_movable(object.body, X0_WO, X1_WO, h, moving);
     };
-    if (!carry(*c.body, c.object, h, among_fixed, report)) {
-      objects_[c.object].rows.clear();
+    if (carry(*c.body, c.object, h, among_fixed, report)) {
+      if (object.free_body) put_to_sleep_if_slow(c.object, now + h);
+      in_contact_.erase(c.object);  // its contacts are noted already
+      world.place(object.body, o.X_WO, o.V_WO_W, false);
+      alone.push_back(c);
+      continue;
+    }
+    object.rows.clear();
+    if (!object.free_body) {
       among_others.push_back(c);
       continue;
     }
-    in_contact_.erase(c.object);  // its contacts are noted already
-    world.place(body, states_[c.object].X_WO, states_[c.object].V_WO_W, false);
-    alone.push_back(c);
+    object.free_body.reset();
+    free_.erase(c.object);
+    dynamic_stepper_->set_free(object.body, o.X_WO, o.V_WO_W);
   }
-  if (!among_others.empty() || dynamic_stepper_->others_awake()) step_together(among_others, h, report);
+  if (!among_others.empty() || dynamic_stepper_->others_awake()) step_together(among_others, moving, now, h, report);
   for (const Carried& c : alone) {
     if (states_[c.object].in_contact) in_contact_.insert(c.object);
   }
 }
 
-void Objects::step_together(const std::vector<Carried>& held, double h, AdvanceReport& report) {
+void Objects::step_together(const std::vector<Carried>& held, const std::vector<std::size_t>& moving, double now,
+                            double h, AdvanceReport& report) {
   std::vector<bodies::SteppedBody*> bodies;
   for (const Carried& c : held) bodies.push_back(c.body);
   const contact::DynamicStepper::Outcome outcome = dynamic_stepper_->step(bodies, h);
@@ -220,6 +218,9 @@ void Objects::step_together(const std::vector<Carried>& held, double h, AdvanceR
     states_[object].asleep = !world.awake(near);
   }
   note_world_contacts(h);
+  for (const std::size_t body : dynamic_stepper_->alone(moving, h)) {
+    set_free(object_of_[body], states_[object_of_[body]].V_WO_W, now + h);
+  }
 }
 
 void Objects::note_world_contacts(double h) {
@@ -253,10 +254,8 @@ void Objects::exchange(math::StateArchive& state) {
     if (state.sets()) {
       const bodies::BodyState& o = states_[i];
       if (collision_) collision_->set_pose(object.body, o.X_WO);
-      object.free_body.reset();
-      if (flies) {
-        object.free_body = std::make_unique<bodies::FreeBody>(object.body, body(i), scene_.gravity, o.X_WO, o.V_WO_W);
-      }
+      object.free_body =
+          !flies ? nullptr : std::make_unique<bodies::FreeBody>(object.body, body(i), scene_.gravity, o.X_WO, o.V_WO_W);
     }
     if (flies) state(*object.free_body);
   }
@@ -264,10 +263,11 @@ void Objects::exchange(math::StateArchive& state) {
   if (dynamic_stepper_) state(*dynamic_stepper_);
 }
 
-bool Objects::rests(std::size_t object) const {
-  if (dynamic_stepper_) return !dynamic_stepper_->others_awake();
+bool Objects::rests(std::size_t object) const { return dynamic_stepper_ ? !any_free() : !touches_what_moves(object); }
+
+bool Objects::touches_what_moves(std::size_t object) const {
   const std::vector<contact::ContactState>& touching = contacts_.touching(object);
-  return std::none_of(touching.begin(), touching.end(), [&](const contact::ContactState& c) {
+  return std::any_of(touching.begin(), touching.end(), [&](const contact::ContactState& c) {
     const std::optional<std::size_t> other = find(c.other);
     return other && !states_[*other].asleep;
   });
@@ -278,7 +278,7 @@ void Objects::put_to_sleep_if_slow(std::size_t object, double now) {
   o.asleep = false;
   const double speed =
       o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * geometry::bounding_radius(body(object).collision);
-  if (!o.in_contact || !rests(object) || speed > scene::asleep_speed) objects_[object].slow_since = now;
+  if (!o.in_contact || touches_what_moves(object) || speed > scene::asleep_speed) objects_[object].slow_since = now;
   const bool away = o.X_WO.translation().norm() > world_limit;
   if (away || now - objects_[object].slow_since > asleep_after) {
     objects_[object].free_body.reset();

@@ -67,9 +67,11 @@ class Objects {
   void exchange(math::StateArchive& state);
 
  private:
-  /// Contact mode `dynamic`: what only fixed bodies are near is carried as with `stop`, all the rest in one world.
-  void step_among_movable(const std::vector<Carried>& held, double h, AdvanceReport& report);
-  void step_together(const std::vector<Carried>& held, double h, AdvanceReport& report);
+  /// Contact mode `dynamic`: what only fixed bodies are near, held or free, is carried as with `stop`, all the rest in
+  /// one world.
+  void step_among_movable(const std::vector<Carried>& held, double now, double h, AdvanceReport& report);
+  void step_together(const std::vector<Carried>& held, const std::vector<std::size_t>& moving, double now, double h,
+                     AdvanceReport& report);
   void note_world_contacts(double h);
   /// False, and nothing is done, when the body may not go its way.
   bool carry(bodies::SteppedBody& stepped, std::size_t object, double h, const contact::ContactStepper::MayGo& may_go,
@@ -78,6 +80,7 @@ class Objects {
   void let_fly(std::size_t object, double now);
   void set_free(std::size_t object, const Twist& V_WO_W, double now);
   void put_to_sleep_if_slow(std::size_t object, double now);
+  bool touches_what_moves(std::size_t object) const;
 
   const scene::Scene& scene_;
   std::unique_ptr<collision::CollisionWorld> collision_;      ///< null without contact
@@ -89,7 +92,7 @@ class Objects {
   struct Object {
     std::size_t body = 0;                         ///< index in the scene
     int grasping = 0, pushing = 0;                ///< tools that carry it
-    std::unique_ptr<bodies::FreeBody> free_body;  ///< null while held or asleep
+    std::unique_ptr<bodies::FreeBody> free_body;  ///< null while held, asleep or among movable bodies
     std::vector<contact::ContactRow> rows;        ///< of its last step
     double slow_since = 0.0;                      ///< [s]
   };

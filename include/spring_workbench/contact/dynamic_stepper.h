@@ -28,6 +28,9 @@ class DynamicStepper {
   Outcome step(const std::vector<bodies::SteppedBody*>& held, double h);
   /// Puts a body that nobody holds any more on its way.
   void set_free(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W);
+  /// The free bodies of the world that nothing movable, `moving` [in the scene] on its way, will come near in the next
+  /// `h` [s].
+  std::vector<std::size_t> alone(const std::vector<std::size_t>& moving, double h) const;
   /// Whether a body that is not held moves.
   bool others_awake() const;
   /// The bodies of a contact are a movable one and another; a held one comes first. Contacts since the last call of

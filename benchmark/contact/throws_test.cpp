@@ -1,0 +1,27 @@
+#include "benchmark/contact/throws.h"
+
+#include <gtest/gtest.h>
+
+namespace spring_workbench::benchmark {
+namespace {
+
+// Some of the throws that `contact_trials throws 1000` runs.
+class Throws : public ::testing::TestWithParam<scene::ContactMode> {};
+
+TEST_P(Throws, AThinFixedWallStopsWhatIsThrownAtIt) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const ThrowResult result = run({GetParam(), seed});
+    EXPECT_FALSE(result.passed_through) << seed;
+    EXPECT_LT(result.depth, 1e-4) << seed;
+    EXPECT_LT(result.energy_gained, 2e-3) << seed;  // of a free rotation over steps of 20 ms
+    EXPECT_EQ(result.steps_blocked, 0) << seed;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Modes, Throws, ::testing::Values(scene::ContactMode::stop, scene::ContactMode::dynamic),
+                         [](const auto& tested) {
+                           return tested.param == scene::ContactMode::stop ? "stop" : "dynamic";
+                         });
+
+}  // namespace
+}  // namespace spring_workbench::benchmark
