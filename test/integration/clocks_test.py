@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The clocks of tracker_driver and manipulation are set, together and alone, and the processes stand still, while an
-object is held: it stays where it is, and the hand is followed again within half a second."""
+object is held: it stays where it is, and the hand is followed again within half a second. Then a second node sends the
+same stylus, and the tracker turns out to be elsewhere."""
 import math
 import os
 import signal
@@ -15,11 +16,12 @@ import roslib.packages
 import rospkg
 import rospy
 import rostest
+from geometry_msgs.msg import TransformStamped
 from sensor_msgs.msg import Joy
-from spring_workbench.msg import ObjectStates
+from spring_workbench.msg import ForkState, ObjectStates
 from tf2_msgs.msg import TFMessage
 
-from stack import DEADLINE, Listener, diagnostic_values, diagnostics_listener, wait_for
+from stack import DOWN, Listener, diagnostic_values, diagnostics_listener, stylus_transform, wait_for
 
 SCENE = os.path.join(rospkg.RosPack().get_path("spring_workbench"), "scenes", "single_box.urdf")
 STEPS = [0.3, -0.3, 3.0, -3.0, 3600.0, -3600.0]
@@ -146,6 +148,47 @@ class Clocks(unittest.TestCase):
 
             _, back = self.check(stand, "%d stood" % len(nodes))
             self.assertLess(back, 2.0)
+
+    def test_two_senders(self):
+        other = rospy.Publisher("/tf", TFMessage, queue_size=10)
+        wait_for(lambda: other.get_num_connections() > 0, "the node to listen to another sender")
+
+        def both():
+            for _ in range(200):
+                stamp = rospy.Time.from_sec(self.driver.now())
+                other.publish(TFMessage([stylus_transform(stamp, (0.03, 0.0, 0.4), DOWN)]))
+                time.sleep(0.005)
+
+        gap, back = self.check(both, "two senders")
+        self.assertGreater(self.count("left out: another sender"), 100)
+
+        def told():
+            statuses = [s for m in self.diagnostics.messages for s in m.status if "tracker input" in s.name]
+            both = "/tracker_driver is followed, /clocks_test is"
+            return any(s.level == s.ERROR and both in s.message for s in statuses)
+
+        wait_for(told, "an error that names both")
+        other.unregister()
+
+    def test_the_tracker_is_moved(self):
+        forks = Listener("manipulation/fork", ForkState)
+        wait_for(lambda: forks.last, "the fork")
+        before = self.newest().pose.position.x
+        seen = len(self.objects.messages)
+        place = TransformStamped()
+        place.header.frame_id, place.child_frame_id = "world", "workbench"
+        place.transform.translation.x, place.transform.rotation.w = 0.5, 1.0
+        publisher = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        publisher.publish(TFMessage([place]))
+        wait_for(lambda: abs(self.newest().pose.position.x - before - 0.5) < 1e-5, "the box to be there, too")
+        force = lambda m: math.hypot(m.tip_wrench.force.x, m.tip_wrench.force.y, m.tip_wrench.force.z)
+        speed = lambda m: math.hypot(m.objects[0].twist.linear.x, m.objects[0].twist.linear.z)
+        strongest = max(map(force, forks.messages))
+        fastest = max(map(speed, self.objects.messages[seen:]))
+        print("moved by 0.5 m: at most %.3g N and %.3g m/s" % (strongest, fastest))
+        self.assertLess(strongest, 30.0)
+        self.assertLess(fastest, 1.5)
+        wait_for(lambda: self.count("times the tracker's frame was moved") == 1.0, "/diagnostics to say so")
 
 
 if __name__ == "__main__":

@@ -18,7 +18,5 @@ constexpr double longest_attended = 0.01;
 /// [ns] between readings of two clocks from which on they are read once more. Longer: stamps jitter more. Test: none:
 /// only an interrupted process meets it.
 constexpr std::int64_t clocks_apart = 50'000;
-/// times two clocks are read at most. Test: none: only an interrupted process meets it.
-constexpr int clock_readings = 5;
 
 }  // namespace spring_workbench::ros_common

@@ -27,7 +27,7 @@ struct Reading {
 Reading read_clocks() {
   const auto steady = [] { return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count(); };
   Reading reading{};
-  for (int attempt = 0; attempt < clock_readings; ++attempt) {
+  for (int attempt = 0; attempt < 5; ++attempt) {
     reading.steady = steady();
     reading.ros = static_cast<std::int64_t>(ros::Time::now().toNSec());
     if (steady() - reading.steady < clocks_apart) break;

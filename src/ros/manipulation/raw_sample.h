@@ -2,7 +2,7 @@
 
 #include <geometry_msgs/Transform.h>
 
-#include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/live/stylus_events.h"
 
 namespace spring_workbench::manipulation {
 

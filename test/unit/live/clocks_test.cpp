@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "spring_workbench/live/simulation_runner.h"
@@ -45,6 +46,22 @@ class Session {
   /// This process is stopped while the hand goes on.
   void stop(double seconds) { run(seconds, false); }
 
+  /// Two samples with stamps that are off by so much, among those that are right.
+  void send_odd(double ahead) {
+    for (int k = 0; k < 2; ++k) {
+      run(interval);
+      set_clocks(0.0, ahead);
+      send();
+      set_clocks(0.0, -ahead);
+      cycle();
+    }
+  }
+  /// From now on the tracker is known to be elsewhere.
+  void move_tracker(const Vector3d& p) { X_WP_.translation() = p; }
+  /// Largest force on the handle since the last call [N].
+  double strongest() { return std::exchange(strongest_, 0.0); }
+  HandStatistics statistics() const { return runner_.hand_statistics(0); }
+
   RigidTransform box() const {
     return runner_.locked([](const auto& s) { return s.objects()[0].X_WO; });
   }
@@ -87,6 +104,7 @@ class Session {
             pose.sample = {1e-9 * static_cast<double>(local - zero_), at, Quaterniond(pointing_down(at).linear())};
             pose.arrival = arrival;
             pose.age = age;
+            pose.X_WP = X_WP_;
             if (!pressed_ && holds_) events[0].push_back(StylusButton{pose.sample.t, pressed_ = true});
             events[0].push_back(pose);
           },
@@ -97,6 +115,8 @@ class Session {
     CycleReport report = runner_.cycle(events, arrival);
     left_out += report.left_out;
     while (report.more) report = runner_.cycle({}, arrival);
+    const double force = runner_.locked([](const auto& s) { return s.fork().handle_wrench_H.force.norm(); });
+    strongest_ = std::max(strongest_, force);
     runner_.show(0.0, arrival);
   }
 
@@ -106,7 +126,9 @@ class Session {
   std::vector<std::pair<std::int64_t, Vector3d>> waiting_;
   bool holds_, pressed_ = false;
   double t_ = 0.0, attended_ = 0.0, host_set_ = 0.0, sender_set_ = 0.0;
+  double strongest_ = 0.0;
   std::int64_t zero_ = 0;
+  RigidTransform X_WP_ = RigidTransform::Identity();
 };
 
 struct Fault {
@@ -188,6 +210,57 @@ TEST(Clocks, ALeapIsLeftOutAndNothingMoves) {
       EXPECT_LT((session.hand() - session.true_hand()).norm(), 0.02);
     }
   }
+}
+
+TEST(Senders, AStampThatIsOffMovesNothing) {
+  for (const double ahead : {0.9, 0.2, -0.2, -5.0, 3600.0}) {
+    Session session(true);
+    session.run(3.0);
+    const RigidTransform before = session.box();
+    session.send_odd(ahead);
+    EXPECT_LT(std::abs(session.stamp_lag()), 0.05) << ahead;
+    session.run(0.5);
+    EXPECT_LT((session.box().translation() - before.translation()).norm(), 1e-6);
+    EXPECT_EQ(session.stepped + session.left_out, 0.0);
+    EXPECT_LT(std::abs(session.stamp_lag()), 0.05) << ahead;
+  }
+}
+
+/// Half a metre, told late or anew while the box is held: the hand comes there at a bounded speed.
+TEST(Senders, ATrackerThatIsMovedPullsNoHarderThanAHandThatIsFoundAgain) {
+  Session session(true);
+  session.run(3.0);
+  const double weight = 9.81;
+  session.strongest();
+  session.run(0.1);
+  EXPECT_NEAR(session.strongest(), weight, 0.1);
+  const Vector3d before = session.hand(), by(0.5, 0.0, 0.0);
+  session.move_tracker(by);
+  double fastest = 0.0;
+  for (int k = 0; k < 500; ++k) {
+    const Vector3d p = session.hand();
+    session.run(interval);
+    fastest = std::max(fastest, (session.hand() - p).norm() / interval);
+  }
+  EXPECT_LT(fastest, 0.55);  // reacquisition_speed is 0.5 m/s
+  EXPECT_LT(session.strongest(), 2.0 * weight);
+  EXPECT_TRUE(session.held());
+  EXPECT_LT((session.hand() - before - by).norm(), 1e-3);
+  EXPECT_EQ(session.statistics().tracker_moves, 1u);
+  EXPECT_EQ(session.statistics().reacquisition.reacquisitions, 1u);
+}
+
+TEST(Senders, TheFirstIsFollowedUntilItIsSilent) {
+  motion::SenderChoice choice(0.5);
+  EXPECT_TRUE(choice.offers("/a", 0.0));
+  for (double t = 0.01; t < 2.0; t += 0.01) {
+    EXPECT_TRUE(choice.offers("/a", t));
+    EXPECT_FALSE(choice.offers("/b", t));
+  }
+  EXPECT_FALSE(choice.offers("/b", 2.4));
+  EXPECT_TRUE(choice.offers("/b", 2.6));
+  EXPECT_EQ(choice.name(), "/b");
+  EXPECT_FALSE(choice.offers("/a", 2.7));
 }
 
 }  // namespace
