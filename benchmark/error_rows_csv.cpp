@@ -31,9 +31,7 @@ void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out) {
       out << ',';
       if (row.own_reference) out << row.model_error;
     } else {
-      out << ",,,,";
-      if (row.given_up) out << row.wall_us_per_simulated_second;
-      out << ",,,";
+      out << ",,,,,,,";
     }
     out << ',' << row.finite << ',' << row.steps_fallback << ',' << row.given_up << '\n';
   }

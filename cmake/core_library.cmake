@@ -44,6 +44,7 @@ set(SPRING_WORKBENCH_HEADERS
   bodies/body_state.h
   contact/contact_state.h
   dynamics/active_coordinates.h
+  dynamics/coupling.h
   dynamics/held_body.h
   dynamics/integrator.h
   dynamics/settings.h
@@ -56,7 +57,6 @@ set(SPRING_WORKBENCH_HEADERS
   math/pack.h
   math/rigid_transform.h
   math/state_archive.h
-  motion/frame_motion.h
   motion/motion_segment.h
   motion/pose_track.h
   motion/stylus_source.h

@@ -14,23 +14,9 @@ FreeBody::FreeBody(std::size_t index, const scene::Body& body, double gravity, c
       inverse_inertia_O_(inertia_O_.inverse()),
       gravity_(gravity) {
   state_.X_WO = X_WO;
-  set_twist(V_WO_W);
-}
-
-void FreeBody::set_twist(const Twist& V_WO_W) {
-  const Matrix3d& R = state_.X_WO.linear();
+  const Matrix3d& R = X_WO.linear();
   state_.velocity = V_WO_W.linear;
   state_.angular_momentum = R * inertia_O_ * R.transpose() * V_WO_W.angular;
-}
-
-void FreeBody::set_motion(const motion::MotionState& object) {
-  state_.X_WO = object.X;
-  set_twist(object.velocity);
-}
-
-void FreeBody::set_motion_of_centre(const Vector3d& p_WO, const Vector3d& v_WO_W) {
-  state_.X_WO.translation() = p_WO;
-  state_.velocity = v_WO_W;
 }
 
 Vector3d FreeBody::angular_velocity(const Matrix3d& R_WO, const Vector3d& angular_momentum) const {

@@ -163,6 +163,13 @@ class Exponential::CoreOf final : public Core {
   SPRING_WORKBENCH_INLINE double squared_size(const Modes& x) const {
     return collocation_.squared_weight().dot(x.cwiseAbs2());
   }
+  /// The squared size of what is rounded in a step: of the state, and where couplings pull, whose strains are
+  /// differences of places so far from the origin, of these, as far as the step feels it.
+  double rounded(const HeldBody& body, double distance, double h, const Strain& q, const Strain& q_dot) const {
+    const double felt = distance * std::min(1.0, modes().fastest * h * modes().fastest * h);
+    return modes().mass.dot(rod::StrainVector(q.cwiseAbs2() + h * h * q_dot.cwiseAbs2())) +
+           body.body().mass * felt * felt;
+  }
   SPRING_WORKBENCH_INLINE static Modes at_end(const NodeModes& x) {
     Modes end;
     for (int m = 0; m < 2 * n; ++m) end[m] = x[at(m)][last];
@@ -209,7 +216,7 @@ class Exponential::CoreOf final : public Core {
     collocation_.drive(begin, in_modes, x);
 
     const Modes& weight = collocation_.squared_weight();
-    const double squared_state = modes().mass.dot(rod::StrainVector(q0.cwiseAbs2() + h * h * q_dot0.cwiseAbs2()));
+    const double squared_state = rounded(body, forcing.seen.distance, h, q0, q_dot0);
     mixer_.restart();
     double all_before = 0.0, rate = std::min(1.0, rate_ * forget_rate), left = 0.0, squared_left = 0.0;
     bool converged = false;
@@ -312,10 +319,11 @@ void Exponential::exchange(math::StateArchive& state) {
   }
 }
 
-Integrator::Response Exponential::response(const HeldBody& body, double t, double h, const StrainState& state) {
+Integrator::Response Exponential::response(const HeldBody& body, const HandleForcing& handle, double h,
+                                           const StrainState& state) {
   Response r;
   if (body.size() > 0 && body.size() == n_ && core_->response(body, h, r)) return r;
-  return Integrator::response(body, t, h, state);
+  return Integrator::response(body, handle, h, state);
 }
 
 }  // namespace spring_workbench::dynamics

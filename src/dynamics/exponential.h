@@ -26,7 +26,7 @@ class Exponential final : public Integrator {
                     StrainState& state) override;
   void carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h, const StrainState& begin,
              const StrainState& end, StrainState& deviation) override;
-  Response response(const HeldBody& body, double t, double h, const StrainState& state) override;
+  Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
   void exchange(math::StateArchive& state) override;
 
  private:

@@ -44,8 +44,8 @@ void HeldBody::changed() {
 }
 
 void HeldBody::exchange(math::StateArchive& state) {
-  state(version_, load_version_, stiffness_, damping_, K_, D_, modal_, modal_ratio_, coordinates_, external_W_,
-        loaded_);
+  state(version_, load_version_, stiffness_, damping_, K_, D_, modal_, modal_ratio_, coordinates_, external_W_, loaded_,
+        couplings_);
   if (state.sets()) set_modal_damping();
 }
 
@@ -110,6 +110,20 @@ rod::StrainMatrix HeldBody::damping() const {
   return rod::StrainMatrix(coordinates_.gather(D_).asDiagonal());
 }
 
+void HeldBody::attach(const std::vector<Attached>& couplings) {
+  if (couplings_.attach(couplings)) ++version_;
+}
+
+HeldBody::Springs HeldBody::springs(const HandleForcing& h, const rod::StrainVector& q) const {
+  Springs all{stiffness().asDiagonal(), damping()};
+  if (!coupled()) return all;
+  const Coupling::Springs more = read_couplings(h, {q, rod::StrainVector::Zero(size())}).springs;
+  const auto J = object_jacobian(h.t, q);
+  all.K += J.transpose() * more.stiffness * J;
+  all.D += J.transpose() * more.damping * J;
+  return all;
+}
+
 StrainState HeldBody::set_dofs(const rod::ForkDofs& dofs, double t, double return_time, const StrainState& full) {
   coordinates_.set(shape_->bend(), dofs.bend, t, return_time, full);
   coordinates_.set(shape_->torsion(), dofs.torsion, t, return_time, full);
@@ -140,11 +154,16 @@ HandleForcing HeldBody::forcing(const motion::FrameMotion& handle, double t) con
   f.angular_velocity = m.w_B;
   f.angular_acceleration = m.alpha_B;
   f.acceleration_less_gravity.noalias() = m.X.linear().transpose() * (m.a_W + gravity_ * Vector3d::UnitZ());
+  couplings_.look(handle, t, f.seen);
   return f;
 }
 
 HandleForcings HeldBody::forcing(const motion::FrameMotion& handle, const math::Pack& t) const {
-  return {t, handle.forcing(t, gravity_)};
+  HandleForcings f;
+  f.t = t;
+  f.of_H = handle.forcing(t, gravity_);
+  couplings_.look(handle, t, f.seen);
+  return f;
 }
 
 HandleForcing HandleForcings::at(int i) const {
@@ -154,7 +173,14 @@ HandleForcing HandleForcings::at(int i) const {
   f.angular_velocity = math::vector(of_H.w_B, i);
   f.angular_acceleration = math::vector(of_H.alpha_B, i);
   f.acceleration_less_gravity = math::vector(of_H.a_B, i);
+  f.v_WH_W = f.X_WH.linear() * math::vector(of_H.v_B, i);
+  f.seen = Couplings::lane(seen, i);
   return f;
+}
+
+HandleForcing HeldBody::with_frames_at_rest(HandleForcing handle) const {
+  for (RelativeMotion<double>& A_H : handle.seen.from) A_H.v_AB = A_H.w_AB = math::none<double>();
+  return handle;
 }
 
 const rod::TipOf<double>& HeldBody::tip(const double* q, const double* q_dot, bool of_rates) const {

@@ -35,10 +35,11 @@ SPRING_WORKBENCH_INLINE void add_tip_motion(const rod::TipOf<S>& tip, int size, 
 }  // namespace
 
 template <typename S>
-SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration(const motion::FrameForcing<S>& h,
+SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration(const ForcingOf<S>& handle,
                                                                                  const rod::TipOf<S>& tip,
                                                                                  const S* q_dot,
                                                                                  const S* q_ddot) const {
+  const motion::FrameForcing<S>& h = handle.of_H;
   Rigid<S> r;
   r.r_EO = tip.R_HE * math::three(p_EO_);
   r.R_HO = tip.R_HE * math::three_by_three(R_EO_);
@@ -61,19 +62,25 @@ SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration
     r.force = r.force - math::transposed(h.R_WB, math::three(external_W_.force));
     r.moment_O = r.moment_O - math::transposed(r.R_HO, math::transposed(h.R_WB, math::three(external_W_.moment)));
   }
+  if (coupled()) {
+    const Pull<S> pull = couplings_.pull(handle.t, handle.seen, {r.R_HO, r.p_HO, r.v_rel, w_rel});
+    r.force = r.force - pull.force;
+    r.moment_O = r.moment_O - math::transposed(r.R_HO, pull.moment);
+  }
   return r;
 }
 
 template <int n, typename S>
-SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const motion::FrameForcing<S>& h, const S* q,
-                                                  const S* q_dot, S* q_ddot, EnergyBalance* balance) const {
+SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const ForcingOf<S>& handle, const S* q, const S* q_dot, S* q_ddot,
+                                                  EnergyBalance* balance) const {
+  const motion::FrameForcing<S>& h = handle.of_H;
   S q_all[rod::max_strain_coordinates], q_dot_all[rod::max_strain_coordinates], q_ddot_all[rod::max_strain_coordinates];
   coordinates_.scatter(q, q_all);
   coordinates_.scatter(q_dot, q_dot_all);
   if (returning()) {
     for (S& x : q_ddot_all) x = S{};
     for (int k = 0; k < math::lanes<S>; ++k) {
-      coordinates_.prescribe(math::lane(t, k), k, q_all, q_dot_all, q_ddot_all);
+      coordinates_.prescribe(math::lane(handle.t, k), k, q_all, q_dot_all, q_ddot_all);
     }
   }
   S springs[n];
@@ -85,7 +92,7 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const motion::Fram
   }
   rod::TipOf<S> tip;
   shape_->tip(q_all, q_dot_all, tip);
-  const Rigid<S> rigid = without_strain_acceleration(h, tip, q_dot_all, q_ddot_all);
+  const Rigid<S> rigid = without_strain_acceleration(handle, tip, q_dot_all, q_ddot_all);
   math::Three<S> linear[n], angular[n], momentum[n];  // of O: axes of H and of O
   const math::ThreeByThree<double> I = math::three_by_three(body_.inertia_O);
   for (int i = 0; i < n; ++i) {
@@ -127,18 +134,20 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const S& t, const motion::Fram
 template <int n>
 Eigen::Matrix<double, n, 1> HeldBody::acceleration(const HandleForcing& h, const Eigen::Matrix<double, n, 1>& q,
                                                    const Eigen::Matrix<double, n, 1>& q_dot) const {
-  const motion::FrameForcing<double> forcing{math::three_by_three(h.X_WH.linear()), math::none<double>(),
-                                             math::three(h.angular_velocity), math::three(h.angular_acceleration),
-                                             math::three(h.acceleration_less_gravity)};
+  const ForcingOf<double> forcing{
+      h.t,
+      {math::three_by_three(h.X_WH.linear()), math::none<double>(), math::three(h.angular_velocity),
+       math::three(h.angular_acceleration), math::three(h.acceleration_less_gravity)},
+      h.seen};
   Eigen::Matrix<double, n, 1> q_ddot;
-  accelerate<n>(h.t, forcing, q.data(), q_dot.data(), q_ddot.data());
+  accelerate<n>(forcing, q.data(), q_dot.data(), q_ddot.data());
   return q_ddot;
 }
 
 template <int n>
 SPRING_WORKBENCH_WIDE void HeldBody::acceleration(const HandleForcings& h, const math::Pack* q, const math::Pack* q_dot,
                                                   math::Pack* q_ddot) const {
-  accelerate<n>(h.t, h.of_H, q, q_dot, q_ddot);
+  accelerate<n, math::Pack>(h, q, q_dot, q_ddot);
 }
 
 template Eigen::Matrix<double, 1, 1> HeldBody::acceleration<1>(const HandleForcing&, const Eigen::Matrix<double, 1, 1>&,
@@ -164,7 +173,7 @@ template <int n>
 SPRING_WORKBENCH_WIDE void HeldBody::balance(const HandleForcings& h, const math::Pack* q, const math::Pack* q_dot,
                                              EnergyBalance& out) const {
   math::Pack q_ddot[n];
-  accelerate<n>(h.t, h.of_H, q, q_dot, q_ddot, &out);
+  accelerate<n, math::Pack>(h, q, q_dot, q_ddot, &out);
 }
 
 rod::StrainVector HeldBody::acceleration(const HandleForcing& h, const rod::StrainVector& q,
@@ -176,11 +185,36 @@ rod::StrainVector HeldBody::acceleration(const HandleForcing& h, const rod::Stra
 }
 
 EnergyBalance HeldBody::energy_balance(const HandleForcings& h, const math::Pack* q, const math::Pack* q_dot) const {
-  return by_size(size(), [&](auto size) {
+  EnergyBalance all = by_size(size(), [&](auto size) {
     EnergyBalance out;
     balance<decltype(size)::value>(h, q, q_dot, out);
     return out;
   });
+  for (int k = 0; k < math::pack_size && coupled(); ++k) {
+    StrainState state = zero_state();
+    for (int i = 0; i < size(); ++i) {
+      state.q[i] = q[i][k];
+      state.q_dot[i] = q_dot[i][k];
+    }
+    const Couplings::Reading others = read_couplings(h.at(k), state);
+    all.energy[k] += others.springs.energy;
+    all.power[k] += others.power;
+  }
+  return all;
+}
+
+Couplings::Reading HeldBody::read_couplings(const HandleForcing& h, const StrainState& state) const {
+  if (!coupled()) return {};
+  const StrainState full = full_state(h.t, state);
+  const rod::TipOf<double>& tip = this->tip(full.q.data(), full.q_dot.data(), false);
+  math::Three<double> w = math::none<double>(), v = w;
+  add_tip_motion(tip, coordinates_.count(), full.q_dot.data(), w, v);
+  const math::Three<double> r_EO = tip.R_HE * math::three(p_EO_);
+  const Matrix3d& R_WH = h.X_WH.linear();
+  return couplings_.read(h.t, h.seen,
+                         {tip.R_HE * math::three_by_three(R_EO_), tip.p_HE + r_EO, v + math::cross(w, r_EO), w},
+                         {math::three_by_three(R_WH), math::three(h.X_WH.translation()),
+                          math::three(Vector3d(R_WH.transpose() * h.v_WH_W)), math::three(h.angular_velocity)});
 }
 
 motion::MotionState HeldBody::object(const HandleForcing& h, const StrainState& state,

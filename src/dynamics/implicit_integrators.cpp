@@ -3,54 +3,17 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
+#include "spring_workbench/dynamics/linearised_motion.h"
+
 namespace spring_workbench::dynamics {
 namespace {
 
-constexpr double strain_difference = 1e-6;  ///< over the length: for derivatives
-constexpr double rate_difference = 1e-4;    ///< over the length [1/s]; the acceleration is quadratic in the rates
-constexpr double time_difference = 1e-4;    ///< of the step
+constexpr double time_difference = 1e-4;  ///< of the step
 constexpr int most_newton_steps = 10;
 constexpr double newton_done = 1e-13;     ///< change of the strain against the step's own
 constexpr double newton_rounding = 1e-6;  ///< of the first change: one that grows again below this is rounding
 
 }  // namespace
-
-LinearisedMotion::LinearisedMotion(const HeldBody& body, double t, const rod::StrainVector& q)
-    : M(body.mass_matrix(t, q)), K(body.stiffness().asDiagonal()), D(body.damping()) {}
-
-LinearisedMotion::LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
-                                   const rod::StrainVector& q_ddot)
-    : LinearisedMotion(body, handle.t, state.q) {
-  const rod::StrainVector stiffness = body.stiffness();
-  const rod::StrainMatrix damping = body.damping();
-  const double dq = strain_difference / body.shape().length(), dv = rate_difference / body.shape().length();
-  StrainState moved = state;
-  for (int j = 0; j < body.size(); ++j) {
-    moved.q[j] += dq;
-    const double step_q = moved.q[j] - state.q[j];
-    rod::StrainVector force = M * (body.acceleration(handle, moved.q, state.q_dot) - q_ddot);
-    force[j] += stiffness[j] * step_q;
-    K.col(j) -= force / step_q;
-    moved.q[j] = state.q[j];
-
-    moved.q_dot[j] += dv;
-    const double step_v = moved.q_dot[j] - state.q_dot[j];
-    force = M * (body.acceleration(handle, state.q, moved.q_dot) - q_ddot);
-    force += damping.col(j) * step_v;
-    D.col(j) -= force / step_v;
-    moved.q_dot[j] = state.q_dot[j];
-  }
-}
-
-ImplicitMatrix::ImplicitMatrix(const LinearisedMotion& motion, double d) {
-  const rod::StrainMatrix A = motion.M + d * motion.D + d * d * motion.K;
-  scale_ = A.diagonal().cwiseAbs().cwiseMax(motion.M.diagonal()).cwiseSqrt().cwiseInverse();
-  lu_.compute(scale_.asDiagonal() * A * scale_.asDiagonal());
-}
-
-rod::StrainMatrix ImplicitMatrix::solve(const rod::StrainMatrix& b) const {
-  return scale_.asDiagonal() * lu_.solve(rod::StrainMatrix(scale_.asDiagonal() * b));
-}
 
 StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                                  StrainState& state) {
@@ -195,10 +158,11 @@ void carry_linear(const LinearisedMotion& motion, double h, const rod::StrainMat
 
 }  // namespace
 
-Integrator::Response Rosenbrock::response(const HeldBody& body, double t, double h, const StrainState& state) {
+Integrator::Response Rosenbrock::response(const HeldBody& body, const HandleForcing& handle, double h,
+                                          const StrainState& state) {
   const int n = body.size();
   Response r{rod::StrainMatrix::Zero(n, n), rod::StrainMatrix::Zero(n, n)};
-  carry_linear(LinearisedMotion(body, t, state.q), h, rod::StrainMatrix::Identity(n, n), r.q, r.q_dot);
+  carry_linear(LinearisedMotion(body, handle, state.q), h, rod::StrainMatrix::Identity(n, n), r.q, r.q_dot);
   return r;
 }
 

@@ -8,6 +8,7 @@
 #include "implicit_integrators.h"
 #include "integrators.h"
 #include "paper.h"
+#include "spring_workbench/dynamics/linearised_motion.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::dynamics {
@@ -63,17 +64,18 @@ void Integrator::carry(const HeldBody& body, const motion::FrameMotion& handle, 
   deviation = {other.q - end.q, other.q_dot - end.q_dot};
 }
 
-Integrator::Response Integrator::response(const HeldBody& body, double t, double h, const StrainState& state) {
+Integrator::Response Integrator::response(const HeldBody& body, const HandleForcing& handle, double h,
+                                          const StrainState& state) {
   Response r;
-  r.q_dot = h * ImplicitMatrix(LinearisedMotion(body, t, state.q), h)
+  r.q_dot = h * ImplicitMatrix(LinearisedMotion(body, handle, state.q), h)
                     .solve(rod::StrainMatrix::Identity(body.size(), body.size()));
   r.q = h * r.q_dot;
   return r;
 }
 
 rod::StrainVector LastAcceleration::get(const HeldBody& body, const HandleForcing& handle, const StrainState& state) {
-  const bool same = version_ == body.version() && load_version_ == body.load_version() && t_ == handle.t &&
-                    state_.q == state.q && state_.q_dot == state.q_dot &&
+  const bool same = !body.coupled() && version_ == body.version() && load_version_ == body.load_version() &&
+                    t_ == handle.t && state_.q == state.q && state_.q_dot == state.q_dot &&
                     handle_acceleration_ == handle.acceleration_less_gravity &&
                     handle_angular_acceleration_ == handle.angular_acceleration;
   return same ? q_ddot_ : body.acceleration(handle, state.q, state.q_dot);

@@ -84,8 +84,8 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
 
   // Undamped modes of the springs first: in them, with displacements scaled by their frequencies, stiff and soft
   // motions stand side by side without loss of digits.
-  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> undamped(
-      rod::StrainMatrix(body.stiffness().asDiagonal()), M);
+  const HeldBody::Springs springs = body.springs(handle, q);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> undamped(springs.K, M);
   const rod::StrainMatrix shapes = undamped.eigenvectors();
   const rod::StrainMatrix to_shapes = shapes.transpose() * M;
   // A free mode has no two eigenvectors, and free modes none of their own: the frozen part gets the stiffness of 1, 2,
@@ -100,7 +100,7 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
   ModeMatrix V(2 * n, 2 * n), V_inverse;
   double off_critical = 0.0;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
-    part.damping = part.inverse_mass * body.damping();
+    part.damping = part.inverse_mass * springs.D;
     for (int i = 0; i < n; ++i) part.damping.col(i) *= 1.0 + off_critical * (i + 1);
     ModeMatrix A = ModeMatrix::Zero(2 * n, 2 * n);
     A.topRightCorner(n, n).diagonal() = scale;

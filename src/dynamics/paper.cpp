@@ -90,6 +90,7 @@ rod::StrainVector cut_back(const HeldBody& body, const Carried& begin, const Car
 
 StepEstimate Paper::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                          StrainState& state) {
+  if (body.coupled()) return shared_.step(body, handle, t, h, state);
   const Carried begin(body, handle, t), end(body, handle, t + h);
   const Wrench load = end.load(body, (end.object.velocity.linear - begin.object.velocity.linear) / h,
                                (end.angular_momentum() - begin.angular_momentum()) / h);
@@ -134,7 +135,9 @@ StepEstimate Paper::step(const HeldBody& body, const motion::FrameMotion& handle
   return estimate;
 }
 
-Integrator::Response Paper::response(const HeldBody& body, double, double h, const StrainState&) {
+Integrator::Response Paper::response(const HeldBody& body, const HandleForcing& handle, double h,
+                                     const StrainState& state) {
+  if (body.coupled()) return shared_.response(body, handle, h, state);
   const SpringDampers dampers(body, h);
   Response r{rod::StrainMatrix::Zero(body.size(), body.size()), rod::StrainMatrix::Zero(body.size(), body.size())};
   for (int i = 0; i < body.size(); ++i) {

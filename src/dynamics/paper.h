@@ -1,5 +1,6 @@
 #pragma once
 
+#include "exponential.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/math/damped_oscillator.h"
 
@@ -23,13 +24,14 @@ class Paper final : public Integrator {
   Energy energy() const override { return Energy::of_its_own; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override;
-  Response response(const HeldBody& body, double t, double h, const StrainState& state) override;
-  void exchange(math::StateArchive& state) override { state(version_, t_, from_, target_); }
+  Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
+  void exchange(math::StateArchive& state) override { state(version_, t_, from_, target_, shared_); }
 
  private:
   long version_ = -1;                ///< of the equations that the rest is of
   double t_ = 0.0;                   ///< begin of the last step [s]
   rod::StrainVector from_, target_;  ///< where its target was looked for, and is: the next one's from there
+  Exponential shared_;               ///< the paper has one fork: what other tools pull at, too, this one carries
 };
 
 }  // namespace spring_workbench::dynamics

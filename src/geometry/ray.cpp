@@ -14,54 +14,64 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// The part of a line that is in a convex shape, or that part of it which has been looked at so far.
 struct Interval {
   double begin = -never, end = never;
-  /// Keeps what lies between `low` and `high` in a coordinate that is `p + s d` along the line.
-  void cut(double p, double d, double low, double high) {
-    if (d == 0.0) {
-      if (p < low || p > high) end = -never;
+  Vector3d normal = Vector3d::Zero();  ///< outward, where it begins
+
+  void cut(double from, double to, const Vector3d& outward) {
+    if (from > begin) {
+      begin = from;
+      normal = outward;
+    }
+    end = std::min(end, to);
+  }
+  /// Keeps what lies between −half and half in the coordinate `axis` of p + s d.
+  void cut_slab(const Vector3d& p, const Vector3d& d, int axis, double half) {
+    if (d[axis] == 0.0) {
+      if (std::abs(p[axis]) > half) end = -never;
       return;
     }
-    const double a = (low - p) / d, b = (high - p) / d;
-    begin = std::max(begin, std::min(a, b));
-    end = std::min(end, std::max(a, b));
+    const double a = (-half - p[axis]) / d[axis], b = (half - p[axis]) / d[axis];
+    cut(std::min(a, b), std::max(a, b), Vector3d::Unit(axis) * (d[axis] > 0.0 ? -1.0 : 1.0));
   }
-  /// Keeps where a s² + 2 b s + c ≤ 0.
-  void cut_quadratic(double a, double b, double c) {
-    const double discriminant = b * b - a * c;
+  /// Keeps where p + s d is no farther than the radius from the origin.
+  void cut_round(const Vector3d& p, const Vector3d& d, double radius) {
+    const double a = d.squaredNorm(), b = p.dot(d), c = p.squaredNorm() - radius * radius, discriminant = b * b - a * c;
     if (a == 0.0 || discriminant < 0.0) {
       if (a != 0.0 || c > 0.0) end = -never;
       return;
     }
-    const double root = std::sqrt(discriminant);
-    begin = std::max(begin, (-b - root) / a);
-    end = std::min(end, (-b + root) / a);
+    const double root = std::sqrt(discriminant), from = (-b - root) / a;
+    cut(from, (-b + root) / a, (p + from * d) / radius);
   }
-  double entry() const { return begin <= end && end >= 0.0 ? std::max(begin, 0.0) : never; }
+  RayHit entry() const {
+    if (!(begin <= end && end >= 0.0)) return {never, normal};
+    return begin > 0.0 ? RayHit{begin, normal} : RayHit{0.0, Vector3d::Zero()};
+  }
 };
 
-double entry(const Box& box, const Vector3d& p, const Vector3d& d) {
+RayHit entry(const Box& box, const Vector3d& p, const Vector3d& d) {
   Interval interval;
-  for (int i = 0; i < 3; ++i) interval.cut(p[i], d[i], -0.5 * box.size[i], 0.5 * box.size[i]);
+  for (int i = 0; i < 3; ++i) interval.cut_slab(p, d, i, 0.5 * box.size[i]);
   return interval.entry();
 }
 
-double entry(const Sphere& sphere, const Vector3d& p, const Vector3d& d) {
+RayHit entry(const Sphere& sphere, const Vector3d& p, const Vector3d& d) {
   Interval interval;
-  interval.cut_quadratic(d.squaredNorm(), p.dot(d), p.squaredNorm() - sphere.radius * sphere.radius);
+  interval.cut_round(p, d, sphere.radius);
   return interval.entry();
 }
 
-double entry(const Cylinder& cylinder, const Vector3d& p, const Vector3d& d) {
+RayHit entry(const Cylinder& cylinder, const Vector3d& p, const Vector3d& d) {
+  const Vector3d across(1.0, 1.0, 0.0);
   Interval interval;
-  interval.cut(p.z(), d.z(), -0.5 * cylinder.length, 0.5 * cylinder.length);
-  interval.cut_quadratic(d.head<2>().squaredNorm(), p.head<2>().dot(d.head<2>()),
-                         p.head<2>().squaredNorm() - cylinder.radius * cylinder.radius);
+  interval.cut_slab(p, d, 2, 0.5 * cylinder.length);
+  interval.cut_round(across.cwiseProduct(p), across.cwiseProduct(d), cylinder.radius);
   return interval.entry();
 }
 
 /// The nearest triangle that the ray goes through (Möller and Trumbore, 1997).
-double entry(const MeshPtr& mesh, const Vector3d& p, const Vector3d& d) {
-  if (contains(Geometry(mesh), p)) return 0.0;
-  double nearest = never;
+RayHit entry(const MeshPtr& mesh, const Vector3d& p, const Vector3d& d) {
+  if (contains(Geometry(mesh), p)) return {0.0, Vector3d::Zero()};
+  RayHit nearest{never, Vector3d::Zero()};
   for (const Eigen::Vector3i& t : mesh->triangles) {
     const Vector3d& corner = mesh->corner(t, 0);
     const Vector3d e1 = mesh->corner(t, 1) - corner, e2 = mesh->corner(t, 2) - corner;
@@ -73,22 +83,26 @@ double entry(const MeshPtr& mesh, const Vector3d& p, const Vector3d& d) {
     const double v = d.dot(r.cross(e1)) / determinant;
     if (u < 0.0 || v < 0.0 || u + v > 1.0) continue;
     const double s = e2.dot(r.cross(e1)) / determinant;
-    if (s >= 0.0) nearest = std::min(nearest, s);
+    if (!(s >= 0.0 && s < nearest.distance)) continue;
+    const Vector3d normal = e1.cross(e2).normalized();
+    nearest = {s, normal.dot(d) > 0.0 ? Vector3d(-normal) : normal};
   }
   return nearest;
 }
 
 }  // namespace
 
-std::optional<double> distance_along_ray(const std::vector<Shape>& shapes, const Vector3d& p_O, const Vector3d& d_O,
-                                         double reach) {
-  double nearest = never;
+std::optional<RayHit> first_along_ray(const std::vector<Shape>& shapes, const Vector3d& p_O, const Vector3d& d_O,
+                                      double reach) {
+  RayHit nearest{never, Vector3d::Zero()};
   for (const Shape& shape : shapes) {
     const Vector3d p = shape.X_OS.inverse() * p_O;
     const Vector3d d = shape.X_OS.linear().transpose() * d_O;
-    nearest = std::min(nearest, std::visit([&](const auto& g) { return entry(g, p, d); }, shape.geometry));
+    RayHit hit = std::visit([&](const auto& g) { return entry(g, p, d); }, shape.geometry);
+    hit.normal_O = shape.X_OS.linear() * hit.normal_O;
+    if (hit.distance < nearest.distance) nearest = hit;
   }
-  if (nearest > reach) return std::nullopt;
+  if (nearest.distance > reach) return std::nullopt;
   return nearest;
 }
 

@@ -19,6 +19,7 @@ class Bushing final : public ShapeModel {
   using ShapeModel::tip;
   void tip(const double* q, const double* q_dot, TipOf<double>& out) const override;
   void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const override;
+  bool strain_is_pose() const override { return true; }
   double extension(const StrainVector& q) const override { return q[5]; }
   double twist(const StrainVector& q) const override { return q[4]; }
   RigidTransform section(const StrainVector& q, double s) const override;

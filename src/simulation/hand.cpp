@@ -136,20 +136,18 @@ std::optional<std::size_t> Hand::carried() const {
   return hold_ || pushes_ ? std::optional<std::size_t>(grasp_.object) : std::nullopt;
 }
 
-bodies::CoupledTool* Hand::begin_shared_step(double now) {
+tools::ToolOnObject Hand::begin_shared_step(double now) {
   moved_ = true;
-  if (hold_) energy_added_before_ = hold_->energy_added();
   objects_.state(grasp_.object).asleep = false;
-  if (probe_) {
-    probe_->set_hand(stylus_.motion(now), now);
-    return probe_.get();
-  }
-  hold_->set_hand(stylus_.motion(now), now);
-  return hold_.get();
+  if (probe_) probe_->set_hand(stylus_.motion(now));
+  if (hold_) hold_->set_hand(stylus_.motion(now), now);
+  if (hold_) energy_added_before_ = hold_->energy_added();
+  return {hold_.get(), probe_.get()};
 }
 
 bodies::SteppedBody* Hand::begin_step(double now, double h) {
   hold_->set_hand(stylus_.motion(now), now);
+  hold_->lead({});
   energy_added_before_ = hold_->energy_added();
   bodies::BodyState& o = objects_.state(grasp_.object);
   const bool was_asleep = o.asleep;
@@ -267,7 +265,7 @@ void Hand::exchange(math::StateArchive& state, double now) {
     hold_ = holds ? maker().make(grasp_, grasped_body(), now) : nullptr;
     const scene::Body* body = touched < scene_.bodies.size() ? &scene_.bodies[touched] : nullptr;
     const tools::InFront front{0.0, body, body != nullptr ? &body->material : &scene_.bench_material};
-    probe_ = touches ? std::make_unique<tools::Probe>(fork_.length, fork_, front) : nullptr;
+    probe_ = touches ? std::make_unique<tools::Probe>(fork_.length, fork_, front, now) : nullptr;
   }
   if (holds) state(*hold_);
   if (touches) state(*probe_);

@@ -5,7 +5,7 @@
 
 #include "objects.h"
 #include "spring_workbench/tools/hold_maker.h"
-#include "spring_workbench/tools/probe.h"
+#include "spring_workbench/tools/sharing.h"
 #include "stylus.h"
 
 namespace spring_workbench::simulation {
@@ -33,8 +33,12 @@ class Hand {
   /// What is held by this tool alone, ready to be carried over the next `h` [s]; null where it rests and nothing has to
   /// be done.
   bodies::SteppedBody* begin_step(double now, double h);
-  /// The tool as one of several on what it carries, or pushing it.
-  bodies::CoupledTool* begin_shared_step(double now);
+  /// The same of a tool that is one of several on what it carries, or pushes it.
+  tools::ToolOnObject begin_shared_step(double now);
+  /// What it pushes, as none holds it.
+  std::unique_ptr<tools::ToolHold> make_unheld(double now) const {
+    return maker().make_unheld(grasped_body(), object().V_WO_W, now);
+  }
   /// After it has been carried.
   void end_step(AdvanceReport& report);
 

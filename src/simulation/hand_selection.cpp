@@ -11,12 +11,14 @@ namespace spring_workbench::simulation {
 
 template <typename Passes>
 tools::InFront Hand::look_ahead(double reach, Passes&& passes) const {
-  tools::InFront found{reach, nullptr, nullptr};
+  tools::InFront found{reach};
   const auto look = [&](const scene::Body& body, const RigidTransform& X_WO) {
     const RigidTransform X_OH = X_WO.inverse() * stylus_.X_WS();
-    const auto at =
-        geometry::distance_along_ray(body.collision, X_OH.translation(), X_OH.linear().col(2), found.distance);
-    if (at && !passes(body, X_OH)) found = {*at, &body, &body.material};
+    const auto hit =
+        geometry::first_along_ray(body.collision, X_OH.translation(), X_OH.linear().col(2), found.distance);
+    if (hit && !passes(body, X_OH)) {
+      found = {hit->distance, &body, &body.material, X_OH * Vector3d(0.0, 0.0, hit->distance), hit->normal_O};
+    }
   };
   for (const scene::Body& body : scene_.bodies) {
     if (!body.movable) look(body, body.X_WO);
@@ -71,7 +73,7 @@ void Hand::touch_with_probe(double now) {
   if (probe_) {
     probe_->touch(front);
   } else {
-    probe_ = std::make_unique<tools::Probe>(length, fork_, front);
+    probe_ = std::make_unique<tools::Probe>(length, fork_, front, now);
     const std::optional<std::size_t> object = front.body != nullptr ? objects_.find(front.body->name) : std::nullopt;
     pushes_ = object && !objects_.massless(*object);
     if (pushes_) objects_.hold(grasp_.object = *object, Objects::Grip::push, now);

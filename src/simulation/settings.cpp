@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "spring_workbench/config/yaml_fields.h"
-#include "spring_workbench/dynamics/step_control.h"
+#include "spring_workbench/stepping/step_control.h"
 #include "spring_workbench/validation/one_line.h"
 #include "spring_workbench/validation/renamed.h"
 
@@ -100,7 +100,7 @@ std::vector<Field> dynamics_fields(dynamics::DynamicsSettings& d) {
       choice("integrator", "how the fork and the held object are stepped", d.integrator),
       number("step", "s", between(1e-6, 1.0), "the largest step; a step also ends at every sample of the motion",
              d.step),
-      number("tolerance", "m", between(0.0, dynamics::StepControl::largest_tolerance),
+      number("tolerance", "m", between(0.0, stepping::StepControl::largest_tolerance),
              "0: fixed steps; else steps are made short enough for the run's error to stay near this", d.tolerance),
       choice("inertia", "exact: the object's own; point_mass: the paper's I = r² m", d.inertia),
   };

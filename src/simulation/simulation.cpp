@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <limits>
 #include <map>
 #include <stdexcept>
@@ -10,9 +9,10 @@
 #include "constants.h"
 #include "hand.h"
 #include "objects.h"
-#include "spring_workbench/bodies/shared_body.h"
+#include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/tools/calibration.h"
+#include "spring_workbench/tools/sharing.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::simulation {
@@ -36,12 +36,6 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings) {
                      "a movable object of the scene: " + validation::join(names));
 }
 
-scene::Body body_of_unit_mass() {
-  scene::Body body;
-  body.mass_properties = {1.0, Matrix3d::Identity()};
-  return body;
-}
-
 }  // namespace
 
 struct Simulation::Impl {
@@ -49,7 +43,6 @@ struct Simulation::Impl {
   const scene::Scene scene;
   Objects objects;
   std::vector<Hand> hands;
-  const scene::Body unit_mass = body_of_unit_mass();
   bool started = false;
   double now = 0.0;
 
@@ -177,7 +170,7 @@ double Simulation::Impl::end_of_step(double t_end) const {
   return next_button > end && next_button < end + same_time ? next_button : std::min(end, next_button);
 }
 
-/// An object that one tool holds is that tool's; one that several hold, or that is pushed, is a body with tools on it.
+/// An object that one tool holds is that tool's.
 void Simulation::Impl::step(double end, AdvanceReport& report) {
   const double h = end - now;
   break_away(h);
@@ -186,22 +179,20 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
     if (const auto object = hand.carried()) tools_on[*object].push_back(&hand);
   }
   std::vector<Carried> carried;
-  std::deque<bodies::SharedBody> shared;
+  std::map<std::size_t, tools::Sharing> shared;
   for (const auto& [object, on_it] : tools_on) {
     if (on_it.size() == 1 && on_it.front()->holds()) {
       if (bodies::SteppedBody* body = on_it.front()->begin_step(now, h)) carried.push_back({object, body});
       continue;
     }
-    std::vector<bodies::CoupledTool*> tools;
+    std::vector<tools::ToolOnObject> tools;
     for (Hand* hand : on_it) tools.push_back(hand->begin_shared_step(now));
-    const bodies::BodyState& o = objects.states()[object];
-    const bool massless = objects.massless(object);
-    const scene::Body& body =
-        massless ? unit_mass : objects.body(object);  // which is of no effect where all tools are rigid
-    shared.emplace_back(objects.scene_index(object), body, massless ? 0.0 : scene.gravity, o.X_WO, o.V_WO_W, tools);
-    carried.push_back({object, &shared.back()});
+    tools::Sharing sharing(tools, [&] { return on_it.front()->make_unheld(now); });
+    carried.push_back({object, shared.emplace(object, std::move(sharing)).first->second.body()});
   }
   objects.step(carried, now, h, report);
+  for (auto& [object, sharing] : shared)
+    sharing.end_step({objects.states()[object].X_WO, objects.states()[object].V_WO_W, {}}, end);
   for (Hand& hand : hands) hand.end_step(report);
   now = end;
   for (Hand& hand : hands) {

@@ -4,9 +4,6 @@
 
 namespace spring_workbench::tools {
 
-/// Of what would hold the object's mass within a step: so that no direction of a shared tool is without any. Larger:
-/// tools without springs pull. Test: none: no value tried makes one fail.
-constexpr double least_stiffness = 1e-9;
 /// [m] of the tool `spring`, which has a direction then. Test: none: no value tried makes one fail.
 constexpr double least_rest_length = 1e-4;
 /// [m]; a shorter span of the tool `spring` has no direction. Test: none: no value tried makes one fail.
@@ -35,13 +32,12 @@ constexpr double largest_distance = 1e6;
 /// Of the generalised force that the springs of a fork gripped anew are to do. Test:
 /// TwoHands.HandoverMovesTheObjectLessThanAMillimetre at 0.
 constexpr double exact_pull = 1e-12;
-/// Of a free body's compliance: how what has no coordinate gives way where tools share an object. Larger: rigid tools
-/// are soft. Test: TwoHands.HandoverBetweenRigidToolsMovesNothing at 0.1.
-constexpr double rigid_share = 1e-3;
-/// Of fitting the strain to where a shared object is. Test: TwoHands.ObjectOfTwoKilogramsOnTwoForksSagsHalf at 0.
-constexpr int most_fit_iterations = 20;
-/// [m, rad], to which it is fitted. Test: none: no value tried makes one fail.
-constexpr double fitted = 1e-13;
+/// [rad/s] with which the object would swing on what is off in a fork that another tool leads. Smaller: it gives way
+/// under the object's weight. Larger: contact, solved to a micrometre, cannot say what two such forks are to carry.
+/// Test: SharedLaw.WhatIsOffInBothForksSharesThePressOnTheBench at 1e4, 30.
+constexpr double rigid_rate = 1e3;
+/// [m] from the frame at rest to an object that nothing holds. Test: none: means nothing.
+constexpr double frame_distance = 1.0;
 /// Of the probe's depth; a material that gives way less is rigid. Test: none: no value tried makes one fail.
 constexpr double no_give = 1e-9;
 /// [m], one standard deviation: how well a tracker knows where the probe's tip is. The uncertainty that it tells is in

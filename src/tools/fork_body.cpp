@@ -22,10 +22,11 @@ RigidTransform shrunk(const RigidTransform& offset, double factor) {
 
 }  // namespace
 
-ForkBody::ForkBody(std::size_t index, dynamics::HeldBody held, dynamics::StepControl control, double t,
+ForkBody::ForkBody(std::size_t index, dynamics::HeldBody held, stepping::StepControl control, double t,
                    const RigidTransform& X_SH)
     : index_(index),
       held_(std::move(held)),
+      coupling_(held_, t),
       control_(std::move(control)),
       X_SH_(X_SH),
       hand_(RigidTransform::Identity()) {
@@ -41,9 +42,17 @@ void ForkBody::set_hand(const motion::MotionSegment& hand, double t) {
 
 RigidTransform ForkBody::hand_pose() const { return hand_.at(state_.t).X; }
 
+motion::MotionSegment ForkBody::seen_motion() const {
+  return state_.behind ? motion::MotionSegment(state_.offset * hand_pose()) : hand_;
+}
+
 dynamics::HandleForcing ForkBody::handle() const {
-  if (!state_.behind) return held_.forcing(hand_, state_.t);
-  return held_.forcing(motion::MotionSegment(state_.offset * hand_pose()), state_.t);
+  return state_.behind ? held_.forcing(seen_motion(), state_.t) : held_.forcing(hand_, state_.t);
+}
+
+void ForkBody::place_proxy(const RigidTransform& offset) {
+  state_.behind = (offset.matrix() - RigidTransform::Identity().matrix()).cwiseAbs().maxCoeff() > no_offset;
+  state_.offset = state_.behind ? offset : RigidTransform::Identity();
 }
 
 motion::MotionState ForkBody::object() const { return held_.object(handle(), state_.strain); }
@@ -98,7 +107,7 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   dynamics::StrainState next = state_.strain;
   if (held_.size() > 0) {
     held_.set_external_wrench(contact_W);
-    const dynamics::ControlledStep step = control_.advance(held_, motion, state_.t, h, next, state_.stepping);
+    const stepping::ControlledStep step = control_.advance(held_, motion, state_.t, h, next, state_.stepping);
     if (!step.accepted) return false;
     trial_ = {step.position_error, step.angle_error, step.omega_dt, step.steps - 1,
               step.substeps,       step.stops,       step.fallback, step.energy_error};
@@ -107,8 +116,7 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   state_.t += h;
   state_.strain = next;
   state_.pull_W.reset();
-  state_.behind = behind;
-  state_.offset = behind ? offset : RigidTransform::Identity();
+  place_proxy(offset);
   if (held_.returning() && held_.drop_finished_returns(state_.t) && held_.size() == 0)
     state_.strain = held_.zero_state();
   return hand_pose().translation().norm() < largest_distance;
@@ -133,7 +141,7 @@ void ForkBody::restore(const bodies::TrialStart& start) {
 }
 
 void ForkBody::exchange(math::StateArchive& state) {
-  state(held_, control_.integrator(), X_SH_, hand_, state_, estimates_, sleep_);
+  state(held_, coupling_, control_.integrator(), X_SH_, hand_, state_, estimates_, sleep_);
   if (state.sets()) added_ = 0.0;
   if (state.sets()) trial_ = {};
 }
@@ -158,7 +166,7 @@ bodies::SteppedBody::Response ForkBody::response(double h) const {
   Response a{proxy, proxy / h};
   if (held_.size() > 0) {
     const auto J = jacobian_W();
-    const dynamics::Integrator::Response r = control_.integrator().response(held_, state_.t, h, state_.strain);
+    const dynamics::Integrator::Response r = control_.integrator().response(held_, handle(), h, state_.strain);
     a.displacement += J * r.q * J.transpose();
     a.velocity += J * r.q_dot * J.transpose();
   }

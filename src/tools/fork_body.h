@@ -3,17 +3,18 @@
 #include <optional>
 #include <utility>
 
-#include "spring_workbench/dynamics/step_control.h"
+#include "fork_coupling.h"
+#include "spring_workbench/stepping/step_control.h"
 #include "spring_workbench/tools/tool_hold.h"
 
 namespace spring_workbench::tools {
 
 /// The body on the fork: strain coordinates, the hand's motion, and, where the coordinates cannot follow what a contact
 /// asks, a handle that stays behind the hand as its proxy (doc/model.md, "When the coordinates cannot follow").
-class ForkBody final : public ToolHold {
+class ForkBody : public ToolHold {
  public:
   /// `X_SH`: the fork's fixed end in the hand's stylus.
-  ForkBody(std::size_t index, dynamics::HeldBody held, dynamics::StepControl control, double t,
+  ForkBody(std::size_t index, dynamics::HeldBody held, stepping::StepControl control, double t,
            const RigidTransform& X_SH);
 
   std::size_t index() const override { return index_; }
@@ -28,9 +29,14 @@ class ForkBody final : public ToolHold {
   void add_impulse(const Wrench& impulse_W) override;
   void block(double h) override;
   void follow_rigidly(double h) override;
-  bodies::Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const override;
-  void follow(double h, const motion::MotionState& object, const Wrench& pull_W) override;
 
+  double since() const override { return coupling_.key().since; }
+  const dynamics::Coupling& coupling() override;
+  void lead(const std::vector<dynamics::Attached>& others) override { held_.attach(others); }
+  void stop_leading() override;
+  void follow(double t, const ToolHold& leader, const motion::MotionState& object) override;
+  const motion::MotionSegment& hand() const override { return hand_; }
+  const RigidTransform& offset() const override { return state_.offset; }
   void set_hand(const motion::MotionSegment& hand, double t) override;
   bool sleeps(double h, bool may_fall_asleep) override;
   void let_pass(double h) override { state_.t += h; }
@@ -43,7 +49,7 @@ class ForkBody final : public ToolHold {
   rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity, const ObjectGoal& goal) const override;
   bool set_dofs(const rod::ForkDofs& dofs, double switch_off_time) override;
   void set_step_control(const dynamics::DynamicsSettings& settings) override { control_ = make_step_control(settings); }
-  static dynamics::StepControl make_step_control(const dynamics::DynamicsSettings& settings);
+  static stepping::StepControl make_step_control(const dynamics::DynamicsSettings& settings);
   int coordinates() const override { return held_.size(); }
   double length() const override { return held_.shape().length(); }
   double elastic_energy() const override;
@@ -65,6 +71,13 @@ class ForkBody final : public ToolHold {
   StepEstimates take_estimates() override { return std::exchange(estimates_, {}); }
   void exchange(math::StateArchive& state) override;
 
+ protected:  // of tools that are another spring for the same body
+  dynamics::HeldBody& held() { return held_; }
+  const dynamics::HeldBody& held() const { return held_; }
+  double time() const { return state_.t; }
+  const dynamics::StrainState& strain() const { return state_.strain; }
+  void set_strain(const dynamics::StrainState& strain) { state_.strain = strain; }
+
  private:
   /// What a trial of a step changes of the motion. Beyond it a trial leaves the integrator's history, the equations'
   /// versions and load, and estimates.
@@ -74,7 +87,7 @@ class ForkBody final : public ToolHold {
     bool behind = false;                                 ///< the seen handle is not where the hand is
     RigidTransform offset = RigidTransform::Identity();  ///< seen handle = offset · hand, in world
     double energy_added = 0.0;                           ///< [J]
-    dynamics::StepControl::Memory stepping;
+    stepping::StepControl::Memory stepping;
     std::optional<Wrench> pull_W;  ///< on the object at its centre, where it was shared last
 
     void exchange(math::StateArchive& state) { state(t, strain, behind, offset, energy_added, stepping, pull_W); }
@@ -86,6 +99,9 @@ class ForkBody final : public ToolHold {
   RigidTransform returned_offset(double h) const;
   /// The same under the wrench.
   RigidTransform next_offset(double h, const Wrench& contact_W) const;
+  void place_proxy(const RigidTransform& offset);
+  /// The seen handle's motion at present; a proxy rests between two steps.
+  motion::MotionSegment seen_motion() const;
   /// The seen handle's motion over a step that ends with this offset.
   motion::MotionSegment proxy_motion(double h, const RigidTransform& offset_end) const;
   rod::StrainMatrix inverse_mass() const;
@@ -95,15 +111,14 @@ class ForkBody final : public ToolHold {
   /// The strain with which the springs do `pull_W` to the object, turned as `R_WO`; the present one where none is
   /// found.
   rod::StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const;
-  /// The strain with the object at `X_WO`, `h` [s] after the last; `handle` the hand itself.
-  void fit(const dynamics::HandleForcing& handle, const RigidTransform& X_WO, double h);
   using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates>;
   Jacobian jacobian_W() const { return jacobian_W(handle().X_WH.linear(), state_.t); }
   Jacobian jacobian_W(const Matrix3d& R_WH, double t) const;
 
   std::size_t index_;
   dynamics::HeldBody held_;
-  dynamics::StepControl control_;
+  ForkCoupling coupling_;  ///< where another tool leads
+  stepping::StepControl control_;
   RigidTransform X_SH_;         ///< from one grip to the next
   motion::MotionSegment hand_;  ///< of the handle as the hand has it
   State state_;

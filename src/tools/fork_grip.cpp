@@ -50,7 +50,7 @@ void ForkBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {
   state_.behind = false;
   state_.offset = RigidTransform::Identity();
   state_.pull_W.reset();
-  state_.stepping = dynamics::StepControl::Memory();
+  state_.stepping = stepping::StepControl::Memory();
   sleep_ = Sleep();
 }
 

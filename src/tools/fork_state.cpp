@@ -15,8 +15,8 @@ bool ForkBody::set_dofs(const rod::ForkDofs& dofs, double switch_off_time) {
   return held_.returning();
 }
 
-dynamics::StepControl ForkBody::make_step_control(const dynamics::DynamicsSettings& settings) {
-  return dynamics::StepControl(dynamics::make_integrator(settings.integrator), settings.tolerance);
+stepping::StepControl ForkBody::make_step_control(const dynamics::DynamicsSettings& settings) {
+  return stepping::StepControl(dynamics::make_integrator(settings.integrator), settings.tolerance);
 }
 
 double ForkBody::elastic_energy() const { return held_.elastic_energy(state_.t, state_.strain); }
@@ -25,8 +25,10 @@ Wrench ForkBody::rod_load(const motion::MotionState& o) const {
   const Matrix3d I_W = o.X.linear() * held_.body().inertia_O * o.X.linear().transpose();
   const Vector3d& w = o.velocity.angular;
   const Wrench& contact = held_.external_wrench();
-  return {held_.body().mass * (o.acceleration.linear + held_.gravity() * Vector3d::UnitZ()) - contact.force,
-          I_W * o.acceleration.angular + w.cross(I_W * w) - contact.moment};
+  const Wrench others = held_.read_couplings(handle(), state_.strain).pull_W;
+  return {
+      held_.body().mass * (o.acceleration.linear + held_.gravity() * Vector3d::UnitZ()) - contact.force - others.force,
+      I_W * o.acceleration.angular + w.cross(I_W * w) - contact.moment - others.moment};
 }
 
 void ForkBody::describe(bool massless, ToolState& f) const {

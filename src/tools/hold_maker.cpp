@@ -50,7 +50,16 @@ std::unique_ptr<ToolHold> HoldMaker::make_fork(const Grasp& grasp, const Grasped
 std::unique_ptr<ToolHold> HoldMaker::make(const Grasp& grasp, const GraspedBody& object, double now) const {
   if (grasp.tool != Tool::spring || object.massless()) return make_fork(grasp, object, now);
   const double rest_length = std::max((object.X_WO.translation() - grasp.X_WS.translation()).norm(), least_rest_length);
-  return std::make_unique<SpringBody>(object.index, object.body, gravity_, object.X_WO, rest_length, fork_);
+  return std::make_unique<SpringBody>(object.index, object.body, gravity_, object.X_WO,
+                                      ForkBody::make_step_control(dynamics_), now, rest_length, fork_);
+}
+
+std::unique_ptr<ToolHold> HoldMaker::make_unheld(const GraspedBody& object, const Twist& V_WO_W, double now) const {
+  auto body = std::make_unique<ForkBody>(object.index, unheld(object.body, gravity_),
+                                         ForkBody::make_step_control(dynamics_), now, RigidTransform::Identity());
+  body->set_hand(frame_at_rest(object.X_WO), now);
+  body->take_twist(V_WO_W);
+  return body;
 }
 
 }  // namespace spring_workbench::tools

@@ -6,72 +6,91 @@
 #include "constants.h"
 
 namespace spring_workbench::tools {
-Probe::Probe(double length, const rod::ForkSettings& fork, const InFront& touched)
-    : length_(length), body_(touched.body), material_(*touched.material), hand_(RigidTransform::Identity()) {
+Probe::Probe(double length, const rod::ForkSettings& fork, const InFront& touched, double now)
+    : length_(length),
+      body_(touched.body),
+      material_(*touched.material),
+      since_(now),
+      hand_(RigidTransform::Identity()) {
   set_springs(fork);
   touch(touched);
+}
+
+void Probe::touch(const InFront& touched) {
+  depth_ = length_ - touched.distance;
+  point_O_ = touched.point_O;
+  normal_O_ = touched.normal_O;
 }
 
 void Probe::set_springs(const rod::ForkSettings& fork) {
   const double mass = body_ != nullptr && body_->movable ? body_->mass_properties.mass : 0.0;
   k_ = fork.stiffness.stretch;
-  c_ = rod::stretch_damping(fork, mass);
+  series_ = k_ / (1.0 + k_ / material_.stiffness);
+  rod::ForkSettings in_series = fork;
+  in_series.stiffness.stretch = series_;
+  c_ = rod::stretch_damping(in_series, mass);
+  ++version_;
 }
 
-void Probe::set_hand(const motion::MotionSegment& hand, double t) {
-  hand_ = hand;
-  state_.t = t;
+template <typename S>
+Probe::Touch<S> Probe::touch_of(const dynamics::RelativeMotion<S>& A_O) const {
+  // Along z of the hand to the plane through the point with the normal, both fixed to the object.
+  const math::Three<S> n = A_O.R_AB * math::three(normal_O_), p = A_O.p_AB + A_O.R_AB * math::three(point_O_);
+  const S per_slope = 1.0 / n.z, distance = dot(n, p) * per_slope;
+  Touch<S> at;
+  at.depth = length_ - distance;
+  at.arm = math::Three<S>{S{}, S{}, distance} - A_O.p_AB;
+  at.speed = A_O.v_AB + cross(A_O.w_AB, at.arm);
+  at.rate = -(dot(n, at.speed) * per_slope);
+  at.force = series_ * at.depth + c_ * at.rate;
+  for (int i = 0; i < math::lanes<S>; ++i) {
+    if (math::lane(at.depth, i) <= 0.0 || math::lane(at.force, i) <= 0.0) math::set_lane(at.force, i, 0.0);
+  }
+  return at;
 }
 
-RigidTransform Probe::tip(const RigidTransform& X_WH) const {
-  return X_WH * Eigen::Translation3d(0.0, 0.0, length_ - state_.depth);
+template <typename S>
+void Probe::pull_of(const dynamics::RelativeMotion<S>& A_O, dynamics::Pull<S>& pull) const {
+  const Touch<S> at = touch_of(A_O);
+  pull.force = {S{}, S{}, at.force};
+  pull.moment = cross(at.arm, pull.force);
 }
 
-bodies::Coupling Probe::coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const {
-  const motion::MotionState hand = hand_.at(state_.t), next = hand_.at(state_.t + h);
-  const RigidTransform X_WE = tip(hand.X);
-  const Vector3d n = X_WE.linear().col(2);
-  bodies::Coupling c;
-  c.pushes_only = true;
-  c.directions.resize(6, 1);
-  c.directions << n, (X_WE.translation() - X_WO.translation()).cross(n);
-  // Spring and damper of the probe, and in series with both the material: f = at_once + stiffness · (further depth).
-  const double own = k_ + c_ / h;
-  const double series = 1.0 + own / material_.stiffness;
-  const double least = least_stiffness / (h * h * mobility(0, 0));
-  const double stiffness = std::max(own / series, least);
-  const double at_once = (k_ * state_.depth + c_ * state_.indent / h) / series;
-  c.compliance = bodies::Coupling::Matrix::Constant(1, 1, 1.0 / stiffness);
-  const double advance = n.dot(tip(next.X).translation() - X_WE.translation());
-  c.relaxed = bodies::Coupling::Vector::Constant(1, at_once / stiffness + advance);
-  return c;
+void Probe::pull(const double&, const dynamics::RelativeMotion<double>& A_O, dynamics::Pull<double>& pull) const {
+  pull_of(A_O, pull);
 }
 
-void Probe::follow(double h, const motion::MotionState& object, const Wrench& pull_W) {
-  const motion::MotionState hand = hand_.at(state_.t), next = hand_.at(state_.t + h);
-  const RigidTransform X_WE = tip(hand.X);
-  const Vector3d n = X_WE.linear().col(2);
-  const Vector3d arm = X_WE.translation() - (object.X.translation() - h * object.velocity.linear);
-  const Vector3d yielded = h * (object.velocity.linear + object.velocity.angular.cross(arm));
-  state_.depth += n.dot(tip(next.X).translation() - X_WE.translation() - yielded);
-  state_.force = pull_W.force.dot(n);
-  state_.indent = state_.force / material_.stiffness;
-  state_.t += h;
+void Probe::pull(const math::Pack&, const dynamics::RelativeMotion<math::Pack>& A_O,
+                 dynamics::Pull<math::Pack>& pull) const {
+  pull_of(A_O, pull);
 }
 
-double Probe::elastic_energy() const {
-  const double shortened = state_.depth - state_.indent;
-  return 0.5 * k_ * shortened * shortened + 0.5 * state_.force * state_.indent;
+dynamics::Coupling::Springs Probe::springs(double, const dynamics::RelativeMotion<double>& A_O) const {
+  const Touch<double> at = touch_of(A_O);
+  Springs s;
+  if (at.depth <= 0.0) return s;
+  s.energy = 0.5 * series_ * at.depth * at.depth;
+  s.dissipated = -at.force * at.speed.z - series_ * at.depth * at.rate;
+  if (at.force == 0.0) return s;
+  const Vector3d axis = Vector3d::UnitZ();
+  Vector6d direction;
+  direction << axis, math::vector(at.arm).cross(axis);
+  s.stiffness = series_ * direction * direction.transpose();
+  s.damping = c_ * direction * direction.transpose();
+  return s;
 }
 
-void Probe::press() {
-  state_.force = std::max(state_.depth, 0.0) * k_ / (1.0 + k_ / material_.stiffness);
-  state_.indent = state_.force / material_.stiffness;
+void Probe::follow(double t, const motion::MotionState& object) {
+  const Touch<double> at = touch_of(dynamics::seen_from(hand_.in_own_axes(t), object));
+  depth_ = at.depth;
+  force_ = at.force;
 }
+
+void Probe::press() { force_ = std::max(depth_, 0.0) * series_; }
 
 void Probe::describe(const RigidTransform& X_WH, ToolState& state) const {
-  const double shortened = state_.depth - state_.indent;
-  const Vector3d push = state_.force * X_WH.linear().col(2);
+  const double indent = force_ / material_.stiffness, shortened = std::max(depth_ - indent, 0.0);
+  const Vector3d push = force_ * X_WH.linear().col(2);
   state.touched = body_ != nullptr ? body_->name : "workbench";
   state.stretch = -shortened;
   state.X_WE = X_WH * Eigen::Translation3d(0.0, 0.0, length_ - shortened);
@@ -79,13 +98,13 @@ void Probe::describe(const RigidTransform& X_WH, ToolState& state) const {
   state.tip_wrench_W.force = push;
   state.handle_wrench_H.force = -(X_WH.linear().transpose() * push);
   state.elastic_energy = elastic_energy();
-  if (!(state_.force > 0.0)) return;
-  // What the user can know: the force, how far the tip has gone, and the probe's own stiffness.
-  const double gave = state_.depth - state_.force / k_;
+  if (!(force_ > 0.0)) return;
+  // What the user can know: the springs' force, how far the tip has gone, and the probe's own stiffness.
+  const double springs = series_ * depth_, gave = depth_ - springs / k_;
   constexpr double rigid = std::numeric_limits<double>::infinity();
-  state.material_stiffness = gave > no_give * state_.depth ? state_.force / gave : rigid;
+  state.material_stiffness = gave > no_give * depth_ ? springs / gave : rigid;
   state.material_stiffness_uncertainty =
-      state.material_stiffness * state.material_stiffness * position_uncertainty / state_.force;
+      state.material_stiffness * state.material_stiffness * position_uncertainty / force_;
 }
 
 }  // namespace spring_workbench::tools

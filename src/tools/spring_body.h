@@ -1,80 +1,83 @@
 #pragma once
 
-#include <utility>
-
-#include "spring_workbench/bodies/free_body.h"
-#include "spring_workbench/rod/settings.h"
-#include "spring_workbench/tools/tool_hold.h"
+#include "fork_body.h"
+#include "spring_workbench/scene/scene.h"
 
 namespace spring_workbench::tools {
 
-/// The object on the tool `spring` (doc/model.md, "Tools"): a spring-damper between the hand and the centre of mass,
-/// which the object is free to turn about. F = −(k (r − L) + c ṙ) n, with r n from the hand to the centre. Stepped by
-/// an exponential midpoint rule of order two: the linear part in closed form, so that no stiffness limits it.
-class SpringBody final : public ToolHold {
+/// The spring and damper of the tool `spring` between the hand and the centre of mass, without a moment:
+/// F = −(k (r − L) + c ṙ) n, with r n from the hand to the centre.
+class SpringCoupling final : public dynamics::Coupling {
  public:
-  /// Keeps a reference to `body`, whose mass must be > 0. `rest_length` [m] > 0; stiffness and damping of `stretch`.
-  SpringBody(std::size_t index, const scene::Body& body, double gravity, const RigidTransform& X_WO, double rest_length,
-             const rod::ForkSettings& fork);
+  /// `rest_length` L [m] > 0; `since`: when the spring took hold [s].
+  SpringCoupling(double rest_length, double since) : rest_length_(rest_length), since_(since) {}
 
-  std::size_t index() const override { return state_.free.index(); }
-  motion::MotionState object() const override { return state_.free.object(); }
-  bool advance(double h, const Wrench& contact_W) override;
-  void save(bodies::TrialStart& start) const override { start.keep(state_); }
-  void restore(const bodies::TrialStart& start) override { state_ = start.kept<State>(); }
-  Response response(double h) const override;
-  Matrix6d mobility() const override { return state_.free.mobility(); }
-  void add_impulse(const Wrench& impulse_W) override { state_.free.add_impulse(impulse_W); }
-  void block(double h) override;
-  bodies::Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const override;
-  void follow(double h, const motion::MotionState& object, const Wrench& pull_W) override;
+  void set(double stiffness, double damping);
+  void set_rest_length(double length);
+  double rest_length() const { return rest_length_; }
+  double stiffness() const { return k_; }
+
+  Key key() const override { return {since_, version_}; }
+  void pull(const double& t, const dynamics::RelativeMotion<double>& A_O, dynamics::Pull<double>& pull) const override;
+  void pull(const math::Pack& t, const dynamics::RelativeMotion<math::Pack>& A_O,
+            dynamics::Pull<math::Pack>& pull) const override;
+  Springs springs(double t, const dynamics::RelativeMotion<double>& A_O) const override;
+  void exchange(math::StateArchive& state) { state(rest_length_, since_, version_, k_, c_); }
+
+ private:
+  template <typename S>
+  struct Span;  ///< from the hand to the object's centre
+  template <typename S>
+  Span<S> span(const dynamics::RelativeMotion<S>& A_O) const;
+  template <typename S>
+  void pull_of(const dynamics::RelativeMotion<S>& A_O, dynamics::Pull<S>& pull) const;
+
+  double rest_length_, since_;
+  long version_ = 0;
+  double k_ = 0.0, c_ = 0.0;  ///< [N/m], [N·s/m]
+};
+
+/// A body that nothing holds, to be led about by couplings: six coordinates without springs …
+dynamics::HeldBody unheld(const scene::Body& body, double gravity);
+/// … seen from a frame at rest, in which an object at `X_WO` has no strain.
+motion::MotionSegment frame_at_rest(const RigidTransform& X_WO);
+
+/// The object on the tool `spring` (doc/model.md, "Tools"), which it is free to turn about.
+class SpringBody final : public ForkBody {
+ public:
+  /// The mass of `body` must be > 0. `rest_length` [m] > 0; stiffness and damping of `stretch`.
+  SpringBody(std::size_t index, const scene::Body& body, double gravity, const RigidTransform& X_WO,
+             stepping::StepControl control, double t, double rest_length, const rod::ForkSettings& fork);
+
+  const dynamics::Coupling& coupling() override { return spring_; }
+  void lead(const std::vector<dynamics::Attached>& others) override;
+  void stop_leading() override { held().detach(1); }
+  void follow(double t, const ToolHold& leader, const motion::MotionState& object) override;
+  const motion::MotionSegment& hand() const override { return hand_; }
 
   void set_hand(const motion::MotionSegment& hand, double t) override;
+  bool sleeps(double, bool) override { return false; }
   Wrench spring_pull() const override;
+  /// It can do no more than pull along its line, by another rest length.
   void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) override;
-  void take_twist(const Twist& V_WO_W) override { state_.free.set_twist(V_WO_W); }
   void set_springs(const rod::ForkSettings& fork) override;
   rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity, const ObjectGoal& goal) const override;
   bool set_dofs(const rod::ForkDofs&, double) override { return false; }
-  void set_step_control(const dynamics::DynamicsSettings&) override {}  // it has a rule of its own
-  bool sleeps(double, bool) override { return false; }
-  void let_pass(double h) override { state_.t += h; }
-  int coordinates() const override { return 1; }
-  double length() const override { return rest_length_; }
-  double elastic_energy() const override;
-  double energy_added() const override { return 0.0; }
-  StepEstimates take_estimates() override { return std::exchange(estimates_, {}); }
+  double length() const override { return spring_.rest_length(); }
+  double elastic_energy() const override { return reading().springs.energy; }
   void describe(bool massless, ToolState& state) const override;
-  void exchange(math::StateArchive& state) override {
-    state(rest_length_, k_, c_, hand_, state_.t, state_.free, estimates_);
-  }
+  void exchange(math::StateArchive& state) override;
 
  private:
-  struct State {
-    double t;
-    bodies::FreeBody free;  ///< pose and momentum; its own motion is used for the rotation alone
+  struct Reading {
+    Vector3d d;  ///< from the hand to the object's centre, world axes [m]
+    Wrench pull_W;
+    dynamics::Coupling::Springs springs;
   };
-  /// From the hand to the object's centre, world axes, and its rate.
-  struct Span {
-    Vector3d d, rate;
-  };
-  /// The linear part frozen about a span: radial and transverse oscillators.
-  struct Linear {
-    Vector3d d, n;
-    double radial = 0.0, alpha = 0.0, transverse = 0.0;  ///< ω² [1/s²], c / 2m [1/s], ω² [1/s²]
-  };
-  Span span() const;
-  Linear linear(const Span& s) const;
-  Vector3d acceleration(const Span& s, const Vector3d& rest_W) const;
-  Vector3d nonlinear_residual(const Linear& a, const Span& s, const Vector3d& rest_W) const;
-  static Span respond(const Linear& a, const Span& s, double h, const Vector3d& nonlinear_residual);
+  Reading reading() const;
 
-  double mass_, gravity_, rest_length_;
-  double k_ = 0.0, c_ = 0.0;
-  motion::MotionSegment hand_;
-  State state_;
-  Matrix3d inertia_O_;
-  StepEstimates estimates_;
+  SpringCoupling spring_;
+  motion::MotionSegment rest_, hand_;
 };
 
 }  // namespace spring_workbench::tools

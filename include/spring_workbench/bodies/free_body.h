@@ -23,12 +23,6 @@ class FreeBody final : public SteppedBody {
   bool reverses() const override { return true; }
   void block(double h) override;
 
-  void set_twist(const Twist& V_WO_W);
-  /// Pose and velocity.
-  void set_motion(const motion::MotionState& object);
-  /// Position [m] and velocity [m/s] of the centre of mass, world axes; the rotation goes on as it is.
-  void set_motion_of_centre(const Vector3d& p_WO, const Vector3d& v_WO_W);
-
   void exchange(math::StateArchive& state) { state(state_.X_WO, state_.velocity, state_.angular_momentum); }
 
  private:

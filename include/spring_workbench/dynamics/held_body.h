@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "spring_workbench/dynamics/active_coordinates.h"
+#include "spring_workbench/dynamics/coupling.h"
 #include "spring_workbench/motion/pose_track.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/rod/shape_model.h"
@@ -27,13 +28,20 @@ struct HandleForcing {
   Vector3d angular_velocity = Vector3d::Zero();  ///< [rad/s]
   Vector3d angular_acceleration = Vector3d::Zero();
   Vector3d acceleration_less_gravity = Vector3d::Zero();  ///< of the origin of H [m/s²]
+  Couplings::Seen<double> seen;                           ///< as many as there are couplings
 };
 
-/// The same at several moments, for integrators.
-struct HandleForcings {
-  math::Pack t;
-  motion::FrameForcing<math::Pack> of_H;
-  HandleForcing at(int i) const;  ///< without pose and velocity but for the rotation
+/// The same without the place, at one moment or several.
+template <typename S>
+struct ForcingOf {
+  S t;
+  motion::FrameForcing<S> of_H;
+  Couplings::Seen<S> seen;
+};
+
+/// At several moments, for integrators.
+struct HandleForcings : ForcingOf<math::Pack> {
+  HandleForcing at(int i) const;
 };
 
 /// Energy of held body and springs at several moments, and what it should change by.
@@ -51,6 +59,7 @@ class HeldBody {
   HeldBody(std::shared_ptr<const rod::ShapeModel> shape, const BodyInertia& body, double gravity);
 
   const rod::ShapeModel& shape() const { return *shape_; }
+  const std::shared_ptr<const rod::ShapeModel>& shared_shape() const { return shape_; }
   const BodyInertia& body() const { return body_; }
   double gravity() const { return gravity_; }  ///< [m/s²]
   /// Grows by every change of the equations: what an integrator has derived from them is good for one version.
@@ -93,11 +102,27 @@ class HeldBody {
   void set_path_check(PathCheck check) { path_check_ = std::move(check); }
   const PathCheck& path_check() const { return path_check_; }
 
+  /// What else pulls at the body from now on, on the way of the handle that integrators are given. Throws
+  /// std::length_error for more than Couplings::most.
+  void attach(const std::vector<Attached>& couplings);
+  /// As Couplings::detach.
+  void detach(std::size_t kept) { couplings_.detach(kept); }
+  bool coupled() const { return !couplings_.empty(); }
+  /// The same moment with the couplings' frames at rest in the handle's.
+  HandleForcing with_frames_at_rest(HandleForcing handle) const;
+  /// Of the couplings, for the body's state.
+  Couplings::Reading read_couplings(const HandleForcing& handle, const StrainState& state) const;
+
   int size() const { return coordinates_.size(); }  ///< number of active coordinates
   const ActiveCoordinates& coordinates() const { return coordinates_; }
   StrainState zero_state() const;
   rod::StrainVector stiffness() const;  ///< diagonal of K, active coordinates
   rod::StrainMatrix damping() const;    ///< D, active coordinates
+  /// K and D with what the couplings' springs and dampers add to them at the strain `q`.
+  struct Springs {
+    rod::StrainMatrix K, D;
+  };
+  Springs springs(const HandleForcing& handle, const rod::StrainVector& q) const;
 
   HandleForcing forcing(const motion::FrameMotion& handle, double t) const;
   HandleForcings forcing(const motion::FrameMotion& handle, const math::Pack& t) const;
@@ -149,14 +174,14 @@ class HeldBody {
   /// depend on the rates is right for any of them if they are not `of_rates`.
   const rod::TipOf<double>& tip(const double* q, const double* q_dot, bool of_rates) const;
   template <int n, typename S>
-  void accelerate(const S& t, const motion::FrameForcing<S>& handle, const S* q, const S* q_dot, S* q_ddot,
+  void accelerate(const ForcingOf<S>& handle, const S* q, const S* q_dot, S* q_ddot,
                   EnergyBalance* balance = nullptr) const;
   template <int n>
   void balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot, EnergyBalance& out) const;
   template <typename S>
   struct Rigid;  ///< the object's inertial and contact wrench for q̈ = 0
   template <typename S>
-  Rigid<S> without_strain_acceleration(const motion::FrameForcing<S>& handle, const rod::TipOf<S>& tip, const S* q_dot,
+  Rigid<S> without_strain_acceleration(const ForcingOf<S>& handle, const rod::TipOf<S>& tip, const S* q_dot,
                                        const S* q_ddot) const;
   /// For the strain of all coordinates.
   Kinematics kinematics(const StrainState& full) const;
@@ -181,6 +206,7 @@ class HeldBody {
   double modal_ratio_ = 0.0;
   rod::StrainMatrix D_modal_;  ///< active coordinates; where modal_
   ActiveCoordinates coordinates_;
+  Couplings couplings_;
   Wrench external_W_;
   bool loaded_ = false;  ///< the external wrench is not zero
   PathCheck path_check_;

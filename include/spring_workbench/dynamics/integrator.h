@@ -53,7 +53,7 @@ class Integrator {
     rod::StrainMatrix q, q_dot;
   };
   /// From the implicit Euler rule unless a method knows better.
-  virtual Response response(const HeldBody& body, double t, double h, const StrainState& state);
+  virtual Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state);
 
   /// The history: what it has kept of the equations and the last step, to be given back to one of the same name.
   virtual void exchange(math::StateArchive&) {}

@@ -67,6 +67,9 @@ class ShapeModel {
   virtual void tip(const double* q, const double* q_dot, TipOf<double>& out) const = 0;
   virtual void tip(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const = 0;
 
+  /// Whether the strain is the tip's shift from (0, 0, length()) and its rotation vector, (dx, dy, φx, φy, φz, dz).
+  virtual bool strain_is_pose() const { return false; }
+
   /// Extension of the rod [m] and twist angle [rad].
   virtual double extension(const StrainVector& q) const = 0;
   virtual double twist(const StrainVector& q) const = 0;

@@ -40,6 +40,8 @@ class HoldMaker {
 
   /// A hold free of strain, at time `now` [s]. It has to be told the hand's motion before it can be used.
   std::unique_ptr<ToolHold> make(const Grasp& grasp, const GraspedBody& object, double now) const;
+  /// The object at time `now` [s] as none holds it, with this velocity, to be pushed by tools. Its mass must be > 0.
+  std::unique_ptr<ToolHold> make_unheld(const GraspedBody& object, const Twist& V_WO_W, double now) const;
   /// The families that the object can move: of those switched on, the ones in which it has an inertia.
   rod::ForkDofs possible_dofs(const Grasp& grasp, const GraspedBody& object) const;
 

@@ -1,6 +1,9 @@
 #pragma once
 
-#include "spring_workbench/bodies/coupled_tool.h"
+#include <optional>
+
+#include "spring_workbench/dynamics/coupling.h"
+#include "spring_workbench/motion/pose_track.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/tools/tool_state.h"
@@ -12,54 +15,72 @@ struct InFront {
   double distance = 0.0;              ///< [m]
   const scene::Body* body = nullptr;  ///< null: the bench plane
   const scene::Material* material = nullptr;
+  // Of a body, in its object frame:
+  Vector3d point_O = Vector3d::Zero();   ///< where it is met [m]
+  Vector3d normal_O = Vector3d::Zero();  ///< of its surface there, outward
 };
 
 /// The tool `spring_probe` where it touches something (doc/model.md, "The probe"): a spring along the probe's axis in
-/// series with the material's, which it reads out. It can only push, without friction at its tip.
-class Probe final : public bodies::CoupledTool {
+/// series with the material's, which it reads out. It can only push, without friction at its tip. On a body that moves
+/// it is a coupling with a damper beside both; the surface is the plane that it has met.
+class Probe final : public dynamics::Coupling {
  public:
-  /// Touches what is `touched.distance` in front of the hand, nearer than the probe's `length` [m]. Keeps no reference.
-  Probe(double length, const rod::ForkSettings& fork, const InFront& touched);
+  /// Touches what is `touched.distance` in front of the hand, nearer than the probe's `length` [m], from time `now` [s]
+  /// on. Keeps no reference.
+  Probe(double length, const rod::ForkSettings& fork, const InFront& touched, double now);
 
   /// The same touch at a new moment.
-  void touch(const InFront& touched) { state_.depth = length_ - touched.distance; }
+  void touch(const InFront& touched);
   void set_springs(const rod::ForkSettings& fork);
-  /// The present time [s] and the hand's motion from it on.
-  void set_hand(const motion::MotionSegment& hand, double t);
+  /// The hand's motion; it must cover the steps that follow.
+  void set_hand(const motion::MotionSegment& hand) { hand_ = hand; }
+  const motion::MotionSegment& hand() const { return hand_; }
 
-  bodies::Coupling coupling(double h, const RigidTransform& X_WO, const Matrix6d& mobility) const override;
-  void follow(double h, const motion::MotionState& object, const Wrench& pull_W) override;
-  void save(bodies::TrialStart& start) const override { start.keep(state_); }
-  void restore(const bodies::TrialStart& start) override { state_ = start.kept<State>(); }
+  Key key() const override { return {since_, version_}; }
+  void pull(const double& t, const dynamics::RelativeMotion<double>& A_O, dynamics::Pull<double>& pull) const override;
+  void pull(const math::Pack& t, const dynamics::RelativeMotion<math::Pack>& A_O,
+            dynamics::Pull<math::Pack>& pull) const override;
+  Springs springs(double t, const dynamics::RelativeMotion<double>& A_O) const override;
+  /// The body has come there by time `t` [s].
+  void follow(double t, const motion::MotionState& object);
 
   /// On a body that does not move: the force is that of the springs at rest.
   void press();
 
-  double elastic_energy() const;
+  double elastic_energy() const { return 0.5 * force_ * depth_; }
   const scene::Body* body() const { return body_; }
   /// All that changes while it touches the same body.
   void exchange(math::StateArchive& state) {
-    state(k_, c_, hand_, state_.t, state_.depth, state_.indent, state_.force);
+    state(since_, version_, k_, series_, c_, hand_, point_O_, normal_O_, depth_, force_);
   }
   /// Fills in what the probe knows; `X_WH`: the hand.
   void describe(const RigidTransform& X_WH, ToolState& state) const;
 
  private:
-  struct State {
-    double t = 0.0;
-    double depth = 0.0;   ///< how far the tip would be inside, if nothing gave way [m]
-    double indent = 0.0;  ///< of the material [m]
-    double force = 0.0;   ///< [N]
+  /// The tip at the surface, as the hand sees it.
+  template <typename S>
+  struct Touch {
+    S depth, rate;         ///< how far the tip would be inside if nothing gave way [m], [m/s]
+    math::Three<S> arm;    ///< from the object's centre
+    math::Three<S> speed;  ///< of the object there
+    S force;
   };
-  /// Where the probe ends, its tip where it touches.
-  RigidTransform tip(const RigidTransform& X_WH) const;
+  template <typename S>
+  Touch<S> touch_of(const dynamics::RelativeMotion<S>& A_O) const;
+  template <typename S>
+  void pull_of(const dynamics::RelativeMotion<S>& A_O, dynamics::Pull<S>& pull) const;
 
   double length_;
   const scene::Body* body_;
   scene::Material material_;
-  double k_ = 0.0, c_ = 0.0;  ///< of the probe
+  double since_;
+  long version_ = 0;
+  double k_ = 0.0, series_ = 0.0;  ///< of the probe, and of it and the material [N/m]
+  double c_ = 0.0;
   motion::MotionSegment hand_;
-  State state_;
+  Vector3d point_O_, normal_O_;
+  double depth_ = 0.0;  ///< at present [m]
+  double force_ = 0.0;  ///< [N]
 };
 
 }  // namespace spring_workbench::tools

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
-#include "spring_workbench/bodies/coupled_tool.h"
+#include "spring_workbench/bodies/stepped_body.h"
+#include "spring_workbench/dynamics/coupling.h"
 #include "spring_workbench/dynamics/settings.h"
 #include "spring_workbench/tools/settings.h"
 #include "spring_workbench/tools/tool_state.h"
@@ -38,11 +40,24 @@ struct StepEstimates {
 };
 
 /// A tool's hold on an object: the object as the hand moves it through the tool.
-class ToolHold : public bodies::SteppedBody, public bodies::CoupledTool {
+class ToolHold : public bodies::SteppedBody {
  public:
-  // One state, whether the object is carried by this tool alone or shared.
-  void save(bodies::TrialStart& start) const override = 0;
-  void restore(const bodies::TrialStart& start) override = 0;
+  // Of several tools on an object one leads: it carries the object, and the others pull at it as couplings of its
+  // equation of motion. They follow where the object has come to (doc/model.md, "Several tools on one object").
+  virtual double since() const = 0;  ///< when it took hold [s]
+  /// As a tool that follows, for the steps from the present state on.
+  virtual const dynamics::Coupling& coupling() = 0;
+  /// Leads from now on; without others it is alone with the object. To be told before each step.
+  virtual void lead(const std::vector<dynamics::Attached>& others) = 0;
+  /// The step with the others is done: they are not asked any more.
+  virtual void stop_leading() = 0;
+  /// The object has come there by time `t` [s].
+  virtual void follow(double t, const ToolHold& leader, const motion::MotionState& object) = 0;
+  /// The hand's motion that its springs begin at.
+  virtual const motion::MotionSegment& hand() const = 0;
+  /// Of the handle that the object sees from the hand's: seen = offset · hand, in world.
+  virtual const RigidTransform& offset() const = 0;
+
   /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
   virtual void set_hand(const motion::MotionSegment& hand, double t) = 0;
   /// Whether nothing moves for the next `h` [s], and nothing need be done but let_pass(): the hand is at rest and the

@@ -81,22 +81,38 @@ TEST(TwoHands, OneSpringAndOneForkShareTheWeight) {
   EXPECT_GT(two.simulation.fork(1).tip_wrench_W.force.norm(), 0.1);
 }
 
+/// How fast a box gets that two hands carry on, each turning about its own fork [m/s].
+double fastest(const SimulationSettings& set) {
+  BothHold two(set, 0.5, scene::ContactMode::stop);
+  push_move(two.simulation, 0.22, 1.0, left, left + Vector3d(0.1, 0.05, 0.1), 0.4, 0);
+  push_move(two.simulation, 0.22, 1.0, right, right + Vector3d(0.1, 0.05, 0.1), 0.4, 1);
+  double speed = 0.0;
+  for (double t = 0.3; t < 2.0; t += 0.05) {
+    two.simulation.advance(t);
+    const bodies::BodyState& o = two.simulation.objects()[0];
+    EXPECT_TRUE(o.X_WO.matrix().allFinite());
+    EXPECT_LT(o.X_WO.translation().norm(), 1.0);
+    speed = std::max(speed, o.V_WO_W.linear.norm());
+  }
+  return speed;
+}
+
 TEST(TwoHands, NoStiffnessMakesItBlowUp) {
   for (const double k : {0.0, 1.0, 1e6, 1e12}) {
     for (const std::string& shape : test_support::shape_names()) {
       for (const rod::ForkDofs& dofs :
            {rod::ForkDofs{true, true, true}, rod::ForkDofs{false, true, false}, rod::ForkDofs{false, false, false}}) {
+        SCOPED_TRACE(std::to_string(k) + shape);
         SimulationSettings set = with_stiffness(k, k, 1e-2 * k, shape);
         set.fork.dofs = dofs;
-        BothHold two(set, 0.5, scene::ContactMode::stop);
-        push_move(two.simulation, 0.22, 1.0, left, left + Vector3d(0.1, 0.05, 0.1), 0.4, 0);
-        push_move(two.simulation, 0.22, 1.0, right, right + Vector3d(0.1, 0.05, 0.1), 0.4, 1);
-        for (double t = 0.3; t < 2.0; t += 0.05) {
-          two.simulation.advance(t);
-          const bodies::BodyState& o = two.simulation.objects()[0];
-          ASSERT_TRUE(o.X_WO.matrix().allFinite()) << k << shape;
-          ASSERT_LT(o.V_WO_W.linear.norm(), 5.0) << k << shape;
-          ASSERT_LT(o.X_WO.translation().norm(), 1.0) << k << shape;
+        // A limp arc of fixed length: what is rigid in both forks leaves the box hardly a way, along which the hands
+        // force it. It goes so fast by its equation of motion, at any step.
+        const bool limp = shape == "constant" && k <= 1.0 && dofs.bend && !dofs.stretch;
+        const double speed = fastest(set);
+        ASSERT_LT(speed, limp ? 10.0 : 5.0);
+        set.dynamics.step = 2e-3;
+        if (limp) {
+          ASSERT_NEAR(speed, fastest(set), 0.01 * speed);
         }
       }
     }

@@ -35,7 +35,7 @@ class Checkpoint {
   std::string kept_scene_;          ///< path; empty: nothing is kept
   simulation::SimulationState kept_state_;
   bool handed_over_ = false;
-  ros::SteadyTimer timer_;
+  ros::WallTimer timer_;
 };
 
 }  // namespace spring_workbench::manipulation

@@ -1,4 +1,4 @@
-#include "spring_workbench/dynamics/step_control.h"
+#include "spring_workbench/stepping/step_control.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,10 @@
 #include "support/held_cases.h"
 #include "support/named.h"
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::stepping {
 namespace {
+
+using namespace dynamics;
 
 constexpr double sample_interval = 0.02;
 
@@ -163,4 +165,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, SteppedWithATolerance, testing::ValuesIn(t
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::stepping

@@ -3,13 +3,15 @@
 #include <random>
 #include <vector>
 
-#include "spring_workbench/dynamics/step_control.h"
+#include "spring_workbench/stepping/step_control.h"
 #include "support/count_allocations.h"
 #include "support/held_cases.h"
 #include "support/named.h"
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::stepping {
 namespace {
+
+using namespace dynamics;
 
 using test_support::allocations;
 
@@ -55,4 +57,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Stepping, testing::ValuesIn(test_support::
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::stepping

@@ -1,39 +1,29 @@
-#include "spring_workbench/dynamics/step_control.h"
+#include "spring_workbench/stepping/step_control.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
+#include "constants.h"
 #include "energy_account.h"
 #include "fallback_step.h"
 #include "range_stop.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/spatial.h"
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::stepping {
 namespace {
 
-/// What a method that keeps energy may err by in energy, of the largest since the grasp, a second: 1 % in a minute.
-constexpr double energy_share = 0.01 / 60.0;
-constexpr double most_saved = 0.1;      ///< [s]; so long steps may save of it for one that errs by more
-constexpr int most_halvings = 6;        ///< of a span
-constexpr double most_strain = 1e12;    ///< in the coordinates' own units; no state to go on from has more
-constexpr double safety = 0.8;          ///< of the next step's length, with a tolerance
-constexpr double most_growth = 3.0;     ///< from one step to the next
-constexpr double least_growth = 0.1;    ///< the same
-constexpr double longest_swing = 1.0;   ///< [s]; over this a rate that no spring stops becomes a strain
-constexpr double smallest_step = 1e-4;  ///< of the span; one shorter than two of these is taken whatever its error
-constexpr double shortest_step = 2e-6;  ///< [s]; the same where it is longer: substeps between contacts may be short
-
-bool usable(const StrainState& state) {
+bool usable(const dynamics::StrainState& state) {
   return state.q.norm() + state.q_dot.norm() < most_strain;  // false for NaN
 }
 
 /// From rates to the strain that they swing to, mode by mode, and the frequency of the stiffest mode.
-void set_modes(const HeldBody& body, double t, const rod::StrainVector& q, StepControl::Memory& memory) {
-  const rod::StrainMatrix K = body.stiffness().asDiagonal(), M = body.mass_matrix(t, q);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> modes(K, M);
+void set_modes(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, const rod::StrainVector& q,
+               StepControl::Memory& memory) {
+  const rod::StrainMatrix M = body.mass_matrix(handle.t, q);
+  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> modes(body.springs(handle, q).K, M);
   const rod::StrainVector omega = modes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
   memory.stiffest_omega = omega.maxCoeff();
   memory.swing = modes.eigenvectors() * omega.cwiseMax(1.0 / longest_swing).cwiseInverse().asDiagonal() *
@@ -43,13 +33,13 @@ void set_modes(const HeldBody& body, double t, const rod::StrainVector& q, StepC
 }  // namespace
 
 struct StepControl::Span {
-  const HeldBody& body;
+  const dynamics::HeldBody& body;
   const motion::FrameMotion& handle;
   Memory& memory;
   ControlledStep report;
 
   /// An error of the strain as one length: of the object's position, and of its attitude by its radius of gyration.
-  double length(double t, const StrainState& state, const rod::StrainVector& error) const {
+  double length(double t, const dynamics::StrainState& state, const rod::StrainVector& error) const {
     const auto J = body.object_jacobian(t, state.q);
     return std::hypot((J.topRows<3>() * error).norm(),
                       radius_of_gyration(body.body().mass, body.body().inertia_O) * (J.bottomRows<3>() * error).norm());
@@ -57,25 +47,26 @@ struct StepControl::Span {
 };
 
 struct StepControl::Tried {
-  StrainState state;
-  StepEstimate estimate{};
+  dynamics::StrainState state;
+  dynamics::StepEstimate estimate{};
   bool solved = false;
   double energy_error = 0.0, largest_energy = 0.0;  ///< estimate of the error; of the run [J]
   double position_error = 0.0, angle_error = 0.0;   ///< [m], [rad]
 };
 
-StepControl::StepControl(std::unique_ptr<Integrator> integrator, double tolerance)
+StepControl::StepControl(std::unique_ptr<dynamics::Integrator> integrator, double tolerance)
     : integrator_(std::move(integrator)), tolerance_(tolerance) {}
 
-ControlledStep StepControl::advance(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
-                                    StrainState& state, Memory& memory) const {
+ControlledStep StepControl::advance(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t,
+                                    double h, dynamics::StrainState& state, Memory& memory) const {
   Span span{body, handle, memory, {}};
   const Memory before = memory;
-  StrainState next = state;
+  dynamics::StrainState next = state;
   span.report.accepted = usable(next) && body.shape().admissible(body.full_state(t, next).q);
   if (!span.report.accepted) return span.report;
   if (memory.version != body.version() || memory.t != t || memory.error.q.size() != body.size()) {
-    if (memory.version != body.version() || memory.swing.rows() != body.size()) set_modes(body, t, next.q, memory);
+    if (memory.version != body.version() || memory.swing.rows() != body.size())
+      set_modes(body, body.forcing(handle, t), next.q, memory);
     memory.error = body.zero_state();
     memory.next_h = h;
     memory.version = body.version();
@@ -98,19 +89,22 @@ ControlledStep StepControl::advance(const HeldBody& body, const motion::FrameMot
   return span.report;
 }
 
-StepControl::Tried StepControl::try_step(const Span& span, double t, double h, const StrainState& state) const {
-  const HeldBody& body = span.body;
+StepControl::Tried StepControl::try_step(const Span& span, double t, double h,
+                                         const dynamics::StrainState& state) const {
+  const dynamics::HeldBody& body = span.body;
   Tried tried{state};
   tried.estimate = integrator_->step(body, span.handle, t, h, tried.state);
   tried.solved = tried.estimate.converged && usable(tried.state);
   if (!tried.solved) return tried;
-  const HandleForcing end = body.forcing(span.handle, t + h);
-  const StrainState truth{tried.state.q - tried.estimate.q_error, tried.state.q_dot - tried.estimate.q_dot_error};
+  const dynamics::HandleForcing end = body.forcing(span.handle, t + h);
+  const dynamics::StrainState truth{tried.state.q - tried.estimate.q_error,
+                                    tried.state.q_dot - tried.estimate.q_dot_error};
   const motion::MotionState as_is = body.object(end, tried.state), as_should_be = body.object(end, truth);
   const double weight = body.body().mass * body.gravity();
   const auto kinetic = [&](const motion::MotionState& o) { return body.kinetic_energy(o.velocity, o.X.linear()); };
-  const auto potential = [&](const motion::MotionState& o, const StrainState& s) {
-    return body.elastic_energy(end.t, s) + weight * (o.X.translation().z() - end.X_WH.translation().z());
+  const auto potential = [&](const motion::MotionState& o, const dynamics::StrainState& s) {
+    return body.elastic_energy(end.t, s) + body.read_couplings(end, s).springs.energy +
+           weight * (o.X.translation().z() - end.X_WH.translation().z());
   };
   const double found = potential(as_is, tried.state);
   tried.energy_error = kinetic(as_is) - kinetic(as_should_be) + found - potential(as_should_be, truth);
@@ -120,11 +114,11 @@ StepControl::Tried StepControl::try_step(const Span& span, double t, double h, c
   return tried;
 }
 
-void StepControl::take(Span& span, double t, double h, const Tried& tried, StrainState& state) const {
-  const HeldBody& body = span.body;
-  StrainState next = tried.state;
+void StepControl::take(Span& span, double t, double h, const Tried& tried, dynamics::StrainState& state) const {
+  const dynamics::HeldBody& body = span.body;
+  dynamics::StrainState next = tried.state;
   if (!body.shape().admissible(body.full_state(t + h, next).q)) {
-    stop_at_range(body, t + h, h, state, next);
+    stop_at_range(body, body.forcing(span.handle, t + h), h, state, next);
     ++span.report.stops;
   }
   if (!body.returning()) span.report.energy_added += energy_added(body, span.handle, t, h, state, next);
@@ -141,21 +135,21 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, Strai
   span.report.omega_dt = std::max(span.report.omega_dt, known > 0.0 ? known : span.memory.stiffest_omega * h);
 }
 
-void StepControl::fall_back(Span& span, double t, double h, StrainState& state) const {
+void StepControl::fall_back(Span& span, double t, double h, dynamics::StrainState& state) const {
   Tried tried{state};
   fallback_step(span.body, span.handle, t, h, tried.state);
   ++span.report.fallback;
   take(span, t, h, tried, state);
 }
 
-void StepControl::step_in_halves(Span& span, double t, double h, int level, StrainState& state) const {
+void StepControl::step_in_halves(Span& span, double t, double h, int level, dynamics::StrainState& state) const {
   span.memory.level = std::max(span.memory.level, level);
   const Tried tried = try_step(span, t, h, state);
   const double largest = std::max(span.memory.largest_energy, tried.largest_energy);
   const double share = energy_share * (h + span.memory.energy_saved) * largest;
-  const bool fine = integrator_->energy() == Integrator::Energy::kept ? std::abs(tried.energy_error) <= share
-                    : integrator_->energy() == Integrator::Energy::dissipated
-                        ? energy_gained(span.body, span.handle, t + h, state, tried.state) <= share
+  const bool fine = integrator_->energy() == dynamics::Integrator::Energy::kept ? std::abs(tried.energy_error) <= share
+                    : integrator_->energy() == dynamics::Integrator::Energy::dissipated
+                        ? energy_gained(span.body, span.body.forcing(span.handle, t + h), state, tried.state) <= share
                         : true;
   const bool shortest = level == most_halvings || !integrator_->stiffly_stable();
   if (tried.solved && fine) return take(span, t, h, tried, state);
@@ -165,7 +159,7 @@ void StepControl::step_in_halves(Span& span, double t, double h, int level, Stra
   step_in_halves(span, t + 0.5 * h, 0.5 * h, level + 1, state);
 }
 
-void StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState& state) const {
+void StepControl::steps_to_tolerance(Span& span, double t, double h, dynamics::StrainState& state) const {
   Memory& memory = span.memory;
   const double end = t + h, shortest = std::max(smallest_step * h, shortest_step), order = integrator_->order();
   int tries = 0;
@@ -174,7 +168,7 @@ void StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
     const double dt = memory.next_h > 0.95 * left ? left : memory.next_h;
     const bool smallest = dt < 2.0 * shortest;
     const Tried tried = try_step(span, t, dt, state);
-    StrainState error = memory.error;
+    dynamics::StrainState error = memory.error;
     double growth = least_growth;
     bool good = false;
     if (tried.solved) {
@@ -213,4 +207,4 @@ void StepControl::steps_to_tolerance(Span& span, double t, double h, StrainState
   }
 }
 
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::stepping

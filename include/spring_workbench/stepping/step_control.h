@@ -4,7 +4,7 @@
 
 #include "spring_workbench/dynamics/integrator.h"
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::stepping {
 
 /// What a StepControl did over a span of time.
 struct ControlledStep {
@@ -41,7 +41,7 @@ class StepControl {
     int level = 0;                ///< without: the last span's shortest step was its 2^level-th part
     long version = -1;            ///< of the equations that the rest is about
     double t = 0.0;               ///< time that the rest is of [s]
-    StrainState error;            ///< of the run
+    dynamics::StrainState error;  ///< of the run
     rod::StrainMatrix swing;      ///< from rates to the strains that they swing to [s]
     double stiffest_omega = 0.0;  ///< of the undamped modes [rad/s]
     double largest_energy = 0.0;  ///< of body and fork since the grasp [J]
@@ -53,14 +53,14 @@ class StepControl {
   };
 
   /// `tolerance` [m]: 0 takes spans as they come; up to largest_tolerance.
-  explicit StepControl(std::unique_ptr<Integrator> integrator, double tolerance = 0.0);
+  explicit StepControl(std::unique_ptr<dynamics::Integrator> integrator, double tolerance = 0.0);
 
-  Integrator& integrator() const { return *integrator_; }
+  dynamics::Integrator& integrator() const { return *integrator_; }
   double tolerance() const { return tolerance_; }  ///< [m]
 
   /// From `t` to `t + h` [s], h > 0; `handle` must cover that time.
-  ControlledStep advance(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
-                         StrainState& state, Memory& memory) const;
+  ControlledStep advance(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                         dynamics::StrainState& state, Memory& memory) const;
 
   static constexpr double undamped_horizon = 1.0;   ///< [s]
   static constexpr double largest_tolerance = 0.1;  ///< [m]
@@ -69,14 +69,14 @@ class StepControl {
   struct Span;   ///< one call's arguments
   struct Tried;  ///< a step and what it says of itself
 
-  Tried try_step(const Span& span, double t, double h, const StrainState& state) const;
-  void take(Span& span, double t, double h, const Tried& tried, StrainState& state) const;
-  void fall_back(Span& span, double t, double h, StrainState& state) const;
-  void step_in_halves(Span& span, double t, double h, int level, StrainState& state) const;
-  void steps_to_tolerance(Span& span, double t, double h, StrainState& state) const;
+  Tried try_step(const Span& span, double t, double h, const dynamics::StrainState& state) const;
+  void take(Span& span, double t, double h, const Tried& tried, dynamics::StrainState& state) const;
+  void fall_back(Span& span, double t, double h, dynamics::StrainState& state) const;
+  void step_in_halves(Span& span, double t, double h, int level, dynamics::StrainState& state) const;
+  void steps_to_tolerance(Span& span, double t, double h, dynamics::StrainState& state) const;
 
-  std::unique_ptr<Integrator> integrator_;
+  std::unique_ptr<dynamics::Integrator> integrator_;
   double tolerance_;
 };
 
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::stepping

@@ -5,12 +5,14 @@
 #include <random>
 #include <vector>
 
-#include "spring_workbench/dynamics/step_control.h"
+#include "spring_workbench/stepping/step_control.h"
 #include "support/held_cases.h"
 #include "support/named.h"
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::stepping {
 namespace {
+
+using namespace dynamics;
 
 std::unique_ptr<Integrator> paper() { return make_integrator(IntegratorKind::paper); }
 
@@ -274,7 +276,7 @@ TEST(Paper, SaysHowItsStepRespondsToALoad) {
     const auto integrator = paper();
     for (int i = 0; i < 10; ++i) integrator->step(c.held, c.hand, 0.01 * i, 0.01, begin);
     const double h = 0.01;
-    const Integrator::Response r = integrator->response(c.held, 0.1, h, begin);
+    const Integrator::Response r = integrator->response(c.held, c.held.forcing(c.hand, 0.1), h, begin);
     const double size = 1e-4 * c.held.body().mass;
     const Wrench load{size * Vector3d(uniform(random), uniform(random), uniform(random)), Vector3d::Zero()};
     StrainState free = begin, loaded = begin;
@@ -311,4 +313,4 @@ TEST(Paper, FollowsAFamilyThatReturnsToZero) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::stepping

@@ -4,12 +4,14 @@
 #include <random>
 #include <vector>
 
-#include "spring_workbench/dynamics/step_control.h"
+#include "spring_workbench/stepping/step_control.h"
 #include "support/held_cases.h"
 #include "support/named.h"
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::stepping {
 namespace {
+
+using namespace dynamics;
 
 // The cells of the stability map: stiffness × mass × step × damping × families × hand. Samples of the hand come with
 // the steps, at most 50 a second.
@@ -204,4 +206,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, StableIntegrator, testing::Values("exponen
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::stepping

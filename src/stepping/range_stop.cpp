@@ -3,25 +3,20 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 
-#include "implicit_integrators.h"
+#include "constants.h"
+#include "spring_workbench/dynamics/linearised_motion.h"
 
-namespace spring_workbench::dynamics {
-namespace {
+namespace spring_workbench::stepping {
 
-constexpr double inside = 1.0 - 1e-9;  ///< of the range: where a strain that left it is put
-constexpr double difference = 1e-6;    ///< over the length, for the range's slope
-constexpr int most_iterations = 20;    ///< of Newton's method; the range is convex
-constexpr int halvings = 50;           ///< of the way back to the begin, where that leads nowhere
-
-}  // namespace
-
-void stop_at_range(const HeldBody& body, double t, double h, const StrainState& begin, StrainState& end) {
+void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, double h,
+                   const dynamics::StrainState& begin, dynamics::StrainState& end) {
+  const double t = handle.t;
   const auto used = [&](const rod::StrainVector& q) {
     return body.shape().range_used(body.full_state(t, {q, rod::StrainVector::Zero(q.size())}).q);
   };
   const auto slope = [&](const rod::StrainVector& q) {
     rod::StrainVector g(q.size());
-    const double dq = difference / body.shape().length();
+    const double dq = range_difference / body.shape().length();
     for (Eigen::Index i = 0; i < q.size(); ++i) {
       rod::StrainVector up = q, down = q;
       up[i] += dq;
@@ -30,10 +25,10 @@ void stop_at_range(const HeldBody& body, double t, double h, const StrainState& 
     }
     return g;
   };
-  const auto kinetic = [&](const StrainState& s) { return s.q_dot.dot(body.mass_matrix(t, s.q) * s.q_dot); };
+  const auto kinetic = [&](const dynamics::StrainState& s) { return s.q_dot.dot(body.mass_matrix(t, s.q) * s.q_dot); };
   const double before = kinetic(end);
-  const LinearisedMotion motion(body, t, begin.q);
-  const ImplicitMatrix step(motion, h);
+  const dynamics::LinearisedMotion motion(body, handle, begin.q);
+  const dynamics::ImplicitMatrix step(motion, h);
   rod::StrainVector q = end.q, g;
   for (int i = 0; i < most_iterations && !(used(q) < 1.0); ++i) {
     g = slope(q);
@@ -42,7 +37,7 @@ void stop_at_range(const HeldBody& body, double t, double h, const StrainState& 
   }
   if (!(used(q) < 1.0)) {
     double shortest = 0.0, longest = 1.0;
-    for (int k = 0; k < halvings; ++k) {
+    for (int k = 0; k < most_bisections; ++k) {
       const double part = 0.5 * (shortest + longest);
       (used(begin.q + part * (end.q - begin.q)) < 1.0 ? shortest : longest) = part;
     }
@@ -57,4 +52,4 @@ void stop_at_range(const HeldBody& body, double t, double h, const StrainState& 
   if (after > before) end.q_dot *= std::sqrt(before / after);
 }
 
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::stepping

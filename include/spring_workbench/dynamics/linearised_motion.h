@@ -1,0 +1,31 @@
+#pragma once
+
+#include <Eigen/LU>
+
+#include "spring_workbench/dynamics/held_body.h"
+
+namespace spring_workbench::dynamics {
+
+/// The equation of motion about one state: `M δq̈ = −K δq − D δq̇`, geometric stiffness, loads and gyroscopic terms
+/// included. The springs' and dampers' own parts enter exactly, so that no stiffness costs digits; the rest is by
+/// differences.
+struct LinearisedMotion {
+  rod::StrainMatrix M, K, D;
+  LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
+                   const rod::StrainVector& q_ddot);
+  /// Springs and dampers alone.
+  LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q);
+};
+
+/// Solves `(M + d D + d² K) x = b`, equilibrated, for light and heavy coordinates side by side.
+class ImplicitMatrix {
+ public:
+  ImplicitMatrix(const LinearisedMotion& motion, double d);
+  rod::StrainMatrix solve(const rod::StrainMatrix& b) const;
+
+ private:
+  rod::StrainVector scale_;
+  Eigen::PartialPivLU<rod::StrainMatrix> lu_;
+};
+
+}  // namespace spring_workbench::dynamics

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cmath>
+
+#include "spring_workbench/math/pack.h"
+
+namespace spring_workbench::math {
+
+/// A small regular matrix as Q R (modified Gram–Schmidt, column by column), to solve with it and with its transpose;
+/// for one matrix (`S` double) or, with packs, several.
+template <int n, typename S>
+class SquareSystem {
+ public:
+  /// `columns[j]`: column j.
+  explicit SquareSystem(const S (&columns)[n][n]) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) Q_[j][i] = columns[j][i];
+      for (int k = 0; k < j; ++k) {
+        R_[k][j] = product(Q_[k], Q_[j]);
+        for (int i = 0; i < n; ++i) Q_[j][i] -= R_[k][j] * Q_[k][i];
+      }
+      const S squared = product(Q_[j], Q_[j]);
+      for (int l = 0; l < lanes<S>; ++l) set_lane(R_[j][j], l, std::sqrt(lane(squared, l)));
+      inverse_[j] = 1.0 / R_[j][j];
+      for (int i = 0; i < n; ++i) Q_[j][i] = inverse_[j] * Q_[j][i];
+    }
+  }
+
+  /// x with A x = b.
+  SPRING_WORKBENCH_INLINE void solve(const S (&b)[n], S (&x)[n]) const {
+    for (int j = n - 1; j >= 0; --j) {
+      x[j] = product(Q_[j], b);
+      for (int k = j + 1; k < n; ++k) x[j] -= R_[j][k] * x[k];
+      x[j] = inverse_[j] * x[j];
+    }
+  }
+  /// x with Aᵀ x = b.
+  SPRING_WORKBENCH_INLINE void solve_transposed(const S (&b)[n], S (&x)[n]) const {
+    S y[n];
+    for (int j = 0; j < n; ++j) {
+      y[j] = b[j];
+      for (int k = 0; k < j; ++k) y[j] -= R_[k][j] * y[k];
+      y[j] = inverse_[j] * y[j];
+    }
+    for (int i = 0; i < n; ++i) {
+      x[i] = Q_[0][i] * y[0];
+      for (int j = 1; j < n; ++j) x[i] += Q_[j][i] * y[j];
+    }
+  }
+
+ private:
+  SPRING_WORKBENCH_INLINE static S product(const S (&a)[n], const S (&b)[n]) {
+    S sum = a[0] * b[0];
+    for (int i = 1; i < n; ++i) sum += a[i] * b[i];
+    return sum;
+  }
+  S Q_[n][n], R_[n][n], inverse_[n];
+};
+
+}  // namespace spring_workbench::math

@@ -1,0 +1,56 @@
+#include "energy_account.h"
+
+namespace spring_workbench::stepping {
+
+double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    const dynamics::StrainState& begin, const dynamics::StrainState& end) {
+  constexpr double inner = 0.27639320225002103;  // (1 - 1/sqrt(5)) / 2
+  constexpr math::Pack nodes{0.0, inner, 1.0 - inner, 1.0}, weights{1.0 / 12.0, 5.0 / 12.0, 5.0 / 12.0, 1.0 / 12.0};
+  math::Pack q[rod::max_strain_coordinates], q_dot[rod::max_strain_coordinates];
+  const auto curve = [&](bool straight) {
+    for (int i = 0; i < body.size(); ++i) {
+      const double change = end.q[i] - begin.q[i], a = straight ? change : h * begin.q_dot[i],
+                   b = straight ? change : h * end.q_dot[i];
+      const double second = 3.0 * change - 2.0 * a - b, third = a + b - 2.0 * change;
+      q[i] = begin.q[i] + nodes * (a + nodes * (second + nodes * third));
+      q_dot[i] = (a + nodes * (2.0 * second + nodes * (3.0 * third))) / h;
+    }
+  };
+  const auto possible = [&](int node) {
+    dynamics::StrainState at = begin;
+    for (int i = 0; i < body.size(); ++i) at.q[i] = q[i][node];
+    return body.shape().admissible(body.full_state(t + nodes[node] * h, at).q);
+  };
+  curve(false);
+  if (!possible(1) || !possible(2)) curve(true);  // a jerk: no motion of the fork; the straight one
+  const dynamics::EnergyBalance balance = body.energy_balance(body.forcing(handle, t + nodes * h), q, q_dot);
+  return balance.energy[3] - balance.energy[0] - h * math::sum(weights * balance.power);
+}
+
+double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
+                     const dynamics::StrainState& begin, const dynamics::StrainState& end) {
+  const double t = handle.t;
+  const dynamics::HandleForcing still = body.with_frames_at_rest(handle);
+  const dynamics::StrainState at_rest{begin.q, 0.0 * begin.q_dot};
+  const auto energy = [&](const dynamics::StrainState& s) {
+    return 0.5 * s.q_dot.dot(body.mass_matrix(t, s.q) * s.q_dot) + body.elastic_energy(t, s) +
+           body.read_couplings(still, s).springs.energy;
+  };
+  dynamics::HandleForcing origin;
+  origin.t = t;
+  const auto position = [&](const dynamics::StrainState& s) -> Vector3d {
+    return body.object(origin, s).X.translation();
+  };
+  // Weight, the handle's acceleration and the contact's force are constant on the way; other loads are as at the begin.
+  const auto R_HW = handle.X_WH.linear().transpose();
+  const Vector3d force = R_HW * body.external_wrench().force - body.body().mass * handle.acceleration_less_gravity;
+  const Wrench others = body.read_couplings(still, at_rest).pull_W;
+  Vector6d accounted;
+  accounted << force + R_HW * others.force, R_HW * others.moment;
+  const rod::StrainVector loads = body.mass_matrix(t, begin.q) * body.acceleration(handle, begin.q, at_rest.q_dot) +
+                                  body.elastic_force(t, begin.q) -
+                                  body.object_jacobian(t, begin.q).transpose() * accounted;
+  return energy(end) - energy(begin) - loads.dot(end.q - begin.q) - force.dot(position(end) - position(begin));
+}
+
+}  // namespace spring_workbench::stepping

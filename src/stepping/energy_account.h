@@ -1,0 +1,18 @@
+#pragma once
+
+#include "spring_workbench/dynamics/held_body.h"
+
+namespace spring_workbench::stepping {
+
+/// Energy of body and fork after a step of `h` to `t + h` [s] beyond what hand, gravity, contact and dampers account
+/// for [J]: their work by Lobatto's rule of four points on the cubics through both ends.
+double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                    const dynamics::StrainState& begin, const dynamics::StrainState& end);
+
+/// Energy of springs and motion in the frame of the handle, and of couplings with frames at rest in it, after a step to
+/// the moment of `handle` less what there was before and what the weight, the handle's acceleration and the contact, as
+/// they are then, did on the way [J]: not above 0 for implicit Euler on a fork that is linear.
+double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
+                     const dynamics::StrainState& begin, const dynamics::StrainState& end);
+
+}  // namespace spring_workbench::stepping
