@@ -9,6 +9,19 @@ namespace {
 
 constexpr const char* kOurs = "exponential";
 
+/// As Pair::peer_beyond, for errors that the line of `method` does not reach.
+double end_of_line(const std::vector<ErrorRow>& rows, const std::string& method) {
+  const ErrorRow *last = nullptr, *best = nullptr;
+  for (const ErrorRow& row : rows) {
+    if (row.method != method) continue;
+    if (row.given_up) return row.wall_us_per_simulated_second;
+    last = &row;
+    if (row.finite && (best == nullptr || row.error < best->error)) best = &row;
+  }
+  const bool still_coming_down = last != nullptr && last == best;  // no run broke down, none was without gain
+  return still_coming_down ? last->wall_us_per_simulated_second : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 std::string ErrorTarget::text() const {
@@ -20,7 +33,7 @@ std::string ErrorTarget::text() const {
 
 std::optional<double> Pair::ratio() const {
   if (ours && peer_time) return *peer_time / *ours;
-  if (ours) return std::numeric_limits<double>::infinity();
+  if (ours) return peer_beyond / *ours;
   if (peer_time) return 0.0;
   return std::nullopt;
 }
@@ -48,7 +61,8 @@ std::vector<Pair> SceneRows::pairs(const ErrorTarget& target,
     if (row.ours || !wanted(row.method) || std::any_of(pairs.begin(), pairs.end(), same)) continue;
     const std::vector<CurvePoint> line = line_of(row.method);
     const double error = std::min(target.error, std::max(first_error(line), least_error(ours)));
-    pairs.push_back({row.method, error, run_time_for_error(ours, error), run_time_for_error(line, error)});
+    pairs.push_back({row.method, error, run_time_for_error(ours, error), run_time_for_error(line, error),
+                     end_of_line(rows, row.method)});
   }
   std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
     const double none = std::numeric_limits<double>::infinity();

@@ -23,9 +23,12 @@ struct Pair {
   std::string peer;
   double error = 0.0;                     ///< compared at, in the target's measure
   std::optional<double> ours, peer_time;  ///< [µs per simulated second]; none where the error is not reached
+  /// Where the peer does not reach it: it is slower than that, since its line was still coming down where it ends, by
+  /// its budget of time or its finest setting [µs per simulated second]; infinite where it comes no further down.
+  double peer_beyond = 0.0;
 
-  /// The peer's run time over ours: infinite where only ours arrives, 0 where only the peer does, nothing where neither
-  /// does.
+  /// The peer's run time over ours, or, where its line ended before, what that exceeds: infinite where only
+  /// ours arrives, 0 where only the peer does, nothing where neither does.
   std::optional<double> ratio() const;
 };
 

@@ -31,7 +31,9 @@ void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out) {
       out << ',';
       if (row.own_reference) out << row.model_error;
     } else {
-      out << ",,,,,,,";
+      out << ",,,,";
+      if (row.given_up) out << row.wall_us_per_simulated_second;
+      out << ",,,";
     }
     out << ',' << row.finite << ',' << row.steps_fallback << ',' << row.given_up << '\n';
   }

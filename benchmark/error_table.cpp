@@ -113,6 +113,7 @@ ErrorRow error_row(const Method& method, const Scenario& scene, const ReferenceS
   row.largest_deflection = reference.largest_deflection;
   row.steps_fallback = run.steps_fallback;
   row.given_up = run.given_up;
+  if (run.given_up) row.wall_us_per_simulated_second = 1e6 * plan.run_limit / scene.duration;
   row.finite = run.finite && !reference.outputs.empty();
   if (!row.finite) return row;
   row.error = output_error(scene, reference, run.outputs);

@@ -46,13 +46,13 @@ struct ErrorRow {
   double angle_error = 0.0;            ///< largest [rad]; of rods alone
   double error_over_hand_amplitude = 0.0;
   double error_over_largest_deflection = 0.0;
-  double wall_us_per_simulated_second = 0.0;
-  double steps_per_second = 0.0;      ///< taken, per simulated second; 0: not known
-  double error_over_tolerance = 0.0;  ///< of rods run to a tolerance: error_as_length() over it
-  double model_error = 0.0;           ///< with `own_reference`: how far that solution is from the exact one [as error]
+  double wall_us_per_simulated_second = 0.0;  ///< of a run that was given up: it takes longer than this
+  double steps_per_second = 0.0;              ///< taken, per simulated second; 0: not known
+  double error_over_tolerance = 0.0;          ///< of rods run to a tolerance: error_as_length() over it
+  double model_error = 0.0;  ///< with `own_reference`: how far that solution is from the exact one [as error]
   bool finite = false;
   long steps_fallback = 0;  ///< as of RunResult
-  bool given_up = false;    ///< not finished in the time that was left for it
+  bool given_up = false;    ///< not finished within the plan's limit for a run
 };
 
 template <typename Fields>

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -10,7 +12,14 @@
 
 namespace spring_workbench::benchmark {
 
-/// `work(i)` for i = 0 … count − 1 on all processors; for everything but timing. What `work` throws first
+/// The processors that this process may run on (`taskset` leaves it some of them).
+inline std::size_t usable_processors() {
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof(set), &set) != 0) return std::max(1U, std::thread::hardware_concurrency());
+  return static_cast<std::size_t>(std::max(1, CPU_COUNT(&set)));
+}
+
+/// `work(i)` for i = 0 … count − 1 on all usable processors; for everything but timing. What `work` throws first
 /// comes out when all have stopped.
 template <typename Work>
 void parallel_for(std::size_t count, Work&& work) {
@@ -27,7 +36,7 @@ void parallel_for(std::size_t count, Work&& work) {
     }
   };
   std::vector<std::thread> others;
-  for (unsigned i = 1; i < std::max(1U, std::thread::hardware_concurrency()); ++i) others.emplace_back(loop);
+  for (std::size_t i = 1; i < usable_processors(); ++i) others.emplace_back(loop);
   loop();
   for (std::thread& thread : others) thread.join();
   if (error) std::rethrow_exception(error);

@@ -211,6 +211,7 @@ class Line {
     r.reference_uncertainty = reference_.uncertainty;
     r.finite = run.finite;
     r.given_up = run.given_up;
+    if (run.given_up) r.wall_us_per_simulated_second = 1e6 * plan_.tolerance_time_limit / case_.duration;
     if (!run.finite) return r;
     const PoseDistance distance = largest_distance(run.X_WO, reference_.X_WO);
     r.error = distance.position;

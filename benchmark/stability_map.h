@@ -21,9 +21,10 @@ struct StabilityPlan {
   std::vector<rod::ForkDofs> families;
   std::vector<MapHand> hands;
   std::vector<MapTail> tails;
-  std::size_t cells = 4000;    ///< of an integrator and a shape
-  double seconds = 10.0;       ///< of the hand's tail
-  std::size_t long_one = 200;  ///< one in so many has six times that
+  std::size_t cells = 4000;           ///< of the default integrator and a shape
+  std::size_t cells_of_others = 500;  ///< of each other one: the first of these
+  double seconds = 10.0;              ///< of the hand's tail
+  std::size_t long_one = 200;         ///< one in so many has six times that
 };
 StabilityPlan stability_plan(bool quick);
 
@@ -98,8 +99,8 @@ struct StabilityMap {
   std::vector<StabilityFailure> failures;  ///< the worst few of each integrator and shape, worst first
 };
 
-/// Those of the plan's cells that have this stiffness, in the order of mass, step and damping ratio.
-std::vector<StabilityCell> cells_of(const StabilityPlan& plan, double stiffness_factor);
+/// Those of an integrator's cells that have this stiffness, in the order of mass, step and damping ratio.
+std::vector<StabilityCell> cells_of(const StabilityPlan& plan, const std::string& integrator, double stiffness_factor);
 
 /// Number of units of progress, and the map; runs cells on all processors at once.
 std::size_t unit_count(const StabilityPlan& plan);

@@ -44,8 +44,10 @@ bool is_any(const std::string&) { return true; }
 std::string time_of(const std::optional<double>& time) { return time ? text(*time) + " µs/s" : "does not reach it"; }
 
 std::string text_of(const Pair& pair, const ErrorTarget& target) {
-  std::string figure = "ours " + time_of(pair.ours) + ", " + pair.peer + ' ' + time_of(pair.peer_time);
-  if (pair.ours && pair.peer_time) figure += " = " + text(*pair.ratio()) + "×";
+  const bool ended = !pair.peer_time && std::isfinite(pair.peer_beyond);
+  std::string figure = "ours " + time_of(pair.ours) + ", " + pair.peer + ' ';
+  figure += ended ? "slower than " + text(pair.peer_beyond) + " µs/s, where its line ends" : time_of(pair.peer_time);
+  if (pair.ours && (pair.peer_time || ended)) figure += (ended ? ": more than " : " = ") + text(*pair.ratio()) + "×";
   if (pair.error < target.error) figure += ", at " + text(pair.error) + ", since its line begins no earlier";
   return figure;
 }

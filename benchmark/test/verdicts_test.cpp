@@ -147,6 +147,32 @@ TEST(Verdicts, WhoDoesNotArriveHasLostAndIfNobodyDoesNothingIsSaid) {
   EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every peer"), kNone);
 }
 
+TEST(Verdicts, APeerThatWasStoppedIsSlowerThanWhereItsLineEndsAndNoMoreIsClaimed) {
+  // Stopped at 900 or 1,100 µs/s, still coming down: of 50 times ours, 20 µs/s, only the second is shown.
+  for (const double stopped : {900.0, 1100.0}) {
+    for (const bool given_up : {true, false}) {
+      Measurements measured;
+      add_line("exponential", 100.0, 20.0, measured.scenes);
+      add_line("ode_erp_cfm", 100.0, 1e3, measured.scenes, 1e4);
+      std::vector<ErrorRow>& rows = measured.scenes;
+      rows.erase(std::remove_if(rows.begin(), rows.end(),
+                                [](const ErrorRow& r) { return !r.ours && r.error_over_hand_amplitude < 1.5e-6; }),
+                 rows.end());
+      rows.back().wall_us_per_simulated_second = stopped;
+      if (given_up) rows.back().finite = false;
+      rows.back().given_up = given_up;
+      const Verdict verdict = verdict_on(measured, "at 1e-06 of the amplitude", "the best engine");
+      EXPECT_EQ(verdict.result, stopped > 1000.0 ? kPass : kFail) << verdict.measured;
+      EXPECT_NE(verdict.measured.find("slower than"), std::string::npos) << verdict.measured;
+      if (given_up) continue;
+      // A line that goes on without gain has ended: it does not arrive.
+      rows.push_back(rows.back());
+      rows.back().error *= 1.1;
+      EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "the best engine"), kPass);
+    }
+  }
+}
+
 TEST(Verdicts, ScenesMassesAndHandsAreNotMixed) {
   for (const bool heavy : {false, true}) {
     Measurements measured;

@@ -22,13 +22,21 @@ struct Feed::Hand {
   Reacquisition reacquisition;
   PlayoutClock playout;
   motion::PosePredictor ahead;
-  bool has_sample = false;  ///< since the start
+  bool has_sample = false;             ///< since the start
+  std::optional<RigidTransform> X_WP;  ///< of the tracker, at the newest sample
+  std::size_t tracker_moves = 0;
 };
 
 Feed::Feed(simulation::Simulation& simulation, const InputSettings& settings) : simulation_(simulation) {
   const double dropout_after = simulation.settings().dropout_after;
-  const Hand hand{SampleGate(settings, dropout_after), PoseFilter(settings), Reacquisition(settings),
-                  PlayoutClock(dropout_after), motion::PosePredictor()};
+  const Hand hand{SampleGate(settings, dropout_after),
+                  PoseFilter(settings),
+                  Reacquisition(settings),
+                  PlayoutClock(dropout_after),
+                  motion::PosePredictor(),
+                  false,
+                  {},
+                  0};
   hands_.assign(simulation::Simulation::most_hands, hand);
 }
 
@@ -38,6 +46,8 @@ const GateCounts& Feed::gate_counts(std::size_t hand) const { return hands_.at(h
 const ReacquisitionCounts& Feed::reacquisition_counts(std::size_t hand) const {
   return hands_.at(hand).reacquisition.counts();
 }
+
+std::size_t Feed::tracker_moves(std::size_t hand) const { return hands_.at(hand).tracker_moves; }
 
 GateResult Feed::push_stylus(const RawSample& sample, const RigidTransform& X_WP, const LocalTime& arrival,
                              std::size_t hand) {
@@ -57,7 +67,10 @@ GateResult Feed::push_stylus(const motion::PoseSample& sample, std::size_t hand)
 void Feed::follow(const motion::PoseSample& sample, GateResult result, const RigidTransform* X_WP,
                   const LocalTime& arrival, std::size_t hand) {
   Hand& input = hands_.at(hand);
-  const bool relocation = result == GateResult::relocation;
+  const bool tracker_moved = X_WP != nullptr && input.X_WP && input.X_WP->matrix() != X_WP->matrix();
+  if (X_WP != nullptr) input.X_WP = *X_WP;
+  input.tracker_moves += tracker_moved ? 1 : 0;
+  const bool relocation = result == GateResult::relocation || tracker_moved;
   if (relocation) input.smoothing.restart();
   motion::PoseSample smoothed = input.smoothing.filter(sample);
   if (X_WP != nullptr) smoothed.X = *X_WP * smoothed.X;

@@ -6,8 +6,8 @@ namespace spring_workbench::live {
 
 // Each with its unit, what changing it does, and the test that notices.
 
-/// [s] beyond which time has leapt and the scene starts again. Longer: a leap is simulated in full. Test:
-/// manipulation_test.py::test_starts_anew_when_time_jumps_ahead.
+/// [s] beyond which time has leapt and is left out. Longer: a leap is simulated in full. Test:
+/// Clocks.ALeapIsLeftOutAndNothingMoves.
 constexpr double longest_catch_up = 5.0;
 /// [s] by which a second stylus may begin before the simulated time and still join. At least 1: in simulated time an
 /// epoch begins at a whole second. Test: tools_test.py::test_second_stylus_takes_the_object_over.

@@ -6,6 +6,43 @@
 #include "constants.h"
 
 namespace spring_workbench::live {
+namespace {
+
+std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation) {
+  std::vector<rod::ForkSettings> forks;
+  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+    forks.push_back(simulation.fork_settings(hand));
+  }
+  return forks;
+}
+
+std::map<std::string, RigidTransform> places_of(const simulation::Simulation& simulation) {
+  std::map<std::string, RigidTransform> places;
+  for (const bodies::BodyState& object : simulation.objects()) places[object.name] = object.X_WO;
+  return places;
+}
+
+bool any_in_epoch(const std::vector<HandInput>& inputs) {
+  return std::any_of(inputs.begin(), inputs.end(), [](const HandInput& input) { return input.in_epoch; });
+}
+
+/// What anything of a hand at simulated time `t` [s] is ahead of all that is known.
+double ahead_of(const simulation::Simulation& simulation, double t) {
+  return t - std::max(simulation.time(), simulation.newest_sample());
+}
+
+/// To each hand its fork; with one that is calibrated to the world, the stiffness stays the new scene's.
+void give_forks(const std::vector<rod::ForkSettings>& forks, simulation::Simulation& simulation) {
+  for (std::size_t hand = 0; hand < forks.size(); ++hand) {
+    simulation::ForkChange change = simulation::change_to(forks[hand]);
+    if (simulation.settings().grasp.calibrate == tools::Calibration::world) {
+      change.stretch_stiffness = change.bend_stiffness = change.torsion_stiffness = std::nullopt;
+    }
+    simulation.change(change, hand);
+  }
+}
+
+}  // namespace
 
 SimulationRunner::Noted::Noted(SimulationRunner& runner, std::string what)
     : runner_(runner), what_(std::move(what)), committed_(runner.feed_.committed()) {
@@ -39,6 +76,7 @@ CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::
     input.waiting.insert(input.waiting.end(), events[input.hand].begin(), events[input.hand].end());
   feed(now);
   CycleReport report;
+  report.left_out = std::exchange(left_out_, 0.0);
   if (const std::optional<double> stop = feed_.next_stop(now)) commit(*stop, report);
   report.more = feed_.next_stop(now).has_value();
   for (HandInput& input : inputs_) {
@@ -66,11 +104,6 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
 }
 
 void SimulationRunner::commit(double stop, CycleReport& report) {
-  if (stop > simulation_.time() + longest_catch_up) {
-    const Noted noted(*this, "time leapt");
-    report.leapt = true;
-    return start_anew();
-  }
   report.advance = feed_.advance_to(stop);
   report.prediction = ahead_.compare(simulation_);
   task_.observe(simulation_);
@@ -89,6 +122,7 @@ double SimulationRunner::show(double latency, const hand_input::LocalTime& now) 
 
 /// Whether a stylus that begins there comes to the others that are under way, rather than that all time has jumped.
 bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
+  if (!simulated_time_) return any_in_epoch(inputs_);
   return feed_.has_sample() && !input.in_epoch &&
          1e-9 * static_cast<double>(epoch.zero - zero_) > simulation_.time() - joining_slip;
 }
@@ -107,9 +141,25 @@ void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
   input.shift = 1e-9 * static_cast<double>(epoch.zero - zero_);
 }
 
+/// A hand's time as the simulation's [s]. What lies further ahead than anybody simulates comes a step after all that is
+/// known, and all hands' times with it.
+double SimulationRunner::time_of(const HandInput& input, double t) {
+  const double ahead = ahead_of(simulation_, t + input.shift);
+  if (!feed_.has_sample() || !(ahead > longest_catch_up)) return t + input.shift;
+  const std::int64_t gap = std::llround(1e9 * (ahead - simulation_.settings().dynamics.step));
+  zero_ += gap;
+  const double seconds = 1e-9 * static_cast<double>(gap);
+  left_out_ += seconds;
+  for (HandInput& other : inputs_) {
+    other.shift -= seconds;
+    feed_.restart_gate(other.hand);
+  }
+  return t + input.shift;
+}
+
 void SimulationRunner::apply(HandInput& input, const StylusPose& pose) {
   hand_input::RawSample sample = pose.sample;
-  sample.t += input.shift;
+  if (std::isfinite(sample.t)) sample.t = time_of(input, sample.t);
   const hand_input::GateResult result = feed_.push_stylus(sample, pose.X_WP, pose.arrival, input.hand);
   if (!hand_input::usable(result)) return input.rejected.push_back({result, pose});
   input.monitor.sample(sample.t, sample.t + pose.age);
@@ -118,15 +168,15 @@ void SimulationRunner::apply(HandInput& input, const StylusPose& pose) {
 }
 
 void SimulationRunner::apply(HandInput& input, const StylusButton& button) {
-  feed_.push_button(button.t + input.shift, button.pressed, input.hand);
+  feed_.push_button(time_of(input, button.t), button.pressed, input.hand);
 }
 
 void SimulationRunner::apply(HandInput& input, const NextTool& press) {
-  feed_.push_next_tool(press.t + input.shift, input.hand);
+  feed_.push_next_tool(time_of(input, press.t), input.hand);
 }
 
 void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {
-  feed_.buttons_known(known.t + input.shift, known.arrival, input.hand);
+  feed_.buttons_known(time_of(input, known.t), known.arrival, input.hand);
 }
 
 void SimulationRunner::start_anew() {
@@ -145,26 +195,12 @@ void SimulationRunner::restart() {
 
 void SimulationRunner::load(const scene::Scene& scene) {
   // The copy is made without the lock: it may take its time.
-  const auto [settings, forks] = locked([](const simulation::Simulation& present) {
-    std::vector<rod::ForkSettings> of_hands;
-    for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-      of_hands.push_back(present.fork_settings(hand));
-    }
-    return std::make_pair(present.settings(), of_hands);
-  });
+  const auto [settings, forks] = locked(
+      [](const simulation::Simulation& present) { return std::make_pair(present.settings(), forks_of(present)); });
   simulation::Simulation simulation(scene, settings);
-  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-    simulation::ForkChange change = simulation::change_to(forks[hand]);
-    if (settings.grasp.calibrate == tools::Calibration::world) {  // the fork is the new scene's
-      change.stretch_stiffness = change.bend_stiffness = change.torsion_stiffness = std::nullopt;
-    }
-    simulation.change(change, hand);
-  }
+  give_forks(forks, simulation);
   LookAhead ahead(scene, settings);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const Noted noted(*this, "load_scene");
-  places_.clear();
-  begin_with(std::move(simulation), std::move(ahead));
+  begin_with("load_scene", std::move(simulation), std::move(ahead), {});
 }
 
 void SimulationRunner::resume(const scene::Scene& scene, const simulation::SimulationState& state) {
@@ -172,18 +208,18 @@ void SimulationRunner::resume(const scene::Scene& scene, const simulation::Simul
       locked([](const simulation::Simulation& present) { return present.settings(); });
   simulation::Simulation simulation(scene, settings);
   simulation.restore(state);
-  std::map<std::string, RigidTransform> places;
-  for (const bodies::BodyState& object : simulation.objects()) places[object.name] = object.X_WO;
+  std::map<std::string, RigidTransform> places = places_of(simulation);
   simulation.reset();
   simulation.place(places);
   LookAhead ahead(scene, settings);
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const Noted noted(*this, "resume");
-  places_ = std::move(places);
-  begin_with(std::move(simulation), std::move(ahead));
+  begin_with("resume", std::move(simulation), std::move(ahead), std::move(places));
 }
 
-void SimulationRunner::begin_with(simulation::Simulation simulation, LookAhead ahead) {
+void SimulationRunner::begin_with(const std::string& what, simulation::Simulation simulation, LookAhead ahead,
+                                  std::map<std::string, RigidTransform> places) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const Noted noted(*this, what);
+  places_ = std::move(places);
   task_ = assembly::TaskMonitor(simulation.scene());
   simulation_ = std::move(simulation);
   ahead_ = std::move(ahead);
@@ -230,7 +266,8 @@ std::int64_t SimulationRunner::shown_stamp(std::int64_t now) const {
 HandStatistics SimulationRunner::hand_statistics(std::size_t hand) const {
   const std::lock_guard<std::mutex> lock(mutex_);
   const HandInput& input = inputs_.at(hand);
-  return {input.monitor.figures(), feed_.gate_counts(hand), feed_.reacquisition_counts(hand), input.newest_arrival};
+  return {input.monitor.figures(), feed_.gate_counts(hand), feed_.reacquisition_counts(hand), feed_.tracker_moves(hand),
+          input.newest_arrival};
 }
 
 }  // namespace spring_workbench::live

@@ -29,5 +29,15 @@ constexpr double parabola_window = 0.12;
 /// Of the determinant of a fit to the product of its diagonal; samples closer together than that say no parabola. Test:
 /// none: not tried yet.
 constexpr double least_spread = 1e-6;
+/// [s] by which clocks may move against each other from look to look, and a message be out of order. Less: late
+/// messages count as a clock that was set. Test: StreamClock.AMessageAloneMovesNothing at 2.
+constexpr double clock_slip = 0.1;
+/// Of time, by which a sender's clock may drift. Less: drift counts as a step. Test: StreamClock.DriftIsFollowed at 0.
+constexpr double clock_drift = 1e-3;
+/// Messages that show that a sender's clock was set. Test: StreamClock.AMessageAloneMovesNothing at 1.
+constexpr std::size_t step_messages = 3;
+/// [s] of stamps over which they must come evenly. Shorter: what waited counts as a step. Test:
+/// StreamClock.WhatWaitedIsNoStep at 0.
+constexpr double step_span = 0.05;
 
 }  // namespace spring_workbench::motion

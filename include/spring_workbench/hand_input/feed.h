@@ -80,6 +80,8 @@ class Feed {
 
   const GateCounts& gate_counts(std::size_t hand) const;
   const ReacquisitionCounts& reacquisition_counts(std::size_t hand) const;
+  /// Times a hand's tracker was moved in world: another X_WP than before, from which on the hand is followed anew.
+  std::size_t tracker_moves(std::size_t hand) const;
 
  private:
   struct Hand;

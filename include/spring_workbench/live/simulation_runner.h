@@ -23,7 +23,7 @@ namespace spring_workbench::live {
 struct CycleReport {
   simulation::AdvanceReport advance;
   double wall_time = 0.0;      ///< [s], by the steady clock
-  bool leapt = false;          ///< time leapt and the simulation was started anew
+  double left_out = 0.0;       ///< of time, which nobody simulates: a leap of the hands' time [s]
   bool more = false;           ///< there is more to commit at once: call `cycle` again
   PredictionError prediction;  ///< of what was shown for the time that is committed now
   double input_age = 0.0;      ///< of the newest sample, by its stamp [s]
@@ -35,7 +35,8 @@ struct HandStatistics {
   motion::StreamFigures stream;  ///< of the samples used
   hand_input::GateCounts gate;
   hand_input::ReacquisitionCounts reacquisition;
-  double newest_arrival = 0.0;  ///< of a sample used, in local time [s]
+  std::size_t tracker_moves = 0;  ///< see Feed
+  double newest_arrival = 0.0;    ///< of a sample used, in local time [s]
 };
 
 /// What came of one hand, as SimulationRunner keeps it.
@@ -53,10 +54,12 @@ struct HandInput {
 
 /// The committed simulation and its feed with the lock that keeps physics, services and publishers apart, the copy that
 /// is shown, the journal, and the epochs of the hands' clocks: times count from the epoch of the stylus that came
-/// first; another one joins it.
+/// first; another one joins it. Time in which no sample comes and none is waited for, since the process stood or the
+/// hands' clock leapt by more than 5 s, is left out: everything stays where it is, and the hands are followed anew.
 class SimulationRunner {
  public:
-  /// `simulated_time`: a clock that is set back begins the scene again, as a bag that is played again does. Throws
+  /// `simulated_time`: a clock that is set back begins the scene again, as a bag that is played again does; else time
+  /// only goes on. Throws
   /// InputError when scene and settings do not fit.
   SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
                    const hand_input::InputSettings& input, bool simulated_time);
@@ -95,13 +98,11 @@ class SimulationRunner {
   }
   /// Whether a hand has come since the start.
   bool has_sample() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return feed_.has_sample();
+    return locked([this](const auto&) { return feed_.has_sample(); });
   }
   /// Grows with all that changes the committed simulation.
   std::size_t revision() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return revision_;
+    return locked([this](const auto&) { return revision_; });
   }
   /// Entries from now on go to the journal, the first of them the state as it is; or none do.
   void keep_journal(bool keep);
@@ -145,10 +146,12 @@ class SimulationRunner {
   void apply(HandInput& input, const NextTool& press);
   void apply(HandInput& input, const ButtonsKnown& known);
   bool joins(const HandInput& input, const NewEpoch& epoch) const;
+  double time_of(const HandInput& input, double t);
   void feed(const hand_input::LocalTime& now);
   void commit(double stop, CycleReport& report);
   void start_anew();
-  void begin_with(simulation::Simulation simulation, LookAhead ahead);
+  void begin_with(const std::string& what, simulation::Simulation simulation, LookAhead ahead,
+                  std::map<std::string, RigidTransform> places);
   void note(double committed, std::variant<hand_input::Accepted, Change> what);
 
   mutable std::mutex mutex_;
@@ -158,6 +161,7 @@ class SimulationRunner {
   assembly::TaskMonitor task_;
   std::vector<HandInput> inputs_;
   bool simulated_time_;
+  double left_out_ = 0.0;                                          ///< of time in this cycle [s]
   std::int64_t zero_ = 0;                                          ///< of the simulation's times [ns]
   double shown_until_ = -std::numeric_limits<double>::infinity();  ///< [s]; what is shown does not go back
   std::map<std::string, RigidTransform> places_;                   ///< of objects, for the first epoch

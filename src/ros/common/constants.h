@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace spring_workbench::ros_common {
 
 // Each with its unit, what changing it does, and the test that notices (scripts/mutate).
@@ -13,5 +15,8 @@ constexpr double stopped_clock_patience = 0.1;
 /// [s] that one look at the clock adds to attended time at most. Longer: what waits while the machine is busy counts as
 /// silence. Test: faults_test.py::test_after_a_stopped_processor_time_is_the_hands_again.
 constexpr double longest_attended = 0.01;
+/// [ns] between readings of two clocks from which on they are read once more. Longer: stamps jitter more. Test: none:
+/// only an interrupted process meets it.
+constexpr std::int64_t clocks_apart = 50'000;
 
 }  // namespace spring_workbench::ros_common

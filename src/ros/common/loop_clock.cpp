@@ -12,9 +12,28 @@
 namespace spring_workbench::ros_common {
 
 using std::chrono::duration;
+using std::chrono::duration_cast;
+using std::chrono::nanoseconds;
 using std::chrono::steady_clock;
 
 namespace {
+
+/// ROS time and the steady clock at one moment [ns].
+struct Reading {
+  std::int64_t ros, steady;
+};
+
+/// They are read beside each other, once more where the process was interrupted in between.
+Reading read_clocks() {
+  const auto steady = [] { return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count(); };
+  Reading reading{};
+  for (int attempt = 0; attempt < 5; ++attempt) {
+    reading.steady = steady();
+    reading.ros = static_cast<std::int64_t>(ros::Time::now().toNSec());
+    if (steady() - reading.steady < clocks_apart) break;
+  }
+  return reading;
+}
 
 void sleep_until_simulated(double t) {
   const double give_up = steady_time() + stopped_clock_patience, begin = loop_time();
@@ -43,10 +62,21 @@ hand_input::LocalTime local_time() {
   return {ros::Time::isSimTime() ? ros::Time::now().toSec() : wall, attended_time(wall)};
 }
 
+motion::WallMoment wall_moment() {
+  static motion::WallClock clock;
+  const Reading reading = read_clocks();
+  return ros::Time::isSimTime() ? motion::WallMoment{reading.ros, 0} : clock.look(reading.ros, reading.steady);
+}
+
+ros::Time ros_time(double t) {
+  const Reading reading = read_clocks();
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(reading.ros)) -
+         ros::Duration(1e-9 * static_cast<double>(reading.steady) - t);
+}
+
 void sleep_until_loop_time(double t) {
   if (ros::Time::isSimTime()) return sleep_until_simulated(t);
-  std::this_thread::sleep_until(
-      steady_clock::time_point(std::chrono::duration_cast<steady_clock::duration>(duration<double>(t))));
+  std::this_thread::sleep_until(steady_clock::time_point(duration_cast<steady_clock::duration>(duration<double>(t))));
 }
 
 void Alarm::ring() {

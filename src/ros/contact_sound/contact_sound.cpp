@@ -8,6 +8,7 @@
 #include "constants.h"
 #include "spring_workbench/Contacts.h"
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/parameters.h"
 #include "spring_workbench/sound/audio_output.h"
 #include "spring_workbench/sound/contact_synthesizer.h"
@@ -17,7 +18,7 @@ namespace {
 
 class ContactSound {
  public:
-  ContactSound(ros::NodeHandle node, const ros::NodeHandle& private_node) : played_until_(ros::WallTime::now()) {
+  ContactSound(ros::NodeHandle node, const ros::NodeHandle& private_node) : played_until_(ros_common::steady_time()) {
     const std::string where = private_node.getNamespace();
     YAML::Node parameters = ros_common::private_parameters(private_node);
     config::check_keys(parameters, where, "", {"file", "volume"});
@@ -26,7 +27,7 @@ class ContactSound {
         volume ? config::read_number(volume, where, "volume", validation::between(0.0, 1.0)) : 0.8);
     output_ = file ? sound::open_wav_file(config::read_string(file, where, "file")) : sound::open_audio_device();
     subscriber_ = node.subscribe("contacts", 100, &ContactSound::on_contacts, this);
-    timer_ = node.createWallTimer(ros::WallDuration(render_period), &ContactSound::play, this);
+    timer_ = node.createSteadyTimer(ros::WallDuration(render_period), &ContactSound::play, this);
   }
 
  private:
@@ -37,24 +38,24 @@ class ContactSound {
       if (contact.phase == Contact::PERSISTING) speed = std::max(speed, contact.slip_speed);
     }
     synthesizer_->scrape(speed);
-    last_contacts_ = ros::WallTime::now();
+    last_contacts_ = ros_common::steady_time();
   }
 
-  void play(const ros::WallTimerEvent&) {
-    const ros::WallTime now = ros::WallTime::now();
-    if ((now - last_contacts_).toSec() > silent_after) synthesizer_->scrape(0.0);
-    played_until_ = std::max(played_until_, now - ros::WallDuration(longest_filled_gap));
+  void play(const ros::SteadyTimerEvent&) {
+    const double now = ros_common::steady_time();
+    if (now - last_contacts_ > silent_after) synthesizer_->scrape(0.0);
+    played_until_ = std::max(played_until_, now - longest_filled_gap);
     const auto count =
-        static_cast<std::size_t>(std::max(0.0, (now - played_until_).toSec()) * sound::ContactSynthesizer::sample_rate);
-    played_until_ += ros::WallDuration(static_cast<double>(count) / sound::ContactSynthesizer::sample_rate);
+        static_cast<std::size_t>(std::max(0.0, now - played_until_) * sound::ContactSynthesizer::sample_rate);
+    played_until_ += static_cast<double>(count) / sound::ContactSynthesizer::sample_rate;
     output_->write(synthesizer_->render(count));
   }
 
   std::unique_ptr<sound::ContactSynthesizer> synthesizer_;
   std::unique_ptr<sound::AudioOutput> output_;
-  ros::WallTime played_until_, last_contacts_;
+  double played_until_, last_contacts_ = 0.0;  ///< [s], by the steady clock
   ros::Subscriber subscriber_;
-  ros::WallTimer timer_;
+  ros::SteadyTimer timer_;
 };
 
 }  // namespace

@@ -18,8 +18,8 @@ Checkpoint::Checkpoint(const ros::NodeHandle& private_node, live::SimulationRunn
     : private_node_(private_node), runner_(runner) {
   resume(scene_roots);
   private_node_.getParam(private_node_.getNamespace(), parameters_);
-  timer_ = private_node_.createWallTimer(ros::WallDuration(checkpoint_period),
-                                         [this](const ros::WallTimerEvent&) { keep(); });
+  timer_ = private_node_.createSteadyTimer(ros::WallDuration(checkpoint_period),
+                                           [this](const ros::SteadyTimerEvent&) { keep(); });
 }
 
 Checkpoint::~Checkpoint() {

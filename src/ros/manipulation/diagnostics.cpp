@@ -60,7 +60,20 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
       .add("came after their time was simulated", hand.reacquisition.late)
       .add("times the hand was found again", hand.reacquisition.reacquisitions)
       .add("times the hand was lost", hand.reacquisition.losses)
-      .add("jumps back in time", input.restarts);
+      .add("times the tracker's frame was moved", hand.tracker_moves)
+      .add("times the sender's clock was set", input.clock_steps)
+      .add("jumps back in time", input.restarts)
+      .add("sent by", input.sender);
+  const auto others = [](const InputStatistics& of) {
+    const auto found = of.rejected.find(another_sender);
+    return found == of.rejected.end() ? 0 : found->second;
+  };
+  if (others(input) > others(last.input)) {
+    status.raise(DiagnosticStatus::ERROR,
+                 "two nodes send the stylus: " + input.sender + " is followed, " + input.other_sender + " is left out");
+  }
+  if (hand.tracker_moves > last.hand.tracker_moves)
+    status.raise(DiagnosticStatus::WARN, "the tracker's frame was moved: the hand is followed anew");
   bool more_rejected = false;
   for (const auto& [reason, count] : input.rejected) {
     status.add("left out: " + reason, count);
@@ -89,7 +102,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("time lost in steps [s]", loop.time_lost)
       .add("steps done by the fallback", loop.steps_fallback)
       .add("stops at the end of the fork's range", loop.stops)
-      .add("leaps of time", loop.leaps)
+      .add("time left out [s]", loop.left_out)
       .add("longest cycle [s]", loop.longest_cycle)
       .add("prediction error, 99 % [m]", loop.prediction_error);
   status.add("since the master answered [s]", loop.master_silence);
@@ -101,7 +114,8 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
     status.raise(DiagnosticStatus::ERROR, "steps refused: they would not have been finite or bounded");
   }
   if (loop.deadlines_missed > last_loop_.deadlines_missed) status.raise(DiagnosticStatus::WARN, "deadlines missed");
-  if (loop.leaps > last_loop_.leaps) status.raise(DiagnosticStatus::WARN, "time leapt");
+  if (loop.left_out > last_loop_.left_out)
+    status.raise(DiagnosticStatus::WARN, "time was left out: nothing was heard of the hands");
   return status.status();
 }
 

@@ -53,9 +53,9 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
       checkpoint_(master_thread_.handle(private_node), runner_, scene_roots(parameters_, runner_)),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
-      every_second_(node.createWallTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
-      asks_master_(master_thread_.handle(node).createWallTimer(ros::WallDuration(1.0),
-                                                               [this](const ros::WallTimerEvent&) { ask_master(); })),
+      every_second_(node.createSteadyTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
+      asks_master_(master_thread_.handle(node).createSteadyTimer(
+          ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { ask_master(); })),
       master_answered_(ros_common::steady_time()),
       physics_([this] { run_physics(); }) {
   runner_.locked([](const simulation::Simulation& simulation) {
@@ -104,7 +104,7 @@ bool ManipulationNode::run_step(double begin) {
 }
 
 void ManipulationNode::count(const live::CycleReport& report, bool deadline_missed) {
-  if (report.leapt) ROS_WARN("time leapt: starting anew");
+  if (report.left_out > 0.0) ROS_WARN("%.3g s in which nothing was heard of the hands are left out", report.left_out);
   const std::lock_guard<std::mutex> lock(loop_mutex_);
   ++loop_.cycles;
   loop_.deadlines_missed += deadline_missed ? 1 : 0;
@@ -112,11 +112,11 @@ void ManipulationNode::count(const live::CycleReport& report, bool deadline_miss
   loop_.time_lost += report.advance.time_lost;
   loop_.steps_fallback += static_cast<std::size_t>(report.advance.steps_fallback);
   loop_.stops += static_cast<std::size_t>(report.advance.stops);
-  loop_.leaps += report.leapt ? 1 : 0;
+  loop_.left_out += report.left_out;
   loop_.longest_cycle = std::max(loop_.longest_cycle, report.wall_time);
 }
 
-void ManipulationNode::on_every_second(const ros::WallTimerEvent&) {
+void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
   place_workbench();
   runner_.note_state();
   LoopStatistics loop;

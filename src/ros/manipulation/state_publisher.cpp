@@ -16,8 +16,12 @@ namespace {
 const std::string handle_frame = "fork_handle";
 const std::string tip_frame = "fork_tip";
 
-std::int64_t nanoseconds(const ros::Time& stamp) { return static_cast<std::int64_t>(stamp.toNSec()); }
-ros::Time at(std::int64_t nanoseconds) { return ros::Time().fromNSec(static_cast<std::uint64_t>(nanoseconds)); }
+/// Now, as stamps of the simulation are [ns].
+std::int64_t now() { return ros_common::wall_moment().now; }
+/// Such a stamp as the clock stands now.
+ros::Time at(std::int64_t stamp) {
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(stamp + ros_common::wall_moment().steps));
+}
 
 /// What `make` makes, only where somebody listens.
 template <typename Make>
@@ -63,7 +67,7 @@ void StatePublisher::publish_journal(live::SimulationRunner& runner) {
       accepted_publisher_.publish(message);
     } else {
       Change message = to_message(std::get<live::Change>(entry.what));
-      message.header = header_at(at(runner.stamp(nanoseconds(ros::Time::now()))));
+      message.header = header_at(at(runner.stamp(now())));
       message.index = entry.index;
       message.committed = entry.committed;
       changes_publisher_.publish(message);
@@ -71,10 +75,10 @@ void StatePublisher::publish_journal(live::SimulationRunner& runner) {
   }
 }
 
-bool StatePublisher::Repeat::due(const ros::Time& now, std::size_t new_revision) {
+bool StatePublisher::Repeat::due(const ros::Time& new_stamp, std::size_t new_revision) {
   const double steady = ros_common::steady_time();
-  if (now == stamp && new_revision == revision && steady < sent + repeat_after) return false;
-  stamp = now;
+  if (new_stamp == stamp && new_revision == revision && steady < sent + repeat_after) return false;
+  stamp = new_stamp;
   revision = new_revision;
   sent = steady;
   return true;
@@ -82,7 +86,7 @@ bool StatePublisher::Repeat::due(const ros::Time& now, std::size_t new_revision)
 
 void StatePublisher::publish_committed(const live::SimulationRunner& runner, const live::CycleReport& report,
                                        bool deadline_missed) {
-  const ros::Time stamp = at(runner.stamp(nanoseconds(ros::Time::now())));
+  const ros::Time stamp = at(runner.stamp(now()));
   // Before the first sample the stamp goes on by itself.
   if (!committed_.due(runner.has_sample() ? stamp : ros::Time(), runner.revision())) return;
   const std_msgs::Header header = header_at(stamp);
@@ -115,9 +119,9 @@ void StatePublisher::publish_committed(const live::SimulationRunner& runner, con
   });
 }
 
-void StatePublisher::publish_shown(const live::SimulationRunner& runner, double horizon, double now) {
+void StatePublisher::publish_shown(const live::SimulationRunner& runner, double horizon, double local_time) {
   horizon_ = horizon;
-  const ros::Time stamp = at(runner.shown_stamp(nanoseconds(ros::Time::now())));
+  const ros::Time stamp = at(runner.shown_stamp(now()));
   if (!shown_.due(runner.has_sample() ? stamp : ros::Time(), runner.revision())) return;
   const simulation::Simulation& simulation = runner.shown();
   const std_msgs::Header header = header_at(stamp);
@@ -126,7 +130,7 @@ void StatePublisher::publish_shown(const live::SimulationRunner& runner, double 
   publish_made(shown_fork_publisher_, header, [&] { return to_message(simulation.fork()); });
   if (const tools::ToolState second = simulation.fork(1); second.present)
     publish_made(shown_second_fork_publisher_, header, [&] { return to_message(second); });
-  publish_markers(simulation, header, now);
+  publish_markers(simulation, header, local_time);
 }
 
 void StatePublisher::publish_transforms(const simulation::Simulation& simulation, const ros::Time& stamp) {

@@ -1,41 +1,23 @@
 #include "spring_workbench/ros/manipulation/stylus_input.h"
 
-#include <tf2/exceptions.h>
-
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
 
 #include "constants.h"
+#include "raw_sample.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 
 namespace spring_workbench::manipulation {
 namespace {
 
-std::string frame(const std::string& name) { return !name.empty() && name.front() == '/' ? name.substr(1) : name; }
-
-std::string place(const std::string& parent, const std::string& child) {
-  return "tf " + parent + " -> " + child + ": ";
-}
-
-std::string place(const geometry_msgs::TransformStamped& transform) {
+std::string place_of(const geometry_msgs::TransformStamped& transform) {
   return place(transform.header.frame_id, transform.child_frame_id);
 }
 
-geometry_msgs::TransformStamped identity(const std::string& parent, const std::string& child) {
-  geometry_msgs::TransformStamped transform;
-  transform.header.frame_id = parent;
-  transform.child_frame_id = child;
-  transform.transform.rotation.w = 1.0;
-  return transform;
-}
-
-hand_input::RawSample raw(const geometry_msgs::Transform& T, double t) {
-  return {t, Vector3d(T.translation.x, T.translation.y, T.translation.z),
-          Quaterniond(T.rotation.w, T.rotation.x, T.rotation.y, T.rotation.z)};
-}
+std::int64_t nanoseconds(const ros::Time& stamp) { return static_cast<std::int64_t>(stamp.toNSec()); }
 
 /// Keeps the newest few.
 template <typename Message>
@@ -65,10 +47,14 @@ std::string number(double value) {
 
 StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame,
                          std::string joy, std::function<void()> wake)
-    : parameters_(parameters), frame_(std::move(frame)), joy_(std::move(joy)), wake_(std::move(wake)) {
-  if (parameters.workbench_frame != parameters.world_frame) {
-    static_frames_.setTransform(identity(parameters.world_frame, parameters.workbench_frame), "default", true);
-  }
+    : parameters_(parameters),
+      frame_(std::move(frame)),
+      joy_(std::move(joy)),
+      wake_(std::move(wake)),
+      static_frames_(parameters.world_frame, parameters.workbench_frame),
+      sender_(parameters.simulation.dropout_after),
+      wall_poses_(parameters.max_age),
+      wall_buttons_(parameters.max_age) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   static_subscriber_ = node.subscribe("/tf_static", 100, &StylusInput::on_static_transforms, this, hints);
   tf_subscriber_ = node.subscribe("/tf", input_queue, &StylusInput::on_transforms, this, hints);
@@ -87,24 +73,13 @@ InputStatistics StylusInput::statistics() const {
 
 bool StylusInput::workbench_known() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return workbench_known_;
+  return static_frames_.workbench_known();
 }
 
 void StylusInput::on_static_transforms(const tf2_msgs::TFMessageConstPtr& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const geometry_msgs::TransformStamped& transform : message->transforms) {
-    const hand_input::RawSample sample = raw(transform.transform, 0.0);
-    const hand_input::GateResult result = hand_input::check_pose(sample, parameters_.input);
-    if (!hand_input::usable(result)) {
-      reject(hand_input::to_string(result),
-             place(transform) + hand_input::complaint(result, sample, parameters_.input));
-      continue;
-    }
-    geometry_msgs::TransformStamped normalised = transform;
-    Eigen::Map<Eigen::Vector4d> q(&normalised.transform.rotation.x);
-    q.normalize();
-    static_frames_.setTransform(normalised, "tf_static", true);
-    if (frame(transform.child_frame_id) == parameters_.workbench_frame) workbench_known_ = true;
+    if (const auto wrong = static_frames_.take(transform, parameters_.input)) reject(wrong->first, wrong->second);
   }
 }
 
@@ -115,8 +90,11 @@ void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessag
   for (const geometry_msgs::TransformStamped& transform : event.getMessage()->transforms) {
     if (statistics_.frames.size() < most_named_frames) statistics_.frames.insert(frame(transform.child_frame_id));
     if (frame(transform.child_frame_id) != frame_) continue;
-    if (const std::optional<ros::Time> now = moment_of(transform.header.stamp, poses_)) {
-      on_stylus(transform, *now);
+    if (!ros::Time::isSimTime()) {
+      if (is_followed(event.getPublisherName())) on_wall_time(transform);
+    } else if (const std::optional<ros::Time> now =
+                   clock_.moment_of(transform.header.stamp, poses_, parameters_.max_age)) {
+      if (is_followed(event.getPublisherName())) on_simulated_time(transform, *now);
     } else {
       keep(transform, early_poses_);
       start_anew_when_due();
@@ -124,30 +102,64 @@ void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessag
   }
 }
 
-void StylusInput::on_stylus(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {
+bool StylusInput::is_followed(const std::string& sender) {
+  const bool another = sender != sender_.name();
+  if (!sender_.offers(sender, ros_common::local_time().attended)) {
+    statistics_.other_sender = sender;
+    reject(another_sender, "tf: " + frame_ + ": sent by " + sender + " is not allowed: must be sent by one node, and " +
+                               sender_.name() + " does");
+    return false;
+  }
+  if (another) wall_poses_.restart();
+  statistics_.sender = sender;
+  return true;
+}
+
+void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform) {
+  const std::size_t steps = wall_poses_.clock().steps();
+  wall_poses_.offer(
+      transform, nanoseconds(transform.header.stamp), ros_common::wall_moment(),
+      [&](const geometry_msgs::TransformStamped& one, std::int64_t stamp, double age) { use(one, stamp, age); },
+      [&](const geometry_msgs::TransformStamped& one, motion::StampVerdict verdict, double age) {
+        reject_stamp(one, motion::to_string(verdict), age);
+      });
+  if (wall_poses_.clock().steps() == steps) return;
+  ++statistics_.clock_steps;
+  ROS_WARN_STREAM("the clock of " << sender_.name() << " was set: its stamps go on from there");
+}
+
+void StylusInput::on_simulated_time(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {
   const double age = (now - transform.header.stamp).toSec();
+  if ((poses_.newest - transform.header.stamp).toSec() > clock_slip) keep(transform, early_poses_);
+  if (std::abs(age) > parameters_.max_age)
+    return reject_stamp(transform, age > 0.0 ? "too old" : "from the future", age);
+  if (use(transform, nanoseconds(transform.header.stamp), age)) {
+    go_on_to(transform.header.stamp, poses_, early_poses_);
+  }
+}
+
+/// `stamp`: the transform's, as local time has it [ns]. False: left out.
+bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int64_t stamp, double age) {
   statistics_.newest_offer_age = age;
-  if (ros::Time::isSimTime() && (poses_.newest - transform.header.stamp).toSec() > clock_slip)
-    keep(transform, early_poses_);
-  if (std::abs(age) > parameters_.max_age) {
-    return reject(age > 0.0 ? "too old" : "from the future",
-                  place(transform) + "stamp: an age of " + number(age) + " s is not allowed: must be within " +
-                      "max_age = " + number(parameters_.max_age) + " s (a bag needs --clock and use_sim_time)");
+  const std::string& parent = transform.header.frame_id;
+  const std::optional<RigidTransform> X_WP = static_frames_.in_world(parent);
+  if (!X_WP) {
+    reject("unknown frame", place_of(transform) + "frame_id: " + frame(parent) + " is not allowed: must be " +
+                                parameters_.workbench_frame + " or tied to it on /tf_static");
+    return false;
   }
-  RigidTransform X_WP = RigidTransform::Identity();
-  if (const std::string parent = frame(transform.header.frame_id); parent != parameters_.world_frame) {
-    try {
-      X_WP = ros_common::from_message(
-          static_frames_.lookupTransform(parameters_.world_frame, parent, ros::Time()).transform);
-    } catch (const tf2::TransformException&) {
-      return reject("unknown frame", place(transform) + "frame_id: " + parent + " is not allowed: must be " +
-                                         parameters_.workbench_frame + " or tied to it on /tf_static");
-    }
-  }
-  go_on_to(transform.header.stamp, poses_, early_poses_);
-  const hand_input::RawSample sample = raw(transform.transform, seconds(transform.header.stamp));
-  events_.push_back(live::StylusPose{sample, transform.header.frame_id, X_WP, ros_common::local_time(), age});
+  const hand_input::RawSample sample = raw_sample(transform.transform, seconds(stamp));
+  events_.push_back(live::StylusPose{sample, parent, *X_WP, ros_common::local_time(), age});
   wake_();
+  return true;
+}
+
+void StylusInput::reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason,
+                               double age) {
+  statistics_.newest_offer_age = age;
+  reject(reason, place_of(transform) + "stamp: an age of " + number(age) + " s is not allowed: must be within " +
+                     "max_age = " + number(parameters_.max_age) +
+                     " s and go on with the stream (a bag needs --clock and use_sim_time)");
 }
 
 void StylusInput::count_rejected(const std::vector<live::RejectedPose>& poses) {
@@ -165,20 +177,27 @@ void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   if (message->buttons.empty()) {
     return reject("no buttons", joy_ + ": buttons: [] is not allowed: must be at least one button");
   }
-  if (const std::optional<ros::Time> now = moment_of(message->header.stamp, buttons_))
-    return on_buttons(*message, *now);
+  if (!ros::Time::isSimTime()) {
+    return on_buttons(*message,
+                      wall_buttons_.local_or_now(nanoseconds(message->header.stamp), ros_common::wall_moment()));
+  }
+  if (const std::optional<ros::Time> now = clock_.moment_of(message->header.stamp, buttons_, parameters_.max_age))
+    return on_simulated_time(*message, *now);
   keep(*message, early_buttons_);
   start_anew_when_due();
 }
 
-void StylusInput::on_buttons(const sensor_msgs::Joy& message, const ros::Time& now) {
+void StylusInput::on_simulated_time(const sensor_msgs::Joy& message, const ros::Time& now) {
   const ros::Time& stamp = message.header.stamp;
-  if (ros::Time::isSimTime() && !stamp.isZero() && (buttons_.newest - stamp).toSec() > clock_slip) {
-    return keep(message, early_buttons_);
-  }
+  if (!stamp.isZero() && (buttons_.newest - stamp).toSec() > clock_slip) return keep(message, early_buttons_);
   const bool usable_stamp = std::abs((now - stamp).toSec()) <= parameters_.max_age;
-  const double t = seconds(usable_stamp ? stamp : now);
   if (usable_stamp) go_on_to(stamp, buttons_, early_buttons_);
+  on_buttons(message, nanoseconds(usable_stamp ? stamp : now));
+}
+
+/// `stamp`: when the buttons were so, as local time has it [ns].
+void StylusInput::on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp) {
+  const double t = seconds(stamp);
   const bool pressed = message.buttons[0] != 0;
   if (pressed != pressed_) events_.push_back(live::StylusButton{t, pressed});
   pressed_ = pressed;
@@ -191,69 +210,50 @@ void StylusInput::on_buttons(const sensor_msgs::Joy& message, const ros::Time& n
 
 /// A stream that goes on shows that what was kept of it was out of order, and not after a jump.
 template <typename Message>
-void StylusInput::go_on_to(const ros::Time& stamp, Stream& stream, std::deque<Message>& early) {
+void StylusInput::go_on_to(const ros::Time& stamp, SimulatedClock::Stream& stream, std::deque<Message>& early) {
   if (stamp <= stream.newest) return;
   stream.newest = stamp;
   early.clear();
 }
 
-/// The time now, for a message with this stamp of this stream; nothing when it belongs to the time after a jump back
-/// for which it has to wait. The clock and both streams come by ways of their own, and what was sent before the jump
-/// may come after it: a stamp that goes on where its stream was, near what the clock said then, belongs to the time
-/// before.
-std::optional<ros::Time> StylusInput::moment_of(const ros::Time& stamp, Stream& stream) {
-  const ros::Time now = ros::Time::now();
-  // The clock went back; or the whole way back was missed, and only the stamps show it.
-  const bool clock_jumped = !last_now_.isZero() && (last_now_ - now).toSec() > clock_slip;
-  const bool stamps_jumped = ros::Time::isSimTime() && !stream.newest.isZero() &&
-                             (stream.newest - stamp).toSec() > clock_slip && (stream.newest - now).toSec() > clock_slip;
-  if (!jumped_ && (clock_jumped || stamps_jumped)) {
-    jumped_ = true;
-    jumped_at_ = ros_common::local_time().attended;
-  }
-  if (!jumped_) last_now_ = now;
-  const bool goes_on = ros::Time::isSimTime() && !stream.newest.isZero() && stamp > stream.newest &&
-                       std::abs((last_now_ - stamp).toSec()) < parameters_.max_age;
-  if (jumped_ && !goes_on) return std::nullopt;
-  return last_now_;
-}
-
 /// Starts anew unless a stream that there is has not come to the jump yet.
 void StylusInput::start_anew_when_due() {
-  const bool patient = ros::Time::isSimTime() && ros_common::local_time().attended - jumped_at_ < jump_patience;
   const bool poses_awaited = !poses_.newest.isZero() && early_poses_.empty();
   const bool buttons_awaited = !buttons_.newest.isZero() && early_buttons_.empty();
-  if (patient && (poses_awaited || buttons_awaited)) return;
+  if (clock_.is_patient() && (poses_awaited || buttons_awaited)) return;
   const ros::Time now = ros::Time::now();
-  ROS_INFO("time went back by %.3g s: starting anew", (last_now_ - now).toSec());
-  jumped_ = pressed_ = next_tool_ = false;
-  zero_ = poses_.newest = buttons_.newest = ros::Time();
-  last_now_ = now;
+  ROS_INFO("time went back by %.3g s: starting anew", clock_.restart());
+  pressed_ = next_tool_ = false;
+  zero_ = 0;
+  poses_.newest = buttons_.newest = ros::Time();
+  sender_.forget();
   ++statistics_.restarts;
   // By now the clock of a bag that is played quickly may be far on: what waited is as old as it was.
-  const auto came_at = [&](const ros::Time& stamp) { return ros::Time::isSimTime() && !stamp.isZero() ? stamp : now; };
+  const auto came_at = [&](const ros::Time& stamp) { return stamp.isZero() ? now : stamp; };
   for (const geometry_msgs::TransformStamped& transform : newest_pass(std::exchange(early_poses_, {}))) {
-    on_stylus(transform, came_at(transform.header.stamp));
+    on_simulated_time(transform, came_at(transform.header.stamp));
   }
   for (const sensor_msgs::Joy& message : newest_pass(std::exchange(early_buttons_, {}))) {
-    on_buttons(message, came_at(message.header.stamp));
+    on_simulated_time(message, came_at(message.header.stamp));
   }
 }
 
-double StylusInput::seconds(const ros::Time& stamp) {
-  if (zero_.isZero()) {
+/// Of a moment in local time [ns], since the epoch.
+double StylusInput::seconds(std::int64_t stamp) {
+  if (zero_ == 0) {
     // In simulated time a whole second: a bag played again gives the same times to the bit, whatever comes first.
-    zero_ = ros::Time::isSimTime() && stamp.sec > 0 ? ros::Time(stamp.sec, 0) : stamp;
-    events_.push_back(live::NewEpoch{static_cast<std::int64_t>(zero_.toNSec())});
+    constexpr std::int64_t second = 1'000'000'000;
+    zero_ = ros::Time::isSimTime() && stamp >= second ? stamp / second * second : stamp;
+    events_.push_back(live::NewEpoch{zero_});
   }
-  return (stamp - zero_).toSec();
+  return ros::Duration().fromNSec(stamp - zero_).toSec();
 }
 
 void StylusInput::reject(const std::string& reason, const std::string& line) {
   ++statistics_.rejected[reason];
-  const ros::WallTime now = ros::WallTime::now();
+  const double now = ros_common::steady_time();
   const auto told = told_.find(reason);
-  if (told != told_.end() && now - told->second < ros::WallDuration(told_again_after)) return;
+  if (told != told_.end() && now - told->second < told_again_after) return;
   told_[reason] = now;
   ROS_WARN_STREAM(line << "; left out");
 }

@@ -9,9 +9,6 @@ namespace spring_workbench::tracker_driver {
 constexpr double menu_press = 0.1;
 /// axes or buttons of one device. Test: JoySettings.BadValuesAreRefusedByName.
 constexpr int most_controls = 64;
-/// [s] between readings of two clocks from which on they are read once more. Longer: stamps jitter more. Test: none:
-/// only an interrupted process meets it.
-constexpr double clocks_apart = 50e-6;
 /// how far a quaternion's length may be from 1. Larger: worse poses are sent. Test:
 /// WhyNotSent.AnyPoseIsSentAndNothingElse.
 constexpr double quaternion_tolerance = 0.1;

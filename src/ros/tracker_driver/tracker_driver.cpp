@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <string>
@@ -39,19 +40,6 @@ std::string resolve(const std::string& path_or_uri) {
   const std::string folder = scene::find_package_in_ros_package_path(package);
   if (folder.empty()) validation::refuse("file", "package", package, "a package on ROS_PACKAGE_PATH");
   return folder + rest.substr(package.size());
-}
-
-/// ROS's time at which the steady clock showed `t` [s]. The two are read beside each other, once more where the process
-/// was interrupted in between.
-ros::Time ros_time(double t) {
-  ros::Time now;
-  double before = 0.0;
-  for (int attempt = 0; attempt < 5; ++attempt) {
-    before = ros_common::steady_time();
-    now = ros::Time::now();
-    if (ros_common::steady_time() - before < clocks_apart) break;
-  }
-  return now - ros::Duration(before - t);
 }
 
 }  // namespace
@@ -187,19 +175,20 @@ class TrackerDriver {
 
   void send(const motion::StationSample& sample) {
     Station& station = stations_.try_emplace(sample.station, parameters_).first->second;
-    const ros::Time stamp = ros_time(station.stream.stamp(sample.received));
+    const double t = station.stream.stamp(sample.received);
     if (joy_publishers_.count(sample.station) > 0) {
-      send_buttons(sample.station, sample.button, sample.next_tool, ros_time(sample.received));
+      send_buttons(sample.station, sample.button, sample.next_tool, ros_common::ros_time(sample.received));
     }
     const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
     std::string reason = why_not_sent(sample, parameters_.source);
-    if (reason.empty() && stamp <= station.newest) reason = "stamp not later";
-    if (reason.empty() && (stamp - station.newest).toSec() < shortest) reason = "more than ~rate";
+    if (reason.empty() && t <= station.newest) reason = "stamp not later";
+    if (reason.empty() && t - station.newest < shortest) reason = "more than ~rate";
     if (!reason.empty()) {
       ++station.not_sent[reason];
       ++not_sent_;
       return;
     }
+    const ros::Time stamp = ros_common::ros_time(t);
     std::vector<geometry_msgs::TransformStamped> transforms{
         transform_of(sample.station, make_transform(sample.q_TS, sample.p_TS), stamp)};
     if (sample.station == parameters_.fastrak.stations.front()) {
@@ -207,10 +196,10 @@ class TrackerDriver {
         transforms.push_back(
             ros_common::to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
       }
-      if (!station.newest.isZero()) interval_ = (stamp - station.newest).toSec();
+      interval_ = t - station.newest;
     }
     transforms_.sendTransform(transforms);
-    station.newest = stamp;
+    station.newest = t;
     ++sent_;
   }
 
@@ -278,8 +267,9 @@ class TrackerDriver {
   struct Station {
     explicit Station(const TrackerParameters& p) : stream(p.dropout_after, p.even_stamps) {}
     fastrak::StationStream stream;
-    ros::Time newest;                             ///< stamp of the last sample sent
-    std::map<std::string, std::size_t> not_sent;  ///< by reason
+    double newest =
+        -std::numeric_limits<double>::infinity();  ///< stamp of the last sample sent, by the steady clock [s]
+    std::map<std::string, std::size_t> not_sent;   ///< by reason
   };
   std::map<int, Station> stations_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;

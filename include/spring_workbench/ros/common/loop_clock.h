@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "spring_workbench/hand_input/local_time.h"
+#include "spring_workbench/motion/stream_clock.h"
 
 namespace spring_workbench::ros_common {
 
@@ -17,6 +18,12 @@ double loop_time();
 
 /// Now by both clocks.
 hand_input::LocalTime local_time();
+
+/// ROS time now, the steps of the wall clock taken out; under `use_sim_time` as it stands.
+motion::WallMoment wall_moment();
+
+/// ROS time at which the steady clock showed `t` [s].
+ros::Time ros_time(double t);
 
 /// Sleeps until `loop_time()` is `t`. Under `use_sim_time` it also returns when the clock goes back, when it stood for
 /// 0.1 s, and on shutdown.

@@ -35,7 +35,7 @@ class Checkpoint {
   std::string kept_scene_;          ///< path; empty: nothing is kept
   simulation::SimulationState kept_state_;
   bool handed_over_ = false;
-  ros::WallTimer timer_;
+  ros::SteadyTimer timer_;
 };
 
 }  // namespace spring_workbench::manipulation

@@ -19,7 +19,7 @@ struct LoopStatistics {
   double time_lost = 0.0;          ///< of steps, in which an object did not follow its equation [s]
   std::size_t steps_fallback = 0;  ///< steps done by an L-stable rule in place of the integrator
   std::size_t stops = 0;           ///< steps that met the end of a fork's range
-  std::size_t leaps = 0;           ///< times the simulation was started anew because time leapt
+  double left_out = 0.0;           ///< of time, since the process stood or time leapt [s]
   double longest_cycle = 0.0;      ///< wall time in the simulation [s]
   double master_silence = 0.0;     ///< since the ROS master last answered [s]
   double prediction_error = 0.0;   ///< see LookAhead::position_error_99() [m]

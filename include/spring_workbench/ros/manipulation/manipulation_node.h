@@ -52,7 +52,7 @@ class ManipulationNode {
   void run_physics();
   bool run_step(double begin);
   void count(const live::CycleReport& report, bool deadline_missed);
-  void on_every_second(const ros::WallTimerEvent&);
+  void on_every_second(const ros::SteadyTimerEvent&);
   void place_workbench();
   void ask_master();
   void end_with_its_master();
@@ -72,7 +72,7 @@ class ManipulationNode {
   bool workbench_placed_ = false;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   ros::Publisher diagnostics_publisher_;
-  ros::WallTimer every_second_, asks_master_;
+  ros::SteadyTimer every_second_, asks_master_;
   std::mutex master_mutex_;
   std::vector<std::string> senders_of_tf_;  ///< by the master's last answer
   double master_answered_;                  ///< when that came [s], by the steady clock

@@ -19,7 +19,7 @@ struct ManipulationParameters {
   double display_latency = 0.0;    ///< `display_latency` [s], 0 … 0.1: how far what is shown is ahead of the samples
   double markers_rate = 30.0;      ///< `markers_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with
   std::string fork_curve = "rod";  ///< `fork_curve`: one of fork_curve_names(), the curve that `~markers` draws
-  double max_age = 1.0;            ///< `max_age` [s], > 0: samples stamped further from now are left out
+  double max_age = 1.0;  ///< `max_age` [s], > 0: older samples are left out; a stream begins no further from now
   std::string world_frame = "world";  ///< `world_frame`: frame of all that is published
   std::string workbench_frame =
       "workbench";                      ///< `workbench_frame`: put at the origin of world unless /tf_static says else

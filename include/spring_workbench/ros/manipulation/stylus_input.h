@@ -2,7 +2,6 @@
 
 #include <ros/ros.h>
 #include <sensor_msgs/Joy.h>
-#include <tf2/buffer_core.h>
 #include <tf2_msgs/TFMessage.h>
 
 #include <deque>
@@ -15,7 +14,10 @@
 #include <vector>
 
 #include "spring_workbench/live/stylus_events.h"
+#include "spring_workbench/motion/stream_clock.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
+#include "spring_workbench/ros/manipulation/simulated_clock.h"
+#include "spring_workbench/ros/manipulation/static_frames.h"
 
 namespace spring_workbench::manipulation {
 
@@ -23,10 +25,16 @@ namespace spring_workbench::manipulation {
 struct InputStatistics {
   std::size_t messages = 0;                     ///< on /tf, those of this node left out
   std::set<std::string> frames;                 ///< child frames in them
-  std::size_t restarts = 0;                     ///< times ROS time jumped back
+  std::size_t restarts = 0;                     ///< times simulated time jumped back
+  std::size_t clock_steps = 0;                  ///< times the sender's clock was set
+  std::string sender;                           ///< the node whose stylus is followed; empty before the first
+  std::string other_sender;                     ///< one that sends the same stylus, too, and is left out; or empty
   std::map<std::string, std::size_t> rejected;  ///< by reason
   double newest_offer_age = 0.0;                ///< age by its stamp of the newest sample, used or not [s]
 };
+
+/// The reason to leave out what a second node sends.
+constexpr char another_sender[] = "another sender";
 
 /// One stylus: listens to /tf, /tf_static and its buttons, and keeps what came, in order, until it is taken. What
 /// cannot be used is left out, counted by reason and told in one throttled line. Poses go on as they came: the gate is
@@ -38,7 +46,8 @@ class StylusInput {
   StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame, std::string joy,
               std::function<void()> wake);
 
-  /// What came since the last call. The first event ever, and the first after a jump of time, is a live::NewEpoch.
+  /// What came since the last call. The first event ever, and the first after simulated time has jumped back,
+  /// is a live::NewEpoch.
   std::vector<live::StylusEvent> take_events();
   /// Counts and tells what the gate did not let through.
   void count_rejected(const std::vector<live::RejectedPose>& poses);
@@ -50,36 +59,38 @@ class StylusInput {
   void on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessage>& event);
   void on_static_transforms(const tf2_msgs::TFMessageConstPtr& message);
   void on_joy(const sensor_msgs::JoyConstPtr& message);
-  void on_stylus(const geometry_msgs::TransformStamped& transform, const ros::Time& now);
-  void on_buttons(const sensor_msgs::Joy& message, const ros::Time& now);
-  struct Stream;
+  bool is_followed(const std::string& sender);
+  void on_wall_time(const geometry_msgs::TransformStamped& transform);
+  void on_simulated_time(const geometry_msgs::TransformStamped& transform, const ros::Time& now);
+  bool use(const geometry_msgs::TransformStamped& transform, std::int64_t stamp, double age);
+  void on_simulated_time(const sensor_msgs::Joy& message, const ros::Time& now);
+  void on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp);
   template <typename Message>
-  void go_on_to(const ros::Time& stamp, Stream& stream, std::deque<Message>& early);
-  std::optional<ros::Time> moment_of(const ros::Time& stamp, Stream& stream);
+  void go_on_to(const ros::Time& stamp, SimulatedClock::Stream& stream, std::deque<Message>& early);
   void start_anew_when_due();
-  double seconds(const ros::Time& stamp);
+  double seconds(std::int64_t stamp);
+  void reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason, double age);
   void reject(const std::string& reason, const std::string& line);
 
   const ManipulationParameters parameters_;
   const std::string frame_, joy_;
   const std::function<void()> wake_;
   mutable std::mutex mutex_;
-  tf2::BufferCore static_frames_;
-  bool workbench_known_ = false;
+  StaticFrames static_frames_;
+  motion::SenderChoice sender_;
+  // Of wall time.
+  motion::StampedStream<geometry_msgs::TransformStamped> wall_poses_;
+  motion::StreamClock wall_buttons_;
   std::vector<live::StylusEvent> events_;
   InputStatistics statistics_;
+  // Of simulated time.
   /// What was stamped before the newest: it waits for the clock, or for the other stream, to jump back.
   std::deque<geometry_msgs::TransformStamped> early_poses_;
   std::deque<sensor_msgs::Joy> early_buttons_;
-  struct Stream {
-    ros::Time newest;  ///< stamp, of this epoch; zero before the first message
-  };
-  Stream poses_, buttons_;
-  std::map<std::string, ros::WallTime> told_;  ///< when a reason to leave a sample out was last logged
-  ros::Time zero_;                             ///< of the epoch; zero before the first input
-  ros::Time last_now_;
-  bool jumped_ = false;     ///< ROS time went back, and the streams have not both followed yet
-  double jumped_at_ = 0.0;  ///< when that was noticed, in attended time [s]
+  SimulatedClock::Stream poses_, buttons_;
+  SimulatedClock clock_;
+  std::map<std::string, double> told_;  ///< when a reason to leave a sample out was last logged [s]
+  std::int64_t zero_ = 0;               ///< of the epoch, in local time [ns]; 0 before the first input
   bool pressed_ = false, next_tool_ = false;
   ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;
 };

@@ -57,7 +57,7 @@ class Reconfigure final : public LiveTuning {
   Reconfigure(const ros::NodeHandle& private_node, live::SimulationRunner& runner)
       : runner_(runner), node_(private_node, "live"), server_(mutex_, node_) {
     server_.setCallback([this](ManipulationConfig& config, uint32_t level) { on_change(config, level); });
-    follow_timer_ = node_.createWallTimer(ros::WallDuration(0.2), [this](const ros::WallTimerEvent&) { follow(); });
+    follow_timer_ = node_.createSteadyTimer(ros::WallDuration(0.2), [this](const ros::SteadyTimerEvent&) { follow(); });
   }
 
  private:
@@ -89,7 +89,7 @@ class Reconfigure final : public LiveTuning {
   boost::recursive_mutex mutex_;
   dynamic_reconfigure::Server<ManipulationConfig> server_;
   ManipulationConfig told_;
-  ros::WallTimer follow_timer_;
+  ros::SteadyTimer follow_timer_;
 };
 
 }  // namespace

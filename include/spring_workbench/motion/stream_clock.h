@@ -1,0 +1,158 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace spring_workbench::motion {
+
+/// A moment by the local wall clock [ns since 1970].
+struct WallMoment {
+  std::int64_t now = 0;    ///< as if the clock had never been set: it grows evenly
+  std::int64_t steps = 0;  ///< by how much it has been set since: it shows `now + steps`
+};
+
+/// Takes the steps out of a wall clock: what moves it against the steady clock by more than 0.1 s between two looks is
+/// a step (somebody set it, or the machine was suspended), what moves it by less is followed. Any thread.
+class WallClock {
+ public:
+  /// The wall clock shows `wall` while the steady clock shows `steady`, both [ns].
+  WallMoment look(std::int64_t wall, std::int64_t steady);
+
+ private:
+  std::mutex mutex_;
+  std::optional<std::int64_t> apart_;  ///< wall less steady at the last look [ns]
+  std::int64_t steps_ = 0;
+};
+
+/// What a message's stamp says by a StreamClock.
+enum class StampVerdict {
+  fits,
+  stepped,          ///< the sender's clock was set: judge again those just before that did not fit, and this one
+  too_old,          ///< by more than `max_age`
+  from_the_future,  ///< ahead of the stream by more than 0.1 s
+  not_later,        ///< before the stream's newest by more than 0.1 s
+};
+/// The verdict in words, as /diagnostics tells it.
+std::string to_string(StampVerdict verdict);
+
+/// The clock of one stream of stamped messages: it keeps the offset between the sender's clock and the local wall clock
+/// without its steps. Slow drift is followed. A step of the sender's clock is a new offset: at once where this host's
+/// own clock made the same one; else when at least three messages over 0.05 s of their stamps have come as evenly as
+/// they are stamped. A message alone moves nothing.
+class StreamClock {
+ public:
+  /// `max_age` [s], > 0: the first message must be no further from now, and no message older.
+  explicit StreamClock(double max_age) : max_age_(max_age) {}
+
+  /// A message stamped `stamp` [ns] came at `now`.
+  StampVerdict judge(std::int64_t stamp, const WallMoment& now);
+  /// The local time of a message that is used whatever its stamp says: by that where it fits, else now [ns].
+  std::int64_t local_or_now(std::int64_t stamp, const WallMoment& now);
+  /// The stamp by the local wall clock without its steps [ns].
+  std::int64_t local(std::int64_t stamp) const { return stamp - offset_; }
+  /// Age at `now` of a message with this stamp [s].
+  double age(std::int64_t stamp, const WallMoment& now) const {
+    return 1e-9 * static_cast<double>(now.now - local(stamp));
+  }
+  /// Whether a message has fitted.
+  bool has_begun() const { return newest_.has_value(); }
+  /// Steps of the sender's clock so far.
+  std::size_t steps() const { return steps_; }
+
+ private:
+  struct Stamped {
+    std::int64_t stamp;
+    double age;
+  };
+  StampVerdict begin(std::int64_t stamp, const WallMoment& now);
+  void step_to(std::int64_t offset);
+  bool comes_as_stamped(const Stamped& message);
+
+  double max_age_;
+  std::int64_t offset_ = 0;             ///< stamps less local ones [ns]
+  std::optional<std::int64_t> newest_;  ///< stamp
+  std::int64_t came_ = 0;               ///< when that came [ns]
+  double usual_age_ = 0.0;              ///< the least of late [s]
+  std::deque<Stamped> misfits_;         ///< since the newest that fitted
+  std::size_t steps_ = 0;
+};
+
+/// Which of several senders of one stream is followed: the first, until it has been silent for `patience` [s].
+class SenderChoice {
+ public:
+  explicit SenderChoice(double patience) : patience_(patience) {}
+  /// Whether what this sender sends at local time `now` [s] is to be used.
+  bool offers(const std::string& sender, double now) {
+    if (sender != name_ && !name_.empty() && now - came_ <= patience_) return false;
+    name_ = sender;
+    came_ = now;
+    return true;
+  }
+  /// The one that is followed; empty before the first.
+  const std::string& name() const { return name_; }
+  void forget() { name_.clear(); }
+
+ private:
+  double patience_;
+  std::string name_;
+  double came_ = 0.0;
+};
+
+/// A stream of messages by its StreamClock, with those kept that fit only once the sender's clock is seen to be set.
+template <typename Message>
+class StampedStream {
+ public:
+  explicit StampedStream(double max_age) : clock_(max_age), max_age_(max_age) {}
+
+  /// A message stamped `stamp` [ns] came at `now`. Calls `use(message, local stamp [ns], age [s])` for each that fits
+  /// now, in order, and `leave_out(message, verdict, age [s])` for each that will not.
+  template <typename Use, typename LeaveOut>
+  void offer(const Message& message, std::int64_t stamp, const WallMoment& now, Use&& use, LeaveOut&& leave_out) {
+    StampVerdict verdict = clock_.judge(stamp, now);
+    const auto let_go = [&](const Kept& kept) { leave_out(kept.message, kept.verdict, kept.age); };
+    if (verdict == StampVerdict::stepped) {
+      for (Kept& kept : std::exchange(kept_, {})) {
+        kept.verdict = clock_.judge(kept.stamp, kept.came);
+        if (kept.verdict != StampVerdict::fits) {
+          let_go(kept);
+        } else {
+          use(kept.message, clock_.local(kept.stamp), clock_.age(kept.stamp, kept.came));
+        }
+      }
+      verdict = clock_.judge(stamp, now);
+    }
+    if (verdict != StampVerdict::fits) {
+      kept_.push_back({message, stamp, now, verdict, clock_.age(stamp, now)});
+      if (kept_.size() <= most_kept && clock_.has_begun()) return;
+      let_go(kept_.front());
+      return kept_.pop_front();
+    }
+    for (const Kept& kept : std::exchange(kept_, {})) let_go(kept);
+    use(message, clock_.local(stamp), clock_.age(stamp, now));
+  }
+  /// Another sender: its clock is not known.
+  void restart() {
+    clock_ = StreamClock(max_age_);
+    kept_.clear();
+  }
+  const StreamClock& clock() const { return clock_; }
+
+ private:
+  static constexpr std::size_t most_kept = 16;
+  struct Kept {
+    Message message;
+    std::int64_t stamp;
+    WallMoment came;
+    StampVerdict verdict;
+    double age;
+  };
+  StreamClock clock_;
+  double max_age_;
+  std::deque<Kept> kept_;
+};
+
+}  // namespace spring_workbench::motion

@@ -1,0 +1,36 @@
+#include "spring_workbench/ros/manipulation/simulated_clock.h"
+
+#include <cmath>
+#include <utility>
+
+#include "constants.h"
+#include "spring_workbench/ros/common/loop_clock.h"
+
+namespace spring_workbench::manipulation {
+
+std::optional<ros::Time> SimulatedClock::moment_of(const ros::Time& stamp, const Stream& stream, double max_age) {
+  const ros::Time now = ros::Time::now();
+  // The clock went back; or the whole way back was missed, and only the stamps show it.
+  const bool clock_jumped = !last_now_.isZero() && (last_now_ - now).toSec() > clock_slip;
+  const bool stamps_jumped = !stream.newest.isZero() && (stream.newest - stamp).toSec() > clock_slip &&
+                             (stream.newest - now).toSec() > clock_slip;
+  if (!jumped_ && (clock_jumped || stamps_jumped)) {
+    jumped_ = true;
+    jumped_at_ = ros_common::local_time().attended;
+  }
+  if (!jumped_) last_now_ = now;
+  const bool goes_on =
+      !stream.newest.isZero() && stamp > stream.newest && std::abs((last_now_ - stamp).toSec()) < max_age;
+  if (jumped_ && !goes_on) return std::nullopt;
+  return last_now_;
+}
+
+bool SimulatedClock::is_patient() const { return ros_common::local_time().attended - jumped_at_ < jump_patience; }
+
+double SimulatedClock::restart() {
+  const ros::Time now = ros::Time::now();
+  jumped_ = false;
+  return (std::exchange(last_now_, now) - now).toSec();
+}
+
+}  // namespace spring_workbench::manipulation

@@ -1,0 +1,196 @@
+#!/usr/bin/python3
+"""The clocks of tracker_driver and manipulation are set, together and alone, and the processes stand still, while an
+object is held: it stays where it is, and the hand is followed again within half a second. Then a second node sends the
+same stylus, and the tracker turns out to be elsewhere."""
+import math
+import os
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import roslib.packages
+import rospkg
+import rospy
+import rostest
+from geometry_msgs.msg import TransformStamped
+from sensor_msgs.msg import Joy
+from spring_workbench.msg import ForkState, ObjectStates
+from tf2_msgs.msg import TFMessage
+
+from stack import DOWN, Listener, diagnostic_values, diagnostics_listener, stylus_transform, wait_for
+
+SCENE = os.path.join(rospkg.RosPack().get_path("spring_workbench"), "scenes", "single_box.urdf")
+STEPS = [0.3, -0.3, 3.0, -3.0, 3600.0, -3600.0]
+
+
+def find(name):
+    return roslib.packages.find_node("spring_workbench", name)[0]
+
+
+class Shifted:
+    """A node with a clock of its own."""
+
+    def __init__(self, folder, node, *arguments):
+        self.path = os.path.join(folder, node)
+        self.shift = 0.0
+        self.set(0.0)
+        environment = dict(os.environ, LD_PRELOAD=find("libshifted_clock.so"), SHIFTED_CLOCK=self.path)
+        self.process = subprocess.Popen([find(node), *arguments], env=environment)
+
+    def set(self, by):
+        self.shift += by
+        with open(self.path, "r+b" if os.path.exists(self.path) else "wb") as file:
+            file.write(struct.pack("q", round(1e9 * self.shift)))
+
+    def now(self):
+        return time.time() + self.shift
+
+    def stand(self, seconds):
+        self.process.send_signal(signal.SIGSTOP)
+        time.sleep(seconds)
+        self.process.send_signal(signal.SIGCONT)
+
+    def end(self):
+        self.process.kill()
+        self.process.wait()
+
+
+class Clocks(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory()
+        cls.addClassCleanup(folder.cleanup)
+        driver = ["_source:=joy", "_start:=0 0 0.22 1 0 0 0", "joy:=pad"]
+        cls.driver = Shifted(folder.name, "tracker_driver", *driver)
+        cls.addClassCleanup(cls.driver.end)
+        cls.node = Shifted(folder.name, "manipulation", "_scene:=" + SCENE)
+        cls.addClassCleanup(cls.node.end)
+        cls.came = []  # when samples of the stylus came, by a clock that nobody sets
+        cls.tf = rospy.Subscriber("/tf", TFMessage, cls.on_transforms, queue_size=1000)
+        cls.objects = Listener("manipulation/objects", ObjectStates)
+        cls.diagnostics = diagnostics_listener()
+        pad = rospy.Publisher("pad", Joy, queue_size=10, latch=True)
+        push = lambda speed: pad.publish(Joy(axes=[0.0, 0.0, speed, 0.0, 0.0, 0.0], buttons=[1, 0]))
+        push(0.0)
+        wait_for(lambda: cls.objects.last and cls.objects.last.objects[0].held, "the box to be held")
+        box = lambda: cls.objects.last.objects[0]
+        wait_for(lambda: push(1.0) or box().pose.position.z > 0.1, "the box to be lifted")
+        push(0.0)
+        wait_for(lambda: abs(box().twist.linear.z) < 1e-5, "the box to rest")
+
+    @classmethod
+    def on_transforms(cls, message):
+        if any(t.child_frame_id == "stylus" for t in message.transforms):
+            cls.came.append(time.monotonic())
+
+    def count(self, name):
+        return float(diagnostic_values(self.diagnostics.messages, "tracker input").get(name, 0.0))
+
+    def newest(self):
+        """The next state of the box that is sent."""
+        seen = len(self.objects.messages)
+        wait_for(lambda: len(self.objects.messages) > seen, "a state")
+        return self.objects.last.objects[0]
+
+    def check(self, fault, what):
+        before = self.newest().pose.position
+        seen, begin = len(self.objects.messages), time.monotonic()
+        fault()
+        end = time.monotonic()
+        lag = lambda: abs(self.node.now() - self.objects.last.header.stamp.to_sec())
+        wait_for(lambda: self.newest() and lag() < 0.2, "the box at the time that it is now")
+        back = time.monotonic() - end
+        time.sleep(0.5)
+        states = [m.objects[0] for m in self.objects.messages[seen:]]
+        farthest = max(
+            math.dist(
+                (before.x, before.y, before.z), (s.pose.position.x, s.pose.position.y, s.pose.position.z)
+            )
+            for s in states
+        )
+        print("%s: %.3g mm, back after %.2f s" % (what, 1e3 * farthest, back))
+        self.assertLess(farthest, 1e-3, what)
+        self.assertTrue(all(s.held for s in states), what)
+        self.assertGreater(len(states), 20, what)
+        came = [t for t in self.came if t > begin - 0.2]
+        gaps = [b - a for a, b in zip(came, came[1:])]
+        return max(gaps), back
+
+    def test_both_clocks_are_set(self):
+        for by in STEPS:
+            def both():
+                self.driver.set(by)
+                self.node.set(by)
+
+            gap, back = self.check(both, "both by %g s" % by)
+            self.assertLess(gap, 0.5)
+            self.assertLess(back, 2.0)  # half a second, and what a busy machine takes
+
+    def test_one_clock_is_set(self):
+        for node in (self.driver, self.node):
+            for by in STEPS:
+                gap, back = self.check(lambda: node.set(by), "one by %g s" % by)
+                self.assertLess(gap, 0.5)
+                self.assertLess(back, 2.0)
+
+    def test_processes_stand_still(self):
+        for nodes in ([self.node], [self.driver], [self.driver, self.node]):
+            def stand():
+                for node in nodes:
+                    node.process.send_signal(signal.SIGSTOP)
+                time.sleep(7.0)
+                for node in nodes:
+                    node.process.send_signal(signal.SIGCONT)
+
+            _, back = self.check(stand, "%d stood" % len(nodes))
+            self.assertLess(back, 2.0)
+
+    def test_two_senders(self):
+        other = rospy.Publisher("/tf", TFMessage, queue_size=10)
+        wait_for(lambda: other.get_num_connections() > 0, "the node to listen to another sender")
+
+        def both():
+            for _ in range(200):
+                stamp = rospy.Time.from_sec(self.driver.now())
+                other.publish(TFMessage([stylus_transform(stamp, (0.03, 0.0, 0.4), DOWN)]))
+                time.sleep(0.005)
+
+        gap, back = self.check(both, "two senders")
+        self.assertGreater(self.count("left out: another sender"), 100)
+
+        def told():
+            statuses = [s for m in self.diagnostics.messages for s in m.status if "tracker input" in s.name]
+            both = "/tracker_driver is followed, /clocks_test is"
+            return any(s.level == s.ERROR and both in s.message for s in statuses)
+
+        wait_for(told, "an error that names both")
+        other.unregister()
+
+    def test_the_tracker_is_moved(self):
+        forks = Listener("manipulation/fork", ForkState)
+        wait_for(lambda: forks.last, "the fork")
+        before = self.newest().pose.position.x
+        seen = len(self.objects.messages)
+        place = TransformStamped()
+        place.header.frame_id, place.child_frame_id = "world", "workbench"
+        place.transform.translation.x, place.transform.rotation.w = 0.5, 1.0
+        publisher = rospy.Publisher("/tf_static", TFMessage, queue_size=1, latch=True)
+        publisher.publish(TFMessage([place]))
+        wait_for(lambda: abs(self.newest().pose.position.x - before - 0.5) < 1e-5, "the box to be there, too")
+        force = lambda m: math.hypot(m.tip_wrench.force.x, m.tip_wrench.force.y, m.tip_wrench.force.z)
+        speed = lambda m: math.hypot(m.objects[0].twist.linear.x, m.objects[0].twist.linear.z)
+        strongest = max(map(force, forks.messages))
+        fastest = max(map(speed, self.objects.messages[seen:]))
+        print("moved by 0.5 m: at most %.3g N and %.3g m/s" % (strongest, fastest))
+        self.assertLess(strongest, 30.0)
+        self.assertLess(fastest, 1.5)
+        wait_for(lambda: self.count("times the tracker's frame was moved") == 1.0, "/diagnostics to say so")
+
+
+if __name__ == "__main__":
+    rospy.init_node("clocks_test", disable_rostime=True)
+    rostest.rosrun("spring_workbench", "clocks_test", Clocks, sys.argv)
