@@ -12,15 +12,15 @@ position: x, y, z [m]; quaternion: x, y, z, w, normalised here. Raises InputErro
 finite, or the quaternion is zero.)";
 
 RigidTransform pose(const std::vector<double>& position, const std::vector<double>& quaternion) {
-  const auto refuse = [](const char* what, const char* rule) {
-    throw validation::InputError(std::string("pose: ") + what + " is not allowed: must be " + rule);
+  const auto refuse = [](const std::string& what, const char* rule) {
+    throw validation::InputError(std::string("pose: ") + rule + ", got " + what);
   };
-  if (position.size() != 3) refuse("position of another length", "3 numbers [m]");
-  if (quaternion.size() != 4) refuse("quaternion of another length", "4 numbers, x y z w");
+  if (position.size() != 3) refuse(std::to_string(position.size()), "position: must be 3 numbers [m]");
+  if (quaternion.size() != 4) refuse(std::to_string(quaternion.size()), "quaternion: must be 4 numbers, x y z w");
   const Quaterniond q(quaternion[3], quaternion[0], quaternion[1], quaternion[2]);
   const Vector3d p(position[0], position[1], position[2]);
-  if (!p.allFinite() || !q.coeffs().allFinite()) refuse("a number that is not finite", "finite");
-  if (!(q.norm() > 0.0)) refuse("a quaternion that is zero", "of another length than zero");
+  if (!p.allFinite() || !q.coeffs().allFinite()) refuse("NaN or infinity", "must be finite");
+  if (!(q.norm() > 0.0)) refuse("0 0 0 0", "quaternion: must be nonzero");
   return make_transform(q, p);
 }
 

@@ -14,16 +14,17 @@ Array to_array(const RigidTransform& X) {
 
 RigidTransform to_pose(const Array& matrix, const std::string& what) {
   const auto refuse = [&](const char* value) {
-    throw validation::InputError(what + ": " + value +
-                                 " is not allowed: must be a 4 x 4 array: a rotation, a position [m] "
-                                 "of finite numbers, and a last row 0 0 0 1");
+    throw validation::InputError(what +
+                                 ": must be a 4 x 4 array of finite numbers: a rotation, a position [m] and a "
+                                 "last row 0 0 0 1, got " +
+                                 value);
   };
   if (matrix.ndim() != 2 || matrix.shape(0) != 4 || matrix.shape(1) != 4) refuse("an array of another shape");
   Eigen::Matrix4d m;
   for (int row = 0; row < 4; ++row) {
     for (int column = 0; column < 4; ++column) m(row, column) = matrix.at(row, column);
   }
-  if (!m.allFinite()) refuse("a number that is not finite");
+  if (!m.allFinite()) refuse("NaN or infinity");
   const Matrix3d R = m.topLeftCorner<3, 3>();
   if (!(R.transpose() * R).isIdentity(1e-6) || R.determinant() < 0.0) refuse("a matrix without a rotation");
   if (m.row(3) != Eigen::RowVector4d(0.0, 0.0, 0.0, 1.0)) refuse("a matrix with another last row");
@@ -70,8 +71,8 @@ YAML::Node to_yaml(const py::handle& value) {
     for (const py::handle& entry : value) list.push_back(to_yaml(entry));
     return list;
   }
-  throw validation::InputError("settings: " + py::repr(value).cast<std::string>() +
-                               " is not allowed: must be a number, a boolean, a string, a list or a dictionary");
+  throw validation::InputError("settings: must be a number, a boolean, a string, a list or a dictionary, got " +
+                               py::repr(value).cast<std::string>());
 }
 
 }  // namespace spring_workbench::python

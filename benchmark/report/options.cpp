@@ -35,12 +35,13 @@ std::string* path_of_recording(const std::string& argument, ReportOptions& optio
 
 void check_recording(const ReportOptions& options) {
   if (options.scene.empty() != (options.bag.empty() && options.motions.empty())) {
-    validation::refuse(kWhere, "--scene, --bag, --motion", "one without the other", "a scene and a bag or motions");
+    validation::refuse(kWhere, "--scene, --bag, --motion", "one without the other",
+                       "a scene together with a bag or motions");
   }
   if (options.scene.empty() && !options.settings.empty())
-    validation::refuse(kWhere, "--settings", options.settings, "given with --scene");
+    validation::refuse(kWhere, "--settings", options.settings, "given together with --scene");
   if (options.of_recording() && (options.shard || !options.parts.empty()))
-    validation::refuse(kWhere, "--scene", "together with --shard or --merge", "without: it is one report by itself");
+    validation::refuse(kWhere, "--scene", "both", "given without --shard and --merge");
 }
 
 }  // namespace
@@ -54,16 +55,16 @@ ReportOptions parse_report_options(int argc, char** argv) {
     if (argument == "--quick") {
       options.quick = true;
     } else if (argument == "--out") {
-      if (!has_value) validation::refuse(kWhere, "--out", "(nothing)", "a folder to write to");
+      if (!has_value) validation::refuse(kWhere, "--out", "", "a folder to write to");
       options.out = argv[++i];
       has_out = true;
     } else if (std::string* field = path_of_recording(argument, options)) {
-      if (!has_value) validation::refuse(kWhere, argument, "(nothing)", "a path");
+      if (!has_value) validation::refuse(kWhere, argument, "", "a path");
       *field = argv[++i];
     } else if (argument == "--shard") {
-      options.shard = shard_of(has_value ? argv[++i] : "(nothing)");
+      options.shard = shard_of(has_value ? argv[++i] : "");
     } else if (argument == "--merge") {
-      if (!has_value) validation::refuse(kWhere, "--merge", "(nothing)", "the files of all shards");
+      if (!has_value) validation::refuse(kWhere, "--merge", "", "the files of all shards");
       while (i + 1 < argc && std::string(argv[i + 1]).rfind("--", 0) != 0) options.parts.emplace_back(argv[++i]);
     } else {
       validation::refuse(
@@ -74,9 +75,9 @@ ReportOptions parse_report_options(int argc, char** argv) {
   }
   check_recording(options);
   if (options.shard && has_out)
-    validation::refuse(kWhere, "--shard, --out", "both", "one of both: a shard goes to the standard output");
+    validation::refuse(kWhere, "--shard, --out", "both", "one of the two, since a shard goes to the standard output");
   if (!options.parts.empty() && (options.shard || options.quick)) {
-    validation::refuse(kWhere, "--merge", "together with --shard or --quick", "without: the files say what they are");
+    validation::refuse(kWhere, "--merge", "both", "given without --shard and --quick, which the files name");
   }
   return options;
 }
@@ -85,7 +86,7 @@ void make_folder(const std::string& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (!std::filesystem::is_directory(folder, error) || access(folder.c_str(), W_OK | X_OK) != 0) {
-    validation::refuse(kWhere, "--out", folder, "a folder that can be made and written to");
+    validation::refuse(kWhere, "--out", folder, "a folder that can be created and written to");
   }
 }
 

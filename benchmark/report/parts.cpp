@@ -35,13 +35,13 @@ void each_field(UnitHead& h, Fields& fields) {
 class PartFile {
  public:
   explicit PartFile(const std::string& path) : path_(path), file_(path) {
-    if (!file_) throw validation::InputError(path + ": cannot be read: must be what report --shard has written");
+    if (!file_) throw validation::InputError(path + ": cannot be read; give a file that report --shard wrote");
   }
 
   std::string line() {
     std::string text;
     if (!std::getline(file_, text) || file_.eof())
-      validation::refuse(where(), "end of the file", "here", "after all rows: the shard was not done");
+      validation::refuse(where(), "end of the file", "it earlier; the shard was not finished", "after all rows");
     ++line_;
     return text;
   }
@@ -62,7 +62,7 @@ ReportPart read_part(const std::string& path) {
   PartFile file(path);
   const Head head = file.row<Head>();
   if (head.first != kFirst || head.shard.count == 0 || head.shard.index - 1 >= head.shard.count) {
-    validation::refuse(file.where(), "first line", head.first, "that of a part as report --shard writes it");
+    validation::refuse(file.where(), "first line", head.first, "one that report --shard writes");
   }
   ReportPart part{head.shard, head.quick, head.seconds, head.warning, {}, {}};
   for (std::size_t i = 0; i < head.facts; ++i) part.facts.push_back(file.row<RunFact>());
@@ -108,7 +108,7 @@ ReportPart read_parts(const std::vector<std::string>& paths) {
     if (part.shard.count != all.shard.count || part.quick != all.quick || part.facts.size() != all.facts.size()) {
       validation::refuse(path, "shard", name, "of the same report as the others");
     }
-    if (!seen.insert(part.shard.index).second) validation::refuse(path, "shard", name, "given once");
+    if (!seen.insert(part.shard.index).second) validation::refuse(path, "shard", name + " again", "given once");
     all.seconds = std::max(all.seconds, part.seconds);
     join(part.warning, all.warning);
     for (std::size_t i = 0; i < part.facts.size(); ++i) join(part.facts[i].value, all.facts[i].value);

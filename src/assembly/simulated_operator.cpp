@@ -170,8 +170,7 @@ const bodies::BodyState& SimulatedOperator::state_of(const std::string& object) 
   const std::vector<bodies::BodyState>& objects = seen_.front().view.objects;
   const auto o =
       std::find_if(objects.begin(), objects.end(), [&](const bodies::BodyState& s) { return s.name == object; });
-  if (o == objects.end())
-    throw validation::InputError("operator: object: " + object + ": must be among the objects that are seen");
+  if (o == objects.end()) validation::refuse("operator", "object", object, "an object of the scene");
   return *o;
 }
 

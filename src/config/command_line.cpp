@@ -26,8 +26,8 @@ bool read_command_line(int argc, char** argv, const std::vector<CommandOption>& 
   int found = 0;
   for (int code; (code = getopt_long(argc, argv, ":", known.data(), &found)) != -1;) {
     const std::string word = optind > 0 && optind <= argc ? argv[optind - 1] : "";
-    if (code == ':') validation::refuse(command_line, word, "(nothing)", "followed by a value");
-    if (code != 0) validation::refuse(command_line, "option", word, "one of those that --help lists");
+    if (code == ':') throw validation::InputError(std::string(command_line) + ": " + word + ": needs a value");
+    if (code != 0) validation::refuse(command_line, "option", word, "one that --help lists");
     if (found == 0) return false;
     options[static_cast<std::size_t>(found - 1)].take(optarg != nullptr ? optarg : "");
   }

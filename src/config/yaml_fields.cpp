@@ -14,8 +14,12 @@ namespace {
 
 /// The node as the user wrote it, shortened to one line.
 std::string node_text(const YAML::Node& node) {
-  if (!node.IsDefined() || node.IsNull()) return "(nothing)";
-  std::string text = node.IsScalar() ? node.Scalar() : YAML::Dump(node);
+  if (!node.IsDefined() || node.IsNull()) return "";
+  YAML::Emitter out;
+  out.SetSeqFormat(YAML::Flow);
+  out.SetMapFormat(YAML::Flow);
+  out << node;
+  const std::string text = node.IsScalar() ? node.Scalar() : out.c_str();
   return text.size() <= longest_value ? text : text.substr(0, longest_value) + "…";
 }
 
@@ -46,7 +50,7 @@ double read_number(const YAML::Node& node, const std::string& where, const std::
 int read_integer(const YAML::Node& node, const std::string& where, const std::string& key, int min, int max) {
   int value = 0;
   if (!is_scalar(node) || !YAML::convert<int>::decode(node, value) || value < min || value > max) {
-    refuse_node(node, where, key, "an integer in [" + std::to_string(min) + ", " + std::to_string(max) + "]");
+    refuse_node(node, where, key, "an integer between " + std::to_string(min) + " and " + std::to_string(max));
   }
   return value;
 }
@@ -93,19 +97,19 @@ std::vector<double> read_numbers(const YAML::Node& node, const std::string& wher
 RigidTransform read_pose(const YAML::Node& node, const std::string& where, const std::string& key) {
   const std::vector<double> v = read_numbers(node, where, key, 7);
   const Quaterniond q(v[6], v[3], v[4], v[5]);
-  if (!(q.norm() > 1e-6)) refuse_node(node, where, key, "x y z qx qy qz qw with a quaternion that is not zero");
+  if (!(q.norm() > 1e-6)) refuse_node(node, where, key, "x y z qx qy qz qw with a nonzero quaternion");
   return make_transform(q, Vector3d(v[0], v[1], v[2]));
 }
 
 void check_keys(const YAML::Node& map, const std::string& where, const std::string& prefix,
                 const std::vector<std::string>& allowed) {
-  if (!map.IsDefined() || !map.IsMap()) refuse_node(map, where, prefix.empty() ? "(top level)" : prefix, "a map");
+  if (!map.IsDefined() || !map.IsMap()) refuse_node(map, where, prefix.empty() ? "top level" : prefix, "a map");
   std::set<std::string> seen;
   for (const auto& entry : map) {
     const std::string key = entry.first.IsScalar() ? entry.first.Scalar() : YAML::Dump(entry.first);
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
       throw validation::InputError(validation::one_line(place(entry.first, where) + ": " + prefix + key +
-                                                        ": unknown key; known are " + validation::join(allowed)));
+                                                        ": unknown key; known keys are " + validation::join(allowed)));
     }
     if (!seen.insert(key).second)
       throw validation::InputError(
@@ -118,7 +122,7 @@ namespace {
 /// Refuses what an alias makes endless or immense: `&a [*a]`, and lists of lists of aliases.
 void check_extent(const YAML::Node& node, const std::string& path, int depth, long& values) {
   if (depth > most_deep)
-    throw validation::InputError(path + ": nesting: must be at most " + std::to_string(most_deep) + " deep");
+    throw validation::InputError(path + ": nesting: must be at most " + std::to_string(most_deep) + " levels deep");
   if (++values > most_values)
     throw validation::InputError(path + ": size: must be at most " + std::to_string(most_values) + " values");
   if (node.IsSequence()) {
@@ -138,7 +142,7 @@ YAML::Node load_yaml_file(const std::string& path) {
   std::ostringstream text;
   if (file.peek() != std::ifstream::traits_type::eof()) text << file.rdbuf();  // of an empty file nothing can be copied
   if (!file.is_open() || file.bad() || text.fail()) {
-    throw validation::InputError(path + ": cannot be read: must be a readable YAML file");
+    throw validation::InputError(path + ": cannot be read; give a readable YAML file");
   }
   try {
     const YAML::Node node = YAML::Load(text.str());

@@ -25,7 +25,7 @@ void* find_function(const Engine& engine, const scene::Scene& scene) {
   if (function == nullptr) {
     const char* mode = scene.contact == scene::ContactMode::dynamic ? "dynamic" : "stop";
     validation::refuse(scene.path, "contact", mode,
-                       std::string("a mode that this build has the engines for (") + dlerror() + ")");
+                       std::string("a mode whose engines this build has (") + dlerror() + ")");
   }
   return function;
 }

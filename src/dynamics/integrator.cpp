@@ -50,7 +50,7 @@ std::unique_ptr<Integrator> make_integrator(IntegratorKind kind) {
 IntegratorKind register_integrator(const std::string& name, MakeIntegrator make) {
   auto& [names, makers] = known();
   if (name.empty() || std::find(names.begin(), names.end(), name) != names.end()) {
-    validation::refuse("register_integrator", "name", name, "none of " + validation::join(names) + ", nor empty");
+    validation::refuse("register_integrator", "name", name, "a name other than " + validation::join(names));
   }
   names.push_back(name);
   makers.push_back(std::move(make));

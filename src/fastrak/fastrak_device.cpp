@@ -39,7 +39,7 @@ PlayedMotion::PlayedMotion(const std::vector<motion::StylusSample>& samples) {
     }
     if (samples_.empty() || sample.t > samples_.back().t) samples_.push_back(sample);
   }
-  if (samples_.empty()) throw validation::InputError("motion: no samples: must be at least one");
+  if (samples_.empty()) throw validation::InputError("motion: must be at least one sample, got none");
 }
 
 motion::StylusSample PlayedMotion::at(double t) const {
@@ -60,7 +60,7 @@ motion::StylusSample PlayedMotion::at(double t) const {
 FastrakDevice::FastrakDevice(std::vector<PlayedMotion> motions, std::vector<int> switches)
     : motions_(std::move(motions)), switches_(std::move(switches)) {
   if (motions_.empty() || motions_.size() > stations_.size()) {
-    validation::refuse("device", "motions", std::to_string(motions_.size()), "1, 2, 3 or 4: one for each station");
+    validation::refuse("device", "motions", std::to_string(motions_.size()), "1, 2, 3 or 4, one for each station");
   }
   reset();
 }

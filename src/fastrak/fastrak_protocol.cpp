@@ -134,8 +134,8 @@ FastrakLayout::FastrakLayout(const std::vector<int>& items, FastrakFormat format
     length_ += item_length(*item);
   }
   if (!has_position || !has_orientation)
-    throw validation::InputError("output list: must have a position and an orientation");
-  if (length_ > kLongestRecord) throw validation::InputError("output list: must give records of at most 254 bytes");
+    throw validation::InputError("output list: must contain a position and an orientation");
+  if (length_ > kLongestRecord) throw validation::InputError("output list: must make records of at most 254 bytes");
 }
 
 std::optional<FastrakLayout::Numbers> FastrakLayout::read_numbers(const Item& item, std::string_view bytes) const {

@@ -24,10 +24,10 @@ void FastrakSimulator::plug_in() {
   std::error_code error;
   if (std::filesystem::is_symlink(link_)) std::filesystem::remove(link_, error);
   if (std::filesystem::exists(link_))
-    validation::refuse("command line", "--link", link_, "a path where nothing stands yet");
+    validation::refuse("command line", "--link", link_, "a path that does not exist yet");
   std::filesystem::create_symlink(terminal_->path(), link_, error);
   if (error)
-    validation::refuse("command line", "--link", link_, "a path where a link can be made (" + error.message() + ")");
+    validation::refuse("command line", "--link", link_, "a path where a link can be created (" + error.message() + ")");
 }
 
 void FastrakSimulator::unplug() {

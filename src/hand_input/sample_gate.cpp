@@ -42,31 +42,36 @@ std::string complaint(GateResult result, const RawSample& sample, const InputSet
   const auto& p = sample.p;
   const auto& q = sample.q;
   std::ostringstream stamp, position, rotation;
-  stamp << "stamp: " << sample.t;
-  position << "position: (" << p.x() << ", " << p.y() << ", " << p.z() << ") is not allowed: must be ";
-  rotation << "rotation: (" << q.x() << ", " << q.y() << ", " << q.z() << ", " << q.w() << ") is not allowed: must be ";
-  std::ostringstream& place = p.allFinite() ? rotation : position;
+  stamp << sample.t << " s";
+  position << "(" << p.x() << ", " << p.y() << ", " << p.z() << ")";
+  rotation << "(" << q.x() << ", " << q.y() << ", " << q.z() << ", " << q.w() << ")";
+  const auto must_be = [](const std::string& field, const std::string& rule, const std::ostringstream& given) {
+    return field + ": must be " + rule + ", got " + given.str();
+  };
   switch (result) {
     case GateResult::accepted:
     case GateResult::relocation:
       return "";
     case GateResult::not_finite:
-      if (!std::isfinite(sample.t)) return stamp.str() + " is not allowed: must be a finite number";
-      return place.str() + "finite numbers";
+      if (!std::isfinite(sample.t)) return must_be("stamp", "finite", stamp);
+      return p.allFinite() ? must_be("rotation", "finite", rotation) : must_be("position", "finite", position);
     case GateResult::bad_quaternion:
-      return rotation.str() + "of length 1 within quaternion_tolerance = " + text(settings.quaternion_tolerance);
+      return must_be("rotation", "of length 1 within quaternion_tolerance = " + text(settings.quaternion_tolerance),
+                     rotation);
     case GateResult::too_far:
-      return position.str() + "within max_distance = " + text(settings.max_distance) + " m";
+      return must_be("position", "within max_distance = " + text(settings.max_distance) + " m", position);
     case GateResult::not_later:
-      return stamp.str() + " s is not allowed: must be later than the last one";
+      return must_be("stamp", "later than the last one", stamp);
     case GateResult::too_close:
-      return stamp.str() + " s is not allowed: must be a quarter of the usual interval after the last one";
+      return must_be("stamp", "a quarter of the usual interval after the last one", stamp);
     case GateResult::too_fast:
-      return position.str() + "reached at max_speed = " + text(settings.max_speed) + " m/s or less";
+      return must_be("position", "reached at max_speed = " + text(settings.max_speed) + " m/s or less", position);
     case GateResult::turns_too_fast:
-      return rotation.str() + "reached at max_turn_rate = " + text(settings.max_turn_rate) + " rad/s or less";
+      return must_be("rotation", "reached at max_turn_rate = " + text(settings.max_turn_rate) + " rad/s or less",
+                     rotation);
     case GateResult::out_of_view:
-      return position.str() + "farther than origin_radius = " + text(settings.origin_radius) + " m from the origin";
+      return must_be("position", "farther than origin_radius = " + text(settings.origin_radius) + " m from the origin",
+                     position);
   }
   return "";
 }

@@ -17,8 +17,8 @@ void Replayer::play(const Entry& entry, const AtStop& at_stop) {
     return;
   }
   if (entry.index != next_) {
-    validation::refuse("journal", "index", std::to_string(entry.index),
-                       std::to_string(next_) + ", the next one; a message was lost when it was recorded");
+    validation::refuse("journal", "index", std::to_string(entry.index) + "; the recording lost a message",
+                       std::to_string(next_) + ", the next one");
   }
   ++next_;
   go_to(entry.committed, at_stop);
@@ -62,7 +62,7 @@ void Replayer::apply(const Change& change) {
   if (hash != change.hash_before) {
     validation::refuse("journal",
                        "state before \"" + change.what + "\" at " + std::to_string(simulation_.front().time()) + " s",
-                       simulation::to_hex(hash), simulation::to_hex(change.hash_before) + ", as it was");
+                       simulation::to_hex(hash), "as recorded, " + simulation::to_hex(change.hash_before));
   }
   if (change.state == simulation::SimulationState()) return;
   ++changes_;

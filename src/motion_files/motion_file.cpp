@@ -66,7 +66,7 @@ Line read_line(const std::vector<std::string>& words, const std::string& where) 
 
 std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
   std::ifstream file(path);
-  if (!file) throw validation::InputError(path + ": cannot be read: must be a readable motion file");
+  if (!file) throw validation::InputError(path + ": cannot be read; give a readable motion file");
   std::vector<motion::StylusSample> samples;
   std::size_t fields = 0;
   long double first_stamp = 0.0L;
@@ -80,7 +80,7 @@ std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
     }
     if (fields != 0 && words.size() != fields) {
       validation::refuse(where, "line", std::to_string(words.size()) + " fields",
-                         std::to_string(fields) + " as in the lines before");
+                         std::to_string(fields) + " fields, as in the lines before");
     }
     const Line line = read_line(words, where);
     if (samples.empty()) {
@@ -90,9 +90,8 @@ std::vector<motion::StylusSample> read_motion_file(const std::string& path) {
     samples.push_back(line.sample);
     samples.back().t = whole_nanoseconds(line.stamp - first_stamp);
   }
-  if (file.bad()) throw validation::InputError(path + ": cannot be read: must be a readable motion file");
-  if (samples.empty())
-    throw validation::InputError(path + ": no samples: must have a line of t x y z qx qy qz qw [button]");
+  if (file.bad()) throw validation::InputError(path + ": cannot be read; give a readable motion file");
+  if (samples.empty()) throw validation::InputError(path + ": no samples; give lines of t x y z qx qy qz qw [button]");
   return samples;
 }
 

@@ -36,8 +36,8 @@ ScriptedSource::ScriptedSource(const std::string& path) {
     if (i == 0) first = waypoint.t;
     waypoint.t -= first;
     if (i > 0 && !(waypoint.t - waypoints_.back().t > closest_samples)) {
-      throw validation::InputError(path + ":" + std::to_string(list[i].Mark().line + 1) + ": " + name + ".t: " +
-                                   list[i]["t"].Scalar() + " is not allowed: must be later than the waypoint before");
+      validation::refuse(path + ":" + std::to_string(list[i].Mark().line + 1), name + ".t", list[i]["t"].Scalar(),
+                         "later than the waypoint before");
     }
     waypoints_.push_back(waypoint);
   }

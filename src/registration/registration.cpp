@@ -55,15 +55,16 @@ void check_shape(const std::vector<Landmark>& landmarks, const Points& to) {
   if (landmarks.size() < 3) validation::refuse(kWhere, "landmarks", std::to_string(landmarks.size()), "at least 3");
   std::set<std::string> names;
   for (const Landmark& landmark : landmarks) {
-    if (!names.insert(landmark.name).second) validation::refuse(kWhere, "landmarks", landmark.name, "named once");
+    if (!names.insert(landmark.name).second)
+      validation::refuse(kWhere, "landmarks", landmark.name + " twice", "named once each");
     if (!landmark.p_B.allFinite() || !landmark.p_T.allFinite())
-      validation::refuse(kWhere, landmark.name, "nan", "finite numbers");
+      validation::refuse(kWhere, landmark.name, "NaN or infinity", "finite numbers");
   }
   const Points centred = to.colwise() - Vector3d(to.rowwise().mean());
   const Vector3d spread = Eigen::JacobiSVD<Eigen::MatrixXd>(centred).singularValues().head<3>();
   if (const double off_line = spread[1] / std::sqrt(static_cast<double>(to.cols())); off_line < thinnest) {
-    validation::refuse(kWhere, "landmarks", millimetres(off_line) + " off one line",
-                       millimetres(thinnest) + " off it or more");
+    validation::refuse(kWhere, "landmarks", millimetres(off_line),
+                       "at least " + millimetres(thinnest) + " off a common line");
   }
 }
 
@@ -81,16 +82,16 @@ void check_fit(const std::vector<Landmark>& landmarks, const Registration& resul
   const auto other = best_other_order(to, from);
   if (*worst > largest_residual) {
     const std::string name = landmarks[static_cast<std::size_t>(worst - result.residuals.begin())].name;
-    std::string rule = "within " + millimetres(largest_residual);
+    std::string given = millimetres(*worst);
     if (other && other->first < largest_residual) {
-      rule += "; the touches fit the order " + in_order(landmarks, other->second);
+      given += "; the touches fit the order " + in_order(landmarks, other->second);
     }
-    validation::refuse(kWhere, name, "a residual of " + millimetres(*worst), rule);
+    validation::refuse(kWhere, "residual of " + name, given, "at most " + millimetres(largest_residual));
   }
   if (other && other->first < std::max(3.0 * result.rms, 0.5 * largest_residual)) {
-    validation::refuse(kWhere, "landmarks", "a symmetric arrangement",
-                       "one that fits in one order alone: " + in_order(landmarks, other->second) + " fits to " +
-                           millimetres(other->first) + " as well");
+    validation::refuse(kWhere, "landmarks",
+                       in_order(landmarks, other->second) + ", which fits to " + millimetres(other->first) + " as well",
+                       "arranged so that only one order fits");
   }
 }
 
@@ -141,11 +142,11 @@ PivotCalibration calibrate_tip(const std::vector<RigidTransform>& poses_TS, doub
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const double turned = svd.singularValues()[5] / std::sqrt(static_cast<double>(n));
   if (!(turned > least_turned))
-    validation::refuse(kWhere, "poses", "too little turning", "turned by 20 degrees or more about two axes");
+    validation::refuse(kWhere, "poses", "less", "turned by at least 20 degrees about two axes");
   const Eigen::VectorXd x = svd.solve(b);
   PivotCalibration result{x.head<3>(), x.tail<3>(), std::sqrt((A * x - b).squaredNorm() / static_cast<double>(n))};
   if (!(result.rms <= largest_rms)) {
-    validation::refuse(kWhere, "tip", "an rms of " + millimetres(result.rms), "within " + millimetres(largest_rms));
+    validation::refuse(kWhere, "rms of the tip", millimetres(result.rms), "at most " + millimetres(largest_rms));
   }
   return result;
 }

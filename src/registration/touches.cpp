@@ -38,13 +38,13 @@ std::vector<Landmark> read_landmarks(const std::string& path) {
   const YAML::Node map = config::load_yaml_file(path);
   config::check_keys(map, path, "", {"landmarks"});
   if (!map["landmarks"] || !map["landmarks"].IsSequence()) {
-    validation::refuse(path, "landmarks", "(no list)", "a list of {name, position}");
+    validation::refuse(path, "landmarks", "no list", "a list of {name, position}");
   }
   std::vector<Landmark> landmarks;
   for (const YAML::Node& entry : map["landmarks"]) {
     config::check_keys(entry, path, "landmarks.", {"name", "position"});
     if (!entry["name"] || !entry["position"])
-      validation::refuse(path, "landmarks", "an entry without them", "{name, position}");
+      validation::refuse(path, "landmarks", "an entry without name or position", "a list of {name, position}");
     landmarks.push_back(
         {config::read_string(entry["name"], path, "name"), read_point(entry["position"], path, "position"), {}});
   }
@@ -67,7 +67,7 @@ std::vector<Landmark> touched_landmarks(std::vector<Landmark> landmarks,
                                         double largest_residual) {
   if (touches.size() != landmarks.size()) {
     validation::refuse("registration", "touches", std::to_string(touches.size()),
-                       "as many as landmarks: " + std::to_string(landmarks.size()));
+                       "one per landmark (" + std::to_string(landmarks.size()) + ")");
   }
   for (std::size_t i = 0; i < touches.size(); ++i) {
     Vector3d mean = Vector3d::Zero();
@@ -77,9 +77,9 @@ std::vector<Landmark> touched_landmarks(std::vector<Landmark> landmarks,
     for (const motion::StylusSample& sample : touches[i]) {
       const double off = (sample.X.translation() - mean).norm();
       if (off <= largest_residual) continue;
-      validation::refuse("registration", "touch of " + landmarks[i].name,
-                         "a tip that moved by " + std::to_string(1e3 * off) + " mm",
-                         "at rest within " + std::to_string(1e3 * largest_residual) + " mm while the button is down");
+      validation::refuse(
+          "registration", "touch of " + landmarks[i].name, "a tip that moved by " + std::to_string(1e3 * off) + " mm",
+          "at rest to within " + std::to_string(1e3 * largest_residual) + " mm while the button is down");
     }
     landmarks[i].p_T = mean;
   }

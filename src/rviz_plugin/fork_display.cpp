@@ -148,7 +148,7 @@ bool ForkDisplay::deform(const ForkState& fork) {
         fork.strain.data(),
         std::min<Eigen::Index>(static_cast<Eigen::Index>(fork.strain.size()), rod::max_strain_coordinates));
     if (q.size() != shape->size() || !shape->admissible(q) || !is_finite(fork.proxy_handle)) {
-      throw validation::InputError("strain: must be what a rod of shape " + fork.shape + " can have");
+      throw validation::InputError("strain: must be possible for a rod of shape " + fork.shape);
     }
     const auto& p = fork.proxy_handle.position;
     const auto& r = fork.proxy_handle.orientation;

@@ -207,7 +207,7 @@ void WorkbenchPanel::refresh() {
   const bool alive = now - fork_received_ < longest_silence;
   if (alive != controls_->isEnabled() || (!alive && fork_)) {
     controls_->setEnabled(alive);
-    answer_->setText(alive ? "" : "manipulation is silent: is it running?");
+    answer_->setText(alive ? "" : "no data from manipulation: is it running?");
   }
   if (!alive) {
     fork_.reset();
@@ -237,7 +237,7 @@ void WorkbenchPanel::show_fork() {
 
 void WorkbenchPanel::show_steps() {
   if (!steps_) {
-    figures_->setText("no figures");
+    figures_->setText("no data");
     left_out_->clear();
     return;
   }
@@ -246,7 +246,7 @@ void WorkbenchPanel::show_steps() {
                         .arg(steps_->position_error, 0, 'g', 2)
                         .arg(missed_));
   const QString skipped = QString::fromStdString(validation::join(steps_->skipped));
-  left_out_->setText("left out: " + (skipped.isEmpty() ? "nothing" : skipped));
+  left_out_->setText("skipped: " + (skipped.isEmpty() ? "nothing" : skipped));
 }
 
 void WorkbenchPanel::set_dofs() {

@@ -83,14 +83,14 @@ RigidMass mended_mass(const RigidMass& given, const std::vector<geometry::Shape>
   if (!(given.mass > 0.0)) {
     const RigidMass solid = solid_mass(shapes, density, where, warnings);
     if (!(solid.mass > 0.0))
-      validation::refuse(where, "mass", "0", "> 0, or the movable body must have a shape with a volume");
+      validation::refuse(where, "mass", "0", "> 0 unless the movable body has a shape with a volume");
     return solid;
   }
   const std::string defect = inertia_defect(given, shapes);
   if (defect.empty()) return given;
   const RigidMass solid = solid_mass(shapes, density, where, warnings);
   if (!(solid.mass > 0.0))
-    validation::refuse(where, "inertia", "one that " + defect, "possible, or the body must have a shape");
+    validation::refuse(where, "inertia", "one that " + defect, "physically possible unless the body has a shape");
   warnings.push_back(where + ": inertia " + defect + ": its shape's is taken");
   return {given.mass, given.centre, solid.inertia * (given.mass / solid.mass)};
 }

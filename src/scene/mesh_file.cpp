@@ -73,7 +73,7 @@ void check_indices(const geometry::TriangleMesh& mesh, const std::string& where)
         validation::refuse(where, "vertex index", std::to_string(t[k]), "below the number of vertices");
       }
       if (!mesh.corner(t, k).allFinite()) {
-        validation::refuse(where, "vertex", "a number that is not finite", "finite");
+        validation::refuse(where, "vertex", "NaN or infinity", "finite");
       }
     }
   }
@@ -97,9 +97,10 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
   }
   std::error_code error;
   if (!fs::is_regular_file(path, error))
-    validation::refuse(where, key, name, "a file that is there (looked for " + path + ")");
+    validation::refuse(where, key, name,
+                       name.empty() ? "an existing file" : "an existing file (looked for " + path + ")");
   if (!roots.empty() && !is_in_a_root(path, roots) && !is_in_a_package(path)) {
-    validation::refuse(where, key, name, "in a ROS package or one of the folders " + validation::join(roots));
+    validation::refuse(where, key, name, "in a ROS package or in one of the folders " + validation::join(roots));
   }
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error || bytes > most_bytes) {
@@ -140,7 +141,7 @@ bool is_closed(const geometry::TriangleMesh& mesh) {
 
 geometry::MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale, const std::string& folder,
                                   const std::string& where) {
-  if (!scale.allFinite() || scale.prod() == 0.0) validation::refuse(where, "mesh scale", name, "finite and not zero");
+  if (!scale.allFinite() || scale.prod() == 0.0) validation::refuse(where, "mesh scale", name, "finite and nonzero");
   const std::string path = resolve_file(name, folder, roots_, where, "mesh");
   geometry::MeshPtr& mesh = meshes_[{path, scale.x(), scale.y(), scale.z()}];
   if (mesh) return mesh;

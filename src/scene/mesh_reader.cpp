@@ -55,7 +55,8 @@ geometry::TriangleMesh read(const std::string& path, const std::string& where) {
   importer.SetIOHandler(new OneFile(path));  // which the importer then owns
   importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
   const aiScene* scene = importer.ReadFile(path, aiProcess_Triangulate | aiProcess_PreTransformVertices);
-  if (scene == nullptr) validation::refuse(where, "mesh", path, std::string("readable: ") + importer.GetErrorString());
+  if (scene == nullptr)
+    validation::refuse(where, "mesh", path, std::string("readable (") + importer.GetErrorString() + ")");
   std::size_t triangles = 0;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) triangles += scene->mMeshes[i]->mNumFaces;
   if (triangles > most_triangles) {

@@ -40,7 +40,7 @@ class SceneLoader {
   Scene load() {
     const fs::path yaml = fs::path(path_).replace_extension(".yaml");
     if (fs::symlink_status(yaml).type() != fs::file_type::not_found) {
-      file_ = read_scene_file(resolve_file(yaml.string(), "", roots_, path_, "the YAML beside it"));
+      file_ = read_scene_file(resolve_file(yaml.string(), "", roots_, path_, "the YAML file next to it"));
     }
     scene_ = file_.settings;
     scene_.name = fs::path(path_).stem().string();
@@ -88,7 +88,7 @@ class SceneLoader {
                          "the URDF of one object (one body, root not world or workbench)");
     }
     if (find_body(scene_, name))
-      validation::refuse(entry.where, "objects." + name, name, "a name that is not in the scene's URDF");
+      validation::refuse(entry.where, "objects." + name, name, "a name that the scene's URDF does not use");
     if (!entry.X_WL) lay_on_bench(scene_.bench_height, bodies);
     bodies.front().name = name;
     scene_.bodies.push_back(std::move(bodies.front()));
@@ -98,13 +98,13 @@ class SceneLoader {
   void check_names() const {
     std::vector<std::string> names;
     for (const Body& body : scene_.bodies) names.push_back(body.name);
-    const std::string rule = "a body of the scene: " + validation::join(names);
+    const std::string rule = "body of the scene (" + validation::join(names) + ")";
     for (const auto& [name, entry] : file_.objects) {
-      if (!find_body(scene_, name)) validation::refuse(entry.where, "objects", name, rule);
+      if (!find_body(scene_, name)) validation::refuse(entry.where, "objects", name, "a " + rule);
     }
     for (const auto& [name, where] : file_.targets) {
       const auto body = find_body(scene_, name);
-      if (!body || !scene_.bodies[*body].movable) validation::refuse(where, "targets", name, "movable and " + rule);
+      if (!body || !scene_.bodies[*body].movable) validation::refuse(where, "targets", name, "a movable " + rule);
     }
   }
 

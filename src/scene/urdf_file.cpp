@@ -117,7 +117,7 @@ void take_out(TiXmlElement& link, TiXmlElement& element, const std::string& comp
     const TiXmlElement* shape = shape_of(element);
     if (is_urdf_shape(shape)) throw validation::InputError(where + kind + ": " + complaint);
     const std::string what = shape != nullptr ? "shape '" + shape->ValueStr() + "'" : "shape missing";
-    file.warnings.push_back(where + kind + " left out: " + what + ", must be box, cylinder, mesh or sphere");
+    file.warnings.push_back(where + kind + " skipped: " + what + ", must be box, cylinder, mesh or sphere");
   }
   link.RemoveChild(&element);
 }
@@ -157,7 +157,7 @@ TiXmlDocument load_xml(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   std::ostringstream stream;
   if (!in || !(stream << in.rdbuf())) {
-    throw validation::InputError(path + ": cannot be read: must be a URDF file");
+    throw validation::InputError(path + ": cannot be read; give a readable URDF file");
   }
   const std::string text = stream.str();
   TiXmlDocument document;
@@ -191,7 +191,7 @@ struct Hung {
   const char* name = joint.Attribute("name");
   validation::refuse(validation::one_line(place(path, joint.Row()) + ": joint '" + (name != nullptr ? name : "") + "'"),
                      "child", validation::one_line(end_of(joint, "child")),
-                     "on no other joint, and not above its parent");
+                     "the child of no other joint, and not an ancestor of its parent");
 }
 
 /// Links make a tree; urdfdom takes others, too, walks them without an end, and never lets go of them.
@@ -226,9 +226,9 @@ UrdfFile read_urdf_file(const std::string& path) {
     std::size_t links = 0;
     for (TiXmlElement* link = robot->FirstChildElement("link"); link; link = link->NextSiblingElement("link")) {
       if (++links > most_links)
-        throw validation::InputError(path + ": links: must be at most " + std::to_string(most_links));
+        throw validation::InputError(path + ": links: must be at most " + std::to_string(most_links) + ", got more");
       if (link->Attribute("name") == nullptr)
-        throw validation::InputError(place(path, link->Row()) + ": link: name is missing");
+        throw validation::InputError(place(path, link->Row()) + ": link: name: missing; give each link a name");
       file.link_lines[link->Attribute("name")] = link->Row();
       try_elements(*link, file);
     }

@@ -53,7 +53,7 @@ Field number(const char* key, const char* unit, const NumberRule& rule, const ch
 }
 
 Field integer(const char* key, int min, int max, const char* meaning, int& value) {
-  const std::string allowed = "an integer in [" + std::to_string(min) + ", " + std::to_string(max) + "]";
+  const std::string allowed = "an integer between " + std::to_string(min) + " and " + std::to_string(max);
   return {
       {key, "int", "–", allowed, std::to_string(value), meaning},
       [=, &value](const auto& node, const auto& where) { value = config::read_integer(node, where, key, min, max); },
@@ -78,7 +78,7 @@ Field choice(const char* key, const char* meaning, T& value, const char* absent 
   return {{key, "string", "–", allowed, given(value) && index() < names.size() ? names[index()] : absent, meaning},
           [=, &value](const auto& node, const auto& where) { value = config::read_named<E>(node, where, key); },
           [=](const auto& where) {
-            if (index() >= names.size()) validation::refuse(where, key, "no value of its enum", allowed);
+            if (index() >= names.size()) validation::refuse(where, key, "an undefined value", allowed);
           }};
 }
 
@@ -86,12 +86,13 @@ std::vector<Field> scene_fields(S& s) {
   const char* as_scene = "as the scene says";
   return {
       choice("tool", "the tool in the hand", s.tool, as_scene),
-      choice("contact",
-             "none: nothing is felt; stop: the held object stops at everything else and slides on; dynamic: it pushes, "
-             "lifts and carries what it touches",
-             s.contact, as_scene),
+      choice(
+          "contact",
+          "none: no contact; stop: the held object stops at everything else and slides along it; dynamic: it pushes, "
+          "lifts and carries what it touches",
+          s.contact, as_scene),
       number("gravity", "m/s²", between(0.0, 1e3), "along −z of world", s.gravity, as_scene),
-      number("force_scale", "–", between(1e-9, 1e9), "virtual per real unit of force", s.force_scale, as_scene),
+      number("force_scale", "–", between(1e-9, 1e9), "ratio of virtual to real force", s.force_scale, as_scene),
   };
 }
 
@@ -101,7 +102,8 @@ std::vector<Field> dynamics_fields(dynamics::DynamicsSettings& d) {
       number("step", "s", between(1e-6, 1.0), "the largest step; a step also ends at every sample of the motion",
              d.step),
       number("tolerance", "m", between(0.0, stepping::StepControl::largest_tolerance),
-             "0: fixed steps; else steps are made short enough for the run's error to stay near this", d.tolerance),
+             "0: fixed steps; otherwise steps are short enough to keep the error of the run near this value",
+             d.tolerance),
       choice("inertia", "exact: the object's own; point_mass: the paper's I = r² m", d.inertia),
   };
 }
@@ -110,20 +112,24 @@ std::vector<Field> fork_fields(rod::ForkSettings& f) {
   const NumberRule stiffness = between(0.0, 1e16), ratio = between(0.0, 10.0), coefficient = between(0.0, 1e12);
   rod::PerDof &k = f.stiffness, &zeta = f.damping_ratio, &c = f.damping_coefficient;
   return {
-      choice("shape", "the fork's shape model: how its curvature may vary along it", f.shape),
+      choice("shape", "the fork's shape model: how its curvature varies along it", f.shape),
       number("fork.length", "m", between(1e-4, 1e3), "rest length", f.length),
-      number("fork.stiffness.stretch", "N/m", stiffness, "axial force per extension", k.stretch),
-      number("fork.stiffness.bend", "N/m", stiffness, "transverse tip force per tip deflection", k.bend),
-      number("fork.stiffness.torsion", "N·m/rad", stiffness, "axial moment per twist angle", k.torsion),
+      number("fork.stiffness.stretch", "N/m", stiffness, "axial force per unit extension", k.stretch),
+      number("fork.stiffness.bend", "N/m", stiffness, "transverse force at the tip per unit deflection of the tip",
+             k.bend),
+      number("fork.stiffness.torsion", "N·m/rad", stiffness, "axial moment per unit twist angle", k.torsion),
       number("fork.stiffness.slope", "N·m/rad", between(1e-12, 1e16),
-             "of the shape bushing: transverse moment per slope of the tip", f.slope_stiffness,
-             "k_bend L² / 3, as of a rod"),
+             "for the shape bushing only: transverse moment per unit slope of the tip", f.slope_stiffness,
+             "k_bend L² / 3, as for a rod"),
       number("fork.damping.stretch", "–", ratio, "damping ratio of stretching; 1 is critical", zeta.stretch),
       number("fork.damping.bend", "–", ratio, "damping ratio of bending; 1 is critical", zeta.bend),
       number("fork.damping.torsion", "–", ratio, "damping ratio of twisting; 1 is critical", zeta.torsion),
-      number("fork.damping_coefficient.stretch", "N·s/m", coefficient, "axial force per speed of extension", c.stretch),
-      number("fork.damping_coefficient.bend", "N·s/m", coefficient, "transverse force per speed of deflection", c.bend),
-      number("fork.damping_coefficient.torsion", "N·m·s/rad", coefficient, "axial moment per twist rate", c.torsion),
+      number("fork.damping_coefficient.stretch", "N·s/m", coefficient, "axial force per unit speed of extension",
+             c.stretch),
+      number("fork.damping_coefficient.bend", "N·s/m", coefficient, "transverse force per unit speed of deflection",
+             c.bend),
+      number("fork.damping_coefficient.torsion", "N·m·s/rad", coefficient, "axial moment per unit twist rate",
+             c.torsion),
       choice(
           "fork.damping_law",
           "per_dof: Kelvin–Voigt, the ratio that of each degree of freedom alone; modal: every mode of the held object "
@@ -133,7 +139,7 @@ std::vector<Field> fork_fields(rod::ForkSettings& f) {
       flag("fork.dofs.bend", "the fork bends; false: rigid", f.dofs.bend),
       flag("fork.dofs.torsion", "the fork twists; false: rigid", f.dofs.torsion),
       number("fork.switch_off_time", "s", between(1e-6, 1e3),
-             "time constant on which a degree of freedom that is switched off while strained goes back to zero strain",
+             "time constant with which a degree of freedom that is switched off while strained returns to zero strain",
              f.switch_off_time),
   };
 }
@@ -148,19 +154,19 @@ std::vector<Field> calibration_fields(tools::GraspSettings& s) {
           "proportion to what it lifts; object: size, springs and dampers from each object at its grasp; none: as set",
           s.calibrate),
       number("calibration.object.sag", "–", between(1e-3, 0.6),
-             "part of the fork's length by which the object's weight extends and deflects it", of_object.sag),
+             "fraction of the fork's length by which the object's weight extends and deflects it", of_object.sag),
       number("calibration.object.twist", "rad", between(1e-3, 1.5),
-             "twist by the weight of an object as dense as water at a lever of its radius of gyration",
+             "twist under the weight of an object as dense as water at a lever of its radius of gyration",
              of_object.twist),
       number("calibration.world.stretch", "–", between(1e-3, 3.0),
-             "part of the fork's length by which the weight of the heaviest object extends it", of_world.stretch),
+             "fraction of the fork's length by which the weight of the heaviest object extends it", of_world.stretch),
       number("calibration.world.bend", "–", between(1e-3, 0.6),
-             "part of the fork's length by which that weight, held level at its centre, deflects the tip",
+             "fraction of the fork's length by which that weight, held level at its centre, deflects the tip",
              of_world.bend),
       number("calibration.world.twist", "rad", between(1e-3, 1.0),
-             "twist by that weight at a lever of the object's radius of gyration", of_world.twist),
-      number("calibration.world.heaviest", "kg", between(1e-6, 1e6), "the end of the range of weights",
-             of_world.heaviest, "the scene's heaviest object"),
+             "twist under that weight at a lever of the object's radius of gyration", of_world.twist),
+      number("calibration.world.heaviest", "kg", between(1e-6, 1e6), "the weight to calibrate for", of_world.heaviest,
+             "the scene's heaviest object"),
   };
 }
 
@@ -169,26 +175,27 @@ std::vector<Field> grasp_fields(S& s) {
   std::optional<RigidTransform>& tip = s.grasp.X_OE;
   return {
       number("limit.force", "N", validation::positive_or_infinite(),
-             "what would take a larger force at the tip than this is let go", s.limit.force),
+             "an object that would take a larger force at the tip is released", s.limit.force),
       number("limit.moment", "N·m", validation::positive_or_infinite(),
-             "what would take a larger moment at the tip than this is let go", s.limit.moment),
+             "an object that would take a larger moment at the tip is released", s.limit.moment),
       {{"grasp.object", "string", "–", "the name of a movable object of the scene", "none: grasped by button",
         "this object is held from the first sample to the last"},
        [&](const auto& node, const auto& where) { object = config::read_string(node, where, "grasp.object"); },
        [](const auto&) {}},  // which objects there are, the scene knows
-      {{"grasp.tip_in_object", "double list", "m, –", "x y z qx qy qz qw, the quaternion not zero",
-        "where the tip is when it grasps", "the tip frame in the object's centre-of-mass frame"},
+      {{"grasp.tip_in_object", "double list", "m, –", "x y z qx qy qz qw, the quaternion nonzero",
+        "the pose of the tip at the grasp", "the tip frame in the object's centre-of-mass frame"},
        [&](const auto& node, const auto& where) { tip = config::read_pose(node, where, "grasp.tip_in_object"); },
        [&](const auto& where) {
          if (!tip || tip->matrix().allFinite()) return;
-         validation::refuse(where, "grasp.tip_in_object", "a pose that is not finite", "finite");
+         validation::refuse(where, "grasp.tip_in_object", "NaN or infinity", "a finite pose");
        }},
       flag("start.follow", "move the object so that the grasp fits the first pose of the handle", s.grasp.start_follow),
       choice("release", "a released object keeps its velocity (thrown) or is set to rest (dropped)", s.grasp.release),
       number("dropout_after", "s", validation::positive_or_infinite(),
              "a longer gap between samples holds the handle still until the next one", s.dropout_after),
       integer("bisection_levels", 0, 30,
-              "how often the end of a step that touches is halved (the paper, section 5); 0: time of impact instead",
+              "number of halvings that find the end of a step that touches (the paper, section 5); 0: time of impact "
+              "instead",
               s.bisection_levels),
   };
 }
@@ -236,11 +243,11 @@ void check_together(const S& settings, const std::string& where) {
   if (fork.damping_law == rod::DampingLaw::modal && !one_ratio) {
     validation::refuse(where, "fork.damping",
                        text_of(ratio.stretch) + ", " + text_of(ratio.bend) + ", " + text_of(ratio.torsion),
-                       "the same for stretch, bend and torsion where the damping law is modal");
+                       "the same for stretch, bend and torsion if the damping law is modal");
   }
   if (settings.grasp.X_OE && !settings.grasp.start_follow) {
-    validation::refuse(where, "grasp.tip_in_object", "(a pose)",
-                       "used with start.follow: true, so that the object can move to it");
+    validation::refuse(where, "grasp.tip_in_object", "a pose without it",
+                       "given with start.follow: true, so that the object can move to it");
   }
 }
 
@@ -288,7 +295,7 @@ std::vector<SettingDescription> setting_descriptions() {
 }
 
 void apply_settings(const YAML::Node& values, const std::string& where, SimulationSettings& settings) {
-  if (!values.IsMap()) validation::refuse(where, "(top level)", "what is given", "a map of settings");
+  if (!values.IsMap()) validation::refuse(where, "top level", "no map", "a map of settings");
   std::vector<KeyAndValue> flat;
   flatten(values, where, "", flat);
   SimulationSettings changed = settings;

@@ -33,7 +33,7 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings) {
     if (b.movable) names.push_back(b.name);
   }
   validation::refuse(scene.path, "grasp.object", settings.grasp.object,
-                     "a movable object of the scene: " + validation::join(names));
+                     "a movable object of the scene (" + validation::join(names) + ")");
 }
 
 }  // namespace
@@ -310,7 +310,7 @@ void Simulation::reset() {
 
 void Simulation::place(const std::map<std::string, RigidTransform>& X_WO) {
   for (const auto& [name, X] : X_WO) {
-    if (!X.matrix().allFinite()) validation::refuse("place", name, "a pose that is not finite", "finite");
+    if (!X.matrix().allFinite()) validation::refuse("place", name, "NaN or infinity", "a finite pose");
   }
   release();
   for (const auto& [name, X] : X_WO) {
@@ -383,9 +383,7 @@ ChangeReport Simulation::calibrate() {
   change.elastic_energy_before = impl_->elastic_energy();
   bool done = false;
   for (Hand& hand : impl_->hands) done = hand.calibrate(change, impl_->now) || done;
-  if (!done)
-    throw validation::InputError(
-        "calibrate: held object: none is not allowed: must be an object on a fork or a spring");
+  if (!done) throw validation::InputError("calibrate: no object is held by a fork or a spring; call it while one is");
   change.elastic_energy_after = impl_->elastic_energy();
   return change;
 }
@@ -406,7 +404,7 @@ void Simulation::restore(const SimulationState& state) {
     impl_->set(state.words_);
   } catch (const std::exception& error) {
     impl_->set(present.words_);
-    throw validation::InputError(std::string("restore: numbers that are no state: ") + error.what());
+    throw validation::InputError(std::string("restore: not a saved state: ") + error.what());
   }
 }
 

@@ -9,12 +9,22 @@
 namespace spring_workbench::validation {
 namespace {
 
+/// As few digits as give the value, 12 at most; 1e-6 and 1e9 without zeros.
 std::string number_text(double value) {
   if (std::isnan(value)) return "nan";  // without a sign
-  std::ostringstream out;
-  out.precision(12);
-  out << value;
-  return out.str();
+  std::string text;
+  for (const int digits : {6, 12}) {
+    std::ostringstream out;
+    out.precision(digits);
+    out << value;
+    text = out.str();
+    if (double read = 0.0; std::istringstream(text) >> read && read == value) break;
+  }
+  const std::size_t e = text.find('e');
+  if (e == text.npos) return text;
+  if (text[e + 2] == '0') text.erase(e + 2, 1);
+  if (text[e + 1] == '+') text.erase(e + 1, 1);
+  return text;
 }
 
 }  // namespace
@@ -27,10 +37,9 @@ bool NumberRule::allows(double value) const {
 
 std::string NumberRule::text() const {
   constexpr double unbounded = std::numeric_limits<double>::max();
+  if (min > -unbounded && max < unbounded) return "a number between " + number_text(min) + " and " + number_text(max);
   std::string text = "a finite number";
-  if (min > -unbounded && max < unbounded) {
-    text += std::string(" in ") + (min_allowed ? "[" : "(") + number_text(min) + ", " + number_text(max) + "]";
-  } else if (min > -unbounded) {
+  if (min > -unbounded) {
     text += (min_allowed ? " >= " : " > ") + number_text(min);
   } else if (max < unbounded) {
     text += " <= " + number_text(max);
@@ -39,10 +48,11 @@ std::string NumberRule::text() const {
 }
 
 void refuse(const std::string& where, const std::string& key, const std::string& value, const std::string& rule) {
-  const std::string given = value.empty() ? "(nothing)" : value;
+  const std::string place = where + ": " + key + ": ";
+  if (value.empty()) throw InputError(one_line(place + "missing; give " + rule));
   const auto now = renamed_values().find(value);
-  const std::string allowed = now == renamed_values().end() ? rule : now->second + ", which has taken its place";
-  throw InputError(one_line(where + ": " + key + ": " + given + " is not allowed: must be " + allowed));
+  const std::string allowed = now == renamed_values().end() ? rule : now->second + ", which has replaced it";
+  throw InputError(one_line(place + "must be " + allowed + ", got " + value));
 }
 
 void check_number(const std::string& where, const std::string& key, double value, const NumberRule& rule) {

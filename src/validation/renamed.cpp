@@ -36,8 +36,8 @@ const std::map<std::string, std::string>& renamed_values() {
 
 std::string unknown_key(const std::string& key, const std::string& known) {
   const auto found = renamed().find(key);
-  return found != renamed().end() ? "unknown key; it is called " + found->second + " now"
-                                  : "unknown key; known are " + known;
+  return found != renamed().end() ? "unknown key; it is now called " + found->second
+                                  : "unknown key; known keys are " + known;
 }
 
 }  // namespace spring_workbench::validation

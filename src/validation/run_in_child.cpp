@@ -81,8 +81,8 @@ std::string read_all(int file) {
 }
 
 [[noreturn]] void refuse_without_child(int reason) {
-  throw InputError(std::string("child process: cannot be made: ") + std::strerror(reason) +
-                   ": must be possible, to read what may do harm");
+  throw InputError(std::string("child process: cannot be created (") + std::strerror(reason) +
+                   "); files are read in one, so that a bad file does no harm");
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ BAGS = {  # what is in them: parent, child; or the word of the line that refuses
     "rosbagjs_turtlesim_tf.bag": ("world", "turtle1"),
     "fuse_turtlebot3_odom_bz2.bag": "none",
     "rosbagjs_no-messages.bag": "none",
-    "rosbagjs_not-a-bag.bag": "must be a bag",
+    "rosbagjs_not-a-bag.bag": "cannot be read as a bag",
 }
 
 

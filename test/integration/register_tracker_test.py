@@ -133,10 +133,10 @@ class RegisterTracker(unittest.TestCase):
         tip = self.file("tip.yaml", "tip: [0.01, -0.02, 0.15]\n")
         again = ["--landmarks", known, "--registration", tip, "--motion"]
         self.refuse("order b, a, c, d, e", *again, self.motion([straight[i] for i in (1, 0, 2, 3, 4)]))
-        self.refuse("touches: 4", *again, self.motion(straight[:4]))
+        self.refuse("touches: must be one per landmark (5), got 4", *again, self.motion(straight[:4]))
         self.refuse("at rest", "--landmarks", known, "--motion", self.motion(straight))  # without the tip
         self.refuse(
-            "turning",
+            "turned by",
             "--pivot",
             "--motion",
             self.file("still.tum", "".join("%g 0 0 0 0 0 0 1 %d\n" % (0.02 * k, k > 10) for k in range(100))),

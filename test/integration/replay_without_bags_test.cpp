@@ -4,7 +4,8 @@ namespace spring_workbench {
 namespace {
 
 TEST_F(Replay, ABuildWithoutRosRefusesBags) {
-  expect_refused("--scene box.urdf --bag hand.bag --out run.csv", {"--bag: hand.bag is not allowed", "ROS"});
+  expect_refused("--scene box.urdf --bag hand.bag --out run.csv",
+                 {"--bag: must be given to a build with ROS", "hand.bag"});
 }
 
 }  // namespace

@@ -139,7 +139,7 @@ def test_bad_settings_are_refused(values, words):
 def test_what_is_no_pose_is_refused():
     simulation = holding()
     for matrix in [np.eye(3), np.full((4, 4), np.nan), 2.0 * np.eye(4), np.diag([1.0, 1.0, -1.0, 1.0])]:
-        with pytest.raises(sw.InputError, match="pose: .* must be"):
+        with pytest.raises(sw.InputError, match="pose: .*must be"):
             simulation.push_stylus(20.0, matrix)
     with pytest.raises(sw.InputError):
         sw.pose([0.0, 0.0, 0.0], [0.0, 0.0, 0.0, 0.0])

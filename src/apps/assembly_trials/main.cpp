@@ -13,7 +13,7 @@ namespace spring_workbench::assembly_trials {
 namespace {
 
 void expect_written(bool written, const std::string& path) {
-  if (!written) throw validation::InputError(path + ": cannot be written: must be a file that can");
+  if (!written) throw validation::InputError(path + ": cannot be written; give a writable path");
 }
 
 void write_file(const std::string& path, const std::string& text) {
@@ -40,8 +40,7 @@ std::string motion_text(const std::vector<motion::StylusSample>& motion) {
 /// Runs the trials and writes what was asked for.
 void run(const Options& options) {
   const scene::Scene scene = scene::load_scene(options.scene);
-  if (scene.targets.empty())
-    throw validation::InputError(scene.path + ": targets: none is not allowed: must be at least one");
+  if (scene.targets.empty()) validation::refuse(scene.path, "targets", "none", "at least one");
   for (const std::string& path : {options.out, options.table, options.record}) {  // before hours of trials
     if (!path.empty()) expect_written(std::ofstream(path, std::ios::app).good(), path);
   }

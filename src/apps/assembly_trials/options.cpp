@@ -26,28 +26,28 @@ std::optional<Options> parse_options(int argc, char** argv) {
                                   config::text_option("record", options.record)})) {
     return std::nullopt;
   }
-  if (options.scene.empty()) validation::refuse(command_line, "--scene", "(nothing)", "a URDF of a scene with targets");
+  if (options.scene.empty()) validation::refuse(command_line, "--scene", "", "a URDF of a scene with targets");
   return options;
 }
 
 std::string help_text() {
-  return R"(A simulated operator assembles a scene with one tool after the other: no person, no ROS, no clock.
-The same arguments give the same bytes out.
+  return R"(A simulated operator assembles a scene with one tool after another, without a person, ROS or a clock.
+The same arguments give bit-identical output.
 
 assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--trials N] [--seed S] [--out TRIALS.csv]
                 [--table TABLE.md] [--record HAND.tum]
 
   --scene     a scene whose YAML file has targets: path or package:// URI of the URDF
-  --settings  a YAML file of settings, as of replay; of all tools
-  --tool      one tool alone: )" +
+  --settings  a YAML file of settings for all tools, as for replay
+  --tool      one tool only: )" +
          validation::join(tool_labels()) + R"(; default: each of them
-  --trials    of each tool; default 20
-  --seed      of the first trial; the others count up; default 1
+  --trials    number of trials per tool; default 20
+  --seed      seed of the first trial, which increases by 1 per trial; default 1
   --out       a line of CSV per trial:
               tool,seed,)" +
          assembly::score_csv_header() + R"(
-  --table     a table in Markdown of each tool's mean and its 95 % confidence interval
-  --record    the hand of the first trial as a motion file: replay and tracker_driver play it
+  --table     a Markdown table of the means of each tool with 95 % confidence intervals
+  --record    the hand of the first trial as a motion file for replay and tracker_driver
 
 Without --out the lines go to standard output. Exit status: 0 done; 2 bad arguments or input, with one line on standard
 error.

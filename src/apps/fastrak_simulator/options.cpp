@@ -32,37 +32,37 @@ std::optional<Options> parse_options(int argc, char** argv) {
            config::integer_option("seed", 0, std::numeric_limits<int>::max(), options.seed)})) {
     return std::nullopt;
   }
-  if (options.motions.empty())
-    validation::refuse(command_line, "--motion", "(nothing)", "the path of a motion file or script");
+  if (options.motions.empty()) validation::refuse(command_line, "--motion", "", "the path of a motion file or script");
   return options;
 }
 
 std::string help_text() {
-  return R"(A FASTRAK on a pseudo-terminal: understands its commands, plays motions, and fails on demand.
+  return R"(Simulates a FASTRAK on a pseudo-terminal: understands its commands, plays motions, and fails on demand.
 
 fastrak_simulator --motion FILE [--motion FILE ...] [--link PATH] [--rate HZ] [--speed X] [--duration S]
                   [--switch K ...] [--fault KIND[,rate=R][,from=S][,until=S] ...] [--seed N]
 
-  --motion    what a station does: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of
-              waypoints; the receiver in the transmitter's frame, round and round. The first is that of station 1, whose
-              button is the stylus'; up to four
+  --motion    the motion of a station: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml)
+              of waypoints; poses of the receiver in the transmitter's frame, played in a loop. The first one is for
+              station 1, with the button of the stylus; up to four
   --link      a symbolic link to the pseudo-terminal, whose path is printed on standard output in any case
-  --rate      records per second of all stations together, 0.1 ... 10000; 120, as the device
-  --speed     of the device's clock, 0.01 ... 1000; 1
-  --duration  of the device's clock [s]; 0: until it is interrupted
-  --switch    station K, 2 ... 4, has a stylus whose switch works, too: its motion's button. Of the maker's device
-              that of station 1 alone does, of devices that emulate it others may
-  --fault     what goes wrong from `from` to `until` [s; 0, for ever], with the part `rate` (0 ... 1; 1) of the records:
+  --rate      records per second of all stations together, 0.1 ... 10000; default 120, as the device
+  --speed     speed of the device's clock, 0.01 ... 1000; default 1
+  --duration  run time by the device's clock [s]; 0, the default: until interrupted
+  --switch    the switch of station K, 2 ... 4, also works, with the button of its motion. An original device has only
+              the switch of station 1; devices that emulate it may have others
+  --fault     a fault from `from` to `until` [s; 0, forever], in the fraction `rate` (0 ... 1; 1) of the records:
               garbage     random bytes before, in or after a record, or a bit that is wrong
               cut         a stretch of a record is missing
               error       error letters, and error records between the data
-              silence     nothing passes in either direction
-              wrong_mode  at `from` the device streams inches in ASCII with its default list
-              unplug      the pseudo-terminal is gone; afterwards there is a new one, the device as at power-on
+              silence     nothing is transmitted in either direction
+              wrong_mode  from `from` on the device streams inches in ASCII with its default list
+              unplug      the pseudo-terminal disappears; afterwards there is a new one, with the device as at power-on
               May be given several times.
-  --seed      of the faults; 1
+  --seed      seed of the faults; default 1
 
-On SIGINT, SIGTERM or after --duration it says how many records it sent, and how many it dropped because nobody read.
+On SIGINT, SIGTERM or after --duration it prints how many records it sent, and how many it dropped because
+they were not read.
 Exit status: 0 done; 1 failed; 2 bad arguments or motion, with one line on standard error.
 )";
 }

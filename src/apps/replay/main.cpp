@@ -30,7 +30,8 @@ class OutputFile {
   explicit OutputFile(const std::string& path) : path_(path) {
     std::error_code none;
     const auto status = std::filesystem::status(path, none);
-    if (std::filesystem::is_directory(status)) throw validation::InputError(path + ": cannot be written: is a folder");
+    if (std::filesystem::is_directory(status))
+      throw validation::InputError(path + ": cannot be written: it is a folder");
     const bool in_place = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
     written_path_ = in_place ? path : path + ".part" + std::to_string(getpid());
     file_.open(written_path_, std::ios::binary | std::ios::trunc);

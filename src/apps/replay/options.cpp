@@ -11,7 +11,7 @@ namespace {
 
 /// Applies `values`: the key `rate` here, all others to the settings of the simulation.
 void apply(const YAML::Node& values, const std::string& where, Options& options) {
-  if (!values.IsMap()) validation::refuse(where, "(top level)", "what is given", "a map of settings");
+  if (!values.IsMap()) validation::refuse(where, "top level", "no map", "a map of settings");
   YAML::Node settings(YAML::NodeType::Map);
   for (const auto& entry : values) {
     if (entry.first.IsScalar() && entry.first.Scalar() == "rate") {
@@ -34,28 +34,29 @@ void apply_assignment(const std::string& assignment, Options& options) {
 
 config::CommandOption once(const std::string& name, std::string& field) {
   return {name, [=, &field](const std::string& value) {
-            if (!field.empty()) validation::refuse(command_line, "--" + name, value, "given once");
-            if (value.empty()) validation::refuse(command_line, "--" + name, "(nothing)", "a path or a name");
+            if (!field.empty()) validation::refuse(command_line, "--" + name, "another, " + value, "given once");
+            if (value.empty()) validation::refuse(command_line, "--" + name, "", "a path or a name");
             field = value;
           }};
 }
 
 void add_motion(const std::string& path, std::vector<std::string>& motions) {
   constexpr std::size_t most = simulation::Simulation::most_hands;
-  if (path.empty()) validation::refuse(command_line, "--motion", "(nothing)", "a path");
+  if (path.empty()) validation::refuse(command_line, "--motion", "", "a path");
   if (motions.size() == most)
-    validation::refuse(command_line, "--motion", path, "given " + std::to_string(most) + " times at most");
+    validation::refuse(command_line, "--motion", "another, " + path,
+                       "given at most " + std::to_string(most) + " times");
   motions.push_back(path);
 }
 
 void check_complete(const Options& options) {
-  if (options.scene.empty()) validation::refuse(command_line, "--scene", "(nothing)", "the path of a scene's URDF");
+  if (options.scene.empty()) validation::refuse(command_line, "--scene", "", "the path of a scene's URDF");
   if (options.motions.empty() == options.bag.empty()) {
-    validation::refuse(command_line, "--motion, --bag", options.bag.empty() ? "none of both" : "both", "one of both");
+    validation::refuse(command_line, "--motion, --bag", options.bag.empty() ? "" : "both", "one of the two");
   }
   if (options.bag.empty() && !(options.parent + options.child).empty())
-    validation::refuse(command_line, "--parent, --child", "with --motion", "given with --bag");
-  if (options.out.empty()) validation::refuse(command_line, "--out", "(nothing)", "the path of the CSV file to write");
+    validation::refuse(command_line, "--parent, --child", "--motion", "given together with --bag");
+  if (options.out.empty()) validation::refuse(command_line, "--out", "", "the path of the CSV file to write");
 }
 
 }  // namespace
@@ -85,24 +86,25 @@ std::optional<Options> parse_options(int argc, char** argv) {
 
 std::string help_text() {
   std::ostringstream text;
-  text << R"(The simulation without ROS master or clock, from a recorded hand to CSV: same input, same bytes out.
+  text << R"(Runs the simulation on a recorded hand, without a ROS master or a clock, and writes CSV.
+Equal input gives bit-identical output.
 
 replay --scene SCENE.urdf (--motion FILE [--motion FILE] | --bag FILE.bag) [--settings FILE.yaml]
        [--set key=value ...] --out RUN.csv
 
-  --scene     a scene: path or package:// URI of a URDF; the YAML file of the same name beside it is read too
+  --scene     a scene: path or package:// URI of a URDF; a YAML file of the same name next to it is read, too
   --motion    the hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints.
-              Given twice: a hand each, both from their own first sample on
+              Give it twice for two hands; the time of each starts at its own first sample
   --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus) of any topic but
               /tf_static, and buttons 0 (grasp) and 1 (next tool) of stylus/joy; a second hand from CHILD_2 (stylus_2)
-              and stylus_2/joy, where the bag has them. A bag of ~accepted and ~changes of manipulation is a live run,
-              which is gone through again bit by bit, a line for each time that was committed
+              and stylus_2/joy, if the bag has them. If it has ~accepted and ~changes of manipulation, that live run
+              is repeated bit by bit, with a line for each committed time
   --settings  a YAML file of the keys below
-  --set       one key; may be given several times; wins over --settings
-  --out       writes RUN.csv and RUN.fork.csv; nothing is written when something fails
+  --set       one key; may be given several times; takes precedence over --settings
+  --out       writes RUN.csv and RUN.fork.csv; nothing is written if anything fails
 
-Times are in s from the first sample of all. Without a button in the motion, nothing is held unless grasp.object says
-so; with grasp.object, which the first hand holds, the buttons are not looked at.
+Times are in s from the first sample of all hands. Without a button in the motion, nothing is held unless grasp.object
+names an object, which the first hand then holds; the buttons are then ignored.
 
 RUN.csv, a line per output time and movable object (world, centre of mass; m, -, m/s, rad/s):
   t,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz
@@ -110,18 +112,18 @@ RUN.fork.csv, a line per output time and hand:
   t,fork,tool,held                          [s], the hand's fork (fork, fork_2), its tool, the object held
   stretch,bend_x,bend_y,torsion             [m, m, m, rad] strain, seen at the tip
   handle_x,...,handle_qw                    the hand in world
-  proxy_x,...,proxy_qw                      the handle that the object sees (differs where the object cannot follow)
+  proxy_x,...,proxy_qw                      the proxy handle (differs from the hand if the object cannot follow)
   tip_x,...,tip_qw                          the tip in world
   tip_fx,tip_fy,tip_fz,tip_mx,tip_my,tip_mz          [N, N*m] on the object, at the tip, world axes
-  handle_fx,...,handle_mz                            [N, N*m] what the hand would feel, handle axes
+  handle_fx,...,handle_mz                            [N, N*m] on the hand, handle axes
   elastic_energy,kinetic_energy             [J] of the fork; of the held object
 
 The last line on standard output is one JSON object: steps, simulated_time and wall_time and time_per_step [s], outputs,
-samples, samples_rejected (by the rules of input.*; rejected says why), reacquisitions, losses (of the hand),
+samples, samples_rejected (by the rules of input.*; rejected has the reasons), reacquisitions, losses (of the hand),
 position_error [m] and angle_error [rad] (the largest estimate of a step's local error), energy_drift [J] (added by
 integration beyond hand, gravity, damping and contact), stiffest_omega_dt, contacts (pairs that came into
-contact, as seen at the output times), collision_queries, steps_blocked (steps in which contact left an object
-no way and it stayed), time_lost [s] (of steps, in which an object did not follow its equation), steps_rejected,
+contact, as seen at the output times), collision_queries, steps_blocked (steps in which contact admitted no motion
+of an object), time_lost [s] (during which an object did not follow its equation), steps_rejected,
 state_hash (of the whole state at the end, 16 hexadecimal digits), active, skipped.
 Exit status: 0 done; 2 bad arguments or input, with one line on standard error.
 

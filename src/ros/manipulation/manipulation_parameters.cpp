@@ -29,7 +29,7 @@ ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters
   for (const auto& entry : parameters) rest[entry.first] = entry.second;
   ManipulationParameters result;
   const YAML::Node scene = ros_common::take(rest, "scene");
-  if (!scene) validation::refuse(where, "scene", "(nothing)", "a URDF's path or package:// URI");
+  if (!scene) validation::refuse(where, "scene", "", "a URDF's path or package:// URI");
   result.scene = config::read_string(scene, where, "scene");
   if (const YAML::Node roots = ros_common::take(rest, "scene_roots")) {
     if (!roots.IsSequence()) validation::refuse(where, "scene_roots", YAML::Dump(roots), "a list of folders");

@@ -27,7 +27,7 @@ void fill(const simulation::ChangeReport& report, Response& response) {
 std::optional<std::size_t> hand_of(unsigned stylus, const std::string& service) {
   constexpr std::size_t most = simulation::Simulation::most_hands;
   if (stylus > most) {
-    validation::refuse(service, "stylus", std::to_string(stylus), "an integer in [0, " + std::to_string(most) + "]");
+    validation::refuse(service, "stylus", std::to_string(stylus), "an integer between 0 and " + std::to_string(most));
   }
   return stylus > 0 ? std::optional<std::size_t>(stylus - 1) : std::nullopt;
 }
@@ -120,7 +120,7 @@ std::string release(live::SimulationRunner& runner) {
     s.release();
     return validation::join(names);
   });
-  if (held.empty()) throw validation::InputError("release: nothing is held: must be called while an object is held");
+  if (held.empty()) throw validation::InputError("release: no object is held; call it while one is");
   return "released " + held;
 }
 

@@ -106,8 +106,7 @@ bool StylusInput::is_followed(const std::string& sender) {
   const bool another = sender != sender_.name();
   if (!sender_.offers(sender, ros_common::local_time().attended)) {
     statistics_.other_sender = sender;
-    reject(another_sender, "tf: " + frame_ + ": sent by " + sender + " is not allowed: must be sent by one node, and " +
-                               sender_.name() + " does");
+    reject(another_sender, "tf: " + frame_ + ": must have one sender, " + sender_.name() + ", got also " + sender);
     return false;
   }
   if (another) wall_poses_.restart();
@@ -144,8 +143,8 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
   const std::string& parent = transform.header.frame_id;
   const std::optional<RigidTransform> X_WP = static_frames_.in_world(parent);
   if (!X_WP) {
-    reject("unknown frame", place_of(transform) + "frame_id: " + frame(parent) + " is not allowed: must be " +
-                                parameters_.workbench_frame + " or tied to it on /tf_static");
+    reject("unknown frame", place_of(transform) + "frame_id: must be " + parameters_.workbench_frame +
+                                " or tied to it on /tf_static, got " + frame(parent));
     return false;
   }
   const hand_input::RawSample sample = raw_sample(transform.transform, seconds(stamp));
@@ -157,9 +156,9 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
 void StylusInput::reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason,
                                double age) {
   statistics_.newest_offer_age = age;
-  reject(reason, place_of(transform) + "stamp: an age of " + number(age) + " s is not allowed: must be within " +
-                     "max_age = " + number(parameters_.max_age) +
-                     " s and go on with the stream (a bag needs --clock and use_sim_time)");
+  reject(reason, place_of(transform) + "stamp: must be within max_age = " + number(parameters_.max_age) +
+                     " s of now and continue its stream (a bag needs --clock and use_sim_time), got an age of " +
+                     number(age) + " s");
 }
 
 void StylusInput::count_rejected(const std::vector<live::RejectedPose>& poses) {
@@ -175,7 +174,7 @@ void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   // Without a clock yet there is no time that it could be of: an epoch that it began would be followed by the true one.
   if (ros::Time::now().isZero()) return reject("no clock", joy_ + ": no time on /clock yet");
   if (message->buttons.empty()) {
-    return reject("no buttons", joy_ + ": buttons: [] is not allowed: must be at least one button");
+    return reject("no buttons", joy_ + ": buttons: must be at least one button, got none");
   }
   if (!ros::Time::isSimTime()) {
     return on_buttons(*message,

@@ -63,21 +63,21 @@ class Listener {
 }  // namespace
 
 std::string help_text() {
-  return R"(Where the tracker stands on the workbench, or where the tip of the stylus is.
+  return R"(Finds the pose of the tracker on the workbench, or the tip of the stylus.
 
 register_tracker --landmarks FILE [--motion FILE] [--registration FILE] [--largest-residual MM] --out FILE
 register_tracker --pivot          [--motion FILE] [--registration FILE] [--largest-residual MM] --out FILE
 
-  --landmarks         YAML: landmarks: [{name: a, position: [x, y, z]}, ...], metres in the workbench. Touch one after
-                      the other, in this order, and press the button while the tip rests there
-  --pivot             hold the tip in one place, press the button, turn the stylus about it to all sides, let go
+  --landmarks         YAML: landmarks: [{name: a, position: [x, y, z]}, ...], metres in the workbench. Touch them
+                      in this order, and press the button while the tip rests on each
+  --pivot             hold the tip in one place, press the button, tilt the stylus in all directions, release
   --motion            a recorded motion with a button column, as the tracker measured it, in place of the running
                       tracker_driver
-  --registration      with --motion: the file found before, whose tip is to be used. A running driver has its own
-  --largest-residual  the most that a touch may be off, or the tip's rms [mm]; 5
+  --registration      with --motion: the file of an earlier run, whose tip is used. A running driver has its own
+  --largest-residual  largest error of a touch, or rms of the tip [mm]; default 5
   --out               the file to write, for `registration:=` of workbench.launch and fastrak.launch
 
-Exit status: 0 done; 1 failed; 2 what is given or touched cannot be used, with one line on standard error; nothing is
+Exit status: 0 done; 1 failed; 2 invalid arguments or touches, with one line on standard error; nothing is
 written then.
 )";
 }
@@ -96,10 +96,9 @@ std::optional<Options> parse_options(int argc, char** argv) {
     return std::nullopt;
   }
   options.largest_residual = 1e-3 * largest_residual;
-  if (options.out.empty()) validation::refuse(command_line, "--out", "(nothing)", "the path of the file to write");
+  if (options.out.empty()) validation::refuse(command_line, "--out", "", "the path of the file to write");
   if (options.pivot == !options.landmarks.empty()) {
-    validation::refuse(command_line, "--landmarks", options.pivot ? "given beside --pivot" : "(nothing)",
-                       "one of --landmarks and --pivot");
+    validation::refuse(command_line, "--landmarks", options.pivot ? "both" : "", "one of --landmarks and --pivot");
   }
   return options;
 }

@@ -110,7 +110,7 @@ class InteractiveMarkerSource final : public MessageSource {
   void on_feedback(const Feedback& feedback) {
     if (feedback->event_type != InteractiveMarkerFeedback::POSE_UPDATE) return;
     if (feedback->header.frame_id != workbench_frame_) {
-      return refuse_pose("frame_id: " + feedback->header.frame_id + " is not allowed: must be " + workbench_frame_);
+      return refuse_pose("frame_id: must be " + workbench_frame_ + ", got " + feedback->header.frame_id);
     }
     if (!is_pose(feedback->pose)) return refuse_pose("pose: must be finite, with a quaternion of length 1");
     follower_.set_goal(ros_common::from_message(feedback->pose));

@@ -31,7 +31,7 @@ int read_head_station(const YAML::Node& value, const std::string& where, const s
   const int station = config::read_integer(value, where, "head_station", 0, fastrak::kFastrakStations);
   if (station == 1 || (station > 0 && std::count(stations.begin(), stations.end(), station) == 0)) {
     validation::refuse(where, "head_station", std::to_string(station),
-                       "0, or one of stations but 1, which is the stylus");
+                       "0, or one of stations other than 1, which is the stylus");
   }
   return station;
 }
@@ -43,7 +43,7 @@ TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::st
   TrackerParameters result;
   for (const char* key : {"input", "truth"}) {
     if (parameters[key])
-      throw validation::InputError(where + ": " + key + ": unknown key; manipulation has ~input now");
+      throw validation::InputError(where + ": " + key + ": unknown key; it is now a parameter of manipulation, ~input");
   }
   if (parameters["source"]) {
     result.source =
@@ -65,7 +65,7 @@ TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::st
   };
   const auto text = [&](const char* key, std::string& value) {
     if (parameters[key]) value = config::read_string(parameters[key], where, key);
-    if (value.empty()) validation::refuse(where, key, "(nothing)", "a string that is not empty");
+    if (value.empty()) validation::refuse(where, key, "", "a non-empty string");
   };
   if (is_motion) text("file", result.file);
   if (result.source == "operator") {
@@ -92,8 +92,7 @@ TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::st
     result.even_stamps = config::read_bool(parameters["even_stamps"], where, "even_stamps");
   if (parameters["offset"]) result.X_BT = config::read_pose(parameters["offset"], where, "offset");
   if (parameters["start"]) {
-    if (parameters["offset"])
-      throw validation::InputError(where + ": start: is not allowed beside offset: must be one of the two");
+    if (parameters["offset"]) throw validation::InputError(where + ": start: must not be given together with offset");
     result.X_BS_first = config::read_pose(parameters["start"], where, "start");
   }
   return result;

@@ -4,8 +4,8 @@
 namespace spring_workbench::sound {
 
 std::unique_ptr<AudioOutput> open_audio_device() {
-  validation::refuse("contact sound", "file", "(nothing)",
-                     "given: this package was built without SDL 2, which plays sound");
+  validation::refuse("contact sound", "file", "",
+                     "a file to write: this package was built without SDL 2, which plays sound");
 }
 
 }  // namespace spring_workbench::sound

@@ -17,7 +17,8 @@ class SdlDevice final : public AudioOutput {
     wanted.samples = 512;
     if (SDL_InitSubSystem(SDL_INIT_AUDIO) == 0) device_ = SDL_OpenAudioDevice(nullptr, 0, &wanted, nullptr, 0);
     if (device_ == 0)
-      validation::refuse("contact sound", "sound device", SDL_GetError(), "there; or give a file to write");
+      throw validation::InputError(std::string("contact sound: sound device: cannot be opened (") + SDL_GetError() +
+                                   "); give a file to write instead");
     SDL_PauseAudioDevice(device_, 0);
   }
   ~SdlDevice() override {

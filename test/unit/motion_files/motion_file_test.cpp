@@ -95,27 +95,27 @@ TEST(MotionFile, BadLinesNameFileLineFieldValueAndRule) {
     const char* expected;  // after "file:3: "
   };
   const Bad table[] = {
-      {"abc 0 0 0 0 0 0 1", "t: abc is not allowed: must be a finite number"},
-      {"nan 0 0 0 0 0 0 1", "t: nan is not allowed: must be a finite number"},
-      {"1 0 inf 0 0 0 0 1", "y: inf is not allowed: must be a finite number"},
-      {"1 0 0 1e400 0 0 0 1", "z: 1e400 is not allowed: must be a finite number"},
-      {"1 2e9 0 0 0 0 0 1", "x: 2e9 is not allowed: must be a finite number in"},
-      {"1 0,5 0 0 0 0 0 1", "x: 0,5 is not allowed: must be a finite number"},
-      {"1 0.5.1 0 0 0 0 0 1", "x: 0.5.1 is not allowed: must be a finite number"},
-      {"1 0 0 0 NaN 0 0 1", "qx: NaN is not allowed: must be a finite number"},
-      {"1 0 0 0 0 0 0 0", "norm of qx qy qz qw: 0 is not allowed: must be a finite number in [0.5, 2]"},
-      {"1 0 0 0 0 0 0 0.1", "norm of qx qy qz qw: 0.1 is not allowed"},
-      {"1 0 0 0 2 2 2 2", "norm of qx qy qz qw: 4 is not allowed"},
-      {"1 0 0 0 0 0 1", "line: 7 fields is not allowed: must be t x y z qx qy qz qw [button]"},
-      {"1 0 0 0 0 0 0 1 1 1", "line: 10 fields is not allowed: must be t x y z qx qy qz qw [button]"},
-      {"1 0 0 0 0 0 0 1 1", "line: 9 fields is not allowed: must be 8 as in the lines before"},
+      {"abc 0 0 0 0 0 0 1", "t: must be a number between -1e12 and 1e12, got abc"},
+      {"nan 0 0 0 0 0 0 1", "t: must be a number between -1e12 and 1e12, got nan"},
+      {"1 0 inf 0 0 0 0 1", "y: must be a number between -1e9 and 1e9, got inf"},
+      {"1 0 0 1e400 0 0 0 1", "z: must be a number between -1e9 and 1e9, got 1e400"},
+      {"1 2e9 0 0 0 0 0 1", "x: must be a number between -1e9 and 1e9, got 2e9"},
+      {"1 0,5 0 0 0 0 0 1", "x: must be a number between -1e9 and 1e9, got 0,5"},
+      {"1 0.5.1 0 0 0 0 0 1", "x: must be a number between -1e9 and 1e9, got 0.5.1"},
+      {"1 0 0 0 NaN 0 0 1", "qx: must be a number between -2 and 2, got NaN"},
+      {"1 0 0 0 0 0 0 0", "norm of qx qy qz qw: must be a number between 0.5 and 2, got 0"},
+      {"1 0 0 0 0 0 0 0.1", "norm of qx qy qz qw: must be a number between 0.5 and 2, got 0.1"},
+      {"1 0 0 0 2 2 2 2", "norm of qx qy qz qw: must be a number between 0.5 and 2, got 4"},
+      {"1 0 0 0 0 0 1", "line: must be t x y z qx qy qz qw [button], got 7 fields"},
+      {"1 0 0 0 0 0 0 1 1 1", "line: must be t x y z qx qy qz qw [button], got 10 fields"},
+      {"1 0 0 0 0 0 0 1 1", "line: must be 8 fields, as in the lines before, got 9 fields"},
   };
   for (const Bad& bad : table) {
     const std::string text = std::string("# comment\n0 0 0 0 0 0 0 1\n") + bad.line + "\n2 0 0 0 0 0 0 1\n";
     const std::string start = std::string(":3: ") + bad.expected;
     EXPECT_EQ(refusal(text).substr(0, start.size()), start);
   }
-  EXPECT_EQ(refusal("0 0 0 0 0 0 0 1 0\n1 0 0 0 0 0 0 1 2\n"), ":2: button: 2 is not allowed: must be 0 or 1");
+  EXPECT_EQ(refusal("0 0 0 0 0 0 0 1 0\n1 0 0 0 0 0 0 1 2\n"), ":2: button: must be 0 or 1, got 2");
 }
 
 TEST(MotionFile, AFileWithoutSamplesIsRefused) {

@@ -216,7 +216,7 @@ TEST_F(LoadScene, AnInertialThatUrdfdomDropsTakesNothingElseWithIt) {
 TEST_F(LoadScene, AnUnknownShapeIsToldAndTakesNothingElseWithIt) {
   const Scene scene =
       load_part("<collision><geometry><capsule radius='1' length='1'/></geometry></collision><collision/>" + unit_box);
-  EXPECT_TRUE(warned(scene, "link 'part': collision left out: shape 'capsule'"));
+  EXPECT_TRUE(warned(scene, "link 'part': collision skipped: shape 'capsule'"));
   EXPECT_TRUE(warned(scene, "shape missing"));
   EXPECT_EQ(scene.bodies[0].collision.size(), 1u);
 }
@@ -553,10 +553,10 @@ TEST_F(LoadScene, TheYamlBesideItIsHeldToTheSameFolders) {
   };
   EXPECT_EQ(refusal(), "(loaded)");
   ASSERT_EQ(mkfifo(yaml.c_str(), 0600), 0);
-  EXPECT_TRUE(has(refusal(), "a file that is there"));
+  EXPECT_TRUE(has(refusal(), "an existing file"));
   for (const std::string target : {"/dev/zero", "/nowhere"}) {
     std::filesystem::create_symlink(target, yaml);
-    EXPECT_TRUE(has(refusal(), "a file that is there"));
+    EXPECT_TRUE(has(refusal(), "an existing file"));
   }
   std::filesystem::create_symlink(folder_.path("secret.yaml"), yaml);
   const std::string text = refusal();
@@ -585,7 +585,7 @@ TEST_F(LoadScene, ReadsFromTheFoldersAllowedAndFromPackagesAlone) {
   setenv("ROS_PACKAGE_PATH", folder_.path("").c_str(), 1);
   EXPECT_EQ(refusal_from(folder_.path("elsewhere/scene.urdf"), roots), "(loaded)");
   EXPECT_EQ(refusal_from("package://somewhere_else/scene.urdf", roots), "(loaded)");
-  EXPECT_TRUE(has(refusal_from("package://somewhere_else/../nothing.urdf", roots), "file that is there"));
+  EXPECT_TRUE(has(refusal_from("package://somewhere_else/../nothing.urdf", roots), "existing file"));
   setenv("ROS_PACKAGE_PATH", saved.c_str(), 1);
 }
 

@@ -52,7 +52,7 @@ std::string refusal_of(const std::string& yaml) {
 
 /// Those that the driver knows, as its refusal of an unknown one lists them.
 std::set<std::string> known_parameters(const std::string& source) {
-  const std::string text = refusal_of("{source: " + source + ", no_such_key: 1}"), marker = "known are ";
+  const std::string text = refusal_of("{source: " + source + ", no_such_key: 1}"), marker = "known keys are ";
   std::string list = text.substr(text.find(marker) + marker.size());
   for (char& c : list) c = c == ',' ? ' ' : c;
   std::set<std::string> names;
@@ -96,7 +96,7 @@ TEST(WhyNotSent, AnyPoseIsSentAndNothingElse) {
 TEST(TrackerParameters, InputSettingsAreSaidToBeOfManipulation) {
   for (const std::string key : {"input", "truth"}) {
     EXPECT_EQ(refusal_of("{file: a.tum, " + key + ": {max_speed: 5}}"),
-              "/tracker_driver: " + key + ": unknown key; manipulation has ~input now");
+              "/tracker_driver: " + key + ": unknown key; it is now a parameter of manipulation, ~input");
   }
 }
 

@@ -162,7 +162,7 @@ class BagReader {
   [[noreturn]] void refuse_missing() const {
     const std::vector<std::string> there(pairs_.begin(), pairs_.end());
     validation::refuse(path_, "transform", parent_ + " -> " + hands_.front().frame,
-                       there.empty() ? "one of the bag's, which has none" : "one of " + validation::join(there));
+                       there.empty() ? "in the bag, which has none" : "one of " + validation::join(there));
   }
 
   std::string path_, parent_;
@@ -181,7 +181,7 @@ auto reading(const std::string& path, Read&& read) {
   } catch (const validation::InputError&) {
     throw;
   } catch (const std::exception& e) {
-    throw validation::InputError(path + ": cannot be read: " + e.what() + ": must be a bag");
+    throw validation::InputError(path + ": cannot be read as a bag: " + e.what());
   }
 }
 

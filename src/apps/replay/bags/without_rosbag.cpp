@@ -4,11 +4,11 @@
 namespace spring_workbench::replay {
 
 std::vector<Motion> read_bag(const std::string& path, const std::string&, const std::string&) {
-  validation::refuse("command line", "--bag", path, "given to a build with ROS (SPRING_WORKBENCH_ROS)");
+  validation::refuse("command line", "--bag", path, "given to a build with ROS, which this one is not");
 }
 
 std::vector<live::Entry> read_journal(const std::string& path) {
-  validation::refuse("command line", "--bag", path, "given to a build with ROS (SPRING_WORKBENCH_ROS)");
+  validation::refuse("command line", "--bag", path, "given to a build with ROS, which this one is not");
 }
 
 }  // namespace spring_workbench::replay
