@@ -15,7 +15,7 @@ struct RodReference {
 };
 
 /// The tolerance of references that have no closed form, relative, and absolute over what a strain is under the weight.
-constexpr double kFineTolerance = 1e-13;
+constexpr double kFineTolerance = 1e-12;
 
 /// The Radau IIA method of order five at kFineTolerance on the equation of motion, from sample to sample of the hand,
 /// where its acceleration jumps; its uncertainty is the distance from the same at ten times that. A recorded case: the

@@ -1,6 +1,7 @@
 #include "benchmark/scene_problem.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "benchmark/reference_solution.h"
 #include "benchmark/single_spring.h"
@@ -18,7 +19,7 @@ class SingleDeflection : public SceneProblem {
   void start(double* y) const override { std::fill_n(y, 2, 0.0); }
   void tolerance_scale(double* scale) const override {
     scale[0] = deflection_scale(spring_.scene)[spring_.scene.single_coordinate()];
-    scale[1] = 10.0 * scale[0];
+    scale[1] = std::max(10.0, std::sqrt(spring_.stiffness / spring_.inertia)) * scale[0];
   }
   bool rates(double t, const double* y, double* rate) const override {
     rate[0] = y[1];
@@ -62,8 +63,14 @@ class BushingDeflection : public SceneProblem {
   int size() const override { return 12; }
   void start(double* y) const override { std::fill_n(y, 12, 0.0); }
   void tolerance_scale(double* scale) const override {
-    Eigen::Map<Vector6d>{scale} = deflection_scale(scene_);
-    Eigen::Map<Vector6d>{scale + 6} = 10.0 * deflection_scale(scene_);
+    const Vector6d deflection = deflection_scale(scene_);
+    Eigen::Map<Vector6d>{scale} = deflection;
+    const Vector3d arm = scene_.p_EO.cwiseAbs2();
+    Vector6d inertia;
+    inertia << Vector3d::Constant(scene_.mass), scene_.inertia + scene_.mass * (Vector3d::Constant(arm.sum()) - arm);
+    // Of a rate: what makes the deflection wrong by its own share, each coordinate swinging by itself.
+    const Vector6d omega = scene_.stiffness.cwiseQuotient(inertia).cwiseSqrt();
+    Eigen::Map<Vector6d>{scale + 6} = omega.cwiseMax(10.0).cwiseProduct(deflection);
   }
   bool rates(double t, const double* y, double* rate) const override {
     BushingState state;

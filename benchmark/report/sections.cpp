@@ -71,7 +71,7 @@ PageSection rods_section(const Measurements& measured, const Tables& tables, con
   section.title = "Rods on a tracked hand: every integrator, shape and step";
   section.text =
       "The hand is known by its samples, and the motion through them is the same for all, so that what is left is the "
-      "error of integration, against Radau IIA at 1e-13; ours are runs of Simulation, solver_… general methods on "
+      "error of integration, against Radau IIA at 1e-12; ours are runs of Simulation, solver_… general methods on "
       "the same equation of motion; \"recorded\" cases: against the trajectories of another "
       "solver, good to 2e-9 m. Steps end at samples.";
   section.figures.push_back(
