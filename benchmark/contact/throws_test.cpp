@@ -18,6 +18,17 @@ TEST_P(Throws, AThinFixedWallStopsWhatIsThrownAtIt) {
   }
 }
 
+// Of boxes. Meshes and cylinders go deeper; benchmark/contact/README.md.
+TEST(LooseThrows, ALooseThinWallIsNotGoneThrough) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    if (seed % 4 > 1) continue;
+    const ThrowResult result = run({scene::ContactMode::dynamic, seed, true});
+    EXPECT_FALSE(result.passed_through) << seed;
+    EXPECT_LT(result.depth, 1e-4) << seed;
+    EXPECT_LT(result.energy_gained, 2e-3) << seed;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Modes, Throws, ::testing::Values(scene::ContactMode::stop, scene::ContactMode::dynamic),
                          [](const auto& tested) {
                            return tested.param == scene::ContactMode::stop ? "stop" : "dynamic";

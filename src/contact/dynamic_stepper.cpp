@@ -105,7 +105,16 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(std::vector<Candidate> candi
     h = longest;
     return Piece::too_long;
   }
+  const auto shorten = [&](double sound) {
+    world_->undo_step();
+    start_again();
+    h = std::max(std::clamp(as_sound * sound, least_try, most_try) * h, shortest_piece_);
+    return Piece::too_long;
+  };
   std::vector<rigid_bodies::DrivenBody> driven = solve(candidates, h);
+  if (const double of_free = world_->admissible_fraction_of_free(); of_free < 1.0 && h > shortest_piece_) {
+    return shorten(of_free);
+  }
   double sound = admissible_fraction(candidates, driven, h);
   double before = 0.0;
   for (int solution = 1; sound < 1.0 && sound > before && solution < most_dynamic_solutions; ++solution) {
@@ -123,11 +132,9 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(std::vector<Candidate> candi
     sound = admissible_fraction(candidates, driven, h);
   }
   if (sound < 1.0) {
-    world_->undo_step();
-    start_again();
-    if (h <= shortest_piece_) return Piece::stuck;
-    h = std::max(std::clamp(as_sound * sound, least_try, most_try) * h, shortest_piece_);
-    return Piece::too_long;
+    const bool shortest = h <= shortest_piece_;
+    shorten(sound);
+    return shortest ? Piece::stuck : Piece::too_long;
   }
   for (std::size_t i = 0; i < candidates.size(); ++i) take(*candidates[i].body, driven[i].contact_W);
   add_contacts();

@@ -77,8 +77,8 @@ void BulletWorld::make_bullet(std::size_t index) {
   const scene::Body& body = scene_.bodies[index];
   double mass = item.movable ? body.mass_properties.mass : 0.0;
   btVector3 principal(0, 0, 0);
-  if (item.massless) {
-    mass = 1.0;  // of no effect: it moves only as it is driven
+  if (item.massless) {  // of no effect: it moves only as it is driven
+    mass = 1.0;
     principal.setValue(1.0, 1.0, 1.0);
   } else if (item.movable) {
     const Eigen::SelfAdjointEigenSolver<Matrix3d> axes(body.mass_properties.inertia_O);
@@ -176,11 +176,8 @@ std::vector<std::size_t> BulletWorld::inside(const Extent& box_W) const {
 void BulletWorld::take_states() {
   for (const std::size_t i : in_world_) {
     Item& item = items_[i];
-    if (item.driven) continue;
-    if (!awake(item)) {
-      item.V_WO_W = Twist();
-      continue;
-    }
+    if (!awake(item)) item.V_WO_W = Twist();
+    if (item.driven || !awake(item)) continue;
     item.X_WO = from_bullet(item.bullet->getWorldTransform()) * item.X_OB.inverse();
     item.V_WO_W.linear = from_bullet(item.bullet->getLinearVelocity());
     item.V_WO_W.angular = from_bullet(item.bullet->getAngularVelocity());
@@ -240,11 +237,7 @@ void BulletWorld::end_driving(const std::vector<DrivenBody>& driven) {
     Item& item = items_[d.body];
     if (!item.driven) continue;
     item.driven = false;
-    if (item.massless) {
-      let_move(item, false);
-    } else {
-      item.bullet->setGravity(world_.getGravity());
-    }
+    item.massless ? let_move(item, false) : item.bullet->setGravity(world_.getGravity());
     item.bullet->forceActivationState(ACTIVE_TAG);
     put(d.body, d.X_WO, Twist());
   }
@@ -320,14 +313,13 @@ bool BulletWorld::near_movable(std::size_t body, const RigidTransform& X0_WO, co
                                const std::vector<std::size_t>& carried) const {
   if (items_[body].leaf == nullptr) return false;
   const Extent path = swept(items_[body], X0_WO, X1_WO, margin_near);
-  const auto comes_near = [&](std::size_t i) {
-    return i != body && items_[i].leaf != nullptr && path_of(i, h).intersects(path);
+  const auto any = [&](const std::vector<std::size_t>& of, const auto& is) {
+    return std::any_of(of.begin(), of.end(), [&](std::size_t i) { return i != body && is(items_[i], i); });
   };
-  const std::vector<std::size_t> found = inside(path);
-  return std::any_of(found.begin(), found.end(), [&](std::size_t i) { return i != body && items_[i].movable; }) ||
-         std::any_of(in_world_.begin(), in_world_.end(),
-                     [&](std::size_t i) { return awake(items_[i]) && comes_near(i); }) ||
-         std::any_of(carried.begin(), carried.end(), comes_near);
+  const auto comes_near = [&](const Item& o, std::size_t i) { return o.leaf && path_of(i, h).intersects(path); };
+  return any(inside(path), [](const Item& o, std::size_t) { return o.movable; }) ||
+         any(in_world_, [&](const Item& o, std::size_t i) { return awake(o) && comes_near(o, i); }) ||
+         any(carried, comes_near);
 }
 
 bool BulletWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
@@ -335,9 +327,8 @@ bool BulletWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const
   const Item& item = items_[body];
   if (item.leaf == nullptr) return false;
   const Extent path = swept(item, X0_WO, X1_WO, margin);
-  if (path.min().z() < scene_.bench_height) return true;
   const std::vector<std::size_t> found = inside(path);
-  return std::any_of(found.begin(), found.end(), [&](std::size_t i) { return i != body; });
+  return path.min().z() < scene_.bench_height || found.size() > 1 || (found.size() == 1 && found[0] != body);
 }
 
 RigidTransform BulletWorld::pose_before_step(std::size_t body) const {
@@ -347,25 +338,25 @@ RigidTransform BulletWorld::pose_before_step(std::size_t body) const {
 }
 
 double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
-                                bool untouched) const {
+                                bool untouched, double blind) const {
   const Item& item = items_[body];
   if (item.leaf == nullptr) return 1.0;
-  double part = !untouched && solver_.residual() > small_miss ? 0.5 : 1.0;
+  double part = 1.0;
   // Of a pair whose shapes are not both boxes, only what the boxes around them say is known.
   const auto by_extent = [&](const geometry::BoxGap& gap, const geometry::StraightMotion& path) {
     const double left = gap.gap - 2.0 * contact_skin;
-    const bool near = left < blind_way;
+    const bool near = left < blind;
     const double turned = item.radius * (near ? path.turn_W : gap.n_W.cross(path.turn_W)).norm();
     const double approach = (near ? path.move_W.norm() : -gap.n_W.dot(path.move_W)) + turned;
-    const double allowed = std::max(left, untouched ? 0.0 : blind_way);
+    const double allowed = std::max(left, untouched ? 0.0 : blind);
     if (allowed < part * approach) part = allowed / approach;
   };
   const auto tolerance = [&](const geometry::BoxGap& gap) {
     return untouched ? 0.0 : std::max(deepest_way, -gap.gap * (1.0 + 1e-9) + 1e-12);
   };
   const auto path_between = [](const RigidTransform& X0, const RigidTransform& X1) {
-    return geometry::StraightMotion{X0.translation(), X1.translation() - X0.translation(),
-                                    X0.linear() * math::turn_between(X0, X1)};
+    const Vector3d turned = X0.linear() * math::turn_between(X0, X1);
+    return geometry::StraightMotion{X0.translation(), X1.translation() - X0.translation(), turned};
   };
   const geometry::StraightMotion path = path_between(X0_WO, X1_WO);
   const std::vector<std::size_t> near = inside(swept(item, X0_WO, X1_WO, 2.0 * contact_skin));
@@ -383,8 +374,7 @@ double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, c
     const Item& other = items_[i];
     const RigidTransform X_before = untouched ? other.X_WO : pose_before_step(i);
     // As seen from the other, which stays where it was before.
-    const geometry::StraightMotion relative =
-        untouched ? path : path_between(X0_WO, X_before * other.X_WO.inverse() * X1_WO);
+    const geometry::StraightMotion relative = path_between(X0_WO, X_before * other.X_WO.inverse() * X1_WO);
     for (const geometry::OutlineBox& own : item.outline_O) {
       const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
       for (const geometry::OutlineBox& box : other.outline_O) {
@@ -397,6 +387,18 @@ double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, c
         }
       }
     }
+  }
+  return part;
+}
+
+double BulletWorld::admissible_fraction_of_free() const {
+  double part = 1.0;
+  for (const BeforeStep& before : before_step_) {
+    const Item& item = items_[before.body];
+    const Vector3d moved = item.X_WO.translation() - before.X_WO.translation();
+    const Vector3d turned = item.radius * math::turn_between(before.X_WO, item.X_WO);
+    if (moved.norm() + turned.norm() < blind_way_of_free) continue;
+    part = std::min(part, part_of_way(before.body, before.X_WO, item.X_WO, false, blind_way_of_free));
   }
   return part;
 }

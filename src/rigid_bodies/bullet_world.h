@@ -3,11 +3,13 @@
 #include <BulletCollision/BroadphaseCollision/btDbvt.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <memory>
 #include <vector>
 
 #include "bullet_boxes.h"
 #include "bullet_shape.h"
+#include "constants.h"
 #include "driven_solver.h"
 #include "spring_workbench/geometry/box_gap.h"
 #include "spring_workbench/rigid_bodies/rigid_world.h"
@@ -60,12 +62,13 @@ class BulletWorld final : public RigidWorld {
                  double margin) const override;
   double collision_free_fraction(std::size_t body, const RigidTransform& X0_WO,
                                  const RigidTransform& X1_WO) const override {
-    return part_of_way(body, X0_WO, X1_WO, true);
+    return part_of_way(body, X0_WO, X1_WO, true, blind_way);
   }
   double admissible_fraction(std::size_t body, const RigidTransform& X0_WO,
                              const RigidTransform& X1_WO) const override {
-    return part_of_way(body, X0_WO, X1_WO, false);
+    return std::min(part_of_way(body, X0_WO, X1_WO, false, blind_way), solver_.residual() > small_miss ? 0.5 : 1.0);
   }
+  double admissible_fraction_of_free() const override;
   const std::vector<WorldContact>& contacts() const override { return contacts_; }
   const std::vector<std::size_t>& bodies_near() const override { return in_world_; }
   void exchange(math::StateArchive& state) override;
@@ -110,7 +113,9 @@ class BulletWorld final : public RigidWorld {
   Eigen::AlignedBox3d path_of(std::size_t index, double h) const;
   Eigen::AlignedBox3d swept(const Item& item, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                             double margin) const;
-  double part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, bool untouched) const;
+  /// `blind` [m]: how far it may go towards what is near, of another shape than a box.
+  double part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, bool untouched,
+                     double blind) const;
   RigidTransform pose_before_step(std::size_t body) const;
   void begin_step();
   void begin_driving(std::vector<DrivenBody>& driven, double h);

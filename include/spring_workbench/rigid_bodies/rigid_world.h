@@ -80,6 +80,8 @@ class RigidWorld {
   /// or than at the start (half, if the last step was not solved to 1 µm). Others have gone straight in the last step.
   virtual double admissible_fraction(std::size_t body, const RigidTransform& X0_WO,
                                      const RigidTransform& X1_WO) const = 0;
+  /// Which part of the last step the free bodies surely went without having gone through anything 1 mm thick.
+  virtual double admissible_fraction_of_free() const = 0;
 
   /// Contacts of the last step that pressed or were closed.
   virtual const std::vector<WorldContact>& contacts() const = 0;
