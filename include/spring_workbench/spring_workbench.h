@@ -1,6 +1,6 @@
 #pragma once
 
-// All that a program needs of the library.
+// Everything that a program needs of the library.
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/hand_input/feed.h"
 #include "spring_workbench/motion_files/open_motion.h"

@@ -6,12 +6,12 @@
 
 namespace spring_workbench::assembly {
 
-/// How an object lies beside its target.
+/// Pose error of an object from its target.
 struct Placement {
   std::string object;
   double position_error = 0.0;  ///< distance of the link frame's origin from the target's [m]
   double angle_error = 0.0;     ///< angle of the rotation between them, 0 … π [rad]
-  bool in_place = false;        ///< both are within the target's tolerances, and nobody holds the object
+  bool in_place = false;        ///< both are within the target's tolerances, and the object is not held
 };
 
 /// Judges the body with its object frame at `X_WO`.

@@ -18,8 +18,8 @@ struct Trial {
 /// What an operator sees who looks at the simulation and has its first hand's tool.
 OperatorView look_at(const simulation::Simulation& simulation);
 
-/// Runs one: no clock, no ROS; the same arguments give the same bits. The simulation runs one sample behind the hand,
-/// as it does live. Ends when the operator does, or after `time_limit` [s]. Throws InputError as Simulation does.
+/// Runs one: no clock, no ROS; the same arguments give bit-identical results. The simulation runs one sample behind the
+/// hand, as it does live. Ends when the operator does, or after `time_limit` [s]. Throws InputError as Simulation does.
 Trial run_trial(const scene::Scene& scene, const simulation::SimulationSettings& simulation_settings,
                 const OperatorSettings& operator_settings, double time_limit = 300.0);
 

@@ -6,7 +6,7 @@
 
 namespace spring_workbench::bodies {
 
-/// A body that nobody holds: its centre of mass on a parabola, its rotation free of torque but for contact.
+/// A free body: its centre of mass on a parabola, its rotation torque-free except for contact.
 class FreeBody final : public SteppedBody {
  public:
   /// Keeps a reference to `body`. `gravity` [m/s²] along −z.

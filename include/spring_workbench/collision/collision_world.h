@@ -54,8 +54,8 @@ class CollisionWorld {
                              std::vector<ContactPoint>& contacts) const;
 
   /// The paper's search (section 5) on the whole way from `X0` to `X1` (straight in position, constant axis in
-  /// rotation). It goes on by what the gaps leave surely clear, and where there are none, by pieces in which no point
-  /// of the body moves further than `resolution` [m]. In the first piece that touches, the free and the touching
+  /// rotation). It advances by what the gaps leave clear for certain, and if there are none, by steps in which no point
+  /// of the body moves further than `resolution` [m]. In the first step that touches, the free and the touching
   /// fraction are found by `levels` halvings, or, with 0, as the time of impact: by what is surely clear again
   /// (conservative advancement, Mirtich 1996).
   virtual SweepResult sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,

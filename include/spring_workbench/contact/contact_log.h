@@ -9,7 +9,7 @@
 
 namespace spring_workbench::contact {
 
-/// Which objects touch what, and since when: what `Simulation::contacts` tells.
+/// Which objects touch which bodies, and since when: the source of `Simulation::contacts`.
 class ContactLog {
  public:
   explicit ContactLog(const scene::Scene& scene) : scene_(scene) {}

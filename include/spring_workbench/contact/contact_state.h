@@ -6,7 +6,7 @@
 
 namespace spring_workbench::contact {
 
-/// Where a contact is in its life.
+/// Phase of a contact.
 enum class ContactPhase { started, persisting, ended };
 
 /// A contact of an object, in world axes.

@@ -26,7 +26,7 @@ class ContactStepper {
   /// Whether the way between two poses is one that the body goes with nothing movable about.
   using MayGo = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
   /// Carries the body over `h` [s]. `rows`: its contacts at the end of the last step; replaced by those at the end of
-  /// this. False, and the body is where it was, when it may not go its way (or the first piece of it).
+  /// this. False, and the body is restored, if it may not move (or not over the first substep).
   bool step(bodies::SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
             ContactOutcome& outcome);
 
@@ -46,19 +46,19 @@ class ContactStepper {
   /// it did not come out free.
   bool advance_in_contact(bodies::SteppedBody& body, double h, std::vector<ContactRow>& rows,
                           ContactOutcome& outcome) const;
-  /// Where a contact's point of the body was when a piece began.
+  /// Position of a contact's point of the body at the start of a substep.
   struct Start {
     double gap = 0.0;                     ///< [m]
     Vector3d lever_W = Vector3d::Zero();  ///< from the object's centre [m]
   };
-  /// Gaps and slips of the contacts `work` with the body at the end of a piece from `X0` on; contacts that have come
+  /// Gaps and slips of the contacts `work` with the body at the end of a substep from `X0` on; contacts that have come
   /// into being on the way join, and those that lie deeper than their points' motion says are taken as they are found.
   void look_at_end(const bodies::SteppedBody& body, const RigidTransform& X0, std::vector<ContactRow>& work,
                    std::vector<Start>& starts, ContactOutcome& outcome) const;
-  /// What a piece of a step has come to.
+  /// Result of a substep.
   struct Piece {
     bool done = false;                ///< the body has gone it
-    double next = 0.0;                ///< how long the next piece to try is, over this one
+    double next = 0.0;                ///< length of the next substep to try, relative to this one
     std::vector<ContactRow> touched;  ///< not done: what was in the way
     bool solved = true;               ///< loads were found, with which the body can be carried
     bool allowed = true;              ///< it may go there
@@ -66,9 +66,9 @@ class ContactStepper {
   /// Tries to go `h` on, under the rows' loads where there are rows. Not done, the body is where it was.
   Piece try_substep(bodies::SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
                     ContactOutcome& outcome) const;
-  /// Corrects the impulses that the rows' loads have given over a piece of `h` [s] so that no contact approaches at its
-  /// end, and none slips where friction, which is constant over the piece, has turned its slip round or could have held
-  /// it.
+  /// Corrects the impulses that the rows' loads have given over a substep of `h` [s] so that no contact approaches at
+  /// its end, and none slips where friction, which is constant over the substep, has reversed its slip or could have
+  /// held it.
   void settle(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, double h) const;
   /// Adds those contacts that are new and takes away the speed with which they approach. False when none was.
   bool meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, double h, std::vector<ContactRow>& rows,

@@ -10,7 +10,7 @@ namespace spring_workbench::contact {
 
 /// Contact mode `dynamic` (doc/model.md) where movable bodies are near: held bodies and all movable ones in one
 /// rigid-body world. A held body that nothing can touch is carried by its own integrator alone; near others, all go on
-/// together in short pieces, in which the held body answers to contact with the compliance of its fork.
+/// together in short substeps, in which the held body responds to contact with the compliance of its fork.
 class DynamicStepper {
  public:
   explicit DynamicStepper(const scene::Scene& scene);
@@ -22,11 +22,11 @@ class DynamicStepper {
     int substeps = 0;
     double time_lost =
         0.0;               ///< [s] for which contact left a held body no way, and it was stopped; or it was refused one
-    bool refused = false;  ///< a piece without contact would not have been finite or bounded
+    bool refused = false;  ///< the result of a substep without contact was not finite or bounded
   };
   /// Carries the held bodies and the world over `h` [s].
   Outcome step(const std::vector<bodies::SteppedBody*>& held, double h);
-  /// Puts a body that nobody holds any more on its way.
+  /// Starts the motion of a released body.
   void set_free(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W);
   /// The free bodies of the world that nothing movable, `moving` [in the scene] on its way, will come near in the next
   /// `h` [s].
@@ -34,14 +34,14 @@ class DynamicStepper {
   /// Whether a body that is not held moves.
   bool others_awake() const;
   /// The bodies of a contact are a movable one and another; a held one comes first. Contacts since the last call of
-  /// step began; impulses are sums over its pieces, places those of the last.
+  /// step began; impulses are sums over its substeps, positions those of the last.
   const std::vector<rigid_bodies::WorldContact>& contacts() const { return contacts_; }
 
   /// Between two steps, the world included.
   void exchange(math::StateArchive& state);
 
  private:
-  /// A held body's way over a piece under the contact load of the last one, at whose end the body then is.
+  /// Motion of a held body over a substep under the contact load of the last one; the body is then at its end.
   struct Candidate {
     bodies::SteppedBody* body;
     bodies::TrialStart start;
@@ -59,17 +59,18 @@ class DynamicStepper {
   /// The candidates are where the bodies go.
   void go_freely(const std::vector<Candidate>& candidates, double h, Outcome& outcome);
   enum class Piece { gone, too_long, stuck };
-  /// Carries all over one piece with contact, unless that would bring a body too deep into something or through it;
-  /// then all are where they were, and `h` is a piece to try instead, or none is short enough.
+  /// Carries all bodies over one substep with contact, unless that would bring a body too deep into another or through
+  /// it; then all are restored, and `h` is a substep to try instead, or none is short enough.
   Piece go_in_contact(std::vector<Candidate> candidates, double& h);
-  /// The world goes on over a piece, and says what contact does to the held bodies, which are at their begin.
+  /// Advances the world over a substep, and returns the contact wrenches on the held bodies, which are still at its
+  /// start.
   std::vector<rigid_bodies::DrivenBody> solve(const std::vector<Candidate>& candidates, double h);
-  /// The held bodies go over a piece under these loads; which part of their ways is sound.
+  /// Carries the held bodies over a substep under these loads; returns the admissible fraction of their motions.
   double admissible_fraction(const std::vector<Candidate>& candidates,
                              const std::vector<rigid_bodies::DrivenBody>& driven, double h) const;
   /// The same of the ways that the solver foresaw for them.
   double foreseen_admissible_fraction(const std::vector<rigid_bodies::DrivenBody>& driven) const;
-  /// The held bodies stay where they are for one piece, while the others go on.
+  /// Blocks the held bodies for one substep, while the others move on.
   void hold_back(const std::vector<bodies::SteppedBody*>& held, double h, Outcome& outcome);
   void take(bodies::SteppedBody& body, const Wrench& contact_W);
   void add_contacts();
@@ -79,7 +80,7 @@ class DynamicStepper {
   std::unique_ptr<rigid_bodies::RigidWorld> world_;
   std::vector<rigid_bodies::WorldContact> contacts_;
   std::vector<std::size_t> held_;         ///< in the last step
-  std::map<std::size_t, Wrench> load_W_;  ///< of contact on held bodies in the last piece
+  std::map<std::size_t, Wrench> load_W_;  ///< of contact on held bodies in the last substep
   double shortest_piece_ = 0.0;           ///< [s] of the present step
 };
 

@@ -10,7 +10,7 @@
 
 namespace spring_workbench::dynamics {
 
-/// How a frame B is in a frame A and how that changes, in the axes of A: at one moment (`S` double) or several.
+/// Pose and velocity of a frame B in a frame A, in the axes of A: at one moment (`S` double) or several.
 template <typename S>
 struct RelativeMotion {
   math::ThreeByThree<S> R_AB;
@@ -28,8 +28,8 @@ struct Pull {
   math::Three<S> force, moment;
 };
 
-/// Springs and dampers without mass between a frame A that moves as it is told and the held body, O: what a further
-/// tool does to it. Axes are those of A.
+/// Springs and dampers without mass between a frame A with prescribed motion and the held body, O: the action of a
+/// further tool on it. Axes are those of A.
 class Coupling {
  public:
   /// At the object, where it is: 6 × 6 [linear; angular], symmetric, ≥ 0.
@@ -38,8 +38,7 @@ class Coupling {
     double energy = 0.0;      ///< [J]
     double dissipated = 0.0;  ///< [W]
   };
-  /// What an equation of motion with it is told by: when the tool took hold [s], and how often its law has changed
-  /// since.
+  /// Identifies the equation of motion with it: when the tool took hold [s], and how often its law has changed since.
   struct Key {
     double since = 0.0;
     long version = 0;
@@ -53,7 +52,7 @@ class Coupling {
   virtual void pull(const double& t, const RelativeMotion<double>& A_O, Pull<double>& pull) const = 0;
   virtual void pull(const math::Pack& t, const RelativeMotion<math::Pack>& A_O, Pull<math::Pack>& pull) const = 0;
   virtual Springs springs(double t, const RelativeMotion<double>& A_O) const = 0;
-  /// A step begins: what the pulls at several moments were searched from goes.
+  /// A step begins: forgets the starting points from which the pulls were searched.
   virtual void begin_step() const {}
 };
 
@@ -81,7 +80,7 @@ class Couplings {
   /// Returns whether they are others than before, or others by their law. Throws std::length_error for more than
   /// `most`.
   bool attach(const std::vector<Attached>& couplings);
-  /// Lets go of all but the first `kept`, until they are attached again: the equation of motion remains theirs.
+  /// Detaches all but the first `kept` until they are attached again: the equation of motion still includes them.
   void detach(std::size_t kept) { attached_.resize(std::min(kept, attached_.size())); }
   bool empty() const { return attached_.empty(); }
 

@@ -20,7 +20,7 @@ struct BodyInertia {
   RigidTransform X_OE = RigidTransform::Identity();  ///< the grasp G
 };
 
-/// What the moving handle does to the equations at one moment, in the axes of the handle frame H.
+/// The moving handle in the equations at one moment, in the axes of the handle frame H.
 struct HandleForcing {
   double t = 0.0;  ///< [s]
   RigidTransform X_WH = RigidTransform::Identity();
@@ -51,8 +51,8 @@ struct EnergyBalance {
 };
 
 /// The equation of motion of doc/model.md for a rigid body on a rod on a moving handle, in the active coordinates:
-/// `M(q) q̈ = −K q − D q̇ − (inertial, gravity and contact forces)`. A family that is off has no coordinates; one that is
-/// being switched off follows a prescribed motion to zero and has none either.
+/// `M(q) q̈ = −K q − D q̇ − (inertial, gravity and contact forces)`. A DOF that is off has no coordinates, nor has one
+/// that is being switched off, which follows a prescribed motion to zero.
 class HeldBody {
  public:
   /// `gravity` [m/s²] along −z of world.
@@ -62,47 +62,48 @@ class HeldBody {
   const std::shared_ptr<const rod::ShapeModel>& shared_shape() const { return shape_; }
   const BodyInertia& body() const { return body_; }
   double gravity() const { return gravity_; }  ///< [m/s²]
-  /// Grows by every change of the equations: what an integrator has derived from them is good for one version.
+  /// Increases with every change of the equations: what an integrator has derived from them is valid for one version
+  /// only.
   long version() const { return version_; }
-  /// Grows by every change of the external wrench, which leaves the equations' linear part as it is.
+  /// Increases with every change of the external wrench, which does not change the linear part of the equations.
   long load_version() const { return load_version_; }
 
-  /// Stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio (Kelvin–Voigt; doc/model.md) per family.
+  /// Stiffness [N/m, N/m, N·m/rad] ≥ 0 and damping ratio (Kelvin–Voigt; doc/model.md) per DOF.
   void set_springs(const rod::PerDof& stiffness, const rod::PerDof& damping_ratio);
-  /// Damping coefficients outright, per family, the unit of its stiffness times s: `D = (c / k) K`.
+  /// Damping coefficients per DOF, in the unit of its stiffness times s: `D = (c / k) K`.
   void set_springs_and_dampers(const rod::PerDof& stiffness, const rod::PerDof& damping);
   /// The same damping ratio ≥ 0 for every mode of the active coordinates: `D = 2 ζ M^½ (M^-½ K M^-½)^½ M^½`, M that of
-  /// the unstrained fork. Goes with set_dofs().
+  /// the unstrained fork. It is recomputed by set_dofs().
   void set_springs_with_modal_damping(const rod::PerDof& stiffness, double damping_ratio);
   /// Stiffness, damping ratios and damping law of `fork`.
   void set_springs(const rod::ForkSettings& fork);
   /// Moment of inertia about the fork's axis through the grasp [kg·m²].
   double axial_inertia() const;
   /// Stiffness [N/m, N/m, N·m/rad] and damping coefficients [the same times s] of the DOFs; with one ratio for every
-  /// mode those of each DOF alone.
+  /// mode, those of each DOF by itself.
   const rod::PerDof& dof_stiffness() const { return stiffness_; }
   const rod::PerDof& dof_damping() const { return damping_; }
 
-  /// Switches families. One that goes off while strained follows, from time `t` [s] on, the critically damped return
+  /// Switches DOFs. One that is switched off while strained follows, from time `t` [s] on, the critically damped return
   /// with the time constant `return_time` [s]; `full` is the state in all coordinates at `t`. Returns the new active
   /// state: pose and twist of the body do not change.
   StrainState set_dofs(const rod::ForkDofs& dofs, double t, double return_time, const StrainState& full);
-  /// Drops prescribed motions that have come to zero by time `t`. True when one was dropped.
+  /// Ends prescribed motions that have come to zero by time `t`. Returns whether one ended.
   bool drop_finished_returns(double t);
-  /// Whether a family that was switched off is still on its way to zero strain.
+  /// Whether a DOF that was switched off is still returning to zero strain.
   bool returning() const { return coordinates_.returning(); }
 
   /// A constant wrench on the body at its centre of mass, world axes (contact). Zero at first.
   void set_external_wrench(const Wrench& wrench_W);
   const Wrench& external_wrench() const { return external_W_; }
 
-  /// Whether the object meets nothing on its straight path between two poses. Of the step that follows, for methods
-  /// that aim for a pose (`paper`); no part of the state. Empty: nothing can be in the way.
+  /// Whether the object meets nothing on its straight path between two poses. For the step that follows, and for
+  /// methods that aim for a pose (`paper`); not part of the state. Empty: nothing can be in the path.
   using PathCheck = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
   void set_path_check(PathCheck check) { path_check_ = std::move(check); }
   const PathCheck& path_check() const { return path_check_; }
 
-  /// What else pulls at the body from now on, on the way of the handle that integrators are given. Throws
+  /// Further tools that pull at the body from now on, along the motion of the handle that integrators are given. Throws
   /// std::length_error for more than Couplings::most.
   void attach(const std::vector<Attached>& couplings);
   /// As Couplings::detach.
@@ -129,7 +130,7 @@ class HeldBody {
   /// q̈ of the active coordinates.
   rod::StrainVector acceleration(const HandleForcing& handle, const rod::StrainVector& q,
                                  const rod::StrainVector& q_dot) const;
-  /// The same for `n` = size(), 1 … 6, known to the compiler: for integrators.
+  /// The same for `n` = size(), 1 … 6, known at compile time: for integrators.
   template <int n>
   Eigen::Matrix<double, n, 1> acceleration(const HandleForcing& handle, const Eigen::Matrix<double, n, 1>& q,
                                            const Eigen::Matrix<double, n, 1>& q_dot) const;
@@ -139,9 +140,9 @@ class HeldBody {
                     math::Pack* q_ddot) const;
   /// Energy and power at several moments: size() packs each. Without the energy of a DOF that returns to zero strain.
   EnergyBalance energy_balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot) const;
-  /// Mass matrix M(q) of the active coordinates at time `t` (which matters while a family returns).
+  /// Mass matrix M(q) of the active coordinates at time `t` (which matters while a DOF returns).
   rod::StrainMatrix mass_matrix(double t, const rod::StrainVector& q) const;
-  /// ShapeModel::rechart of the active coordinates; not while a family returns to zero strain.
+  /// ShapeModel::rechart of the active coordinates; not while a DOF returns to zero strain.
   bool rechart(StrainState& state) const;
   /// Active state at time `t` in all coordinates of the shape model.
   StrainState full_state(double t, const StrainState& state) const { return coordinates_.full_state(t, state); }
@@ -152,7 +153,7 @@ class HeldBody {
   /// Jacobian of the object's velocity [linear; angular], axes of H, in the active coordinates: 6 × size().
   Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates> object_jacobian(
       double t, const rod::StrainVector& q) const;
-  /// The strain rate that comes nearest, in kinetic energy, to the object's twist (world axes) for the strain `q`.
+  /// The strain rate that is closest, in kinetic energy, to the object's twist (world axes) at the strain `q`.
   rod::StrainVector project_twist(const HandleForcing& handle, const rod::StrainVector& q, const Twist& V_WO_W) const;
 
   double elastic_energy(double t, const StrainState& state) const;  ///< [J]
@@ -160,8 +161,8 @@ class HeldBody {
   rod::StrainVector elastic_force(double t, const rod::StrainVector& q) const;
   double kinetic_energy(const Twist& V_WO_W, const Matrix3d& R_WO) const;  ///< [J]
 
-  /// Springs, families, load and versions; shape, body and gravity must be the same ones. What an integrator has
-  /// derived from the equations is good for the versions only together with these: its history goes with them.
+  /// Springs, families, load and versions; shape, body and gravity must be the same. What an integrator has derived
+  /// from the equations is valid only for these versions, so its history is saved together with them.
   void exchange(math::StateArchive& state);
 
  private:

@@ -9,17 +9,17 @@
 
 namespace spring_workbench::dynamics {
 
-/// What one step says of itself.
+/// Error estimate of one step.
 struct StepEstimate {
-  /// Estimate of the step's local error (what came out less the truth) in the active coordinates.
+  /// Estimate of the step's local error (result minus exact solution) in the active coordinates.
   rod::StrainVector q_error;
   double omega_dt = 0.0;          ///< frequency of the stiffest mode [rad/s] times the step; 0: not known
   rod::StrainVector q_dot_error;  ///< the same of the strain rates [1/s]
-  bool converged = true;          ///< whether an implicit method solved its equation; else the state is not to be used
+  bool converged = true;  ///< whether an implicit method solved its equation; if false, the state must not be used
 };
 
 /// One way to carry the held body's state over a step (doc/model.md, "Integrators"). An integrator may keep what it has
-/// derived from the equations and the last step; it notices by HeldBody::version() when that is out of date.
+/// derived from the equations and the last step; HeldBody::version() tells when that is out of date.
 /// No allocation in a step.
 class Integrator {
  public:
@@ -27,12 +27,12 @@ class Integrator {
 
   /// Order of accuracy for smooth motions.
   virtual int order() const = 0;
-  /// Whether no stiffness, however large, limits the step.
+  /// Whether the step is stable at any stiffness.
   virtual bool stiffly_stable() const { return false; }
-  /// What the method does with the energy of a motion: nothing but by its error; take some away (implicit methods of
-  /// low order); whatever its error is, which nothing bounds (explicit ones); or it has an energy of its own, because
-  /// it does not solve the equation of motion (HeldBody) but relaxes to a target. StepControl holds the first to its
-  /// error, the second to its balance. Estimates of the last are of the distance from the method's own limit.
+  /// What the method does to the energy of a motion. It keeps it up to its error; or dissipates some (implicit methods
+  /// of low order); or changes it without a bound (explicit ones); or has an energy of its own, because it does not
+  /// solve the equation of motion (HeldBody) but relaxes to a target. StepControl bounds the first by its error and the
+  /// second by its balance. The estimates of the last are of the distance from the method's own limit.
   enum class Energy { kept, dissipated, unbounded, of_its_own };
   virtual Energy energy() const { return Energy::unbounded; }
   /// Whether short steps lead to the equation of motion.
@@ -42,8 +42,8 @@ class Integrator {
   virtual StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                             StrainState& state) = 0;
 
-  /// Carries a small deviation from `begin` over the step from there to `end`: as two steps of the method differ unless
-  /// it knows better.
+  /// Carries a small deviation from `begin` over the step from there to `end`: by default the difference of two steps
+  /// of the method.
   virtual void carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                      const StrainState& begin, const StrainState& end, StrainState& deviation);
 
@@ -52,20 +52,20 @@ class Integrator {
   struct Response {
     rod::StrainMatrix q, q_dot;
   };
-  /// From the implicit Euler rule unless a method knows better.
+  /// By default that of the implicit Euler rule.
   virtual Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state);
 
-  /// The history: what it has kept of the equations and the last step, to be given back to one of the same name.
+  /// The history: what it keeps of the equations and the last step, to be restored into an integrator of the same name.
   virtual void exchange(math::StateArchive&) {}
 };
 
 std::unique_ptr<Integrator> make_integrator(IntegratorKind kind);
 
-/// Makes an integrator that was not given its name here known under `name`: from then on settings files, parameters,
-/// services and DynamicsSettings take it like one of our own. `make` is called for each object that is grasped, and
-/// again when the integrator is changed; its integrators share nothing. Call it before the first simulation is made, in
-/// the same order in each program that restores a state of another. Throws InputError for a name that is empty or
-/// taken.
+/// Registers an integrator of your own under `name`: from then on settings files, parameters, services and
+/// DynamicsSettings accept it like a built-in one. `make` is called for each object that is grasped, and again when the
+/// integrator is changed; the integrators that it makes share nothing. Call it before the first simulation is made, in
+/// the same order in every program that restores a state saved by another one. Throws InputError for a name that is
+/// empty or taken.
 IntegratorKind register_integrator(const std::string& name, std::function<std::unique_ptr<Integrator>()> make);
 
 }  // namespace spring_workbench::dynamics

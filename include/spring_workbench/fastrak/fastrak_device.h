@@ -15,7 +15,7 @@ namespace spring_workbench::fastrak {
 class PlayedMotion {
  public:
   /// Throws InputError for no samples and for a position that the device has no digits for (10 m and more). Samples
-  /// that are not later than the one before are left out.
+  /// that are not later than the one before are skipped.
   explicit PlayedMotion(const std::vector<motion::StylusSample>& samples);
   /// `t` [s] >= 0.
   motion::StylusSample at(double t) const;

@@ -72,7 +72,7 @@ class FastrakLayout {
 };
 
 /// The output list that a station is asked for: position, quaternion (`euler`: angles), switch where it has one.
-/// `redundant`: all of it twice, with a blank whose place tells the station, so that no byte lost, doubled or changed
+/// `redundant`: all of it twice, with a blank whose place marks the station, so that no byte lost, doubled or changed
 /// on the line can pass as another pose (binary records have no checksum); else once, and a blank or end of line.
 std::vector<int> fastrak_output_list(int station, FastrakFormat format, bool euler, bool redundant, bool button);
 

@@ -14,7 +14,7 @@ namespace spring_workbench::fastrak {
 /// A FASTRAK on a pseudo-terminal, with faults. Time is the caller's.
 class FastrakSimulator {
  public:
-  /// `link`: a symbolic link to the pseudo-terminal, made anew whenever that changes; empty: none. Throws InputError
+  /// `link`: a symbolic link to the pseudo-terminal, re-created whenever that changes; empty: none. Throws InputError
   /// where something else than a link stands there, or none can be made.
   FastrakSimulator(FastrakDevice device, LineFaults faults, std::string link = "");
   ~FastrakSimulator();  ///< takes the link away
@@ -30,9 +30,9 @@ class FastrakSimulator {
   /// One cycle at time `t` [s], later than the last one.
   void measure(double t);
 
-  std::size_t waiting() const { return waiting_.size(); }   ///< bytes that nobody has taken yet
+  std::size_t waiting() const { return waiting_.size(); }   ///< bytes that have not been read yet
   std::size_t records_sent() const { return sent_; }        ///< data records, whole or spoilt
-  std::size_t records_dropped() const { return dropped_; }  ///< because nobody read
+  std::size_t records_dropped() const { return dropped_; }  ///< because they were not read
 
  private:
   void plug_in();

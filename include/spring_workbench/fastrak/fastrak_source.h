@@ -40,7 +40,7 @@ FastrakSettings read_fastrak_settings(const YAML::Node& map, const std::string& 
 /// can take at once; it streams after a further `C`.
 std::vector<std::string> fastrak_set_up(const FastrakSettings& settings);
 
-/// A FASTRAK on a serial port. It is set up anew whenever it has been silent, or not understood, for 0.25 s.
+/// A FASTRAK on a serial port. It is set up again whenever it has been silent, or not understood, for 0.25 s.
 class FastrakSource : public motion::LiveSource {
  public:
   /// Opens nothing yet.

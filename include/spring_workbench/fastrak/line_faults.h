@@ -26,7 +26,7 @@ struct Fault {
 /// Reads `KIND[,rate=R][,from=S][,until=S]`. Throws InputError.
 Fault parse_fault(const std::string& text);
 
-/// The faults of one run; the same seed and records give the same bytes.
+/// The faults of one run; the same seed and records give bit-identical output.
 class LineFaults {
  public:
   explicit LineFaults(std::vector<Fault> faults = {}, unsigned seed = 1);

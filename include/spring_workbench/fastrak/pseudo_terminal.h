@@ -19,7 +19,7 @@ class PseudoTerminal {
   /// What has come; waits for it, at most `timeout` [s].
   std::string read(double timeout);
 
-  /// How many of the bytes were taken; the others do not fit as long as nobody reads.
+  /// How many of the bytes were accepted; the others do not fit until the reader catches up.
   std::size_t write(std::string_view bytes);
 
  private:

@@ -24,7 +24,7 @@ struct Cylinder {
 struct TriangleMesh {
   std::vector<Vector3d> vertices;          ///< [m]
   std::vector<Eigen::Vector3i> triangles;  ///< indices into `vertices`, counter-clockwise from outside
-  std::string uri;                         ///< where it came from, for markers
+  std::string uri;                         ///< its origin, for markers
   Vector3d scale = Vector3d::Ones();       ///< already applied to `vertices`
 
   /// Corner `k` of a triangle.
@@ -35,7 +35,7 @@ struct TriangleMesh {
 using MeshPtr = std::shared_ptr<const TriangleMesh>;
 using Geometry = std::variant<Box, Sphere, Cylinder, MeshPtr>;
 
-/// A piece of a body, placed in the body's object frame O (axes of the URDF link, origin at the centre of mass).
+/// A part of a body, placed in the body's object frame O (axes of the URDF link, origin at the centre of mass).
 struct Shape {
   Geometry geometry;
   RigidTransform X_OS = RigidTransform::Identity();

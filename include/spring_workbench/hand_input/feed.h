@@ -14,16 +14,16 @@
 
 namespace spring_workbench::hand_input {
 
-/// One thing that a feed gave to its simulation. The same things in the same order, each once the simulation has gone
-/// to the same time, give the same future, bit by bit.
+/// One input that a feed gave to its simulation. The same inputs in the same order, each after the simulation has
+/// reached the same time, give a bit-identical future.
 struct Accepted {
   enum class Kind {
     pose,         ///< of the handle at time `t`, as it is followed
     button_down,  ///< the grasp button, at time `t`
     button_up,
     next_tool,  ///< the second button, at time `t`
-    lost,       ///< the hand lets go of what it holds, for it was lost until `t`
-    rest,       ///< nothing: all hands rested until `t`
+    lost,       ///< the hand releases its object because it was lost until `t`
+    rest,       ///< no input: all hands rested until `t`
   };
 
   Kind kind = Kind::rest;
@@ -34,20 +34,20 @@ struct Accepted {
                                                                 ///< −infinity before the simulation began
 };
 
-/// The one way of all hands into a simulation, live and offline. Each hand goes through gate, smoothing and
-/// re-acquisition; its playout clock says how far all is known of it, to those who have a clock. A hand is a number as
-/// for Simulation. Times are the simulation's [s]. No thread, no log, no ROS: the same calls give the same bits.
+/// The input of all hands to a simulation, live and offline. Each hand passes gate, smoothing and re-acquisition; its
+/// playout clock tells, for callers with a clock, up to which time the hand is known. A hand is a number as for
+/// Simulation. Times are simulated [s]. No thread, no log, no ROS: the same calls give bit-identical results.
 class Feed {
  public:
   /// Feeds `simulation`, which must outlive it.
   Feed(simulation::Simulation& simulation, const InputSettings& settings);
   ~Feed();
 
-  /// A sample as it came, in a tracker's frame P that is at `X_WP` in world. What the gate rejects goes no further.
+  /// A sample as it came, in a tracker's frame P that is at `X_WP` in world. A sample that the gate rejects is dropped.
   GateResult push_stylus(const RawSample& sample, const RigidTransform& X_WP, const LocalTime& arrival,
                          std::size_t hand = 0);
-  /// A pose of the handle in world, of a motion whose samples need no clock. It is pushed as it is to the bit where
-  /// nothing is smoothed and the hand was not lost.
+  /// A pose of the handle in world, of a motion whose samples need no clock. It is pushed unchanged, bit by bit, if
+  /// smoothing is off and the hand was not lost.
   GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
   /// See Simulation.
   void push_button(double t, bool pressed, std::size_t hand = 0);
@@ -58,29 +58,29 @@ class Feed {
   /// Whether any hand was pushed since the start.
   bool has_sample() const { return has_sample_; }
   /// The time to which to commit the simulation next, by advance_to: the next sample or button edge up to which all is
-  /// known of every hand, a silent one aside; whole steps where all are silent. Nothing while there is no such time.
+  /// known of every hand, except silent ones; whole steps if all are silent. Nothing while there is no such time.
   std::optional<double> next_stop(const LocalTime& now) const;
   /// Simulated time reached since the start [s]; −infinity before it went on.
   double committed() const;
-  /// Goes to `t`; lets go of what a hand holds where that is lost on the way, in the order of time.
+  /// Advances to `t`; a hand that is lost before `t` releases its object at that time.
   simulation::AdvanceReport advance_to(double t);
-  /// Gives every hand of a copy of the simulation its predicted pose at `t` (motion::PosePredictor), where that is
-  /// later than its newest sample.
+  /// Gives every hand of a copy of the simulation its predicted pose at `t` (motion::PosePredictor), if that is later
+  /// than its newest sample.
   void predict(double t, simulation::Simulation& copy) const;
   /// How long ago the newest sample of all came [s].
   double waited(const LocalTime& now) const;
-  /// From now on `record` is called with all that the simulation is given; none: nothing is recorded.
+  /// From now on calls `record` with every input of the simulation; empty: nothing is recorded.
   void record(std::function<void(const Accepted&)> record) { record_ = std::move(record); }
 
   /// Forgets the hands, after the simulation was reset or changed: the next sample is a first one. Gates and counts
   /// stay.
   void restart();
-  /// Forgets what the gate saw of one hand, for a jump of its time; keeps the counts.
+  /// Forgets the samples that the gate has seen of one hand, for a time jump; keeps the counts.
   void restart_gate(std::size_t hand);
 
   const GateCounts& gate_counts(std::size_t hand) const;
   const ReacquisitionCounts& reacquisition_counts(std::size_t hand) const;
-  /// Times a hand's tracker was moved in world: another X_WP than before, from which on the hand is followed anew.
+  /// How often a hand's tracker was moved in world: another X_WP than before, after which the hand is re-acquired.
   std::size_t tracker_moves(std::size_t hand) const;
 
  private:

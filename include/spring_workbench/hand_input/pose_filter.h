@@ -15,7 +15,7 @@ class PoseFilter {
 
   /// The next sample (later than the last one): its pose as filtered, its stamp as it is.
   motion::PoseSample filter(const motion::PoseSample& sample);
-  /// The next sample starts anew.
+  /// The next sample starts the filter again.
   void restart() { running_ = false; }
 
  private:

@@ -9,29 +9,28 @@
 
 namespace spring_workbench::hand_input {
 
-/// What became of the hand so far.
+/// Counts for the hand so far.
 struct ReacquisitionCounts {
-  std::size_t late = 0;            ///< samples that came after their time had been simulated
-  std::size_t reacquisitions = 0;  ///< times the hand was found again
+  std::size_t late = 0;            ///< samples that arrived after their time had been simulated
+  std::size_t reacquisitions = 0;  ///< times the hand was re-acquired
   std::size_t losses = 0;          ///< times `loss_timeout` passed without a sample
 };
 
-/// Gives the hand that the simulation follows: the tracked one, but where that is lost and found elsewhere, one that
-/// sets out at rest from where it was held and catches up with it.
+/// The hand that the simulation follows: the tracked one or, after that was lost and found elsewhere, one that starts
+/// at rest from where it was held and catches up.
 ///
-/// From sample to sample the pose followed goes along with the tracked hand's own step, and besides a part of the way
-/// to it: at `reacquisition_speed` and `reacquisition_turn_rate`, and at the end with a time constant of 0.1 s. Both
-/// come in smoothly over 0.2 s. So the hand that is followed is never quicker than the tracked one by more than these
-/// two.
+/// From sample to sample the followed pose moves by the tracked hand's own step and in addition towards it: at
+/// `reacquisition_speed` and `reacquisition_turn_rate`, and at the end with a time constant of 0.1 s. Both are ramped
+/// up smoothly over 0.2 s. So the followed hand is faster than the tracked one by these two at most.
 class Reacquisition {
  public:
   explicit Reacquisition(const InputSettings& settings) : settings_(settings) {}
 
-  /// What to follow after this sample, in order: nothing when it is not later than `simulated_until` [s] (it came too
-  /// late); two samples when the hand was held beyond the last one. `relocation`: see GateResult.
+  /// The samples to follow after this one, in order: none if it is not later than `simulated_until` [s] (it is late);
+  /// two if the hand was held beyond the last one. `relocation`: see GateResult.
   std::vector<motion::PoseSample> follow(const motion::PoseSample& sample, bool relocation, double simulated_until);
-  /// The next time up to `until` [s] at which the held object is to be let go of because the hand was lost, if any.
-  /// Each is told once, and none where `lost` is freeze.
+  /// The next time up to `until` [s], if any, at which the held object is released because the hand was lost. Each is
+  /// returned once, and none if `on_loss` is freeze.
   std::optional<double> take_release(double until);
   const ReacquisitionCounts& counts() const { return counts_; }
   /// Forgets the hand; keeps the counts.

@@ -9,25 +9,25 @@ class Node;
 
 namespace spring_workbench::hand_input {
 
-/// What happens to a held object when its hand is lost: it stays where the hand was last, or is let go of.
+/// What happens to a held object when its hand is lost: it stays where the hand was last, or is released.
 enum class OnLoss { freeze, release };
 const std::vector<std::string>& names_of(OnLoss);
 
-/// The rules by which samples of a tracker are let through, filtered and followed. Keys `input.*`.
+/// Rules by which samples of a tracker are accepted, filtered and followed. Keys `input.*`.
 struct InputSettings {
   double quaternion_tolerance = 0.1;  ///< `quaternion_tolerance`: how far |q| may be from 1
   double max_distance = 1000.0;       ///< `max_distance` [m] from the origin of the tracker's frame
   double max_speed = 10.0;            ///< `max_speed` [m/s] between samples
   double max_turn_rate = 50.0;        ///< `max_turn_rate` [rad/s] between samples
-  int accept_after = 5;               ///< `accept_after`: samples in a row that make a relocation
+  int accept_after = 5;               ///< `accept_after`: consecutive samples that make a relocation
   double origin_radius = 1e-3;      ///< `origin_radius` [m]: a jump to the identity this close is "out of view"; 0: off
-  double origin_angle = 0.02;       ///< `origin_angle` [rad]: … and turned from the identity by no more
+  double origin_angle = 0.02;       ///< `origin_angle` [rad]: … and its rotation from the identity
   double min_cutoff = 0.0;          ///< `smoothing.min_cutoff` [Hz] of the jitter filter at rest; 0: off
-  double beta = 5.0;                ///< `smoothing.beta` [Hz per m/s]: by which speed opens the filter
+  double beta = 5.0;                ///< `smoothing.beta` [Hz per m/s]: increase of the cut-off with speed
   double beta_angle = 1.0;          ///< `smoothing.beta_angle` [Hz per rad/s]
-  OnLoss on_loss = OnLoss::freeze;  ///< `on_loss`: when samples stay away for `loss_timeout`
+  OnLoss on_loss = OnLoss::freeze;  ///< `on_loss`: after `loss_timeout` without samples
   double loss_timeout = 2.0;        ///< `loss_timeout` [s]
-  double reacquisition_speed = 0.5;      ///< `reacquisition_speed` [m/s]: the most that catching up adds to the hand's
+  double reacquisition_speed = 0.5;  ///< `reacquisition_speed` [m/s]: largest speed of catching up, added to the hand's
   double reacquisition_turn_rate = 2.0;  ///< `reacquisition_turn_rate` [rad/s]
 };
 

@@ -83,7 +83,7 @@ class SimulationRunner {
   /// when the state does not fit the scene.
   void resume(const scene::Scene& scene, const simulation::SimulationState& state);
 
-  /// Calls `use(const Simulation&)` while nobody else uses the simulation.
+  /// Calls `use(const Simulation&)` with exclusive access to the simulation.
   template <typename Use>
   auto locked(Use&& use) const {
     const std::lock_guard<std::mutex> lock(mutex_);

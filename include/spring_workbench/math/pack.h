@@ -2,13 +2,12 @@
 
 #include "spring_workbench/math/rigid_transform.h"
 
-// Arithmetic on several numbers side by side: what is written once for a scalar `S` runs for `double` and for `Pack`.
+// Arithmetic on several numbers side by side: code written once for a scalar `S` works for `double` and for `Pack`.
 
 #define SPRING_WORKBENCH_INLINE inline __attribute__((always_inline))
 
 /// Compiles a function twice: for every processor, and for those that hold a pack in one register and multiply and add
-/// at once. Which one runs is found when the program starts. For free and non-virtual functions that get packs by
-/// reference.
+/// at once. The choice is made at program start. For free and non-virtual functions that take packs by reference.
 #if defined(__x86_64__) && defined(__GNUC__) && __GNUC__ >= 11 && !defined(__clang__) && !defined(__AVX2__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 #define SPRING_WORKBENCH_WIDE __attribute__((target_clones("default", "fma")))

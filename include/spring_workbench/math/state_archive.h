@@ -18,29 +18,29 @@
 
 namespace spring_workbench::math {
 
-/// Goes through the numbers of a state, always in the same order, either to take them down or to set them. So a class
-/// lists once, in `exchange(StateArchive&)`, what a step changes of it, to be saved, restored, compared and hashed.
-/// Nothing but numbers goes in: no pointer, no padding, no capacity.
+/// Visits the numbers of a state, always in the same order, either to read or to set them. So a class lists only once,
+/// in `exchange(StateArchive&)`, its members that a step changes, for saving, restoring, comparing and hashing. It
+/// contains only numbers: no pointer, no padding, no capacity.
 class StateArchive {
  public:
   using Words = std::vector<std::uint64_t>;
 
-  /// Takes down.
+  /// Reads the numbers.
   StateArchive() = default;
-  /// Sets from `words`, which must be there as long as this.
+  /// Sets them from `words`, which must outlive this.
   explicit StateArchive(const Words& words) : given_(&words) {}
 
   bool sets() const { return given_ != nullptr; }
   const Words& taken() const { return taken_; }
   bool at_end() const { return given_ == nullptr || next_ == given_->size(); }
 
-  /// The next values of the state. Throws std::out_of_range where the words do not go that far.
+  /// The next values of the state. Throws std::out_of_range if there are too few words.
   template <typename... Values>
   void operator()(Values&... values) {
     (exchange(values), ...);
   }
 
-  /// The size of something that has as many words at least. Throws std::out_of_range where there are not so many left.
+  /// The size of a container with at least one word per element. Throws std::out_of_range if fewer words are left.
   std::size_t size(std::size_t present) {
     exchange(present);
     if (sets() && present > given_->size() - next_) throw std::out_of_range("state: ends too early");
@@ -82,7 +82,7 @@ class StateArchive {
     } else if constexpr (has_member<T>(nullptr)) {
       value.exchange(*this);
     } else {
-      exchange_state(*this, value);  // beside the type
+      exchange_state(*this, value);  // next to the type
     }
   }
   template <typename T>

@@ -24,7 +24,7 @@ struct OwnAxesMotion {
   Vector3d alpha_B = Vector3d::Zero();            ///< [rad/s²]
 };
 
-/// How a frame B moves and what it feels, in its own axes, at one moment or at several.
+/// Velocity and acceleration of a frame B in its own axes, at one moment or at several.
 template <typename S>
 struct FrameForcing {
   math::ThreeByThree<S> R_WB;
@@ -34,7 +34,7 @@ struct FrameForcing {
   math::Three<S> a_B;      ///< of the origin, less gravity [m/s²]
 };
 
-/// How a frame moves: twice differentiable in time, over the times that are asked for.
+/// Motion of a frame: twice differentiable in time, over the requested times.
 class FrameMotion {
  public:
   virtual OwnAxesMotion in_own_axes(double t) const = 0;
@@ -57,7 +57,7 @@ struct PoseSample {
 /// velocities at both (see doc/model.md).
 class MotionSegment final : public FrameMotion {
  public:
-  /// Rests at `X` from `begin` to `end` [s]; for ever where they are not given.
+  /// Rests at `X` from `begin` to `end` [s]; forever if they are not given.
   explicit MotionSegment(const RigidTransform& X, double begin = -std::numeric_limits<double>::infinity(),
                          double end = std::numeric_limits<double>::infinity());
   /// From sample `a` to sample `b` (`a.t < b.t`) with the velocities at both; linear part in world axes,
@@ -65,7 +65,7 @@ class MotionSegment final : public FrameMotion {
   MotionSegment(const PoseSample& a, const Vector3d& v_a, const Vector3d& w_a_B, const PoseSample& b,
                 const Vector3d& v_b, const Vector3d& w_b_B);
 
-  /// The motion of a frame C that stands at `X_BC` in this one, B, fixed to it.
+  /// The motion of a frame C that is fixed to this one, B, at `X_BC`.
   MotionSegment of_frame(const RigidTransform& X_BC) const;
 
   double begin() const { return begin_; }  ///< [s]

@@ -4,7 +4,7 @@
 
 namespace spring_workbench::motion {
 
-/// A pose that goes after a goal which comes in leaps (a dragged marker's, at the rate of its picture): towards it with
+/// A pose that follows a goal which jumps (a dragged marker's, at the rate of its picture): towards it with
 /// a time constant, and never faster than a hand. It reaches a goal at rest and does not go beyond it.
 class PoseFollower {
  public:

@@ -13,26 +13,26 @@ namespace spring_workbench::motion {
 class PoseTrack {
  public:
   /// `dropout_after` [s]: a gap between samples longer than this holds the last pose at zero velocity until the next
-  /// sample, where the motion goes on from the new pose.
+  /// sample, from whose pose the motion continues.
   explicit PoseTrack(double dropout_after = 0.5);
 
-  /// Adds a sample. Returns false, and leaves it out, when its stamp is not later than the newest one's by at least
-  /// half a nanosecond. Throws InputError when the sample is not finite, is out of any range (|t| > 1e12 s, |p| > 1e9
-  /// m) or its linear part is no rotation.
+  /// Adds a sample. Returns false, and ignores it, if its stamp is not later than the newest one by at least half a
+  /// nanosecond. Throws InputError when the sample is not finite, is out of any range (|t| > 1e12 s, |p| > 1e9 m) or
+  /// its linear part is no rotation.
   bool push(const PoseSample& sample);
 
   bool empty() const { return nodes_.empty(); }
   double begin() const { return nodes_.front().sample.t; }  ///< time of the oldest sample still held [s]
   double end() const { return nodes_.back().sample.t; }     ///< time of the newest sample [s]
   /// The segment that starts at or contains `t`, begin() ≤ t. At or after end(): at rest at the newest pose.
-  /// The reference is good until the next call of a function that is not const.
+  /// The reference is valid until the next call of a non-const function.
   /// Throws std::logic_error when the track is empty or `t` lies before begin().
   const MotionSegment& segment(double t);
-  /// The same, but fixes no velocity: what is known so far of a motion that nobody has gone along yet.
+  /// The same, but fixes no velocity: the motion as known so far, before any step has used it.
   MotionSegment provisional(double t) const;
   /// The pose at `t`, as of provisional(); at a sample that sample's.
   RigidTransform pose(double t) const;
-  /// Stamp of the first sample later than `t` [s]; infinity where there is none.
+  /// Stamp of the first sample later than `t` [s]; infinity if there is none.
   double next_after(double t) const;
   /// Forgets samples that no segment at or after `t` needs.
   void forget_before(double t);

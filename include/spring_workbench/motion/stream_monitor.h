@@ -23,7 +23,7 @@ class StreamMonitor {
 
   void sample(double stamp, double receipt);
   const StreamFigures& figures() const { return figures_; }
-  /// The next sample starts anew; the figures stay.
+  /// The next sample starts a new stream; the figures stay.
   void restart();
 
  private:

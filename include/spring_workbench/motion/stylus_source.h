@@ -12,8 +12,8 @@ struct StylusSample : PoseSample {
   bool button = false;
 };
 
-/// Where a stylus comes from: a device, a recording, a script. Stamps are given as they come, repeated and backward
-/// ones too (PoseTrack leaves those out).
+/// Source of a stylus: a device, a recording or a script. Stamps are passed on as they come, including repeated and
+/// backward ones (PoseTrack ignores those).
 class StylusSource {
  public:
   virtual ~StylusSource() = default;

@@ -7,8 +7,8 @@
 
 namespace spring_workbench::motion_files {
 
-/// A motion from a file: a script (see ScriptedSource) where the name ends in `.yaml` or `.yml`, else a recording (see
-/// read_motion_file). Throws InputError as these do.
+/// Opens a motion file: a script (see ScriptedSource) if the name ends in `.yaml` or `.yml`, otherwise a recording (see
+/// read_motion_file). Throws InputError like these.
 std::unique_ptr<motion::StylusSource> open_motion(const std::string& path);
 
 }  // namespace spring_workbench::motion_files

@@ -10,7 +10,7 @@
 
 namespace spring_workbench::registration {
 
-/// What the driver is told about where its tracker stands and where the stylus' tip is: its parameters `offset`, `tip`.
+/// The driver's parameters for the tracker's pose and the stylus' tip: `offset` and `tip`.
 struct StoredRegistration {
   RigidTransform X_BT = RigidTransform::Identity();  ///< `offset`: the tracker's frame in the workbench
   Vector3d p_ST = Vector3d::Zero();                  ///< `tip`: in the tracked frame of the stylus [m]

@@ -31,12 +31,12 @@ struct ForkDofs {
   bool operator==(const ForkDofs& o) const { return stretch == o.stretch && bend == o.bend && torsion == o.torsion; }
 };
 
-/// How the rod's curvature may vary along it (doc/model.md, "Shape models").
+/// How the curvature of the rod varies along it (doc/model.md, "Shape models").
 enum class ShapeKind { constant, linear, bushing };
 const std::vector<std::string>& names_of(ShapeKind);
 
-/// What the damping numbers are: a ratio per DOF (Kelvin–Voigt, that of each DOF alone), one ratio for every mode of
-/// the held body, or the coefficients themselves.
+/// Meaning of the damping numbers: a ratio per DOF by itself (Kelvin–Voigt), one ratio for every mode of the held body,
+/// or the coefficients themselves.
 enum class DampingLaw { per_dof, modal, coefficients };
 const std::vector<std::string>& names_of(DampingLaw);
 
@@ -46,17 +46,18 @@ struct ForkSettings {
   double length = 0.2;                    ///< key `fork.length` [m], > 0: rest length L
   PerDof stiffness{2000.0, 500.0, 5.0};   ///< keys `fork.stiffness.*` [N/m, N/m, N·m/rad], ≥ 0
   std::optional<double> slope_stiffness;  ///< key `fork.stiffness.slope` [N·m/rad], > 0: of the `bushing`'s end slope,
-                                          ///< for a bend stiffness > 0; by default k_bend L² / 3, as of a rod
+                                          ///< for a bend stiffness > 0; by default k_bend L² / 3, as for a rod
   PerDof damping_ratio{1.0, 1.0, 1.0};    ///< keys `fork.damping.*`: ζ, 0 … 10; 1 is critical
   PerDof damping_coefficient;  ///< keys `fork.damping_coefficient.*` [N·s/m, N·s/m, N·m·s/rad], ≥ 0: those of the law
                                ///< `coefficients`
-  DampingLaw damping_law = DampingLaw::per_dof;  ///< key `fork.damping_law`; `modal` wants one ζ for all DOFs
+  DampingLaw damping_law = DampingLaw::per_dof;  ///< key `fork.damping_law`; `modal` needs one ζ for all DOFs
   ForkDofs dofs;                                 ///< keys `fork.dofs.*`
-  double switch_off_time = 0.05;  ///< key `fork.switch_off_time` [s], > 0: time constant on which a family that
-                                  ///< is switched off while strained goes back to zero strain
+  double switch_off_time = 0.05;  ///< key `fork.switch_off_time` [s], > 0: time constant with which a DOF that is
+                                  ///< switched off while strained returns to zero strain
 };
 
-/// Coefficient of a damper [N·s/m] beside the fork's stretching spring, for a body of `mass` [kg] that it alone holds.
+/// Coefficient of a damper [N·s/m] parallel to the fork's stretching spring, for a body of `mass` [kg] that this fork
+/// alone holds.
 double stretch_damping(const ForkSettings& fork, double mass);
 
 }  // namespace spring_workbench::rod

@@ -9,7 +9,7 @@
 
 namespace spring_workbench::rod {
 
-/// Most strain coordinates that a shape model has.
+/// Largest number of strain coordinates of a shape model.
 constexpr int max_strain_coordinates = 6;
 
 using StrainVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, max_strain_coordinates, 1>;
@@ -17,7 +17,7 @@ using StrainMatrix =
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_strain_coordinates, max_strain_coordinates>;
 using StrainJacobian = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, max_strain_coordinates>;
 
-/// Where the fork's tip E is in the handle frame H and how it moves with the strain; all vectors in the axes of H.
+/// Pose of the fork's tip E in the handle frame H and its motion with the strain; all vectors in the axes of H.
 struct TipKinematics {
   Matrix3d R_HE = Matrix3d::Identity();
   Vector3d p_HE = Vector3d::Zero();          ///< [m]
@@ -37,14 +37,14 @@ struct TipOf {
   math::Three<S> angular_bias, linear_bias;
 };
 
-/// Which of the strain coordinates belong to which family: [begin, begin + count).
+/// The strain coordinates of a DOF: [begin, begin + count).
 struct CoordinateRange {
   int begin = 0;
   int count = 0;
 };
 
-/// How the fork's spring part is curved by a few strain coordinates q (doc/model.md, "Shape models"; paper, section 4).
-/// Clamped to the handle at H, straight along z of H for q = 0. Immutable; knows no time and no mass.
+/// The curve of the fork's spring part as a function of a few strain coordinates q (doc/model.md, "Shape models";
+/// paper, section 4). Clamped to the handle at H, straight along z of H for q = 0. Immutable; without time or mass.
 class ShapeModel {
  public:
   virtual ~ShapeModel() = default;
@@ -77,11 +77,11 @@ class ShapeModel {
   /// Pose of the rod's section at arc length `s` of the rest shape, 0 ≤ s ≤ length(), in H.
   virtual RigidTransform section(const StrainVector& q, double s) const = 0;
 
-  /// Where other coordinates give the same tip with less strain, takes those, with the rates of the same motion (a
-  /// rotation vector beyond a half turn: the other way round). Returns whether it did.
+  /// If other coordinates give the same tip with less strain, changes to those, with the rates of the same motion (a
+  /// rotation vector beyond half a turn becomes that of the shorter turn). Returns whether it did.
   virtual bool rechart(StrainVector& q, StrainVector& q_dot) const;
 
-  /// Whether the strain is one that a rod can have: finite, not turned inside out, not wound up beyond `max_turns`.
+  /// Whether a rod can have this strain: finite, not inverted, not wound up beyond `max_turns`.
   bool admissible(const StrainVector& q) const { return q.allFinite() && range_used(q) < 1.0; }
   /// How much of its range a rod with this strain has used: 0 at rest, 1 at the end; a convex function.
   virtual double range_used(const StrainVector& q) const = 0;
@@ -95,7 +95,7 @@ class ShapeModel {
   double length_;  ///< [m]
 };
 
-/// `length` [m] > 0; `slope_stiffness` as of ForkSettings. Throws InputError for another length.
+/// `length` [m] > 0; `slope_stiffness` as in ForkSettings. Throws InputError for an invalid length.
 std::shared_ptr<const ShapeModel> make_shape_model(ShapeKind kind, double length,
                                                    std::optional<double> slope_stiffness = std::nullopt);
 

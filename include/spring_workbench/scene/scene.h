@@ -10,8 +10,8 @@
 
 namespace spring_workbench::scene {
 
-/// [m/s²] on Earth: a scene's default, and what tells a weight from a mass without gravity. Weights scale with it.
-/// Goes into `Calibration.NoLoadNoGravityStaysPositive`.
+/// [m/s²] on Earth: the default of a scene, and the conversion of a mass into a weight if there is no gravity. Weights
+/// scale with it. Goes into `Calibration.NoLoadNoGravityStaysPositive`.
 constexpr double standard_gravity = 9.81;
 
 /// Mass [kg], and inertia tensor [kg·m²] about the centre of mass in the axes of O.
@@ -33,23 +33,23 @@ struct Body {
   bool movable = false;
   RigidTransform X_WO = RigidTransform::Identity();  ///< start pose of the object frame O in world
   RigidTransform X_OL = RigidTransform::Identity();  ///< the URDF link frame L in O (a translation: −centre of mass)
-  MassProperties mass_properties;                    ///< zero for a body that is not movable or has no mass
+  MassProperties mass_properties;                    ///< zero for a body that is immovable or has no mass
   Material material;
   std::vector<geometry::Shape> collision;
-  std::vector<geometry::Shape> visual;  ///< the collision shapes where the URDF gives no visual
+  std::vector<geometry::Shape> visual;  ///< the collision shapes if the URDF has no visual
 };
 
 enum class ContactMode { none, stop, dynamic };
 inline std::vector<std::string> names_of(ContactMode) { return {"none", "stop", "dynamic"}; }
 
-/// Where an object has to be brought in an assembly: pose of its link frame in world, with tolerances [m, rad].
+/// Target of an object in an assembly: pose of its link frame in world, with tolerances [m, rad].
 struct Target {
   RigidTransform X_WL = RigidTransform::Identity();
   double position_tolerance = 0.01;
   double angle_tolerance = 0.1;
 };
 
-/// A scene as read from a URDF and the YAML file of the same name beside it.
+/// A scene as read from a URDF and the YAML file of the same name next to it.
 struct Scene {
   std::string name;
   std::string path;
@@ -59,18 +59,18 @@ struct Scene {
   Material bench_material;            ///< the scene's defaults
   ContactMode contact = ContactMode::stop;
   std::string tool = "spring_fork";
-  double force_scale = 1.0;                                ///< virtual per real unit of force, > 0
+  double force_scale = 1.0;                                ///< ratio of virtual to real force, > 0
   RigidTransform X_WH_start = RigidTransform::Identity();  ///< start of the fork's handle
   std::map<std::string, Target> targets;
-  std::vector<std::string> warnings;  ///< what was mended on loading; each names the link
+  std::vector<std::string> warnings;  ///< what was repaired on loading; each names the link
 };
 
 /// The folder of a package in the colon-separated folders of ROS_PACKAGE_PATH, or an empty string: no ROS needed.
 std::string find_package_in_ros_package_path(const std::string& package);
 
-/// Reads a scene from a URDF file path or `package://` URI, with the YAML beside it where there is one. It and all
-/// that it names must lie, links followed, in one of the folders `roots` or in a ROS package; without any, anywhere.
-/// Throws InputError with file, field, value and rule for everything that cannot be used.
+/// Reads a scene from a URDF file path or `package://` URI, with the YAML file next to it if there is one. After
+/// resolving symbolic links, all files must be in one of the folders `roots` or in a ROS package; with no `roots`,
+/// anywhere. Throws InputError with file, field, rule and value for anything invalid.
 Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots = {});
 
 /// Index of the body called `name`, or nothing.

@@ -19,7 +19,7 @@ namespace spring_workbench::simulation {
 /// Everything that can be set from outside about a simulation. One field per key; the keys with unit, range and meaning
 /// are in `setting_descriptions()`, which the parameter server, `replay` and the reference in doc/ are all made from.
 struct SimulationSettings {
-  std::optional<tools::Tool> tool;            ///< key `tool`; by default as the scene says, so the next three
+  std::optional<tools::Tool> tool;            ///< key `tool`; default: as in the scene; likewise the next three
   std::optional<scene::ContactMode> contact;  ///< key `contact`
   std::optional<double> gravity;              ///< key `gravity` [m/s²], 0 … 1000
   std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9
@@ -32,10 +32,10 @@ struct SimulationSettings {
 };
 
 /// Throws InputError naming `where`, key, value and rule for a value that its key does not allow, or for damping ratios
-/// that do not go with the damping law.
+/// that the damping law does not allow.
 void validate(const SimulationSettings& settings, const std::string& where);
 
-/// A change of the fork while running; what is absent stays as it is.
+/// A change of the fork while running; absent fields stay as they are.
 struct ForkChange {
   std::optional<rod::ForkDofs> dofs;
   std::optional<double> stretch_stiffness, bend_stiffness;  ///< [N/m]
@@ -46,14 +46,14 @@ struct ForkChange {
 
   bool empty() const { return !dofs && !changes_springs(); }
   bool changes_springs() const;
-  /// The fork with it.
+  /// The fork with this change.
   rod::ForkSettings applied_to(rod::ForkSettings fork) const;
 };
 
-/// The change after which a fork, with its own shape and length, is as this one.
+/// The change that makes a fork like this one, except for its shape and length.
 ForkChange change_to(const rod::ForkSettings& fork);
 
-/// The same of how time is stepped.
+/// A change of how time is stepped.
 struct DynamicsChange {
   std::optional<dynamics::IntegratorKind> integrator;
   std::optional<double> step;       ///< [s]

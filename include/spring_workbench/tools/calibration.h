@@ -38,8 +38,8 @@ WorldLoad world_load(const scene::Scene& scene, const WorldGoal& goal);
 /// Stiffness [N/m, N/m, N·m/rad] of the one fork for all bodies of a world (paper, section 4), of `shape`, `length` and
 /// `slope_stiffness` as in `fork`: hanging from the upright fork, `load.mass` extends it by `goal.stretch` of its
 /// length; held level at its centre it deflects the tip by `goal.bend` of the length; held level at a lever of
-/// `load.lever` beside its centre it twists the fork by `goal.twist`: each in the full nonlinear equilibrium. What
-/// weighs less does so in proportion. Without gravity as on Earth.
+/// `load.lever` from its centre it twists the fork by `goal.twist`: each in the full nonlinear equilibrium. What weighs
+/// less does so in proportion. Without gravity as on Earth.
 rod::PerDof world_stiffness(const rod::ForkSettings& fork, const WorldLoad& load, double gravity,
                             const WorldGoal& goal = {});
 

@@ -38,11 +38,11 @@ class HoldMaker {
   HoldMaker(const rod::ForkSettings& fork, const dynamics::DynamicsSettings& dynamics, double gravity)
       : fork_(fork), dynamics_(dynamics), gravity_(gravity) {}
 
-  /// A hold free of strain, at time `now` [s]. It has to be told the hand's motion before it can be used.
+  /// A hold without strain, at time `now` [s]. Set the hand's motion before using it.
   std::unique_ptr<ToolHold> make(const Grasp& grasp, const GraspedBody& object, double now) const;
   /// The object at time `now` [s] as none holds it, with this velocity, to be pushed by tools. Its mass must be > 0.
   std::unique_ptr<ToolHold> make_unheld(const GraspedBody& object, const Twist& V_WO_W, double now) const;
-  /// The families that the object can move: of those switched on, the ones in which it has an inertia.
+  /// The DOFs in which the object can move: those that are on and in which it has an inertia.
   rod::ForkDofs possible_dofs(const Grasp& grasp, const GraspedBody& object) const;
 
  private:

@@ -9,16 +9,16 @@ namespace spring_workbench::tools {
 enum class Tool {
   spring,        ///< a spring-damper between the hand and the object's centre
   spring_fork,   ///< the rod
-  spring_probe,  ///< a spring along its axis that pushes and presses
+  spring_probe,  ///< a spring along its axis, which pushes
   direct,        ///< rigid, at the hand
   ray,           ///< rigid, picked by a ray along z of the hand
 };
 
 inline std::vector<std::string> names_of(Tool) { return {"spring", "spring_fork", "spring_probe", "direct", "ray"}; }
 bool can_hold(Tool tool);
-/// Whether what is held turns with the hand.
+/// Whether the held object turns with the hand.
 bool turns(Tool tool);
-/// The one after it; of those that can hold where `holding`.
+/// The next tool; with `holding`, the next one that can hold.
 Tool next_tool(Tool tool, bool holding);
 
 }  // namespace spring_workbench::tools

@@ -12,15 +12,15 @@
 
 namespace spring_workbench::tools {
 
-/// What the steps since the last call said of their errors. Trials that were not gone on from do not count.
+/// Error estimates of the steps since the last call, without the trial steps that were discarded.
 struct StepEstimates {
   double position = 0.0;  ///< [m]
   double angle = 0.0;     ///< [rad]
   double omega_dt = 0.0;  ///< of the stiffest mode
-  int extra_steps = 0;    ///< beside one for each call of advance()
-  int substeps = 0;       ///< taken again shorter, for their error
+  int extra_steps = 0;    ///< more than one for each call of advance()
+  int substeps = 0;       ///< attempts repeated with a shorter step because of their error
   int stops = 0;          ///< that met the end of the fork's range
-  int fallback = 0;       ///< done by an L-stable rule in place of the integrator
+  int fallback = 0;       ///< taken by an L-stable rule in place of the integrator
   double energy = 0.0;    ///< sum of the estimated errors in energy [J]
 
   void add(const StepEstimates& next) {
@@ -60,23 +60,23 @@ class ToolHold : public bodies::SteppedBody {
 
   /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
   virtual void set_hand(const motion::MotionSegment& hand, double t) = 0;
-  /// Whether nothing moves for the next `h` [s], and nothing need be done but let_pass(): the hand is at rest and the
-  /// object has come to rest on it. `may_fall_asleep`: false where something else may move it.
+  /// Whether nothing moves for the next `h` [s], so that only let_pass() is needed: the hand is at rest and the object
+  /// has come to rest on it. `may_fall_asleep`: false if something else may move it.
   virtual bool sleeps(double h, bool may_fall_asleep) = 0;
   virtual void let_pass(double h) = 0;
   /// What the springs do to the object at its centre, world axes; its dampers left out.
   virtual Wrench spring_pull() const = 0;
-  /// The tool is gripped anew, with the object at `X_WO`: what there was of strain is gone, and the springs do `pull_W`
-  /// to the object, at its centre, as far as the tool has springs for it (doc/model.md, "Gripped anew").
+  /// Regrasps with the object at `X_WO`: the old strain is gone, and the springs exert `pull_W` on the object, at its
+  /// centre, as far as the tool has springs for it (doc/model.md, "Regrasping").
   virtual void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) = 0;
-  /// The object's twist comes as near as it can to this one.
+  /// Brings the object's twist as close to this one as possible.
   virtual void take_twist(const Twist& V_WO_W) = 0;
   /// New stiffness and damping ratios; the strain stays.
   virtual void set_springs(const rod::ForkSettings& fork) = 0;
   /// The stiffness that fits the object as it is held (doc/model.md, "Calibration"). The object's mass must be > 0.
   virtual rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity,
                                         const ObjectGoal& goal) const = 0;
-  /// Switches families; true when one is on its way to zero strain. For the fork alone.
+  /// Switches DOFs; true if one is returning to zero strain. Only for the fork.
   virtual bool set_dofs(const rod::ForkDofs& dofs, double switch_off_time) = 0;
   virtual void set_step_control(const dynamics::DynamicsSettings& settings) = 0;
 
@@ -85,10 +85,10 @@ class ToolHold : public bodies::SteppedBody {
   virtual double elastic_energy() const = 0;  ///< [J]
   virtual double energy_added() const = 0;    ///< by integration since the grasp [J]
   virtual StepEstimates take_estimates() = 0;
-  /// All that changes while it holds, between two steps, the integrator's history and the estimates included; given
-  /// back to a hold made for the same grasp and settings.
+  /// The whole state between two steps, including the integrator's history and the estimates; it is restored into a
+  /// hold made for the same grasp and settings.
   virtual void exchange(math::StateArchive& state) = 0;
-  /// Fills in what the tool knows of its state. `massless`: the object has no mass, and forces mean nothing.
+  /// Fills in the state of the tool. `massless`: the object has no mass, so forces mean nothing.
   virtual void describe(bool massless, ToolState& state) const = 0;
 };
 

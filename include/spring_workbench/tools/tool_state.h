@@ -13,7 +13,7 @@ struct ToolState {
   bool present = false;  ///< a sample of this hand is known
   Tool tool = Tool::spring_fork;
   std::string held_object;  ///< empty when nothing is held
-  std::string touched;      ///< what the probe is on, "workbench" for the bench; else empty
+  std::string touched;      ///< the body that the probe touches, "workbench" for the bench; otherwise empty
   rod::ShapeKind shape = rod::ShapeKind::linear;
   dynamics::IntegratorKind integrator = dynamics::IntegratorKind::exponential;
   rod::ForkDofs dofs;                                ///< DOFs switched on
@@ -26,17 +26,17 @@ struct ToolState {
   double torsion = 0.0;                              ///< twist angle [rad]
   RigidTransform X_WS = RigidTransform::Identity();  ///< the stylus
   RigidTransform X_WH = RigidTransform::Identity();  ///< the handle, as the hand has it: the stylus itself unless
-                                                     ///< the fork was given another size, or gripped anew
-  RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< the handle that the object sees (proxy of the hand)
+                                                     ///< calibration or a regrasp has moved it
+  RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< the proxy handle
   RigidTransform X_WE = RigidTransform::Identity();        ///< the tip
   Wrench tip_wrench_W;                                     ///< on the object at the tip, world axes [N, N·m]
-  Wrench handle_wrench_H;                                  ///< what the hand would feel, at and in the handle frame
+  Wrench handle_wrench_H;                                  ///< wrench on the hand, at and in the handle frame
   double elastic_energy = 0.0;                             ///< [J]
   double kinetic_energy = 0.0;                             ///< of the held object, in world [J]
-  double force_scale = 1.0;                                ///< virtual per real unit of force
+  double force_scale = 1.0;                                ///< ratio of virtual to real force
   double weight = 0.0;              ///< the tool as a scale: upward force on the object over g [vkg]
   double torque = 0.0;              ///< the tool as a torque wrench: moment about its axis at the tip [N·m]
-  double material_stiffness = 0.0;  ///< that the probe reads [N/m]; infinite: rigid; 0: no reading
+  double material_stiffness = 0.0;  ///< reading of the probe [N/m]; infinite: rigid; 0: no reading
   double material_stiffness_uncertainty = 0.0;  ///< one standard deviation [N/m]
 };
 

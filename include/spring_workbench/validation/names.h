@@ -7,8 +7,8 @@
 
 namespace spring_workbench::validation {
 
-/// The words of an enum, in the order of its values: those of files, parameters and services. Each enum declares
-/// `names_of(E)` beside it.
+/// The words of an enum in files, parameters and services, in the order of its values. Each enum declares `names_of(E)`
+/// next to it.
 template <typename E>
 std::vector<std::string> names() {
   return names_of(E{});

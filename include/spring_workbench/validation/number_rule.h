@@ -16,7 +16,7 @@ struct NumberRule {
   bool infinity_allowed = false;  ///< true: `.inf` is allowed although it is greater than `max`
 
   bool allows(double value) const;
-  std::string text() const;  ///< e.g. "a number > 0", "a number in [0, 1]"
+  std::string text() const;  ///< e.g. "a finite number > 0", "a number between 0 and 1"
 };
 inline NumberRule any_number() { return {}; }
 inline NumberRule positive() { return {0.0, std::numeric_limits<double>::max(), false, false}; }
@@ -24,7 +24,8 @@ inline NumberRule not_negative() { return {0.0, std::numeric_limits<double>::max
 inline NumberRule positive_or_infinite() { return {0.0, std::numeric_limits<double>::max(), false, true}; }
 inline NumberRule between(double min, double max) { return {min, max, true, false}; }
 
-/// Throws InputError("<where>: <key>: <value> is not allowed: must be <rule>").
+/// Throws InputError("<where>: <key>: must be <rule>, got <value>"), or "<where>: <key>: missing; give <rule>" if
+/// `value` is empty.
 [[noreturn]] void refuse(const std::string& where, const std::string& key, const std::string& value,
                          const std::string& rule);
 

@@ -8,15 +8,15 @@
 
 namespace spring_workbench::validation {
 
-/// What a child process may use.
+/// Limits of a child process.
 struct ChildLimits {
-  double time = 0.0;  ///< of the processor; ten times as much of the wall [s]
-  std::uint64_t memory = std::numeric_limits<std::uint64_t>::max();  ///< beyond what the caller has [bytes]
+  double time = 0.0;  ///< processor time; ten times as much wall time [s]
+  std::uint64_t memory = std::numeric_limits<std::uint64_t>::max();  ///< more than the caller has [bytes]
 };
 
-/// What `work` returns, from a child process whose output goes nowhere: what aborts, hangs, eats memory or runs wild
-/// there does not take the caller along. Nothing where the child died, `work` threw, or it hit a limit. The child has
-/// the calling thread alone: `work` must not wait for others. Throws InputError where no process can be made.
+/// Runs `work` in a child process, whose output is discarded, and returns its result: a crash, a hang or excessive
+/// memory there does not affect the caller. Returns nothing if the child died, `work` threw, or a limit was hit. The
+/// child has only the calling thread: `work` must not wait for others. Throws InputError if no process can be created.
 std::optional<std::string> run_in_child(const std::function<std::string()>& work, const ChildLimits& limits);
 
 }  // namespace spring_workbench::validation

@@ -34,7 +34,7 @@ class Alarm {
  public:
   /// Ends the present sleep, or the next at once.
   void ring();
-  /// As sleep_until_loop_time(), or until somebody rings.
+  /// As sleep_until_loop_time(), or until another thread rings.
   void sleep_until(double t);
 
  private:

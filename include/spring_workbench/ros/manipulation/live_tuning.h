@@ -8,7 +8,7 @@
 
 namespace spring_workbench::manipulation {
 
-/// Live tuning through dynamic_reconfigure, under `~live` (cfg/Manipulation.cfg): families, stiffness, damping,
+/// Live tuning through dynamic_reconfigure, under `~live` (cfg/Manipulation.cfg): DOFs, stiffness, damping,
 /// integrator, step. The simulation's values are the truth: what is set goes to the simulation, what it refuses is put
 /// back with a warning, and what services change shows here within a fifth of a second.
 class LiveTuning {

@@ -38,7 +38,7 @@ class CallbackThread {
 };
 
 /// The node `manipulation`: tf and buttons in; physics in its own thread, woken by samples, on the steady clock or,
-/// under `use_sim_time`, on ROS time; states, markers and reports out. Call the callbacks of the global queue beside
+/// under `use_sim_time`, on ROS time; states, markers and reports out. Call the callbacks of the global queue next to
 /// it. It ends in order when it is destroyed before ros::shutdown().
 class ManipulationNode {
  public:

@@ -13,8 +13,8 @@ namespace spring_workbench::manipulation {
 
 /// Sends the committed simulation, to be recorded (~objects, ~fork, ~fork_2, ~wrench, ~contacts, ~steps and ~task),
 /// the journal (~accepted, ~changes), and what is shown, to be looked at (/tf, ~display/objects, ~display/fork,
-/// ~display/fork_2, ~markers). Messages are made only while somebody listens. What has not changed is sent again ten
-/// times a second.
+/// ~display/fork_2, ~markers). Messages are made only while there is a subscriber. What has not changed is sent again
+/// ten times a second.
 class StatePublisher {
  public:
   StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters);
@@ -23,7 +23,7 @@ class StatePublisher {
   void publish_committed(const live::SimulationRunner& runner, const live::CycleReport& report, bool deadline_missed);
   /// After show(), which brought what is shown `horizon` [s] beyond the newest sample. `now` [s]: local time.
   void publish_shown(const live::SimulationRunner& runner, double horizon, double now);
-  /// The journal, while somebody listens to both of its topics.
+  /// The journal, while both of its topics have a subscriber.
   void publish_journal(live::SimulationRunner& runner);
 
  private:
