@@ -107,10 +107,15 @@ StepControl::Tried StepControl::try_step(const Span& span, double t, double h,
            weight * (o.X.translation().z() - end.X_WH.translation().z());
   };
   const double found = potential(as_is, tried.state);
-  tried.energy_error = kinetic(as_is) - kinetic(as_should_be) + found - potential(as_should_be, truth);
+  // The contact's load, which is constant, does work on the difference, too.
+  const Wrench& load = body.external_wrench();
+  const Vector3d moved = as_is.X.translation() - as_should_be.X.translation(),
+                 turned = as_should_be.X.linear() * math::turn_between(as_should_be.X, as_is.X);
+  tried.energy_error = kinetic(as_is) - kinetic(as_should_be) + found - potential(as_should_be, truth) -
+                       load.force.dot(moved) - load.moment.dot(turned);
   tried.largest_energy = kinetic(as_is) + std::abs(found);
-  tried.position_error = (as_is.X.translation() - as_should_be.X.translation()).norm();
-  tried.angle_error = math::log_so3(as_is.X.linear().transpose() * as_should_be.X.linear()).norm();
+  tried.position_error = moved.norm();
+  tried.angle_error = turned.norm();
   return tried;
 }
 

@@ -249,6 +249,24 @@ TEST(StopContact, ADroppedBoxBouncesByItsRestitution) {
   }
 }
 
+/// A bent and compressed fork that draws a box over a bench without friction: what its strain would store, the bench
+/// holds against, so the estimate of the error in energy is that of the slow motion alone.
+TEST(StopContact, TheErrorInEnergyKnowsTheWorkOfTheBench) {
+  SimulationSettings set;
+  set.fork.length = length;
+  set.fork.stiffness = {500.0, 200.0, 2.0};
+  Simulation simulation(scene_of({box("box", {0.1, 0.06, 0.04}, 1.0, Vector3d(0, 0, 0.02))}, 0.0), set);
+  const Vector3d above(0.0, 0.0, 0.22), pressed = above + Vector3d(0.02, 0.0, -0.02);
+  push_move(simulation, 0.0, 0.5, above, pressed);
+  push_move(simulation, 1.0, 2.0, pressed, pressed + Vector3d(0.2, 0.0, 0.0));
+  simulation.push_button(0.0, true);
+  simulation.advance(0.98);
+  const AdvanceReport report = simulation.advance(1.9);
+  EXPECT_GT(simulation.fork().elastic_energy, 0.05);
+  EXPECT_LT(report.energy_error, 2e-8);
+  EXPECT_EQ(report.substeps, 0);
+}
+
 /// Lowered onto the bench, pressed by 100 N and moved along it without friction: short steps go the way of long ones,
 /// and nothing hovers.
 TEST(StopContact, ShortStepsGoTheWayOfLongOnes) {
