@@ -8,8 +8,8 @@ namespace {
 
 constexpr const char* pose_text = R"(The pose of a frame as a 4 x 4 array.
 
-position: x, y, z [m]; quaternion: x, y, z, w, normalised here. Raises InputError where one is of another length or not
-finite, or the quaternion is zero.)";
+position: x, y, z [m]; quaternion: x, y, z, w, normalised here. Raises InputError if one has the wrong
+length or is not finite, or if the quaternion is zero.)";
 
 RigidTransform pose(const std::vector<double>& position, const std::vector<double>& quaternion) {
   const auto refuse = [](const std::string& what, const char* rule) {
@@ -29,7 +29,7 @@ RigidTransform pose(const std::vector<double>& position, const std::vector<doubl
 PYBIND11_MODULE(_core, module) {
   module.doc() = "The compiled part of spring_workbench.";
   py::register_exception<validation::InputError>(module, "InputError", PyExc_ValueError).attr("__doc__") =
-      "Bad input: the message names field, value and what is allowed. What was there before stays as it was.";
+      "Bad input: the message names the field, what is allowed and what was given. The old state stays.";
   bind_settings(module);
   bind_motions(module);
   bind_states(module);
@@ -42,7 +42,7 @@ PYBIND11_MODULE(_core, module) {
       py::arg("position"), py::arg("quaternion") = std::vector<double>{0.0, 0.0, 0.0, 1.0}, pose_text);
   module.def(
       "integrators", [] { return names_of(dynamics::IntegratorKind{}); },
-      "The names that the setting `integrator` takes.");
+      "The names that the setting `integrator` accepts.");
 }
 
 }  // namespace spring_workbench::python

@@ -74,7 +74,7 @@ std::vector<std::string> names(const Simulation& of) {
 
 void bind_scene(py::module_& module) {
   using scene::Scene;
-  py::class_<Scene>(module, "Scene", "Bodies, materials and gravity, as read from a URDF and the YAML beside it.")
+  py::class_<Scene>(module, "Scene", "Bodies, materials and gravity, read from a URDF and the YAML file next to it.")
       .def_readonly("name", &Scene::name)
       .def_readonly("path", &Scene::path)
       .def_readonly("gravity", &Scene::gravity, "[m/s2], along -z of world.")
@@ -90,10 +90,10 @@ void bind_scene(py::module_& module) {
             }
             return masses;
           },
-          "Of the movable objects [kg], by name.")
-      .def_readonly("warnings", &Scene::warnings, "What was mended on loading, a line each.");
+          "Mass of each movable object [kg], by name.")
+      .def_readonly("warnings", &Scene::warnings, "What was repaired on loading, one line each.");
   module.def("load_scene", &scene::load_scene, py::arg("path"), py::arg("roots") = std::vector<std::string>{},
-             R"(Reads a scene from a URDF (a path or package:// URI), with the YAML of the same name beside it.
+             R"(Reads a scene from a URDF (a path or package:// URI), with the YAML file of the same name next to it.
 
 What it names must lie below one of the folders `roots` or in a ROS package; without any, anywhere.
 Raises InputError.)");
@@ -102,13 +102,13 @@ Raises InputError.)");
 void bind_state_access(py::class_<Simulation>& type) {
   type.def_property_readonly("time", &Simulation::time, "[s].")
       .def_property_readonly("newest_sample", &Simulation::newest_sample, "Time of the newest sample of any hand [s].")
-      .def_property_readonly("names", &names, "Of the movable objects, in the order of all arrays.")
+      .def_property_readonly("names", &names, "Names of the movable objects, in the order of all arrays.")
       .def_property_readonly(
           "poses",
           [](const Simulation& s) {
             return to_arrays(s.objects().size(), [&](std::size_t i) { return s.objects()[i].X_WO; });
           },
-          "Of the objects at their centres of mass; shape (n, 4, 4).")
+          "Poses of the objects at their centres of mass; shape (n, 4, 4).")
       .def_property_readonly("twists", &twists, "Velocity [m/s] and angular velocity [rad/s], world; shape (n, 6).")
       .def_property_readonly(
           "held", [](const Simulation& s) { return flags(s, &bodies::BodyState::held); }, "Shape (n,).")
@@ -120,11 +120,11 @@ void bind_state_access(py::class_<Simulation>& type) {
       .def("fork", &Simulation::fork, py::arg("hand") = 0, "The tool in a hand.")
       .def("save", &Simulation::save, "The whole state, as a value.")
       .def("restore", &Simulation::restore, py::arg("state"),
-           "Goes on from a saved state, bit by bit as the simulation that it is of. Raises InputError for a state of "
+           "Restores a saved state, from which the future is bit-identical. Raises InputError for a state of "
            "other objects, another contact mode or another shape of the fork.")
       .def_property_readonly(
           "state_hash", [](const Simulation& s) { return simulation::to_hex(s.state_hash()); },
-          "Of the whole state: 16 hexadecimal digits.");
+          "Hash of the whole state: 16 hexadecimal digits.");
 }
 
 void bind_changes(py::class_<Simulation>& type) {
@@ -137,26 +137,27 @@ void bind_changes(py::class_<Simulation>& type) {
       .def("change", &change, py::kw_only(), py::arg("stiffness") = py::none(), py::arg("damping_ratio") = py::none(),
            py::arg("dofs") = py::none(), py::arg("integrator") = py::none(), py::arg("step") = py::none(),
            py::arg("tolerance") = py::none(),
-           R"(Changes every fork and the steps while running, all or nothing; what is not given stays.
+           R"(Changes every fork and the steps while running, all or nothing; fields that are not given stay.
 
 stiffness: of stretching, bending [N/m] and twisting [N m/rad]; damping_ratio: of the same; dofs: which of them are on;
 step [s]; tolerance [m], 0 for fixed steps. Raises InputError.)")
       .def(
           "calibrate", [](Simulation& s) { s.calibrate(); },
-          "Stiffness from the mass and size of what each hand holds. Raises InputError when nothing is held.")
+          "Stiffness from the mass and size of the object in each hand. Raises InputError if nothing is held.")
       .def(
-          "release", [](Simulation& s) { return s.release(); }, "Every hand lets go. False when nothing was held.")
+          "release", [](Simulation& s) { return s.release(); },
+          "Every hand releases its object. False if nothing was held.")
       .def(
           "place", [](Simulation& s, const std::map<std::string, Array>& poses) { s.place(to_poses(poses)); },
-          py::arg("poses"), "Objects by name to where they are said to be, at rest; nothing is held then.")
-      .def("reset", &Simulation::reset, "Objects back to their start, nothing held, no sample known.");
+          py::arg("poses"), "Places objects, given by name, at rest at these poses; nothing is held then.")
+      .def("reset", &Simulation::reset, "Puts objects back to their start, with nothing held and no sample known.");
 }
 
 }  // namespace
 
 void bind_settings(py::module_& module) {
   using simulation::SettingDescription;
-  py::class_<SettingDescription>(module, "SettingDescription", "What one key means.")
+  py::class_<SettingDescription>(module, "SettingDescription", "Description of one key.")
       .def_readonly("key", &SettingDescription::key)
       .def_readonly("type", &SettingDescription::type)
       .def_readonly("unit", &SettingDescription::unit)
@@ -168,7 +169,7 @@ void bind_settings(py::module_& module) {
     simulation::apply_settings(to_yaml(values), "settings", settings);
   };
   py::class_<SimulationSettings>(module, "Settings",
-                                 "Everything that can be set from outside about a simulation: setting_descriptions().")
+                                 "All settings of a simulation; setting_descriptions() explains them.")
       .def(py::init([=](const py::dict& values) {
              SimulationSettings settings;
              update(settings, values);
@@ -177,17 +178,17 @@ void bind_settings(py::module_& module) {
            py::arg("values") = py::dict(),
            "values: nested or with dotted keys, as a settings file has them. Raises InputError for an unknown key, a "
            "wrong type or a value out of range.")
-      .def("update", update, py::arg("values"), "Sets these as well, all or none. Raises InputError.");
+      .def("update", update, py::arg("values"), "Sets these values, all or none. Raises InputError.");
 }
 
 void bind_simulation(py::module_& module) {
   bind_scene(module);
   py::class_<Simulation> type(module, "Simulation",
                               "A scene, two hands and their tools. It owns time: no clock, no thread; the same calls "
-                              "give the same bits.");
+                              "give bit-identical results.");
   type.def(py::init<const scene::Scene&, const SimulationSettings&>(), py::arg("scene"),
            py::arg_v("settings", SimulationSettings(), "Settings()"),
-           "Raises InputError when settings and scene do not fit.")
+           "Raises InputError if settings and scene do not match.")
       .def(
           "push_stylus",
           [](Simulation& s, double t, const Array& pose, std::size_t hand) {
@@ -195,12 +196,12 @@ void bind_simulation(py::module_& module) {
           },
           py::arg("t"), py::arg("pose"), py::arg("hand") = 0,
           "A new pose of the stylus, shape (4, 4), at time t [s]; its z axis is the fork's, from the hand to the tip. "
-          "False when t is not later than the newest one's. Raises InputError when it is no pose.")
+          "False if t is not later than that of the newest pose. Raises InputError if the pose is invalid.")
       .def("push_button", &Simulation::push_button, py::arg("t"), py::arg("pressed"), py::arg("hand") = 0,
            "The grasp button goes down or up at time t [s].")
-      .def("push_motion", &push_motion, py::arg("motion"), py::arg("hand") = 0, "All samples and button edges.")
+      .def("push_motion", &push_motion, py::arg("motion"), py::arg("hand") = 0, "Pushes all samples and button edges.")
       .def("advance", &Simulation::advance, py::arg("t_end"), py::call_guard<py::gil_scoped_release>(),
-           "Goes to time t_end [s] in steps that also end at the samples.");
+           "Simulates up to time t_end [s] in steps that also end at the samples.");
   bind_state_access(type);
   bind_changes(type);
 }

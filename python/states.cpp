@@ -26,8 +26,9 @@ void bind_fork(py::module_& module) {
   py::class_<ToolState>(module, "Fork", "The tool in a hand and what it does, at one moment.")
       .def_readonly("present", &ToolState::present, "Whether a sample of this hand is known.")
       .def_property_readonly("tool", [](const ToolState& s) { return word(s.tool); })
-      .def_readonly("held_object", &ToolState::held_object, "Name; empty when nothing is held.")
-      .def_readonly("touched", &ToolState::touched, "What the probe is on, `workbench` for the bench; else empty.")
+      .def_readonly("held_object", &ToolState::held_object, "Name; empty if nothing is held.")
+      .def_readonly("touched", &ToolState::touched,
+                    "The body that the probe touches, `workbench` for the bench; otherwise empty.")
       .def_property_readonly("shape", [](const ToolState& s) { return word(s.shape); })
       .def_property_readonly("integrator", [](const ToolState& s) { return word(s.integrator); })
       .def_readonly("length", &ToolState::length, "Rest length [m].")
@@ -39,10 +40,10 @@ void bind_fork(py::module_& module) {
           "Whether stretching, bending and twisting are on.")
       .def_property_readonly(
           "stiffness", [=](const ToolState& s) { return per_dof(s.stiffness); },
-          "Of stretching, bending [N/m] and twisting [N m/rad]; shape (3,).")
+          "Stiffness of stretching, bending [N/m] and twisting [N m/rad]; shape (3,).")
       .def_property_readonly(
           "damping_ratio", [=](const ToolState& s) { return per_dof(s.damping_ratio); },
-          "Of stretching, bending and twisting; shape (3,).")
+          "Damping ratio of stretching, bending and twisting; shape (3,).")
       .def_property_readonly(
           "strain", [](const ToolState& s) { return to_array(s.strain); },
           "Coordinates of the shape model; shape (n,), n at most 6.")
@@ -57,7 +58,7 @@ void bind_fork(py::module_& module) {
           "handle", [](const ToolState& s) { return to_array(s.X_WH); }, "Pose of the handle; shape (4, 4).")
       .def_property_readonly(
           "proxy_handle", [](const ToolState& s) { return to_array(s.X_WH_proxy); },
-          "Pose of the handle that the object sees; shape (4, 4).")
+          "Pose of the proxy handle; shape (4, 4).")
       .def_property_readonly(
           "tip", [](const ToolState& s) { return to_array(s.X_WE); }, "Pose of the tip; shape (4, 4).")
       .def_property_readonly(
@@ -65,13 +66,13 @@ void bind_fork(py::module_& module) {
           "Force [N] and moment [N m] on the object at the tip, world axes; shape (6,).")
       .def_property_readonly(
           "handle_wrench", [](const ToolState& s) { return to_array(s.handle_wrench_H); },
-          "What the hand would feel, in the handle's frame; shape (6,).")
-      .def_readonly("elastic_energy", &ToolState::elastic_energy, "Of the fork [J].")
-      .def_readonly("kinetic_energy", &ToolState::kinetic_energy, "Of the held object [J].")
-      .def_readonly("weight", &ToolState::weight, "Upward force on the object over g [kg].")
+          "Wrench on the hand, in the handle's frame; shape (6,).")
+      .def_readonly("elastic_energy", &ToolState::elastic_energy, "Energy stored in the fork [J].")
+      .def_readonly("kinetic_energy", &ToolState::kinetic_energy, "Kinetic energy of the held object [J].")
+      .def_readonly("weight", &ToolState::weight, "Upward force on the object divided by g [kg].")
       .def_readonly("torque", &ToolState::torque, "Moment about the fork's axis at the tip [N m].")
       .def_readonly("material_stiffness", &ToolState::material_stiffness,
-                    "That the probe reads [N/m]; inf: rigid; 0: no reading.");
+                    "Reading of the probe [N/m]; inf: rigid; 0: no reading.");
 }
 
 void bind_contact(py::module_& module) {
@@ -95,19 +96,21 @@ void bind_report(py::module_& module) {
   using simulation::AdvanceReport;
   py::class_<AdvanceReport>(module, "Report", "What a call of `advance` did.")
       .def_readonly("steps", &AdvanceReport::steps, "Steps taken.")
-      .def_readonly("substeps", &AdvanceReport::substeps, "Steps taken again shorter, for their error.")
+      .def_readonly("substeps", &AdvanceReport::substeps,
+                    "Attempts repeated with a shorter step because of their error.")
       .def_readonly("simulated_time", &AdvanceReport::simulated_time, "[s].")
       .def_readonly("position_error", &AdvanceReport::position_error, "Largest estimate of a step's local error [m].")
-      .def_readonly("angle_error", &AdvanceReport::angle_error, "The same of the angle [rad].")
-      .def_readonly("energy_added", &AdvanceReport::energy_added, "By integration [J].")
+      .def_readonly("angle_error", &AdvanceReport::angle_error, "Likewise for the angle [rad].")
+      .def_readonly("energy_added", &AdvanceReport::energy_added, "Energy added by integration [J].")
       .def_readonly("stiffest_omega_dt", &AdvanceReport::stiffest_omega_dt,
                     "Frequency of the stiffest mode times the step.")
-      .def_readonly("steps_blocked", &AdvanceReport::steps_blocked, "Steps in which contact left an object no way.")
-      .def_readonly("time_lost", &AdvanceReport::time_lost,
-                    "Of the steps, in which a body did not follow its equation [s].")
-      .def_readonly("steps_rejected", &AdvanceReport::steps_rejected, "Steps refused: not finite, or beyond bounds.")
-      .def_readonly("active", &AdvanceReport::active, "Parts that ran.")
-      .def_readonly("skipped", &AdvanceReport::skipped, "Parts that were not needed.");
+      .def_readonly("steps_blocked", &AdvanceReport::steps_blocked,
+                    "Steps in which contact admitted no motion of an object.")
+      .def_readonly("time_lost", &AdvanceReport::time_lost, "Time during which a body did not follow its equation [s].")
+      .def_readonly("steps_rejected", &AdvanceReport::steps_rejected,
+                    "Steps rejected: the result was not finite or bounded.")
+      .def_readonly("active", &AdvanceReport::active, "Subsystems that ran.")
+      .def_readonly("skipped", &AdvanceReport::skipped, "Subsystems that were not needed.");
 }
 
 }  // namespace
@@ -139,11 +142,11 @@ void bind_motions(py::module_& module) {
             for (std::size_t i = 0; i < m.samples.size(); ++i) t[static_cast<Eigen::Index>(i)] = m.samples[i].t;
             return to_array(t);
           },
-          "Since the first sample [s]; shape (n,).")
+          "Times since the first sample [s]; shape (n,).")
       .def_property_readonly(
           "poses",
           [](const Motion& m) { return to_arrays(m.samples.size(), [&](std::size_t i) { return m.samples[i].X; }); },
-          "Of the stylus; shape (n, 4, 4).")
+          "Poses of the stylus; shape (n, 4, 4).")
       .def_property_readonly(
           "buttons",
           [](const Motion& m) {
@@ -161,7 +164,8 @@ void bind_motions(py::module_& module) {
         return motion;
       },
       py::arg("path"),
-      "A recording (lines of `t x y z qx qy qz qw [button]`), or a script of waypoints (*.yaml). Raises InputError.");
+      "Reads a recording (lines of `t x y z qx qy qz qw [button]`), or a script of waypoints (*.yaml). Raises "
+      "InputError.");
 }
 
 }  // namespace spring_workbench::python

@@ -8,7 +8,8 @@
     print(simulation.poses)
 
 SI units, right-handed frames, z up. A pose is a 4 x 4 array that takes coordinates of its frame to world; a quaternion
-is x y z w. Bad input raises InputError, which names field, value and rule; nothing has changed then.
+is x y z w. Bad input raises InputError, which names the field, what is allowed and what was given;
+nothing has changed then.
 """
 
 _NAMES = [
@@ -32,7 +33,7 @@ __all__ = _NAMES
 
 
 def __getattr__(name):
-    # Compiled code is loaded with its first use: those who want the ROS messages of this package do not wait for it.
+    # Compiled code is loaded with its first use: programs that want only the ROS messages do not wait.
     if name not in _NAMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     from . import _core

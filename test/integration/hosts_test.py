@@ -92,9 +92,9 @@ def diagnostics(m):
     for s in m.status:
         if "tracker input" in s.name:
             d = {v.key: v.value for v in s.values}
-            print("D", d.get("samples"), d.get("dropouts"), d.get("came after their time was simulated"),
-                  d.get("left out: too old", "0"), d.get("times the hand was found again"),
-                  d.get("times the hand was lost"), poses[0], markers[0], held[0], "%.4f" % fastest[0],
+            print("D", d.get("samples"), d.get("dropouts"), d.get("late samples"),
+                  d.get("rejected: too old", "0"), d.get("re-acquisitions"),
+                  d.get("losses"), poses[0], markers[0], held[0], "%.4f" % fastest[0],
                   "|", d.get("hint", ""),
                   flush=True)
 held, poses, markers = [False], [0], [0]
@@ -204,7 +204,7 @@ def launched(folder):
     """hosts.launch on the bench starts the tracker on its host, over SSH; the viewer sees what both send."""
     server = shutil.which("sshd", path="/usr/sbin:/usr/bin")
     if not server or shutil.which("ssh-keygen") is None:
-        print("hosts.launch is left out: there is no sshd")
+        print("hosts.launch is skipped: there is no sshd")
         return
     keys = os.path.join(folder, ".ssh")
     os.makedirs(keys, mode=0o700)

@@ -212,13 +212,13 @@ class Limits(unittest.TestCase):
         def answer(topic, text):
             given = yaml.safe_load(text)
             age = rospy.Duration(given.pop("age", 0))
-            before = {key: value for key, value in values().items() if key.startswith("left out: ")}
+            before = {key: value for key, value in values().items() if key.startswith("rejected: ")}
             if topic == "/tf":
                 publishers[topic].publish(self.transform(yaml.safe_dump(given), rospy.Time.now() - age))
             else:
                 publishers[topic].publish(Joy(buttons=given["buttons"]))
-            more = lambda: [k for k, v in values().items() if k.startswith("left out: ") and before.get(k) != v]
-            return wait_for(more, text + " to be left out")[0].replace("left out: ", "")
+            more = lambda: [k for k, v in values().items() if k.startswith("rejected: ") and before.get(k) != v]
+            return wait_for(more, text + " to be rejected")[0].replace("rejected: ", "")
 
         self.walk("Topics", answer)
         self.assertEqual(values()["samples"], "1")

@@ -294,7 +294,7 @@ class Manipulation(unittest.TestCase):
         self.lift()
         self.diagnostics.next()  # counts all samples of this hand
         count = lambda reason: int(
-            diagnostic_values(self.diagnostics.messages, "tracker input").get("left out: " + reason, "0")
+            diagnostic_values(self.diagnostics.messages, "tracker input").get("rejected: " + reason, "0")
         )
         reasons = {
             "not finite": stylus_transform(self.hand.now(), (NAN, 0, 0), DOWN),
@@ -310,7 +310,7 @@ class Manipulation(unittest.TestCase):
         for transform in reasons.values():
             self.hand.send(transform)
         for reason in reasons:
-            wait_for(lambda: count(reason) == before[reason] + 1, "one more sample left out: " + reason)
+            wait_for(lambda: count(reason) == before[reason] + 1, "one more sample rejected: " + reason)
         self.hand.run(0.3)
         now = self.box().pose.position
         self.assertLess(math.dist((resting.x, resting.y, resting.z), (now.x, now.y, now.z)), 1e-6)

@@ -102,8 +102,8 @@ class MovedByMessages(unittest.TestCase):
             ]:
                 send(**bad)
             wait_for(
-                lambda: diagnostic_values(driver.diagnostics.messages, "source").get("poses left out") == "3",
-                "three poses left out",
+                lambda: diagnostic_values(driver.diagnostics.messages, "source").get("poses rejected") == "3",
+                "three poses rejected",
             )
             send((-0.3, 0.1, 0.5))
             wait_for(driver.is_at((-0.3, 0.1, 0.5)), "the stylus to go on")

@@ -61,9 +61,9 @@ void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
     const scene::Scene present =
         runner_.locked([](const simulation::Simulation& simulation) { return simulation.scene(); });
     runner_.resume(present.path == scene ? present : scene::load_scene(scene, scene_roots), state);
-    ROS_WARN("going on where the node of this name was when it ended without warning; nothing is held");
+    ROS_WARN("resuming from the state of the node that was killed; nothing is held");
   } catch (const std::exception& error) {  // a broken one must not keep the node from starting
-    ROS_WARN_STREAM("starting anew: " << error.what());
+    ROS_WARN_STREAM("the checkpoint is ignored: " << error.what());
   }
 }
 

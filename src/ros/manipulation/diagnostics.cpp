@@ -15,7 +15,7 @@ std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std:
                              const std::string& stylus_frame) {
   const InputStatistics& input = tracker.input;
   if (tracker.hand.stream.samples > 0) return "";
-  if (input.messages == 0 && senders.empty()) return "nobody sends /tf: is tracker_driver, or a bag, running?";
+  if (input.messages == 0 && senders.empty()) return "no publisher on /tf: is tracker_driver, or a bag, running?";
   if (input.messages == 0) {
     return validation::join(senders) +
            " should send /tf, but nothing comes: is ROS_IP or ROS_HOSTNAME set on the sender's host, and "
@@ -34,7 +34,7 @@ std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std:
          << " s: are the clocks of two hosts apart, or is a bag played without --clock and use_sim_time?";
     return text.str();
   }
-  return "all samples are left out, most for this: " + most->first;
+  return "all samples are rejected, most of them as: " + most->first;
 }
 
 std::vector<DiagnosticStatus> ManipulationDiagnostics::report(const TrackerInput& first, const TrackerInput& second,
@@ -55,14 +55,14 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
   ros_common::DiagnosticStatusBuilder status(name_ + ": " + what, "tracker");
   ros_common::add_stream(hand.stream, status);
   status.add("dropouts", hand.gate.dropouts)
-      .add("jumps taken as true", hand.gate.relocations)
-      .add("sign flips put right", hand.gate.sign_flips)
-      .add("came after their time was simulated", hand.reacquisition.late)
-      .add("times the hand was found again", hand.reacquisition.reacquisitions)
-      .add("times the hand was lost", hand.reacquisition.losses)
-      .add("times the tracker's frame was moved", hand.tracker_moves)
-      .add("times the sender's clock was set", input.clock_steps)
-      .add("jumps back in time", input.restarts)
+      .add("relocations", hand.gate.relocations)
+      .add("quaternion sign flips", hand.gate.sign_flips)
+      .add("late samples", hand.reacquisition.late)
+      .add("re-acquisitions", hand.reacquisition.reacquisitions)
+      .add("losses", hand.reacquisition.losses)
+      .add("moves of the tracker's frame", hand.tracker_moves)
+      .add("steps of the sender's clock", input.clock_steps)
+      .add("backward time jumps", input.restarts)
       .add("sent by", input.sender);
   const auto others = [](const InputStatistics& of) {
     const auto found = of.rejected.find(another_sender);
@@ -70,13 +70,13 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
   };
   if (others(input) > others(last.input)) {
     status.raise(DiagnosticStatus::ERROR,
-                 "two nodes send the stylus: " + input.sender + " is followed, " + input.other_sender + " is left out");
+                 "two nodes send the stylus: " + input.sender + " is followed, " + input.other_sender + " is ignored");
   }
   if (hand.tracker_moves > last.hand.tracker_moves)
-    status.raise(DiagnosticStatus::WARN, "the tracker's frame was moved: the hand is followed anew");
+    status.raise(DiagnosticStatus::WARN, "the tracker's frame was moved: the hand is re-acquired");
   bool more_rejected = false;
   for (const auto& [reason, count] : input.rejected) {
-    status.add("left out: " + reason, count);
+    status.add("rejected: " + reason, count);
     const auto before = last.input.rejected.find(reason);
     more_rejected |= before == last.input.rejected.end() || before->second < count;
   }
@@ -90,7 +90,7 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
   if (hand.reacquisition.losses > last.hand.reacquisition.losses)
     status.raise(DiagnosticStatus::WARN, "the hand was lost");
   if (hand.gate.dropouts > last.hand.gate.dropouts) status.raise(DiagnosticStatus::WARN, "dropouts");
-  if (more_rejected) status.raise(DiagnosticStatus::WARN, "samples left out");
+  if (more_rejected) status.raise(DiagnosticStatus::WARN, "samples rejected");
   return status.status();
 }
 
@@ -98,24 +98,23 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   ros_common::DiagnosticStatusBuilder status(name_ + ": physics loop", "simulation");
   status.add("cycles", loop.cycles)
       .add("deadlines missed", loop.deadlines_missed)
-      .add("steps refused", loop.steps_rejected)
+      .add("steps rejected", loop.steps_rejected)
       .add("time lost in steps [s]", loop.time_lost)
-      .add("steps done by the fallback", loop.steps_fallback)
+      .add("steps by the fallback", loop.steps_fallback)
       .add("stops at the end of the fork's range", loop.stops)
-      .add("time left out [s]", loop.left_out)
+      .add("time skipped [s]", loop.left_out)
       .add("longest cycle [s]", loop.longest_cycle)
       .add("prediction error, 99 % [m]", loop.prediction_error);
   status.add("since the master answered [s]", loop.master_silence);
   if (loop.master_silence > master_patience) {
     status.raise(DiagnosticStatus::WARN,
-                 "the ROS master does not answer: who is connected stays so, nobody else comes");
+                 "the ROS master does not answer: present connections stay, new ones are impossible");
   }
   if (loop.steps_rejected > last_loop_.steps_rejected) {
-    status.raise(DiagnosticStatus::ERROR, "steps refused: they would not have been finite or bounded");
+    status.raise(DiagnosticStatus::ERROR, "steps rejected: the result was not finite or bounded");
   }
   if (loop.deadlines_missed > last_loop_.deadlines_missed) status.raise(DiagnosticStatus::WARN, "deadlines missed");
-  if (loop.left_out > last_loop_.left_out)
-    status.raise(DiagnosticStatus::WARN, "time was left out: nothing was heard of the hands");
+  if (loop.left_out > last_loop_.left_out) status.raise(DiagnosticStatus::WARN, "time was skipped: there was no input");
   return status.status();
 }
 

@@ -104,7 +104,7 @@ bool ManipulationNode::run_step(double begin) {
 }
 
 void ManipulationNode::count(const live::CycleReport& report, bool deadline_missed) {
-  if (report.left_out > 0.0) ROS_WARN("%.3g s in which nothing was heard of the hands are left out", report.left_out);
+  if (report.left_out > 0.0) ROS_WARN("%.3g s without input are skipped", report.left_out);
   const std::lock_guard<std::mutex> lock(loop_mutex_);
   ++loop_.cycles;
   loop_.deadlines_missed += deadline_missed ? 1 : 0;

@@ -221,7 +221,7 @@ void StylusInput::start_anew_when_due() {
   const bool buttons_awaited = !buttons_.newest.isZero() && early_buttons_.empty();
   if (clock_.is_patient() && (poses_awaited || buttons_awaited)) return;
   const ros::Time now = ros::Time::now();
-  ROS_INFO("time went back by %.3g s: starting anew", clock_.restart());
+  ROS_INFO("time jumped back by %.3g s: the simulation restarts", clock_.restart());
   pressed_ = next_tool_ = false;
   zero_ = 0;
   poses_.newest = buttons_.newest = ros::Time();
@@ -254,7 +254,7 @@ void StylusInput::reject(const std::string& reason, const std::string& line) {
   const auto told = told_.find(reason);
   if (told != told_.end() && now - told->second < told_again_after) return;
   told_[reason] = now;
-  ROS_WARN_STREAM(line << "; left out");
+  ROS_WARN_STREAM(line << "; rejected");
 }
 
 }  // namespace spring_workbench::manipulation

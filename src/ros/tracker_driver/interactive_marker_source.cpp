@@ -85,7 +85,7 @@ class InteractiveMarkerSource final : public MessageSource {
   }
 
   motion::SourceHealth health() const override {
-    return {true, "moved by the marker under stylus/marker", {{"drags", drags_}, {"poses left out", left_out_}}};
+    return {true, "moved by the marker under stylus/marker", {{"drags", drags_}, {"poses rejected", left_out_}}};
   }
 
  private:
@@ -119,7 +119,7 @@ class InteractiveMarkerSource final : public MessageSource {
 
   void refuse_pose(const std::string& reason) {
     ++left_out_;
-    ROS_WARN_STREAM_THROTTLE(5.0, "stylus/marker/feedback: " << reason << "; left out");
+    ROS_WARN_STREAM_THROTTLE(5.0, "stylus/marker/feedback: " << reason << "; rejected");
     server_.setPose(marker_name, ros_common::to_pose(follower_.goal()));
     server_.applyChanges();
   }
