@@ -48,6 +48,14 @@ double SceneRows::share_of_deflection(const ErrorTarget& target) const {
   return 0.0;
 }
 
+double SceneRows::uncertainty(const ErrorTarget& target) const {
+  for (const ErrorRow& row : rows) {
+    if (row.finite && row.error > 0.0 && !row.own_reference)
+      return row.reference_uncertainty * row.*target.measure / row.error;
+  }
+  return 0.0;
+}
+
 std::vector<Pair> SceneRows::pairs(const ErrorTarget& target,
                                    const std::function<bool(const std::string&)>& wanted) const {
   const auto line_of = [&](const std::string& method) {

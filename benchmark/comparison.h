@@ -38,6 +38,8 @@ struct SceneRows {
 
   /// The target as a share of the largest deflection.
   double share_of_deflection(const ErrorTarget& target) const;
+  /// Of the reference, in the target's measure.
+  double uncertainty(const ErrorTarget& target) const;
   /// Ours beside each of the methods that are not ours and `wanted`, those that compare worst for ours first; those
   /// where neither arrives are last.
   std::vector<Pair> pairs(const ErrorTarget& target, const std::function<bool(const std::string&)>& wanted) const;

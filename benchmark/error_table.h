@@ -18,7 +18,7 @@ struct ErrorTablePlan {
   int own_solution_steps = 0;            ///< steps per output of the coarsest of the three runs of own_solution()
   double longest_run = 0.025;            ///< a line ends with the first run that takes longer [s per simulated second]
   Repetition repetition;
-  double run_limit = 2.0;    ///< of a run and its repetitions: given up after that, and so are finer ones [s]
+  double run_limit = 1.0;    ///< of a run and its repetitions: given up after that, and so are finer ones [s]
   double time_limit = 20.0;  ///< of a run for own_solution() [s]
 };
 

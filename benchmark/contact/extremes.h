@@ -45,7 +45,9 @@ struct ExtremeOutcome {
   int steps_blocked = 0;  ///< steps in which contact left the held one no way
   bool stays_out() const { return penetration <= 1e-4; }
   bool gains_nothing() const { return energy_gained <= 3e-6; }
-  bool held() const { return finite && bounded && stays_out() && gains_nothing() && refused == 0; }
+  bool held() const {
+    return finite && bounded && stays_out() && gains_nothing() && refused == 0 && steps_blocked == 0;
+  }
 };
 ExtremeOutcome run(const ExtremeCell& cell);
 

@@ -5,7 +5,7 @@ document is shown:
     in 12 µm<!-- max penetration_um of contact_extremes.csv where extreme=stack of ten --> at most
 
 `the`, `max`, `min` or `mean` of a column, over the rows where all the cells named are as said (numbers as numbers);
-`the` wants one row alone. `times X` at the end gives another unit. The number is the last one before the marker, and
+`the` wants one row alone; `count` is how many rows have anything in that column. `times X` at the end gives another unit. The number is the last one before the marker, and
 must be what the table says, rounded to as many digits as it has.
 
 Usage: document_numbers.py            tells stale numbers and markers that say nothing; status 1 if there are any
@@ -20,7 +20,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESULTS = "benchmark/results"
 DOCUMENTS = ["README.md", "benchmark/README.md", "doc/*.md"]
 MARKER = re.compile(
-    r"<!--\s*(the|max|min|mean)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?(?:\s+times\s+([-+.\deE]+))?\s*-->"
+    r"<!--\s*(the|max|min|mean|count)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?(?:\s+times\s+([-+.\deE]+))?\s*-->"
 )
 NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?")
 
@@ -58,6 +58,8 @@ def value_of(marker, results):
         raise Stale(f"{table} has no column {column}")
     if kind == "the" and len(rows) > 1:
         raise Stale(f"{len(rows)} such rows in {table}, not one")
+    if kind == "count":
+        return sum(row[column] != "" for row in rows) * float(times or 1.0)
     try:
         values = [float(row[column]) for row in rows]
     except ValueError as error:

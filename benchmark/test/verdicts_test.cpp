@@ -130,6 +130,17 @@ TEST(Verdicts, WhereTheTargetExceedsATenthOfTheDeflectionNothingIsJudged) {
   }
 }
 
+TEST(Verdicts, ATargetBelowTwiceTheReferencesOwnErrorIsNotJudged) {
+  for (const auto& [uncertainty, judged] : {std::pair{0.4e-9, true}, std::pair{0.6e-9, false}}) {
+    Measurements measured;
+    add_line("exponential", 1.0, 10.0, measured.scenes);
+    add_line("hand_rk4", 1.0, 1e4, measured.scenes);
+    for (ErrorRow& row : measured.scenes) row.reference_uncertainty = uncertainty * kAmplitude;
+    EXPECT_EQ(result_of(measured, "at 1e-09 of the amplitude", "every peer"), judged ? kPass : kNone);
+    EXPECT_EQ(result_of(measured, "at 1e-06 of the amplitude", "every peer"), kPass);
+  }
+}
+
 TEST(Verdicts, WhoDoesNotArriveHasLostAndIfNobodyDoesNothingIsSaid) {
   const auto cut = [](std::vector<ErrorRow>& rows, const std::string& method) {
     for (ErrorRow& row : rows)
@@ -244,6 +255,9 @@ TEST(Verdicts, OneCellThatFailsIsEnoughForContactsExtremesNotToHold) {
   measured.extremes.assign(2, {"stack", "stop", 1e3, 0.02, 0, {}});
   EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::pass);
   measured.extremes[1].outcome.penetration = 1.01e-4;
+  EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::fail);
+  measured.extremes[1].outcome.penetration = 0.0;
+  measured.extremes[1].outcome.steps_blocked = 1;
   EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::fail);
 }
 
