@@ -5,8 +5,9 @@ document is shown:
     in 12 µm<!-- max penetration_um of contact_extremes.csv where extreme=stack of ten --> at most
 
 `the`, `max`, `min` or `mean` of a column, over the rows where all the cells named are as said (numbers as numbers);
-`the` wants one row alone; `count` is how many rows have anything in that column. `times X` at the end gives another unit. The number is the last one before the marker, and
-must be what the table says, rounded to as many digits as it has.
+`the` wants one row alone; `count` is how many rows have anything in that column. `times X` at the end gives another
+unit. The number is the last one before the marker, and must be what the table says, rounded to as many digits as it
+has.
 
 Usage: document_numbers.py            tells stale numbers and markers that say nothing; status 1 if there are any
        document_numbers.py --write    puts the tables' numbers in"""

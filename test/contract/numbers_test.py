@@ -48,6 +48,7 @@ class Markers(unittest.TestCase):
             "| 2.1e-5 m <!-- the depth [um] of t.csv where kind=wall times 1e-6 --> |",
             "12,346 <!-- the n of t.csv where kind=wall -->",
             "3 of them: 10 <!-- the depth [um] of t.csv where depth [um]=9.6, n=3 -->",
+            "2<!-- count n of t.csv where kind=stack --> of 3<!-- count kind of t.csv -->",
             "a remark <!-- without a table --> 5",
         ):
             self.assertEqual(self.check(text), (text, []))
