@@ -289,6 +289,7 @@ class Faults(unittest.TestCase):
             lambda: self.objects.last.header.stamp.to_sec() > self.hand.now().to_sec() - 0.5,
             "simulated time to come up with the hand's",
         )
+        self.assertGreater(len(self.steps.messages), told)
         self.assertEqual(sum(m.steps_rejected for m in self.steps.messages[told:]), 0)
 
     def test_all_services_at_once(self):
