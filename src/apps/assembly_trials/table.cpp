@@ -54,8 +54,8 @@ std::string markdown_table(const std::vector<ToolTrials>& tools) {
   using Score = assembly::TaskScore;
   const Column columns[] = {{"placed", 1.0, &Score::placed},
                             {"time [s]", 1.0, &Score::time},
-                            {"hand's way [m]", 1.0, &Score::hand_path},
-                            {"objects' way [m]", 1.0, &Score::object_path},
+                            {"hand path [m]", 1.0, &Score::hand_path},
+                            {"object path [m]", 1.0, &Score::object_path},
                             {"grasps", 1.0, &Score::grasps},
                             {"collisions", 1.0, &Score::collisions},
                             {"drops", 1.0, &Score::drops},
