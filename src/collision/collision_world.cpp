@@ -25,7 +25,7 @@ class BoxObject {
  public:
   explicit BoxObject(std::size_t part)
       : box_(std::make_shared<fcl::Boxd>(1.0, 1.0, 1.0)), object_(std::make_unique<fcl::CollisionObjectd>(box_)) {
-    object_->setUserData(reinterpret_cast<void*>(part));
+    object_->setUserData(reinterpret_cast<void*>(part));  // NOLINT(performance-no-int-to-ptr): FCL keeps a pointer
   }
 
   void place(const Eigen::AlignedBox3d& around) {

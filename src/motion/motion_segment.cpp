@@ -40,12 +40,8 @@ SPRING_WORKBENCH_INLINE MotionSegment::Turn<S> MotionSegment::turn(const S& u, d
                        a = math::cross(theta, theta_ddot);
   const S t_dot = 2.0 * dot(theta, theta_dot);
   const S b_dot = k.b_slope * t_dot, c_dot = k.c_slope * t_dot;
-  Turn<S> turn;
-  turn.R = math::exp_so3(theta, k);
-  turn.w_B = theta_dot - k.b * s + k.c * s_s;
-  turn.alpha_B =
-      theta_ddot - k.b * a + k.c * (math::cross(theta, a) + math::cross(theta_dot, s)) - b_dot * s + c_dot * s_s;
-  return turn;
+  return {math::exp_so3(theta, k), theta_dot - k.b * s + k.c * s_s,
+          theta_ddot - k.b * a + k.c * (math::cross(theta, a) + math::cross(theta_dot, s)) - b_dot * s + c_dot * s_s};
 }
 
 MotionSegment MotionSegment::of_frame(const RigidTransform& X_BC) const {

@@ -49,7 +49,7 @@ class SimulatedOperator final : public motion::StylusSource {
  private:
   enum class Phase { choose, above, insert, grip, lift, carry, lower, release, over };
   struct Seen {
-    double t;
+    double t = 0.0;
     OperatorView view;
     RigidTransform X_WH;  ///< where the hand was then, as the operator feels it
   };
