@@ -86,6 +86,8 @@ void Feed::follow(const motion::PoseSample& sample, GateResult result, const Rig
   input.playout.sample(sample.t, arrival);  // a late one, too: what is under way is waited for
 }
 
+void Feed::heard(const LocalTime& arrival, std::size_t hand) { hands_.at(hand).playout.heard(arrival); }
+
 void Feed::restart_gate(std::size_t hand) {
   hands_.at(hand).gate.restart();
   hands_.at(hand).smoothing.restart();

@@ -17,5 +17,14 @@ constexpr double joining_slip = 1.5;
 constexpr std::size_t most_errors = 1000;
 /// share of the errors that are not larger than the one reported. Test: LookAhead.ErrorsAreThoseOfWhatWasShown.
 constexpr double share_of_errors = 0.99;
+/// of a commit's cost in the smoothed one. More: one that was interrupted counts for more. Test:
+/// Pace.IsBehindWhereWhatIsTakenIsNotDoneSoon at 0.
+constexpr double share_of_new_cost = 0.2;
+/// [s] of what is taken and not simulated yet, in simulated time and in work; beyond both simulated time slows down.
+/// Longer: what is shown is later. Test: Pace.IsBehindWhereWhatIsTakenIsNotDoneSoon at 0.1, 5.
+constexpr double longest_lag = 0.5;
+/// [s] of work that a look ahead may take. Longer: what is committed waits for it. Test:
+/// Pace.IsBehindWhereWhatIsTakenIsNotDoneSoon at 0.001, 10.
+constexpr double longest_look_ahead = 0.1;
 
 }  // namespace spring_workbench::live

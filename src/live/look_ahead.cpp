@@ -16,6 +16,20 @@ void LookAhead::show(const simulation::Simulation& committed, const hand_input::
   for (const Held& one : held(copy_)) shown_.push_back(one);
 }
 
+double LookAhead::show_newest(const simulation::Simulation& committed, const hand_input::Feed& feed, double horizon,
+                              const Pace& pace) {
+  const double newest = committed.newest_sample();
+  double t = committed.time();
+  if (feed.has_sample()) {
+    const double ahead = std::max(newest + horizon, shown_until_);
+    if (pace.can_look_ahead(ahead - t)) t = std::max(ahead, t);
+    if (t < shown_until_) return 0.0;
+    shown_until_ = t;
+  }
+  show(committed, feed, t);
+  return std::max(t - newest, 0.0);
+}
+
 PredictionError LookAhead::compare(const simulation::Simulation& committed) {
   const std::vector<Held> now = held(committed);
   PredictionError worst;

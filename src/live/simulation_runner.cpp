@@ -22,15 +22,6 @@ std::map<std::string, RigidTransform> places_of(const simulation::Simulation& si
   return places;
 }
 
-bool any_in_epoch(const std::vector<HandInput>& inputs) {
-  return std::any_of(inputs.begin(), inputs.end(), [](const HandInput& input) { return input.in_epoch; });
-}
-
-/// What anything of a hand at simulated time `t` [s] is ahead of all that is known.
-double ahead_of(const simulation::Simulation& simulation, double t) {
-  return t - std::max(simulation.time(), simulation.newest_sample());
-}
-
 /// To each hand its fork; with one that is calibrated to the world, the stiffness stays the new scene's.
 void give_forks(const std::vector<rod::ForkSettings>& forks, simulation::Simulation& simulation) {
   for (std::size_t hand = 0; hand < forks.size(); ++hand) {
@@ -63,20 +54,21 @@ SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::
       feed_(simulation_, input),
       ahead_(scene, settings),
       task_(scene),
-      simulated_time_(simulated_time) {
+      simulated_time_(simulated_time),
+      times_(simulated_time) {
   for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
     inputs_.emplace_back(hand, settings.dropout_after);
   }
 }
 
 CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::LocalTime& now) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Lock lock(mutex_);
   const auto begin = std::chrono::steady_clock::now();
   for (HandInput& input : inputs_)
     input.waiting.insert(input.waiting.end(), events[input.hand].begin(), events[input.hand].end());
   feed(now);
   CycleReport report;
-  report.left_out = std::exchange(left_out_, 0.0);
+  report.left_out = times_.take_left_out();
   if (const std::optional<double> stop = feed_.next_stop(now)) commit(*stop, report);
   report.more = feed_.next_stop(now).has_value();
   for (HandInput& input : inputs_) {
@@ -86,6 +78,10 @@ CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::
   }
   report.input_age += feed_.waited(now);
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  const double lag = simulation_.newest_sample() - simulation_.time();
+  if (!simulated_time_) pace_.committed(report.advance.simulated_time, report.wall_time, lag);
+  if (!feed_.next_stop(now)) pace_.caught_up();
+  report.behind = pace_.is_behind();
   return report;
 }
 
@@ -96,11 +92,22 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
       const bool restarts = epoch != nullptr && !joins(input, *epoch);
       if (restarts && simulated_time_ && feed_.next_stop(now)) break;
       // What comes from before a jump of time that another hand has told of already is of no use.
-      if (input.in_epoch || epoch != nullptr)
-        std::visit([&](const auto& e) { apply(input, e); }, input.waiting.front());
+      if (times_.knows(input.hand) || epoch != nullptr) feed(input, input.waiting.front());
       input.waiting.pop_front();
     }
   }
+}
+
+/// Behind, no pose is taken; what the buttons did counts at the newest that was.
+void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
+  was_behind_ |= pace_.is_behind();
+  if (!pace_.is_behind() || std::holds_alternative<NewEpoch>(event)) {
+    return std::visit([&](const auto& e) { apply(input, e); }, event);
+  }
+  const double newest = simulation_.newest_sample();
+  if (const auto* pose = std::get_if<StylusPose>(&event)) feed_.heard(pose->arrival, input.hand);
+  if (const auto* button = std::get_if<StylusButton>(&event)) feed_.push_button(newest, button->pressed, input.hand);
+  if (std::holds_alternative<NextTool>(event)) feed_.push_next_tool(newest, input.hand);
 }
 
 void SimulationRunner::commit(double stop, CycleReport& report) {
@@ -111,50 +118,38 @@ void SimulationRunner::commit(double stop, CycleReport& report) {
 }
 
 double SimulationRunner::show(double latency, const hand_input::LocalTime& now) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const double newest = simulation_.newest_sample();
+  const Lock lock(mutex_);
   const double horizon = latency > 0.0 ? std::min(latency + feed_.waited(now), motion::PosePredictor::farthest) : 0.0;
-  if (feed_.has_sample()) shown_until_ = std::max({newest + horizon, simulation_.time(), shown_until_});
-  const double t = feed_.has_sample() ? shown_until_ : simulation_.time();
-  ahead_.show(simulation_, feed_, t);
-  return std::max(t - newest, 0.0);
+  return ahead_.show_newest(simulation_, feed_, horizon, pace_);
 }
 
-/// Whether a stylus that begins there comes to the others that are under way, rather than that all time has jumped.
 bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
-  if (!simulated_time_) return any_in_epoch(inputs_);
-  return feed_.has_sample() && !input.in_epoch &&
-         1e-9 * static_cast<double>(epoch.zero - zero_) > simulation_.time() - joining_slip;
+  return (feed_.has_sample() || !simulated_time_) && times_.joins(input.hand, epoch.zero, simulation_.time());
 }
 
 void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
-  if (!joins(input, epoch)) {
+  if (joins(input, epoch)) {
+    times_.join(input.hand, epoch.zero);
+  } else {
     const Noted noted(*this, "the hand's time begins");
     start_anew();
     simulation_.place(std::exchange(places_, {}));
-    zero_ = epoch.zero;
-    for (HandInput& other : inputs_) other.in_epoch = false;
+    times_.begin(input.hand, epoch.zero);
   }
   feed_.restart_gate(input.hand);
   input.monitor.restart();
-  input.in_epoch = true;
-  input.shift = 1e-9 * static_cast<double>(epoch.zero - zero_);
 }
 
 /// A hand's time as the simulation's [s]. What lies further ahead than anybody simulates comes a step after all that is
 /// known, and all hands' times with it.
 double SimulationRunner::time_of(const HandInput& input, double t) {
-  const double ahead = ahead_of(simulation_, t + input.shift);
-  if (!feed_.has_sample() || !(ahead > longest_catch_up)) return t + input.shift;
-  const std::int64_t gap = std::llround(1e9 * (ahead - simulation_.settings().dynamics.step));
-  zero_ += gap;
-  const double seconds = 1e-9 * static_cast<double>(gap);
-  left_out_ += seconds;
-  for (HandInput& other : inputs_) {
-    other.shift -= seconds;
-    feed_.restart_gate(other.hand);
+  const double ahead = times_.time_of(input.hand, t) - std::max(simulation_.time(), simulation_.newest_sample());
+  if (feed_.has_sample() && ahead > (was_behind_ ? 0.0 : longest_catch_up)) {
+    was_behind_ = false;
+    times_.leave_out(ahead - simulation_.settings().dynamics.step);
+    for (const HandInput& other : inputs_) feed_.restart_gate(other.hand);
   }
-  return t + input.shift;
+  return times_.time_of(input.hand, t);
 }
 
 void SimulationRunner::apply(HandInput& input, const StylusPose& pose) {
@@ -183,11 +178,11 @@ void SimulationRunner::start_anew() {
   simulation_.reset();
   task_.reset();
   feed_.restart();
-  shown_until_ = -std::numeric_limits<double>::infinity();
+  ahead_.begin_anew();
 }
 
 void SimulationRunner::restart() {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Lock lock(mutex_);
   const Noted noted(*this, "reset");
   places_.clear();
   start_anew();
@@ -217,18 +212,17 @@ void SimulationRunner::resume(const scene::Scene& scene, const simulation::Simul
 
 void SimulationRunner::begin_with(const std::string& what, simulation::Simulation simulation, LookAhead ahead,
                                   std::map<std::string, RigidTransform> places) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Lock lock(mutex_);
   const Noted noted(*this, what);
   places_ = std::move(places);
   task_ = assembly::TaskMonitor(simulation.scene());
   simulation_ = std::move(simulation);
   ahead_ = std::move(ahead);
   feed_.restart();
-  shown_until_ = -std::numeric_limits<double>::infinity();
 }
 
 void SimulationRunner::keep_journal(bool keep) {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Lock lock(mutex_);
   keeps_journal_ = keep;
   if (!keep) return feed_.record(nullptr);
   feed_.record([this](const hand_input::Accepted& accepted) { note(accepted.committed, accepted); });
@@ -236,7 +230,7 @@ void SimulationRunner::keep_journal(bool keep) {
 }
 
 void SimulationRunner::note_state() {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Lock lock(mutex_);
   if (!keeps_journal_) return;
   note(feed_.committed(), Change{"for comparison", simulation_.scene().path, simulation_.state_hash(), {}});
 }
@@ -246,13 +240,12 @@ void SimulationRunner::note(double committed, std::variant<hand_input::Accepted,
 }
 
 std::vector<Entry> SimulationRunner::take_journal() {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Lock lock(mutex_);
   return std::exchange(journal_, {});
 }
 
 std::int64_t SimulationRunner::stamp_of(double t) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return zero_ + std::llround(1e9 * t);
+  return locked([&](const auto&) { return times_.stamp_of(t); });
 }
 
 std::int64_t SimulationRunner::stamp(std::int64_t now) const {
@@ -264,7 +257,7 @@ std::int64_t SimulationRunner::shown_stamp(std::int64_t now) const {
 }
 
 HandStatistics SimulationRunner::hand_statistics(std::size_t hand) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
+  const Lock lock(mutex_);
   const HandInput& input = inputs_.at(hand);
   return {input.monitor.figures(), feed_.gate_counts(hand), feed_.reacquisition_counts(hand), feed_.tracker_moves(hand),
           input.newest_arrival};

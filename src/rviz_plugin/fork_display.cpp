@@ -59,9 +59,9 @@ bool is_finite(const geometry_msgs::Pose& pose) {
 }  // namespace
 
 ForkDisplay::ForkDisplay() : model_(fork_mesh::ForkLook()) {
-  topic_ = new rviz::RosTopicProperty("Topic", "/manipulation/fork",
-                                      QString::fromStdString(ros::message_traits::datatype<ForkState>()),
-                                      "The state of the fork, ~fork of manipulation.", this, SLOT(subscribe()), this);
+  topic_ = new rviz::RosTopicProperty(
+      "Topic", "/manipulation/display/fork", QString::fromStdString(ros::message_traits::datatype<ForkState>()),
+      "The fork as it is shown, ~display/fork of manipulation.", this, SLOT(subscribe()), this);
   full_load_ = new rviz::FloatProperty("Full Load", 10.0F, "Force at the tip at which the spring is red [N].", this);
   full_load_->setMin(1e-6F);
 }

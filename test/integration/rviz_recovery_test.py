@@ -23,7 +23,7 @@ BACKGROUND = bytes([38, 42, 48])
 DEADLINE = 90.0  # [s] for each thing waited for; far more than it takes
 SCENES = "package://spring_workbench/scenes/"
 DISPLAYS = {
-    "fork": {"Class": "spring_workbench/SpringFork", "Name": "Fork", "Topic": "/manipulation/fork"},
+    "fork": {"Class": "spring_workbench/SpringFork", "Name": "Fork", "Topic": "/manipulation/display/fork"},
     "markers": {"Class": "rviz/MarkerArray", "Name": "Markers", "Marker Topic": "/manipulation/markers"},
 }
 

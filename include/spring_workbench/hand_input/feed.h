@@ -46,6 +46,8 @@ class Feed {
   /// A sample as it came, in a tracker's frame P that is at `X_WP` in world. A sample that the gate rejects is dropped.
   GateResult push_stylus(const RawSample& sample, const RigidTransform& X_WP, const LocalTime& arrival,
                          std::size_t hand = 0);
+  /// A sample came that is not used: the hand is not silent.
+  void heard(const LocalTime& arrival, std::size_t hand);
   /// A pose of the handle in world, of a motion whose samples need no clock. It is pushed unchanged, bit by bit, if
   /// smoothing is off and the hand was not lost.
   GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);

@@ -21,6 +21,8 @@ class PlayoutClock {
 
   /// A sample stamped `t` [s] came.
   void sample(double t, const LocalTime& arrival);
+  /// One came that is not used.
+  void heard(const LocalTime& arrival) { arrival_ = arrival; }
   /// The buttons are known up to `t` [s].
   void buttons(double t, const LocalTime& arrival);
   /// The time up to which all is known [s]: −infinity before the second sample, infinity while the hand is silent.

@@ -11,8 +11,11 @@
 #include <vector>
 
 #include "spring_workbench/assembly/task_monitor.h"
+#include "spring_workbench/live/fair_mutex.h"
+#include "spring_workbench/live/hand_times.h"
 #include "spring_workbench/live/journal.h"
 #include "spring_workbench/live/look_ahead.h"
+#include "spring_workbench/live/pace.h"
 #include "spring_workbench/live/stylus_events.h"
 #include "spring_workbench/motion/pose_predictor.h"
 #include "spring_workbench/motion/stream_monitor.h"
@@ -23,6 +26,7 @@ namespace spring_workbench::live {
 struct CycleReport {
   simulation::AdvanceReport advance;
   double wall_time = 0.0;      ///< [s], by the steady clock
+  bool behind = false;         ///< simulated time is slower than the hands': their samples are left out
   double left_out = 0.0;       ///< of time, which nobody simulates: a leap of the hands' time [s]
   bool more = false;           ///< there is more to commit at once: call `cycle` again
   PredictionError prediction;  ///< of what was shown for the time that is committed now
@@ -48,14 +52,13 @@ struct HandInput {
   double newest_age = 0.0;             ///< when it came, by its stamp [s]
   std::deque<StylusEvent> waiting;     ///< not fed yet
   std::vector<RejectedPose> rejected;  ///< not reported yet
-  double shift = 0.0;                  ///< from its times to the simulation's [s]
-  bool in_epoch = false;               ///< its times are those of the present epoch
 };
 
 /// The committed simulation and its feed with the lock that keeps physics, services and publishers apart, the copy that
 /// is shown, the journal, and the epochs of the hands' clocks: times count from the epoch of the stylus that came
 /// first; another one joins it. Time in which no sample comes and none is waited for, since the process stood or the
 /// hands' clock leapt by more than 5 s, is left out: everything stays where it is, and the hands are followed anew.
+/// Likewise what comes while simulating cannot keep up: simulated time slows down then.
 class SimulationRunner {
  public:
   /// `simulated_time`: a clock that is set back begins the scene again, as a bag that is played again does; else time
@@ -86,13 +89,13 @@ class SimulationRunner {
   /// Calls `use(const Simulation&)` with exclusive access to the simulation.
   template <typename Use>
   auto locked(Use&& use) const {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const Lock lock(mutex_);
     return use(simulation_);
   }
   /// Makes a change of the simulation, `make(Simulation&)`, of which the journal says `what`.
   template <typename Make>
   auto change(const std::string& what, Make&& make) {
-    const std::lock_guard<std::mutex> lock(mutex_);
+    const Lock lock(mutex_);
     const Noted noted(*this, what);
     return make(simulation_);
   }
@@ -112,8 +115,7 @@ class SimulationRunner {
   std::vector<Entry> take_journal();
   /// The assembly so far.
   assembly::TaskMonitor task() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return task_;
+    return locked([this](const auto&) { return task_; });
   }
   /// Stamp of the committed time, or of what is shown [ns]; `now` before the first sample.
   std::int64_t stamp(std::int64_t now) const;
@@ -123,11 +125,11 @@ class SimulationRunner {
   HandStatistics hand_statistics(std::size_t hand) const;
   /// See LookAhead.
   double prediction_error_99() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return ahead_.position_error_99();
+    return locked([this](const auto&) { return ahead_.position_error_99(); });
   }
 
  private:
+  using Lock = std::lock_guard<FairMutex>;
   /// While it lives the simulation is changed; then the journal gets what it has become.
   class Noted {
    public:
@@ -147,6 +149,7 @@ class SimulationRunner {
   void apply(HandInput& input, const ButtonsKnown& known);
   bool joins(const HandInput& input, const NewEpoch& epoch) const;
   double time_of(const HandInput& input, double t);
+  void feed(HandInput& input, const StylusEvent& event);
   void feed(const hand_input::LocalTime& now);
   void commit(double stop, CycleReport& report);
   void start_anew();
@@ -154,17 +157,17 @@ class SimulationRunner {
                   std::map<std::string, RigidTransform> places);
   void note(double committed, std::variant<hand_input::Accepted, Change> what);
 
-  mutable std::mutex mutex_;
+  mutable FairMutex mutex_;
   simulation::Simulation simulation_;
   hand_input::Feed feed_;
   LookAhead ahead_;
   assembly::TaskMonitor task_;
   std::vector<HandInput> inputs_;
   bool simulated_time_;
-  double left_out_ = 0.0;                                          ///< of time in this cycle [s]
-  std::int64_t zero_ = 0;                                          ///< of the simulation's times [ns]
-  double shown_until_ = -std::numeric_limits<double>::infinity();  ///< [s]; what is shown does not go back
-  std::map<std::string, RigidTransform> places_;                   ///< of objects, for the first epoch
+  Pace pace_;
+  bool was_behind_ = false;  ///< and no sample has come since
+  HandTimes times_;
+  std::map<std::string, RigidTransform> places_;  ///< of objects, for the first epoch
   std::size_t revision_ = 0;
   bool keeps_journal_ = false;
   std::uint64_t next_entry_ = 0;

@@ -103,6 +103,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("steps by the fallback", loop.steps_fallback)
       .add("stops at the end of the fork's range", loop.stops)
       .add("time skipped [s]", loop.left_out)
+      .add("cycles behind the hands", loop.cycles_behind)
       .add("longest cycle [s]", loop.longest_cycle)
       .add("prediction error, 99 % [m]", loop.prediction_error);
   status.add("since the master answered [s]", loop.master_silence);
@@ -114,7 +115,9 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
     status.raise(DiagnosticStatus::ERROR, "steps rejected: the result was not finite or bounded");
   }
   if (loop.deadlines_missed > last_loop_.deadlines_missed) status.raise(DiagnosticStatus::WARN, "deadlines missed");
-  if (loop.left_out > last_loop_.left_out) status.raise(DiagnosticStatus::WARN, "time was skipped: there was no input");
+  if (loop.left_out > last_loop_.left_out) status.raise(DiagnosticStatus::WARN, "time was skipped");
+  if (loop.cycles_behind > last_loop_.cycles_behind)
+    status.raise(DiagnosticStatus::WARN, "behind: simulation is slower than the motion of the hands");
   return status.status();
 }
 

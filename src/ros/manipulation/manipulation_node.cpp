@@ -92,7 +92,8 @@ bool ManipulationNode::run_step(double begin) {
   second_input_.count_rejected(report.rejected[1]);
   // In simulated time the clock may have gone on by itself.
   const double deadline = (ros::Time::isSimTime() ? std::max(begin, local.loop) : begin) + 1.0 / parameters_.rate;
-  if (!report.more) {
+  if (!report.more || local.loop >= show_at_latest_) {
+    show_at_latest_ = local.loop + 1.0 / parameters_.rate;
     const double horizon = runner_.show(parameters_.display_latency, local);
     publisher_.publish_shown(runner_, horizon, local.loop);
   }
@@ -113,6 +114,7 @@ void ManipulationNode::count(const live::CycleReport& report, bool deadline_miss
   loop_.steps_fallback += static_cast<std::size_t>(report.advance.steps_fallback);
   loop_.stops += static_cast<std::size_t>(report.advance.stops);
   loop_.left_out += report.left_out;
+  loop_.cycles_behind += report.behind ? 1 : 0;
   loop_.longest_cycle = std::max(loop_.longest_cycle, report.wall_time);
 }
 

@@ -8,6 +8,7 @@
 #include "messages.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/ros/markers/for_each_object.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::manipulation {
@@ -111,6 +112,7 @@ void StatePublisher::publish_committed(const live::SimulationRunner& runner, con
       return validation::name_of(simulation.settings().dynamics.integrator);
     });
     message.deadline_missed = deadline_missed;
+    message.behind = report.behind;
     message.input_age = report.input_age;
     message.horizon = horizon_;
     message.prediction_error = report.prediction.position;
@@ -148,14 +150,13 @@ void StatePublisher::publish_transforms(const simulation::Simulation& simulation
   const bool all = steady >= all_transforms_ + repeat_after || sent_X_.size() != simulation.objects().size();
   if (all) all_transforms_ = steady;
   sent_X_.resize(simulation.objects().size(), RigidTransform::Identity());
-  auto body = simulation.scene().bodies.begin();
-  for (std::size_t i = 0; i < simulation.objects().size(); ++i) {
-    const bodies::BodyState& object = simulation.objects()[i];
-    while (body->name != object.name) ++body;  // the objects are in the order of the scene
-    if (!all && sent_X_[i].matrix() == object.X_WO.matrix()) continue;
-    sent_X_[i] = object.X_WO;
-    transforms.push_back(ros_common::to_transform(object.X_WO * body->X_OL, world_frame_, object.name, stamp));
-  }
+  auto sent = sent_X_.begin();
+  markers::for_each_object(simulation, [&](const bodies::BodyState& object, const scene::Body& body) {
+    RigidTransform& last = *sent++;
+    if (!all && last.matrix() == object.X_WO.matrix()) return;
+    last = object.X_WO;
+    transforms.push_back(ros_common::to_transform(object.X_WO * body.X_OL, world_frame_, object.name, stamp));
+  });
   transforms_.sendTransform(transforms);
 }
 

@@ -6,6 +6,7 @@
 #include "constants.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/ros/markers/for_each_object.h"
 
 namespace spring_workbench::markers {
 namespace {
@@ -116,9 +117,9 @@ void draw_bodies(const simulation::Simulation& simulation, MarkerList& markers) 
   for (const scene::Body& body : scene.bodies) {
     if (!body.movable) draw_body(body, body.X_WO, false, markers);
   }
-  for (const bodies::BodyState& object : simulation.objects()) {
-    draw_body(scene.bodies[*scene::find_body(scene, object.name)], object.X_WO, object.highlighted, markers);
-  }
+  for_each_object(simulation, [&](const bodies::BodyState& object, const scene::Body& body) {
+    draw_body(body, object.X_WO, object.highlighted, markers);
+  });
 }
 
 void draw_targets(const scene::Scene& scene, MarkerList& markers) {
@@ -137,13 +138,11 @@ void draw_shadows(const simulation::Simulation& simulation, const std::vector<st
                   MarkerList& markers) {
   const scene::Scene& scene = simulation.scene();
   int id = 0;
-  for (const bodies::BodyState& object : simulation.objects()) {
+  for_each_object(simulation, [&](const bodies::BodyState& object, const scene::Body& body) {
     std::vector<Vector3d> outline;
-    for (const geometry::Shape& shape : scene.bodies[*scene::find_body(scene, object.name)].visual) {
-      add_outline(shape, object.X_WO, outline);
-    }
+    for (const geometry::Shape& shape : body.visual) add_outline(shape, object.X_WO, outline);
     draw_shadow(id++, outline, scene.bench_height, markers);
-  }
+  });
   for (const std::vector<Vector3d>& fork_W : forks_W) draw_shadow(id++, fork_W, scene.bench_height, markers);
 }
 

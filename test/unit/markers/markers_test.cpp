@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "spring_workbench/scene/scene.h"
+#include "support/bench_scenes.h"
 #include "support/meshes.h"
 #include "support/paths.h"
 
@@ -220,6 +224,39 @@ TEST_F(MarkersOfALift, AnInsertedObjectIsHighlighted) {
   const auto held = color();
   EXPECT_GT(inserted.g, before.g + 0.2);
   EXPECT_EQ(held.g, before.g);
+}
+
+/// Of a thousand objects among fixed bodies each is drawn as its own body, where it is.
+TEST(Markers, OfManyObjectsEachIsItsOwnBody) {
+  std::vector<scene::Body> bodies;
+  for (int k = 0; k < 1500; ++k) {
+    const bool fixed = k % 3 == 1;
+    const Vector3d size(0.01 + 1e-5 * k, 0.02, 0.03);
+    scene::Body body = box("body " + std::to_string(k), size, fixed ? 0.0 : 1.0, Vector3d(0.1 * k, 0.0, 0.5));
+    geometry::Shape shape;
+    shape.geometry = geometry::Box{size};
+    body.visual = {shape};
+    bodies.push_back(body);
+  }
+  simulation::Simulation simulation(scene_of(bodies, scene::ContactMode::none), simulation::SimulationSettings());
+  std::map<std::string, RigidTransform> places;
+  for (const bodies::BodyState& object : simulation.objects()) {
+    places[object.name] = object.X_WO;
+    places[object.name].translation().y() = 1.0;
+  }
+  ASSERT_EQ(places.size(), 1000u);
+  simulation.place(places);
+  std::map<std::string, Marker> drawn;
+  for (const Marker& marker : MarkerBuilder("rod", 2.0).build(simulation, std_msgs::Header()).markers) {
+    if (marker.ns.rfind("body ", 0) == 0) drawn[marker.ns] = marker;
+  }
+  ASSERT_EQ(drawn.size(), 1500u);
+  for (int k = 0; k < 1500; ++k) {
+    const Marker& marker = drawn.at("body " + std::to_string(k));
+    EXPECT_DOUBLE_EQ(marker.scale.x, 0.01 + 1e-5 * k);
+    EXPECT_DOUBLE_EQ(marker.pose.position.x, 0.1 * k);
+    EXPECT_EQ(marker.pose.position.y, k % 3 == 1 ? 0.0 : 1.0);
+  }
 }
 
 }  // namespace

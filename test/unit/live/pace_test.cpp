@@ -1,0 +1,162 @@
+#include "spring_workbench/live/pace.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "spring_workbench/live/fair_mutex.h"
+#include "spring_workbench/live/simulation_runner.h"
+#include "support/bench_scenes.h"
+
+namespace spring_workbench::live {
+namespace {
+
+TEST(Pace, IsBehindWhereWhatIsTakenIsNotDoneSoon) {
+  Pace quick, slow;
+  for (int k = 0; k < 50; ++k) {
+    quick.committed(0.01, 0.001, 4.0);  // a process that stood: 0.4 s of work
+    slow.committed(0.01, 0.1, 0.45);    // ten times slower than the hand, and not far behind
+  }
+  EXPECT_FALSE(quick.is_behind());
+  EXPECT_FALSE(slow.is_behind());
+  EXPECT_TRUE(quick.can_look_ahead(0.5));
+  EXPECT_FALSE(quick.can_look_ahead(2.0));
+  slow.committed(0.01, 0.1, 0.55);
+  EXPECT_TRUE(slow.is_behind());
+  slow.committed(0.01, 0.1, 0.02);
+  EXPECT_TRUE(slow.is_behind());
+  slow.caught_up();
+  EXPECT_FALSE(slow.is_behind());
+  Pace turns;  // what is quick again is known to be, after a while
+  for (int k = 0; k < 50; ++k) turns.committed(0.01, 0.1, 0.0);
+  for (int k = 0; k < 50; ++k) turns.committed(0.01, 0.001, 0.0);
+  EXPECT_TRUE(turns.can_look_ahead(0.5));
+}
+
+/// A thread that takes it again and again lets another have its turn.
+TEST(FairMutex, NobodyWaitsForMoreThanOneTurn) {
+  FairMutex mutex;
+  std::atomic<bool> stop{false};
+  std::atomic<int> turns{0};
+  std::thread greedy([&] {
+    while (!stop) {
+      const std::lock_guard<FairMutex> lock(mutex);
+      ++turns;
+      std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  });
+  while (turns < 3) std::this_thread::yield();
+  int most = 0;
+  for (int k = 0; k < 20; ++k) {
+    const int before = turns;
+    const std::lock_guard<FairMutex> lock(mutex);
+    most = std::max(most, turns - before);
+  }
+  stop = true;
+  greedy.join();
+  EXPECT_LE(most, 2);  // the one under way, and one that asked before this thread did
+}
+
+/// A step of 1 µs while an object is held: simulated time slows down, every call is answered within a few cycles, and
+/// nothing is lost.
+TEST(Pace, AStepThatCannotKeepUpLosesNothing) {
+  const Vector3d grip(0.0, 0.0, 0.7);
+  SimulationRunner runner(
+      scene_of({box("box", Vector3d(0.1, 0.06, 0.04), 1.0, grip + Vector3d(0.0, 0.0, -0.2))}, scene::ContactMode::none),
+      simulation::SimulationSettings(), hand_input::InputSettings(), false);
+  const auto set = [&](dynamics::IntegratorKind kind, double step) {
+    runner.change("set_integrator", [&](simulation::Simulation& s) {
+      simulation::DynamicsChange change;
+      change.integrator = kind;
+      change.step = step;
+      s.change(change);
+    });
+  };
+  const auto begin = std::chrono::steady_clock::now();
+  const auto now = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
+  std::atomic<bool> stop{false};
+  std::atomic<int> cycles{0}, behind{0};
+  double left_out = 0.0;
+  std::thread loop([&] {
+    int sent = 0;
+    while (!stop) {
+      HandEvents events;
+      for (; 0.01 * sent <= now(); ++sent) {
+        const double t = 0.01 * sent;
+        if (sent == 0) events[0].emplace_back(NewEpoch{1'000'000'000});
+        StylusPose pose;
+        const Vector3d p = grip + Vector3d(0.1 * std::sin(3.0 * t), 0.0, 0.0);
+        pose.sample = {t, p, Quaterniond(pointing_down(p).linear())};
+        pose.arrival = {now(), now()};
+        events[0].emplace_back(pose);
+        if (sent == 1) events[0].emplace_back(StylusButton{t, true});
+      }
+      const CycleReport report = runner.cycle(events, {now(), now()});
+      runner.show(0.0, {now(), now()});
+      ++cycles;
+      behind += report.behind ? 1 : 0;
+      left_out += report.left_out;
+      if (!report.more) std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    }
+  });
+  const auto held = [&] { return runner.locked([](const auto& s) { return s.objects()[0].held; }); };
+  while (now() < 60.0 && !held()) std::this_thread::yield();
+  set(dynamics::IntegratorKind::rk4, 1e-6);
+  int longest = 0;
+  while (now() < 60.0 && behind < 3) {
+    const int before = cycles;
+    EXPECT_TRUE(held());
+    longest = std::max(longest, cycles - before);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+  EXPECT_GE(behind, 3);
+  EXPECT_LE(longest, 3);
+  set(dynamics::IntegratorKind::exponential, 0.01);
+  // The hand is caught up with.
+  const auto lag = [&] { return now() - 1e-9 * static_cast<double>(runner.stamp(0) - 1'000'000'000); };
+  while (now() < 90.0 && !(lag() < 0.1)) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  EXPECT_LT(lag(), 1.0);
+  EXPECT_TRUE(held());
+  stop = true;
+  loop.join();
+  EXPECT_GT(left_out, 0.0);
+}
+
+/// A scene of many objects is made beside the cycles, and swapped in between two of them.
+TEST(Pace, AScenesMakingKeepsNoCycleWaiting) {
+  std::vector<scene::Body> many;
+  for (int k = 0; k < 2000; ++k) {
+    many.push_back(box("box " + std::to_string(k), Vector3d(0.02, 0.02, 0.02), 1.0, Vector3d(0.1 * k, 0.0, 0.5)));
+  }
+  const scene::Scene large = scene_of(many, scene::ContactMode::none);
+  SimulationRunner runner(scene_of({many.front()}, scene::ContactMode::none), simulation::SimulationSettings(),
+                          hand_input::InputSettings(), false);
+  std::atomic<bool> loading{true};
+  std::thread loader([&] {
+    runner.load(large);
+    loading = false;
+  });
+  int meanwhile = 0;
+  for (double t = 0.0; loading; t += 0.01) {
+    HandEvents events;
+    StylusPose pose;
+    pose.sample = {t, Vector3d(0.0, 0.0, 0.7), Quaterniond(pointing_down(Vector3d(0.0, 0.0, 0.7)).linear())};
+    pose.arrival = {t, t};
+    if (meanwhile == 0) events[0].emplace_back(NewEpoch{1'000'000'000});
+    events[0].emplace_back(pose);
+    EXPECT_LE(runner.cycle(events, {t, t}).rejected[0].size(), 0u);
+    ++meanwhile;
+  }
+  loader.join();
+  EXPECT_GT(meanwhile, 10);
+  EXPECT_EQ(runner.locked([](const auto& s) { return s.objects().size(); }), 2000u);
+}
+
+}  // namespace
+}  // namespace spring_workbench::live
