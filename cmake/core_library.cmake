@@ -1,8 +1,8 @@
 # What others link: the modules up to a hand and its recordings in one shared library, and the contact engines that it
 # opens. find_package(spring_workbench) gives the target spring_workbench::core.
 set(objects)
-foreach(module math validation config geometry motion rod dynamics scene bodies tools contact simulation hand_input
-    motion_files)
+foreach(module math validation config geometry motion rod dynamics stepping scene bodies tools instruments contact
+    simulation hand_input motion_files)
   list(APPEND objects $<TARGET_OBJECTS:spring_workbench_${module}>)
 endforeach()
 add_library(spring_workbench_core SHARED ${objects})
@@ -59,6 +59,7 @@ set(SPRING_WORKBENCH_HEADERS
   math/state_archive.h
   motion/motion_segment.h
   motion/pose_track.h
+  motion/stylus.h
   motion/stylus_source.h
   motion_files/open_motion.h
   rod/settings.h

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "spring_workbench/hand_input/playout_clock.h"
 #include "spring_workbench/hand_input/pose_filter.h"
@@ -14,7 +15,26 @@ namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
+using Kind = Accepted::Kind;
+using motion::Press;
+constexpr std::pair<Press, Kind> of_buttons[] = {{Press::grasp, Kind::button_down},
+                                                 {Press::release, Kind::button_up},
+                                                 {Press::next_tool, Kind::next_tool},
+                                                 {Press::clutch_on, Kind::clutch_on},
+                                                 {Press::clutch_off, Kind::clutch_off}};
+
 }  // namespace
+
+Kind Accepted::kind_of(Press press) {
+  return std::find_if(std::begin(of_buttons), std::end(of_buttons), [&](auto& b) { return b.first == press; })->second;
+}
+
+std::optional<Press> Accepted::press_of(Kind kind) {
+  for (const auto& [press, of_press] : of_buttons) {
+    if (of_press == kind) return press;
+  }
+  return std::nullopt;
+}
 
 struct Feed::Hand {
   SampleGate gate;
@@ -97,14 +117,9 @@ void Feed::buttons_known(double t, const LocalTime& arrival, std::size_t hand) {
   hands_.at(hand).playout.buttons(t, arrival);
 }
 
-void Feed::push_button(double t, bool pressed, std::size_t hand) {
-  simulation_.push_button(t, pressed, hand);
-  note(pressed ? Accepted::Kind::button_down : Accepted::Kind::button_up, hand, t);
-}
-
-void Feed::push_next_tool(double t, std::size_t hand) {
-  simulation_.push_next_tool(t, hand);
-  note(Accepted::Kind::next_tool, hand, t);
+void Feed::push_press(double t, motion::Press press, std::size_t hand) {
+  simulation_.push_press(t, press, hand);
+  note(Accepted::kind_of(press), hand, t);
 }
 
 void Feed::note(Accepted::Kind kind, std::size_t hand, double t, const RigidTransform& X_WH) const {

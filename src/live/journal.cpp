@@ -38,22 +38,12 @@ void Replayer::go_to(double t, const AtStop& at_stop) {
 
 void Replayer::apply(const Accepted& accepted) {
   simulation::Simulation& simulation = simulation_.front();
-  switch (accepted.kind) {
-    case Accepted::Kind::pose:
-      simulation.push_stylus({accepted.t, accepted.X_WH}, accepted.hand);
-      break;
-    case Accepted::Kind::button_down:
-    case Accepted::Kind::button_up:
-      simulation.push_button(accepted.t, accepted.kind == Accepted::Kind::button_down, accepted.hand);
-      break;
-    case Accepted::Kind::next_tool:
-      simulation.push_next_tool(accepted.t, accepted.hand);
-      break;
-    case Accepted::Kind::lost:
-      simulation.release(accepted.hand);
-      break;
-    case Accepted::Kind::rest:
-      break;
+  if (const auto press = Accepted::press_of(accepted.kind)) {
+    simulation.push_press(accepted.t, *press, accepted.hand);
+  } else if (accepted.kind == Accepted::Kind::pose) {
+    simulation.push_stylus({accepted.t, accepted.X_WH}, accepted.hand);
+  } else if (accepted.kind == Accepted::Kind::lost) {
+    simulation.release(accepted.hand);
   }
 }
 

@@ -106,8 +106,7 @@ void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
   }
   const double newest = simulation_.newest_sample();
   if (const auto* pose = std::get_if<StylusPose>(&event)) feed_.heard(pose->arrival, input.hand);
-  if (const auto* button = std::get_if<StylusButton>(&event)) feed_.push_button(newest, button->pressed, input.hand);
-  if (std::holds_alternative<NextTool>(event)) feed_.push_next_tool(newest, input.hand);
+  if (const auto* button = std::get_if<StylusButton>(&event)) feed_.push_press(newest, button->press, input.hand);
 }
 
 void SimulationRunner::commit(double stop, CycleReport& report) {
@@ -163,11 +162,7 @@ void SimulationRunner::apply(HandInput& input, const StylusPose& pose) {
 }
 
 void SimulationRunner::apply(HandInput& input, const StylusButton& button) {
-  feed_.push_button(time_of(input, button.t), button.pressed, input.hand);
-}
-
-void SimulationRunner::apply(HandInput& input, const NextTool& press) {
-  feed_.push_next_tool(time_of(input, press.t), input.hand);
+  feed_.push_press(time_of(input, button.t), button.press, input.hand);
 }
 
 void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {

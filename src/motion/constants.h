@@ -39,5 +39,10 @@ constexpr std::size_t step_messages = 3;
 /// [s] of stamps over which they must come evenly. Shorter: what waited counts as a step. Test:
 /// StreamClock.WhatWaitedIsNoStep at 0.
 constexpr double step_span = 0.05;
+/// [s] on which a tool that has slipped comes back to the hand, where that pulls less than it can. Shorter: it stays at
+/// its limit until the hand is back. Test: Slip.TheToolComesBackToTheHand at 10.
+constexpr double slip_return_time = 0.1;
+/// [m, rad]; a tool so near to the hand is there again. Test: Slip.TheToolComesBackToTheHand at 0.1.
+constexpr double no_gap = 1e-9;
 
 }  // namespace spring_workbench::motion

@@ -8,7 +8,6 @@
 #include <ros/message_traits.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
-#include <rviz/properties/float_property.h>
 #include <rviz/properties/ros_topic_property.h>
 
 #include <algorithm>
@@ -17,6 +16,7 @@
 #include <string>
 
 #include "constants.h"
+#include "spring_workbench/fork_mesh/load_color.h"
 #include "spring_workbench/validation/input_error.h"
 #include "spring_workbench/validation/names.h"
 
@@ -29,13 +29,9 @@ Ogre::Vector3 to_ogre(const Vector3d& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-double norm(const geometry_msgs::Vector3& v) { return std::sqrt(v.x * v.x + v.y * v.y + v.z * v.z); }
-
-/// Steel blue without load, over yellow, to red at `share` = 1: the colours of ~markers.
-Ogre::ColourValue load_color(double share) {
-  const Ogre::ColourValue none(0.27F, 0.51F, 0.71F), half(0.95F, 0.85F, 0.2F), full(0.85F, 0.1F, 0.1F);
-  const float s = static_cast<float>(std::clamp(share, 0.0, 1.0));
-  return s < 0.5F ? none + (half - none) * (2.0F * s) : half + (full - half) * (2.0F * s - 1.0F);
+Ogre::ColourValue load_color(double place) {
+  const Vector3d c = fork_mesh::load_color(place);
+  return Ogre::ColourValue(static_cast<float>(c.x()), static_cast<float>(c.y()), static_cast<float>(c.z()));
 }
 
 Ogre::MaterialPtr make_material(const Ogre::ColourValue& color) {
@@ -62,8 +58,6 @@ ForkDisplay::ForkDisplay() : model_(fork_mesh::ForkLook()) {
   topic_ = new rviz::RosTopicProperty(
       "Topic", "/manipulation/display/fork", QString::fromStdString(ros::message_traits::datatype<ForkState>()),
       "The fork as it is shown, ~display/fork of manipulation.", this, SLOT(subscribe()), this);
-  full_load_ = new rviz::FloatProperty("Full Load", 10.0F, "Force at the tip at which the spring is red [N].", this);
-  full_load_->setMin(1e-6F);
 }
 
 ForkDisplay::~ForkDisplay() {
@@ -147,6 +141,9 @@ bool ForkDisplay::deform(const ForkState& fork) {
     const rod::StrainVector q = Eigen::Map<const Eigen::VectorXd>(
         fork.strain.data(),
         std::min<Eigen::Index>(static_cast<Eigen::Index>(fork.strain.size()), rod::max_strain_coordinates));
+    if (!(fork.load >= 0.0 && fork.load <= 1.0)) {
+      throw validation::InputError("load: " + std::to_string(fork.load) + " is not allowed: must be in [0, 1]");
+    }
     if (q.size() != shape->size() || !shape->admissible(q) || !is_finite(fork.proxy_handle)) {
       throw validation::InputError("strain: must be possible for a rod of shape " + fork.shape);
     }
@@ -162,8 +159,7 @@ bool ForkDisplay::deform(const ForkState& fork) {
 }
 
 void ForkDisplay::draw(const ForkState& fork) {
-  const double load = std::max(norm(fork.tip_wrench.force), norm(fork.tip_wrench.torque) / fork.length);
-  const Ogre::ColourValue color = load_color(load / static_cast<double>(full_load_->getFloat()));
+  const Ogre::ColourValue color = load_color(fork.load);
   spring_material_->setAmbient(color * 0.5F);
   spring_material_->setDiffuse(color);
   const bool is_new = object_->getSections().empty();

@@ -16,7 +16,6 @@ namespace Ogre {
 class ManualObject;
 }
 namespace rviz {
-class FloatProperty;
 class RosTopicProperty;
 }  // namespace rviz
 
@@ -52,7 +51,6 @@ class ForkDisplay : public rviz::Display {
   void hide();
 
   rviz::RosTopicProperty* topic_;
-  rviz::FloatProperty* full_load_;
   ros::Subscriber subscriber_;
   std::shared_ptr<MasterWatch> master_;
   ForkStateConstPtr newest_;  ///< not yet drawn

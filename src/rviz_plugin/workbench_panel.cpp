@@ -17,10 +17,12 @@
 #include <string>
 
 #include "constants.h"
-#include "error_plot.h"
 #include "log_slider.h"
+#include "spring_workbench/Calibrate.h"
 #include "spring_workbench/LoadScene.h"
+#include "spring_workbench/Release.h"
 #include "spring_workbench/SelectTool.h"
+#include "spring_workbench/SetClutch.h"
 #include "spring_workbench/SetForkDamping.h"
 #include "spring_workbench/SetForkDofs.h"
 #include "spring_workbench/SetForkStiffness.h"
@@ -28,6 +30,7 @@
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/tools/tool.h"
 #include "spring_workbench/validation/names.h"
+#include "step_figures.h"
 
 namespace spring_workbench::rviz_plugin {
 namespace {
@@ -40,22 +43,18 @@ QComboBox* choice_of(const std::vector<std::string>& names, QWidget* parent) {
   return box;
 }
 
-QLabel* wrapped_label(QWidget* parent) {
-  auto* label = new QLabel(parent);
-  label->setWordWrap(true);
-  return label;
-}
-
 }  // namespace
 
 WorkbenchPanel::WorkbenchPanel(QWidget* parent)
     : rviz::Panel(parent),
       services_([this](const std::string& text) { Q_EMIT answered(QString::fromStdString(text)); }) {
   controls_ = make_controls();
-  answer_ = wrapped_label(this);
+  answer_ = new QLabel(this);
+  answer_->setWordWrap(true);
+  figures_ = new StepFigures(this);
   auto* layout = new QVBoxLayout(this);
   layout->addWidget(controls_);
-  layout->addWidget(make_figures());
+  layout->addWidget(figures_);
   layout->addWidget(answer_);
   layout->addStretch(1);
   connect(this, &WorkbenchPanel::answered, answer_, &QLabel::setText, Qt::QueuedConnection);
@@ -143,13 +142,17 @@ void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
 
 void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
   auto* row = new QHBoxLayout;
-  for (const char* name : {"Calibrate", "Reset", "Release"}) {
+  const auto add = [&](const char* name, auto of_service) {
+    using Service = decltype(of_service);
     auto* button = new QPushButton(name, this);
     row->addWidget(button);
     const std::string service = node + QString(name).toLower().toStdString();
     connect(button, &QPushButton::clicked, this,
-            [this, service] { services_.call<std_srvs::Trigger>(service, service, std_srvs::Trigger::Request()); });
-  }
+            [this, service] { services_.call<Service>(service, service, typename Service::Request()); });
+  };
+  add("Calibrate", Calibrate());
+  add("Reset", std_srvs::Trigger());
+  add("Release", Release());
   layout->addLayout(row);
   grasp_ = new QCheckBox("Grasp (mouse)", this);
   grasp_->setToolTip("the grasp button of the stylus that the mouse moves");
@@ -160,19 +163,14 @@ void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
     free_at_ = panel_time() + settling;
     services_.call<std_srvs::SetBool>("grasp", "/tracker_driver/grasp", request);
   });
-}
-
-QWidget* WorkbenchPanel::make_figures() {
-  auto* box = new QWidget(this);
-  auto* layout = new QVBoxLayout(box);
-  layout->setContentsMargins(0, 0, 0, 0);
-  figures_ = wrapped_label(box);
-  left_out_ = wrapped_label(box);
-  plot_ = new ErrorPlot(box);
-  layout->addWidget(figures_);
-  layout->addWidget(left_out_);
-  layout->addWidget(plot_);
-  return box;
+  auto* clutch = new QCheckBox("Clutch", this);
+  clutch->setToolTip("on: the hand moves without its tool");
+  layout->addWidget(clutch);
+  connect(clutch, &QCheckBox::clicked, this, [this](bool on) {
+    SetClutch::Request request;
+    request.on = on ? 1 : 0;
+    services_.call<SetClutch>("clutch", node + "clutch", request);
+  });
 }
 
 void WorkbenchPanel::onInitialize() {
@@ -192,11 +190,7 @@ void WorkbenchPanel::on_fork(const ForkStateConstPtr& message) {
   fork_received_ = panel_time();
 }
 
-void WorkbenchPanel::on_steps(const StepReportConstPtr& message) {
-  steps_ = message;
-  if (message->deadline_missed) ++missed_;
-  plot_->add(panel_time(), message->wall_time, message->position_error);
-}
+void WorkbenchPanel::on_steps(const StepReportConstPtr& message) { figures_->add(panel_time(), message); }
 
 void WorkbenchPanel::on_joy(const sensor_msgs::JoyConstPtr& message) {
   if (!message->buttons.empty() && panel_time() > free_at_) grasp_->setChecked(message->buttons[0] != 0);
@@ -211,12 +205,10 @@ void WorkbenchPanel::refresh() {
   }
   if (!alive) {
     fork_.reset();
-    steps_.reset();
-    missed_ = 0;
+    figures_->clear();
   }
   if (fork_) show_fork();
-  show_steps();
-  plot_->refresh(now);
+  figures_->refresh(now);
 }
 
 void WorkbenchPanel::show_fork() {
@@ -233,20 +225,6 @@ void WorkbenchPanel::show_fork() {
   for (std::size_t i = 0; i < 3; ++i) families_[i].on->setChecked(on[i]);
   integrator_->setCurrentText(QString::fromStdString(fork.integrator));
   tool_->setCurrentText(QString::fromStdString(fork.tool));
-}
-
-void WorkbenchPanel::show_steps() {
-  if (!steps_) {
-    figures_->setText("no data");
-    left_out_->clear();
-    return;
-  }
-  figures_->setText(QString("step %1 ms, error %2 m, %3 deadlines missed")
-                        .arg(1e3 * steps_->wall_time, 0, 'f', 3)
-                        .arg(steps_->position_error, 0, 'g', 2)
-                        .arg(missed_));
-  const QString skipped = QString::fromStdString(validation::join(steps_->skipped));
-  left_out_->setText("skipped: " + (skipped.isEmpty() ? "nothing" : skipped));
 }
 
 void WorkbenchPanel::set_dofs() {

@@ -24,8 +24,8 @@ class QVBoxLayout;
 
 namespace spring_workbench::rviz_plugin {
 
-class ErrorPlot;
 class LogSlider;
+class StepFigures;
 
 /// Tunes the fork of the node `manipulation` while it is used. What it shows comes from `~fork` and `~steps` alone;
 /// what a hand moves is asked of the node's services. Grey while the node is silent.
@@ -50,14 +50,12 @@ class WorkbenchPanel : public rviz::Panel {
   void make_families(QVBoxLayout* layout);
   void make_choices(QVBoxLayout* layout);
   void make_buttons(QVBoxLayout* layout);
-  QWidget* make_figures();
 
   void on_fork(const ForkStateConstPtr& message);
   void on_steps(const StepReportConstPtr& message);
   void on_joy(const sensor_msgs::JoyConstPtr& message);
   void refresh();
   void show_fork();
-  void show_steps();
 
   void set_dofs();
   void set_stiffness(std::size_t family);
@@ -68,18 +66,16 @@ class WorkbenchPanel : public rviz::Panel {
   std::shared_ptr<MasterWatch> master_;
   ros::Subscriber fork_subscriber_, steps_subscriber_, joy_subscriber_;
   ForkStateConstPtr fork_;
-  StepReportConstPtr steps_;
   double fork_received_ = -1e9;  ///< [s]
   double free_at_ = 0.0;         ///< when switches and choices follow the node again [s]
-  std::size_t missed_ = 0;       ///< deadlines
 
   QWidget* controls_;
   std::array<Family, 3> families_{};  ///< stretch, bend, torsion
   QComboBox *integrator_, *tool_;
   QCheckBox* grasp_;
   QLineEdit* scene_;
-  QLabel *held_, *figures_, *left_out_, *answer_;
-  ErrorPlot* plot_;
+  QLabel *held_, *answer_;
+  StepFigures* figures_;
   ServiceCaller services_;
 };
 

@@ -6,9 +6,6 @@
 
 namespace spring_workbench::simulation {
 
-/// [s]; stamps nearer to each other are one. Smaller: a rounding error makes a step of its own. Test:
-/// Simulation.ACallThatEndsARoundingErrorBesideASampleMakesNoStepOfItsOwn at 0.
-constexpr double same_time = 1e-9;
 /// [s] for which a free body is slow before it sleeps. Larger: it costs longer. With contact mode `dynamic` 0.5 s: no
 /// reason known. Test: Simulation.BoxThatIsDroppedComesToRestOnTheBench at 20.
 constexpr double asleep_after = 0.2;

@@ -4,13 +4,13 @@
 #include <stdexcept>
 
 #include "constants.h"
-#include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench::simulation {
 Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, Objects& objects, tools::Tool tool)
     : scene_(scene),
       settings_(settings),
+      loads_(scene, settings.grasp.world_goal),
       fork_(settings.fork),
       objects_(objects),
       tool_(tool),
@@ -41,10 +41,12 @@ void Hand::apply_buttons(double now) {
     grasped_by_name_ = true;
   }
   while (const auto press = stylus_.take_press(now)) {
-    if (*press == Stylus::Press::next_tool) {
+    if (*press == motion::Press::next_tool) {
       select_tool(tools::next_tool(tool_, hold_ != nullptr), now);
+    } else if (*press == motion::Press::clutch_on || *press == motion::Press::clutch_off) {
+      set_clutch(*press == motion::Press::clutch_on, now);
     } else if (settings_.grasp.object.empty()) {
-      apply_grasp_button(*press == Stylus::Press::grasp, now);
+      apply_grasp_button(*press == motion::Press::grasp, now);
     }
   }
 }
@@ -69,6 +71,7 @@ void Hand::fit_size(tools::Grasp& grasp) const {
 }
 
 void Hand::make_hold(double now) {
+  slip_.close();
   hold_ = maker().make(grasp_, grasped_body(), now);
   hold_->set_hand(stylus_.provisional(now), now);
 }
@@ -121,6 +124,7 @@ void Hand::select_tool(tools::Tool tool, double now) {
 }
 
 void Hand::take_over(const Wrench& pull_W, double now) {
+  slip_.close();
   hold_->set_hand(stylus_.provisional(now), now);
   hold_->regrasp(object().X_WO, pull_W);
   hold_->take_twist(object().V_WO_W);
@@ -132,12 +136,18 @@ void Hand::let_go(bool thrown, double now) {
   hold_.reset();
 }
 
-std::optional<std::size_t> Hand::carried() const {
-  return hold_ || pushes_ ? std::optional<std::size_t>(grasp_.object) : std::nullopt;
+void Hand::set_clutch(bool on, double now) {
+  stylus_.set_clutch(on, now);
+  if (!hold_ || (on && object().asleep)) return;  // it rests on
+  const Twist before = object().V_WO_W;
+  const motion::MotionSegment at_rest(slip_.of(stylus_.X_WS()));
+  hold_->set_hand(slip_.open() ? at_rest : stylus_.provisional(now), now);
+  keep_twist(before);
 }
 
 tools::ToolOnObject Hand::begin_shared_step(double now) {
   moved_ = true;
+  if (hold_ && slip_.open()) take_over(hold_->spring_pull(), now);
   objects_.state(grasp_.object).asleep = false;
   if (probe_) probe_->set_hand(stylus_.motion(now));
   if (hold_) hold_->set_hand(stylus_.motion(now), now);
@@ -146,8 +156,9 @@ tools::ToolOnObject Hand::begin_shared_step(double now) {
 }
 
 bodies::SteppedBody* Hand::begin_step(double now, double h) {
-  hold_->set_hand(stylus_.motion(now), now);
+  hold_->set_hand(slip_.motion(stylus_.motion(now), now, h), now);
   hold_->lead({});
+  if (slip_.open()) hold_->take_twist(object().V_WO_W);
   energy_added_before_ = hold_->energy_added();
   bodies::BodyState& o = objects_.state(grasp_.object);
   const bool was_asleep = o.asleep;
@@ -164,6 +175,7 @@ bodies::SteppedBody* Hand::begin_step(double now, double h) {
 
 void Hand::end_step(AdvanceReport& report) {
   if (!hold_) return;
+  slip_.accept();
   report.energy_added += hold_->energy_added() - energy_added_before_;
   const tools::StepEstimates e = hold_->take_estimates();
   report.position_error = std::max(report.position_error, e.position);
@@ -176,23 +188,11 @@ void Hand::end_step(AdvanceReport& report) {
   report.energy_error += e.energy;
 }
 
-rod::ForkDofs Hand::dofs_run() const {
-  return hold_ && moved_ ? maker().possible_dofs(grasp_, grasped_body()) : rod::ForkDofs{false, false, false};
-}
-
-bool Hand::overloaded(double now, double h) {
-  const tools::LimitSettings& limit = settings_.limit;
-  if (!dynamic() || objects_.massless(grasp_.object)) return false;
-  const auto too_much = [&] {
-    const Wrench at_tip = state().tip_wrench_W;
-    return at_tip.force.norm() > limit.force || at_tip.moment.norm() > limit.moment;
-  };
-  if (h == 0.0) return too_much();
-  hold_->set_hand(stylus_.motion(now), now);
-  hold_->save(start_);
-  const bool over = hold_->advance(h, Wrench()) && too_much();
-  hold_->restore(start_);
-  return over;
+bodies::SteppedBody* Hand::begin_slip(const Wrench& at_tip_W) {
+  moved_ = true;
+  energy_added_before_ = hold_->energy_added();
+  objects_.state(grasp_.object).asleep = false;
+  return (pulled_ = maker().make_pulled(grasp_, grasped_body(), object().V_WO_W, at_tip_W)).get();
 }
 
 void Hand::change_fork(const ForkChange& change, ChangeReport& report) {
@@ -204,10 +204,6 @@ void Hand::change_fork(const ForkChange& change, ChangeReport& report) {
     report.message = "switched; the strain of what went off returns to zero with a time constant of " +
                      std::to_string(fork_.switch_off_time) + " s and gives back its energy";
   }
-}
-
-void Hand::change_integrator() {
-  if (hold_) hold_->set_step_control(settings_.dynamics);
 }
 
 bool Hand::calibrate(ChangeReport& change, double now) {
@@ -225,32 +221,18 @@ bool Hand::calibrate(ChangeReport& change, double now) {
   return true;
 }
 
-double Hand::elastic_energy() const {
-  if (probe_) return probe_->elastic_energy();
-  return hold_ ? hold_->elastic_energy() : 0.0;
-}
-
 tools::ToolState Hand::state() const {
-  tools::ToolState f;
+  const double length = hold_ ? hold_->length() : reach();
+  tools::ToolState f = instruments::unloaded(tool_, fork_, settings_.dynamics.integrator, length, stylus_.X_WS());
   f.present = !stylus_.track().empty();
-  f.tool = tool_;
-  f.shape = fork_.shape;
-  f.integrator = settings_.dynamics.integrator;
-  f.dofs = fork_.dofs;
-  f.length = hold_ ? hold_->length() : reach();
-  f.strain = rod::StrainVector::Zero(rod::make_shape_model(f.shape, f.length)->size());
-  f.stiffness = fork_.stiffness;
-  f.damping_ratio = fork_.damping_ratio;
-  f.X_WS = f.X_WH = f.X_WH_proxy = stylus_.X_WS();
-  f.X_WE = stylus_.X_WS() * Eigen::Translation3d(0.0, 0.0, f.length);
   if (hold_) {
     f.held_object = object().name;
     hold_->describe(objects_.massless(grasp_.object), f);
+    if (slip_.open()) f.X_WH = stylus_.X_WS() * slip_.of(stylus_.X_WS()).inverse() * f.X_WH;
   }
   if (probe_) probe_->describe(stylus_.X_WS(), f);
-  f.force_scale = scene_.force_scale;
-  f.weight = f.tip_wrench_W.force.z() / tools::weighing_gravity(scene_.gravity);
-  f.torque = f.tip_wrench_W.moment.dot(f.X_WE.linear().col(2));
+  f.clutch = stylus_.clutched();
+  loads_.read(f);
   return f;
 }
 
@@ -259,7 +241,8 @@ void Hand::exchange(math::StateArchive& state, double now) {
   std::size_t touched = scene_.bodies.size();  // the bench
   if (touches && probe_->body() != nullptr) touched = static_cast<std::size_t>(probe_->body() - scene_.bodies.data());
   state(fork_.dofs, fork_.stiffness, fork_.damping_ratio, fork_.damping_coefficient, fork_.damping_law);
-  state(tool_, stylus_, ray_length_, inserted_, pressed_, grasped_by_name_, pushes_, grasp_, holds, touches, touched);
+  state(tool_, stylus_, ray_length_, inserted_, pressed_, grasped_by_name_, pushes_, grasp_, slip_, holds, touches,
+        touched);
   if (state.sets()) {
     if (grasp_.object >= std::max<std::size_t>(objects_.states().size(), 1)) throw std::out_of_range("state: object");
     hold_ = holds ? maker().make(grasp_, grasped_body(), now) : nullptr;

@@ -4,9 +4,10 @@
 #include <optional>
 
 #include "objects.h"
+#include "spring_workbench/instruments/load_range.h"
+#include "spring_workbench/motion/slip.h"
 #include "spring_workbench/tools/hold_maker.h"
 #include "spring_workbench/tools/sharing.h"
-#include "stylus.h"
 
 namespace spring_workbench::simulation {
 
@@ -19,8 +20,8 @@ class Hand {
   /// Forgets what the stylus told, holds nothing. The workbench is reset beside it.
   void reset();
 
-  Stylus& stylus() { return stylus_; }
-  const Stylus& stylus() const { return stylus_; }
+  motion::Stylus& stylus() { return stylus_; }
+  const motion::Stylus& stylus() const { return stylus_; }
 
   /// What is the tip in (highlight), or the probe on?
   void select(double now);
@@ -28,8 +29,12 @@ class Hand {
   void apply_buttons(double now);
   bool holds() const { return hold_ != nullptr; }
   void let_go(bool thrown, double now);
+  /// The tool stays where it is while the hand goes on alone, or follows it again. What is held keeps its twist.
+  void set_clutch(bool on, double now);
   /// What the tool carries, in the workbench: the object that is held, or pushed by the probe.
-  std::optional<std::size_t> carried() const;
+  std::optional<std::size_t> carried() const {
+    return hold_ || pushes_ ? std::optional<std::size_t>(grasp_.object) : std::nullopt;
+  }
   /// What is held by this tool alone, ready to be carried over the next `h` [s]; null where it rests and nothing has to
   /// be done.
   bodies::SteppedBody* begin_step(double now, double h);
@@ -54,16 +59,25 @@ class Hand {
   /// The change reaches what is held; it fits the fork.
   void change_fork(const ForkChange& change, ChangeReport& report);
   /// That of the settings, which are changed before.
-  void change_integrator();
+  void change_integrator() {
+    if (hold_) hold_->set_step_control(settings_.dynamics);
+  }
   /// Size, springs and dampers from the held object and its grasp. False when nothing is held on a tool with springs.
   bool calibrate(ChangeReport& change, double now);
 
-  double elastic_energy() const;
+  double elastic_energy() const { return probe_ ? probe_->elastic_energy() : hold_ ? hold_->elastic_energy() : 0.0; }
   /// The families that ran since the last call of begin_call().
-  rod::ForkDofs dofs_run() const;
-  /// Whether what is held takes more of the tool's springs than their breakaway force or moment: now, or, where `h` > 0
-  /// [s], at the end of that time if it touches nothing then.
-  bool overloaded(double now, double h);
+  rod::ForkDofs dofs_run() const {
+    return hold_ && moved_ ? maker().possible_dofs(grasp_, grasped_body()) : rod::ForkDofs{false, false, false};
+  }
+  /// Whether something is held on springs, and has mass.
+  bool springs() const { return dynamic() && !objects_.massless(grasp_.object); }
+  /// The object on the tool that slips in the hand and does no more than that, ready to be carried over a step.
+  bodies::SteppedBody* begin_slip(const Wrench& at_tip_W);
+  /// After a step of `h` [s] in which it slipped, with the stylus where it is now.
+  void end_slip(const Wrench& at_tip_W, double h) {
+    slip_.begin(stylus_.X_WS(), hold_->slip(h, {object().X_WO, object().V_WO_W, {}}, at_tip_W));
+  }
   void begin_call() { moved_ = false; }
   tools::ToolState state() const;
 
@@ -103,10 +117,11 @@ class Hand {
 
   const scene::Scene& scene_;
   const SimulationSettings& settings_;
+  const instruments::LoadRange loads_;
   rod::ForkSettings fork_;
   Objects& objects_;
   tools::Tool tool_;
-  Stylus stylus_;
+  motion::Stylus stylus_;
   double ray_length_;                    ///< to what the ray hits [m]
   std::optional<std::size_t> inserted_;  ///< the object that the tip is in, or the ray on, while nothing is held
   bool pressed_ = false;                 ///< the grasp button
@@ -118,7 +133,8 @@ class Hand {
                       RigidTransform::Identity(), 0.0, 0.0};  ///< of what is held
   bool moved_ = false;                                        ///< what is held, in this call of advance
   double energy_added_before_ = 0.0;
-  bodies::TrialStart start_;  ///< of a trial; no allocation in a step
+  motion::Slip slip_;
+  std::unique_ptr<bodies::SteppedBody> pulled_;  ///< what is held, in a step in which the tool slips
 };
 
 }  // namespace spring_workbench::simulation

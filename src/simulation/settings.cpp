@@ -93,6 +93,11 @@ std::vector<Field> scene_fields(S& s) {
           s.contact, as_scene),
       number("gravity", "m/s²", between(0.0, 1e3), "along −z of world", s.gravity, as_scene),
       number("force_scale", "–", between(1e-9, 1e9), "ratio of virtual to real force", s.force_scale, as_scene),
+      number("hand.scale", "–", between(1e-3, 1e3),
+             "length in world per length of the hand's motion, counted from the origin of world; turns are as they are",
+             s.hand_scale),
+      integer("clutch.button", 2, 63, "the button of the stylus by which the hand moves without its tool",
+              s.clutch_button),
   };
 }
 
@@ -174,10 +179,15 @@ std::vector<Field> grasp_fields(S& s) {
   std::string& object = s.grasp.object;
   std::optional<RigidTransform>& tip = s.grasp.X_OE;
   return {
-      number("limit.force", "N", validation::positive_or_infinite(),
-             "an object that would take a larger force at the tip is released", s.limit.force),
+      number("limit.force", "N", validation::positive_or_infinite(), "the largest force that the tool does at its tip",
+             s.limit.force),
       number("limit.moment", "N·m", validation::positive_or_infinite(),
-             "an object that would take a larger moment at the tip is released", s.limit.moment),
+             "the largest moment that the tool does at its tip", s.limit.moment),
+      choice(
+          "limit.action",
+          "what would take more than limit.force or limit.moment: let_go: is let go; slip: is pulled with that, while "
+          "the tool slips in the hand",
+          s.limit.action),
       {{"grasp.object", "string", "–", "the name of a movable object of the scene", "none: grasped by button",
         "this object is held from the first sample to the last"},
        [&](const auto& node, const auto& where) { object = config::read_string(node, where, "grasp.object"); },

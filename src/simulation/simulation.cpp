@@ -18,6 +18,8 @@
 namespace spring_workbench::simulation {
 namespace {
 
+constexpr double same_time = motion::Stylus::same_time;
+
 /// The scene as the settings have it. Throws InputError when they do not fit.
 scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings) {
   validate(settings, scene.path);
@@ -34,6 +36,16 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings) {
   }
   validation::refuse(scene.path, "grasp.object", settings.grasp.object,
                      "a movable object of the scene (" + validation::join(names) + ")");
+}
+
+/// What a tool may do at its tip of what it does, world axes, where that is more than its limit: the force cut down to
+/// its limit, and the moment in the same proportion and to its own.
+std::optional<Wrench> cut_down(const tools::LimitSettings& limit, const tools::ToolState& tool) {
+  const auto& [force, moment] = tool.tip_wrench_W;
+  const double of_force = std::min(limit.force / force.norm(), 1.0);
+  const double of_moment = std::min(limit.moment / moment.norm(), of_force);
+  if (!(of_moment < 1.0)) return std::nullopt;
+  return Wrench{of_force * force, of_moment * moment};
 }
 
 }  // namespace
@@ -70,11 +82,12 @@ struct Simulation::Impl {
   template <typename Change>
   void with_handover(Change&& change);
   std::map<std::size_t, std::vector<Hand*>> holders();
-  /// Lets go what a tool cannot hold, now or over the next `h` [s] (doc/model.md, "Breaking away").
-  void break_away(double h);
   double next_sample(double after) const;
   double next_button() const;
   double end_of_step(double t_end) const;
+  using Slipping = std::map<Hand*, Wrench>;  ///< what these may do to what they hold
+  bool beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go);
+  void carry(double h, const Slipping& slipping, AdvanceReport& report);
   void step(double end, AdvanceReport& report);
   /// What must be the same in a simulation that goes on from a state of this one.
   std::string signature() const;
@@ -124,22 +137,9 @@ void Simulation::Impl::with_handover(Change&& change) {
   }
 }
 
-void Simulation::Impl::break_away(double h) {
-  if (std::isinf(settings.limit.force) && std::isinf(settings.limit.moment)) return;
-  with_handover([&] {
-    for (const auto& [object, of_object] : holders()) {
-      if (h > 0.0 && of_object.size() > 1) continue;  // what one of them does depends on the others
-      for (Hand* hand : of_object) {
-        if (hand->overloaded(now, h)) hand->let_go(settings.grasp.release == tools::Release::thrown, now);
-      }
-    }
-  });
-}
-
 /// Highlights, grasps and releases.
 void Simulation::Impl::act() {
   objects.clear_highlights();
-  break_away(0.0);
   with_handover([&] {
     for (Hand& hand : hands) {
       hand.select(now);
@@ -171,9 +171,7 @@ double Simulation::Impl::end_of_step(double t_end) const {
 }
 
 /// An object that one tool holds is that tool's.
-void Simulation::Impl::step(double end, AdvanceReport& report) {
-  const double h = end - now;
-  break_away(h);
+void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& report) {
   std::map<std::size_t, std::vector<Hand*>> tools_on;
   for (Hand& hand : hands) {
     if (const auto object = hand.carried()) tools_on[*object].push_back(&hand);
@@ -181,6 +179,10 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
   std::vector<Carried> carried;
   std::map<std::size_t, tools::Sharing> shared;
   for (const auto& [object, on_it] : tools_on) {
+    if (const auto slip = slipping.find(on_it.front()); slip != slipping.end()) {
+      carried.push_back({object, on_it.front()->begin_slip(slip->second)});
+      continue;
+    }
     if (on_it.size() == 1 && on_it.front()->holds()) {
       if (bodies::SteppedBody* body = on_it.front()->begin_step(now, h)) carried.push_back({object, body});
       continue;
@@ -192,13 +194,56 @@ void Simulation::Impl::step(double end, AdvanceReport& report) {
   }
   objects.step(carried, now, h, report);
   for (auto& [object, sharing] : shared)
-    sharing.end_step({objects.states()[object].X_WO, objects.states()[object].V_WO_W, {}}, end);
+    sharing.end_step({objects.states()[object].X_WO, objects.states()[object].V_WO_W, {}}, now + h);
   for (Hand& hand : hands) hand.end_step(report);
+}
+
+/// The hands that do more than their limit now and have to let go, and those that slip. False when there is none more.
+bool Simulation::Impl::beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go) {
+  const std::size_t before = slipping.size();
+  for (const auto& [object, of_object] : holders()) {
+    for (Hand* hand : of_object) {
+      if (slipping.count(hand) > 0 || !hand->springs()) continue;
+      const std::optional<Wrench> pull = cut_down(settings.limit, hand->state());
+      if (!pull) continue;
+      if (of_object.size() == 1 && settings.limit.action == tools::LimitAction::slip) {
+        slipping[hand] = *pull;
+      } else {
+        let_go.push_back(hand);
+      }
+    }
+  }
+  return slipping.size() > before || !let_go.empty();
+}
+
+/// Where a tool would do more than its limit, the step is taken again without it, or with what it can do (doc/model.md,
+/// "At the limit").
+void Simulation::Impl::step(double end, AdvanceReport& report) {
+  const double h = end - now;
+  const bool limited = std::isfinite(settings.limit.force) || std::isfinite(settings.limit.moment);
+  const AdvanceReport so_far = report;
+  Slipping slipping;
+  std::vector<Hand*> let_go;
+  math::StateArchive start;
+  if (limited) exchange(start);
+  carry(h, slipping, report);
+  while (limited && beyond_limits(slipping, let_go)) {
+    set(start.taken());
+    report = so_far;
+    with_handover([&] {
+      for (Hand* hand : let_go) hand->let_go(settings.grasp.release == tools::Release::thrown, now);
+    });
+    let_go.clear();
+    start = math::StateArchive();
+    exchange(start);
+    carry(h, slipping, report);
+  }
   now = end;
   for (Hand& hand : hands) {
     hand.stylus().follow(now);
     hand.stylus().forget_before(now);
   }
+  for (const auto& [hand, pull] : slipping) hand->end_slip(pull, h);
 }
 
 void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
@@ -272,15 +317,13 @@ double Simulation::time() const {
 }
 
 bool Simulation::push_stylus(const motion::PoseSample& sample, std::size_t hand) {
-  return impl_->hand(hand).stylus().push(sample);
+  motion::PoseSample in_world = sample;
+  in_world.X.translation() *= impl_->settings.hand_scale;
+  return impl_->hand(hand).stylus().push(in_world);
 }
 
-void Simulation::push_button(double t, bool pressed, std::size_t hand) {
-  impl_->hand(hand).stylus().push(t, pressed ? Stylus::Press::grasp : Stylus::Press::release);
-}
-
-void Simulation::push_next_tool(double t, std::size_t hand) {
-  impl_->hand(hand).stylus().push(t, Stylus::Press::next_tool);
+void Simulation::push_press(double t, motion::Press press, std::size_t hand) {
+  impl_->hand(hand).stylus().push(t, press);
 }
 
 double Simulation::newest_sample() const {
@@ -378,11 +421,13 @@ void Simulation::change(const ForkChange& of_fork, const DynamicsChange& of_dyna
   if (!of_dynamics.empty()) change(of_dynamics);
 }
 
-ChangeReport Simulation::calibrate() {
+ChangeReport Simulation::calibrate(std::optional<std::size_t> hand) {
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
   bool done = false;
-  for (Hand& hand : impl_->hands) done = hand.calibrate(change, impl_->now) || done;
+  for (std::size_t i = 0; i < most_hands; ++i) {
+    if (hand.value_or(i) == i) done = impl_->hand(i).calibrate(change, impl_->now) || done;
+  }
   if (!done) throw validation::InputError("calibrate: no object is held by a fork or a spring; call it while one is");
   change.elastic_energy_after = impl_->elastic_energy();
   return change;

@@ -43,6 +43,7 @@ class ForkBody : public ToolHold {
 
   Wrench spring_pull() const override;
   void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) override;
+  RigidTransform slip(double h, const motion::MotionState& object, const Wrench& at_tip_W) override;
   /// Sets strain rates so that the object's twist comes as near as it can to this one.
   void take_twist(const Twist& V_WO_W) override;
   void set_springs(const rod::ForkSettings& fork) override { held_.set_springs(fork); }

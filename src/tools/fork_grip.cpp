@@ -1,5 +1,6 @@
 // The fork as the hand grips it anew while it holds.
 #include <Eigen/QR>
+#include <cmath>
 
 #include "constants.h"
 #include "find_strain.h"
@@ -52,6 +53,25 @@ void ForkBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {
   state_.pull_W.reset();
   state_.stepping = stepping::StepControl::Memory();
   sleep_ = Sleep();
+}
+
+RigidTransform ForkBody::slip(double h, const motion::MotionState& object, const Wrench& at_tip_W) {
+  const Vector3d lever = object.X.linear() * held_.body().X_OE.translation();
+  const Wrench pull_W{at_tip_W.force, at_tip_W.moment + lever.cross(at_tip_W.force)};
+  const rod::StrainVector q = strain_under(pull_W, object.X.linear());
+  state_.strain.q = q + std::exp(-h / return_time) * (state_.strain.q - q);
+  const dynamics::HandleForcing at_origin = held_.forcing(motion::MotionSegment(RigidTransform::Identity()), state_.t);
+  const RigidTransform X_HO = held_.object(at_origin, state_.strain).X;
+  state_.t += h;
+  state_.behind = false;
+  state_.offset = RigidTransform::Identity();
+  state_.pull_W = pull_W;
+  state_.stepping = stepping::StepControl::Memory();
+  sleep_ = Sleep();
+  const RigidTransform X_WH = normalised(object.X * X_HO.inverse());
+  hand_ = motion::MotionSegment(X_WH);
+  take_twist(object.velocity);
+  return normalised(X_WH * X_SH_.inverse());
 }
 
 }  // namespace spring_workbench::tools

@@ -6,6 +6,7 @@
 #include "constants.h"
 #include "fork_body.h"
 #include "spring_body.h"
+#include "spring_workbench/bodies/pulled_body.h"
 #include "spring_workbench/rod/shape_model.h"
 
 namespace spring_workbench::tools {
@@ -60,6 +61,18 @@ std::unique_ptr<ToolHold> HoldMaker::make_unheld(const GraspedBody& object, cons
   body->set_hand(frame_at_rest(object.X_WO), now);
   body->take_twist(V_WO_W);
   return body;
+}
+
+std::unique_ptr<bodies::SteppedBody> HoldMaker::make_pulled(const Grasp& grasp, const GraspedBody& object,
+                                                            const Twist& V_WO_W, const Wrench& at_tip_W) const {
+  scene::Body body;
+  const dynamics::BodyInertia of_object = inertia(grasp, object);
+  body.mass_properties = {of_object.mass, of_object.inertia_O};
+  Vector3d lever = object.X_WO.linear() * grasp.X_OE.translation();
+  if (grasp.tool == Tool::spring) lever.setZero();  // which pulls at the centre
+  const Wrench pull_W{at_tip_W.force, at_tip_W.moment + lever.cross(at_tip_W.force)};
+  return std::make_unique<bodies::PulledBody>(bodies::FreeBody(object.index, body, gravity_, object.X_WO, V_WO_W),
+                                              pull_W);
 }
 
 }  // namespace spring_workbench::tools

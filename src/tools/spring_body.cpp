@@ -114,6 +114,7 @@ void SpringBody::follow(double t, const ToolHold&, const motion::MotionState& ob
 void SpringBody::set_hand(const motion::MotionSegment& hand, double t) {
   ForkBody::set_hand(rest_, t);
   hand_ = hand;
+  slipped_W_.reset();
 }
 
 void SpringBody::set_springs(const rod::ForkSettings& fork) {
@@ -147,9 +148,23 @@ void SpringBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {
   if (k > 0.0) spring_.set_rest_length(std::max(d.norm() + pull_W.force.dot(direction(d)) / k, least_rest_length));
 }
 
+RigidTransform SpringBody::slip(double h, const motion::MotionState& object, const Wrench& at_tip_W) {
+  const Vector3d d = reading().d, force = at_tip_W.force;
+  const double present = d.norm() - spring_.rest_length(), k = spring_.stiffness();
+  const double side = std::copysign(1.0, -force.dot(direction(d)));  // −1: it pushes
+  const double goal = k > 0.0 ? side * force.norm() / k : present;
+  const double length = spring_.rest_length() + goal + std::exp(-h / return_time) * (present - goal);
+  RigidTransform X_WS = hand_.at(time()).X;
+  X_WS.translation() = object.X.translation() + length * side * force.normalized();
+  follow(time() + h, *this, object);
+  hand_ = motion::MotionSegment(X_WS);
+  slipped_W_ = force;
+  return X_WS;
+}
+
 void SpringBody::exchange(math::StateArchive& state) {
   ForkBody::exchange(state);
-  state(spring_, rest_, hand_);
+  state(spring_, rest_, hand_, slipped_W_);
 }
 
 void SpringBody::describe(bool, ToolState& state) const {
@@ -159,12 +174,12 @@ void SpringBody::describe(bool, ToolState& state) const {
   const RigidTransform X_WH = hand_.at(time()).X;
   state.stretch = now.d.norm() - spring_.rest_length();
   // Drawn straight from the hand to the object's centre.
-  state.X_WH_proxy = X_WH;
+  state.X_WH = state.X_WH_proxy = X_WH;
   state.X_WH_proxy.linear() = Quaterniond::FromTwoVectors(X_WH.linear().col(2), n).toRotationMatrix() * X_WH.linear();
   state.X_WE = state.X_WH_proxy * Eigen::Translation3d(0.0, 0.0, now.d.norm());
   const double drawn = state.shape == rod::ShapeKind::bushing ? state.stretch : state.stretch / spring_.rest_length();
   state.strain[state.strain.size() - 1] = drawn;
-  state.tip_wrench_W.force = now.pull_W.force;
+  state.tip_wrench_W.force = slipped_W_.value_or(now.pull_W.force);
   state.handle_wrench_H.force = -(X_WH.linear().transpose() * state.tip_wrench_W.force);
   state.elastic_energy = now.springs.energy;
   state.kinetic_energy = held().kinetic_energy(o.velocity, o.X.linear());

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "fork_body.h"
 #include "spring_workbench/scene/scene.h"
 
@@ -60,6 +62,7 @@ class SpringBody final : public ForkBody {
   Wrench spring_pull() const override;
   /// It can do no more than pull along its line, by another rest length.
   void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) override;
+  RigidTransform slip(double h, const motion::MotionState& object, const Wrench& at_tip_W) override;
   void set_springs(const rod::ForkSettings& fork) override;
   rod::PerDof fitting_stiffness(const rod::ForkSettings& fork, double gravity, const ObjectGoal& goal) const override;
   bool set_dofs(const rod::ForkDofs&, double) override { return false; }
@@ -78,6 +81,7 @@ class SpringBody final : public ForkBody {
 
   SpringCoupling spring_;
   motion::MotionSegment rest_, hand_;
+  std::optional<Vector3d> slipped_W_;  ///< what it did to the object in a step in which it slipped [N]
 };
 
 }  // namespace spring_workbench::tools

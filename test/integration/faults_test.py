@@ -18,7 +18,17 @@ import rostest
 from roscpp.srv import SetLoggerLevel
 from rosgraph.names import ns_join
 from spring_workbench.msg import ForkState, ObjectStates, StepReport
-from spring_workbench.srv import LoadScene, SelectTool, SetForkDamping, SetForkDofs, SetForkStiffness, SetIntegrator
+from spring_workbench.srv import (
+    Calibrate,
+    LoadScene,
+    Release,
+    SelectTool,
+    SetClutch,
+    SetForkDamping,
+    SetForkDofs,
+    SetForkStiffness,
+    SetIntegrator,
+)
 from std_srvs.srv import Trigger
 
 from stack import DEADLINE, DOWN, Hand, Launched, Listener, kill_and_wait, pid_of, slave_api, wait_for
@@ -32,8 +42,9 @@ SERVICES = {
     "reset": Trigger,
     "set_integrator": SetIntegrator,
     "select_tool": SelectTool,
-    "calibrate": Trigger,
-    "release": Trigger,
+    "calibrate": Calibrate,
+    "clutch": SetClutch,
+    "release": Release,
     "load_scene": LoadScene,
 }
 
@@ -301,10 +312,11 @@ class Faults(unittest.TestCase):
             ("set_dofs", (True, False, True, 0)),
             ("set_stiffness", (900.0, 500.0, 5.0, 0)),
             ("set_damping", (1.0, 0.9, 0.8, "per_dof", 0)),
-            ("calibrate", ()),
+            ("calibrate", (1,)),
             ("set_integrator", ("implicit_euler", 0.02, 0.0)),
             ("reset", ()),
-            ("release", ()),
+            ("release", (2,)),
+            ("clutch", (False, 0)),
             ("load_scene", ("package://spring_workbench/scenes/single_box.urdf",)),
         ]
         self.carry_off()

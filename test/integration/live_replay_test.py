@@ -20,8 +20,11 @@ import rostest
 from sensor_msgs.msg import Joy
 from spring_workbench.msg import Accepted, Change, ObjectStates
 from spring_workbench.srv import (
+    Calibrate,
     LoadScene,
+    Release,
     SelectTool,
+    SetClutch,
     SetForkDofs,
     SetForkStiffness,
     SetIntegrator,
@@ -52,7 +55,7 @@ class TwoHands:
         self.goal = [self.new_goal(hand) for hand in range(2)]
         self.position = list(self.goal)
         self.next = [time.time()] * 2
-        self.pressed = [False, False]
+        self.pressed, self.clutch = [False, False], [False, False]
 
     def new_goal(self, hand):
         reach = self.random.random() < 0.6
@@ -83,7 +86,10 @@ class TwoHands:
             if hand == 1:
                 transform.child_frame_id = "stylus_2"
             self.tf.publish(TFMessage([transform]))
-            joy = Joy(buttons=[int(self.pressed[hand]), int(self.random.random() < 0.003)])
+            if self.random.random() < dt:
+                self.clutch[hand] = not self.clutch[hand]
+            buttons = [self.pressed[hand], self.random.random() < 0.003, self.clutch[hand]]
+            joy = Joy(buttons=[int(down) for down in buttons])
             joy.header.stamp = stamp
             self.joy[hand].publish(joy)
 
@@ -98,8 +104,9 @@ class Services:
             "set_integrator": SetIntegrator,
             "load_scene": LoadScene,
             "reset": Trigger,
-            "release": Trigger,
-            "calibrate": Trigger,
+            "release": Release,
+            "calibrate": Calibrate,
+            "clutch": SetClutch,
         }
         for name in kinds:
             rospy.wait_for_service("manipulation/" + name, DEADLINE)
@@ -121,8 +128,9 @@ class Services:
                 lambda: call["set_integrator"](
                     name=r.choice(["exponential", "rk4"]), tolerance=SetIntegratorRequest.KEEP_TOLERANCE
                 ),
-                call["release"],
-                call["calibrate"],
+                lambda: call["release"](stylus=r.randint(0, 2)),
+                lambda: call["calibrate"](stylus=r.randint(0, 2)),
+                lambda: call["clutch"](on=r.random() < 0.5, stylus=r.randint(0, 2)),
                 call["reset"] if r.random() < 0.3 else call["release"],
                 (lambda: call["load_scene"](scene=SCENE)) if r.random() < 0.3 else call["calibrate"],
             ]

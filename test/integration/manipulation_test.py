@@ -8,7 +8,15 @@ import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
 from spring_workbench.msg import Contact, Contacts, ForkState, ObjectStates, StepReport
-from spring_workbench.srv import LoadScene, SetForkDamping, SetForkDofs, SetForkStiffness, SetIntegrator
+from spring_workbench.srv import (
+    Calibrate,
+    LoadScene,
+    Release,
+    SetForkDamping,
+    SetForkDofs,
+    SetForkStiffness,
+    SetIntegrator,
+)
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
@@ -42,9 +50,9 @@ class Manipulation(unittest.TestCase):
             ("set_damping", SetForkDamping),
             ("set_integrator", SetIntegrator),
             ("load_scene", LoadScene),
-            ("calibrate", Trigger),
+            ("calibrate", Calibrate),
             ("reset", Trigger),
-            ("release", Trigger),
+            ("release", Release),
         ]:
             rospy.wait_for_service("manipulation/" + name, DEADLINE)
             cls.services[name] = rospy.ServiceProxy("manipulation/" + name, kind)

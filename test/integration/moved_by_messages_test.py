@@ -111,16 +111,16 @@ class MovedByMessages(unittest.TestCase):
             entries = {e.title.split("] ")[-1]: e.id for e in marker.menu_entries}
             select = InteractiveMarkerFeedback.MENU_SELECT
             send(event=select, entry=entries["Grasp"])
-            driver.wait_for_buttons(1, 0)
+            driver.wait_for_buttons(1, 0, 0)
             send(event=select, entry=entries["Next tool"])
-            driver.wait_for_buttons(1, 1)
-            driver.wait_for_buttons(1, 0)
+            driver.wait_for_buttons(1, 1, 0)
+            driver.wait_for_buttons(1, 0, 0)
             send(event=select, entry=entries["Grasp"])
-            driver.wait_for_buttons(0, 0)
+            driver.wait_for_buttons(0, 0, 0)
             grasp = rospy.ServiceProxy("tracker_driver/grasp", SetBool)
             for on in [True, False]:
                 self.assertTrue(grasp(on).success)
-                driver.wait_for_buttons(int(on), 0)
+                driver.wait_for_buttons(int(on), 0, 0)
             self.check_stream(driver)
 
     def test_game_pad(self):
@@ -134,12 +134,12 @@ class MovedByMessages(unittest.TestCase):
             push_until(
                 lambda: driver.position()[0] > START[0] + 0.05, "the stylus to move", axes=[0, 1, 0, 0], buttons=[1, 0]
             )
-            driver.wait_for_buttons(1, 0)
+            driver.wait_for_buttons(1, 0, 0)
             self.assertEqual(driver.position()[1:], START[1:])
             push_until(lambda: driver.position()[2] < START[2] - 0.05, "the stylus to go down", axes=[0, 0, -1, 0])
-            driver.wait_for_buttons(0, 0)
-            publisher.publish(Joy(axes=[float("nan"), 0, 0.05, 0], buttons=[0, 1]))
-            driver.wait_for_buttons(0, 1)
+            driver.wait_for_buttons(0, 0, 0)
+            publisher.publish(Joy(axes=[float("nan"), 0, 0.05, 0], buttons=[0, 1, 1]))
+            driver.wait_for_buttons(0, 1, 1)
             resting = driver.position()
             seen = len(driver.poses())
             wait_for(lambda: len(driver.poses()) > seen + 20, "more samples")

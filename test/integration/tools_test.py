@@ -10,7 +10,7 @@ import rostest
 from geometry_msgs.msg import WrenchStamped
 from sensor_msgs.msg import Joy
 from spring_workbench.msg import ForkState, ObjectStates
-from spring_workbench.srv import SelectTool, SetForkStiffness
+from spring_workbench.srv import Calibrate, Release, SelectTool, SetClutch, SetForkStiffness
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
@@ -25,7 +25,7 @@ class Hands(Hand):
 
     def __init__(self):
         super().__init__()
-        self.next_tool, self.second, self.second_pressed = False, None, False
+        self.next_tool, self.clutch, self.second, self.second_pressed = False, False, None, False
         self.second_joy = rospy.Publisher("stylus_2/joy", Joy, queue_size=100)
 
     def send(self, transform):
@@ -38,7 +38,7 @@ class Hands(Hand):
     def send_button(self):
         joy = Joy()
         joy.header.stamp = self.now()
-        joy.buttons = [int(self.pressed), int(self.next_tool)]
+        joy.buttons = [int(self.pressed), int(self.next_tool), int(self.clutch)]
         self.joy.publish(joy)
         if self.second:
             joy.buttons = [int(self.second_pressed), 0]
@@ -53,14 +53,16 @@ class Tools(unittest.TestCase):
             ("select_tool", SelectTool),
             ("set_stiffness", SetForkStiffness),
             ("reset", Trigger),
-            ("calibrate", Trigger),
-            ("release", Trigger),
+            ("calibrate", Calibrate),
+            ("release", Release),
+            ("clutch", SetClutch),
         ]:
             rospy.wait_for_service("manipulation/" + name, DEADLINE)
             cls.services[name] = rospy.ServiceProxy("manipulation/" + name, kind)
         cls.objects = Listener("manipulation/objects", ObjectStates)
         cls.fork = Listener("manipulation/fork", ForkState)
         cls.fork_2 = Listener("manipulation/fork_2", ForkState)
+        cls.wrench_2 = Listener("manipulation/wrench_2", WrenchStamped)
         cls.wrench = Listener("manipulation/wrench", WrenchStamped)
         cls.tf = Listener("/tf", TFMessage)
         cls.diagnostics = diagnostics_listener()
@@ -69,7 +71,7 @@ class Tools(unittest.TestCase):
         wait_for(lambda: cls.hand.second_joy.get_num_connections() > 0, "the node to listen to stylus_2/joy")
 
     def setUp(self):
-        self.hand.pressed = self.hand.second_pressed = self.hand.next_tool = False
+        self.hand.pressed = self.hand.second_pressed = self.hand.next_tool = self.hand.clutch = False
         self.hand.second, self.hand.position = None, AWAY
         self.hand.run(0.2)
         for stylus in [1, 2]:
@@ -125,6 +127,36 @@ class Tools(unittest.TestCase):
             self.hand.run(0.1)
             self.assertEqual(self.fork.next().tool, tool)
 
+    def test_clutch_by_service_and_by_button(self):
+        self.lift()
+        place = lambda: (lambda p: (p.x, p.y, p.z))(self.box().pose.position)
+        self.hand.run(4.0)
+        for on, off in [
+            (lambda: self.call("clutch", True, 1), lambda: self.call("clutch", False, 0)),
+            (lambda: setattr(self.hand, "clutch", True), lambda: setattr(self.hand, "clutch", False)),
+        ]:
+            on()
+            self.hand.run(0.2)
+            before, start = place(), self.hand.position
+            self.hand.move([start[0] + 0.3, start[1] - 0.4, start[2]], DOWN, 1.0)
+            self.hand.run(0.2)  # what is committed is a sample behind
+            self.assertLess(math.dist(before, place()), 1e-9)
+            off()
+            self.hand.run(0.2)
+            self.hand.move([start[0] + 0.3, start[1] - 0.3, start[2]], DOWN, 1.0)
+            self.hand.run(4.0)
+            self.assertLess(math.dist((before[0], before[1] + 0.1, before[2]), place()), 1e-4)
+        self.assertFalse(self.services["clutch"](True, 3).success)
+
+    def test_stylus_of_calibrate_and_release(self):
+        self.lift()
+        for service in ["calibrate", "release"]:
+            self.assertIn("held", self.services[service](2).message)
+            self.assertTrue(self.box().held)
+        self.call("calibrate", 1)
+        self.call("release", 1)
+        self.assertFalse(self.box().held)
+
     def test_scale_and_torque_wrench_in_virtual_and_real_units(self):
         self.lift()
         fork, wrench = self.fork.next(), self.wrench.next()
@@ -173,6 +205,9 @@ class Tools(unittest.TestCase):
         self.assertEqual((self.fork.next().held_object, self.fork_2.next().held_object), ("", "box"))
         self.assertTrue(self.box().held)
         self.assertAlmostEqual(self.fork_2.next().weight, 1.0, delta=1e-3)
+        felt = self.wrench_2.next()
+        self.assertEqual(felt.header.frame_id, "fork_handle_2")
+        self.assertAlmostEqual(felt.wrench.force.z, WEIGHT / FORCE_SCALE, delta=0.05 * WEIGHT / FORCE_SCALE)
         self.assertIn("box", self.call("release").message)
 
     def test_both_start_anew_when_time_jumps_back(self):

@@ -24,7 +24,12 @@ struct Accepted {
     next_tool,  ///< the second button, at time `t`
     lost,       ///< the hand releases its object because it was lost until `t`
     rest,       ///< no input: all hands rested until `t`
+    clutch_on,  ///< at time `t`
+    clutch_off,
   };
+  static Kind kind_of(motion::Press press);
+  /// The button's edge; none for what is not about buttons.
+  static std::optional<motion::Press> press_of(Kind kind);
 
   Kind kind = Kind::rest;
   std::size_t hand = 0;
@@ -52,8 +57,10 @@ class Feed {
   /// smoothing is off and the hand was not lost.
   GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
   /// See Simulation.
-  void push_button(double t, bool pressed, std::size_t hand = 0);
-  void push_next_tool(double t, std::size_t hand = 0);
+  void push_press(double t, motion::Press press, std::size_t hand = 0);
+  void push_button(double t, bool pressed, std::size_t hand = 0) {
+    push_press(t, pressed ? motion::Press::grasp : motion::Press::release, hand);
+  }
   /// The buttons of a hand are known up to `t`, whether or not one of them changed.
   void buttons_known(double t, const LocalTime& arrival, std::size_t hand = 0);
 

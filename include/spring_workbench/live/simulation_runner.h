@@ -145,7 +145,6 @@ class SimulationRunner {
   void apply(HandInput& input, const NewEpoch& epoch);
   void apply(HandInput& input, const StylusPose& pose);
   void apply(HandInput& input, const StylusButton& button);
-  void apply(HandInput& input, const NextTool& press);
   void apply(HandInput& input, const ButtonsKnown& known);
   bool joins(const HandInput& input, const NewEpoch& epoch) const;
   double time_of(const HandInput& input, double t);

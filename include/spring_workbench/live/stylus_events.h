@@ -27,21 +27,17 @@ struct RejectedPose {
   hand_input::GateResult result;
   StylusPose pose;
 };
-/// The grasp button went down or up at time `t` [s].
+/// A button went down or up at time `t` [s].
 struct StylusButton {
   double t = 0.0;
-  bool pressed = false;
+  motion::Press press = motion::Press::grasp;
 };
 /// The buttons are known up to time `t` [s]: a message about them came, whether or not one of them changed.
 struct ButtonsKnown {
   double t = 0.0;
   hand_input::LocalTime arrival;
 };
-/// The button for the next tool went down at time `t` [s].
-struct NextTool {
-  double t = 0.0;
-};
-using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, NextTool, ButtonsKnown>;
+using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, ButtonsKnown>;
 
 /// What came of each stylus since the last cycle.
 using HandEvents = std::array<std::vector<StylusEvent>, simulation::Simulation::most_hands>;

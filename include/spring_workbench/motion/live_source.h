@@ -18,6 +18,7 @@ struct StationSample {
   bool button = false;                         ///< the stylus' button is down; false for stations without one
   char warning = ' ';                          ///< the device's own letter for "I doubt this one"; blank: none
   bool next_tool = false;                      ///< the button for the next tool is down
+  bool clutch = false;                         ///< the clutch's button is down
 };
 
 /// What a live source says about itself.

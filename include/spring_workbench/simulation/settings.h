@@ -23,6 +23,8 @@ struct SimulationSettings {
   std::optional<scene::ContactMode> contact;  ///< key `contact`
   std::optional<double> gravity;              ///< key `gravity` [m/s²], 0 … 1000
   std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9
+  double hand_scale = 1.0;                    ///< key `hand.scale`, 1e-3 … 1e3
+  int clutch_button = 2;                      ///< key `clutch.button`, of the stylus' Joy
   dynamics::DynamicsSettings dynamics;        ///< keys `integrator`, `step`, `tolerance`, `inertia`
   rod::ForkSettings fork;                     ///< keys `shape`, `fork.*`
   tools::LimitSettings limit;                 ///< keys `limit.*`

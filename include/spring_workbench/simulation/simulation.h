@@ -10,7 +10,7 @@
 #include "spring_workbench/bodies/body_state.h"
 #include "spring_workbench/contact/contact_state.h"
 #include "spring_workbench/math/state_archive.h"
-#include "spring_workbench/motion/pose_track.h"
+#include "spring_workbench/motion/stylus.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/simulation/settings.h"
 #include "spring_workbench/tools/tool_state.h"
@@ -102,14 +102,23 @@ class Simulation {
   /// Simulated time [s]: the first sample's stamp at first.
   double time() const;
 
-  /// A new pose of the handle. Returns false, and ignores the pose, if its stamp is not later than the newest one.
-  /// Throws InputError if it is not finite.
+  /// A new pose of the handle, whose place is scaled by `settings().hand_scale`. Returns false, and ignores
+  /// the pose, if its stamp is not later than the newest one. Throws InputError if it is not finite.
   bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
-  /// The grasp button goes down or up at time `t` [s]; this takes effect at the first step that begins at or after `t`.
-  void push_button(double t, bool pressed, std::size_t hand = 0);
-  /// The second button of the stylus is pressed at time `t` [s]: selects the next tool or, while an object is held, the
-  /// next tool that can hold it.
-  void push_next_tool(double t, std::size_t hand = 0);
+  /// A button of the stylus goes down or up at time `t` [s]; takes effect at the first step that begins at or after
+  /// `t`.
+  void push_press(double t, motion::Press press, std::size_t hand = 0);
+  /// The grasp button.
+  void push_button(double t, bool pressed, std::size_t hand = 0) {
+    push_press(t, pressed ? motion::Press::grasp : motion::Press::release, hand);
+  }
+  /// The second button: the next of the tools, or, while something is held, the next that can hold it.
+  void push_next_tool(double t, std::size_t hand = 0) { push_press(t, motion::Press::next_tool, hand); }
+  /// The clutch. On: the tool and what it holds stay where they are while the hand is moved; off: they go on from
+  /// there, as the hand moves and turns in world.
+  void push_clutch(double t, bool on, std::size_t hand = 0) {
+    push_press(t, on ? motion::Press::clutch_on : motion::Press::clutch_off, hand);
+  }
   /// Time of the newest sample of any hand, or time() if there is none.
   double newest_sample() const;
   /// The next time after time() at which a hand has a sample or a button an edge, or of the first sample; infinity if
@@ -139,9 +148,9 @@ class Simulation {
   void change(const DynamicsChange& change);
   /// Makes both changes, or neither.
   void change(const ForkChange& of_fork, const DynamicsChange& of_dynamics);
-  /// Stiffness from the mass and size of the held object, or of the world with `calibrate: world`, for the fork in each
-  /// hand that holds an object; the damping ratios stay. Throws InputError if nothing is held.
-  ChangeReport calibrate();
+  /// Stiffness from the mass and size of the held object, or of the world with `calibrate: world`, of the fork in one
+  /// hand, or in each that holds something; the damping ratios stay. Throws InputError when nothing is held.
+  ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
 
   const std::vector<bodies::BodyState>& objects() const;
   tools::ToolState fork(std::size_t hand = 0) const;

@@ -42,6 +42,9 @@ class HoldMaker {
   std::unique_ptr<ToolHold> make(const Grasp& grasp, const GraspedBody& object, double now) const;
   /// The object at time `now` [s] as none holds it, with this velocity, to be pushed by tools. Its mass must be > 0.
   std::unique_ptr<ToolHold> make_unheld(const GraspedBody& object, const Twist& V_WO_W, double now) const;
+  /// The object as it moves so, on a tool that does no more than `at_tip_W` to it at its tip.
+  std::unique_ptr<bodies::SteppedBody> make_pulled(const Grasp& grasp, const GraspedBody& object, const Twist& V_WO_W,
+                                                   const Wrench& at_tip_W) const;
   /// The DOFs in which the object can move: those that are on and in which it has an inertia.
   rod::ForkDofs possible_dofs(const Grasp& grasp, const GraspedBody& object) const;
 

@@ -9,10 +9,15 @@
 
 namespace spring_workbench::tools {
 
-/// Largest load at the tip of a tool; an object that would take more is released.
+/// At its limit a tool lets go of the object, or slips in the hand and goes on pulling with what it can.
+enum class LimitAction { let_go, slip };
+inline std::vector<std::string> names_of(LimitAction) { return {"let_go", "slip"}; }
+
+/// What a tool can do at its tip.
 struct LimitSettings {
   double force = std::numeric_limits<double>::infinity();   ///< key `limit.force` [N], > 0
   double moment = std::numeric_limits<double>::infinity();  ///< key `limit.moment` [N·m], > 0
+  LimitAction action = LimitAction::let_go;                 ///< key `limit.action`
 };
 
 /// What a tool is calibrated to: nothing, each object at its grasp, or once all objects of the scene.

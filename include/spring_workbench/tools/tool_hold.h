@@ -69,6 +69,9 @@ class ToolHold : public bodies::SteppedBody {
   /// Regrasps with the object at `X_WO`: the old strain is gone, and the springs exert `pull_W` on the object, at its
   /// centre, as far as the tool has springs for it (doc/model.md, "Regrasping").
   virtual void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) = 0;
+  /// `h` [s] have passed, in which the tool slipped in the hand and did `at_tip_W` to the object at the tip; the object
+  /// moves so now. The stylus rests where the tool is: the pose that it would have (doc/model.md, "At the limit").
+  virtual RigidTransform slip(double h, const motion::MotionState& object, const Wrench& at_tip_W) = 0;
   /// Brings the object's twist as close to this one as possible.
   virtual void take_twist(const Twist& V_WO_W) = 0;
   /// New stiffness and damping ratios; the strain stays.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "spring_workbench/dynamics/settings.h"
@@ -7,6 +8,12 @@
 #include "spring_workbench/tools/tool.h"
 
 namespace spring_workbench::tools {
+
+/// What an instrument reads, on the average over a window of time.
+struct Reading {
+  double mean = 0.0;
+  double uncertainty = std::numeric_limits<double>::infinity();  ///< one standard deviation of the mean
+};
 
 /// State of the tool in a hand.
 struct ToolState {
@@ -34,9 +41,16 @@ struct ToolState {
   double elastic_energy = 0.0;                             ///< [J]
   double kinetic_energy = 0.0;                             ///< of the held object, in world [J]
   double force_scale = 1.0;                                ///< ratio of virtual to real force
-  double weight = 0.0;              ///< the tool as a scale: upward force on the object over g [vkg]
-  double torque = 0.0;              ///< the tool as a torque wrench: moment about its axis at the tip [N·m]
-  double material_stiffness = 0.0;  ///< reading of the probe [N/m]; infinite: rigid; 0: no reading
+  double weight = 0.0;            ///< the tool as a scale: upward force on the object over g [vkg]
+  double torque = 0.0;            ///< the tool as a torque wrench: moment about its axis at the tip [N·m]
+  Reading weight_average;         ///< [vkg]; filled in by ReadingAverage
+  Reading torque_average;         ///< [N·m]; likewise
+  double stretching_force = 0.0;  ///< along the tool's axis at the handle, > 0: it is pulled out [N] (paper, section 4)
+  double bending_force = 0.0;     ///< across that axis [N]
+  double force_angle = 0.0;       ///< Φ of the force on the tool from that axis, 0 … π [rad]
+  double load = 0.0;              ///< where what it does is in the scene's range of loads, 0 … 1 (LoadRange)
+  bool clutch = false;            ///< on: the hand moves without the tool
+  double material_stiffness = 0.0;              ///< reading of the probe [N/m]; infinite: rigid; 0: no reading
   double material_stiffness_uncertainty = 0.0;  ///< one standard deviation [N/m]
 };
 

@@ -71,11 +71,12 @@ std::string fork_header() {
          "handle_x,handle_y,handle_z,handle_qx,handle_qy,handle_qz,handle_qw,"
          "proxy_x,proxy_y,proxy_z,proxy_qx,proxy_qy,proxy_qz,proxy_qw,tip_x,tip_y,tip_z,tip_qx,tip_qy,tip_qz,tip_qw,"
          "tip_fx,tip_fy,tip_fz,tip_mx,tip_my,tip_mz,handle_fx,handle_fy,handle_fz,handle_mx,handle_my,handle_mz,"
-         "elastic_energy,kinetic_energy\n";
+         "elastic_energy,kinetic_energy,stretching_force,bending_force,force_angle,weight,weight_mean,weight_"
+         "uncertainty,"
+         "torque,torque_mean,torque_uncertainty,material_stiffness,material_stiffness_uncertainty\n";
 }
 
-std::string fork_row(double t, const simulation::Simulation& simulation, std::size_t hand) {
-  const auto fork = simulation.fork(hand);
+std::string fork_row(double t, const tools::ToolState& fork, std::size_t hand) {
   Row row;
   row.add(t)
       .add(hand == 0 ? "fork" : "fork_" + std::to_string(hand + 1))
@@ -86,6 +87,10 @@ std::string fork_row(double t, const simulation::Simulation& simulation, std::si
   row.add(fork.tip_wrench_W.force).add(fork.tip_wrench_W.moment);
   row.add(fork.handle_wrench_H.force).add(fork.handle_wrench_H.moment);
   row.add(fork.elastic_energy).add(fork.kinetic_energy);
+  row.add(fork.stretching_force).add(fork.bending_force).add(fork.force_angle);
+  row.add(fork.weight).add(fork.weight_average.mean).add(fork.weight_average.uncertainty);
+  row.add(fork.torque).add(fork.torque_average.mean).add(fork.torque_average.uncertainty);
+  row.add(fork.material_stiffness).add(fork.material_stiffness_uncertainty);
   return row.end();
 }
 

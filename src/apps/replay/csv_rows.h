@@ -12,6 +12,6 @@ namespace spring_workbench::replay {
 std::string object_header();
 std::string object_rows(double t, const simulation::Simulation& simulation);  ///< a line per movable object
 std::string fork_header();
-std::string fork_row(double t, const simulation::Simulation& simulation, std::size_t hand);
+std::string fork_row(double t, const tools::ToolState& fork, std::size_t hand);
 
 }  // namespace spring_workbench::replay

@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include "options.h"
 #include "spring_workbench/config/command_line.h"
 #include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/instruments/reading_average.h"
 #include "spring_workbench/motion_files/open_motion.h"
 #include "spring_workbench/scene/scene.h"
 #include "summary.h"
@@ -65,7 +67,9 @@ class OutputFile {
 };
 
 std::vector<Motion> load_motions(const Options& options) {
-  if (!options.bag.empty()) return read_bag(options.bag, options.parent, options.child);
+  if (!options.bag.empty()) {
+    return read_bag(options.bag, options.parent, options.child, options.settings.clutch_button);
+  }
   std::vector<Motion> motions;
   for (const std::string& path : options.motions) motions.push_back(read_motion(*motion_files::open_motion(path)));
   return motions;
@@ -79,19 +83,39 @@ std::string fork_path(const std::string& path) {
   return (has_ending ? path.substr(0, path.size() - ending.size()) : path) + ".fork.csv";
 }
 
+/// A row for each hand: the first, and those that are present or of `hands`.
+class ForkRows {
+ public:
+  std::string at(double t, const simulation::Simulation& simulation, std::size_t hands) {
+    std::string rows;
+    for (std::size_t hand = 0; hand < averages_.size(); ++hand) {
+      tools::ToolState tool = simulation.fork(hand);
+      averages_[hand].take(t, tool);
+      if (hand < hands || tool.present) rows += fork_row(t, tool, hand);
+    }
+    return rows;
+  }
+
+ private:
+  std::array<instruments::ReadingAverage, simulation::Simulation::most_hands> averages_;
+};
+
 simulation::Simulation make_simulation(const Options& options) {
   const scene::Scene scene = scene::load_scene(options.scene);
   for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
   return simulation::Simulation(scene, options.settings);
 }
 
-void push_motion(const Motion& motion, std::size_t hand, bool with_grasp, hand_input::Feed& feed) {
-  for (const motion::PoseSample& sample : motion.samples) feed.push_stylus(sample, hand);
-  for (const ButtonEvent& event : motion.next_tool) {
-    if (event.pressed) feed.push_next_tool(event.t, hand);
+void push_motion(const Motion& of_hand, std::size_t hand, bool with_grasp, hand_input::Feed& feed) {
+  for (const motion::PoseSample& sample : of_hand.samples) feed.push_stylus(sample, hand);
+  for (const ButtonEvent& event : of_hand.next_tool) {
+    if (event.pressed) feed.push_press(event.t, motion::Press::next_tool, hand);
+  }
+  for (const ButtonEvent& event : of_hand.clutch) {
+    feed.push_press(event.t, event.pressed ? motion::Press::clutch_on : motion::Press::clutch_off, hand);
   }
   if (!with_grasp) return;
-  for (const ButtonEvent& event : motion.buttons) feed.push_button(event.t, event.pressed, hand);
+  for (const ButtonEvent& event : of_hand.buttons) feed.push_button(event.t, event.pressed, hand);
 }
 
 /// Goes through a live run again; a line for each time to which it was committed.
@@ -100,6 +124,7 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
   OutputFile fork(fork_path(options.out));
   objects.write(object_header());
   fork.write(fork_header());
+  ForkRows fork_rows;
   Summary summary;
   bool first = true;
   live::Replayer replayer([&](const std::string& scene) {
@@ -114,9 +139,7 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
       summary.add_contacts(simulation.contacts());
       ++summary.outputs;
       objects.write(object_rows(simulation.time(), simulation));
-      for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-        if (hand == 0 || simulation.fork(hand).present) fork.write(fork_row(simulation.time(), simulation, hand));
-      }
+      fork.write(fork_rows.at(simulation.time(), simulation, 1));
     });
     const auto* accepted = std::get_if<hand_input::Accepted>(&entry.what);
     if (accepted != nullptr && accepted->kind == hand_input::Accepted::Kind::pose) ++summary.samples;
@@ -142,6 +165,7 @@ Summary run(const Options& options) {
   OutputFile fork(fork_path(options.out));
   objects.write(object_header());
   fork.write(fork_header());
+  ForkRows fork_rows;
 
   Summary summary;
   hand_input::Feed feed(simulation, options.input);
@@ -155,7 +179,7 @@ Summary run(const Options& options) {
     summary.advance.add(feed.advance_to(t));
     summary.add_contacts(simulation.contacts());
     objects.write(object_rows(t, simulation));
-    for (std::size_t hand = 0; hand < motions.size(); ++hand) fork.write(fork_row(t, simulation, hand));
+    fork.write(fork_rows.at(t, simulation, motions.size()));
   }
   summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   for (std::size_t hand = 0; hand < motions.size(); ++hand) {

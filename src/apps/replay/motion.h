@@ -18,6 +18,7 @@ struct Motion {
   std::vector<motion::PoseSample> samples;  ///< never empty
   std::vector<ButtonEvent> buttons;         ///< changes of the grasp button, which starts up
   std::vector<ButtonEvent> next_tool;       ///< the same of the button for the next tool
+  std::vector<ButtonEvent> clutch;          ///< and of the clutch
 };
 
 /// Notes that the button is down or up from `t` on; what is no change, or lies before the last change, is put right.
@@ -26,9 +27,10 @@ void add_button(double t, bool pressed, std::vector<ButtonEvent>& buttons);
 /// Everything that the source has.
 Motion read_motion(motion::StylusSource& source);
 
-/// The transforms `parent` → `child` of a bag with buttons 0 and 1 of stylus/joy, and where the bag has them those of
-/// further styluses (`child`_2, stylus_2/joy). Times from the first sample of all. Throws InputError.
-std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child);
+/// The transforms `parent` → `child` of a bag with buttons 0, 1 and `clutch_button` of stylus/joy, and where the bag
+/// has them those of further styluses (`child`_2, stylus_2/joy). Times from the first sample of all. Throws InputError.
+std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child,
+                             int clutch_button);
 
 /// What a live run published on ~accepted and ~changes, in order; empty where the bag has none of it. Throws
 /// InputError.

@@ -96,9 +96,9 @@ replay --scene SCENE.urdf (--motion FILE [--motion FILE] | --bag FILE.bag) [--se
   --motion    the hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints.
               Give it twice for two hands; the time of each starts at its own first sample
   --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus) of any topic but
-              /tf_static, and buttons 0 (grasp) and 1 (next tool) of stylus/joy; a second hand from CHILD_2 (stylus_2)
-              and stylus_2/joy, if the bag has them. If it has ~accepted and ~changes of manipulation, that live run
-              is repeated bit by bit, with a line for each committed time
+              /tf_static, and buttons 0 (grasp), 1 (next tool) and clutch.button of stylus/joy; a second hand from
+              CHILD_2 (stylus_2) and stylus_2/joy, if the bag has them. If it has ~accepted and ~changes of
+              manipulation, that live run is repeated bit by bit, with a line for each committed time
   --settings  a YAML file of the keys below
   --set       one key; may be given several times; takes precedence over --settings
   --out       writes RUN.csv and RUN.fork.csv; nothing is written if anything fails
@@ -117,6 +117,10 @@ RUN.fork.csv, a line per output time and hand:
   tip_fx,tip_fy,tip_fz,tip_mx,tip_my,tip_mz          [N, N*m] on the object, at the tip, world axes
   handle_fx,...,handle_mz                            [N, N*m] on the hand, handle axes
   elastic_energy,kinetic_energy             [J] of the fork; of the held object
+  stretching_force,bending_force,force_angle         [N, N, rad] of the force on the fork, along and across its axis
+  weight,weight_mean,weight_uncertainty     [vkg] the tool as a scale: now, over the last second, standard deviation
+  torque,torque_mean,torque_uncertainty     [N*m] the tool as a torque wrench
+  material_stiffness,material_stiffness_uncertainty  [N/m] what spring_probe reads; inf: rigid; 0: no reading
 
 The last line on standard output is one JSON object: steps, simulated_time and wall_time and time_per_step [s], outputs,
 samples, samples_rejected (by the rules of input.*; rejected has the reasons), reacquisitions, losses (of the hand),

@@ -52,6 +52,15 @@ ForkState to_message(const tools::ToolState& tool) {
   message.force_scale = tool.force_scale;
   message.weight = tool.weight;
   message.torque = tool.torque;
+  message.weight_mean = tool.weight_average.mean;
+  message.weight_uncertainty = tool.weight_average.uncertainty;
+  message.torque_mean = tool.torque_average.mean;
+  message.torque_uncertainty = tool.torque_average.uncertainty;
+  message.stretching_force = tool.stretching_force;
+  message.bending_force = tool.bending_force;
+  message.force_angle = tool.force_angle;
+  message.load = tool.load;
+  message.clutch = tool.clutch;
   message.material_stiffness = tool.material_stiffness;
   message.material_stiffness_uncertainty = tool.material_stiffness_uncertainty;
   return message;

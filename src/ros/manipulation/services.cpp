@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "spring_workbench/Calibrate.h"
 #include "spring_workbench/LoadScene.h"
+#include "spring_workbench/Release.h"
 #include "spring_workbench/SelectTool.h"
+#include "spring_workbench/SetClutch.h"
 #include "spring_workbench/SetForkDamping.h"
 #include "spring_workbench/SetForkDofs.h"
 #include "spring_workbench/SetForkStiffness.h"
@@ -96,32 +99,34 @@ void load_scene(live::SimulationRunner& runner, const std::vector<std::string>& 
   if (!scene.warnings.empty()) response.message += "; " + validation::join(scene.warnings, "; ");
 }
 
-std::string calibrate(live::SimulationRunner& runner) {
-  const simulation::ChangeReport report =
-      runner.change("calibrate", [](simulation::Simulation& s) { return s.calibrate(); });
-  char text[80];
-  std::snprintf(text, sizeof text, "; elastic energy %.6g J -> %.6g J", report.elastic_energy_before,
-                report.elastic_energy_after);
-  return report.message + text;
+void calibrate(live::SimulationRunner& runner, const Calibrate::Request& request, Calibrate::Response& response) {
+  const auto hand = hand_of(request.stylus, "calibrate");
+  fill(runner.change("calibrate", [&](simulation::Simulation& s) { return s.calibrate(hand); }), response);
 }
 
-std::string reset(live::SimulationRunner& runner) {
-  runner.restart();
-  return "all objects are back at their start";
+void set_clutch(live::SimulationRunner& runner, const SetClutch::Request& request, SetClutch::Response& response) {
+  const std::optional<std::size_t> hand = hand_of(request.stylus, "clutch");
+  runner.change("clutch", [&](simulation::Simulation& s) {
+    for (std::size_t i = 0; i < simulation::Simulation::most_hands; ++i) {
+      if (hand.value_or(i) == i) s.push_clutch(s.time(), request.on != 0, i);
+    }
+  });
+  response.message = request.on != 0 ? "on: the hand moves without the tool" : "off: the tool goes with the hand";
 }
 
-std::string release(live::SimulationRunner& runner) {
-  const std::string held = runner.change("release", [](simulation::Simulation& s) {
+void release(live::SimulationRunner& runner, const Release::Request& request, Release::Response& response) {
+  const std::optional<std::size_t> one = hand_of(request.stylus, "release");
+  const std::string held = runner.change("release", [&](simulation::Simulation& s) {
     std::vector<std::string> names;
     for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+      if (one.value_or(hand) != hand) continue;
       const std::string name = s.fork(hand).held_object;
-      if (!name.empty() && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+      if (s.release(hand) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
-    s.release();
     return validation::join(names);
   });
   if (held.empty()) throw validation::InputError("release: no object is held; call it while one is");
-  return "released " + held;
+  response.message = "released " + held;
 }
 
 }  // namespace
@@ -151,10 +156,6 @@ std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, live::S
     };
     serve(name, with_runner, of_service);
   };
-  const auto trigger = [&](const char* name, std::string (*act)(live::SimulationRunner&)) {
-    serve(
-        name, [&runner, act](auto&, auto& response) { response.message = act(runner); }, std_srvs::Trigger());
-  };
   change("select_tool", select_tool, SelectTool());
   change("set_dofs", set_dofs, SetForkDofs());
   change("set_stiffness", set_stiffness, SetForkStiffness());
@@ -164,9 +165,14 @@ std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, live::S
       "load_scene",
       [&runner, scene_roots](auto& request, auto& response) { load_scene(runner, scene_roots, request, response); },
       LoadScene());
-  trigger("calibrate", calibrate);
-  trigger("reset", reset);
-  trigger("release", release);
+  change("calibrate", calibrate, Calibrate());
+  change("release", release, Release());
+  change("clutch", set_clutch, SetClutch());
+  const auto reset = [&runner](auto&, auto& response) {
+    runner.restart();
+    response.message = "all objects are back at their start";
+  };
+  serve("reset", reset, std_srvs::Trigger());
   return servers;
 }
 

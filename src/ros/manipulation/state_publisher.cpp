@@ -43,6 +43,7 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
       fork_publisher_(private_node.advertise<ForkState>("fork", state_queue)),
       second_fork_publisher_(private_node.advertise<ForkState>("fork_2", state_queue)),
       wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", state_queue)),
+      second_wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench_2", state_queue)),
       contacts_publisher_(private_node.advertise<Contacts>("contacts", state_queue)),
       steps_publisher_(private_node.advertise<StepReport>("steps", state_queue)),
       task_publisher_(private_node.advertise<TaskState>("task", state_queue)),
@@ -92,12 +93,16 @@ void StatePublisher::publish_committed(const live::SimulationRunner& runner, con
   if (!committed_.due(runner.has_sample() ? stamp : ros::Time(), runner.revision())) return;
   const std_msgs::Header header = header_at(stamp);
   runner.locked([&](const simulation::Simulation& simulation) {
-    const tools::ToolState tool = simulation.fork();
+    tools::ToolState tool = simulation.fork(), second = simulation.fork(1);
+    averages_[0].take(simulation.time(), tool);
+    averages_[1].take(simulation.time(), second);
     publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
     publish_made(fork_publisher_, header, [&] { return to_message(tool); });
-    if (const tools::ToolState second = simulation.fork(1); second.present)
+    publish_wrench(wrench_publisher_, tool, "", header);
+    if (second.present) {
       publish_made(second_fork_publisher_, header, [&] { return to_message(second); });
-    publish_wrench(tool, header);
+      publish_wrench(second_wrench_publisher_, second, "_2", header);
+    }
     publish_contacts(simulation, header);
   });
   publish_made(task_publisher_, header, [&] {
@@ -161,9 +166,10 @@ void StatePublisher::publish_transforms(const simulation::Simulation& simulation
 }
 
 /// In real units: what the hand would feel.
-void StatePublisher::publish_wrench(const tools::ToolState& tool, std_msgs::Header header) {
-  header.frame_id = handle_frame;
-  publish_made(wrench_publisher_, header, [&] {
+void StatePublisher::publish_wrench(const ros::Publisher& to, const tools::ToolState& tool, const std::string& number,
+                                    std_msgs::Header header) {
+  header.frame_id = handle_frame + number;
+  publish_made(to, header, [&] {
     geometry_msgs::WrenchStamped message;
     const Wrench& felt = tool.handle_wrench_H;
     message.wrench = ros_common::to_wrench({felt.force / tool.force_scale, felt.moment / tool.force_scale});

@@ -197,12 +197,14 @@ void StylusInput::on_simulated_time(const sensor_msgs::Joy& message, const ros::
 /// `stamp`: when the buttons were so, as local time has it [ns].
 void StylusInput::on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp) {
   const double t = seconds(stamp);
-  const bool pressed = message.buttons[0] != 0;
-  if (pressed != pressed_) events_.push_back(live::StylusButton{t, pressed});
-  pressed_ = pressed;
-  const bool next_tool = message.buttons.size() > 1 && message.buttons[1] != 0;
-  if (next_tool && !next_tool_) events_.push_back(live::NextTool{t});
-  next_tool_ = next_tool;
+  using motion::Press;
+  const auto note = [&](std::size_t button, bool& was, Press down, std::optional<Press> up) {
+    const bool is = message.buttons.size() > button && message.buttons[button] != 0;
+    if (std::exchange(was, is) != is && (is || up)) events_.push_back(live::StylusButton{t, is ? down : *up});
+  };
+  note(0, pressed_, Press::grasp, Press::release);
+  note(1, next_tool_, Press::next_tool, std::nullopt);
+  note(static_cast<std::size_t>(parameters_.simulation.clutch_button), clutch_, Press::clutch_on, Press::clutch_off);
   events_.push_back(live::ButtonsKnown{t, ros_common::local_time()});
   wake_();
 }
@@ -222,7 +224,7 @@ void StylusInput::start_anew_when_due() {
   if (clock_.is_patient() && (poses_awaited || buttons_awaited)) return;
   const ros::Time now = ros::Time::now();
   ROS_INFO("time jumped back by %.3g s: the simulation restarts", clock_.restart());
-  pressed_ = next_tool_ = false;
+  pressed_ = next_tool_ = clutch_ = false;
   zero_ = 0;
   poses_.newest = buttons_.newest = ros::Time();
   sender_.forget();

@@ -27,11 +27,5 @@ constexpr double legend_edge = 0.014;
 /// [m] height of the letters beside the column of loads. Larger: marks of like weights are left out. Test:
 /// LoadScale.EveryWeightOfTheMiniWorldHasItsPlace.
 constexpr double legend_letters = 0.018;
-/// of the heaviest object's weight to the lightest's, from which on colours go by the logarithm of the load. Test:
-/// LoadScale.EveryWeightOfTheMiniWorldHasItsPlace.
-constexpr double one_decade = 10.0;
-/// of the lightest object's weight: where logarithmic colours begin. More: the lightest one looks like no load. Test:
-/// LoadScale.EveryWeightOfTheMiniWorldHasItsPlace.
-constexpr double below_lightest = 0.5;
 
 }  // namespace spring_workbench::markers

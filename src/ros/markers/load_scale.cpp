@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "constants.h"
+#include "spring_workbench/fork_mesh/load_color.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/tools/calibration.h"
@@ -31,33 +32,19 @@ double virtual_kilograms(double force, const scene::Scene& scene) {
   return force / tools::weighing_gravity(scene.gravity);
 }
 
+Color load_color(double place) {
+  Color color;
+  color << fork_mesh::load_color(place), 1.0;
+  return color;
+}
+
 LoadScale::LoadScale(const simulation::Simulation& simulation)
-    : gravity_(tools::weighing_gravity(simulation.scene().gravity)),
+    : range_(simulation.scene(), simulation.settings().grasp.world_goal),
+      gravity_(tools::weighing_gravity(simulation.scene().gravity)),
       foot_(legend_corner(simulation.scene()) + Vector3d(0.5 * legend_edge, -0.5 * legend_edge, 0.05)) {
-  const tools::GraspSettings& grasp = simulation.settings().grasp;
-  full_ = tools::world_load(simulation.scene(), grasp.world_goal).mass * gravity_;
-  for (const scene::Body& body : simulation.scene().bodies) {
-    if (body.mass_properties.mass > 0.0) weights_.push_back(body.mass_properties.mass * gravity_);
+  if (simulation.settings().grasp.calibrate == tools::Calibration::world) {
+    stretch_stiffness_ = simulation.settings().fork.stiffness.stretch;
   }
-  std::sort(weights_.rbegin(), weights_.rend());
-  if (!weights_.empty() && full_ > one_decade * weights_.back()) none_ = below_lightest * weights_.back();
-  if (grasp.calibrate == tools::Calibration::world) stretch_stiffness_ = simulation.settings().fork.stiffness.stretch;
-}
-
-double LoadScale::load(const tools::ToolState& tool) {
-  return std::max(tool.tip_wrench_W.force.norm(), tool.tip_wrench_W.moment.norm() / tool.length);
-}
-
-double LoadScale::place(double load) const {
-  if (none_ > 0.0) return load > none_ ? std::min(std::log(load / none_) / std::log(full_ / none_), 1.0) : 0.0;
-  return std::clamp(load / full_, 0.0, 1.0);
-}
-
-Color LoadScale::color(double load) const {
-  static const Color stops[] = {{0.52, 0.66, 0.84, 1.0}, {1.0, 0.85, 0.2, 1.0}, {0.88, 0.08, 0.05, 1.0}};
-  const double at = 2.0 * place(load);
-  const int below = at < 1.0 ? 0 : 1;
-  return stops[below] + (at - below) * (stops[below + 1] - stops[below]);
 }
 
 double LoadScale::height(double place) const { return (0.5 + place * (legend_steps - 1)) * legend_edge; }
@@ -74,11 +61,11 @@ std::string LoadScale::label(double weight) const {
 
 /// The heaviest, the lightest, then the others, as far as there is room for their letters.
 void LoadScale::draw_marks(MarkerList& markers) const {
-  std::vector<double> in_order = weights_;
+  std::vector<double> in_order = range_.weights();
   if (in_order.size() > 1) std::rotate(in_order.begin() + 1, in_order.end() - 1, in_order.end());
   std::vector<double> taken;
   for (const double weight : in_order) {
-    const double z = height(place(weight));
+    const double z = height(range_.place(weight));
     const auto near = [&](double other) { return std::abs(other - z) < 0.9 * legend_letters; };
     if (std::any_of(taken.begin(), taken.end(), near)) continue;
     taken.push_back(z);
@@ -94,18 +81,17 @@ void LoadScale::draw_legend(MarkerList& markers) const {
       markers.add_points("legend", 0, visualization_msgs::Marker::CUBE_LIST, centres, text_color);
   column.scale = ros_common::to_vector(Vector3d::Constant(legend_edge));
   for (int i = 0; i < legend_steps; ++i) {
-    const double at = static_cast<double>(i) / (legend_steps - 1);
-    column.colors.push_back(to_color(color(none_ > 0.0 ? none_ * std::pow(full_ / none_, at) : full_ * at)));
+    column.colors.push_back(to_color(load_color(static_cast<double>(i) / (legend_steps - 1))));
   }
   char full[80];
-  std::snprintf(full, sizeof full, "%.3g N = %.3g vkg", full_, full_ / gravity_);
+  std::snprintf(full, sizeof full, "%.3g N = %.3g vkg", range_.full(), range_.full() / gravity_);
   markers.add_text("legend", 2, foot_ + Vector3d(0.0, 0.0, legend_steps * legend_edge + 1.6 * legend_letters),
                    legend_letters, full, text_color);
   draw_marks(markers);
 }
 
 void LoadScale::draw_load(const tools::ToolState& tool, const std::string& number, MarkerList& markers) const {
-  const Vector3d at = foot_ + Vector3d(-0.5 * legend_edge, 0.0, height(place(load(tool))));
+  const Vector3d at = foot_ + Vector3d(-0.5 * legend_edge, 0.0, height(tool.load));
   markers.add_arrow("legend load" + number, 0, at - Vector3d(4.0 * legend_edge, 0.0, 0.0), at, 0.4 * legend_edge,
                     text_color);
 }

@@ -37,7 +37,7 @@ void MarkerBuilder::draw_hand(const simulation::Simulation& simulation, const Lo
   const std::string number = hand > 0 ? "_" + std::to_string(hand + 1) : "";
   deform(tool);
   forks_W_.push_back(fork_mesh_.vertices);
-  draw_fork(fork_, fork_mesh_, tool, scale.color(LoadScale::load(tool)), number, list);
+  draw_fork(fork_, fork_mesh_, tool, load_color(tool.load), number, list);
   draw_load(simulation.scene(), tool, number, list);
   if (!tool.held_object.empty()) scale.draw_load(tool, number, list);
 }

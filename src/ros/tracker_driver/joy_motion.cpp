@@ -30,8 +30,8 @@ std::array<int, 6> read_axes(const YAML::Node& node, const std::string& where) {
 }  // namespace
 
 const std::vector<std::string>& joy_keys() {
-  static const std::vector<std::string> keys{"axes",      "move_speed",   "turn_speed",
-                                             "dead_zone", "grasp_button", "tool_button"};
+  static const std::vector<std::string> keys{"axes",         "move_speed",  "turn_speed",   "dead_zone",
+                                             "grasp_button", "tool_button", "clutch_button"};
   return keys;
 }
 
@@ -49,6 +49,7 @@ JoySettings read_joy_settings(const YAML::Node& map, const std::string& where) {
   number("dead_zone", 0.9, settings.dead_zone);
   button("grasp_button", settings.grasp_button);
   button("tool_button", settings.tool_button);
+  button("clutch_button", settings.clutch_button);
   return settings;
 }
 
@@ -68,6 +69,7 @@ void JoyMotion::input(const std::vector<float>& axes, const std::vector<int>& bu
   }
   grasp_ = is_down(buttons, settings_.grasp_button);
   next_tool_ = is_down(buttons, settings_.tool_button);
+  clutch_ = is_down(buttons, settings_.clutch_button);
   age_ = 0.0;
 }
 

@@ -25,6 +25,7 @@ class JoySource final : public MessageSource {
   const RigidTransform& advance(double dt, motion::StationSample& sample) override {
     sample.button = motion_.grasp();
     sample.next_tool = motion_.next_tool();
+    sample.clutch = motion_.clutch();
     return motion_.advance(dt);
   }
 

@@ -149,16 +149,19 @@ class TrackerDriver {
         {ros_common::to_transform(X_BT_ * sample.X * Eigen::Translation3d(parameters_.p_ST),
                                   parameters_.workbench_frame, parameters_.stylus_frame, stamp),
          ros_common::to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp)});
-    send_buttons(1, sample.button || (sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until), false,
-                 stamp);
+    const bool held = sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until;
+    send_buttons(1, {sample.button || held}, stamp);
     ++sent_;
   }
 
-  void send_buttons(int station, bool grasp, bool next_tool, const ros::Time& stamp) {
+  struct Buttons {
+    bool grasp, next_tool = false, clutch = false;
+  };
+  void send_buttons(int station, const Buttons& down, const ros::Time& stamp) {
     sensor_msgs::Joy joy;
     joy.header.stamp = stamp;
     joy.header.frame_id = frame_of(station);
-    joy.buttons = {grasp ? 1 : 0, next_tool ? 1 : 0};
+    joy.buttons = {down.grasp ? 1 : 0, down.next_tool ? 1 : 0, down.clutch ? 1 : 0};
     joy_publishers_.at(station).publish(joy);
   }
 
@@ -177,7 +180,8 @@ class TrackerDriver {
     Station& station = stations_.try_emplace(sample.station, parameters_).first->second;
     const double t = station.stream.stamp(sample.received);
     if (joy_publishers_.count(sample.station) > 0) {
-      send_buttons(sample.station, sample.button, sample.next_tool, ros_common::ros_time(sample.received));
+      send_buttons(sample.station, {sample.button, sample.next_tool, sample.clutch},
+                   ros_common::ros_time(sample.received));
     }
     const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
     std::string reason = why_not_sent(sample, parameters_.source);

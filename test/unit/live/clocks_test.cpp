@@ -105,7 +105,8 @@ class Session {
             pose.arrival = arrival;
             pose.age = age;
             pose.X_WP = X_WP_;
-            if (!pressed_ && holds_) events[0].push_back(StylusButton{pose.sample.t, pressed_ = true});
+            if (!pressed_ && holds_) events[0].push_back(StylusButton{pose.sample.t, motion::Press::grasp});
+            pressed_ = pressed_ || holds_;
             events[0].push_back(pose);
           },
           [](const auto&...) {});

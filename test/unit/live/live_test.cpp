@@ -46,7 +46,7 @@ struct Bench {
     const double t = interval * k;
     if (k == 0) events[0].push_back(NewEpoch{});
     if (k == 0 && second) events[1].push_back(NewEpoch{});
-    if (k == 1) events[0].push_back(StylusButton{t, true});
+    if (k == 1) events[0].push_back(StylusButton{t, motion::Press::grasp});
     events[0].push_back(pose_at(t, hand_at(t)));
     if (second) events[1].push_back(pose_at(t, right));
     return events;

@@ -95,7 +95,7 @@ TEST(Pace, AStepThatCannotKeepUpLosesNothing) {
         pose.sample = {t, p, Quaterniond(pointing_down(p).linear())};
         pose.arrival = {now(), now()};
         events[0].emplace_back(pose);
-        if (sent == 1) events[0].emplace_back(StylusButton{t, true});
+        if (sent == 1) events[0].emplace_back(StylusButton{t, motion::Press::grasp});
       }
       const CycleReport report = runner.cycle(events, {now(), now()});
       runner.show(0.0, {now(), now()});

@@ -100,9 +100,11 @@ TEST(JoyMotion, ButtonsAreDownWhileHeld) {
   motion.input(still, {0, 1, 1});
   EXPECT_TRUE(motion.grasp());
   EXPECT_FALSE(motion.next_tool());
+  EXPECT_TRUE(motion.clutch());
   motion.input(still, {1, 1, 0});
   EXPECT_FALSE(motion.grasp());
   EXPECT_TRUE(motion.next_tool());
+  EXPECT_FALSE(motion.clutch());
 }
 
 TEST(JoySettings, BadValuesAreRefusedByName) {

@@ -3,16 +3,18 @@
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <array>
 #include <string>
 
+#include "spring_workbench/instruments/reading_average.h"
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
 #include "spring_workbench/ros/markers/markers.h"
 
 namespace spring_workbench::manipulation {
 
-/// Sends the committed simulation, to be recorded (~objects, ~fork, ~fork_2, ~wrench, ~contacts, ~steps and ~task),
-/// the journal (~accepted, ~changes), and what is shown, to be looked at (/tf, ~display/objects, ~display/fork,
+/// Sends the committed simulation, to be recorded (~objects, ~fork, ~fork_2, ~wrench, ~wrench_2, ~contacts, ~steps and
+/// ~task), the journal (~accepted, ~changes), and what is shown, to be looked at (/tf, ~display/objects, ~display/fork,
 /// ~display/fork_2, ~markers). Messages are made only while there is a subscriber. What has not changed is sent again
 /// ten times a second.
 class StatePublisher {
@@ -35,7 +37,8 @@ class StatePublisher {
     bool due(const ros::Time& stamp, std::size_t revision);
   };
   void publish_transforms(const simulation::Simulation& simulation, const ros::Time& stamp);
-  void publish_wrench(const tools::ToolState& tool, std_msgs::Header header);
+  void publish_wrench(const ros::Publisher& to, const tools::ToolState& tool, const std::string& number,
+                      std_msgs::Header header);
   void publish_contacts(const simulation::Simulation& simulation, const std_msgs::Header& header);
   void publish_markers(const simulation::Simulation& simulation, const std_msgs::Header& header, double now);
   std_msgs::Header header_at(const ros::Time& stamp) const;
@@ -51,10 +54,11 @@ class StatePublisher {
   bool had_contacts_ = false;
   bool markers_were_built_ = false;  ///< in this cycle
   markers::MarkerBuilder markers_;
+  std::array<instruments::ReadingAverage, simulation::Simulation::most_hands> averages_;  ///< of each hand's readings
   tf2_ros::TransformBroadcaster transforms_;
-  ros::Publisher objects_publisher_, fork_publisher_, second_fork_publisher_, wrench_publisher_, contacts_publisher_,
-      steps_publisher_, task_publisher_, shown_objects_publisher_, shown_fork_publisher_, shown_second_fork_publisher_,
-      markers_publisher_, accepted_publisher_, changes_publisher_;
+  ros::Publisher objects_publisher_, fork_publisher_, second_fork_publisher_, wrench_publisher_,
+      second_wrench_publisher_, contacts_publisher_, steps_publisher_, task_publisher_, shown_objects_publisher_,
+      shown_fork_publisher_, shown_second_fork_publisher_, markers_publisher_, accepted_publisher_, changes_publisher_;
   std::uint32_t journal_listeners_ = 0;
 };
 

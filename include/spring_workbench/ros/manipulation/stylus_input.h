@@ -91,7 +91,7 @@ class StylusInput {
   SimulatedClock clock_;
   std::map<std::string, double> told_;  ///< when a reason to leave a sample out was last logged [s]
   std::int64_t zero_ = 0;               ///< of the epoch, in local time [ns]; 0 before the first input
-  bool pressed_ = false, next_tool_ = false;
+  bool pressed_ = false, next_tool_ = false, clutch_ = false;
   ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;
 };
 

@@ -19,6 +19,7 @@ struct JoySettings {
   double dead_zone = 0.1;               ///< `dead_zone`, 0 … 0.9 of full deflection: counts as none
   int grasp_button = 0;                 ///< `grasp_button`: grasp while held; −1: none
   int tool_button = 1;                  ///< `tool_button`: next tool; −1: none
+  int clutch_button = 2;                ///< `clutch_button`: the hand moves without its tool while held; −1: none
 };
 
 /// The keys of read_joy_settings.
@@ -41,6 +42,7 @@ class JoyMotion {
   const RigidTransform& advance(double dt);
   bool grasp() const { return grasp_; }
   bool next_tool() const { return next_tool_; }
+  bool clutch() const { return clutch_; }
 
  private:
   double deflection(const std::vector<float>& axes, std::size_t i) const;
@@ -49,7 +51,7 @@ class JoyMotion {
   RigidTransform X_WB_;
   Twist V_WB_W_;
   double age_ = 0.0;  ///< of the newest input [s]
-  bool grasp_ = false, next_tool_ = false;
+  bool grasp_ = false, next_tool_ = false, clutch_ = false;
 };
 
 }  // namespace spring_workbench::tracker_driver

@@ -48,7 +48,7 @@ RigidTransform to_pose(const geometry_msgs::Transform& transform, const std::str
 
 live::Entry to_entry(const Accepted& message) {
   hand_input::Accepted accepted;
-  validation::check_number("~accepted", "kind", message.kind, validation::between(0, Accepted::REST));
+  validation::check_number("~accepted", "kind", message.kind, validation::between(0, Accepted::CLUTCH_OFF));
   validation::check_number("~accepted", "stylus", message.stylus,
                            validation::between(1, simulation::Simulation::most_hands));
   accepted.kind = static_cast<hand_input::Accepted::Kind>(message.kind);
@@ -69,8 +69,8 @@ live::Entry to_entry(const Change& message) {
 /// Collects the hands from the messages of a bag.
 class BagReader {
  public:
-  BagReader(std::string path, const std::string& parent, const std::string& child)
-      : path_(std::move(path)), parent_(bare(parent)) {
+  BagReader(std::string path, const std::string& parent, const std::string& child, int clutch_button)
+      : path_(std::move(path)), parent_(bare(parent)), clutch_button_(static_cast<std::size_t>(clutch_button)) {
     for (std::size_t i = 0; i < hands_.size(); ++i) {
       const std::string ending = i == 0 ? "" : "_" + std::to_string(i + 1);
       hands_[i].frame = bare(child) + ending;
@@ -101,7 +101,7 @@ class BagReader {
   };
   struct Buttons {
     ros::Time stamp;
-    bool grasp, next_tool;
+    bool grasp, next_tool, clutch;
   };
   struct Hand {
     std::string frame, joy;
@@ -116,6 +116,7 @@ class BagReader {
       const double t = std::max(0.0, seconds_between(zero, b.stamp));
       add_button(t, b.grasp, motion.buttons);
       add_button(t, b.next_tool, motion.next_tool);
+      add_button(t, b.clutch, motion.clutch);
     }
     return motion;
   }
@@ -140,8 +141,9 @@ class BagReader {
       if (hand == hands_.end()) return;
       const auto joy = message.instantiate<sensor_msgs::Joy>();
       if (!joy || joy->buttons.empty()) return;
-      hand->buttons.push_back({joy->header.stamp.isZero() ? message.getTime() : joy->header.stamp, joy->buttons[0] != 0,
-                               joy->buttons.size() > 1 && joy->buttons[1] != 0});
+      const auto down = [&](std::size_t button) { return joy->buttons.size() > button && joy->buttons[button] != 0; };
+      hand->buttons.push_back(
+          {joy->header.stamp.isZero() ? message.getTime() : joy->header.stamp, down(0), down(1), down(clutch_button_)});
     } else if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {  // also the older tf/tfMessage
       for (const auto& transform : tf->transforms) take(transform, message.getTime());
     }
@@ -166,6 +168,7 @@ class BagReader {
   }
 
   std::string path_, parent_;
+  std::size_t clutch_button_;
   std::array<Hand, simulation::Simulation::most_hands> hands_;
   std::set<std::string> own_types_;  ///< of messages, that were seen
   std::set<std::string> pairs_;      ///< all that are in the bag, for the message
@@ -185,8 +188,9 @@ auto reading(const std::string& path, Read&& read) {
   }
 }
 
-std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child) {
-  return reading(path, [&] { return BagReader(path, parent, child).read(); });
+std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child,
+                             int clutch_button) {
+  return reading(path, [&] { return BagReader(path, parent, child, clutch_button).read(); });
 }
 
 std::vector<live::Entry> read_journal(const std::string& path) {

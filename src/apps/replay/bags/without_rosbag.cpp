@@ -3,7 +3,7 @@
 
 namespace spring_workbench::replay {
 
-std::vector<Motion> read_bag(const std::string& path, const std::string&, const std::string&) {
+std::vector<Motion> read_bag(const std::string& path, const std::string&, const std::string&, int) {
   validation::refuse("command line", "--bag", path, "given to a build with ROS, which this one is not");
 }
 

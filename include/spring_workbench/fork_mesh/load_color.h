@@ -1,0 +1,15 @@
+#pragma once
+
+#include "spring_workbench/math/rigid_transform.h"
+
+namespace spring_workbench::fork_mesh {
+
+/// Red, green and blue, 0 … 1, of a fork whose load is at `place` in the scene's range, 0 … 1: steel blue without load,
+/// over yellow, to red at the weight of the heaviest object. The one source of these colours.
+inline Vector3d load_color(double place) {
+  const Vector3d none(0.52, 0.66, 0.84), half(1.0, 0.85, 0.2), full(0.88, 0.08, 0.05);
+  return place < 0.5 ? Vector3d(none + 2.0 * place * (half - none))
+                     : Vector3d(half + (2.0 * place - 1.0) * (full - half));
+}
+
+}  // namespace spring_workbench::fork_mesh

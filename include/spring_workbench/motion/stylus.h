@@ -1,0 +1,116 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <limits>
+#include <optional>
+
+#include "spring_workbench/motion/pose_track.h"
+
+namespace spring_workbench::motion {
+
+/// An edge of one of a stylus' buttons.
+enum class Press { grasp, release, next_tool, clutch_on, clutch_off };
+
+/// What one stylus has told: how it moves, and the edges of its buttons. With the clutch on, S stays where it is while
+/// the hand goes on alone; then S goes on from there, as the hand moves and turns in world.
+class Stylus {
+ public:
+  /// [s]; stamps nearer to each other are one. Smaller: a rounding error makes a step of its own. Test:
+  /// Simulation.ACallThatEndsARoundingErrorBesideASampleMakesNoStepOfItsOwn at 0.
+  static constexpr double same_time = 1e-9;
+
+  /// `dropout_after` [s]: as for PoseTrack. Without a sample it is at `X_WS_start`.
+  Stylus(double dropout_after, const RigidTransform& X_WS_start)
+      : track_(dropout_after), X_WS_start_(X_WS_start), X_WS_(X_WS_start) {}
+
+  /// Forgets samples and buttons.
+  void reset() {
+    track_.clear();
+    presses_.clear();
+    X_WS_ = X_WS_start_;
+    clutched_ = displaced_ = false;
+  }
+
+  bool push(const PoseSample& sample) { return track_.push(sample); }
+  void push(double t, Press press) { presses_.push_back({t, press}); }
+  const PoseTrack& track() const { return track_; }
+  /// Whether a sample says where it is at time `now` [s].
+  bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
+  /// Its motion from `now` to the next sample.
+  MotionSegment motion(double now) { return of_tool(track_.segment(now)); }
+  /// The same before it is gone along: the next sample may still say another velocity at its end.
+  MotionSegment provisional(double now) const { return of_tool(track_.provisional(std::max(now, track_.begin()))); }
+  /// The time after `now` at which the next piece of the motion begins; infinity where there is none.
+  double next_sample(double now) const { return track_.next_after(now); }
+  /// The time after `now` of the next button edge; infinity where there is none.
+  double next_button(double now) const {
+    const bool later = !presses_.empty() && presses_.front().t > now + same_time;
+    return later ? presses_.front().t : std::numeric_limits<double>::infinity();
+  }
+  /// Takes the next button edge up to `now`, where there is one.
+  std::optional<Press> take_press(double now) {
+    if (presses_.empty() || presses_.front().t > now + same_time) return std::nullopt;
+    const Press press = presses_.front().press;
+    presses_.pop_front();
+    return press;
+  }
+
+  bool clutched() const { return clutched_; }
+  /// At `now`, to which it has been followed.
+  void set_clutch(bool on, double now) {
+    if (clutched_ && !on && known(now)) {
+      const RigidTransform X_W = track_.pose(std::max(now, track_.begin()));  // of the hand
+      by_ = X_WS_.translation() - X_W.translation();
+      turned_ = make_transform(Quaterniond(X_W.linear().transpose() * X_WS_.linear()), Vector3d::Zero());
+      displaced_ = true;
+    }
+    clutched_ = on;
+  }
+
+  /// Goes to where it is at `now`, where that is known.
+  void follow(double now) {
+    if (clutched_ || !known(now)) return;
+    X_WS_ = track_.pose(std::max(now, track_.begin()));
+    if (displaced_) X_WS_ = of_tool(X_WS_);
+  }
+  /// The pose that was followed to last.
+  const RigidTransform& X_WS() const { return X_WS_; }
+  void forget_before(double now) {
+    if (!track_.empty() && track_.begin() < now) track_.forget_before(now);
+  }
+
+  void exchange(math::StateArchive& state) { state(track_, presses_, X_WS_, clutched_, displaced_, by_, turned_); }
+
+ private:
+  struct Edge {
+    double t;
+    Press press;
+    void exchange(math::StateArchive& state) { state(t, press); }
+  };
+  /// Where S is when the hand is there.
+  RigidTransform of_tool(const RigidTransform& X_W) const { return Eigen::Translation3d(by_) * X_W * turned_; }
+  /// What S does where the hand moves so: the same cubics between displaced ends.
+  MotionSegment of_tool(const MotionSegment& hand) const {
+    if (clutched_) return MotionSegment(X_WS_);
+    if (!displaced_) return hand;
+    const MotionState a = hand.at(hand.begin());
+    const PoseSample begin{hand.begin(), of_tool(a.X)};
+    if (std::isinf(hand.end())) return MotionSegment(begin.X, begin.t);
+    const MotionState b = hand.at(hand.end());
+    const PoseSample end{hand.end(), of_tool(b.X)};
+    return MotionSegment(begin, a.velocity.linear, begin.X.linear().transpose() * a.velocity.angular, end,
+                         b.velocity.linear, end.X.linear().transpose() * b.velocity.angular);
+  }
+
+  PoseTrack track_;
+  std::deque<Edge> presses_;
+  RigidTransform X_WS_start_, X_WS_;
+  bool clutched_ = false;
+  bool displaced_ = false;  ///< S is not where the hand is, but `by_` away in world, and `turned_` against it
+  Vector3d by_ = Vector3d::Zero();
+  RigidTransform turned_ = RigidTransform::Identity();
+};
+
+}  // namespace spring_workbench::motion

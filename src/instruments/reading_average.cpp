@@ -1,0 +1,47 @@
+#include "spring_workbench/instruments/reading_average.h"
+
+#include <cmath>
+#include <utility>
+
+#include "constants.h"
+
+namespace spring_workbench::instruments {
+
+void ReadingAverage::take_down(double t, const tools::ToolState& tool) {
+  const std::string& carried = tool.held_object.empty() ? tool.touched : tool.held_object;
+  if (carried.empty() || (last_ && (t < last_->t || last_->carried != carried))) *this = ReadingAverage();
+  if (carried.empty()) return;
+  if (last_) {
+    const double half = 0.5 * (t - last_->t);
+    present_.duration += t - last_->t;
+    present_.weight += half * (last_->weight + tool.weight);
+    present_.torque += half * (last_->torque + tool.torque);
+  }
+  last_ = Instant{t, tool.weight, tool.torque, carried};
+  if (present_.duration < reading_part) return;
+  parts_.push_back(std::exchange(present_, Part()));
+  if (parts_.size() > reading_parts) parts_.pop_front();
+}
+
+tools::Reading ReadingAverage::average(double Part::*integral, double present) const {
+  tools::Reading reading{present};
+  if (parts_.empty()) return reading;
+  double duration = 0.0, sum = 0.0, squares = 0.0;
+  for (const Part& part : parts_) {
+    duration += part.duration;
+    sum += part.*integral;
+  }
+  reading.mean = sum / duration;
+  for (const Part& part : parts_) squares += part.duration * std::pow(part.*integral / part.duration - reading.mean, 2);
+  const auto count = static_cast<double>(parts_.size());
+  if (count > 1.0) reading.uncertainty = std::sqrt(squares / duration / (count - 1.0));
+  return reading;
+}
+
+void ReadingAverage::take(double t, tools::ToolState& tool) {
+  take_down(t, tool);
+  tool.weight_average = average(&Part::weight, tool.weight);
+  tool.torque_average = average(&Part::torque, tool.torque);
+}
+
+}  // namespace spring_workbench::instruments

@@ -1,0 +1,48 @@
+#include "step_figures.h"
+
+#include <QLabel>
+#include <QVBoxLayout>
+
+#include "error_plot.h"
+#include "spring_workbench/validation/names.h"
+
+namespace spring_workbench::rviz_plugin {
+
+StepFigures::StepFigures(QWidget* parent)
+    : QWidget(parent), figures_(new QLabel(this)), left_out_(new QLabel(this)), plot_(new ErrorPlot(this)) {
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(0, 0, 0, 0);
+  for (QLabel* label : {figures_, left_out_}) {
+    label->setWordWrap(true);
+    layout->addWidget(label);
+  }
+  layout->addWidget(plot_);
+}
+
+void StepFigures::add(double now, const StepReportConstPtr& steps) {
+  steps_ = steps;
+  if (steps->deadline_missed) ++missed_;
+  plot_->add(now, steps->wall_time, steps->position_error);
+}
+
+void StepFigures::clear() {
+  steps_.reset();
+  missed_ = 0;
+}
+
+void StepFigures::refresh(double now) {
+  plot_->refresh(now);
+  if (!steps_) {
+    figures_->setText("no figures");
+    left_out_->clear();
+    return;
+  }
+  figures_->setText(QString("step %1 ms, error %2 m, %3 deadlines missed")
+                        .arg(1e3 * steps_->wall_time, 0, 'f', 3)
+                        .arg(steps_->position_error, 0, 'g', 2)
+                        .arg(missed_));
+  const QString skipped = QString::fromStdString(validation::join(steps_->skipped));
+  left_out_->setText("left out: " + (skipped.isEmpty() ? "nothing" : skipped));
+}
+
+}  // namespace spring_workbench::rviz_plugin

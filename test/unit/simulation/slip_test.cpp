@@ -1,0 +1,139 @@
+// A tool that slips in the hand at its limit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/simulation/simulation.h"
+#include "support/bench_scenes.h"
+#include "support/named.h"
+
+namespace spring_workbench::simulation {
+namespace {
+
+constexpr double g = 9.81, limit = 30.0;
+const Vector3d above(0.0, 0.0, 0.22);  // the tip of a 0.2 m fork is in the middle of a box on the bench
+
+scene::Scene one_box(double mass, scene::ContactMode contact) {
+  return scene_of({box("box", {0.1, 0.06, 0.04}, mass, {0.0, 0.0, 0.02}, 0.5)}, contact, 0.5);
+}
+
+SimulationSettings slipping_at(double force, tools::Tool tool = tools::Tool::spring_fork) {
+  SimulationSettings set;
+  set.tool = tool;
+  set.limit.force = force;
+  set.limit.action = tools::LimitAction::slip;
+  return set;
+}
+
+double gap(const Simulation& simulation) {
+  const tools::ToolState f = simulation.fork();
+  return (f.X_WH.translation() - f.X_WH_proxy.translation()).norm();
+}
+
+class Slip : public testing::TestWithParam<scene::ContactMode> {};
+
+/// The box is too heavy. The hand goes 0.4 m up, waits, and comes back.
+TEST_P(Slip, WhatIsTooHeavyIsPulledWithTheLimitAndTheWrenchDoesNotJump) {
+  for (const tools::Tool tool : {tools::Tool::spring_fork, tools::Tool::spring}) {
+    for (const double step : {0.02, 0.001}) {
+      SimulationSettings set = slipping_at(limit, tool);
+      set.dynamics.step = step;
+      Simulation simulation(one_box(5.0, GetParam()), set);
+      push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.0, 0.0, 0.4));
+      push_move(simulation, 1.02, 1.5, above + Vector3d(0.0, 0.0, 0.4), above + Vector3d(0.0, 0.0, 0.4));
+      push_move(simulation, 1.52, 2.5, above + Vector3d(0.0, 0.0, 0.4), above);
+      push_move(simulation, 2.52, 4.0, above, above);
+      simulation.push_button(0.0, true);
+      double before = 0.0, largest = 0.0, jump = 0.0;
+      int at_limit = 0;
+      for (int i = 1; i * step < 4.0; ++i) {
+        simulation.advance(i * step);
+        ASSERT_TRUE(simulation.objects()[0].held) << i * step;
+        const double force = simulation.fork().tip_wrench_W.force.norm();
+        if (gap(simulation) > 0.1) {  // then it would come back faster than the hand does
+          EXPECT_NEAR(force, limit, 0.01 * limit) << i * step;
+          ++at_limit;
+        }
+        largest = std::max(largest, force);
+        jump = std::max(jump, std::abs(force - before));
+        before = force;
+      }
+      EXPECT_GT(at_limit * step, 1.0);
+      EXPECT_LT(largest, 1.0 + limit);
+      // What the hand and its acceleration do in a step through the fork: 2000 N/m, 253 N s/m.
+      EXPECT_LT(jump, (step < 0.01 ? 0.05 : 1.0) * limit);
+      EXPECT_LT(gap(simulation), 1e-6);
+      EXPECT_LT((simulation.objects()[0].X_WO.translation() - Vector3d(0.0, 0.0, 0.02)).norm(), 2e-3);
+    }
+  }
+}
+
+/// Lifted faster than the limit lets it: it is pulled up with the limit, and comes to the hand.
+TEST_P(Slip, TheToolComesBackToTheHand) {
+  Simulation simulation(one_box(1.0, GetParam()), slipping_at(1.3 * g));
+  push_move(simulation, 0.0, 0.4, above, above + Vector3d(0.0, 0.0, 0.3));
+  push_move(simulation, 0.42, 6.0, above + Vector3d(0.0, 0.0, 0.3), above + Vector3d(0.0, 0.0, 0.3));
+  simulation.push_button(0.0, true);
+  double widest = 0.0;
+  for (int i = 1; i <= 300; ++i) {
+    simulation.advance(0.02 * i);
+    EXPECT_LE(simulation.fork().tip_wrench_W.force.norm(), 1.01 * 1.3 * g);
+    widest = std::max(widest, gap(simulation));
+  }
+  EXPECT_GT(widest, 0.05);
+  EXPECT_EQ(gap(simulation), 0.0);
+  EXPECT_TRUE(simulation.objects()[0].held);
+  EXPECT_NEAR(simulation.objects()[0].X_WO.translation().z(), 0.32 - g / 2000.0, 1e-6);
+}
+
+/// In the air under the limit: the object falls as a body does that is pulled with it.
+TEST(SlipInTheAir, TheObjectMovesAsNewtonSays) {
+  scene::Scene scene = scene_of({box("box", {0.1, 0.06, 0.04}, 5.0, {0.0, 0.0, 0.5})}, scene::ContactMode::none);
+  Simulation simulation(scene, slipping_at(limit));
+  push_move(simulation, 0.0, 2.0, Vector3d(0.0, 0.0, 0.7), Vector3d(0.0, 0.0, 0.7));
+  simulation.push_button(0.0, true);
+  simulation.advance(0.6);
+  const bodies::BodyState a = simulation.objects()[0];
+  EXPECT_NEAR(simulation.fork().tip_wrench_W.force.norm(), limit, 1e-6);
+  simulation.advance(1.0);
+  const bodies::BodyState b = simulation.objects()[0];
+  const double acceleration = limit / 5.0 - g;
+  EXPECT_NEAR(b.V_WO_W.linear.z() - a.V_WO_W.linear.z(), 0.4 * acceleration, 1e-3);
+  EXPECT_NEAR(b.X_WO.translation().z() - a.X_WO.translation().z(),
+              0.4 * a.V_WO_W.linear.z() + 0.5 * 0.16 * acceleration, 1e-3);
+}
+
+/// A limit of the moment: a box that is held far off its centre, level.
+TEST(SlipInTheAir, TheMomentHasALimit) {
+  SimulationSettings set = slipping_at(1e3);
+  set.limit.moment = 0.3;
+  scene::Scene scene = scene_of({box("box", {0.3, 0.06, 0.04}, 1.0, {0.1, 0.0, 0.5})}, scene::ContactMode::none);
+  Simulation simulation(scene, set);
+  push_move(simulation, 0.0, 2.0, Vector3d(0.0, 0.0, 0.7), Vector3d(0.0, 0.0, 0.7));
+  simulation.push_button(0.0, true);
+  for (int i = 1; i <= 50; ++i) {
+    simulation.advance(0.02 * i);
+    EXPECT_LT(simulation.fork().tip_wrench_W.moment.norm(), 1.01 * 0.3);
+  }
+  EXPECT_GT(gap(simulation), 1e-3);
+}
+
+/// Nothing jumps where the tool begins to slip and where it is with the hand again, and a saved state goes on as it
+/// did.
+TEST(SlipInTheAir, WithoutALimitReachedItIsTheSame) {
+  const auto run = [](const SimulationSettings& set) {
+    Simulation simulation(one_box(1.0, scene::ContactMode::stop), set);
+    push_move(simulation, 0.0, 2.0, above, above + Vector3d(0.1, 0.0, 0.2), 0.5);
+    simulation.push_button(0.0, true);
+    simulation.advance(2.0);
+    return simulation.objects()[0].X_WO;
+  };
+  EXPECT_EQ(run(SimulationSettings()).matrix(), run(slipping_at(1e6)).matrix());
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryMode, Slip, testing::Values(scene::ContactMode::stop, scene::ContactMode::dynamic),
+                         [](const auto& tested) { return validation::name_of(tested.param); });
+
+}  // namespace
+}  // namespace spring_workbench::simulation
