@@ -203,17 +203,6 @@ class Exponential::CoreOf final : public Core {
     return collocation_.effect(collocation_.in_modes(defect));
   }
 
-  /// Sets what the image changes, and returns its squared size at all nodes.
-  template <typename Image>
-  SPRING_WORKBENCH_INLINE double set_change(Image& image, const NodeModes& x) const {
-    double all = 0.0;
-    for (int m = 0; m < 2 * n; ++m) {
-      image.change[at(m)] = image.x[at(m)] - x[at(m)];
-      all += collocation_.squared_weight()[m] * math::sum(image.change[at(m)] * image.change[at(m)]);
-    }
-    return all;
-  }
-
   /// Fixed-point iteration on the residual at the nodes, then the defect of the polynomial through it at the samples.
   SPRING_WORKBENCH_WIDE StepEstimate iterate(const HeldBody& body, const motion::FrameMotion& handle, double t,
                                              double h, StrainState& state) {
@@ -239,19 +228,18 @@ class Exponential::CoreOf final : public Core {
       r = residual(body, forcing, q0, q_dot0, x);
       in_modes = collocation_.in_modes(r);
       collocation_.drive(begin, in_modes, image.x);
-      const double all = set_change(image, x);
+      double all = 0.0;
+      for (int m = 0; m < 2 * n; ++m) {
+        image.change[at(m)] = image.x[at(m)] - x[at(m)];
+        all += weight[m] * math::sum(image.change[at(m)] * image.change[at(m)]);
+      }
       if (!(all < 1e300)) return {rod::StrainVector(), 0.0, rod::StrainVector(), false};
       reached = at_end(image.x);
       change = at_end(image.change);
       const double rounding = share_of_change * share_of_change * (squared_size(reached) + squared_state);
       if (iterations > 1) rate = std::sqrt(all / all_before);
       if (iterations == 2) rate_ = rate;
-      if (iterations > iterations_to_judge && rate > slow_convergence && all > rounding) {
-        // What changes no less from one iteration to the next may be the modes' rounding: more is not to be had.
-        converged = all <= modes().condition * modes().condition * rounding;
-        left = 1.0;
-        break;
-      }
+      if (iterations > iterations_to_judge && rate > slow_convergence && all > rounding) break;
       left = rate < 1.0 ? rate / (1.0 - rate) : 1e3;
       squared_left = left * left * squared_size(change);
       converged = squared_left <= std::max(share_of_error * share_of_error * squared_error_, rounding);

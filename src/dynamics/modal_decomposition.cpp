@@ -113,8 +113,7 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
     }
     sort_modes(solver, V, part);
     V_inverse = V.partialPivLu().inverse();
-    part.condition = V.norm() * V_inverse.norm();
-    if (part.condition < worst_condition) break;
+    if (V.norm() * V_inverse.norm() < worst_condition) break;
     off_critical = off_critical == 0.0 ? 1e-8 : 10.0 * off_critical;
   }
   part.fastest = solver.eigenvalues().cwiseAbs().maxCoeff();

@@ -25,11 +25,10 @@ struct ModalDecomposition {
   int pairs = 0;
   std::array<std::complex<double>, most_modes> rates;  ///< [1/s]; a pair has its rate twice
   double fastest = 0.0;                                ///< largest |rate|
-  double condition = 1.0;                              ///< of the eigenvectors: by so much rounding grows in the modes
 
   void exchange(math::StateArchive& state) {
     state(q_reference, stiffness, damping, inverse_mass, mass, by_wrench, by_handle, to_modes, from_modes, pairs, rates,
-          fastest, condition);
+          fastest);
   }
 };
 
