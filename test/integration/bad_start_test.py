@@ -55,7 +55,7 @@ class BadStart(unittest.TestCase):
         self.check(
             "manipulation",
             [
-                ({"rate": 100}, ["scene", "nothing"]),
+                ({"rate": 100}, ["scene", "missing"]),
                 ({"scene": "/nowhere/a.urdf"}, ["/nowhere/a.urdf"]),
                 ({"scene": broken}, [broken]),
                 ({"scene": SCENE, "scene_file": "a"}, ["scene_file", "unknown"]),

@@ -34,7 +34,7 @@ TEST(HintForSilence, NamesWhatToLookAt) {
     expect(hint(), "by 37 s: are the clocks of two hosts apart");
   }
   input.rejected = {{"not finite", 90}, {"too old", 10}};
-  expect(hint(), "most for this: not finite");
+  expect(hint(), "most of them as: not finite");
   tracker.hand.stream.samples = 1;
   EXPECT_EQ(hint(), "");
 }
