@@ -8,9 +8,9 @@
 #include <string>
 
 #include "benchmark/contact/bodies.h"
+#include "benchmark/contact/let_go.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/math/so3.h"
-#include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -103,20 +103,7 @@ DropResult run(const Drop& drop) {
   scene.bench_material.friction = t.body.material.friction;
   scene.bench_material.restitution = 0.0;
   scene.bodies[0].material.restitution = 0.0;
-  simulation::SimulationSettings set;
-  set.fork.dofs = {false, false, false};
-  set.dynamics.step = t.step;
-  set.grasp.object = "held";
-  simulation::Simulation s(scene, set);
-  for (double time = 0.0; time < held + 0.04; time += 0.02) {
-    RigidTransform X_WH = t.body.X_WO;
-    X_WH.translation() += time * t.v;
-    X_WH.linear() = math::exp_so3(time * t.w) * X_WH.linear();
-    X_WH.translation() -= set.fork.length * X_WH.linear().col(2);
-    s.push_stylus({time, X_WH});
-  }
-  s.advance(held);
-  s.release();
+  simulation::Simulation s = let_go(scene, t.step, held, t.v, t.w);
   DropResult r;
   r.tilt = t.tilt;
   double least_energy = energy(t.body, s.objects()[0]), fastest = 0.0, end = 2.0;

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "benchmark/contact/bodies.h"
+#include "benchmark/contact/let_go.h"
 #include "benchmark/contact/processor_time.h"
 #include "spring_workbench/math/so3.h"
-#include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -103,20 +103,7 @@ void look_at_wall(const Thing& t, const RigidTransform& X_AO, double width, Thro
 ThrowResult run(const Throw& thrown) {
   const Thing t = thing_of(thrown.seed);
   const scene::Scene scene = scene_of(thrown, t);
-  simulation::SimulationSettings set;
-  set.fork.dofs = {false, false, false};
-  set.dynamics.step = t.step;
-  set.grasp.object = "thrown";
-  simulation::Simulation s(scene, set);
-  for (double time = 0.0; time < held + 0.04; time += 0.02) {
-    RigidTransform X_WH = t.body.X_WO;
-    X_WH.translation() += time * t.v;
-    X_WH.linear() = math::exp_so3(time * t.w) * X_WH.linear();
-    X_WH.translation() -= set.fork.length * X_WH.linear().col(2);
-    s.push_stylus({time, X_WH});
-  }
-  s.advance(held);
-  s.release();
+  simulation::Simulation s = let_go(scene, t.step, held, t.v, t.w);
   const auto both = [&] {
     return energy(scene.bodies[0], s.objects()[0]) + (thrown.loose ? energy(scene.bodies[1], s.objects()[1]) : 0.0);
   };
