@@ -56,11 +56,9 @@ set(SPRING_WORKBENCH_HEADERS
   hand_input/settings.h
   math/pack.h
   math/rigid_transform.h
-  math/spatial.h
   math/state_archive.h
   motion/motion_segment.h
   motion/pose_track.h
-  motion/stylus.h
   motion/stylus_source.h
   motion_files/open_motion.h
   rod/settings.h

@@ -6,6 +6,7 @@
 #include "objects.h"
 #include "spring_workbench/instruments/load_range.h"
 #include "spring_workbench/motion/slip.h"
+#include "spring_workbench/motion/stylus.h"
 #include "spring_workbench/tools/hold_maker.h"
 #include "spring_workbench/tools/sharing.h"
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <vector>
 
-#include "spring_workbench/math/spatial.h"
 #include "spring_workbench/math/state_archive.h"
 #include "spring_workbench/motion/motion_segment.h"
 

@@ -8,6 +8,8 @@ namespace spring_workbench {
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using Vector6d = Eigen::Matrix<double, 6, 1>;  ///< [linear; angular] or [force; moment]
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// Pose of a frame B in a frame A, written `X_AB`: `p_A = X_AB * p_B`. Lengths in m.
 using RigidTransform = Eigen::Isometry3d;

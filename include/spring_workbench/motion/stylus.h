@@ -7,11 +7,9 @@
 #include <optional>
 
 #include "spring_workbench/motion/pose_track.h"
+#include "spring_workbench/motion/stylus_source.h"
 
 namespace spring_workbench::motion {
-
-/// An edge of one of a stylus' buttons.
-enum class Press { grasp, release, next_tool, clutch_on, clutch_off };
 
 /// What one stylus has told: how it moves, and the edges of its buttons. With the clutch on, S stays where it is while
 /// the hand goes on alone; then S goes on from there, as the hand moves and turns in world.

@@ -12,6 +12,9 @@ struct StylusSample : PoseSample {
   bool button = false;
 };
 
+/// An edge of one of a stylus' buttons.
+enum class Press { grasp, release, next_tool, clutch_on, clutch_off };
+
 /// Source of a stylus: a device, a recording or a script. Stamps are passed on as they come, including repeated and
 /// backward ones (PoseTrack ignores those).
 class StylusSource {

@@ -10,7 +10,7 @@
 #include "spring_workbench/bodies/body_state.h"
 #include "spring_workbench/contact/contact_state.h"
 #include "spring_workbench/math/state_archive.h"
-#include "spring_workbench/motion/stylus.h"
+#include "spring_workbench/motion/stylus_source.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/simulation/settings.h"
 #include "spring_workbench/tools/tool_state.h"
