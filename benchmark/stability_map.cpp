@@ -155,11 +155,13 @@ void keep_the_worst(std::vector<StabilityFailure>& failures) {
   if (failures.size() > kFailuresKept) failures.resize(kFailuresKept);
 }
 
-/// Runs the cells of a stiffness; `failures` becomes the worst of them.
+/// Runs the cells of a stiffness and a mass; `failures` becomes the worst of them.
 std::vector<StabilityRow> rows_of_cells(const StabilityPlan& plan, const std::string& integrator,
-                                        const std::string& shape, double factor,
+                                        const std::string& shape, double factor, double mass,
                                         std::vector<StabilityFailure>& failures) {
-  const std::vector<StabilityCell> cells = cells_of(plan, integrator, factor);
+  std::vector<StabilityCell> cells = cells_of(plan, integrator, factor);
+  cells.erase(std::remove_if(cells.begin(), cells.end(), [&](const StabilityCell& c) { return c.mass != mass; }),
+              cells.end());
   std::vector<StabilityOutcome> outcomes(cells.size());
   parallel_for(cells.size(), [&](std::size_t i) { outcomes[i] = run_cell(integrator, shape, cells[i]); });
   std::vector<StabilityRow> rows;
@@ -265,7 +267,8 @@ StabilityOutcome run_cell(const std::string& integrator, const std::string& shap
 }
 
 std::size_t unit_count(const StabilityPlan& plan) {
-  return 2 * plan.integrators.size() * plan.shapes.size() * plan.stiffness_factors.size();  // rows and failures
+  return 2 * plan.integrators.size() * plan.shapes.size() * plan.stiffness_factors.size() *
+         plan.masses.size();  // rows and failures
 }
 
 StabilityMap stability_map(const StabilityPlan& plan, Units& units) {
@@ -275,15 +278,18 @@ StabilityMap stability_map(const StabilityPlan& plan, Units& units) {
     for (const std::string& shape : plan.shapes) {
       std::vector<StabilityFailure> worst;
       for (const double factor : plan.stiffness_factors) {
-        std::ostringstream name;
-        name << integrator << ' ' << shape << " × " << factor;
-        std::vector<StabilityFailure> failures;
-        const auto rows = units.rows<StabilityRow>(number, "stability: " + name.str(), [&] {
-          return rows_of_cells(plan, integrator, shape, factor, failures);
-        });
-        failures = units.rows<StabilityFailure>(number++, "failures: " + name.str(), [&] { return failures; });
-        map.rows.insert(map.rows.end(), rows.begin(), rows.end());
-        worst.insert(worst.end(), failures.begin(), failures.end());
+        for (const double mass : plan.masses) {
+          std::ostringstream name;
+          name << integrator << ' ' << shape << " × " << factor << ", " << mass << " kg";
+          std::vector<StabilityFailure> failures;
+          const auto rows = units.rows<StabilityRow>(number, "stability: " + name.str(), [&] {
+            return rows_of_cells(plan, integrator, shape, factor, mass, failures);
+          });
+          failures = units.rows<StabilityFailure>(number++, "failures: " + name.str(), [&] { return failures; });
+          map.rows.insert(map.rows.end(), rows.begin(), rows.end());
+          worst.insert(worst.end(), failures.begin(), failures.end());
+        }
+        ++number;  // so that each shard gets every mass
       }
       keep_the_worst(worst);
       map.failures.insert(map.failures.end(), worst.begin(), worst.end());
