@@ -121,8 +121,10 @@ std::string families_name(const rod::ForkDofs& dofs) {
   return name.empty() ? "none" : name;
 }
 
-bool is_of(const StabilityCell& cell, const StabilityRow& row) {
-  return cell.mass == row.mass && cell.step == row.step && cell.damping_ratio == row.damping_ratio;
+bool is_of(const StabilityRun& one, const StabilityRow& row) {
+  const StabilityCell& cell = one.cell;
+  return std::tie(one.integrator, one.shape, cell.stiffness_factor, cell.mass, cell.step, cell.damping_ratio) ==
+         std::tie(row.integrator, row.shape, row.stiffness_factor, row.mass, row.step, row.damping_ratio);
 }
 
 std::vector<double> decades(double low, double high, double factor) {
@@ -149,32 +151,39 @@ void add(const StabilityCell& cell, const StabilityOutcome& outcome, StabilityRo
   row.held += outcome.held();
 }
 
-void keep_the_worst(std::vector<StabilityFailure>& failures) {
+void keep_the_worst(std::vector<StabilityRun>& failures) {
   std::stable_sort(failures.begin(), failures.end(),
-                   [](const StabilityFailure& a, const StabilityFailure& b) { return worse(a.outcome, b.outcome); });
+                   [](const StabilityRun& a, const StabilityRun& b) { return worse(a.outcome, b.outcome); });
   if (failures.size() > kFailuresKept) failures.resize(kFailuresKept);
 }
 
-/// Runs the cells of a stiffness and a mass; `failures` becomes the worst of them.
-std::vector<StabilityRow> rows_of_cells(const StabilityPlan& plan, const std::string& integrator,
-                                        const std::string& shape, double factor, double mass,
-                                        std::vector<StabilityFailure>& failures) {
-  std::vector<StabilityCell> cells = cells_of(plan, integrator, factor);
-  cells.erase(std::remove_if(cells.begin(), cells.end(), [&](const StabilityCell& c) { return c.mass != mass; }),
-              cells.end());
-  std::vector<StabilityOutcome> outcomes(cells.size());
-  parallel_for(cells.size(), [&](std::size_t i) { outcomes[i] = run_cell(integrator, shape, cells[i]); });
-  std::vector<StabilityRow> rows;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const StabilityCell& cell = cells[i];
-    if (rows.empty() || !is_of(cell, rows.back())) {
-      rows.push_back({integrator, shape, factor, cell.mass, cell.step, cell.damping_ratio});
+}  // namespace
+
+StabilityMap map_of(const std::vector<StabilityRun>& cells) {
+  StabilityMap map;
+  for (const StabilityRun& one : cells) {
+    const StabilityCell& cell = one.cell;
+    if (map.rows.empty() || !is_of(one, map.rows.back())) {
+      map.rows.push_back({one.integrator, one.shape, cell.stiffness_factor, cell.mass, cell.step, cell.damping_ratio});
     }
-    add(cell, outcomes[i], rows.back());
-    if (!outcomes[i].held()) failures.push_back({integrator, shape, cell, outcomes[i]});
+    add(cell, one.outcome, map.rows.back());
+    if (!one.outcome.held()) map.failures.push_back(one);
   }
-  keep_the_worst(failures);
-  return rows;
+  keep_the_worst(map.failures);
+  return map;
+}
+
+namespace {
+
+/// Runs the cells of a stiffness and a mass.
+StabilityMap map_of_cells(const StabilityPlan& plan, const std::string& integrator, const std::string& shape,
+                          double factor, double mass) {
+  std::vector<StabilityRun> cells;
+  for (const StabilityCell& cell : cells_of(plan, integrator, factor)) {
+    if (cell.mass == mass) cells.push_back({integrator, shape, cell, {}});
+  }
+  parallel_for(cells.size(), [&](std::size_t i) { cells[i].outcome = run_cell(integrator, shape, cells[i].cell); });
+  return map_of(cells);
 }
 
 }  // namespace
@@ -276,18 +285,19 @@ StabilityMap stability_map(const StabilityPlan& plan, Units& units) {
   std::size_t number = 0;
   for (const std::string& integrator : plan.integrators) {
     for (const std::string& shape : plan.shapes) {
-      std::vector<StabilityFailure> worst;
+      std::vector<StabilityRun> worst;
       for (const double factor : plan.stiffness_factors) {
         for (const double mass : plan.masses) {
           std::ostringstream name;
           name << integrator << ' ' << shape << " × " << factor << ", " << mass << " kg";
-          std::vector<StabilityFailure> failures;
-          const auto rows = units.rows<StabilityRow>(number, "stability: " + name.str(), [&] {
-            return rows_of_cells(plan, integrator, shape, factor, mass, failures);
+          StabilityMap part;
+          part.rows = units.rows<StabilityRow>(number, "stability: " + name.str(), [&] {
+            part = map_of_cells(plan, integrator, shape, factor, mass);
+            return part.rows;
           });
-          failures = units.rows<StabilityFailure>(number++, "failures: " + name.str(), [&] { return failures; });
-          map.rows.insert(map.rows.end(), rows.begin(), rows.end());
-          worst.insert(worst.end(), failures.begin(), failures.end());
+          part.failures = units.rows<StabilityRun>(number++, "failures: " + name.str(), [&] { return part.failures; });
+          map.rows.insert(map.rows.end(), part.rows.begin(), part.rows.end());
+          worst.insert(worst.end(), part.failures.begin(), part.failures.end());
         }
         ++number;  // so that each shard gets every mass
       }
@@ -316,7 +326,7 @@ std::string failures_csv(const StabilityMap& map) {
   std::ostringstream out;
   out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,families,hand,tail,seconds,finite,bounded,"
          "energy_growth,steps_refused,steps,stops,steps_fallback,processor_time\n";
-  for (const StabilityFailure& f : map.failures) {
+  for (const StabilityRun& f : map.failures) {
     out << f.integrator << ',' << f.shape << ',' << f.cell.stiffness_factor << ',' << f.cell.mass << ',' << f.cell.step
         << ',' << f.cell.damping_ratio << ',' << families_name(f.cell.families) << ',' << name_of(f.cell.hand) << ','
         << name_of(f.cell.tail) << ',' << f.cell.seconds << ',' << f.outcome.finite << ',' << f.outcome.bounded << ','

@@ -79,14 +79,14 @@ void each_field(StabilityRow& r, Fields& fields) {
          r.fallback);
 }
 
-/// A cell that did not hold.
-struct StabilityFailure {
+/// A cell and what came of it.
+struct StabilityRun {
   std::string integrator, shape;
   StabilityCell cell;
   StabilityOutcome outcome;
 };
 template <typename Fields>
-void each_field(StabilityFailure& f, Fields& fields) {
+void each_field(StabilityRun& f, Fields& fields) {
   StabilityCell& c = f.cell;
   StabilityOutcome& o = f.outcome;
   fields(f.integrator, f.shape, c.stiffness_factor, c.mass, c.step, c.damping_ratio, c.families.stretch,
@@ -96,8 +96,11 @@ void each_field(StabilityFailure& f, Fields& fields) {
 
 struct StabilityMap {
   std::vector<StabilityRow> rows;
-  std::vector<StabilityFailure> failures;  ///< the worst few of each integrator and shape, worst first
+  std::vector<StabilityRun> failures;  ///< the worst few of each integrator and shape, worst first
 };
+
+/// The rows of cells that have been run, those of a row one after the other.
+StabilityMap map_of(const std::vector<StabilityRun>& cells);
 
 /// Those of an integrator's cells that have this stiffness, in the order of mass, step and damping ratio.
 std::vector<StabilityCell> cells_of(const StabilityPlan& plan, const std::string& integrator, double stiffness_factor);

@@ -9,7 +9,7 @@ Usage: plot_report.py scene    error_table.csv PICTURE.png SCENE HAND    a colum
        plot_report.py rods     rod_table.csv PICTURE.png            a panel per case, a line per integrator
        plot_report.py shapes   elastica.csv PICTURE.png rod_table.csv  error of the model beside that of integration
        plot_report.py tolerance rod_table.csv PICTURE.png           error reached against tolerance asked
-       plot_report.py stability stability_map.csv PICTURE.png contact_extremes.csv
+       plot_report.py stability stability_map.csv PICTURE.png [contact_extremes.csv]
                                                                     a panel per integrator and contact mode
        plot_report.py contact contact_drag.csv PICTURE.png contact_impact.csv contact_steps.csv"""
 import csv
@@ -356,14 +356,14 @@ def layer_of_counters(axes, rows, stiffnesses, masses, mass_names):
     )
 
 
-def stability(table, picture, extremes):
+def stability(table, picture, extremes=None):
     rows = read(table)
     shape = rows[0]["shape"]
     rows = [row for row in rows if row["shape"] == shape]
     names = in_order(row["integrator"] for row in rows)
     stiffnesses = sorted({float(row["stiffness_factor"]) for row in rows})
     masses = sorted({float(row["mass"]) for row in rows})
-    contact_rows = read(extremes)
+    contact_rows = read(extremes) if extremes else []
     modes = in_order(row["contact"] for row in contact_rows)
     figure, panels = grid(2 * len(names) + len(modes))
     mass_names = ["0" if m == 0.0 else f"1e{math.log10(m):.0f}" for m in masses]

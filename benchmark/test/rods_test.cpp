@@ -3,20 +3,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 
 #include "benchmark/elastica.h"
+#include "benchmark/full_map.h"
 #include "benchmark/ode_solver.h"
 #include "benchmark/rod_reference.h"
 #include "benchmark/rod_table.h"
 #include "benchmark/simulated_rod.h"
 #include "benchmark/stability_map.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/validation/input_error.h"
 #include "spring_workbench/validation/names.h"
 #include "support/paths.h"
+#include "test/support/temporary_folder.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -312,6 +318,43 @@ TEST(StabilityMap, EveryPairOfValuesIsMetByEachIntegrator) {
       }
     }
   }
+}
+
+TEST(StabilityMap, TheFullMapHasEveryCombinationOnce) {
+  StabilityPlan plan = stability_plan(true);
+  std::set<std::tuple<std::string, double, double, double, double, int, MapHand, MapTail>> met;
+  for (std::size_t i = 0; i < full_map_size(plan); ++i) {
+    const StabilityRun one = full_map_cell(plan, i);
+    const StabilityCell& c = one.cell;
+    const int on = c.families.stretch + 2 * c.families.bend + 4 * c.families.torsion;
+    met.insert({one.integrator, c.stiffness_factor, c.mass, c.step, c.damping_ratio, on, c.hand, c.tail});
+  }
+  EXPECT_EQ(met.size(), full_map_size(plan));
+}
+
+TEST(StabilityMap, TheFullMapGoesOnWhereItWasStopped) {
+  StabilityPlan plan = stability_plan(true);
+  plan.seconds = 0.05;
+  const test_support::TemporaryFolder folder;
+  std::ostringstream log;
+  const auto lines_of = [&](const std::string& name) {
+    std::ifstream in(folder.path(name));
+    std::set<std::string> lines;
+    // but for the processor time, which is last
+    for (std::string line; std::getline(in, line);) lines.insert(line.substr(0, line.rfind('\t')));
+    return lines;
+  };
+  EXPECT_EQ(run_full_map(plan, folder.path("whole"), 12, log).size(), 12U);
+  EXPECT_EQ(run_full_map(plan, folder.path("parts"), 5, log).size(), 5U);
+  std::ofstream(folder.path("parts"), std::ios::app) << "5\ta line that was cut";
+  const std::vector<StabilityRun> all = run_full_map(plan, folder.path("parts"), 7, log);
+  EXPECT_EQ(all.size(), 12U);
+  EXPECT_EQ(lines_of("parts"), lines_of("whole"));
+  int cells = 0;
+  for (const StabilityRow& row : map_of(all).rows) cells += row.cells + row.cannot_fail;
+  EXPECT_EQ(cells, 12);
+  plan.masses = {2.0};
+  EXPECT_THROW(run_full_map(plan, folder.path("parts"), 1, log), validation::InputError);
 }
 
 TEST(StabilityMap, NothingCanFailWhereNothingIsIntegrated) {

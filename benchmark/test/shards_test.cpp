@@ -73,7 +73,7 @@ struct Work {
       row.real_time = row.three_times = 0;
       text += row_text(row) + '\n';
     }
-    for (StabilityFailure failure : stability.failures) {
+    for (StabilityRun failure : stability.failures) {
       failure.outcome.processor = 0.0;
       text += row_text(failure) + '\n';
     }
