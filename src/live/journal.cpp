@@ -6,12 +6,20 @@ namespace spring_workbench::live {
 
 using hand_input::Accepted;
 
+Change comparison_of(const simulation::Simulation& simulation) {
+  Change change;
+  change.what = "for comparison";
+  change.scene = simulation.scene().path;
+  change.hash_before = simulation.state_hash();
+  return change;
+}
+
 void Replayer::play(const Entry& entry, const AtStop& at_stop) {
   const auto* change = std::get_if<Change>(&entry.what);
   if (simulation_.empty() && (change == nullptr || change->state == simulation::SimulationState())) return;
   if (simulation_.empty()) {
     scene_ = change->scene;
-    simulation_.push_back(make_simulation_(scene_));
+    simulation_.emplace_back(load_scene_(scene_), settings_);
     simulation_.front().restore(change->state);
     next_ = entry.index + 1;
     return;
@@ -23,6 +31,7 @@ void Replayer::play(const Entry& entry, const AtStop& at_stop) {
   ++next_;
   go_to(entry.committed, at_stop);
   std::visit([&](const auto& what) { apply(what); }, entry.what);
+  if (change != nullptr) at_stop(simulation_.front(), {});
 }
 
 void Replayer::go_to(double t, const AtStop& at_stop) {
@@ -55,12 +64,33 @@ void Replayer::apply(const Change& change) {
                        simulation::to_hex(hash), "as recorded, " + simulation::to_hex(change.hash_before));
   }
   if (change.state == simulation::SimulationState()) return;
-  ++changes_;
-  if (change.scene != scene_) {
-    scene_ = change.scene;
-    simulation_.front() = make_simulation_(scene_);
+  const bool again = change.command.kind != Command::Kind::none;
+  if (again) make_again(change);
+  ++(again ? changes_.made_again : changes_.given);
+  const simulation::SimulationState state = simulation_.front().save();
+  if (state == change.state) return;
+  if (again) {
+    changes_.mismatches.push_back(change.what + " at " + std::to_string(simulation_.front().time()) + " s: state " +
+                                  simulation::to_hex(state.hash()) + ", recorded " +
+                                  simulation::to_hex(change.state.hash()));
   }
+  if (change.scene != scene_) simulation_.front() = simulation::Simulation(load_scene_(change.scene), settings_);
+  scene_ = change.scene;
   simulation_.front().restore(change.state);
+}
+
+/// A change that could not be made in the live run cannot be made now either.
+void Replayer::make_again(const Change& change) {
+  simulation::Simulation& simulation = simulation_.front();
+  try {
+    if (change.command.kind == Command::Kind::load_scene) {
+      simulation = make_simulation(load_scene_(change.scene), simulation.settings(), forks_of(simulation));
+      scene_ = change.scene;
+    } else {
+      perform(change.command, simulation);
+    }
+  } catch (const validation::InputError&) {
+  }
 }
 
 }  // namespace spring_workbench::live

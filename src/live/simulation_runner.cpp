@@ -8,35 +8,16 @@
 namespace spring_workbench::live {
 namespace {
 
-std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation) {
-  std::vector<rod::ForkSettings> forks;
-  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-    forks.push_back(simulation.fork_settings(hand));
-  }
-  return forks;
-}
-
 std::map<std::string, RigidTransform> places_of(const simulation::Simulation& simulation) {
   std::map<std::string, RigidTransform> places;
   for (const bodies::BodyState& object : simulation.objects()) places[object.name] = object.X_WO;
   return places;
 }
 
-/// To each hand its fork; with one that is calibrated to the world, the stiffness stays the new scene's.
-void give_forks(const std::vector<rod::ForkSettings>& forks, simulation::Simulation& simulation) {
-  for (std::size_t hand = 0; hand < forks.size(); ++hand) {
-    simulation::ForkChange change = simulation::change_to(forks[hand]);
-    if (simulation.settings().grasp.calibrate == tools::Calibration::world) {
-      change.stretch_stiffness = change.bend_stiffness = change.torsion_stiffness = std::nullopt;
-    }
-    simulation.change(change, hand);
-  }
-}
-
 }  // namespace
 
-SimulationRunner::Noted::Noted(SimulationRunner& runner, std::string what)
-    : runner_(runner), what_(std::move(what)), committed_(runner.feed_.committed()) {
+SimulationRunner::Noted::Noted(SimulationRunner& runner, std::string what, Command command)
+    : runner_(runner), what_(std::move(what)), command_(std::move(command)), committed_(runner.feed_.committed()) {
   if (runner_.keeps_journal_) hash_before_ = runner_.simulation_.state_hash();
 }
 
@@ -45,7 +26,7 @@ SimulationRunner::Noted::~Noted() {
   runner_.ahead_.restart();
   if (!runner_.keeps_journal_) return;
   const std::string& scene = runner_.simulation_.scene().path;
-  runner_.note(committed_, Change{what_, scene, hash_before_, runner_.simulation_.save()});
+  runner_.note(committed_, Change{what_, command_, scene, hash_before_, runner_.simulation_.save()});
 }
 
 SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
@@ -130,9 +111,7 @@ void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
   if (joins(input, epoch)) {
     times_.join(input.hand, epoch.zero);
   } else {
-    const Noted noted(*this, "the hand's time begins");
-    start_anew();
-    simulation_.place(std::exchange(places_, {}));
+    start_anew("the hand's time begins", std::exchange(places_, {}));
     times_.begin(input.hand, epoch.zero);
   }
   feed_.restart_gate(input.hand);
@@ -169,8 +148,12 @@ void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {
   feed_.buttons_known(time_of(input, known.t), known.arrival, input.hand);
 }
 
-void SimulationRunner::start_anew() {
-  simulation_.reset();
+void SimulationRunner::start_anew(const std::string& what, std::map<std::string, RigidTransform> places) {
+  Command command;
+  command.kind = Command::Kind::restart;
+  command.places = std::move(places);
+  const Noted noted(*this, what, command);
+  perform(command, simulation_);
   task_.reset();
   feed_.restart();
   ahead_.begin_anew();
@@ -178,19 +161,25 @@ void SimulationRunner::start_anew() {
 
 void SimulationRunner::restart() {
   const Lock lock(mutex_);
-  const Noted noted(*this, "reset");
   places_.clear();
-  start_anew();
+  start_anew("reset", {});
+}
+
+simulation::ChangeReport SimulationRunner::change(const std::string& what, const Command& command) {
+  const Lock lock(mutex_);
+  const Noted noted(*this, what, command);
+  return perform(command, simulation_);
 }
 
 void SimulationRunner::load(const scene::Scene& scene) {
   // The copy is made without the lock: it may take its time.
   const auto [settings, forks] = locked(
       [](const simulation::Simulation& present) { return std::make_pair(present.settings(), forks_of(present)); });
-  simulation::Simulation simulation(scene, settings);
-  give_forks(forks, simulation);
+  simulation::Simulation simulation = make_simulation(scene, settings, forks);
   LookAhead ahead(scene, settings);
-  begin_with("load_scene", std::move(simulation), std::move(ahead), {});
+  Command command;
+  command.kind = Command::Kind::load_scene;
+  begin_with("load_scene", command, std::move(simulation), std::move(ahead), {});
 }
 
 void SimulationRunner::resume(const scene::Scene& scene, const simulation::SimulationState& state) {
@@ -202,13 +191,13 @@ void SimulationRunner::resume(const scene::Scene& scene, const simulation::Simul
   simulation.reset();
   simulation.place(places);
   LookAhead ahead(scene, settings);
-  begin_with("resume", std::move(simulation), std::move(ahead), std::move(places));
+  begin_with("resume", {}, std::move(simulation), std::move(ahead), std::move(places));
 }
 
-void SimulationRunner::begin_with(const std::string& what, simulation::Simulation simulation, LookAhead ahead,
-                                  std::map<std::string, RigidTransform> places) {
+void SimulationRunner::begin_with(const std::string& what, const Command& command, simulation::Simulation simulation,
+                                  LookAhead ahead, std::map<std::string, RigidTransform> places) {
   const Lock lock(mutex_);
-  const Noted noted(*this, what);
+  const Noted noted(*this, what, command);
   places_ = std::move(places);
   task_ = assembly::TaskMonitor(simulation.scene());
   simulation_ = std::move(simulation);
@@ -221,13 +210,13 @@ void SimulationRunner::keep_journal(bool keep) {
   keeps_journal_ = keep;
   if (!keep) return feed_.record(nullptr);
   feed_.record([this](const hand_input::Accepted& accepted) { note(accepted.committed, accepted); });
-  const Noted noted(*this, "the journal begins");
+  const Noted noted(*this, "the journal begins", {});
 }
 
 void SimulationRunner::note_state() {
   const Lock lock(mutex_);
   if (!keeps_journal_) return;
-  note(feed_.committed(), Change{"for comparison", simulation_.scene().path, simulation_.state_hash(), {}});
+  note(feed_.committed(), comparison_of(simulation_));
 }
 
 void SimulationRunner::note(double committed, std::variant<hand_input::Accepted, Change> what) {

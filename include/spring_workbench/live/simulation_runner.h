@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "spring_workbench/assembly/task_monitor.h"
+#include "spring_workbench/live/command.h"
 #include "spring_workbench/live/fair_mutex.h"
 #include "spring_workbench/live/hand_times.h"
 #include "spring_workbench/live/journal.h"
@@ -92,13 +93,8 @@ class SimulationRunner {
     const Lock lock(mutex_);
     return use(simulation_);
   }
-  /// Makes a change of the simulation, `make(Simulation&)`, of which the journal says `what`.
-  template <typename Make>
-  auto change(const std::string& what, Make&& make) {
-    const Lock lock(mutex_);
-    const Noted noted(*this, what);
-    return make(simulation_);
-  }
+  /// Makes a change of the present scene, which the journal calls `what`. Throws as perform().
+  simulation::ChangeReport change(const std::string& what, const Command& command);
   /// Whether a hand has come since the start.
   bool has_sample() const {
     return locked([this](const auto&) { return feed_.has_sample(); });
@@ -133,12 +129,13 @@ class SimulationRunner {
   /// While it lives the simulation is changed; then the journal gets what it has become.
   class Noted {
    public:
-    Noted(SimulationRunner& runner, std::string what);
+    Noted(SimulationRunner& runner, std::string what, Command command);
     ~Noted();
 
    private:
     SimulationRunner& runner_;
     std::string what_;
+    Command command_;
     std::uint64_t hash_before_ = 0;
     double committed_;
   };
@@ -151,8 +148,8 @@ class SimulationRunner {
   void feed(HandInput& input, const StylusEvent& event);
   void feed(const hand_input::LocalTime& now);
   void commit(double stop, CycleReport& report);
-  void start_anew();
-  void begin_with(const std::string& what, simulation::Simulation simulation, LookAhead ahead,
+  void start_anew(const std::string& what, std::map<std::string, RigidTransform> places);
+  void begin_with(const std::string& what, const Command& command, simulation::Simulation simulation, LookAhead ahead,
                   std::map<std::string, RigidTransform> places);
   void note(double committed, std::variant<hand_input::Accepted, Change> what);
 

@@ -100,10 +100,10 @@ class ForkRows {
   std::array<instruments::ReadingAverage, simulation::Simulation::most_hands> averages_;
 };
 
-simulation::Simulation make_simulation(const Options& options) {
-  const scene::Scene scene = scene::load_scene(options.scene);
+scene::Scene load_scene(const std::string& path) {
+  scene::Scene scene = scene::load_scene(path);
   for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
-  return simulation::Simulation(scene, options.settings);
+  return scene;
 }
 
 void push_motion(const Motion& of_hand, std::size_t hand, bool with_grasp, hand_input::Feed& feed) {
@@ -118,7 +118,7 @@ void push_motion(const Motion& of_hand, std::size_t hand, bool with_grasp, hand_
   for (const ButtonEvent& event : of_hand.buttons) feed.push_button(event.t, event.pressed, hand);
 }
 
-/// Goes through a live run again; a line for each time to which it was committed.
+/// Goes through a live run again; a line for each time to which it was committed, and for each change.
 Summary run_journal(const Options& options, const std::vector<live::Entry>& journal) {
   OutputFile objects(options.out);
   OutputFile fork(fork_path(options.out));
@@ -127,11 +127,10 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
   ForkRows fork_rows;
   Summary summary;
   bool first = true;
-  live::Replayer replayer([&](const std::string& scene) {
-    Options of_scene = options;
-    if (!std::exchange(first, false)) of_scene.scene = scene;  // the first is given
-    return make_simulation(of_scene);
-  });
+  const auto load = [&](const std::string& scene) {
+    return load_scene(std::exchange(first, false) ? options.scene : scene);  // the first is given
+  };
+  live::Replayer replayer(load, options.settings);
   const auto started = std::chrono::steady_clock::now();
   for (const live::Entry& entry : journal) {
     replayer.play(entry, [&](simulation::Simulation& simulation, const simulation::AdvanceReport& report) {
@@ -147,6 +146,9 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
   summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
   if (replayer.simulation() == nullptr) validation::refuse(options.bag, "~changes", "none", "at least one message");
   summary.changes = replayer.changes();
+  for (const std::string& mismatch : summary.changes.mismatches) {
+    std::cerr << "warning: another state after " << mismatch << "\n";
+  }
   summary.state_hash = replayer.simulation()->state_hash();
   fork.commit();
   objects.commit();
@@ -160,7 +162,7 @@ Summary run(const Options& options) {
     if (!journal.empty()) return run_journal(options, journal);
   }
   const std::vector<Motion> motions = load_motions(options);
-  simulation::Simulation simulation = make_simulation(options);
+  simulation::Simulation simulation(load_scene(options.scene), options.settings);
   OutputFile objects(options.out);
   OutputFile fork(fork_path(options.out));
   objects.write(object_header());

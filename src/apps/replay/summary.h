@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "spring_workbench/hand_input/feed.h"
+#include "spring_workbench/live/journal.h"
 
 namespace spring_workbench::replay {
 
@@ -15,10 +16,10 @@ class Summary {
   hand_input::GateCounts gate;  ///< of them
   hand_input::ReacquisitionCounts hand;
   simulation::AdvanceReport advance;
-  int outputs = 0;               ///< output times
-  double wall_time = 0.0;        ///< [s]
-  std::size_t changes = 0;       ///< of a live run
-  std::uint64_t state_hash = 0;  ///< of the simulation at the end
+  int outputs = 0;                ///< output times
+  double wall_time = 0.0;         ///< [s]
+  live::ReplayedChanges changes;  ///< of a live run
+  std::uint64_t state_hash = 0;   ///< of the simulation at the end
 
   void add(const hand_input::GateCounts& of_hand);
   void add(const hand_input::ReacquisitionCounts& of_hand);

@@ -124,6 +124,7 @@ Accepted to_message(const hand_input::Accepted& accepted) {
 Change to_message(const live::Change& change) {
   Change message;
   message.what = change.what;
+  message.command = change.command.words();
   message.scene = change.scene;
   message.hash_before = simulation::to_hex(change.hash_before);
   if (change.state != simulation::SimulationState()) message.state = serialise(change.state);

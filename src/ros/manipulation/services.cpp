@@ -2,7 +2,6 @@
 
 #include <std_srvs/Trigger.h>
 
-#include <algorithm>
 #include <cstdio>
 
 #include "spring_workbench/Calibrate.h"
@@ -35,22 +34,32 @@ std::optional<std::size_t> hand_of(unsigned stylus, const std::string& service) 
   return stylus > 0 ? std::optional<std::size_t>(stylus - 1) : std::nullopt;
 }
 
+live::Command command_of(live::Command::Kind kind, unsigned stylus, const std::string& service) {
+  live::Command command;
+  command.kind = kind;
+  command.hand = hand_of(stylus, service);
+  return command;
+}
+
 void select_tool(live::SimulationRunner& runner, const SelectTool::Request& request, SelectTool::Response& response) {
   const auto tool = validation::named<tools::Tool>(request.tool, "select_tool", "tool");
-  const std::size_t hand = hand_of(request.stylus, "select_tool").value_or(0);
-  fill(runner.change("select_tool", [&](simulation::Simulation& s) { return s.select_tool(tool, hand); }), response);
+  live::Command command = command_of(live::Command::Kind::select_tool, request.stylus, "select_tool");
+  command.tool = tool;
+  fill(runner.change("select_tool", command), response);
 }
 
 template <typename Response>
-void change_fork(live::SimulationRunner& runner, const simulation::ForkChange& change, std::optional<std::size_t> hand,
-                 Response& response) {
-  fill(runner.change("fork", [&](simulation::Simulation& s) { return s.change(change, hand); }), response);
+void change_fork(live::SimulationRunner& runner, const simulation::ForkChange& change, unsigned stylus,
+                 const std::string& service, Response& response) {
+  live::Command command = command_of(live::Command::Kind::settings, stylus, service);
+  command.of_fork = change;
+  fill(runner.change(service, command), response);
 }
 
 void set_dofs(live::SimulationRunner& runner, const SetForkDofs::Request& request, SetForkDofs::Response& response) {
   simulation::ForkChange change;
   change.dofs = {request.stretch != 0, request.bend != 0, request.torsion != 0};
-  change_fork(runner, change, hand_of(request.stylus, "set_dofs"), response);
+  change_fork(runner, change, request.stylus, "set_dofs", response);
 }
 
 void set_stiffness(live::SimulationRunner& runner, const SetForkStiffness::Request& request,
@@ -60,7 +69,7 @@ void set_stiffness(live::SimulationRunner& runner, const SetForkStiffness::Reque
   change.stretch_stiffness = given(request.stretch);
   change.bend_stiffness = given(request.bend);
   change.torsion_stiffness = given(request.torsion);
-  change_fork(runner, change, hand_of(request.stylus, "set_stiffness"), response);
+  change_fork(runner, change, request.stylus, "set_stiffness", response);
 }
 
 void set_damping(live::SimulationRunner& runner, const SetForkDamping::Request& request,
@@ -71,19 +80,20 @@ void set_damping(live::SimulationRunner& runner, const SetForkDamping::Request& 
     change.damping_law = validation::named<rod::DampingLaw>(request.law, "set_damping", "law");
   }
   (change.damping_law == rod::DampingLaw::coefficients ? change.damping_coefficient : change.damping_ratio) = numbers;
-  change_fork(runner, change, hand_of(request.stylus, "set_damping"), response);
+  change_fork(runner, change, request.stylus, "set_damping", response);
 }
 
 void set_integrator(live::SimulationRunner& runner, const SetIntegrator::Request& request,
                     SetIntegrator::Response& response) {
-  simulation::DynamicsChange change;
+  live::Command command;
+  command.kind = live::Command::Kind::settings;
+  simulation::DynamicsChange& change = command.of_dynamics;
   change.integrator = validation::named<dynamics::IntegratorKind>(request.name, "set_integrator", "name");
   if (request.step != 0.0) change.step = request.step;
   if (request.tolerance != SetIntegrator::Request::KEEP_TOLERANCE) change.tolerance = request.tolerance;
-  const dynamics::DynamicsSettings now = runner.change("set_integrator", [&](simulation::Simulation& s) {
-    s.change(change);
-    return s.settings().dynamics;
-  });
+  runner.change("set_integrator", command);
+  const dynamics::DynamicsSettings now =
+      runner.locked([](const simulation::Simulation& s) { return s.settings().dynamics; });
   char text[120];
   std::snprintf(text, sizeof text, "%s, steps of at most %g s, tolerance %g m%s",
                 validation::name_of(now.integrator).c_str(), now.step, now.tolerance,
@@ -100,33 +110,18 @@ void load_scene(live::SimulationRunner& runner, const std::vector<std::string>& 
 }
 
 void calibrate(live::SimulationRunner& runner, const Calibrate::Request& request, Calibrate::Response& response) {
-  const auto hand = hand_of(request.stylus, "calibrate");
-  fill(runner.change("calibrate", [&](simulation::Simulation& s) { return s.calibrate(hand); }), response);
+  fill(runner.change("calibrate", command_of(live::Command::Kind::calibrate, request.stylus, "calibrate")), response);
 }
 
 void set_clutch(live::SimulationRunner& runner, const SetClutch::Request& request, SetClutch::Response& response) {
-  const std::optional<std::size_t> hand = hand_of(request.stylus, "clutch");
-  runner.change("clutch", [&](simulation::Simulation& s) {
-    for (std::size_t i = 0; i < simulation::Simulation::most_hands; ++i) {
-      if (hand.value_or(i) == i) s.push_clutch(s.time(), request.on != 0, i);
-    }
-  });
-  response.message = request.on != 0 ? "on: the hand moves without the tool" : "off: the tool goes with the hand";
+  live::Command command = command_of(live::Command::Kind::clutch, request.stylus, "clutch");
+  command.on = request.on != 0;
+  response.message = runner.change("clutch", command).message;
 }
 
 void release(live::SimulationRunner& runner, const Release::Request& request, Release::Response& response) {
-  const std::optional<std::size_t> one = hand_of(request.stylus, "release");
-  const std::string held = runner.change("release", [&](simulation::Simulation& s) {
-    std::vector<std::string> names;
-    for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-      if (one.value_or(hand) != hand) continue;
-      const std::string name = s.fork(hand).held_object;
-      if (s.release(hand) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
-    }
-    return validation::join(names);
-  });
-  if (held.empty()) throw validation::InputError("release: no object is held; call it while one is");
-  response.message = "released " + held;
+  const live::Command command = command_of(live::Command::Kind::release, request.stylus, "release");
+  response.message = runner.change("release", command).message;
 }
 
 }  // namespace

@@ -15,9 +15,10 @@ TEST(SimulationRunner, AnotherSceneHasAForkOfItsOwn) {
   simulation::SimulationSettings settings;
   settings.grasp.calibrate = tools::Calibration::world;
   SimulationRunner runner(shipped("single_box"), settings, hand_input::InputSettings(), false);
-  simulation::ForkChange stiff;
-  stiff.dofs = rod::ForkDofs{true, true, false};
-  runner.change("stiff", [&](simulation::Simulation& s) { return s.change(stiff); });
+  Command stiff;
+  stiff.kind = Command::Kind::settings;
+  stiff.of_fork.dofs = rod::ForkDofs{true, true, false};
+  runner.change("stiff", stiff);
   runner.load(shipped("heavy"));
   const rod::ForkSettings fork = runner.locked([](const auto& s) { return s.fork_settings(1); });
   const simulation::Simulation alone(shipped("heavy"), settings);

@@ -135,39 +135,116 @@ TEST(LookAhead, WhatIsShownDoesNotGoBack) {
   }
 }
 
-/// A run with changes at random; the replayed journal comes to the same bits at every stop.
-TEST(Journal, ReplayedComesToTheSameBits) {
-  for (const unsigned seed : {1u, 2u, 3u}) {
-    Bench bench;
-    std::mt19937 random(seed);
-    std::vector<Entry> journal;
-    std::vector<std::pair<double, std::uint64_t>> live;
-    for (int k = 0; k < 300; ++k) {
-      const double now = interval * k;
-      if (k == 20) bench.runner.keep_journal(true);
-      bench.commit(bench.sample(k, k < 100 || k > 180), now);
-      if (random() % 30 == 0) {
-        bench.runner.change("softer", [&](simulation::Simulation& s) {
-          simulation::ForkChange change;
-          change.stretch_stiffness = 100.0 + static_cast<double>(random() % 1000);
-          return s.change(change, 0);
-        });
-      }
-      if (random() % 90 == 0) bench.runner.change("release", [](simulation::Simulation& s) { return s.release(); });
-      if (k % 10 == 0) bench.runner.note_state();
-      for (Entry& entry : bench.runner.take_journal()) journal.push_back(entry);
-    }
-    bench.runner.note_state();
-    for (Entry& entry : bench.runner.take_journal()) journal.push_back(entry);
-    ASSERT_GT(journal.size(), 300u);
-    Replayer replayer(
-        [](const std::string&) { return simulation::Simulation(two_boxes(), simulation::SimulationSettings()); });
-    int stops = 0;
-    for (const Entry& entry : journal) replayer.play(entry, [&](auto&, auto&) { ++stops; });
-    EXPECT_GT(stops, 200);
-    EXPECT_GT(replayer.changes(), 3u);
-    EXPECT_EQ(replayer.simulation()->state_hash(), bench.runner.locked([](const auto& s) { return s.state_hash(); }));
+Replayer replayer_of_two_boxes() {
+  return {[](const std::string&) { return two_boxes(); }, {}};
+}
+
+/// Any change that a service, a panel or another time can make.
+Command random_command(std::mt19937& random) {
+  const auto uniform = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  using Kind = Command::Kind;
+  constexpr Kind kinds[] = {Kind::select_tool, Kind::settings, Kind::settings, Kind::settings,
+                            Kind::calibrate,   Kind::release,  Kind::clutch};
+  constexpr tools::Tool every_tool[] = {tools::Tool::spring, tools::Tool::spring_fork, tools::Tool::spring_probe,
+                                        tools::Tool::direct, tools::Tool::ray};
+  Command command;
+  command.kind = kinds[random() % 7];
+  if (random() % 12 == 0) command.kind = random() % 2 == 0 ? Kind::restart : Kind::load_scene;
+  if (random() % 3 > 0) command.hand = random() % 2;
+  command.tool = every_tool[random() % 5];
+  command.on = random() % 2 == 0;
+  if (random() % 2 == 0) command.of_fork.dofs = rod::ForkDofs{random() % 2 == 0, random() % 2 == 0, random() % 2 == 0};
+  if (random() % 2 == 0) command.of_fork.stretch_stiffness = uniform(100.0, 1000.0);
+  if (random() % 2 == 0) command.of_fork.torsion_stiffness = uniform(0.1, 10.0);
+  if (random() % 3 == 0) command.of_fork.damping_ratio = rod::PerDof{0.2, 0.2, 0.2};
+  if (random() % 4 == 0) command.of_dynamics.step = uniform(0.001, 0.004);
+  if (random() % 4 == 0) command.of_dynamics.integrator = dynamics::IntegratorKind::rk4;
+  return command;
+}
+
+void change_at_random(SimulationRunner& runner, std::mt19937& random) {
+  const Command command = random_command(random);
+  try {
+    if (command.kind == Command::Kind::restart) return runner.restart();
+    if (command.kind == Command::Kind::load_scene) return runner.load(two_boxes());
+    runner.change("at random", command);
+  } catch (const validation::InputError&) {  // nothing is held
   }
+}
+
+/// A run with changes at random, the state noted after it.
+std::vector<Entry> random_journal(unsigned seed, std::uint64_t& hash) {
+  Bench bench;
+  std::mt19937 random(seed);
+  std::vector<Entry> journal;
+  for (int k = 0; k < 300; ++k) {
+    if (k == 20) bench.runner.keep_journal(true);
+    bench.commit(bench.sample(k, k < 100 || k > 180), interval * k);
+    if (random() % 20 == 0) change_at_random(bench.runner, random);
+    if (k % 10 == 0) bench.runner.note_state();
+    for (Entry& entry : bench.runner.take_journal()) journal.push_back(entry);
+  }
+  bench.runner.note_state();
+  for (Entry& entry : bench.runner.take_journal()) journal.push_back(entry);
+  hash = bench.runner.locked([](const auto& s) { return s.state_hash(); });
+  return journal;
+}
+
+/// Each change is made again, from its command as words, at its time, and leads to the same bits; so does all else.
+TEST(Journal, ReplayedComesToTheSameBits) {
+  for (unsigned seed = 1; seed <= 12; ++seed) {
+    std::uint64_t hash = 0;
+    std::vector<Entry> journal = random_journal(seed, hash);
+    ASSERT_GT(journal.size(), 300u);
+    Replayer replayer = replayer_of_two_boxes();
+    int stops = 0;
+    for (Entry& entry : journal) {
+      if (auto* change = std::get_if<Change>(&entry.what)) change->command = Command::from(change->command.words());
+      replayer.play(entry, [&](auto&, auto&) { ++stops; });
+    }
+    EXPECT_GT(stops, 200);
+    EXPECT_GT(replayer.changes().made_again, 5u);
+    EXPECT_EQ(replayer.changes().given, 0u);
+    for (const std::string& mismatch : replayer.changes().mismatches) ADD_FAILURE() << seed << ": " << mismatch;
+    EXPECT_EQ(replayer.simulation()->state_hash(), hash);
+  }
+}
+
+/// A change whose command says something else is told, and the run goes on from the state that was recorded.
+TEST(Journal, AChangeThatLeadsElsewhereIsCountedAndTold) {
+  Bench bench;
+  bench.runner.keep_journal(true);
+  Command softer;
+  softer.kind = Command::Kind::settings;
+  softer.of_fork.stretch_stiffness = 300.0;
+  for (int k = 0; k < 50; ++k) {
+    bench.commit(bench.sample(k, false), interval * k);
+    if (k == 30) bench.runner.change("softer", softer);
+  }
+  bench.runner.note_state();
+  Replayer replayer = replayer_of_two_boxes();
+  for (Entry& entry : bench.runner.take_journal()) {
+    auto* change = std::get_if<Change>(&entry.what);
+    if (change != nullptr && change->what == "softer") change->command.of_fork.stretch_stiffness = 300.1;
+    replayer.play(entry, [](auto&, auto&) {});
+  }
+  ASSERT_EQ(replayer.changes().mismatches.size(), 1u);
+  EXPECT_EQ(replayer.changes().mismatches[0].rfind("softer at 0.29", 0), 0u) << replayer.changes().mismatches[0];
+  EXPECT_EQ(replayer.simulation()->state_hash(), bench.runner.locked([](const auto& s) { return s.state_hash(); }));
+}
+
+TEST(Journal, WordsThatAreNoCommandAreRefused) {
+  Command softer;
+  softer.kind = Command::Kind::settings;
+  softer.of_fork.stretch_stiffness = 300.0;
+  std::vector<std::uint64_t> words = softer.words();
+  EXPECT_EQ(Command::from(words).of_fork.stretch_stiffness, 300.0);
+  words.push_back(0);
+  EXPECT_THROW(Command::from(words), validation::InputError);
+  words.resize(words.size() - 2);
+  EXPECT_THROW(Command::from(words), validation::InputError);
 }
 
 TEST(Journal, AMissingEntryAndAnotherStateAreRefused) {
@@ -177,8 +254,7 @@ TEST(Journal, AMissingEntryAndAnotherStateAreRefused) {
   bench.runner.note_state();
   std::vector<Entry> journal = bench.runner.take_journal();
   const auto play = [](const std::vector<Entry>& entries) {
-    Replayer replayer(
-        [](const std::string&) { return simulation::Simulation(two_boxes(), simulation::SimulationSettings()); });
+    Replayer replayer = replayer_of_two_boxes();
     for (const Entry& entry : entries) replayer.play(entry, [](auto&, auto&) {});
   };
   EXPECT_NO_THROW(play(journal));

@@ -71,12 +71,11 @@ TEST(Pace, AStepThatCannotKeepUpLosesNothing) {
       scene_of({box("box", Vector3d(0.1, 0.06, 0.04), 1.0, grip + Vector3d(0.0, 0.0, -0.2))}, scene::ContactMode::none),
       simulation::SimulationSettings(), hand_input::InputSettings(), false);
   const auto set = [&](dynamics::IntegratorKind kind, double step) {
-    runner.change("set_integrator", [&](simulation::Simulation& s) {
-      simulation::DynamicsChange change;
-      change.integrator = kind;
-      change.step = step;
-      s.change(change);
-    });
+    Command command;
+    command.kind = Command::Kind::settings;
+    command.of_dynamics.integrator = kind;
+    command.of_dynamics.step = step;
+    runner.change("set_integrator", command);
   };
   const auto begin = std::chrono::steady_clock::now();
   const auto now = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };

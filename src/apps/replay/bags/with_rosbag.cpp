@@ -60,10 +60,13 @@ live::Entry to_entry(const Accepted& message) {
 }
 
 live::Entry to_entry(const Change& message) {
-  const simulation::SimulationState state =
-      message.state.empty() ? simulation::SimulationState() : simulation::parse_state(message.state);
-  return {message.index, message.committed,
-          live::Change{message.what, message.scene, std::stoull(message.hash_before, nullptr, 16), state}};
+  live::Change change;
+  change.what = message.what;
+  change.command = live::Command::from(message.command);
+  change.scene = message.scene;
+  change.hash_before = std::stoull(message.hash_before, nullptr, 16);
+  if (!message.state.empty()) change.state = simulation::parse_state(message.state);
+  return {message.index, message.committed, change};
 }
 
 /// Collects the hands from the messages of a bag.

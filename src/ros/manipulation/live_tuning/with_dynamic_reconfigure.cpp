@@ -28,13 +28,14 @@ std::optional<T> if_other(const T& asked, const T& present) {
   return asked == present ? std::nullopt : std::optional<T>(asked);
 }
 
-/// Makes the change that the configuration asks for, of all forks. Throws InputError, and changes nothing, for a bad
-/// one.
-void give_to(simulation::Simulation& simulation, const ManipulationConfig& config) {
+/// The change that the configuration asks for, of all forks. Throws InputError for a bad one.
+live::Command command_for(const simulation::Simulation& simulation, const ManipulationConfig& config) {
   const rod::ForkSettings& fork = simulation.fork_settings();
   const dynamics::DynamicsSettings& dynamics = simulation.settings().dynamics;
   const rod::PerDof damping{config.stretch_damping, config.bend_damping, config.torsion_damping};
-  simulation::ForkChange of_fork;
+  live::Command command;
+  command.kind = live::Command::Kind::settings;
+  simulation::ForkChange& of_fork = command.of_fork;
   of_fork.dofs = if_other<rod::ForkDofs>({config.stretch, config.bend, config.torsion}, fork.dofs);
   of_fork.stretch_stiffness = if_other(config.stretch_stiffness, fork.stiffness.stretch);
   of_fork.bend_stiffness = if_other(config.bend_stiffness, fork.stiffness.bend);
@@ -43,11 +44,11 @@ void give_to(simulation::Simulation& simulation, const ManipulationConfig& confi
   const bool one_ratio = damping == rod::PerDof{damping.stretch, damping.stretch, damping.stretch};
   if (of_fork.damping_ratio && !one_ratio)
     of_fork.damping_law = rod::DampingLaw::per_dof;  // modal knows one ratio alone
-  simulation::DynamicsChange of_dynamics;
+  simulation::DynamicsChange& of_dynamics = command.of_dynamics;
   of_dynamics.integrator = if_other(
       validation::named<dynamics::IntegratorKind>(config.integrator, "live", "integrator"), dynamics.integrator);
   of_dynamics.step = if_other(config.step, dynamics.step);
-  simulation.change(of_fork, of_dynamics);
+  return command;
 }
 
 bool same(const ManipulationConfig& a, const ManipulationConfig& b) { return a.__level__(b) == 0; }
@@ -66,7 +67,7 @@ class Reconfigure final : public LiveTuning {
   void on_change(ManipulationConfig& config, uint32_t level) {
     try {
       if (level != at_start) {
-        runner_.change("live", [&](simulation::Simulation& simulation) { give_to(simulation, config); });
+        runner_.change("live", runner_.locked([&](const auto& present) { return command_for(present, config); }));
       }
     } catch (const validation::InputError& error) {
       ROS_WARN_STREAM(error.what());

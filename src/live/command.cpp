@@ -1,0 +1,113 @@
+#include "spring_workbench/live/command.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "spring_workbench/validation/input_error.h"
+#include "spring_workbench/validation/names.h"
+
+namespace spring_workbench::live {
+namespace {
+
+constexpr std::size_t most_hands = simulation::Simulation::most_hands;
+
+simulation::ChangeReport change_settings(const Command& command, simulation::Simulation& simulation) {
+  if (command.of_dynamics.empty()) return simulation.change(command.of_fork, command.hand);
+  simulation.change(command.of_fork, command.of_dynamics);
+  return {};
+}
+
+simulation::ChangeReport release(const Command& command, simulation::Simulation& simulation) {
+  std::vector<std::string> names;
+  for (std::size_t hand = 0; hand < most_hands; ++hand) {
+    if (command.hand.value_or(hand) != hand) continue;
+    const std::string name = simulation.fork(hand).held_object;
+    if (simulation.release(hand) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  }
+  if (names.empty()) throw validation::InputError("release: no object is held; call it while one is");
+  simulation::ChangeReport report;
+  report.message = "released " + validation::join(names);
+  return report;
+}
+
+simulation::ChangeReport clutch(const Command& command, simulation::Simulation& simulation) {
+  for (std::size_t hand = 0; hand < most_hands; ++hand) {
+    if (command.hand.value_or(hand) == hand) simulation.push_clutch(simulation.time(), command.on, hand);
+  }
+  simulation::ChangeReport report;
+  report.message = command.on ? "on: the hand moves without the tool" : "off: the tool goes with the hand";
+  return report;
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> Command::words() const {
+  if (kind == Kind::none) return {};
+  math::StateArchive archive;
+  Command(*this).exchange(archive);
+  return archive.taken();
+}
+
+Command Command::from(const std::vector<std::uint64_t>& words) {
+  Command command;
+  if (words.empty()) return command;
+  math::StateArchive archive(words);
+  try {
+    command.exchange(archive);
+    if (archive.at_end()) return command;
+  } catch (const std::out_of_range&) {
+  }
+  throw validation::InputError("command: " + std::to_string(words.size()) + " words: expected those that were written");
+}
+
+void Command::exchange(math::StateArchive& state) {
+  state(kind, hand, tool, on, places);
+  state(of_fork.dofs, of_fork.stretch_stiffness, of_fork.bend_stiffness, of_fork.torsion_stiffness,
+        of_fork.damping_ratio, of_fork.damping_coefficient, of_fork.damping_law);
+  state(of_dynamics.integrator, of_dynamics.step, of_dynamics.tolerance);
+}
+
+simulation::ChangeReport perform(const Command& command, simulation::Simulation& simulation) {
+  switch (command.kind) {
+    case Command::Kind::select_tool:
+      return simulation.select_tool(command.tool, command.hand.value_or(0));
+    case Command::Kind::settings:
+      return change_settings(command, simulation);
+    case Command::Kind::calibrate:
+      return simulation.calibrate(command.hand);
+    case Command::Kind::release:
+      return release(command, simulation);
+    case Command::Kind::clutch:
+      return clutch(command, simulation);
+    case Command::Kind::restart:
+      simulation.reset();
+      simulation.place(command.places);
+      return {};
+    case Command::Kind::none:
+    case Command::Kind::load_scene:
+      break;
+  }
+  throw validation::InputError("command: kind " + std::to_string(static_cast<int>(command.kind)) +
+                               ": expected one of a change of the present scene");
+}
+
+std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation) {
+  std::vector<rod::ForkSettings> forks;
+  for (std::size_t hand = 0; hand < most_hands; ++hand) forks.push_back(simulation.fork_settings(hand));
+  return forks;
+}
+
+simulation::Simulation make_simulation(const scene::Scene& scene, const simulation::SimulationSettings& settings,
+                                       const std::vector<rod::ForkSettings>& forks) {
+  simulation::Simulation simulation(scene, settings);
+  for (std::size_t hand = 0; hand < forks.size(); ++hand) {
+    simulation::ForkChange change = simulation::change_to(forks[hand]);
+    if (settings.grasp.calibrate == tools::Calibration::world) {
+      change.stretch_stiffness = change.bend_stiffness = change.torsion_stiffness = std::nullopt;
+    }
+    simulation.change(change, hand);
+  }
+  return simulation;
+}
+
+}  // namespace spring_workbench::live
