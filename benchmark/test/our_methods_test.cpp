@@ -37,10 +37,10 @@ TEST(OurMethods, EachConvergesToTheReferencesWithItsOrder) {
       // With a single spring the paper's load, the mean over a step, gives one order more.
       const int order = method->name() == "paper" ? 2 : order_of(method->name());
       if (order > 4) continue;
-      const int steps = order < 2 ? 32 : (scene.kind == SceneKind::six_dof ? 4 : 2);
+      // So coarse that the error is far above the references' own, so fine that explicit methods are stable.
+      const int steps = order < 2 ? 32 : method->name() == "rosenbrock" ? 1 : scene.kind == SceneKind::six_dof ? 4 : 2;
       const double coarse = error_at(*method, scene, steps), fine = error_at(*method, scene, 2 * steps);
       EXPECT_LT(coarse, 5e-3) << method->name() << " in " << scene.name;
-      if (fine < 1e-9) continue;  // the reference's own error, and that of a Jacobian by differences
       EXPECT_NEAR(std::log2(coarse / fine), order, 0.3) << method->name() << " in " << scene.name << " " << fine;
     }
   }

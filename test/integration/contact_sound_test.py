@@ -6,7 +6,6 @@ import signal
 import subprocess
 import sys
 import tempfile
-import time
 import unittest
 import wave
 
@@ -41,17 +40,23 @@ class ContactSound(unittest.TestCase):
     def setUp(self):
         self.publisher = rospy.Publisher("contacts", Contacts, queue_size=10)
 
+    def record(self, path, seconds):
+        """Until so much more sound is in the file."""
+        enough = os.path.getsize(path) + 2 * 44100 * seconds
+        wait_for(lambda: os.path.getsize(path) >= enough, "%g s of sound" % seconds)
+
     def test_an_impact_and_a_scrape_are_in_the_file(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "sound.wav")
             player = Player("_file:=" + path)
             wait_for(lambda: self.publisher.get_num_connections() > 0, "the player to listen")
-            time.sleep(0.5)
+            self.record(path, 0.25)
             self.publisher.publish(contact(Contact.STARTED, impulse=0.5))
-            time.sleep(0.5)
-            for _ in range(50):
+            self.record(path, 0.7)  # it rings out
+            begin = os.path.getsize(path)
+            while os.path.getsize(path) < begin + 2 * 44100:
                 self.publisher.publish(contact(Contact.PERSISTING, slip_speed=0.5))
-                time.sleep(0.02)
+                self.record(path, 0.02)
             player.end()
             with wave.open(path) as file:
                 self.assertEqual((file.getnchannels(), file.getsampwidth(), file.getframerate()), (1, 2, 44100))
@@ -60,7 +65,7 @@ class ContactSound(unittest.TestCase):
         first = next(i for i, s in enumerate(samples) if abs(s) > 500)
         ringing = samples[first : first + 2205]
         later = samples[first + 15000 : first + 20000]  # rung out, nothing slips yet
-        scrape = samples[first + 35000 : first + 45000]
+        scrape = samples[first + 50000 : first + 60000]
         loudness = lambda part: sum(s * s for s in part) / len(part)
         self.assertGreater(loudness(ringing), 100 * loudness(later) + 1)
         self.assertGreater(loudness(scrape), 100 * loudness(later) + 1)

@@ -217,28 +217,6 @@ TEST(Simulation, WhatLiesOnAGraspedObjectWakes) {
   EXPECT_NEAR(simulation.objects()[1].X_WO.translation().z(), 0.06, 1e-5);
 }
 
-TEST(Simulation, SlidingBoxStopsByFriction) {
-  // Let go on the bench at speed v it slides v² / (2 μ g).
-  SimulationSettings set = settings();
-  set.dynamics.step = 0.005;
-  Simulation simulation(box_scene({0.0, 0.0, 0.02}, scene::ContactMode::stop, 0.4), set);
-  for (double t = 0.0; t < 0.6; t += 0.02) {
-    simulation.push_stylus({t, pointing_down(above + Vector3d(t * t, 0.0, 0.0))});  // 2 m/s² along x
-  }
-  simulation.push_button(0.0, true);
-  simulation.push_button(0.5, false);
-  simulation.advance(0.5);
-  const bodies::BodyState start = simulation.objects()[0];
-  ASSERT_GT(start.V_WO_W.linear.x(), 0.3);
-  const double v = start.V_WO_W.linear.head<2>().norm();
-  const Vector3d p = start.X_WO.translation();
-  ASSERT_LT(std::abs(start.V_WO_W.linear.z()), 0.05);
-  simulation.advance(3.0);
-  const double path = (simulation.objects()[0].X_WO.translation() - p).norm();
-  EXPECT_NEAR(path, v * v / (2.0 * 0.4 * 9.81), 0.15 * path);
-  EXPECT_TRUE(simulation.objects()[0].asleep);
-}
-
 class Switching : public testing::Test {
  protected:
   Switching() : simulation(box_scene({0.0, 0.0, 0.5}, scene::ContactMode::none), off_centre()) {

@@ -129,15 +129,17 @@ double settling_time(const dynamics::BodyInertia& body, int direction) {
 }
 
 /// Held at its centre it settles alike in every direction. Held at an edge or a corner a push turns it as well, which
-/// takes up to 1.4 times as long: three stiffnesses cannot make six directions equal there.
+/// takes up to 1.4 times as long: three stiffnesses cannot make six directions equal there. A turn that bends the fork
+/// settles up to 6 % sooner.
 TEST(Calibration, EveryDirectionSettlesAlikeOverTwelveDecadesOfMass) {
   const double omega = std::sqrt(gravity / (ObjectGoal().sag * length));
   const double critical = 5.834 / omega;  // (1 + ωt) exp(−ωt) = 0.02
   for (const Vector3d& p_OE : grasps) {
-    for (const int direction : {0, 1, 2, 5}) {
+    for (const int direction : {0, 1, 2, 3, 4, 5}) {
       const double of_one = settling_time(box(1.0, p_OE), direction);
-      EXPECT_GT(of_one, 0.97 * critical) << direction << ": " << p_OE.transpose();
-      EXPECT_LT(of_one, (p_OE.isZero() ? 1.03 : 1.45) * critical) << direction << ": " << p_OE.transpose();
+      EXPECT_GT(of_one, (direction == 3 || direction == 4 ? 0.94 : 0.97) * critical)
+          << direction << ": " << p_OE.transpose();
+      EXPECT_LT(of_one, (p_OE.isZero() ? 1.03 : 1.41) * critical) << direction << ": " << p_OE.transpose();
       for (const double mass : {1e-6, 1e-2, 300.0, 1e6}) {
         EXPECT_NEAR(settling_time(box(mass, p_OE), direction), of_one, 1e-9) << mass;
       }
