@@ -6,7 +6,7 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr const char* pose_text = R"(The pose of a frame as a 4 x 4 array.
+constexpr const char* pose_text = R"(Returns a pose as an array of shape (4, 4).
 
 position: x, y, z [m]; quaternion: x, y, z, w, normalised here. Raises InputError if one has the wrong
 length or is not finite, or if the quaternion is zero.)";
@@ -27,9 +27,9 @@ RigidTransform pose(const std::vector<double>& position, const std::vector<doubl
 }  // namespace
 
 PYBIND11_MODULE(_core, module) {
-  module.doc() = "The compiled part of spring_workbench.";
+  module.doc() = "Compiled part of spring_workbench.";
   py::register_exception<validation::InputError>(module, "InputError", PyExc_ValueError).attr("__doc__") =
-      "Bad input: the message names the field, what is allowed and what was given. The old state stays.";
+      "Invalid input. The message names the field, what is allowed and what was given; the old state stays.";
   bind_settings(module);
   bind_motions(module);
   bind_states(module);
@@ -42,7 +42,7 @@ PYBIND11_MODULE(_core, module) {
       py::arg("position"), py::arg("quaternion") = std::vector<double>{0.0, 0.0, 0.0, 1.0}, pose_text);
   module.def(
       "integrators", [] { return names_of(dynamics::IntegratorKind{}); },
-      "The names that the setting `integrator` accepts.");
+      "Returns the names that the setting `integrator` accepts.");
 }
 
 }  // namespace spring_workbench::python

@@ -10,7 +10,7 @@ using simulation::SimulationSettings;
 
 namespace {
 
-/// Of stretching, bending and twisting.
+/// The values of stretching, bending and twisting.
 std::optional<rod::PerDof> per_dof(const std::optional<std::array<double, 3>>& values) {
   if (!values) return std::nullopt;
   return rod::PerDof{(*values)[0], (*values)[1], (*values)[2]};
@@ -74,13 +74,14 @@ std::vector<std::string> names(const Simulation& of) {
 
 void bind_scene(py::module_& module) {
   using scene::Scene;
-  py::class_<Scene>(module, "Scene", "Bodies, materials and gravity, read from a URDF and the YAML file next to it.")
-      .def_readonly("name", &Scene::name)
-      .def_readonly("path", &Scene::path)
-      .def_readonly("gravity", &Scene::gravity, "[m/s2], along -z of world.")
+  py::class_<Scene>(module, "Scene",
+                    "Bodies, materials and gravity of a scene, read from a URDF and the YAML file next to it.")
+      .def_readonly("name", &Scene::name, "Name of the scene: that of its URDF file, without .urdf.")
+      .def_readonly("path", &Scene::path, "Path of the URDF.")
+      .def_readonly("gravity", &Scene::gravity, "Gravity along -z of the world [m/s2].")
       .def_property_readonly(
-          "contact", [](const Scene& s) { return word(s.contact); }, "none, stop or dynamic.")
-      .def_readonly("tool", &Scene::tool)
+          "contact", [](const Scene& s) { return word(s.contact); }, "Contact mode: none, stop or dynamic.")
+      .def_readonly("tool", &Scene::tool, "Name of the tool with which each hand starts.")
       .def_property_readonly(
           "masses",
           [](const Scene& s) {
@@ -91,16 +92,16 @@ void bind_scene(py::module_& module) {
             return masses;
           },
           "Mass of each movable object [kg], by name.")
-      .def_readonly("warnings", &Scene::warnings, "What was repaired on loading, one line each.");
+      .def_readonly("warnings", &Scene::warnings, "Warnings about what was repaired on loading, one line each.");
   module.def("load_scene", &scene::load_scene, py::arg("path"), py::arg("roots") = std::vector<std::string>{},
              R"(Reads a scene from a URDF (a path or package:// URI), with the YAML file of the same name next to it.
 
-What it names must lie below one of the folders `roots` or in a ROS package; without any, anywhere.
-Raises InputError.)");
+roots: folders; if any are given, all files that the scene names must lie below one of them or in a ROS package.
+Raises InputError if a file cannot be read or is not valid.)");
 }
 
 void bind_state_access(py::class_<Simulation>& type) {
-  type.def_property_readonly("time", &Simulation::time, "[s].")
+  type.def_property_readonly("time", &Simulation::time, "Simulated time [s].")
       .def_property_readonly("newest_sample", &Simulation::newest_sample, "Time of the newest sample of any hand [s].")
       .def_property_readonly("names", &names, "Names of the movable objects, in the order of all arrays.")
       .def_property_readonly(
@@ -111,16 +112,20 @@ void bind_state_access(py::class_<Simulation>& type) {
           "Poses of the objects at their centres of mass; shape (n, 4, 4).")
       .def_property_readonly("twists", &twists, "Velocity [m/s] and angular velocity [rad/s], world; shape (n, 6).")
       .def_property_readonly(
-          "held", [](const Simulation& s) { return flags(s, &bodies::BodyState::held); }, "Shape (n,).")
+          "held", [](const Simulation& s) { return flags(s, &bodies::BodyState::held); },
+          "True for each object that a hand holds; shape (n,).")
       .def_property_readonly(
-          "in_contact", [](const Simulation& s) { return flags(s, &bodies::BodyState::in_contact); }, "Shape (n,).")
+          "in_contact", [](const Simulation& s) { return flags(s, &bodies::BodyState::in_contact); },
+          "True for each object that touches another body or the bench; shape (n,).")
       .def_property_readonly(
-          "asleep", [](const Simulation& s) { return flags(s, &bodies::BodyState::asleep); }, "Shape (n,).")
-      .def_property_readonly("contacts", &Simulation::contacts, "A list of Contact.")
-      .def("fork", &Simulation::fork, py::arg("hand") = 0, "The tool in a hand.")
-      .def("save", &Simulation::save, "The whole state, as a value.")
+          "asleep", [](const Simulation& s) { return flags(s, &bodies::BodyState::asleep); },
+          "True for each object that is at rest and costs nothing until something moves it; shape (n,).")
+      .def_property_readonly("contacts", &Simulation::contacts,
+                             "Contact points at the present time: a list of Contact.")
+      .def("fork", &Simulation::fork, py::arg("hand") = 0, "Returns the state of the tool in a hand (0 or 1).")
+      .def("save", &Simulation::save, "Returns the whole state.")
       .def("restore", &Simulation::restore, py::arg("state"),
-           "Restores a saved state, from which the future is bit-identical. Raises InputError for a state of "
+           "Restores a saved state; the simulation then continues bit-identically. Raises InputError if the state has "
            "other objects, another contact mode or another shape of the fork.")
       .def_property_readonly(
           "state_hash", [](const Simulation& s) { return simulation::to_hex(s.state_hash()); },
@@ -133,75 +138,86 @@ void bind_changes(py::class_<Simulation>& type) {
           [](Simulation& s, const std::string& tool, std::size_t hand) {
             s.select_tool(value_of<tools::Tool>(tool, "tool"), hand);
           },
-          py::arg("tool"), py::arg("hand") = 0, "spring, spring_fork, spring_probe, direct or ray.")
+          py::arg("tool"), py::arg("hand") = 0,
+          "Changes the tool in a hand to spring, spring_fork, spring_probe, direct or ray.")
       .def("change", &change, py::kw_only(), py::arg("stiffness") = py::none(), py::arg("damping_ratio") = py::none(),
            py::arg("dofs") = py::none(), py::arg("integrator") = py::none(), py::arg("step") = py::none(),
            py::arg("tolerance") = py::none(),
-           R"(Changes every fork and the steps while running, all or nothing; fields that are not given stay.
+           R"(Changes every fork and the integration, all or nothing; values that are not given stay as they are.
 
-stiffness: of stretching, bending [N/m] and twisting [N m/rad]; damping_ratio: of the same; dofs: which of them are on;
-step [s]; tolerance [m], 0 for fixed steps. Raises InputError.)")
+stiffness: of stretching, bending [N/m] and twisting [N m/rad]; damping_ratio: of the same three; dofs: True for each of
+the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a value is not allowed.)")
       .def(
           "calibrate", [](Simulation& s) { s.calibrate(); },
-          "Stiffness from the mass and size of the object in each hand. Raises InputError if nothing is held.")
+          "Chooses the stiffness of each hand's tool from the mass and size of its object. Raises InputError if "
+          "nothing is "
+          "held by a fork or a spring.")
       .def(
           "release", [](Simulation& s) { return s.release(); },
-          "Every hand releases its object. False if nothing was held.")
+          "Releases the objects of all hands. Returns False if nothing was held.")
       .def(
           "place", [](Simulation& s, const std::map<std::string, Array>& poses) { s.place(to_poses(poses)); },
-          py::arg("poses"), "Places objects, given by name, at rest at these poses; nothing is held then.")
-      .def("reset", &Simulation::reset, "Puts objects back to their start, with nothing held and no sample known.");
+          py::arg("poses"),
+          "Releases all objects and places those named in `poses` (name: pose, shape (4, 4)), at rest. Raises "
+          "InputError if "
+          "a pose is invalid.")
+      .def("reset", &Simulation::reset,
+           "Puts all objects back to their initial poses; nothing is held, and all samples are forgotten.");
 }
 
 }  // namespace
 
 void bind_settings(py::module_& module) {
   using simulation::SettingDescription;
-  py::class_<SettingDescription>(module, "SettingDescription", "Description of one key.")
-      .def_readonly("key", &SettingDescription::key)
-      .def_readonly("type", &SettingDescription::type)
-      .def_readonly("unit", &SettingDescription::unit)
-      .def_readonly("allowed", &SettingDescription::allowed)
-      .def_readonly("default", &SettingDescription::default_value)
-      .def_readonly("meaning", &SettingDescription::meaning);
-  module.def("setting_descriptions", &simulation::setting_descriptions, "All keys of Settings.");
+  py::class_<SettingDescription>(module, "SettingDescription", "Description of one setting.")
+      .def_readonly("key", &SettingDescription::key, "Key of the setting, with dots.")
+      .def_readonly("type", &SettingDescription::type, "Type of the value.")
+      .def_readonly("unit", &SettingDescription::unit, "SI unit of the value.")
+      .def_readonly("allowed", &SettingDescription::allowed, "Values that are allowed.")
+      .def_readonly("default", &SettingDescription::default_value, "Value if none is given.")
+      .def_readonly("meaning", &SettingDescription::meaning, "What the setting does.");
+  module.def("setting_descriptions", &simulation::setting_descriptions, "Returns the descriptions of all settings.");
   const auto update = [](SimulationSettings& settings, const py::dict& values) {
     simulation::apply_settings(to_yaml(values), "settings", settings);
   };
-  py::class_<SimulationSettings>(module, "Settings",
-                                 "All settings of a simulation; setting_descriptions() explains them.")
+  py::class_<SimulationSettings>(module, "Settings", "Settings of a simulation; setting_descriptions() explains them.")
       .def(py::init([=](const py::dict& values) {
              SimulationSettings settings;
              update(settings, values);
              return settings;
            }),
            py::arg("values") = py::dict(),
-           "values: nested or with dotted keys, as a settings file has them. Raises InputError for an unknown key, a "
-           "wrong type or a value out of range.")
-      .def("update", update, py::arg("values"), "Sets these values, all or none. Raises InputError.");
+           "values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown "
+           "key, a "
+           "wrong type or a value that is not allowed.")
+      .def("update", update, py::arg("values"),
+           "Sets these values, all or none. Raises InputError as the constructor does.");
 }
 
 void bind_simulation(py::module_& module) {
   bind_scene(module);
   py::class_<Simulation> type(module, "Simulation",
-                              "A scene, two hands and their tools. It owns time: no clock, no thread; the same calls "
-                              "give bit-identical results.");
+                              "Simulation of a scene with two hands and their tools. It reads no clock and starts no "
+                              "thread; the same calls give bit-identical results.");
   type.def(py::init<const scene::Scene&, const SimulationSettings&>(), py::arg("scene"),
            py::arg_v("settings", SimulationSettings(), "Settings()"),
-           "Raises InputError if settings and scene do not match.")
+           "Starts a simulation of `scene`. Raises InputError if settings and scene do not match.")
       .def(
           "push_stylus",
           [](Simulation& s, double t, const Array& pose, std::size_t hand) {
             return s.push_stylus({t, to_pose(pose, "pose")}, hand);
           },
           py::arg("t"), py::arg("pose"), py::arg("hand") = 0,
-          "A new pose of the stylus, shape (4, 4), at time t [s]; its z axis is the fork's, from the hand to the tip. "
-          "False if t is not later than that of the newest pose. Raises InputError if the pose is invalid.")
+          "Adds a pose of the stylus, shape (4, 4), at time t [s]; its z axis is that of the fork, from the hand to "
+          "the "
+          "tip. Returns False if t is not later than the time of the newest pose. Raises InputError if the pose is "
+          "invalid.")
       .def("push_button", &Simulation::push_button, py::arg("t"), py::arg("pressed"), py::arg("hand") = 0,
-           "The grasp button goes down or up at time t [s].")
-      .def("push_motion", &push_motion, py::arg("motion"), py::arg("hand") = 0, "Pushes all samples and button edges.")
+           "Presses (True) or releases (False) the grasp button at time t [s].")
+      .def("push_motion", &push_motion, py::arg("motion"), py::arg("hand") = 0,
+           "Adds all samples and button edges of a recorded motion.")
       .def("advance", &Simulation::advance, py::arg("t_end"), py::call_guard<py::gil_scoped_release>(),
-           "Simulates up to time t_end [s] in steps that also end at the samples.");
+           "Simulates up to time t_end [s], in steps that also end at the samples. Returns a Report.");
   bind_state_access(type);
   bind_changes(type);
 }

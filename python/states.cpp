@@ -23,21 +23,27 @@ void bind_fork(py::module_& module) {
   const auto per_dof = [](const rod::PerDof& values) {
     return to_array(Vector3d(values.stretch, values.bend, values.torsion));
   };
-  py::class_<ToolState>(module, "Fork", "The tool in a hand and what it does, at one moment.")
-      .def_readonly("present", &ToolState::present, "Whether a sample of this hand is known.")
-      .def_property_readonly("tool", [](const ToolState& s) { return word(s.tool); })
-      .def_readonly("held_object", &ToolState::held_object, "Name; empty if nothing is held.")
+  py::class_<ToolState>(module, "Fork", "State of the tool in one hand at one moment.")
+      .def_readonly("present", &ToolState::present, "True once a sample of this hand has arrived.")
+      .def_property_readonly(
+          "tool", [](const ToolState& s) { return word(s.tool); },
+          "Name of the tool: spring_fork, spring, spring_probe, direct or ray.")
+      .def_readonly("held_object", &ToolState::held_object, "Name of the held object; empty if nothing is held.")
       .def_readonly("touched", &ToolState::touched,
-                    "The body that the probe touches, `workbench` for the bench; otherwise empty.")
-      .def_property_readonly("shape", [](const ToolState& s) { return word(s.shape); })
-      .def_property_readonly("integrator", [](const ToolState& s) { return word(s.integrator); })
-      .def_readonly("length", &ToolState::length, "Rest length [m].")
+                    "Name of the body that the probe touches (`workbench`: the bench); empty if it touches none.")
+      .def_property_readonly(
+          "shape", [](const ToolState& s) { return word(s.shape); },
+          "Shape model of the fork: constant, linear or bushing.")
+      .def_property_readonly(
+          "integrator", [](const ToolState& s) { return word(s.integrator); },
+          "Name of the integrator; see integrators().")
+      .def_readonly("length", &ToolState::length, "Rest length of the fork [m].")
       .def_property_readonly(
           "dofs",
           [](const ToolState& s) {
             return std::array<bool, 3>{s.dofs.stretch, s.dofs.bend, s.dofs.torsion};
           },
-          "Whether stretching, bending and twisting are on.")
+          "True for each of stretching, bending and twisting that is on; a DOF that is off is rigid.")
       .def_property_readonly(
           "stiffness", [=](const ToolState& s) { return per_dof(s.stiffness); },
           "Stiffness of stretching, bending [N/m] and twisting [N m/rad]; shape (3,).")
@@ -46,7 +52,7 @@ void bind_fork(py::module_& module) {
           "Damping ratio of stretching, bending and twisting; shape (3,).")
       .def_property_readonly(
           "strain", [](const ToolState& s) { return to_array(s.strain); },
-          "Coordinates of the shape model; shape (n,), n at most 6.")
+          "Strain coordinates of the shape model; shape (n,), n at most 6.")
       .def_readonly("stretch", &ToolState::stretch, "Extension along the fork [m].")
       .def_property_readonly(
           "bend", [](const ToolState& s) { return to_array(s.bend); },
@@ -66,51 +72,57 @@ void bind_fork(py::module_& module) {
           "Force [N] and moment [N m] on the object at the tip, world axes; shape (6,).")
       .def_property_readonly(
           "handle_wrench", [](const ToolState& s) { return to_array(s.handle_wrench_H); },
-          "Wrench on the hand, in the handle's frame; shape (6,).")
+          "Force [N] and moment [N m] on the hand, in the handle's axes; shape (6,).")
       .def_readonly("elastic_energy", &ToolState::elastic_energy, "Energy stored in the fork [J].")
       .def_readonly("kinetic_energy", &ToolState::kinetic_energy, "Kinetic energy of the held object [J].")
-      .def_readonly("weight", &ToolState::weight, "Upward force on the object divided by g [kg].")
+      .def_readonly("weight", &ToolState::weight, "Upward force on the object divided by g [vkg].")
       .def_readonly("torque", &ToolState::torque, "Moment about the fork's axis at the tip [N m].")
       .def_readonly("material_stiffness", &ToolState::material_stiffness,
-                    "Reading of the probe [N/m]; inf: rigid; 0: no reading.");
+                    "Stiffness that the probe reads [N/m]; inf: rigid; 0: no reading.");
 }
 
 void bind_contact(py::module_& module) {
   using contact::ContactState;
-  py::class_<ContactState>(module, "Contact", "A contact of an object, world axes.")
-      .def_readonly("object", &ContactState::object)
-      .def_readonly("other", &ContactState::other, "Another object's name, or `workbench`.")
+  py::class_<ContactState>(module, "Contact", "Contact point between an object and another body, in world axes.")
+      .def_readonly("object", &ContactState::object, "Name of the object.")
+      .def_readonly("other", &ContactState::other, "Name of the other body, or `workbench`.")
       .def_property_readonly(
-          "point", [](const ContactState& c) { return to_array(c.p_W); }, "[m]; shape (3,).")
+          "point", [](const ContactState& c) { return to_array(c.p_W); },
+          "Position of the contact point in the world [m]; shape (3,).")
       .def_property_readonly(
           "normal", [](const ContactState& c) { return to_array(c.n_W); }, "Unit vector towards `object`; shape (3,).")
-      .def_readonly("depth", &ContactState::depth, "Penetration [m].")
+      .def_readonly("depth", &ContactState::depth, "Penetration along the normal [m].")
       .def_readonly("impulse", &ContactState::impulse, "Normal impulse in the last step [N s].")
       .def_readonly("force", &ContactState::force, "Mean normal force over that step [N].")
-      .def_readonly("slip_speed", &ContactState::slip_speed, "[m/s].")
+      .def_readonly("slip_speed", &ContactState::slip_speed, "Speed of the object along the surface [m/s].")
       .def_property_readonly(
-          "phase", [](const ContactState& c) { return phase_of(c.phase); }, "started, persisting or ended.");
+          "phase", [](const ContactState& c) { return phase_of(c.phase); },
+          "Phase of the contact: started, persisting or ended.");
 }
 
 void bind_report(py::module_& module) {
   using simulation::AdvanceReport;
-  py::class_<AdvanceReport>(module, "Report", "What a call of `advance` did.")
-      .def_readonly("steps", &AdvanceReport::steps, "Steps taken.")
-      .def_readonly("substeps", &AdvanceReport::substeps,
-                    "Attempts repeated with a shorter step because of their error.")
-      .def_readonly("simulated_time", &AdvanceReport::simulated_time, "[s].")
+  py::class_<AdvanceReport>(module, "Report", "Report of one call of `advance`.")
+      .def_readonly("steps", &AdvanceReport::steps, "Number of steps taken.")
+      .def_readonly(
+          "substeps", &AdvanceReport::substeps,
+          "Number of steps that were discarded and repeated with a shorter step because their error was too large.")
+      .def_readonly("simulated_time", &AdvanceReport::simulated_time, "Simulated time [s].")
       .def_readonly("position_error", &AdvanceReport::position_error, "Largest estimate of a step's local error [m].")
-      .def_readonly("angle_error", &AdvanceReport::angle_error, "Likewise for the angle [rad].")
-      .def_readonly("energy_added", &AdvanceReport::energy_added, "Energy added by integration [J].")
+      .def_readonly("angle_error", &AdvanceReport::angle_error,
+                    "Largest estimate of a step's local error in the angle [rad].")
+      .def_readonly("energy_added", &AdvanceReport::energy_added,
+                    "Energy added by the integration beyond hand, gravity, contact and damping [J].")
       .def_readonly("stiffest_omega_dt", &AdvanceReport::stiffest_omega_dt,
-                    "Frequency of the stiffest mode times the step.")
+                    "Angular frequency of the stiffest mode times the step.")
       .def_readonly("steps_blocked", &AdvanceReport::steps_blocked,
-                    "Steps in which contact admitted no motion of an object.")
-      .def_readonly("time_lost", &AdvanceReport::time_lost, "Time during which a body did not follow its equation [s].")
+                    "Number of steps in which contact admitted no motion of an object.")
+      .def_readonly("time_lost", &AdvanceReport::time_lost,
+                    "Time during which a body did not follow its equation of motion [s].")
       .def_readonly("steps_rejected", &AdvanceReport::steps_rejected,
-                    "Steps rejected: the result was not finite or bounded.")
-      .def_readonly("active", &AdvanceReport::active, "Subsystems that ran.")
-      .def_readonly("skipped", &AdvanceReport::skipped, "Subsystems that were not needed.");
+                    "Number of steps rejected because their result was not finite or bounded.")
+      .def_readonly("active", &AdvanceReport::active, "Names of the subsystems that ran.")
+      .def_readonly("skipped", &AdvanceReport::skipped, "Names of the subsystems that were not needed.");
 }
 
 }  // namespace
@@ -120,10 +132,10 @@ void bind_states(py::module_& module) {
   bind_fork(module);
   bind_contact(module);
   bind_report(module);
-  py::class_<SimulationState>(module, "State", "A whole simulation between two calls: a value. It can be pickled.")
+  py::class_<SimulationState>(module, "State", "Saved state of a whole simulation. It can be compared and pickled.")
       .def_property_readonly(
           "hash", [](const SimulationState& s) { return simulation::to_hex(s.hash()); },
-          "16 hexadecimal digits, the same on every machine.")
+          "Hash of the state: 16 hexadecimal digits, the same on every machine.")
       .def(
           "__eq__", [](const SimulationState& a, const SimulationState& b) { return a == b; }, py::is_operator())
       .def("__hash__", [](const SimulationState& s) { return static_cast<std::size_t>(s.hash()); })
@@ -132,7 +144,7 @@ void bind_states(py::module_& module) {
 }
 
 void bind_motions(py::module_& module) {
-  py::class_<Motion>(module, "Motion", "A recorded hand.")
+  py::class_<Motion>(module, "Motion", "Recorded motion of one hand.")
       .def(
           "__len__", [](const Motion& m) { return m.samples.size(); }, "Number of samples.")
       .def_property_readonly(
@@ -142,7 +154,7 @@ void bind_motions(py::module_& module) {
             for (std::size_t i = 0; i < m.samples.size(); ++i) t[static_cast<Eigen::Index>(i)] = m.samples[i].t;
             return to_array(t);
           },
-          "Times since the first sample [s]; shape (n,).")
+          "Times of the samples since the first one [s]; shape (n,).")
       .def_property_readonly(
           "poses",
           [](const Motion& m) { return to_arrays(m.samples.size(), [&](std::size_t i) { return m.samples[i].X; }); },
@@ -154,7 +166,7 @@ void bind_motions(py::module_& module) {
             for (std::size_t i = 0; i < m.samples.size(); ++i) pressed.mutable_at(i) = m.samples[i].button;
             return pressed;
           },
-          "Whether the grasp button is down; shape (n,).");
+          "True for each sample at which the grasp button is down; shape (n,).");
   module.def(
       "read_motion",
       [](const std::string& path) {

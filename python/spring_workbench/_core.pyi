@@ -1,4 +1,4 @@
-"""The compiled part of spring_workbench."""
+"""Compiled part of spring_workbench."""
 
 from typing import Any, Dict, List, Mapping, Optional, Sequence
 
@@ -8,185 +8,285 @@ import numpy.typing as npt
 _Floats = npt.NDArray[np.float64]
 _Bools = npt.NDArray[np.bool_]
 
-class InputError(ValueError): ...
+class InputError(ValueError):
+    """Invalid input. The message names the field, what is allowed and what was given; the old state stays."""
 
 class SettingDescription:
+    """Description of one setting."""
     @property
-    def key(self) -> str: ...
+    def key(self) -> str:
+        """Key of the setting, with dots."""
     @property
-    def type(self) -> str: ...
+    def type(self) -> str:
+        """Type of the value."""
     @property
-    def unit(self) -> str: ...
+    def unit(self) -> str:
+        """SI unit of the value."""
     @property
-    def allowed(self) -> str: ...
+    def allowed(self) -> str:
+        """Values that are allowed."""
     @property
-    def default(self) -> str: ...
+    def default(self) -> str:
+        """Value if none is given."""
     @property
-    def meaning(self) -> str: ...
+    def meaning(self) -> str:
+        """What the setting does."""
 
 class Settings:
-    def __init__(self, values: Mapping[str, Any] = ...) -> None: ...
-    def update(self, values: Mapping[str, Any]) -> None: ...
+    """Settings of a simulation; setting_descriptions() explains them."""
+    def __init__(self, values: Mapping[str, Any] = ...) -> None:
+        """values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown
+        key, a wrong type or a value that is not allowed."""
+    def update(self, values: Mapping[str, Any]) -> None:
+        """Sets these values, all or none. Raises InputError as the constructor does."""
 
 class Scene:
+    """Bodies, materials and gravity of a scene, read from a URDF and the YAML file next to it."""
     @property
-    def name(self) -> str: ...
+    def name(self) -> str:
+        """Name of the scene: that of its URDF file, without .urdf."""
     @property
-    def path(self) -> str: ...
+    def path(self) -> str:
+        """Path of the URDF."""
     @property
-    def gravity(self) -> float: ...
+    def gravity(self) -> float:
+        """Gravity along -z of the world [m/s2]."""
     @property
-    def contact(self) -> str: ...
+    def contact(self) -> str:
+        """Contact mode: none, stop or dynamic."""
     @property
-    def tool(self) -> str: ...
+    def tool(self) -> str:
+        """Name of the tool with which each hand starts."""
     @property
-    def masses(self) -> Dict[str, float]: ...
+    def masses(self) -> Dict[str, float]:
+        """Mass of each movable object [kg], by name."""
     @property
-    def warnings(self) -> List[str]: ...
+    def warnings(self) -> List[str]:
+        """Warnings about what was repaired on loading, one line each."""
 
 class Motion:
-    def __len__(self) -> int: ...
+    """Recorded motion of one hand."""
+    def __len__(self) -> int:
+        """Number of samples."""
     @property
-    def times(self) -> _Floats: ...
+    def times(self) -> _Floats:
+        """Times of the samples since the first one [s]; shape (n,)."""
     @property
-    def poses(self) -> _Floats: ...
+    def poses(self) -> _Floats:
+        """Poses of the stylus; shape (n, 4, 4)."""
     @property
-    def buttons(self) -> _Bools: ...
+    def buttons(self) -> _Bools:
+        """True for each sample at which the grasp button is down; shape (n,)."""
 
 class Fork:
+    """State of the tool in one hand at one moment."""
     @property
-    def present(self) -> bool: ...
+    def present(self) -> bool:
+        """True once a sample of this hand has arrived."""
     @property
-    def tool(self) -> str: ...
+    def tool(self) -> str:
+        """Name of the tool: spring_fork, spring, spring_probe, direct or ray."""
     @property
-    def held_object(self) -> str: ...
+    def held_object(self) -> str:
+        """Name of the held object; empty if nothing is held."""
     @property
-    def touched(self) -> str: ...
+    def touched(self) -> str:
+        """Name of the body that the probe touches (`workbench`: the bench); empty if it touches none."""
     @property
-    def shape(self) -> str: ...
+    def shape(self) -> str:
+        """Shape model of the fork: constant, linear or bushing."""
     @property
-    def integrator(self) -> str: ...
+    def integrator(self) -> str:
+        """Name of the integrator; see integrators()."""
     @property
-    def length(self) -> float: ...
+    def length(self) -> float:
+        """Rest length of the fork [m]."""
     @property
-    def dofs(self) -> List[bool]: ...
+    def dofs(self) -> List[bool]:
+        """True for each of stretching, bending and twisting that is on; a DOF that is off is rigid."""
     @property
-    def stiffness(self) -> _Floats: ...
+    def stiffness(self) -> _Floats:
+        """Stiffness of stretching, bending [N/m] and twisting [N m/rad]; shape (3,)."""
     @property
-    def damping_ratio(self) -> _Floats: ...
+    def damping_ratio(self) -> _Floats:
+        """Damping ratio of stretching, bending and twisting; shape (3,)."""
     @property
-    def strain(self) -> _Floats: ...
+    def strain(self) -> _Floats:
+        """Strain coordinates of the shape model; shape (n,), n at most 6."""
     @property
-    def stretch(self) -> float: ...
+    def stretch(self) -> float:
+        """Extension along the fork [m]."""
     @property
-    def bend(self) -> _Floats: ...
+    def bend(self) -> _Floats:
+        """Deflection of the tip along x and y of the handle [m]; shape (2,)."""
     @property
-    def torsion(self) -> float: ...
+    def torsion(self) -> float:
+        """Twist angle [rad]."""
     @property
-    def stylus(self) -> _Floats: ...
+    def stylus(self) -> _Floats:
+        """Pose of the stylus; shape (4, 4)."""
     @property
-    def handle(self) -> _Floats: ...
+    def handle(self) -> _Floats:
+        """Pose of the handle; shape (4, 4)."""
     @property
-    def proxy_handle(self) -> _Floats: ...
+    def proxy_handle(self) -> _Floats:
+        """Pose of the proxy handle; shape (4, 4)."""
     @property
-    def tip(self) -> _Floats: ...
+    def tip(self) -> _Floats:
+        """Pose of the tip; shape (4, 4)."""
     @property
-    def tip_wrench(self) -> _Floats: ...
+    def tip_wrench(self) -> _Floats:
+        """Force [N] and moment [N m] on the object at the tip, world axes; shape (6,)."""
     @property
-    def handle_wrench(self) -> _Floats: ...
+    def handle_wrench(self) -> _Floats:
+        """Force [N] and moment [N m] on the hand, in the handle's axes; shape (6,)."""
     @property
-    def elastic_energy(self) -> float: ...
+    def elastic_energy(self) -> float:
+        """Energy stored in the fork [J]."""
     @property
-    def kinetic_energy(self) -> float: ...
+    def kinetic_energy(self) -> float:
+        """Kinetic energy of the held object [J]."""
     @property
-    def weight(self) -> float: ...
+    def weight(self) -> float:
+        """Upward force on the object divided by g [vkg]."""
     @property
-    def torque(self) -> float: ...
+    def torque(self) -> float:
+        """Moment about the fork's axis at the tip [N m]."""
     @property
-    def material_stiffness(self) -> float: ...
+    def material_stiffness(self) -> float:
+        """Stiffness that the probe reads [N/m]; inf: rigid; 0: no reading."""
 
 class Contact:
+    """Contact point between an object and another body, in world axes."""
     @property
-    def object(self) -> str: ...
+    def object(self) -> str:
+        """Name of the object."""
     @property
-    def other(self) -> str: ...
+    def other(self) -> str:
+        """Name of the other body, or `workbench`."""
     @property
-    def point(self) -> _Floats: ...
+    def point(self) -> _Floats:
+        """Position of the contact point in the world [m]; shape (3,)."""
     @property
-    def normal(self) -> _Floats: ...
+    def normal(self) -> _Floats:
+        """Unit vector towards `object`; shape (3,)."""
     @property
-    def depth(self) -> float: ...
+    def depth(self) -> float:
+        """Penetration along the normal [m]."""
     @property
-    def impulse(self) -> float: ...
+    def impulse(self) -> float:
+        """Normal impulse in the last step [N s]."""
     @property
-    def force(self) -> float: ...
+    def force(self) -> float:
+        """Mean normal force over that step [N]."""
     @property
-    def slip_speed(self) -> float: ...
+    def slip_speed(self) -> float:
+        """Speed of the object along the surface [m/s]."""
     @property
-    def phase(self) -> str: ...
+    def phase(self) -> str:
+        """Phase of the contact: started, persisting or ended."""
 
 class Report:
+    """Report of one call of `advance`."""
     @property
-    def steps(self) -> int: ...
+    def steps(self) -> int:
+        """Number of steps taken."""
     @property
-    def substeps(self) -> int: ...
+    def substeps(self) -> int:
+        """Number of steps that were discarded and repeated with a shorter step because their error was too large."""
     @property
-    def simulated_time(self) -> float: ...
+    def simulated_time(self) -> float:
+        """Simulated time [s]."""
     @property
-    def position_error(self) -> float: ...
+    def position_error(self) -> float:
+        """Largest estimate of a step's local error [m]."""
     @property
-    def angle_error(self) -> float: ...
+    def angle_error(self) -> float:
+        """Largest estimate of a step's local error in the angle [rad]."""
     @property
-    def energy_added(self) -> float: ...
+    def energy_added(self) -> float:
+        """Energy added by the integration beyond hand, gravity, contact and damping [J]."""
     @property
-    def stiffest_omega_dt(self) -> float: ...
+    def stiffest_omega_dt(self) -> float:
+        """Angular frequency of the stiffest mode times the step."""
     @property
-    def steps_blocked(self) -> int: ...
+    def steps_blocked(self) -> int:
+        """Number of steps in which contact admitted no motion of an object."""
     @property
-    def time_lost(self) -> float: ...
+    def time_lost(self) -> float:
+        """Time during which a body did not follow its equation of motion [s]."""
     @property
-    def steps_rejected(self) -> int: ...
+    def steps_rejected(self) -> int:
+        """Number of steps rejected because their result was not finite or bounded."""
     @property
-    def active(self) -> List[str]: ...
+    def active(self) -> List[str]:
+        """Names of the subsystems that ran."""
     @property
-    def skipped(self) -> List[str]: ...
+    def skipped(self) -> List[str]:
+        """Names of the subsystems that were not needed."""
 
 class State:
+    """Saved state of a whole simulation. It can be compared and pickled."""
     @property
-    def hash(self) -> str: ...
+    def hash(self) -> str:
+        """Hash of the state: 16 hexadecimal digits, the same on every machine."""
     def __eq__(self, other: object) -> bool: ...
     def __hash__(self) -> int: ...
 
 class Simulation:
-    def __init__(self, scene: Scene, settings: Settings = ...) -> None: ...
-    def push_stylus(self, t: float, pose: npt.ArrayLike, hand: int = 0) -> bool: ...
-    def push_button(self, t: float, pressed: bool, hand: int = 0) -> None: ...
-    def push_motion(self, motion: Motion, hand: int = 0) -> None: ...
-    def advance(self, t_end: float) -> Report: ...
+    """Simulation of a scene with two hands and their tools. It reads no clock and starts no thread; the same calls give
+    bit-identical results."""
+    def __init__(self, scene: Scene, settings: Settings = ...) -> None:
+        """Starts a simulation of `scene`. Raises InputError if settings and scene do not match."""
+    def push_stylus(self, t: float, pose: npt.ArrayLike, hand: int = 0) -> bool:
+        """Adds a pose of the stylus, shape (4, 4), at time t [s]; its z axis is that of the fork, from the hand to the
+        tip. Returns False if t is not later than the time of the newest pose. Raises InputError if the pose is
+        invalid."""
+    def push_button(self, t: float, pressed: bool, hand: int = 0) -> None:
+        """Presses (True) or releases (False) the grasp button at time t [s]."""
+    def push_motion(self, motion: Motion, hand: int = 0) -> None:
+        """Adds all samples and button edges of a recorded motion."""
+    def advance(self, t_end: float) -> Report:
+        """Simulates up to time t_end [s], in steps that also end at the samples. Returns a Report."""
     @property
-    def time(self) -> float: ...
+    def time(self) -> float:
+        """Simulated time [s]."""
     @property
-    def newest_sample(self) -> float: ...
+    def newest_sample(self) -> float:
+        """Time of the newest sample of any hand [s]."""
     @property
-    def names(self) -> List[str]: ...
+    def names(self) -> List[str]:
+        """Names of the movable objects, in the order of all arrays."""
     @property
-    def poses(self) -> _Floats: ...
+    def poses(self) -> _Floats:
+        """Poses of the objects at their centres of mass; shape (n, 4, 4)."""
     @property
-    def twists(self) -> _Floats: ...
+    def twists(self) -> _Floats:
+        """Velocity [m/s] and angular velocity [rad/s], world; shape (n, 6)."""
     @property
-    def held(self) -> _Bools: ...
+    def held(self) -> _Bools:
+        """True for each object that a hand holds; shape (n,)."""
     @property
-    def in_contact(self) -> _Bools: ...
+    def in_contact(self) -> _Bools:
+        """True for each object that touches another body or the bench; shape (n,)."""
     @property
-    def asleep(self) -> _Bools: ...
+    def asleep(self) -> _Bools:
+        """True for each object that is at rest and costs nothing until something moves it; shape (n,)."""
     @property
-    def contacts(self) -> List[Contact]: ...
-    def fork(self, hand: int = 0) -> Fork: ...
-    def save(self) -> State: ...
-    def restore(self, state: State) -> None: ...
+    def contacts(self) -> List[Contact]:
+        """Contact points at the present time: a list of Contact."""
+    def fork(self, hand: int = 0) -> Fork:
+        """Returns the state of the tool in a hand (0 or 1)."""
+    def save(self) -> State:
+        """Returns the whole state."""
+    def restore(self, state: State) -> None:
+        """Restores a saved state; the simulation then continues bit-identically. Raises InputError if the state has
+        other objects, another contact mode or another shape of the fork."""
     @property
-    def state_hash(self) -> str: ...
-    def select_tool(self, tool: str, hand: int = 0) -> None: ...
+    def state_hash(self) -> str:
+        """Hash of the whole state: 16 hexadecimal digits."""
+    def select_tool(self, tool: str, hand: int = 0) -> None:
+        """Changes the tool in a hand to spring, spring_fork, spring_probe, direct or ray."""
     def change(
         self,
         *,
@@ -196,14 +296,38 @@ class Simulation:
         integrator: Optional[str] = None,
         step: Optional[float] = None,
         tolerance: Optional[float] = None,
-    ) -> None: ...
-    def calibrate(self) -> None: ...
-    def release(self) -> bool: ...
-    def place(self, poses: Mapping[str, npt.ArrayLike]) -> None: ...
-    def reset(self) -> None: ...
+    ) -> None:
+        """Changes every fork and the integration, all or nothing; values that are not given stay as they
+        are.
 
-def load_scene(path: str, roots: Sequence[str] = ...) -> Scene: ...
-def read_motion(path: str) -> Motion: ...
-def pose(position: Sequence[float], quaternion: Sequence[float] = ...) -> _Floats: ...
-def integrators() -> List[str]: ...
-def setting_descriptions() -> List[SettingDescription]: ...
+        stiffness: of stretching, bending [N/m] and twisting [N m/rad]; damping_ratio: of the same three; dofs: True for
+        each of the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a value is not
+        allowed."""
+    def calibrate(self) -> None:
+        """Chooses the stiffness of each hand's tool from the mass and size of its object. Raises InputError if nothing
+        is held by a fork or a spring."""
+    def release(self) -> bool:
+        """Releases the objects of all hands. Returns False if nothing was held."""
+    def place(self, poses: Mapping[str, npt.ArrayLike]) -> None:
+        """Releases all objects and places those named in `poses` (name: pose, shape (4, 4)), at rest. Raises InputError
+        if a pose is invalid."""
+    def reset(self) -> None:
+        """Puts all objects back to their initial poses; nothing is held, and all samples are forgotten."""
+
+def load_scene(path: str, roots: Sequence[str] = ...) -> Scene:
+    """Reads a scene from a URDF (a path or package:// URI), with the YAML file of the same name next to it.
+
+    roots: folders; if any are given, all files that the scene names must lie below one of them or in a ROS package.
+    Raises InputError if a file cannot be read or is not valid."""
+def read_motion(path: str) -> Motion:
+    """Reads a recording (lines of `t x y z qx qy qz qw [button]`), or a script of waypoints (*.yaml). Raises
+    InputError."""
+def pose(position: Sequence[float], quaternion: Sequence[float] = ...) -> _Floats:
+    """Returns a pose as an array of shape (4, 4).
+
+    position: x, y, z [m]; quaternion: x, y, z, w, normalised here. Raises InputError if one has the wrong length or is
+    not finite, or if the quaternion is zero."""
+def integrators() -> List[str]:
+    """Returns the names that the setting `integrator` accepts."""
+def setting_descriptions() -> List[SettingDescription]:
+    """Returns the descriptions of all settings."""

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 
 namespace spring_workbench::dynamics {
 namespace {
@@ -33,7 +34,7 @@ RelativeMotion<double> seen_from(const motion::OwnAxesMotion& A, const motion::M
 }
 
 bool Couplings::attach(const std::vector<Attached>& couplings) {
-  if (couplings.size() > most) throw std::length_error("couplings: too many");
+  if (couplings.size() > most) throw std::length_error("couplings: at most " + std::to_string(most) + " are possible");
   attached_ = couplings;
   std::vector<Coupling::Key> keys;
   for (const Attached& a : attached_) keys.push_back(a.coupling->key());

@@ -25,7 +25,7 @@ SerialPort::SerialPort(const std::string& path, int baud) : path_(path), port_(c
     throw SerialError(path + ": no permission: your user must be in the group that owns the port (often dialout)");
   }
   if (error == boost::system::errc::inappropriate_io_control_operation) {
-    throw SerialError(path + ": is no serial port");
+    throw SerialError(path + ": is not a serial port");
   }
   if (error) fail(error);
   if (flock(port_.native_handle(), LOCK_EX | LOCK_NB) != 0) {
@@ -50,7 +50,7 @@ void SerialPort::set_up(int baud) {
 }
 
 void SerialPort::fail(const error_code& error) const {
-  throw SerialError(path_ + ": the port is gone: " + error.message());
+  throw SerialError(path_ + ": the port has disappeared: " + error.message());
 }
 
 void SerialPort::listen() {
@@ -75,7 +75,7 @@ void SerialPort::write(const std::string& bytes) {
     port_.cancel();
     context_.restart();
     while (!over && context_.run_one() > 0) continue;
-    throw SerialError(path_ + ": takes no bytes");
+    throw SerialError(path_ + ": accepts no data");
   }
   if (failure) fail(failure);
 }

@@ -26,7 +26,7 @@ double angle_between(const Quaterniond& a, const Quaterniond& b) {
 
 std::string to_string(GateResult result) {
   static const char* const names[] = {"accepted",
-                                      "new place",
+                                      "relocation",
                                       "not finite",
                                       "not a unit quaternion",
                                       "too far",
@@ -63,14 +63,17 @@ std::string complaint(GateResult result, const RawSample& sample, const InputSet
     case GateResult::not_later:
       return must_be("stamp", "later than the last one", stamp);
     case GateResult::too_close:
-      return must_be("stamp", "a quarter of the usual interval after the last one", stamp);
+      return must_be("stamp", "at least a quarter of the usual sample interval after the last one", stamp);
     case GateResult::too_fast:
       return must_be("position", "reached at max_speed = " + text(settings.max_speed) + " m/s or less", position);
     case GateResult::turns_too_fast:
       return must_be("rotation", "reached at max_turn_rate = " + text(settings.max_turn_rate) + " rad/s or less",
                      rotation);
     case GateResult::out_of_view:
-      return must_be("position", "farther than origin_radius = " + text(settings.origin_radius) + " m from the origin",
+      return must_be("position",
+                     "farther than origin_radius = " + text(settings.origin_radius) +
+                         " m from the origin, or the rotation more than origin_angle = " + text(settings.origin_angle) +
+                         " rad from the identity",
                      position);
   }
   return "";

@@ -44,16 +44,19 @@ const std::vector<Entry>& entries() {
              &T::max_distance),
       number("max_speed", "m/s", positive_or_infinite(), "a sample that would need a higher speed is rejected",
              &T::max_speed),
-      number("max_turn_rate", "rad/s", positive_or_infinite(), "likewise", &T::max_turn_rate),
+      number("max_turn_rate", "rad/s", positive_or_infinite(),
+             "a sample that would need a higher turn rate is rejected", &T::max_turn_rate),
       {{"accept_after", "–", "an integer between 1 and 10000", std::to_string(T().accept_after),
-        "after so many consecutive samples that agree with each other, the new position is accepted"},
+        "number of consecutive samples that must agree with each other before the new position is accepted"},
        [](const auto& node, const auto& where, const auto& name, T& settings) {
          settings.accept_after = config::read_integer(node, where, name, 1, 10000);
        }},
       number("origin_radius", "m", between(0.0, 1.0),
-             "a position this close to the origin of the frame, when the hand was not near it, is out of view; 0: off",
+             "a sample counts as out of view if its position is this close to the origin of the frame, its rotation is "
+             "within input.origin_angle of the identity, and the hand was not near the origin before; 0: off",
              &T::origin_radius),
-      number("origin_angle", "rad", between(0.0, 3.15), "and a rotation this close to the identity", &T::origin_angle),
+      number("origin_angle", "rad", between(0.0, 3.15),
+             "the angle from the identity that goes with input.origin_radius", &T::origin_angle),
       number("smoothing.min_cutoff", "Hz", between(0.0, 1e4), "cut-off of the One Euro filter at rest; 0: no filter",
              &T::min_cutoff),
       number("smoothing.beta", "Hz/(m/s)", between(0.0, 1e6), "increase of the cut-off of the position with speed",
@@ -61,15 +64,18 @@ const std::vector<Entry>& entries() {
       number("smoothing.beta_angle", "Hz/(rad/s)", between(0.0, 1e6),
              "increase of the cut-off of the rotation with angular speed", &T::beta_angle),
       {{"on_loss", "–", "one of " + validation::join(names_of(OnLoss())), validation::name_of(T().on_loss),
-        "after `input.loss_timeout`: freeze holds the object where the hand was last, release lets go of it"},
+        "after `input.loss_timeout`: freeze: the object stays where the hand was last; release: the object is "
+        "released"},
        [](const auto& node, const auto& where, const auto& name, T& settings) {
          settings.on_loss = config::read_named<OnLoss>(node, where, name);
        }},
-      number("loss_timeout", "s", validation::positive(), "after so long without a sample the hand is lost",
+      number("loss_timeout", "s", validation::positive(), "time without a sample after which the hand counts as lost",
              &T::loss_timeout),
       number("reacquisition_speed", "m/s", positive_or_infinite(),
-             "the most that catching up with a returned hand adds to its speed", &T::reacquisition_speed),
-      number("reacquisition_turn_rate", "rad/s", positive_or_infinite(), "likewise, of turning",
+             "the largest speed that catching up with a returned hand may add to its own speed",
+             &T::reacquisition_speed),
+      number("reacquisition_turn_rate", "rad/s", positive_or_infinite(),
+             "the largest turn rate that catching up with a returned hand may add to its own",
              &T::reacquisition_turn_rate),
   };
   return table;

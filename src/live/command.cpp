@@ -35,7 +35,7 @@ simulation::ChangeReport clutch(const Command& command, simulation::Simulation& 
     if (command.hand.value_or(hand) == hand) simulation.push_clutch(simulation.time(), command.on, hand);
   }
   simulation::ChangeReport report;
-  report.message = command.on ? "on: the hand moves without the tool" : "off: the tool goes with the hand";
+  report.message = command.on ? "on: the hand moves without the tool" : "off: the tool follows the hand";
   return report;
 }
 

@@ -1,6 +1,6 @@
 #include "spring_workbench/live/journal.h"
 
-#include "spring_workbench/validation/number_rule.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::live {
 
@@ -25,8 +25,8 @@ void Replayer::play(const Entry& entry, const AtStop& at_stop) {
     return;
   }
   if (entry.index != next_) {
-    validation::refuse("journal", "index", std::to_string(entry.index) + "; the recording lost a message",
-                       std::to_string(next_) + ", the next one");
+    throw validation::InputError("journal: message " + std::to_string(next_) +
+                                 " is missing from the recording: the next one is " + std::to_string(entry.index));
   }
   ++next_;
   go_to(entry.committed, at_stop);
@@ -59,9 +59,10 @@ void Replayer::apply(const Accepted& accepted) {
 void Replayer::apply(const Change& change) {
   const std::uint64_t hash = simulation_.front().state_hash();
   if (hash != change.hash_before) {
-    validation::refuse("journal",
-                       "state before \"" + change.what + "\" at " + std::to_string(simulation_.front().time()) + " s",
-                       simulation::to_hex(hash), "as recorded, " + simulation::to_hex(change.hash_before));
+    throw validation::InputError("journal: the state before \"" + change.what + "\" at " +
+                                 std::to_string(simulation_.front().time()) +
+                                 " s differs from the recorded one: hash " + simulation::to_hex(hash) + ", recorded " +
+                                 simulation::to_hex(change.hash_before));
   }
   if (change.state == simulation::SimulationState()) return;
   const bool again = change.command.kind != Command::Kind::none;

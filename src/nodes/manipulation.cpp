@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   std::thread([] {
     while (!end_asked) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     std::this_thread::sleep_for(longest_end);  // a master that is gone or hangs does not keep the node from its end
-    std::cerr << "the end takes longer than 1.5 s, as without a ROS master that answers: ending without it"
+    std::cerr << "shutdown has taken longer than 1.5 s, probably because the ROS master does not answer; exiting now"
               << std::endl;
     std::_Exit(0);
   }).detach();

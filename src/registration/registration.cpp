@@ -6,9 +6,9 @@
 #include <numeric>
 #include <optional>
 #include <set>
-#include <sstream>
 
 #include "constants.h"
+#include "millimetres.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::registration {
@@ -17,13 +17,6 @@ namespace {
 using Points = Eigen::Matrix3Xd;
 
 const std::string kWhere = "registration";
-
-std::string millimetres(double metres) {
-  std::ostringstream out;
-  out.precision(3);
-  out << 1e3 * metres << " mm";
-  return out.str();
-}
 
 RigidTransform fit(const Points& to, const Points& from) {
   RigidTransform X;
@@ -56,7 +49,7 @@ void check_shape(const std::vector<Landmark>& landmarks, const Points& to) {
   std::set<std::string> names;
   for (const Landmark& landmark : landmarks) {
     if (!names.insert(landmark.name).second)
-      validation::refuse(kWhere, "landmarks", landmark.name + " twice", "named once each");
+      throw validation::InputError(kWhere + ": landmarks: " + landmark.name + " is named twice");
     if (!landmark.p_B.allFinite() || !landmark.p_T.allFinite())
       validation::refuse(kWhere, landmark.name, "NaN or infinity", "finite numbers");
   }
@@ -142,7 +135,7 @@ PivotCalibration calibrate_tip(const std::vector<RigidTransform>& poses_TS, doub
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeThinU | Eigen::ComputeThinV);
   const double turned = svd.singularValues()[5] / std::sqrt(static_cast<double>(n));
   if (!(turned > least_turned))
-    validation::refuse(kWhere, "poses", "less", "turned by at least 20 degrees about two axes");
+    throw validation::InputError(kWhere + ": poses: must be turned by at least 20 degrees about two axes");
   const Eigen::VectorXd x = svd.solve(b);
   PivotCalibration result{x.head<3>(), x.tail<3>(), std::sqrt((A * x - b).squaredNorm() / static_cast<double>(n))};
   if (!(result.rms <= largest_rms)) {

@@ -4,6 +4,7 @@
 #include <iomanip>
 #include <sstream>
 
+#include "millimetres.h"
 #include "spring_workbench/config/yaml_fields.h"
 
 namespace spring_workbench::registration {
@@ -38,13 +39,13 @@ std::vector<Landmark> read_landmarks(const std::string& path) {
   const YAML::Node map = config::load_yaml_file(path);
   config::check_keys(map, path, "", {"landmarks"});
   if (!map["landmarks"] || !map["landmarks"].IsSequence()) {
-    validation::refuse(path, "landmarks", "no list", "a list of {name, position}");
+    throw validation::InputError(path + ": landmarks: must be a list of {name, position}");
   }
   std::vector<Landmark> landmarks;
   for (const YAML::Node& entry : map["landmarks"]) {
     config::check_keys(entry, path, "landmarks.", {"name", "position"});
     if (!entry["name"] || !entry["position"])
-      validation::refuse(path, "landmarks", "an entry without name or position", "a list of {name, position}");
+      throw validation::InputError(path + ": landmarks: each entry must have a name and a position");
     landmarks.push_back(
         {config::read_string(entry["name"], path, "name"), read_point(entry["position"], path, "position"), {}});
   }
@@ -77,9 +78,8 @@ std::vector<Landmark> touched_landmarks(std::vector<Landmark> landmarks,
     for (const motion::StylusSample& sample : touches[i]) {
       const double off = (sample.X.translation() - mean).norm();
       if (off <= largest_residual) continue;
-      validation::refuse(
-          "registration", "touch of " + landmarks[i].name, "a tip that moved by " + std::to_string(1e3 * off) + " mm",
-          "at rest to within " + std::to_string(1e3 * largest_residual) + " mm while the button is down");
+      validation::refuse("registration", "touch of " + landmarks[i].name, millimetres(off) + " from its mean",
+                         "at rest to within " + millimetres(largest_residual) + " while the button is down");
     }
     landmarks[i].p_T = mean;
   }

@@ -150,7 +150,7 @@ void BulletWorld::exchange_pairs(math::StateArchive& state, const std::vector<in
   }
   for (const Pair& pair : pairs) {
     btBroadphasePair* added = cache.addOverlappingPair(&proxy_of(object(pair.a)), &proxy_of(object(pair.b)));
-    if (added == nullptr) throw std::out_of_range("state: bodies that cannot touch");
+    if (added == nullptr) throw std::out_of_range("contact pair of bodies that cannot collide");
     if (pair.looked_at) look_at(*added, pair.parts);
   }
   for (std::size_t i = 0; i < objects.size(); ++i) object(objects[i]).setWorldTransform(X_now[i]);
@@ -186,14 +186,14 @@ void BulletWorld::exchange_manifolds(math::StateArchive& state) {
       };
       auto found = std::find_if(left.begin(), left.end(), is);
       if (found == left.end()) found = std::find_if(left.begin(), left.end(), of_bodies);
-      if (found == left.end()) throw std::out_of_range("state: a contact of bodies that are not near");
+      if (found == left.end()) throw std::out_of_range("contact between bodies that are not near each other");
       manifold = *found;
       ordered.push_back(manifold);
       left.erase(found);
     }
     int points = manifold->getNumContacts();
     state(points);
-    if (points < 0 || points > MANIFOLD_CACHE_SIZE) throw std::out_of_range("state: contacts");
+    if (points < 0 || points > MANIFOLD_CACHE_SIZE) throw std::out_of_range("invalid number of contact points");
     manifold->setNumContacts(points);
     for (int k = 0; k < points; ++k) state(manifold->getContactPoint(k));
   }
@@ -243,7 +243,8 @@ void BulletWorld::exchange_tree(math::StateArchive& state, btDbvt& tree, const s
     if (index == internal) {
       for (btDbvtNode*& child : node->childs) exchange_node(child, node);
     } else if (sets) {
-      if (std::find(objects.begin(), objects.end(), index) == objects.end()) throw std::out_of_range("state: a leaf");
+      if (std::find(objects.begin(), objects.end(), index) == objects.end())
+        throw std::out_of_range("the collision tree refers to an unknown body");
       node->childs[1] = nullptr;
       node->data = &proxy_of(object(index));
       proxy_of(object(index)).leaf = node;

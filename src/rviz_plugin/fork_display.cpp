@@ -17,8 +17,8 @@
 
 #include "constants.h"
 #include "spring_workbench/fork_mesh/load_color.h"
-#include "spring_workbench/validation/input_error.h"
 #include "spring_workbench/validation/names.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::rviz_plugin {
 namespace {
@@ -141,11 +141,10 @@ bool ForkDisplay::deform(const ForkState& fork) {
     const rod::StrainVector q = Eigen::Map<const Eigen::VectorXd>(
         fork.strain.data(),
         std::min<Eigen::Index>(static_cast<Eigen::Index>(fork.strain.size()), rod::max_strain_coordinates));
-    if (!(fork.load >= 0.0 && fork.load <= 1.0)) {
-      throw validation::InputError("load: " + std::to_string(fork.load) + " is not allowed: must be in [0, 1]");
-    }
+    validation::check_number("fork", "load", fork.load, validation::between(0.0, 1.0));
     if (q.size() != shape->size() || !shape->admissible(q) || !is_finite(fork.proxy_handle)) {
-      throw validation::InputError("strain: must be possible for a rod of shape " + fork.shape);
+      throw validation::InputError("fork: strain, proxy_handle: must be finite and possible for a rod of shape " +
+                                   fork.shape);
     }
     const auto& p = fork.proxy_handle.position;
     const auto& r = fork.proxy_handle.orientation;

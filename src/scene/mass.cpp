@@ -91,7 +91,7 @@ RigidMass mended_mass(const RigidMass& given, const std::vector<geometry::Shape>
   const RigidMass solid = solid_mass(shapes, density, where, warnings);
   if (!(solid.mass > 0.0))
     validation::refuse(where, "inertia", "one that " + defect, "physically possible unless the body has a shape");
-  warnings.push_back(where + ": inertia " + defect + ": its shape's is taken");
+  warnings.push_back(where + ": inertia " + defect + "; the inertia of its shape is used instead");
   return {given.mass, given.centre, solid.inertia * (given.mass / solid.mass)};
 }
 

@@ -43,8 +43,8 @@ ObjectEntry read_object(const YAML::Node& map, const std::string& path, const st
   field("massless", entry.massless, config::read_bool);
   field("urdf", entry.urdf, config::read_string);
   if (map["pose"].IsDefined() && !entry.urdf) {
-    validation::refuse(line_of(map["pose"], path), prefix + "pose", "a pose alone",
-                       "given together with urdf; other objects have theirs in the scene's URDF");
+    throw validation::InputError(line_of(map["pose"], path) + ": " + prefix +
+                                 "pose: can only be given together with urdf; the scene's URDF places other objects");
   }
   field("pose", entry.X_WL, config::read_pose);
   return entry;
@@ -83,7 +83,8 @@ void read_settings(const YAML::Node& map, const std::string& path, Scene& scene)
 template <class Read>
 void for_each_entry(const YAML::Node& map, const std::string& path, const std::string& key, const Read& read) {
   if (!map[key].IsDefined()) return;
-  if (!map[key].IsMap()) validation::refuse(line_of(map[key], path), key, "no map", "a map of names");
+  if (!map[key].IsMap())
+    throw validation::InputError(line_of(map[key], path) + ": " + key + ": must be a map of names");
   for (const auto& entry : map[key]) read(config::read_string(entry.first, path, key), entry.second);
 }
 

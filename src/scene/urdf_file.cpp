@@ -112,7 +112,8 @@ void take_out(TiXmlElement& link, TiXmlElement& element, const std::string& comp
   const std::string kind = element.ValueStr();
   if (kind == "inertial") {
     file.unreadable_inertials[name] = mass_of(element);
-    file.warnings.push_back(where + "inertial cannot be read (" + complaint + "): its shape's is taken");
+    file.warnings.push_back(where + "inertial cannot be read (" + complaint +
+                            "); the mass and inertia of its shape are used instead");
   } else {
     const TiXmlElement* shape = shape_of(element);
     if (is_urdf_shape(shape)) throw validation::InputError(where + kind + ": " + complaint);

@@ -244,7 +244,8 @@ void Hand::exchange(math::StateArchive& state, double now) {
   state(tool_, stylus_, ray_length_, inserted_, pressed_, grasped_by_name_, pushes_, grasp_, slip_, holds, touches,
         touched);
   if (state.sets()) {
-    if (grasp_.object >= std::max<std::size_t>(objects_.states().size(), 1)) throw std::out_of_range("state: object");
+    if (grasp_.object >= std::max<std::size_t>(objects_.states().size(), 1))
+      throw std::out_of_range("the tool holds an unknown object");
     hold_ = holds ? maker().make(grasp_, grasped_body(), now) : nullptr;
     const scene::Body* body = touched < scene_.bodies.size() ? &scene_.bodies[touched] : nullptr;
     const tools::InFront front{0.0, body, body != nullptr ? &body->material : &scene_.bench_material};

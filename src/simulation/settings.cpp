@@ -93,17 +93,18 @@ std::vector<Field> scene_fields(S& s) {
           s.contact, as_scene),
       number("gravity", "m/s²", between(0.0, 1e3), "along −z of world", s.gravity, as_scene),
       number("force_scale", "–", between(1e-9, 1e9), "ratio of virtual to real force", s.force_scale, as_scene),
-      number("hand.scale", "–", between(1e-3, 1e3),
-             "length in world per length of the hand's motion, counted from the origin of world; turns are as they are",
-             s.hand_scale),
-      integer("clutch.button", 2, 63, "the button of the stylus by which the hand moves without its tool",
+      number(
+          "hand.scale", "–", between(1e-3, 1e3),
+          "length in the world per length of the hand's motion, from the origin of the world; rotations are not scaled",
+          s.hand_scale),
+      integer("clutch.button", 2, 63, "the stylus button that, while it is down, lets the hand move without its tool",
               s.clutch_button),
   };
 }
 
 std::vector<Field> dynamics_fields(dynamics::DynamicsSettings& d) {
   return {
-      choice("integrator", "how the fork and the held object are stepped", d.integrator),
+      choice("integrator", "the method that integrates the motion of the fork and the held object", d.integrator),
       number("step", "s", between(1e-6, 1.0), "the largest step; a step also ends at every sample of the motion",
              d.step),
       number("tolerance", "m", between(0.0, stepping::StepControl::largest_tolerance),
@@ -135,11 +136,11 @@ std::vector<Field> fork_fields(rod::ForkSettings& f) {
              c.bend),
       number("fork.damping_coefficient.torsion", "N·m·s/rad", coefficient, "axial moment per unit twist rate",
              c.torsion),
-      choice(
-          "fork.damping_law",
-          "per_dof: Kelvin–Voigt, the ratio that of each degree of freedom alone; modal: every mode of the held object "
-          "has the ratio, which must be the same for all; coefficients: those of fork.damping_coefficient",
-          f.damping_law),
+      choice("fork.damping_law",
+             "per_dof: Kelvin–Voigt, each ratio is that of its degree of freedom alone; modal: all modes of the held "
+             "object have the same ratio, so the three ratios must be equal; coefficients: the values of "
+             "fork.damping_coefficient",
+             f.damping_law),
       flag("fork.dofs.stretch", "the fork stretches; false: rigid", f.dofs.stretch),
       flag("fork.dofs.bend", "the fork bends; false: rigid", f.dofs.bend),
       flag("fork.dofs.torsion", "the fork twists; false: rigid", f.dofs.torsion),
@@ -153,11 +154,11 @@ std::vector<Field> calibration_fields(tools::GraspSettings& s) {
   tools::ObjectGoal& of_object = s.object_goal;
   tools::WorldGoal& of_world = s.world_goal;
   return {
-      choice(
-          "calibrate",
-          "world: springs of the tool once for all objects of the scene, so that it stretches, bends and twists in "
-          "proportion to what it lifts; object: size, springs and dampers from each object at its grasp; none: as set",
-          s.calibrate),
+      choice("calibrate",
+             "world: the springs of the tool are chosen once for all objects of the scene, so that it stretches, bends "
+             "and twists in proportion to the load; object: size, springs and dampers are chosen for each object when "
+             "it is grasped; none: they stay as set",
+             s.calibrate),
       number("calibration.object.sag", "–", between(1e-3, 0.6),
              "fraction of the fork's length by which the object's weight extends and deflects it", of_object.sag),
       number("calibration.object.twist", "rad", between(1e-3, 1.5),
@@ -170,7 +171,7 @@ std::vector<Field> calibration_fields(tools::GraspSettings& s) {
              of_world.bend),
       number("calibration.world.twist", "rad", between(1e-3, 1.0),
              "twist under that weight at a lever of the object's radius of gyration", of_world.twist),
-      number("calibration.world.heaviest", "kg", between(1e-6, 1e6), "the weight to calibrate for", of_world.heaviest,
+      number("calibration.world.heaviest", "kg", between(1e-6, 1e6), "the mass to calibrate for", of_world.heaviest,
              "the scene's heaviest object"),
   };
 }
@@ -179,15 +180,14 @@ std::vector<Field> grasp_fields(S& s) {
   std::string& object = s.grasp.object;
   std::optional<RigidTransform>& tip = s.grasp.X_OE;
   return {
-      number("limit.force", "N", validation::positive_or_infinite(), "the largest force that the tool does at its tip",
-             s.limit.force),
+      number("limit.force", "N", validation::positive_or_infinite(),
+             "the largest force that the tool exerts at its tip", s.limit.force),
       number("limit.moment", "N·m", validation::positive_or_infinite(),
-             "the largest moment that the tool does at its tip", s.limit.moment),
-      choice(
-          "limit.action",
-          "what would take more than limit.force or limit.moment: let_go: is let go; slip: is pulled with that, while "
-          "the tool slips in the hand",
-          s.limit.action),
+             "the largest moment that the tool exerts at its tip", s.limit.moment),
+      choice("limit.action",
+             "what happens when holding an object would need more than limit.force or limit.moment: let_go: the object "
+             "is released; slip: the tool keeps pulling with the limit while it slips in the hand",
+             s.limit.action),
       {{"grasp.object", "string", "–", "the name of a movable object of the scene", "none: grasped by button",
         "this object is held from the first sample to the last"},
        [&](const auto& node, const auto& where) { object = config::read_string(node, where, "grasp.object"); },
@@ -202,10 +202,10 @@ std::vector<Field> grasp_fields(S& s) {
       flag("start.follow", "move the object so that the grasp fits the first pose of the handle", s.grasp.start_follow),
       choice("release", "a released object keeps its velocity (thrown) or is set to rest (dropped)", s.grasp.release),
       number("dropout_after", "s", validation::positive_or_infinite(),
-             "a longer gap between samples holds the handle still until the next one", s.dropout_after),
+             "if the gap between two samples is longer, the handle stays still until the next sample", s.dropout_after),
       integer("bisection_levels", 0, 30,
-              "number of halvings that find the end of a step that touches (the paper, section 5); 0: time of impact "
-              "instead",
+              "number of bisections that find the end of a step in which contact begins (section 5 of the paper); 0: "
+              "the time of impact is computed instead",
               s.bisection_levels),
   };
 }
@@ -256,8 +256,8 @@ void check_together(const S& settings, const std::string& where) {
                        "the same for stretch, bend and torsion if the damping law is modal");
   }
   if (settings.grasp.X_OE && !settings.grasp.start_follow) {
-    validation::refuse(where, "grasp.tip_in_object", "a pose without it",
-                       "given with start.follow: true, so that the object can move to it");
+    throw validation::InputError(where +
+                                 ": grasp.tip_in_object: needs start.follow: true, so that the object can move to it");
   }
 }
 
@@ -305,7 +305,7 @@ std::vector<SettingDescription> setting_descriptions() {
 }
 
 void apply_settings(const YAML::Node& values, const std::string& where, SimulationSettings& settings) {
-  if (!values.IsMap()) validation::refuse(where, "top level", "no map", "a map of settings");
+  if (!values.IsMap()) throw validation::InputError(where + ": top level: must be a map of settings");
   std::vector<KeyAndValue> flat;
   flatten(values, where, "", flat);
   SimulationSettings changed = settings;
@@ -313,7 +313,7 @@ void apply_settings(const YAML::Node& values, const std::string& where, Simulati
   std::set<std::string> seen;
   for (const auto& [key, node] : flat) {
     const std::string line = node.Mark().is_null() ? "" : ":" + std::to_string(node.Mark().line + 1);
-    if (!seen.insert(key).second) validation::refuse(where + line, key, "a second value", "given once");
+    if (!seen.insert(key).second) throw validation::InputError(where + line + ": " + key + ": given twice");
     find_field(table, key, where + line).read(node, where);
   }
   settings = changed;

@@ -275,7 +275,7 @@ void Simulation::Impl::exchange(math::StateArchive& state) {
 void Simulation::Impl::set(const math::StateArchive::Words& words) {
   math::StateArchive state(words);
   exchange(state);
-  if (!state.at_end()) throw std::out_of_range("state: goes on too long");
+  if (!state.at_end()) throw std::out_of_range("data left over at the end");
 }
 
 double Simulation::Impl::elastic_energy() const {
@@ -383,7 +383,7 @@ ChangeReport Simulation::select_tool(tools::Tool tool, std::size_t hand) {
   impl_->with_handover([&] { impl_->hand(hand).select_tool(tool, impl_->now); });
   change.elastic_energy_after = impl_->elastic_energy();
   change.message = "tool: " + validation::name_of(tool) +
-                   (held && !impl_->hand(hand).holds() ? "; it cannot hold, the object is let go" : "");
+                   (held && !impl_->hand(hand).holds() ? "; it cannot hold, so the object was released" : "");
   return change;
 }
 

@@ -45,7 +45,7 @@ SimulationState parse_state(const std::string& text) {
   } catch (const YAML::Exception&) {
   }
   if (!map.IsMap() || config::read_string(map["format"], where, "format") != format) {
-    validation::refuse(where, "format", "something else", format);
+    throw validation::InputError(where + ": format: must be " + format);
   }
   SimulationState state;
   state.scene_ = config::read_string(map["scene"], where, "scene");
@@ -58,7 +58,7 @@ SimulationState parse_state(const std::string& text) {
   }
   if (!all_hexadecimal || numbers.size() % word_digits != 0 ||
       config::read_string(map["hash"], where, "hash") != to_hex(state.hash())) {
-    validation::refuse(where, "numbers", "others", "those that the hash belongs to");
+    throw validation::InputError(where + ": numbers: damaged: they do not match the hash");
   }
   return state;
 }

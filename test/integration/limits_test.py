@@ -192,7 +192,7 @@ class Limits(unittest.TestCase):
 
         def answer(text):
             with rosbag.Bag(self.folder + "/a.bag", "w") as bag:
-                bag.write("/tf", self.transform(text, rospy.Time(1000)), rospy.Time(1000))
+                bag.write("/tf", self.transform(text, rospy.Time(1000, 50000000)), rospy.Time(1000))
             return self.run_program(["replay", "--scene", "scene.urdf", "--bag", "a.bag", "--out", "run.csv"])
 
         self.walk("Bags", answer)

@@ -5,7 +5,7 @@ namespace {
 
 TEST_F(Replay, ABuildWithoutRosRefusesBags) {
   expect_refused("--scene box.urdf --bag hand.bag --out run.csv",
-                 {"--bag: must be given to a build with ROS", "hand.bag"});
+                 {"--bag: this replay was built without ROS and cannot read bags; use --motion"});
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 
 /// Applies `values`: the key `rate` here, all others to the settings of the simulation.
 void apply(const YAML::Node& values, const std::string& where, Options& options) {
-  if (!values.IsMap()) validation::refuse(where, "top level", "no map", "a map of settings");
+  if (!values.IsMap()) throw validation::InputError(where + ": top level: must be a map of settings");
   YAML::Node settings(YAML::NodeType::Map);
   for (const auto& entry : values) {
     if (entry.first.IsScalar() && entry.first.Scalar() == "rate") {
@@ -34,7 +34,8 @@ void apply_assignment(const std::string& assignment, Options& options) {
 
 config::CommandOption once(const std::string& name, std::string& field) {
   return {name, [=, &field](const std::string& value) {
-            if (!field.empty()) validation::refuse(command_line, "--" + name, "another, " + value, "given once");
+            if (!field.empty())
+              throw validation::InputError(std::string(command_line) + ": --" + name + ": given twice");
             if (value.empty()) validation::refuse(command_line, "--" + name, "", "a path or a name");
             field = value;
           }};
@@ -52,10 +53,12 @@ void add_motion(const std::string& path, std::vector<std::string>& motions) {
 void check_complete(const Options& options) {
   if (options.scene.empty()) validation::refuse(command_line, "--scene", "", "the path of a scene's URDF");
   if (options.motions.empty() == options.bag.empty()) {
-    validation::refuse(command_line, "--motion, --bag", options.bag.empty() ? "" : "both", "one of the two");
+    if (options.bag.empty()) validation::refuse(command_line, "--motion, --bag", "", "one of the two");
+    throw validation::InputError(std::string(command_line) + ": --motion, --bag: cannot be given together");
   }
   if (options.bag.empty() && !(options.parent + options.child).empty())
-    validation::refuse(command_line, "--parent, --child", "--motion", "given together with --bag");
+    throw validation::InputError(std::string(command_line) +
+                                 ": --parent, --child: can only be given together with --bag");
   if (options.out.empty()) validation::refuse(command_line, "--out", "", "the path of the CSV file to write");
 }
 
@@ -96,8 +99,8 @@ replay --scene SCENE.urdf (--motion FILE [--motion FILE] | --bag FILE.bag) [--se
   --motion    the hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints.
               Give it twice for two hands; the time of each starts at its own first sample
   --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus) of any topic but
-              /tf_static, and buttons 0 (grasp), 1 (next tool) and clutch.button of stylus/joy; a second hand from
-              CHILD_2 (stylus_2) and stylus_2/joy, if the bag has them. If it has ~accepted and ~changes of
+              /tf_static, and buttons 0 (grasp), 1 (next tool) and clutch.button of stylus/joy; a second hand
+              from CHILD_2 (stylus_2) and stylus_2/joy, if the bag has them. If it has ~accepted and ~changes of
               manipulation, that live run is repeated bit by bit, with a line for each committed time
   --settings  a YAML file of the keys below
   --set       one key; may be given several times; takes precedence over --settings
@@ -110,7 +113,7 @@ RUN.csv, a line per output time and movable object (world, centre of mass; m, -,
   t,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz
 RUN.fork.csv, a line per output time and hand:
   t,fork,tool,held                          [s], the hand's fork (fork, fork_2), its tool, the object held
-  stretch,bend_x,bend_y,torsion             [m, m, m, rad] strain, seen at the tip
+  stretch,bend_x,bend_y,torsion             [m, m, m, rad] deformation of the fork, measured at its tip
   handle_x,...,handle_qw                    the hand in world
   proxy_x,...,proxy_qw                      the proxy handle (differs from the hand if the object cannot follow)
   tip_x,...,tip_qw                          the tip in world
@@ -122,17 +125,20 @@ RUN.fork.csv, a line per output time and hand:
   torque,torque_mean,torque_uncertainty     [N*m] the tool as a torque wrench
   material_stiffness,material_stiffness_uncertainty  [N/m] what spring_probe reads; inf: rigid; 0: no reading
 
-The last line on standard output is one JSON object: steps, simulated_time and wall_time and time_per_step [s], outputs,
-samples, samples_rejected (by the rules of input.*; rejected has the reasons), reacquisitions, losses (of the hand),
-position_error [m] and angle_error [rad] (the largest estimate of a step's local error), energy_drift [J] (added by
-integration beyond hand, gravity, damping and contact), stiffest_omega_dt, contacts (pairs that came into
-contact, as seen at the output times), collision_queries, steps_blocked (steps in which contact admitted no motion
-of an object), time_lost [s] (during which an object did not follow its equation), steps_rejected,
-state_hash (of the whole state at the end, 16 hexadecimal digits), active, skipped.
+The last line on standard output is one JSON object: steps, simulated_time, wall_time and time_per_step [s], outputs,
+samples, samples_rejected (by the rules of input.*; rejected has the reasons), dropouts (gaps longer than
+dropout_after), reacquisitions, losses (of the hand), position_error [m] and angle_error [rad] (the largest estimate of
+a step's local error), energy_drift [J] (added by integration beyond hand, gravity, damping and contact),
+stiffest_omega_dt, contacts (pairs that came into contact, as seen at the output times), collision_queries, substeps
+(attempts repeated with a shorter step), stops (steps that met the end of the fork's range), steps_fallback (steps taken
+by an L-stable rule because the integrator's equation was not solved), steps_blocked (steps in which contact admitted no
+motion of an object), time_lost [s] (during which an object did not follow its equation), steps_rejected, changes (by
+services and panels, from a bag with ~changes), changes_made_again, changes_mismatched (made again with another state
+than the recorded one), state_hash (of the whole state at the end, 16 hexadecimal digits), active, skipped.
 Exit status: 0 done; 2 bad arguments or input, with one line on standard error.
 
 Keys (unit; allowed; default): meaning
-  rate (Hz; a finite number in [0.001, 1e+06]; 50): output times per second
+  rate (Hz; a number between 0.001 and 1e6; 50): output times per second
 )";
   const auto add = [&](const std::string& key, const auto& d) {
     text << "  " << key << " (" << d.unit << "; " << d.allowed << "; " << d.default_value << "): " << d.meaning << "\n";

@@ -54,7 +54,7 @@ void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
   const YAML::Node kept = parameters[kKey];
   if (!kept) return;
   try {
-    if (!kept.IsMap()) validation::refuse("parameter", kKey, "no map", "the map that this node wrote");
+    if (!kept.IsMap()) throw validation::InputError("parameter resume: must be the map that this node wrote");
     if (config::read_string(kept["given_scene"], kKey, "given_scene") != parameters["scene"].as<std::string>()) return;
     const std::string scene = config::read_string(kept["scene"], kKey, "scene");
     const auto state = simulation::parse_state(config::read_string(kept["state"], kKey, "state"));

@@ -86,7 +86,7 @@ DiagnosticStatus ManipulationDiagnostics::report_input(const std::string& what, 
   }
   const double silence = now - hand.newest_arrival;
   status.add("time since newest sample [s]", silence);
-  if (silence > dropout_after_) status.raise(DiagnosticStatus::WARN, "no samples: the hand is held at rest");
+  if (silence > dropout_after_) status.raise(DiagnosticStatus::WARN, "no samples: the hand stays at rest");
   if (hand.reacquisition.losses > last.hand.reacquisition.losses)
     status.raise(DiagnosticStatus::WARN, "the hand was lost");
   if (hand.gate.dropouts > last.hand.gate.dropouts) status.raise(DiagnosticStatus::WARN, "dropouts");

@@ -105,7 +105,7 @@ bool ManipulationNode::run_step(double begin) {
 }
 
 void ManipulationNode::count(const live::CycleReport& report, bool deadline_missed) {
-  if (report.left_out > 0.0) ROS_WARN("%.3g s without input are skipped", report.left_out);
+  if (report.left_out > 0.0) ROS_WARN("skipped %.3g s without input", report.left_out);
   const std::lock_guard<std::mutex> lock(loop_mutex_);
   ++loop_.cycles;
   loop_.deadlines_missed += deadline_missed ? 1 : 0;
@@ -158,7 +158,7 @@ void ManipulationNode::end_with_its_master() {
   request[0] = request[1] = ros::this_node::getName();
   if (!ros::master::check() || ros::master::execute("lookupNode", request, response, payload, false)) return;
   ROS_FATAL(
-      "the ROS master was started anew and does not know this node: it ends; with respawn it comes back as it was");
+      "the ROS master was restarted and does not know this node, so the node exits; with respawn it resumes its state");
   checkpoint_.hand_over();
   ros::shutdown();
 }

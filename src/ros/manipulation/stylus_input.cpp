@@ -124,7 +124,7 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
       });
   if (wall_poses_.clock().steps() == steps) return;
   ++statistics_.clock_steps;
-  ROS_WARN_STREAM("the clock of " << sender_.name() << " was set: its stamps go on from there");
+  ROS_WARN_STREAM("the clock of " << sender_.name() << " was set: its stamps are followed from the new time");
 }
 
 void StylusInput::on_simulated_time(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {

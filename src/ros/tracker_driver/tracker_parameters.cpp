@@ -38,8 +38,7 @@ int read_head_station(const YAML::Node& value, const std::string& where, const s
 
 }  // namespace
 
-TrackerParameters read_tracker_parameters(const YAML::Node& given, const std::string& where) {
-  YAML::Node parameters = YAML::Clone(given);
+TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const std::string& where) {
   TrackerParameters result;
   for (const char* key : {"input", "truth"}) {
     if (parameters[key])

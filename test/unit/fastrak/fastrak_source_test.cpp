@@ -307,7 +307,7 @@ TEST(FastrakSource, SaysWhatIsWrong) {
   settings.port = folder.path("file");
   FastrakSource no_terminal(settings);
   no_terminal.read(0.01);
-  EXPECT_NE(no_terminal.health().text.find("is no serial port"), std::string::npos) << no_terminal.health().text;
+  EXPECT_NE(no_terminal.health().text.find("is not a serial port"), std::string::npos) << no_terminal.health().text;
 
   const PseudoTerminal terminal;
   settings.port = terminal.path();

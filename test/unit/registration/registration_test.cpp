@@ -103,7 +103,7 @@ TEST(Registration, WhatCannotTellThePoseIsRefused) {
   expect_refused(touched({{0, 0, 0}, {0.2, 0, 0}, {0.2, 0.2, 0}, {0, 0.2, 0}}, X, 1e-3, random), "only one order fits");
   auto doubled = touched(kPlaces, X, 0, random);
   doubled[1].name = doubled[0].name;
-  expect_refused(doubled, "named once");
+  expect_refused(doubled, "named twice");
   auto swapped = touched(kPlaces, X, 1e-4, random);
   std::swap(swapped[0].p_T, swapped[1].p_T);
   expect_refused(swapped, "order b, a, c, d, e");

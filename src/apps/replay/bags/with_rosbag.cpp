@@ -10,6 +10,7 @@
 #include <iostream>
 #include <regex>
 #include <set>
+#include <sstream>
 #include <utility>
 
 #include "../constants.h"
@@ -130,8 +131,8 @@ class BagReader {
       return;
     for (const auto& [before, now] : validation::renamed()) {
       if (!std::regex_search(message.getMessageDefinition(), std::regex("\\b" + before + "\\b"))) continue;
-      std::cerr << "warning: " << path_ << ": " << message.getTopic() << ": " << before << " is called " << now
-                << " now\n";
+      std::cerr << "warning: " << path_ << ": " << message.getTopic() << ": " << before << " is now called " << now
+                << "\n";
     }
   }
 
@@ -159,9 +160,9 @@ class BagReader {
     const auto hand = std::find_if(hands_.begin(), hands_.end(), [&](const Hand& h) { return h.frame == to; });
     if (from != parent_ || hand == hands_.end()) return;
     const ros::Time stamp = transform.header.stamp.isZero() ? received : transform.header.stamp;
-    const std::string where =
-        path_ + ": " + from + " -> " + to + " at " + std::to_string(stamp.sec) + "." + std::to_string(stamp.nsec);
-    hand->poses.push_back({stamp, to_pose(transform.transform, where)});
+    std::ostringstream where;
+    where << path_ << ": " << from << " -> " << to << " at " << stamp;
+    hand->poses.push_back({stamp, to_pose(transform.transform, where.str())});
   }
 
   [[noreturn]] void refuse_missing() const {

@@ -1,14 +1,18 @@
 #include "../motion.h"
-#include "spring_workbench/validation/number_rule.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::replay {
+namespace {
 
-std::vector<Motion> read_bag(const std::string& path, const std::string&, const std::string&, int) {
-  validation::refuse("command line", "--bag", path, "given to a build with ROS, which this one is not");
+[[noreturn]] void refuse_bag() {
+  throw validation::InputError(
+      "command line: --bag: this replay was built without ROS and cannot read bags; use --motion");
 }
 
-std::vector<live::Entry> read_journal(const std::string& path) {
-  validation::refuse("command line", "--bag", path, "given to a build with ROS, which this one is not");
-}
+}  // namespace
+
+std::vector<Motion> read_bag(const std::string&, const std::string&, const std::string&, int) { refuse_bag(); }
+
+std::vector<live::Entry> read_journal(const std::string&) { refuse_bag(); }
 
 }  // namespace spring_workbench::replay
