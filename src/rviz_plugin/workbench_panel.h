@@ -27,8 +27,8 @@ namespace spring_workbench::rviz_plugin {
 class LogSlider;
 class StepFigures;
 
-/// Tunes the fork of the node `manipulation` while it is used. What it shows comes from `~fork` and `~steps` alone;
-/// what a hand moves is asked of the node's services. Grey while the node is silent.
+/// Tunes the fork of the node `manipulation` while it is used. It shows only what `~fork` and `~steps` report; each
+/// change by the user is a call of a service of the node. Grey while the node is silent.
 class WorkbenchPanel : public rviz::Panel {
   Q_OBJECT
  public:
@@ -36,7 +36,7 @@ class WorkbenchPanel : public rviz::Panel {
   void onInitialize() override;
 
  Q_SIGNALS:
-  /// One line about a call that was made; from any thread.
+  /// Reports the result of a service call in one line; from any thread.
   void answered(const QString& text);
 
  private:

@@ -12,52 +12,54 @@
 
 namespace spring_workbench::simulation {
 
-/// One hand: a stylus, the tool in it, and what that holds.
+/// One hand: a stylus, the tool in it, and the object that the tool holds.
 class Hand {
  public:
   /// Keeps references to scene, settings and objects.
   Hand(const scene::Scene& scene, const SimulationSettings& settings, Objects& objects, tools::Tool tool);
 
-  /// Forgets what the stylus told, holds nothing. The workbench is reset beside it.
+  /// Forgets all samples and holds nothing. The caller resets the objects.
   void reset();
 
   motion::Stylus& stylus() { return stylus_; }
   const motion::Stylus& stylus() const { return stylus_; }
 
-  /// What is the tip in (highlight), or the probe on?
+  /// Finds the object that the tip is in, to highlight it, or that the probe touches.
   void select(double now);
-  /// Grasps, releases and changes tool, as the buttons' edges up to `now` and `grasp.object` say.
+  /// Grasps, releases and changes the tool, according to the button edges up to `now` and to `grasp.object`.
   void apply_buttons(double now);
   bool holds() const { return hold_ != nullptr; }
   void let_go(bool thrown, double now);
-  /// The tool stays where it is while the hand goes on alone, or follows it again. What is held keeps its twist.
+  /// Leaves the tool where it is while the hand moves alone (`on`), or lets it follow the hand again. A held object
+  /// keeps its twist.
   void set_clutch(bool on, double now);
   /// What the tool carries, in the workbench: the object that is held, or pushed by the probe.
   std::optional<std::size_t> carried() const {
     return hold_ || pushes_ ? std::optional<std::size_t>(grasp_.object) : std::nullopt;
   }
-  /// What is held by this tool alone, ready to be carried over the next `h` [s]; null where it rests and nothing has to
-  /// be done.
+  /// Returns the object that this tool alone holds, ready to be carried over the next `h` [s]; null if it rests and
+  /// nothing has to be done.
   bodies::SteppedBody* begin_step(double now, double h);
-  /// The same of a tool that is one of several on what it carries, or pushes it.
+  /// Prepares a step of a tool that shares its object with other tools, or pushes it.
   tools::ToolOnObject begin_shared_step(double now);
-  /// What it pushes, as none holds it.
+  /// Returns the object that the tool pushes, as a body that no tool holds.
   std::unique_ptr<tools::ToolHold> make_unheld(double now) const {
     return maker().make_unheld(grasped_body(), object().V_WO_W, now);
   }
-  /// After it has been carried.
+  /// Ends a step, after the object has been carried.
   void end_step(AdvanceReport& report);
 
-  /// Another tool, also while holding: the object goes on from its pose and twist, the new tool's strain is zero.
+  /// Changes the tool, also while it holds an object: the object continues from its pose and twist, and the strain of
+  /// the new tool is zero.
   void select_tool(tools::Tool tool, double now);
   /// What the springs do to what is held, at its centre, world axes.
   Wrench spring_pull() const { return hold_->spring_pull(); }
-  /// The only tool left on what is held does from now on what `pull_W` says; the object does not move.
+  /// Makes this tool, the only one left on the object, exert `pull_W` from now on; the object does not move.
   void take_over(const Wrench& pull_W, double now);
 
   /// The fork of this hand: as set, changed and calibrated since.
   const rod::ForkSettings& fork() const { return fork_; }
-  /// The change reaches what is held; it fits the fork.
+  /// Changes the fork, also while it holds an object. The change must be valid.
   void change_fork(const ForkChange& change, ChangeReport& report);
   /// That of the settings, which are changed before.
   void change_integrator() {
@@ -67,11 +69,11 @@ class Hand {
   bool calibrate(ChangeReport& change, double now);
 
   double elastic_energy() const { return probe_ ? probe_->elastic_energy() : hold_ ? hold_->elastic_energy() : 0.0; }
-  /// The families that ran since the last call of begin_call().
+  /// Returns the DOFs that moved since the last call of begin_call().
   rod::ForkDofs dofs_run() const {
     return hold_ && moved_ ? maker().possible_dofs(grasp_, grasped_body()) : rod::ForkDofs{false, false, false};
   }
-  /// Whether something is held on springs, and has mass.
+  /// Returns whether the hand holds an object with mass on springs.
   bool springs() const { return dynamic() && !objects_.massless(grasp_.object); }
   /// The object on the tool that slips in the hand and does no more than that, ready to be carried over a step.
   bodies::SteppedBody* begin_slip(const Wrench& at_tip_W);
@@ -110,10 +112,10 @@ class Hand {
   tools::HoldMaker maker() const { return {fork_, settings_.dynamics, scene_.gravity}; }
   void make_hold(double now);
   bool to_world() const { return settings_.grasp.calibrate == tools::Calibration::world; }
-  /// Springs and dampers for what is held, or the world's; the settings tell the stiffness. False where the tool has no
-  /// springs.
+  /// Sets springs and dampers for the held object, or those for the whole scene, as the settings specify. Returns false
+  /// if the tool has no springs.
   bool calibrate_hold();
-  /// The held object goes on with this twist, whatever families are off.
+  /// Gives the held object this twist, whichever DOFs are off.
   void keep_twist(const Twist& V_WO_W);
 
   const scene::Scene& scene_;

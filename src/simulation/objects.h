@@ -13,7 +13,7 @@
 
 namespace spring_workbench::simulation {
 
-/// What a tool holds, to be carried over a step.
+/// Body that a tool carries over a step.
 struct Carried {
   std::size_t object;  ///< in the workbench
   bodies::SteppedBody* body;
@@ -27,7 +27,7 @@ class Objects {
   /// Keeps a reference to `scene`. `bisection_levels`: of the search for contact.
   Objects(const scene::Scene& scene, int bisection_levels);
 
-  /// All objects back to their start, asleep.
+  /// Puts all objects back to their initial poses, asleep.
   void reset();
 
   const std::vector<bodies::BodyState>& states() const { return states_; }
@@ -54,13 +54,13 @@ class Objects {
   /// Puts an object that no tool has somewhere, at rest; it falls from there.
   void place(std::size_t object, const RigidTransform& X_WO, double now);
 
-  /// Wakes the sleepers that rest on `object`, and on one another.
+  /// Wakes the sleeping objects that rest on `object`, directly or on one another.
   void wake_what_lies_on(std::size_t object, double now);
-  /// Whether nothing that a held object could touch moves.
+  /// Returns whether nothing moves that a held object could touch.
   bool rests(std::size_t object) const;
 
-  /// Carries what is held and all that flies freely over `h` [s] from `now` on, with contact as the scene has it; who
-  /// has been slow for long enough falls asleep.
+  /// Carries held and free objects over `h` [s] from `now` on, with the contact mode of the scene. An object that has
+  /// been slow for long enough falls asleep.
   void step(const std::vector<Carried>& held, double now, double h, AdvanceReport& report);
 
   /// Between two calls of `advance`.
@@ -73,7 +73,7 @@ class Objects {
   void step_together(const std::vector<Carried>& held, const std::vector<std::size_t>& moving, double now, double h,
                      AdvanceReport& report);
   void note_world_contacts(double h);
-  /// False, and nothing is done, when the body may not go its way.
+  /// Returns false, and does nothing, if `may_go` forbids the motion.
   bool carry(bodies::SteppedBody& stepped, std::size_t object, double h, const contact::ContactStepper::MayGo& may_go,
              AdvanceReport& report);
   /// On its way from its state, without a tool; a massless one stays.

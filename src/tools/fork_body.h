@@ -9,8 +9,8 @@
 
 namespace spring_workbench::tools {
 
-/// The body on the fork: strain coordinates, the hand's motion, and, where the coordinates cannot follow what a contact
-/// asks, a handle that stays behind the hand as its proxy (doc/model.md, "When the coordinates cannot follow").
+/// Body held by the fork: strain coordinates, the motion of the hand and, if the coordinates cannot follow a contact, a
+/// proxy handle that stays behind the hand (doc/model.md, "When the coordinates cannot follow").
 class ForkBody : public ToolHold {
  public:
   /// `X_SH`: the fork's fixed end in the hand's stylus.
@@ -62,7 +62,7 @@ class ForkBody : public ToolHold {
 
   /// Energy [J] that integration has added since the grasp: what the object and the fork have gained beyond the work of
   /// hand, gravity, contact and damping. That work is a four-point quadrature over each step, so the figure means
-  /// something where the step resolves the motion (ω·dt below about 1). While a family returns to zero nothing is
+  /// something where the step resolves the motion (ω·dt below about 1). While a DOF returns to zero strain, nothing is
   /// added.
   double energy_added() const override { return state_.energy_added; }
 
@@ -93,12 +93,12 @@ class ForkBody : public ToolHold {
 
     void exchange(math::StateArchive& state) { state(t, strain, behind, offset, energy_added, stepping, pull_W); }
   };
-  /// How the proxy gives way to a wrench at the centre of mass over a step, in what the coordinates cannot follow: as a
-  /// spring and a damper in parallel (doc/model.md, "When the fork cannot follow").
+  /// Compliance of the proxy to a wrench at the centre of mass over a step, in the directions that the coordinates
+  /// cannot follow: that of a spring and a damper in parallel (doc/model.md, "When the fork cannot follow").
   Matrix6d proxy_compliance(double h) const;
   /// The proxy's offset at the end of a step without a load.
   RigidTransform returned_offset(double h) const;
-  /// The same under the wrench.
+  /// The offset of the proxy at the end of a step under a wrench.
   RigidTransform next_offset(double h, const Wrench& contact_W) const;
   void place_proxy(const RigidTransform& offset);
   /// The seen handle's motion at present; a proxy rests between two steps.

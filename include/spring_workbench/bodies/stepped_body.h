@@ -13,9 +13,9 @@ inline bool is_finite(const motion::MotionState& s) {
   return s.X.matrix().allFinite() && s.velocity.linear.allFinite() && s.velocity.angular.allFinite();
 }
 
-/// Where a body on trial has come from: what a step changes of its motion, kept by who may have to take the step again.
-/// Filled again without allocation. Less than a saved simulation: what a step has derived on its way stays for the next
-/// try.
+/// Snapshot of the part of a body's motion that a step changes, so that a trial step can be undone and repeated.
+/// Reusing a snapshot allocates nothing. It holds less than a saved simulation: intermediate results that a trial has
+/// computed are kept for the next one.
 class TrialStart {
  public:
   template <typename State>
@@ -26,7 +26,7 @@ class TrialStart {
       state_ = state;
     }
   }
-  /// Of the same body.
+  /// Returns the state that was kept; it must be of the same type.
   template <typename State>
   const State& kept() const {
     return *std::any_cast<State>(&state_);
@@ -36,44 +36,45 @@ class TrialStart {
   std::any state_;
 };
 
-/// A body that contact can carry over a step again and again until its load fits: the held body on its fork, or a free
+/// Body that contact can carry over a step repeatedly until the contact load fits: the held body on its fork, or a free
 /// one.
 class SteppedBody {
  public:
   virtual ~SteppedBody() = default;
 
-  virtual std::size_t index() const = 0;  ///< in the scene
-  /// Pose and velocity of the object frame at present, world axes.
+  virtual std::size_t index() const = 0;  ///< index in the scene
+  /// Returns the present pose and velocity of the object frame, in world axes.
   virtual motion::MotionState object() const = 0;
 
-  /// Goes `h` [s] on under a constant wrench at the centre of mass, world axes; false where the result is not one to go
-  /// on from (not finite, or out of bounds), and then nothing has changed.
+  /// Advances the body by `h` [s] under a constant wrench at the centre of mass, in world axes. Returns false, and
+  /// changes nothing, if the result is not finite or not bounded.
   virtual bool advance(double h, const Wrench& contact_W) = 0;
-  /// Whether the body meets nothing on its straight path between two poses of the object frame.
+  /// Returns whether the body meets nothing on its straight path between two poses of the object frame.
   using PathCheck = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
-  /// advance() without contact, of a body that may aim for a pose first and look what is in the way there.
+  /// Advances the body without contact. A body that aims for a pose may check the path to it first.
   virtual bool advance_freely(double h, const PathCheck&) { return advance(h, Wrench()); }
-  /// The last advance() was not a trial: the body stays there.
+  /// Accepts the last advance(), which was not a trial.
   virtual void accept() {}
-  /// What to come back to before a trial, and coming back to it, bit by bit.
+  /// Saves the motion before a trial, and restores it bit-identically.
   virtual void save(TrialStart& start) const = 0;
   virtual void restore(const TrialStart& start) = 0;
 
-  /// How a constant wrench over a step changes the displacement and the velocity at its end; 6 × 6 [linear; angular].
+  /// Change of the displacement over a step, and of the velocity at its end, per constant wrench; 6 × 6 [linear;
+  /// angular].
   struct Response {
     Matrix6d displacement, velocity;
   };
   virtual Response response(double h) const = 0;
-  /// How an impulse changes the velocity.
+  /// Returns the change of the velocity per impulse.
   virtual Matrix6d mobility() const = 0;
   virtual void add_impulse(const Wrench& impulse_W) = 0;
-  /// Whether its way over a step is the mean of the velocities at both ends, times the step: what holds it in its place
-  /// then leaves it with its velocity turned round.
+  /// Returns whether the displacement over a step is the mean of the velocities at both ends, times the step. A load
+  /// that keeps such a body in place then reverses its velocity.
   virtual bool reverses() const { return false; }
-  /// Lets `h` [s] pass at rest where it is: the way out when nothing else fits.
+  /// Lets `h` [s] pass with the body at rest where it is, if no other motion is possible.
   virtual void block(double h) = 0;
-  /// Lets `h` [s] pass with its tool rigid, as one that has come to the end of its way: the way out where nothing can
-  /// be in the way. Adds no energy while the hand rests.
+  /// Lets `h` [s] pass with the tool rigid, as if it had reached the end of its range, if no other motion is possible
+  /// and nothing can be in the way. Adds no energy while the hand rests.
   virtual void follow_rigidly(double h) { block(h); }
 };
 

@@ -9,24 +9,24 @@
 
 namespace spring_workbench::contact {
 
-/// What contact did in a step.
+/// Result of contact in one step.
 struct ContactOutcome {
   std::vector<ContactRow> rows;  ///< the contacts at the end of the step; `load_W` [N]
   int queries = 0;
-  double time_lost = 0.0;  ///< [s] for which nothing fitted and the body was stopped
+  double time_lost = 0.0;  ///< time for which no motion was possible and the body was stopped [s]
   bool refused = false;    ///< a step without contact would not have been finite or bounded
 };
 
-/// Contact mode `stop` (doc/model.md; the paper's section 5): the candidate step is swept, cut at the first contact by
-/// bisection, and goes on from there under contact loads that keep the body out of the others, which do not move.
+/// Contact mode `stop` (doc/model.md; the paper's section 5): the candidate step is swept and cut at the first contact
+/// by bisection; the body then continues under contact loads that keep it out of the others, which do not move.
 class ContactStepper {
  public:
   ContactStepper(const scene::Scene& scene, collision::CollisionWorld& collision, int bisection_levels);
 
-  /// Whether the way between two poses is one that the body goes with nothing movable about.
+  /// Returns whether nothing movable is near the path of the body between two poses.
   using MayGo = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
-  /// Carries the body over `h` [s]. `rows`: its contacts at the end of the last step; replaced by those at the end of
-  /// this. False, and the body is restored, if it may not move (or not over the first substep).
+  /// Carries the body over `h` [s]. `rows`: its contacts at the end of the last step, replaced by those at the end of
+  /// this one. Returns false, and restores the body, if `may_go` forbids the motion or the first substep of it.
   bool step(bodies::SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
             ContactOutcome& outcome);
 
@@ -38,12 +38,13 @@ class ContactStepper {
   /// Adds contacts found with the body at `X_WO`; gaps as they are there.
   void add_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance, std::vector<ContactRow>& rows,
                     ContactOutcome& outcome) const;
-  /// Takes away the speed with which the contacts approach, perfectly inelastic or with the materials' restitution.
-  /// What is open may approach so fast that it closes in `h` [s]: so what lands with several points lands at once.
+  /// Removes the approach speed of the contacts, perfectly inelastically or with the restitution of the materials. An
+  /// open contact may approach so fast that it closes within `h` [s], so that a body that lands on several points lands
+  /// on all of them at once.
   enum class Bounce { none, of_materials };
   void collide(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce, double h) const;
-  /// Goes `h` on, from the start of the present trial, under loads that leave the rows' gaps closed or open. False when
-  /// it did not come out free.
+  /// Advances the body by `h` from the start of the present trial, under loads that leave the gaps of the rows closed
+  /// or open. Returns false if the body then penetrates.
   bool advance_in_contact(bodies::SteppedBody& body, double h, std::vector<ContactRow>& rows,
                           ContactOutcome& outcome) const;
   /// Position of a contact's point of the body at the start of a substep.
@@ -51,38 +52,40 @@ class ContactStepper {
     double gap = 0.0;                     ///< [m]
     Vector3d lever_W = Vector3d::Zero();  ///< from the object's centre [m]
   };
-  /// Gaps and slips of the contacts `work` with the body at the end of a substep from `X0` on; contacts that have come
-  /// into being on the way join, and those that lie deeper than their points' motion says are taken as they are found.
+  /// Computes gaps and slips of the contacts `work` with the body at the end of a substep that began at `X0`. Contacts
+  /// that have begun on the path are added; a contact that is deeper than the motion of its points predicts is replaced
+  /// by the one that is found.
   void look_at_end(const bodies::SteppedBody& body, const RigidTransform& X0, std::vector<ContactRow>& work,
                    std::vector<Start>& starts, ContactOutcome& outcome) const;
   /// Result of a substep.
   struct Piece {
-    bool done = false;                ///< the body has gone it
+    bool done = false;                ///< the body has made this substep
     double next = 0.0;                ///< length of the next substep to try, relative to this one
-    std::vector<ContactRow> touched;  ///< not done: what was in the way
-    bool solved = true;               ///< loads were found, with which the body can be carried
-    bool allowed = true;              ///< it may go there
+    std::vector<ContactRow> touched;  ///< if not done: the obstacles
+    bool solved = true;               ///< loads were found under which the body can be carried
+    bool allowed = true;              ///< `may_go` allows the motion
   };
-  /// Tries to go `h` on, under the rows' loads where there are rows. Not done, the body is where it was.
+  /// Tries to advance by `h`, under the loads of the rows if there are any. If it fails, the body is where it was.
   Piece try_substep(bodies::SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
                     ContactOutcome& outcome) const;
   /// Corrects the impulses that the rows' loads have given over a substep of `h` [s] so that no contact approaches at
   /// its end, and none slips where friction, which is constant over the substep, has reversed its slip or could have
   /// held it.
   void settle(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, double h) const;
-  /// Adds those contacts that are new and takes away the speed with which they approach. False when none was.
+  /// Adds the contacts that are new and removes their approach speed. Returns false if none is new.
   bool meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, double h, std::vector<ContactRow>& rows,
             ContactOutcome& outcome) const;
-  /// How far the way between two states, `h` apart, is from the straight one [m].
+  /// Returns the chord deviation [m] of the path between two states that are `h` [s] apart.
   double chord_deviation(std::size_t body, const motion::MotionState& begin, const motion::MotionState& end,
                          double h) const;
-  /// What is in the way between two states.
+  /// Obstacle on the path between two states.
   struct Obstruction {
     bool hit = false;
-    double free = 1.0;                                 ///< the free part of the way, 0 … 1
-    RigidTransform X_WO = RigidTransform::Identity();  ///< where the body touches
+    double free = 1.0;                                 ///< collision-free fraction of the path, 0 … 1
+    RigidTransform X_WO = RigidTransform::Identity();  ///< pose in which the body touches
   };
-  /// Sweeps the Hermite interpolant between two states, as so many straight ones as its bow asks for.
+  /// Sweeps the Hermite interpolant between two states as a sequence of straight segments, as many as its chord
+  /// deviation requires.
   Obstruction sweep(std::size_t body, const motion::MotionState& begin, const motion::MotionState& end, double h,
                     double tolerance) const;
 
@@ -90,7 +93,7 @@ class ContactStepper {
   collision::CollisionWorld& collision_;
   int levels_;
   std::vector<double> radius_;        ///< of every body of the scene [m]
-  mutable bodies::TrialStart start_;  ///< of the present trial: no allocation in a step
+  mutable bodies::TrialStart start_;  ///< start of the present trial, a member so that a step allocates nothing
 };
 
 }  // namespace spring_workbench::contact

@@ -9,8 +9,8 @@
 namespace spring_workbench::contact {
 
 /// Contact mode `dynamic` (doc/model.md) where movable bodies are near: held bodies and all movable ones in one
-/// rigid-body world. A held body that nothing can touch is carried by its own integrator alone; near others, all go on
-/// together in short substeps, in which the held body responds to contact with the compliance of its fork.
+/// rigid-body world. A held body that nothing can touch is carried by its own integrator alone; near others, all bodies
+/// advance together in short substeps, in which the held body responds to contact with the compliance of its fork.
 class DynamicStepper {
  public:
   explicit DynamicStepper(const scene::Scene& scene);
@@ -20,24 +20,24 @@ class DynamicStepper {
 
   struct Outcome {
     int substeps = 0;
-    double time_lost =
-        0.0;               ///< [s] for which contact left a held body no way, and it was stopped; or it was refused one
-    bool refused = false;  ///< the result of a substep without contact was not finite or bounded
+    double time_lost = 0.0;  ///< time [s] during which a held body was blocked, because contact admitted no motion or
+                             ///< because its result was not finite or bounded
+    bool refused = false;    ///< the result of a substep without contact was not finite or bounded
   };
   /// Carries the held bodies and the world over `h` [s].
   Outcome step(const std::vector<bodies::SteppedBody*>& held, double h);
   /// Starts the motion of a released body.
   void set_free(std::size_t body, const RigidTransform& X_WO, const Twist& V_WO_W);
-  /// The free bodies of the world that nothing movable, `moving` [in the scene] on its way, will come near in the next
-  /// `h` [s].
+  /// Returns the free bodies of the world that nothing movable will approach in the next `h` [s]. `moving`: indices in
+  /// the scene of the bodies that move.
   std::vector<std::size_t> alone(const std::vector<std::size_t>& moving, double h) const;
-  /// Whether a body that is not held moves.
+  /// Returns whether a body that is not held moves.
   bool others_awake() const;
-  /// The bodies of a contact are a movable one and another; a held one comes first. Contacts since the last call of
-  /// step began; impulses are sums over its substeps, positions those of the last.
+  /// Returns the contacts in the last call of step(). Their impulses are sums over its substeps, their positions are
+  /// those of the last. The first body of a contact is movable; if one of the two is held, it comes first.
   const std::vector<rigid_bodies::WorldContact>& contacts() const { return contacts_; }
 
-  /// Between two steps, the world included.
+  /// Exchanges the state between two steps, including that of the world.
   void exchange(math::StateArchive& state);
 
  private:
@@ -51,16 +51,16 @@ class DynamicStepper {
     bool possible = false;
   };
   Candidate try_substep(bodies::SteppedBody& body, double h) const;
-  /// Whether nothing is in the way of any of them, and nothing that is not held moves.
+  /// Returns whether the paths of all candidates are free and no body moves that is not held.
   bool all_free(const std::vector<Candidate>& candidates) const;
-  /// What goes into the world of a candidate: its way without the load, and how its end answers to one. The body is at
-  /// its begin.
+  /// Returns what the world needs of a candidate: its displacement without the load, and the compliance at its end. The
+  /// body is at the beginning of the substep.
   static rigid_bodies::DrivenBody driven_body(const Candidate& candidate, double h);
-  /// The candidates are where the bodies go.
+  /// Moves the bodies to where the candidates end.
   void go_freely(const std::vector<Candidate>& candidates, double h, Outcome& outcome);
   enum class Piece { gone, too_long, stuck };
-  /// Carries all bodies over one substep with contact, unless that would bring a body too deep into another or through
-  /// it; then all are restored, and `h` is a substep to try instead, or none is short enough.
+  /// Carries all bodies over one substep with contact. If a body would then penetrate another too deeply or pass
+  /// through it, all bodies are restored and `h` is set to a shorter substep to try, unless none is short enough.
   Piece go_in_contact(std::vector<Candidate> candidates, double& h);
   /// Advances the world over a substep, and returns the contact wrenches on the held bodies, which are still at its
   /// start.
@@ -68,7 +68,7 @@ class DynamicStepper {
   /// Carries the held bodies over a substep under these loads; returns the admissible fraction of their motions.
   double admissible_fraction(const std::vector<Candidate>& candidates,
                              const std::vector<rigid_bodies::DrivenBody>& driven, double h) const;
-  /// The same of the ways that the solver foresaw for them.
+  /// Returns the same fraction of the motions that the solver predicted.
   double foreseen_admissible_fraction(const std::vector<rigid_bodies::DrivenBody>& driven) const;
   /// Blocks the held bodies for one substep, while the others move on.
   void hold_back(const std::vector<bodies::SteppedBody*>& held, double h, Outcome& outcome);
@@ -79,7 +79,7 @@ class DynamicStepper {
   const scene::Scene& scene_;
   std::unique_ptr<rigid_bodies::RigidWorld> world_;
   std::vector<rigid_bodies::WorldContact> contacts_;
-  std::vector<std::size_t> held_;         ///< in the last step
+  std::vector<std::size_t> held_;         ///< indices in the scene of the bodies held in the last step
   std::map<std::size_t, Wrench> load_W_;  ///< of contact on held bodies in the last substep
   double shortest_piece_ = 0.0;           ///< [s] of the present step
 };

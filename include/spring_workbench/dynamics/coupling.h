@@ -18,10 +18,10 @@ struct RelativeMotion {
   math::Three<S> w_AB;  ///< [rad/s]
 };
 
-/// The object with its velocity, from a frame A.
+/// Returns pose and velocity of the object, seen from a frame A.
 RelativeMotion<double> seen_from(const motion::OwnAxesMotion& A, const motion::MotionState& O);
 
-/// A force [N] and a moment about O [N·m].
+/// Force [N] and moment about O [N·m].
 template <typename S>
 struct Pull {
   math::Three<S> force, moment;
@@ -31,13 +31,14 @@ struct Pull {
 /// further tool on it. Axes are those of A.
 class Coupling {
  public:
-  /// At the object, where it is: 6 × 6 [linear; angular], symmetric, ≥ 0.
+  /// Stiffness and damping at the object at its present pose: 6 × 6 [linear; angular], symmetric, ≥ 0.
   struct Springs {
     Matrix6d stiffness = Matrix6d::Zero(), damping = Matrix6d::Zero();
     double energy = 0.0;      ///< [J]
     double dissipated = 0.0;  ///< [W]
   };
-  /// Identifies the equation of motion with it: when the tool took hold [s], and how often its law has changed since.
+  /// Identifies the equation of motion that includes this coupling: the time of the grasp [s], and how often the law
+  /// has changed since.
   struct Key {
     double since = 0.0;
     long version = 0;
@@ -47,37 +48,38 @@ class Coupling {
 
   virtual ~Coupling() = default;
   virtual Key key() const = 0;
-  /// On the object, at time `t` [s].
+  /// Computes the pull on the object at time `t` [s].
   virtual void pull(const double& t, const RelativeMotion<double>& A_O, Pull<double>& pull) const = 0;
   virtual void pull(const math::Pack& t, const RelativeMotion<math::Pack>& A_O, Pull<math::Pack>& pull) const = 0;
   virtual Springs springs(double t, const RelativeMotion<double>& A_O) const = 0;
-  /// A step begins: forgets the starting points from which the pulls were searched.
+  /// Begins a step: forgets the starting points of the searches for the pulls.
   virtual void begin_step() const {}
 };
 
-/// A coupling and how its frame A moves.
+/// Coupling with the motion of its frame A.
 struct Attached {
   const Coupling* coupling;
   const motion::FrameMotion* frame;
-  /// The handle that goes with this frame, where it is not the one that the body is told of: A is then as far from that
-  /// one as `frame` is from this.
+  /// Reference handle for `frame`; null: the handle passed to look(). If it is set, A keeps the same pose relative to
+  /// the handle passed to look() as `frame` has relative to this reference handle.
   const motion::FrameMotion* handle = nullptr;
 };
 
-/// The couplings of a held body. Keeps pointers to what it is given.
+/// Couplings of a held body. Keeps pointers to the couplings and motions that are attached.
 class Couplings {
  public:
   static constexpr std::size_t most = 2;
-  /// The handle H as seen from each frame A.
+  /// Motion of the handle H, seen from each frame A.
   template <typename S>
   struct Seen {
     std::size_t count = 0;
-    double distance = 0.0;  ///< of the frames from the origin of world, whose rounding they have from there [m]
+    double distance =
+        0.0;  ///< largest distance of the frames from the origin of the world, which scales their rounding errors [m]
     std::array<RelativeMotion<S>, most> from;
   };
 
-  /// Returns whether they are others than before, or others by their law. Throws std::length_error for more than
-  /// `most`.
+  /// Attaches these couplings in place of the present ones. Returns whether they, or their laws, differ from those
+  /// before. Throws std::length_error for more than `most`.
   bool attach(const std::vector<Attached>& couplings);
   /// Detaches all but the first `kept` until they are attached again: the equation of motion still includes them.
   void detach(std::size_t kept) { attached_.resize(std::min(kept, attached_.size())); }
@@ -86,16 +88,16 @@ class Couplings {
   void look(const motion::FrameMotion& handle, double t, Seen<double>& seen) const;
   void look(const motion::FrameMotion& handle, const math::Pack& t, Seen<math::Pack>& seen) const;
   static Seen<double> lane(const Seen<math::Pack>& seen, int i);
-  /// All pulls together, axes of H, for the object's motion in H.
+  /// Returns the sum of all pulls, in the axes of H, for the motion of the object in H.
   template <typename S>
   Pull<S> pull(const S& t, const Seen<S>& seen, const RelativeMotion<S>& H_O) const;
-  /// All springs together, axes of H; the frames' power [W] is what they put in, less what the dampers take.
+  /// Sum of all springs, in the axes of H. `power` [W]: what the frames put in, less what the dampers dissipate.
   struct Reading {
     Coupling::Springs springs;
     Wrench pull_W;  ///< on the object at its centre, world axes
     double power = 0.0;
   };
-  /// `W_H`: the handle in world, its velocities in its own axes.
+  /// `W_H`: the handle in the world, with its velocities in its own axes.
   Reading read(double t, const Seen<double>& seen, const RelativeMotion<double>& H_O,
                const RelativeMotion<double>& W_H) const;
 
@@ -103,7 +105,7 @@ class Couplings {
 
  private:
   std::vector<Attached> attached_;
-  std::vector<Coupling::Key> keys_;  ///< of those that were attached last
+  std::vector<Coupling::Key> keys_;  ///< keys of the couplings that were attached last
 };
 
 }  // namespace spring_workbench::dynamics

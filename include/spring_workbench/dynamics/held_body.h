@@ -13,7 +13,7 @@
 
 namespace spring_workbench::dynamics {
 
-/// The rigid body that hangs on the tip: object frame O (centre of mass) and tip frame E.
+/// Rigid body at the tip: object frame O (centre of mass) and tip frame E.
 struct BodyInertia {
   double mass = 1.0;                          ///< [kg], > 0
   Matrix3d inertia_O = Matrix3d::Identity();  ///< about the centre of mass, axes of O [kg·m²], positive definite
@@ -31,7 +31,7 @@ struct HandleForcing {
   Couplings::Seen<double> seen;                           ///< as many as there are couplings
 };
 
-/// The same without the place, at one moment or several.
+/// Forcing by the handle without its pose, at one moment or several.
 template <typename S>
 struct ForcingOf {
   S t;
@@ -39,12 +39,12 @@ struct ForcingOf {
   Couplings::Seen<S> seen;
 };
 
-/// At several moments, for integrators.
+/// Forcing by the handle at several moments, for integrators.
 struct HandleForcings : ForcingOf<math::Pack> {
   HandleForcing at(int i) const;
 };
 
-/// Energy of held body and springs at several moments, and what it should change by.
+/// Energy of held body and springs at several moments, with the power that should change it.
 struct EnergyBalance {
   math::Pack energy;  ///< elastic and kinetic [J]
   math::Pack power;   ///< of hand, gravity, contact and dampers [W]
@@ -90,28 +90,28 @@ class HeldBody {
   StrainState set_dofs(const rod::ForkDofs& dofs, double t, double return_time, const StrainState& full);
   /// Ends prescribed motions that have come to zero by time `t`. Returns whether one ended.
   bool drop_finished_returns(double t);
-  /// Whether a DOF that was switched off is still returning to zero strain.
+  /// Returns whether a DOF that was switched off is still returning to zero strain.
   bool returning() const { return coordinates_.returning(); }
 
-  /// A constant wrench on the body at its centre of mass, world axes (contact). Zero at first.
+  /// Sets the constant wrench of contact on the body at its centre of mass, in world axes; zero at first.
   void set_external_wrench(const Wrench& wrench_W);
   const Wrench& external_wrench() const { return external_W_; }
 
-  /// Whether the object meets nothing on its straight path between two poses. For the step that follows, and for
+  /// Checks whether the object meets nothing on its straight path between two poses. For the step that follows, and for
   /// methods that aim for a pose (`paper`); not part of the state. Empty: nothing can be in the path.
   using PathCheck = std::function<bool(const RigidTransform& X0_WO, const RigidTransform& X1_WO)>;
   void set_path_check(PathCheck check) { path_check_ = std::move(check); }
   const PathCheck& path_check() const { return path_check_; }
 
-  /// Further tools that pull at the body from now on, along the motion of the handle that integrators are given. Throws
-  /// std::length_error for more than Couplings::most.
+  /// Attaches further tools that pull on the body from now on, along the motion of the handle that integrators are
+  /// given. Throws std::length_error for more than Couplings::most.
   void attach(const std::vector<Attached>& couplings);
-  /// As Couplings::detach.
+  /// Detaches couplings; see Couplings::detach.
   void detach(std::size_t kept) { couplings_.detach(kept); }
   bool coupled() const { return !couplings_.empty(); }
-  /// The same moment with the couplings' frames at rest in the handle's.
+  /// Returns the same forcing with the frames of the couplings at rest in the frame of the handle.
   HandleForcing with_frames_at_rest(HandleForcing handle) const;
-  /// Of the couplings, for the body's state.
+  /// Returns the sum of the couplings for a state of the body.
   Couplings::Reading read_couplings(const HandleForcing& handle, const StrainState& state) const;
 
   int size() const { return coordinates_.size(); }  ///< number of active coordinates
@@ -119,7 +119,7 @@ class HeldBody {
   StrainState zero_state() const;
   rod::StrainVector stiffness() const;  ///< diagonal of K, active coordinates
   rod::StrainMatrix damping() const;    ///< D, active coordinates
-  /// K and D with what the couplings' springs and dampers add to them at the strain `q`.
+  /// K and D including the springs and dampers of the couplings at the strain `q`.
   struct Springs {
     rod::StrainMatrix K, D;
   };
@@ -127,18 +127,19 @@ class HeldBody {
 
   HandleForcing forcing(const motion::FrameMotion& handle, double t) const;
   HandleForcings forcing(const motion::FrameMotion& handle, const math::Pack& t) const;
-  /// q̈ of the active coordinates.
+  /// Returns q̈ of the active coordinates.
   rod::StrainVector acceleration(const HandleForcing& handle, const rod::StrainVector& q,
                                  const rod::StrainVector& q_dot) const;
-  /// The same for `n` = size(), 1 … 6, known at compile time: for integrators.
+  /// Returns q̈ for `n` = size(), 1 … 6, known at compile time: for integrators.
   template <int n>
   Eigen::Matrix<double, n, 1> acceleration(const HandleForcing& handle, const Eigen::Matrix<double, n, 1>& q,
                                            const Eigen::Matrix<double, n, 1>& q_dot) const;
-  /// The same at several moments: `n` packs each.
+  /// Computes q̈ at several moments: `n` packs each.
   template <int n>
   void acceleration(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot,
                     math::Pack* q_ddot) const;
-  /// Energy and power at several moments: size() packs each. Without the energy of a DOF that returns to zero strain.
+  /// Returns energy and power at several moments: size() packs each. Without the energy of a DOF that returns to zero
+  /// strain.
   EnergyBalance energy_balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot) const;
   /// Mass matrix M(q) of the active coordinates at time `t` (which matters while a DOF returns).
   rod::StrainMatrix mass_matrix(double t, const rod::StrainVector& q) const;
@@ -161,8 +162,8 @@ class HeldBody {
   rod::StrainVector elastic_force(double t, const rod::StrainVector& q) const;
   double kinetic_energy(const Twist& V_WO_W, const Matrix3d& R_WO) const;  ///< [J]
 
-  /// Springs, families, load and versions; shape, body and gravity must be the same. What an integrator has derived
-  /// from the equations is valid only for these versions, so its history is saved together with them.
+  /// Exchanges springs, DOFs, load and versions; shape, body and gravity must be the same. What an integrator has
+  /// derived from the equations is valid only for these versions, so its history is saved together with them.
   void exchange(math::StateArchive& state);
 
  private:

@@ -14,21 +14,21 @@
 
 namespace spring_workbench::hand_input {
 
-/// One input that a feed gave to its simulation. The same inputs in the same order, each after the simulation has
-/// reached the same time, give a bit-identical future.
+/// Input that a feed gave to its simulation. The same inputs in the same order, each after the simulation has reached
+/// the same time, give a bit-identical future.
 struct Accepted {
   enum class Kind {
-    pose,         ///< of the handle at time `t`, as it is followed
-    button_down,  ///< the grasp button, at time `t`
+    pose,         ///< pose of the handle at time `t`, as it is followed
+    button_down,  ///< the grasp button went down at time `t`
     button_up,
-    next_tool,  ///< the second button, at time `t`
+    next_tool,  ///< the second button went down at time `t`
     lost,       ///< the hand releases its object because it was lost until `t`
     rest,       ///< no input: all hands rested until `t`
     clutch_on,  ///< at time `t`
     clutch_off,
   };
   static Kind kind_of(motion::Press press);
-  /// The button's edge; none for what is not about buttons.
+  /// Returns the edge of a button that `kind` stands for; none if it stands for something else.
   static std::optional<motion::Press> press_of(Kind kind);
 
   Kind kind = Kind::rest;
@@ -39,46 +39,48 @@ struct Accepted {
                                                                 ///< −infinity before the simulation began
 };
 
-/// The input of all hands to a simulation, live and offline. Each hand passes gate, smoothing and re-acquisition; its
-/// playout clock tells, for callers with a clock, up to which time the hand is known. A hand is a number as for
-/// Simulation. Times are simulated [s]. No thread, no log, no ROS: the same calls give bit-identical results.
+/// Input of all hands to a simulation, live and offline. Each hand passes gate, smoothing and re-acquisition. For
+/// callers with a clock, its playout clock determines up to which time its input is complete. Hands are numbered as in
+/// Simulation; times are simulated [s]. There is no thread, log or ROS: the same calls give bit-identical results.
 class Feed {
  public:
   /// Feeds `simulation`, which must outlive it.
   Feed(simulation::Simulation& simulation, const InputSettings& settings);
   ~Feed();
 
-  /// A sample as it came, in a tracker's frame P that is at `X_WP` in world. A sample that the gate rejects is dropped.
+  /// Adds a sample as received, in a tracker's frame P whose pose in the world is `X_WP`. Returns the result of the
+  /// gate; a rejected sample is dropped.
   GateResult push_stylus(const RawSample& sample, const RigidTransform& X_WP, const LocalTime& arrival,
                          std::size_t hand = 0);
-  /// A sample came that is not used: the hand is not silent.
+  /// Reports the arrival of a sample that is not used, so that the hand does not count as silent.
   void heard(const LocalTime& arrival, std::size_t hand);
-  /// A pose of the handle in world, of a motion whose samples need no clock. It is pushed unchanged, bit by bit, if
+  /// Adds a pose of the handle in the world, from a motion whose samples need no clock. It is pushed bit-identically if
   /// smoothing is off and the hand was not lost.
   GateResult push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
-  /// See Simulation.
+  /// Adds an edge of a button at time `t` [s]; see Simulation.
   void push_press(double t, motion::Press press, std::size_t hand = 0);
   void push_button(double t, bool pressed, std::size_t hand = 0) {
     push_press(t, pressed ? motion::Press::grasp : motion::Press::release, hand);
   }
-  /// The buttons of a hand are known up to `t`, whether or not one of them changed.
+  /// Reports that the buttons of a hand are known up to `t`, whether or not one of them changed.
   void buttons_known(double t, const LocalTime& arrival, std::size_t hand = 0);
 
-  /// Whether any hand was pushed since the start.
+  /// Returns whether a sample of any hand was pushed since the start.
   bool has_sample() const { return has_sample_; }
-  /// The time to which to commit the simulation next, by advance_to: the next sample or button edge up to which all is
-  /// known of every hand, except silent ones; whole steps if all are silent. Nothing while there is no such time.
+  /// Returns the time to which advance_to should commit the simulation next: the next sample or button edge up to which
+  /// the input of every hand that is not silent is complete, or a whole step further if all hands are silent. None
+  /// while there is no such time.
   std::optional<double> next_stop(const LocalTime& now) const;
-  /// Simulated time reached since the start [s]; −infinity before it went on.
+  /// Returns the simulated time reached since the start [s]; −infinity before the first advance.
   double committed() const;
-  /// Advances to `t`; a hand that is lost before `t` releases its object at that time.
+  /// Advances the simulation to `t`. A hand that is lost before `t` releases its object at the time of the loss.
   simulation::AdvanceReport advance_to(double t);
-  /// Gives every hand of a copy of the simulation its predicted pose at `t` (motion::PosePredictor), if that is later
-  /// than its newest sample.
+  /// Gives each hand of `copy`, a copy of the simulation, its predicted pose at `t` (motion::PosePredictor) if `t` is
+  /// later than its newest sample.
   void predict(double t, simulation::Simulation& copy) const;
-  /// How long ago the newest sample of all came [s].
+  /// Returns the time since the newest sample of any hand arrived [s].
   double waited(const LocalTime& now) const;
-  /// From now on calls `record` with every input of the simulation; empty: nothing is recorded.
+  /// Sets the function that is called with every input of the simulation; empty: nothing is recorded.
   void record(std::function<void(const Accepted&)> record) { record_ = std::move(record); }
 
   /// Forgets the hands, after the simulation was reset or changed: the next sample is a first one. Gates and counts
@@ -89,7 +91,8 @@ class Feed {
 
   const GateCounts& gate_counts(std::size_t hand) const;
   const ReacquisitionCounts& reacquisition_counts(std::size_t hand) const;
-  /// How often a hand's tracker was moved in world: another X_WP than before, after which the hand is re-acquired.
+  /// Returns how often the tracker of a hand was moved in the world (`X_WP` changed), after which the hand is
+  /// re-acquired.
   std::size_t tracker_moves(std::size_t hand) const;
 
  private:
@@ -104,7 +107,7 @@ class Feed {
   std::vector<Hand> hands_;
   std::function<void(const Accepted&)> record_;
   bool has_sample_ = false;
-  bool began_ = false;  ///< time has gone on since the start
+  bool began_ = false;  ///< the simulation has been advanced since the start
 };
 
 }  // namespace spring_workbench::hand_input

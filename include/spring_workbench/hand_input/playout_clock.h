@@ -6,34 +6,35 @@
 
 namespace spring_workbench::hand_input {
 
-/// Says up to when all is known of one hand. Its motion is known up to the sample before the newest, whose velocity
-/// hangs on the newest; its buttons, as long as messages about them come, up to the newest of these, so that a button
-/// takes effect at its own stamp, by whatever way it comes. So it depends on the messages alone when a hand does what,
-/// and not on the moments at which anybody looks.
+/// Determines up to which time the input of one hand is complete. Poses are complete up to the last sample but one,
+/// because the velocity there depends on the newest sample. Buttons, while button messages keep arriving, are complete
+/// up to the newest of them, so a button takes effect at its own stamp. The motion of a hand therefore depends only on
+/// the messages, not on when they are read.
 ///
-/// A hand that has been silent for longer than `dropout_after` rests, and nothing more is waited for. That must also
-/// have lasted 0.2 s of attended time, so that a bag played quickly, or a process that stood, is not taken for a hand
-/// that is lost. Needs no common clock with the tracker: only intervals of the local one count.
+/// A hand that has been silent for longer than `dropout_after` rests, and its input counts as complete. The silence
+/// must also have lasted 0.2 s of attended time, so that a bag played quickly or a process that was stopped does not
+/// look like a lost hand. No common clock with the tracker is needed, because only intervals of the local clock count.
 class PlayoutClock {
  public:
-  /// `dropout_after` [s], > 0.
+  /// `dropout_after` [s], > 0: silence after which the hand rests.
   explicit PlayoutClock(double dropout_after) : dropout_after_(dropout_after) {}
 
-  /// A sample stamped `t` [s] came.
+  /// Reports the arrival of a sample with stamp `t` [s].
   void sample(double t, const LocalTime& arrival);
-  /// One came that is not used.
+  /// Reports the arrival of a sample that is not used.
   void heard(const LocalTime& arrival) { arrival_ = arrival; }
-  /// The buttons are known up to `t` [s].
+  /// Reports that the buttons are known up to `t` [s].
   void buttons(double t, const LocalTime& arrival);
-  /// The time up to which all is known [s]: −infinity before the second sample, infinity while the hand is silent.
+  /// Returns the time up to which the input is complete [s]: −infinity before the second sample, infinity while the
+  /// hand is silent.
   double known_until(const LocalTime& now) const;
-  /// Where a silent hand's time is by the local clock, an interval behind as its samples were [s]; −infinity before the
-  /// first sample.
+  /// Returns the time of a silent hand by the local clock, one sample interval behind, as its samples were [s];
+  /// −infinity before the first sample.
   double rests_until(const LocalTime& now) const;
-  /// The newest sample's stamp, and how long ago it came [s].
+  /// The stamp of the newest sample, and the time since it arrived [s].
   double newest() const { return newest_; }
   double waited(const LocalTime& now) const;
-  /// Forgets all samples; of the buttons, all but that there are some.
+  /// Forgets all samples, and all of the buttons except that button messages exist.
   void clear();
 
  private:

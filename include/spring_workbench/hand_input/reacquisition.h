@@ -9,31 +9,31 @@
 
 namespace spring_workbench::hand_input {
 
-/// Counts for the hand so far.
+/// Counts of losses and re-acquisitions of one hand.
 struct ReacquisitionCounts {
   std::size_t late = 0;            ///< samples that arrived after their time had been simulated
   std::size_t reacquisitions = 0;  ///< times the hand was re-acquired
   std::size_t losses = 0;          ///< times `loss_timeout` passed without a sample
 };
 
-/// The hand that the simulation follows: the tracked one or, after that was lost and found elsewhere, one that starts
-/// at rest from where it was held and catches up.
+/// Computes the pose of the hand that the simulation follows: that of the tracked hand or, if the hand was lost and
+/// found elsewhere, a pose that starts at rest where the hand was last and catches up.
 ///
-/// From sample to sample the followed pose moves by the tracked hand's own step and in addition towards it: at
+/// From sample to sample the followed pose moves by the step of the tracked hand and, in addition, towards it: at
 /// `reacquisition_speed` and `reacquisition_turn_rate`, and at the end with a time constant of 0.1 s. Both are ramped
-/// up smoothly over 0.2 s. So the followed hand is faster than the tracked one by these two at most.
+/// up smoothly over 0.2 s. The followed hand is therefore faster than the tracked one by at most these two speeds.
 class Reacquisition {
  public:
   explicit Reacquisition(const InputSettings& settings) : settings_(settings) {}
 
-  /// The samples to follow after this one, in order: none if it is not later than `simulated_until` [s] (it is late);
-  /// two if the hand was held beyond the last one. `relocation`: see GateResult.
+  /// Returns the samples to follow after this one, in order: none if it is not later than `simulated_until` [s] (it is
+  /// late); two if the hand was held beyond the last one. `relocation`: see GateResult.
   std::vector<motion::PoseSample> follow(const motion::PoseSample& sample, bool relocation, double simulated_until);
-  /// The next time up to `until` [s], if any, at which the held object is released because the hand was lost. Each is
-  /// returned once, and none if `on_loss` is freeze.
+  /// Returns the next time up to `until` [s], if any, at which the held object is released because the hand was lost.
+  /// Each is returned once, and none if `on_loss` is freeze.
   std::optional<double> take_release(double until);
   const ReacquisitionCounts& counts() const { return counts_; }
-  /// Forgets the hand; keeps the counts.
+  /// Forgets the samples of the hand; keeps the counts.
   void restart();
 
  private:
@@ -47,7 +47,7 @@ class Reacquisition {
   motion::PoseSample tracked_;                ///< the newest one, as it was tracked
   bool catching_up_ = false;
   double set_out_at_ = 0.0;      ///< [s]
-  bool loss_noted_ = false;      ///< of the time since `newest_`
+  bool loss_noted_ = false;      ///< the present loss is counted
   std::deque<double> releases_;  ///< not taken yet
   ReacquisitionCounts counts_;
 };

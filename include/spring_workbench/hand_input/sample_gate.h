@@ -9,38 +9,38 @@
 
 namespace spring_workbench::hand_input {
 
-/// A sample as received, not checked yet.
+/// Sample as received, not checked yet.
 struct RawSample {
   double t = 0.0;                           ///< stamp [s]
   Vector3d p = Vector3d::Zero();            ///< origin of the tracked frame, in the tracker's frame [m]
-  Quaterniond q = Quaterniond::Identity();  ///< its rotation; not necessarily of length 1
+  Quaterniond q = Quaterniond::Identity();  ///< rotation of the tracked frame; not necessarily of length 1
 };
 
 /// Result of the gate for a sample.
 enum class GateResult {
   accepted,    ///< continues from the sample before
-  relocation,  ///< accepted, but not from where the last one was: after a jump or a dropout, or the first of all
+  relocation,  ///< accepted after a jump or a dropout, or as the first sample
   not_finite,
   bad_quaternion,  ///< far from unit length
   too_far,
   not_later,  ///< repeated or backward stamp
-  too_close,  ///< a stamp right after the last one, as in a burst: a velocity over so short a time means nothing
+  too_close,  ///< stamp right after the last one, as in a burst, too close for a meaningful velocity
   too_fast,
   turns_too_fast,
   out_of_view,
 };
-/// Whether a sample with this result may be used.
+/// Returns whether a sample with this result may be used.
 inline bool usable(GateResult result) { return result == GateResult::accepted || result == GateResult::relocation; }
-/// The result in words, as in /diagnostics.
+/// Returns the result in words, as in /diagnostics.
 std::string to_string(GateResult result);
-/// What is wrong with a rejected sample: field, rule and value.
+/// Returns what is wrong with a rejected sample: field, rule and value.
 std::string complaint(GateResult result, const RawSample& sample, const InputSettings& settings);
 
-/// Whether a sample is a pose in reach, regardless of earlier samples: accepted, not_finite, bad_quaternion or
-/// too_far.
+/// Checks whether a sample is a pose within reach, regardless of earlier samples: accepted, not_finite, bad_quaternion
+/// or too_far.
 GateResult check_pose(const RawSample& sample, const InputSettings& settings);
 
-/// Counts of the gate so far.
+/// Counts of the results of one gate.
 struct GateCounts {
   std::size_t accepted = 0;
   std::size_t relocations = 0;  ///< jumps that were accepted
@@ -50,9 +50,8 @@ struct GateCounts {
 };
 
 /// Accepts the samples of one station that a hand can have made. A sample too far from the last accepted one for the
-/// time between them is rejected, until `accept_after` consecutive samples agree with each other: then the new position
-/// is accepted. The time between samples counts as `dropout_after` at most, so that a long gap does not admit
-/// everything.
+/// time between them is rejected; once `accept_after` consecutive samples agree with each other, the new position is
+/// accepted. The time between samples counts as `dropout_after` at most, so that a long gap does not admit everything.
 class SampleGate {
  public:
   /// `dropout_after` [s], > 0: a longer gap is a dropout, and the next sample a relocation.
@@ -60,7 +59,7 @@ class SampleGate {
 
   GateResult offer(const RawSample& sample);
   const GateCounts& counts() const { return counts_; }
-  /// Forgets the samples, for a time jump; keeps the counts.
+  /// Forgets the samples, after a time jump; keeps the counts.
   void restart();
 
  private:
@@ -68,7 +67,7 @@ class SampleGate {
   GateResult judge_move(const RawSample& from, const RawSample& to) const;
   bool is_out_of_view(const RawSample& sample) const;
   bool confirmed(const RawSample& sample);
-  /// A sample that is in reach only because time has passed, at a position that was out of reach before.
+  /// Returns whether a sample is within reach only because time has passed, at a position that was out of reach before.
   bool is_from_candidate(const RawSample& sample) const;
   GateResult accept(const RawSample& sample, bool jumped);
 
@@ -77,7 +76,7 @@ class SampleGate {
   GateCounts counts_;
   std::optional<RawSample> newest_;     ///< accepted
   double interval_ = 0.0;               ///< between accepted samples, smoothed [s]
-  std::optional<RawSample> candidate_;  ///< the newest one that was too far off
+  std::optional<RawSample> candidate_;  ///< the newest sample that was too far away
   int in_a_row_ = 0;                    ///< samples up to `candidate_` that agree with each other
 };
 

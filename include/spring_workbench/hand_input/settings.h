@@ -21,9 +21,9 @@ struct InputSettings {
   double max_turn_rate = 50.0;        ///< `max_turn_rate` [rad/s] between samples
   int accept_after = 5;               ///< `accept_after`: consecutive samples that make a relocation
   double origin_radius = 1e-3;      ///< `origin_radius` [m]: a jump to the identity this close is "out of view"; 0: off
-  double origin_angle = 0.02;       ///< `origin_angle` [rad]: … and its rotation from the identity
+  double origin_angle = 0.02;       ///< `origin_angle` [rad]: largest rotation of such a jump from the identity
   double min_cutoff = 0.0;          ///< `smoothing.min_cutoff` [Hz] of the jitter filter at rest; 0: off
-  double beta = 5.0;                ///< `smoothing.beta` [Hz per m/s]: increase of the cut-off with speed
+  double beta = 5.0;                ///< `smoothing.beta` [Hz per m/s]: increase of the cut-off with the speed
   double beta_angle = 1.0;          ///< `smoothing.beta_angle` [Hz per rad/s]
   OnLoss on_loss = OnLoss::freeze;  ///< `on_loss`: after `loss_timeout` without samples
   double loss_timeout = 2.0;        ///< `loss_timeout` [s]
@@ -31,12 +31,12 @@ struct InputSettings {
   double reacquisition_turn_rate = 2.0;  ///< `reacquisition_turn_rate` [rad/s]
 };
 
-/// What one key means; see `input_descriptions`.
+/// Description of one key; see `input_descriptions`.
 struct InputDescription {
   std::string key;  ///< without "input."
   std::string unit, allowed, default_value, meaning;
 };
-/// All keys. `doc/reference.md` is held to it.
+/// Returns the descriptions of all keys, which a test compares with `doc/reference.md`.
 std::vector<InputDescription> input_descriptions();
 
 /// Takes the entries `input: {…}` (nested) and `input.…` (dotted) out of `map` and sets the fields that they name, all

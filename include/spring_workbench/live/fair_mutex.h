@@ -6,8 +6,8 @@
 
 namespace spring_workbench::live {
 
-/// A mutex that is given in the order in which it was asked for: a thread that takes it again and again keeps nobody
-/// waiting for more than one turn.
+/// Mutex that threads get in the order in which they ask for it: a thread that locks it again and again makes no other
+/// thread wait for more than one turn.
 class FairMutex {
  public:
   void lock() {

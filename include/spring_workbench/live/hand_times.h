@@ -11,35 +11,37 @@
 
 namespace spring_workbench::live {
 
-/// How the hands' times, each counted from a zero of its own, are the simulation's, which are counted from that of the
-/// hand that came first.
+/// Converts each hand's times, which count from that hand's own epoch, to simulation time, which counts from the epoch
+/// of the first hand.
 class HandTimes {
  public:
-  /// `simulated_time`: a hand that begins long before the simulated time is of another time; else none ever is.
+  /// `simulated_time`: whether the clock is a simulated one. If so, a hand whose epoch lies clearly before the present
+  /// simulation time belongs to another run and does not join; on the wall clock every hand joins.
   explicit HandTimes(bool simulated_time) : simulated_time_(simulated_time) {}
 
-  /// Whether a hand that begins at `zero` [ns] comes to the others that are under way, at simulated time `t` [s],
-  /// rather than that all time has jumped.
+  /// Returns whether a hand whose epoch is `zero` [ns] joins the other hands at simulation time `t` [s]; false means
+  /// that time has jumped.
   bool joins(std::size_t hand, std::int64_t zero, double t) const;
   void join(std::size_t hand, std::int64_t zero) { shifts_.at(hand) = 1e-9 * static_cast<double>(zero - zero_); }
-  /// All begins anew with this hand.
+  /// Restarts simulation time with this hand, whose epoch is `zero` [ns]; the other hands have to join again.
   void begin(std::size_t hand, std::int64_t zero);
-  /// Whether a hand's times are those of the present.
+  /// Returns whether this hand has joined.
   bool knows(std::size_t hand) const { return shifts_.at(hand).has_value(); }
-  /// A hand's time as the simulation's [s].
+  /// Converts a hand's time `t` [s] to simulation time [s].
   double time_of(std::size_t hand, double t) const { return t + shifts_.at(hand).value_or(0.0); }
-  /// So much of all hands' time [s] is not simulated.
+  /// Skips `seconds` [s] of all hands' time: it is not simulated.
   void leave_out(double seconds);
-  /// What was left out since the last call [s].
+  /// Returns the time skipped since the last call [s].
   double take_left_out() { return std::exchange(left_out_, 0.0); }
-  /// Stamp of a simulated time [ns].
+  /// Returns the stamp of a simulation time `t` [s] [ns].
   std::int64_t stamp_of(double t) const { return zero_ + std::llround(1e9 * t); }
 
  private:
   bool simulated_time_;
-  double left_out_ = 0.0;                                                         ///< [s]
-  std::int64_t zero_ = 0;                                                         ///< of the simulation's times [ns]
-  std::array<std::optional<double>, simulation::Simulation::most_hands> shifts_;  ///< from a hand's times [s]
+  double left_out_ = 0.0;  ///< [s]
+  std::int64_t zero_ = 0;  ///< epoch of simulation time [ns]
+  std::array<std::optional<double>, simulation::Simulation::most_hands>
+      shifts_;  ///< to add to a hand's times [s]; none: it has not joined
 };
 
 }  // namespace spring_workbench::live

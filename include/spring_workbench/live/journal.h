@@ -11,50 +11,51 @@
 
 namespace spring_workbench::live {
 
-/// The committed simulation was changed by other means than its hands: a service, a panel, another time or scene.
+/// Change of the committed simulation that does not come from a hand: a service, a panel, a time jump or another scene.
 struct Change {
-  std::string what;                   ///< in words, e.g. the service's name
-  Command command;                    ///< the same, to be made again
-  std::string scene;                  ///< path of the scene that the state is of
+  std::string what;                   ///< name of the change, e.g. the service
+  Command command;                    ///< the change as a command, to be repeated in a replay
+  std::string scene;                  ///< path of the scene that the state belongs to
   std::uint64_t hash_before = 0;      ///< of the state before the change
-  simulation::SimulationState state;  ///< after it; of no simulation where nothing was changed, but for the hash
+  simulation::SimulationState state;  ///< state after the change; empty if nothing changed and only the hash is noted
 };
 
-/// No change: only the hash of the state as it is.
+/// Returns an entry that changes nothing and only records the hash of the present state.
 Change comparison_of(const simulation::Simulation& simulation);
 
-/// One entry of a live run's journal. Entries are numbered without a gap.
+/// Entry of the journal of a live run. Entries are numbered without a gap.
 struct Entry {
   std::uint64_t index = 0;
   double committed = 0.0;  ///< simulated time reached before it [s]; −infinity before the simulation began
   std::variant<hand_input::Accepted, Change> what;
 };
 
-/// What became of the changes of a journal after the first.
+/// Counts of the changes of a journal after the first one.
 struct ReplayedChanges {
   std::size_t made_again = 0;
-  std::size_t given = 0;                ///< of which only the state after them is known
-  std::vector<std::string> mismatches;  ///< made again, they led to another state than the recorded one
+  std::size_t given = 0;  ///< changes of which only the state after them is known
+  std::vector<std::string>
+      mismatches;  ///< changes that led to another state than the recorded one when they were repeated
 };
 
-/// Goes through a journal again: from the state of its first change on, each entry is given to a simulation of its own
-/// once that has gone to the entry's time, and each change is made again. So it does, bit by bit, what the committed
-/// simulation did.
+/// Replays a journal: it starts from the state of the first change, gives each entry to its own simulation when that
+/// has reached the time of the entry, and makes each change again. The simulation is then bit-identical to the
+/// committed one.
 class Replayer {
  public:
   using AtStop = std::function<void(simulation::Simulation&, const simulation::AdvanceReport&)>;
 
-  /// `load_scene(path)`; `settings`: those that the live run began with.
+  /// `load_scene(path)` loads a scene; `settings`: those with which the live run began.
   Replayer(std::function<scene::Scene(const std::string&)> load_scene, simulation::SimulationSettings settings)
       : load_scene_(std::move(load_scene)), settings_(std::move(settings)) {}
 
-  /// Goes to the entry's time, stop by stop, each reported to `at_stop`; then does what the entry says, after a change
-  /// with another report of no time. Entries before the first change are passed over. A change that leads to another
-  /// state than the recorded one is a mismatch, and the recorded one is gone on with. Throws InputError where an entry
-  /// is missing before this one, and where the state before a change is not what it was.
+  /// Advances to the time of the entry, calling `at_stop` after each stop, and then applies the entry; after a change,
+  /// `at_stop` is called once more with an empty report. Entries before the first change are ignored. If a change leads
+  /// to another state than the recorded one, it counts as a mismatch, and the recorded state is used. Throws InputError
+  /// if an entry before this one is missing, or if the state before a change differs from the recorded one.
   void play(const Entry& entry, const AtStop& at_stop);
 
-  /// Null before the first change.
+  /// The simulation; null before the first change.
   const simulation::Simulation* simulation() const { return simulation_.empty() ? nullptr : &simulation_.front(); }
   const ReplayedChanges& changes() const { return changes_; }
 

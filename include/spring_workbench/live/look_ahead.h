@@ -12,35 +12,35 @@
 
 namespace spring_workbench::live {
 
-/// How far what was shown was from what became of it.
+/// Largest difference between displayed poses and the poses that were later committed for the same time.
 struct PredictionError {
   double position = 0.0;  ///< [m]
   double angle = 0.0;     ///< [rad]
 };
 
-/// What is shown: a copy of the committed simulation, which goes ahead to the newest sample of the hands, or further,
-/// to where they are predicted to be. The committed one is only read.
+/// The displayed state: a copy of the committed simulation, advanced to the newest sample of the hands, or further, to
+/// where they are predicted to be. It only reads the committed simulation.
 class LookAhead {
  public:
-  /// Of a simulation of the same scene and settings.
+  /// `scene`, `settings`: those of the committed simulation.
   LookAhead(const scene::Scene& scene, const simulation::SimulationSettings& settings) : copy_(scene, settings) {}
 
-  /// Puts the copy at `committed` and goes to time `t` [s]; `feed`: that of `committed`.
+  /// Restores the copy from `committed` and advances it to time `t` [s]. `feed`: the feed of `committed`.
   void show(const simulation::Simulation& committed, const hand_input::Feed& feed, double t);
-  /// The same to the newest sample and `horizon` [s] beyond, but not back, and no further than `committed` where `pace`
-  /// says that this takes too long. Returns how far it is beyond the newest sample [s].
+  /// Advances the copy to the newest sample and `horizon` [s] beyond it, but never back, and no further than
+  /// `committed` if `pace` says that this takes too long. Returns how far the copy is beyond the newest sample [s].
   double show_newest(const simulation::Simulation& committed, const hand_input::Feed& feed, double horizon,
                      const Pace& pace);
   const simulation::Simulation& shown() const { return copy_; }
 
-  /// `committed` has gone on: what was shown of held objects in the meantime is compared with where it has them now.
-  /// The largest errors.
+  /// Compares the displayed poses of held objects with those in `committed`, which has advanced since. Returns the
+  /// largest errors.
   PredictionError compare(const simulation::Simulation& committed);
-  /// Of the positions compared so far, the newest 1000, that which 99 % do not exceed [m].
+  /// Returns the position error that 99 % of the newest 1000 comparisons do not exceed [m].
   double position_error_99() const;
-  /// Forgets what was shown: the committed simulation was changed.
+  /// Forgets the displayed poses, because the committed simulation was changed.
   void restart();
-  /// Another time began: what is shown may go back.
+  /// Allows the displayed time to go back, because time has restarted.
   void begin_anew() { shown_until_ = -std::numeric_limits<double>::infinity(); }
 
  private:

@@ -2,23 +2,23 @@
 
 namespace spring_workbench::live {
 
-/// What simulating costs, and whether it can keep up with the hands. Behind, simulated time is slower than theirs: no
-/// sample is taken until all that was taken is simulated.
+/// Measures how much processor time the simulation needs and whether it keeps up with the hands. While it is behind,
+/// simulated time is slower than that of the hands, and no sample is accepted until all accepted ones are simulated.
 class Pace {
  public:
-  /// A commit simulated so much time [s] in so much of the steady clock's [s]; `lag`: what is to be simulated from
-  /// there to the newest sample [s].
+  /// Reports a commit that simulated `simulated` [s] and took `took` [s] of the steady clock. `lag`: the time from
+  /// there to the newest sample that is still to be simulated [s].
   void committed(double simulated, double took, double lag);
-  /// All that was taken is simulated.
+  /// Reports that all accepted samples are simulated.
   void caught_up() { behind_ = false; }
   bool is_behind() const { return behind_; }
-  /// What it takes to simulate so much [s].
+  /// Returns the time [s] that it takes to simulate `time` [s].
   double work(double time) const { return cost_ * time; }
-  /// Whether a copy can go so far ahead beside it [s].
+  /// Returns whether there is also time for a copy to advance by `time` [s].
   bool can_look_ahead(double time) const;
 
  private:
-  double cost_ = 0.0;  ///< of a second of simulated time, smoothed [s]
+  double cost_ = 0.0;  ///< time to simulate one second, smoothed [s]
   bool behind_ = false;
 };
 

@@ -23,28 +23,29 @@
 
 namespace spring_workbench::live {
 
-/// What one cycle of the physics loop did.
+/// Report of one cycle of the physics loop.
 struct CycleReport {
   simulation::AdvanceReport advance;
   double wall_time = 0.0;      ///< [s], by the steady clock
-  bool behind = false;         ///< simulated time is slower than the hands': their samples are left out
-  double left_out = 0.0;       ///< of time, which nobody simulates: a leap of the hands' time [s]
-  bool more = false;           ///< there is more to commit at once: call `cycle` again
-  PredictionError prediction;  ///< of what was shown for the time that is committed now
-  double input_age = 0.0;      ///< of the newest sample, by its stamp [s]
-  std::array<std::vector<RejectedPose>, simulation::Simulation::most_hands> rejected;  ///< by the gate, of each hand
+  bool behind = false;         ///< simulation is slower than the hands: samples are dropped
+  double left_out = 0.0;       ///< time that is skipped because the hands' time jumped [s]
+  bool more = false;           ///< more can be committed at once: call `cycle` again
+  PredictionError prediction;  ///< error of what was displayed for the time that is now committed
+  double input_age = 0.0;      ///< age of the newest sample by its stamp [s]
+  std::array<std::vector<RejectedPose>, simulation::Simulation::most_hands>
+      rejected;  ///< poses of each hand that the gate rejected
 };
 
-/// What became of one hand's samples so far.
+/// Statistics of one hand's samples so far.
 struct HandStatistics {
   motion::StreamFigures stream;  ///< of the samples used
   hand_input::GateCounts gate;
   hand_input::ReacquisitionCounts reacquisition;
   std::size_t tracker_moves = 0;  ///< see Feed
-  double newest_arrival = 0.0;    ///< of a sample used, in local time [s]
+  double newest_arrival = 0.0;    ///< arrival of the newest sample used, in local time [s]
 };
 
-/// What came of one hand, as SimulationRunner keeps it.
+/// Input of one hand that SimulationRunner keeps.
 struct HandInput {
   HandInput(std::size_t number, double dropout_after) : hand(number), monitor(dropout_after) {}
   std::size_t hand;
@@ -55,36 +56,37 @@ struct HandInput {
   std::vector<RejectedPose> rejected;  ///< not reported yet
 };
 
-/// The committed simulation and its feed with the lock that keeps physics, services and publishers apart, the copy that
-/// is shown, the journal, and the epochs of the hands' clocks: times count from the epoch of the stylus that came
-/// first; another one joins it. Time in which no sample comes and none is waited for, since the process stood or the
-/// hands' clock leapt by more than 5 s, is left out: everything stays where it is, and the hands are followed anew.
-/// Likewise what comes while simulating cannot keep up: simulated time slows down then.
+/// Runs a live simulation: it owns the committed simulation and its feed, the lock that physics, services and
+/// publishers share, the displayed copy, the journal, and the epochs of the hands' clocks (times count from the epoch
+/// of the first stylus; another one joins it). Time is skipped if no sample arrives because the process was stopped, or
+/// if the hands' clock jumps by more than 5 s: everything stays where it is, and the hands are re-acquired. If the
+/// simulation cannot keep up, samples are dropped and simulated time slows down.
 class SimulationRunner {
  public:
-  /// `simulated_time`: a clock that is set back begins the scene again, as a bag that is played again does; else time
-  /// only goes on. Throws
-  /// InputError when scene and settings do not fit.
+  /// `simulated_time`: whether the clock is a simulated one. If so, a clock that is set back restarts the scene, as a
+  /// bag that is played again does; on the wall clock, time never goes back. Throws InputError if scene and settings do
+  /// not match.
   SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
                    const hand_input::InputSettings& input, bool simulated_time);
 
-  /// Feeds the events, then commits up to the next sample or button edge, where all is known up to that at local time
-  /// `now`. In simulated time what the samples before a new epoch decide is committed first, and the epoch waits.
+  /// Feeds the events and then commits up to the next sample or button edge, if at local time `now` the input is
+  /// complete up to there. In simulated time, everything that the samples before a new epoch determine is committed
+  /// before the epoch begins.
   CycleReport cycle(const HandEvents& events, const hand_input::LocalTime& now);
 
-  /// Brings what is shown to the newest sample or, with `latency` > 0 [s], so far beyond and as far as local time has
-  /// gone on since that sample came. Returns how far that is beyond the newest sample [s].
+  /// Advances the displayed copy to the newest sample; with `latency` > 0 [s], further by `latency` and by the local
+  /// time since that sample arrived. Returns how far it is beyond the newest sample [s].
   double show(double latency, const hand_input::LocalTime& now);
-  /// What is shown: for the caller of show() alone.
+  /// Returns the displayed copy. Only the caller of show() may use it.
   const simulation::Simulation& shown() const { return ahead_.shown(); }
 
-  /// Objects back to their start, nothing held; goes on with the next sample.
+  /// Puts all objects back to their initial poses with nothing held; the simulation continues with the next sample.
   void restart();
-  /// Another scene, with the settings as they are now. Throws InputError, and keeps the old one, when it does not fit.
+  /// Loads another scene with the present settings. Throws InputError, and keeps the old scene, if they do not match.
   void load(const scene::Scene& scene);
-  /// Another scene, with tools and settings as of a saved state and the objects where they are in it; nobody holds.
-  /// They are there when the first hand comes, too, whose time begins anew. Throws InputError, and keeps all as it was,
-  /// when the state does not fit the scene.
+  /// Loads a scene with the tools, settings and poses of a saved state; nothing is held. The objects keep these poses
+  /// when the first hand arrives and time restarts. Throws InputError, and changes nothing, if the state does not match
+  /// the scene.
   void resume(const scene::Scene& scene, const simulation::SimulationState& state);
 
   /// Calls `use(const Simulation&)` with exclusive access to the simulation.
@@ -95,28 +97,28 @@ class SimulationRunner {
   }
   /// Makes a change of the present scene, which the journal calls `what`. Throws as perform().
   simulation::ChangeReport change(const std::string& what, const Command& command);
-  /// Whether a hand has come since the start.
+  /// Returns whether a sample of any hand has arrived since the start.
   bool has_sample() const {
     return locked([this](const auto&) { return feed_.has_sample(); });
   }
-  /// Grows with all that changes the committed simulation.
+  /// Returns a number that grows with every change of the committed simulation.
   std::size_t revision() const {
     return locked([this](const auto&) { return revision_; });
   }
-  /// Entries from now on go to the journal, the first of them the state as it is; or none do.
+  /// Starts the journal, with the present state as its first entry, or stops it.
   void keep_journal(bool keep);
-  /// Has the journal say what the state's hash is, for comparison.
+  /// Records the hash of the present state in the journal, for comparison.
   void note_state();
-  /// The entries since the last call.
+  /// Returns the entries since the last call.
   std::vector<Entry> take_journal();
-  /// The assembly so far.
+  /// Returns the progress of the assembly.
   assembly::TaskMonitor task() const {
     return locked([this](const auto&) { return task_; });
   }
-  /// Stamp of the committed time, or of what is shown [ns]; `now` before the first sample.
+  /// Returns the stamp of the committed or of the displayed time [ns]; `now` before the first sample.
   std::int64_t stamp(std::int64_t now) const;
   std::int64_t shown_stamp(std::int64_t now) const;
-  /// Of a simulated time [ns].
+  /// Returns the stamp of a simulation time `t` [s] [ns].
   std::int64_t stamp_of(double t) const;
   HandStatistics hand_statistics(std::size_t hand) const;
   /// See LookAhead.
@@ -126,7 +128,7 @@ class SimulationRunner {
 
  private:
   using Lock = std::lock_guard<FairMutex>;
-  /// While it lives the simulation is changed; then the journal gets what it has become.
+  /// Encloses a change of the simulation: its destructor writes the state after the change to the journal.
   class Noted {
    public:
     Noted(SimulationRunner& runner, std::string what, Command command);
@@ -161,7 +163,7 @@ class SimulationRunner {
   std::vector<HandInput> inputs_;
   bool simulated_time_;
   Pace pace_;
-  bool was_behind_ = false;  ///< and no sample has come since
+  bool was_behind_ = false;  ///< and no sample has arrived since
   HandTimes times_;
   std::map<std::string, RigidTransform> places_;  ///< of objects, for the first epoch
   std::size_t revision_ = 0;

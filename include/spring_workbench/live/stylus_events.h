@@ -10,36 +10,36 @@
 
 namespace spring_workbench::live {
 
-/// The input starts again: all times that follow count from `zero`.
+/// Restart of the input: all following times count from `zero`.
 struct NewEpoch {
   std::int64_t zero = 0;  ///< [ns]
 };
-/// A pose of the handle as it came, in the frame P that is its parent, and when it came.
+/// Pose of the handle as received, in its parent frame P, with its arrival.
 struct StylusPose {
   hand_input::RawSample sample;
-  std::string parent;  ///< P's name
+  std::string parent;  ///< name of P
   RigidTransform X_WP = RigidTransform::Identity();
   hand_input::LocalTime arrival;
-  double age = 0.0;  ///< when it came, by its stamp [s]
+  double age = 0.0;  ///< age on arrival by its stamp [s]
 };
-/// One that the gate did not let through.
+/// Pose that the gate rejected.
 struct RejectedPose {
   hand_input::GateResult result;
   StylusPose pose;
 };
-/// A button went down or up at time `t` [s].
+/// Edge of a button at time `t` [s].
 struct StylusButton {
   double t = 0.0;
   motion::Press press = motion::Press::grasp;
 };
-/// The buttons are known up to time `t` [s]: a message about them came, whether or not one of them changed.
+/// Message about the buttons with stamp `t` [s]: they are known up to this time, whether or not one of them changed.
 struct ButtonsKnown {
   double t = 0.0;
   hand_input::LocalTime arrival;
 };
 using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, ButtonsKnown>;
 
-/// What came of each stylus since the last cycle.
+/// Events of each stylus since the last cycle.
 using HandEvents = std::array<std::vector<StylusEvent>, simulation::Simulation::most_hands>;
 
 }  // namespace spring_workbench::live

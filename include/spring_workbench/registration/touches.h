@@ -10,37 +10,38 @@
 
 namespace spring_workbench::registration {
 
-/// The driver's parameters for the tracker's pose and the stylus' tip: `offset` and `tip`.
+/// Parameters of the driver for the pose of the tracker and the tip of the stylus: `offset` and `tip`.
 struct StoredRegistration {
   RigidTransform X_BT = RigidTransform::Identity();  ///< `offset`: the tracker's frame in the workbench
   Vector3d p_ST = Vector3d::Zero();                  ///< `tip`: in the tracked frame of the stylus [m]
 };
 
-/// Reads `offset` and `tip`, each where it is given; other keys are not looked at. Throws InputError with `where`.
+/// Reads `offset` and `tip`, if they are given, and ignores other keys. Throws InputError with `where` if one is
+/// invalid.
 StoredRegistration read_registration(const YAML::Node& map, const std::string& where);
-/// The known points, `landmarks: [{name: …, position: x y z}, …]` [m in the workbench], in the order in which they are
-/// touched. Throws InputError with file:line, key, value and rule.
+/// Reads the known points, `landmarks: [{name: …, position: x y z}, …]` [m in the workbench], in the order in which
+/// they are touched. Throws InputError with file:line, key, value and rule.
 std::vector<Landmark> read_landmarks(const std::string& path);
 
-/// The samples of each time that the button was down.
+/// Returns the samples of each press of the button.
 std::vector<std::vector<motion::StylusSample>> presses(const std::vector<motion::StylusSample>& samples);
-/// The landmarks with the mean position of one press each as its touch. Throws InputError when there are not as many
-/// presses as landmarks, or when the samples of one lie farther than `largest_residual` [m] from their mean.
+/// Returns the landmarks, each with the mean position of one press as its touch. Throws InputError if there are not as
+/// many presses as landmarks, or if a sample of a press is farther than `largest_residual` [m] from their mean.
 std::vector<Landmark> touched_landmarks(std::vector<Landmark> landmarks,
                                         const std::vector<std::vector<motion::StylusSample>>& touches,
                                         double largest_residual);
 
-/// What the driver sends of these samples, which the tracker measured, with this registration.
+/// Transforms raw tracker samples into what the driver would publish with this registration.
 std::vector<motion::StylusSample> as_sent(std::vector<motion::StylusSample> samples,
                                           const StoredRegistration& registration);
 
-// The file that `registration:=` of the launch files takes, with what was found in place of `present`, and how good
-// that is as comments before it; from samples as sent. They throw InputError as calibrate_tip and as touched_landmarks
-// and register_tracker do.
-/// `tip`, from turning about it while the button is down.
+// Both return the text of a file for the launch argument `registration:=`: `present` with the newly found value in its
+// place, preceded by comments on the quality of the fit. `samples` are as published by the driver. They throw the
+// InputErrors of calibrate_tip, or of touched_landmarks and register_tracker.
+/// Finds `tip` from samples of a stylus that turns about its tip while the button is down.
 std::string find_tip(const std::vector<motion::StylusSample>& samples, const StoredRegistration& present,
                      double largest_residual);
-/// `offset`, from touches of the landmarks `known`, in their order.
+/// Finds `offset` from touches of the landmarks `known`, in their order.
 std::string find_tracker(const std::vector<motion::StylusSample>& samples, const std::vector<Landmark>& known,
                          const StoredRegistration& present, double largest_residual);
 

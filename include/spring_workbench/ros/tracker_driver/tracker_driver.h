@@ -8,16 +8,17 @@
 
 namespace spring_workbench::tracker_driver {
 
-/// What keeps a sample of this `source` (see TrackerParameters) from being a transform; empty where nothing does. A
-/// FASTRAK's receiver is never in its transmitter: a pose that is the identity to the bit says that it is not seen.
+/// Returns why a sample of this `source` (see TrackerParameters) cannot be sent as a transform; empty if it can. The
+/// receiver of a FASTRAK is never inside its transmitter, so a pose that is exactly the identity means that it is out
+/// of view.
 std::string why_not_sent(const motion::StationSample& sample, const std::string& source);
 
-/// The node `tracker_driver`: plays a motion in its own time, once or for ever with `loop`, or passes a device's
-/// samples on, or those of a stylus that is moved by messages (a marker in rviz, a game pad), as tf frames (stylus,
-/// head) and buttons (`stylus/joy`, of station k `stylus_k/joy`; 0: grasp, 1: next tool), stamped with the moment at
-/// which each sample is due (a device's: at which it came); until shutdown. A device's station 1 is the stylus,
-/// head_station the head, station k else the frame stylus_k. Poses are passed on raw: who follows them gates and
-/// smooths. Throws InputError when a parameter or the file cannot be used.
+/// Runs the node `tracker_driver` until shutdown. It plays a motion once, or repeatedly with `loop`, or passes on the
+/// samples of a device or of a stylus that messages move (a marker in rviz, a game pad). It sends tf frames (stylus,
+/// head) and buttons (`stylus/joy`, of station k `stylus_k/joy`; 0: grasp, 1: next tool), stamped with the time at
+/// which each sample is due or, from a device, arrived. Station 1 of a device is the stylus, head_station the head, and
+/// any other station k the frame stylus_k. Poses are passed on raw; the receiver gates and smooths them. Throws
+/// InputError if a parameter or the file cannot be used.
 void run(ros::NodeHandle node, ros::NodeHandle private_node);
 
 }  // namespace spring_workbench::tracker_driver
