@@ -164,8 +164,7 @@ class Recovery(unittest.TestCase):
             return places if len(places) > SIZE[0] * SIZE[1] // 4 else None
 
         rviz = self.start_rviz(kind, view)
-        time.sleep(3.0)  # its docks get their width
-        self.view = view()
+        self.view = self.settled(view, lambda now, before: now == before)  # its docks have their width
         self.panel_width = min(i % SIZE[0] for i in self.view) - 5
         self.grey = 0
         self.grey = self.look()[1]
@@ -184,15 +183,16 @@ class Recovery(unittest.TestCase):
     def expect_gone(self, what):
         self.stack.until(lambda: self.look()[0] == 0, what)
 
-    def settled(self):
-        """What is shown, once it has been the same for two seconds."""
-        last = None
-        while True:
-            now = self.look()
-            if last and now[0] == last[0] > 100 and abs(now[1] - last[1]) < 0.1 * last[1]:
+    def settled(self, look, same):
+        """What is seen, once two looks two seconds apart have seen the same."""
+        end, before = time.monotonic() + DEADLINE, None
+        while time.monotonic() < end:
+            now = look()
+            if now and before and same(now, before):
                 return now
-            last = now
+            before = now
             time.sleep(2.0)
+        self.fail("what rviz shows does not come to rest")
 
     def check(self, kind):
         stack = self.stack
@@ -201,7 +201,9 @@ class Recovery(unittest.TestCase):
         self.assertEqual(self.look()[0], 0)
         node = stack.manipulation("single_box")
         stack.until(lambda: self.look()[0] > 100, "something to be drawn")
-        drawn, writing = self.settled()
+        drawn, writing = self.settled(
+            self.look, lambda now, before: now[0] == before[0] > 100 and abs(now[1] - before[1]) < 0.1 * before[1]
+        )
         print("%s: %d pixels drawn, %d of the panel's writing" % (kind, drawn, writing))
         self.assertGreater(writing, 500)
 
