@@ -107,7 +107,7 @@ class Tools(unittest.TestCase):
             self.assertLess(math.dist((before.x, before.y, before.z), (after.x, after.y, after.z)), 1e-9)
             self.hand.run(0.5)
             self.assertEqual(self.fork.next().held_object, "box")
-        self.assertIn("let go", self.call("select_tool", "spring_probe", 1).message)
+        self.assertIn("released", self.call("select_tool", "spring_probe", 1).message)
         self.hand.run(0.2)
         self.assertFalse(self.box().held)
 

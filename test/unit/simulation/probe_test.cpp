@@ -120,7 +120,7 @@ TEST(Probe, CannotHold) {
   simulation.advance(0.5);
   ASSERT_EQ(simulation.fork().held_object, "box");
   const bodies::BodyState before = simulation.objects()[0];
-  EXPECT_NE(simulation.select_tool(tools::Tool::spring_probe).message.find("let go"), std::string::npos);
+  EXPECT_NE(simulation.select_tool(tools::Tool::spring_probe).message.find("released"), std::string::npos);
   EXPECT_FALSE(simulation.objects()[0].held);
   EXPECT_LT((simulation.objects()[0].V_WO_W.linear - before.V_WO_W.linear).norm(), 1e-12);
 }
