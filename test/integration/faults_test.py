@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The stack while things go wrong: nodes killed and started again, a master started anew, a subscriber that does not
 read, a full disk, a stopped processor, a flood of service calls. The hand owns the ROS clock (stack.Hand)."""
+import io
 import os
 import signal
 import socket
@@ -15,6 +16,7 @@ from xmlrpc.client import ServerProxy
 import rosgraph
 import rospy
 import rostest
+from geometry_msgs.msg import TransformStamped
 from roscpp.srv import SetLoggerLevel
 from rosgraph.names import ns_join
 from spring_workbench.msg import ForkState, ObjectStates, StepReport
@@ -30,8 +32,21 @@ from spring_workbench.srv import (
     SetIntegrator,
 )
 from std_srvs.srv import Trigger
+from tf2_msgs.msg import TFMessage
 
-from stack import DEADLINE, DOWN, Hand, Launched, Listener, kill_and_wait, pid_of, slave_api, wait_for
+from stack import (
+    DEADLINE,
+    DOWN,
+    Hand,
+    Launched,
+    Listener,
+    diagnostic_values,
+    diagnostics_listener,
+    kill_and_wait,
+    pid_of,
+    slave_api,
+    wait_for,
+)
 
 SCENE = "scene:=package://spring_workbench/scenes/single_box.urdf"
 STACK = ["workbench.launch", SCENE, "tracker:=false", "rviz:=false", "calibrate:=none", "respawn:=true"]
@@ -53,6 +68,19 @@ def memory_of(pid):
     """Resident memory [MB]."""
     with open("/proc/%d/statm" % pid) as file:
         return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE") / 1e6
+
+
+class Written(TFMessage):
+    """A message that is made into bytes once, so that many can be sent fast."""
+
+    def __init__(self, message):
+        super().__init__()
+        buffer = io.BytesIO()
+        message.serialize(buffer)
+        self.bytes = buffer.getvalue()
+
+    def serialize(self, buff):
+        buff.write(self.bytes)
 
 
 class Faults(unittest.TestCase):
@@ -242,6 +270,31 @@ class Faults(unittest.TestCase):
             "simulated time to come up with the hand's",
         )
         self.assertEqual(sum(m.steps_rejected for m in self.steps.messages[seen:]), 0)
+
+    def test_messages_lost_at_a_full_queue_are_counted(self):
+        diagnostics = diagnostics_listener()
+        self.addCleanup(diagnostics.subscriber.unregister)
+
+        def status():
+            return diagnostic_values(diagnostics.messages, "manipulation: messages lost")
+
+        wait_for(lambda: status().get("/tf") == "0", "a count of /tf")
+        flood = rospy.Publisher("/tf", TFMessage, queue_size=None, tcp_nodelay=True)
+        self.addCleanup(flood.unregister)
+        wait_for(lambda: flood.get_num_connections() > 0, "the node to listen")
+        noise = Written(TFMessage([TransformStamped(child_frame_id="noise")]))
+        sent, node, end = 0, pid_of("/manipulation"), time.monotonic() + DEADLINE
+        while int(status()["/tf"]) == 0 and time.monotonic() < end:  # what comes while it stands waits in the line
+            os.kill(node, signal.SIGSTOP)
+            for _ in range(10000):
+                flood.publish(noise)
+            os.kill(node, signal.SIGCONT)
+            sent += 10000
+            diagnostics.next()
+            diagnostics.next()
+        self.assertGreater(int(status()["/tf"]), 0)
+        self.assertLess(int(status()["/tf"]), 2 * sent)  # each stylus has a queue of its own
+        self.keep_going()
 
     def test_a_full_disk_under_a_recording(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 """A ROS master that hangs or dies under a node `manipulation`: the hand and known clients notice nothing, /diagnostics
-says it, and the node ends when it is asked to. The master is one of the test's own."""
+says it, and the node ends when it is asked to. The master is one of the test's own. MASTER_OUTAGE: how long [s]."""
 import os
 import signal
 import socket
@@ -23,7 +23,7 @@ from stack import DEADLINE, DOWN, Listener, diagnostic_values, stylus_transform,
 SCENE = os.path.join(rospkg.RosPack().get_path("spring_workbench"), "scenes", "single_box.urdf")
 MANIPULATION = roslib.packages.find_node("spring_workbench", "manipulation")
 PERIOD = 0.01  # [s] of the samples
-OUTAGE = 5.0  # [s]
+OUTAGE = float(os.environ.get("MASTER_OUTAGE", "5"))  # [s]
 
 
 def free_port():
@@ -98,7 +98,7 @@ class Master(unittest.TestCase):
         self.node.send_signal(signal.SIGINT)
         self.node.wait(DEADLINE)
         print("ended in %.2f s" % (time.monotonic() - begin))
-        self.assertLess(time.monotonic() - begin, 4.0)
+        self.assertLess(time.monotonic() - begin, 2.0)
 
     def test_nothing_is_noticed_while_the_master_hangs(self):
         self.check(lambda: self.master.send_signal(signal.SIGSTOP))

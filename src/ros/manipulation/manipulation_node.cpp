@@ -139,6 +139,7 @@ void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
     ROS_WARN_STREAM_DELAYED_THROTTLE(hint_patience, "no sample of the stylus yet: " << first.hint);
   const TrackerInput second{second_input_.statistics(), runner_.hand_statistics(1), ""};
   message.status = diagnostics_.report(first, second, loop, ros_common::loop_time());
+  message.status.push_back(lost_messages_.report(ros::this_node::getName()));
   diagnostics_publisher_.publish(message);
 }
 

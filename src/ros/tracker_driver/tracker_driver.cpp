@@ -22,6 +22,7 @@
 #include "spring_workbench/motion_files/scripted_source.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/diagnostic_status.h"
+#include "spring_workbench/ros/common/lost_messages.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/parameters.h"
 #include "spring_workbench/ros/tracker_driver/tracker_parameters.h"
@@ -262,6 +263,7 @@ class TrackerDriver {
       for (const auto& [reason, count] : station.not_sent) of_station.add("not sent: " + reason, count);
       message.status.push_back(of_station.status());
     }
+    message.status.push_back(lost_messages_.report(name_));
     diagnostics_publisher_.publish(message);
   }
 
@@ -285,6 +287,7 @@ class TrackerDriver {
   double next_diagnostics_ = 0.0;
   tf2_ros::TransformBroadcaster transforms_;
   std::map<int, ros::Publisher> joy_publishers_;  ///< by station
+  ros_common::LostMessages lost_messages_;
   ros::Publisher diagnostics_publisher_;
 };
 

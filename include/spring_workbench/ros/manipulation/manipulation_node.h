@@ -12,6 +12,7 @@
 
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/ros/common/lost_messages.h"
 #include "spring_workbench/ros/manipulation/checkpoint.h"
 #include "spring_workbench/ros/manipulation/diagnostics.h"
 #include "spring_workbench/ros/manipulation/live_tuning.h"
@@ -67,6 +68,7 @@ class ManipulationNode {
   std::unique_ptr<LiveTuning> live_tuning_;
   Checkpoint checkpoint_;
   ManipulationDiagnostics diagnostics_;
+  ros_common::LostMessages lost_messages_;
   std::mutex loop_mutex_;
   LoopStatistics loop_;
   bool workbench_placed_ = false;

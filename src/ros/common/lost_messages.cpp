@@ -1,0 +1,41 @@
+#include "spring_workbench/ros/common/lost_messages.h"
+
+#include <ros/ros.h>
+#include <ros/xmlrpc_manager.h>
+
+#include "spring_workbench/ros/common/diagnostic_status.h"
+
+namespace spring_workbench::ros_common {
+
+/// roscpp counts them itself, and tells the counts of present connections to nobody but callers of this node's own API:
+/// of publishers, subscribers [topic, [number, bytes, messages, lost, …] of each connection], services.
+diagnostic_msgs::DiagnosticStatus LostMessages::report(const std::string& name) {
+  XmlRpc::XmlRpcValue caller, answer;
+  caller[0] = name;
+  XmlRpc::XmlRpcClient own_api("localhost", static_cast<int>(ros::XMLRPCManager::instance()->getServerPort()), "/");
+  const bool answered = own_api.execute("getBusStats", caller, answer) && answer.size() >= 2;
+  XmlRpc::XmlRpcValue none;
+  none.setSize(0);
+  XmlRpc::XmlRpcValue& subscribers = answered ? answer[1] : none;
+  std::map<std::string, std::size_t> by_topic;
+  bool more = false;
+  for (int i = 0; i < subscribers.size(); ++i) {
+    const std::string topic = subscribers[i][0];
+    by_topic[topic] = 0;
+    XmlRpc::XmlRpcValue& connections = subscribers[i][1];
+    for (int k = 0; k < connections.size(); ++k) {
+      std::size_t& known = lost_[{topic, static_cast<int>(connections[k][0])}];
+      const auto now = static_cast<std::size_t>(static_cast<int>(connections[k][3]));
+      more |= now > known;
+      known = now;
+    }
+  }
+  for (const auto& [connection, count] : lost_) by_topic[connection.first] += count;
+  DiagnosticStatusBuilder status(name + ": messages lost", "queues of subscribers");
+  for (const auto& [topic, count] : by_topic) status.add(topic, count);
+  if (!answered) status.raise(diagnostic_msgs::DiagnosticStatus::WARN, "the node's own API does not answer");
+  if (more) status.raise(diagnostic_msgs::DiagnosticStatus::WARN, "messages were lost: a subscriber's queue was full");
+  return status.status();
+}
+
+}  // namespace spring_workbench::ros_common
