@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The launch files and the rviz configuration as shipped, and a bag that is made here and played into the stack."""
 import glob
+import json
 import os
 import shutil
 import subprocess
@@ -8,11 +9,14 @@ import sys
 import tempfile
 import unittest
 
+import rosbag
 import rosgraph
+import roslib.packages
 import rospkg
 import rospy
 import rostest
-from spring_workbench.msg import ObjectStates, StepReport, TaskState
+from rosgraph_msgs.msg import Log
+from spring_workbench.msg import Change, ObjectStates, StepReport, TaskState
 
 from stack import Launched, Listener, make_bag, wait_for
 
@@ -50,6 +54,40 @@ class LaunchFiles(unittest.TestCase):
             self.assertGreater(len(steps.messages), 0)
             self.assertEqual(sum(m.steps_rejected for m in steps.messages), 0)
         shutil.rmtree(folder)
+
+    def test_a_recorded_run_is_replayed(self):
+        rospy.set_param("/use_sim_time", False)
+        objects, changes = Listener("manipulation/objects", ObjectStates), Listener("manipulation/changes", Change)
+        with tempfile.TemporaryDirectory() as folder:
+            record = "record:=" + os.path.join(folder, "run")
+            with Launched("workbench.launch", "rviz:=false", "pause:=0", record):
+                objects.next(lambda m: any(o.held for o in m.objects), "an object to be held")
+                for _ in range(2):  # the recorder may lose what comes as it is ended
+                    changes.next(lambda m: not m.state, "a comparison of states after that")
+            command = [*roslib.packages.find_node("spring_workbench", "replay"), "--bag", folder + "/run_0.bag"]
+            command += ["--scene", PACKAGE + "/scenes/mini_world.urdf", "--out", folder + "/run.csv"]
+            done = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            summary = json.loads(done.stdout.splitlines()[-1])
+            self.assertGreater(summary["samples"], 50)
+            self.assertEqual(summary["changes_mismatched"], 0)
+            with rosbag.Bag(folder + "/run_0.bag") as recorded:
+                topics = recorded.get_type_and_topic_info().topics
+                comparisons = [m for _, m, _ in recorded.read_messages("/manipulation/changes") if not m.state]
+            self.assertGreater(len(comparisons), 0)
+            for topic in ("/tf", "/stylus/joy", "/manipulation/accepted"):
+                self.assertIn(topic, topics)
+
+    def test_a_full_disk_ends_the_recording_alone(self):
+        rospy.set_param("/use_sim_time", False)
+        steps = Listener("manipulation/steps", StepReport)
+        with tempfile.TemporaryDirectory() as folder, open(os.path.join(folder, "said"), "w+") as said:
+            arguments = ["rviz:=false", "record_min_space:=1000000000G", "record:=" + os.path.join(folder, "run")]
+            with Launched("workbench.launch", *arguments, output=said):
+                is_said = lambda: said.seek(0) or "Disabling recording" in said.read()
+                wait_for(is_said, "the recorder to stop")
+                seen = len(steps.messages)
+                wait_for(lambda: len(steps.messages) > seen + 10, "the simulation to continue")
 
     def test_rviz_shows_the_shipped_configuration(self):
         if not shutil.which("Xvfb"):

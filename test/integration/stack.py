@@ -191,14 +191,15 @@ class Hand:
 
 
 class Launched:
-    """roslaunch as a user runs it; ended, with all its nodes, at the end of the block."""
+    """roslaunch as a user runs it; ended, with all its nodes at the end of the block. `output`: a file."""
 
-    def __init__(self, *arguments, environment=None):
+    def __init__(self, *arguments, environment=None, output=None):
+        self.output = output
         self.arguments = ["roslaunch", "spring_workbench", *arguments]
         self.environment = dict(os.environ, **(environment or {}))
 
     def __enter__(self):
-        self.process = subprocess.Popen(self.arguments, env=self.environment)
+        self.process = subprocess.Popen(self.arguments, env=self.environment, stdout=self.output, stderr=self.output)
         return self
 
     def __exit__(self, *_):
