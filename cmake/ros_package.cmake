@@ -20,8 +20,8 @@ add_message_files(FILES Accepted.msg Change.msg Contact.msg Contacts.msg ForkSta
   PlacementState.msg
   StepReport.msg
   TaskState.msg)
-add_service_files(FILES Calibrate.srv LoadScene.srv Release.srv SelectTool.srv SetClutch.srv SetForkDamping.srv
-  SetForkDofs.srv SetForkStiffness.srv SetIntegrator.srv)
+add_service_files(FILES Calibrate.srv EditObject.srv LoadScene.srv Release.srv SaveScene.srv SelectTool.srv
+  SetClutch.srv SetForkDamping.srv SetForkDofs.srv SetForkStiffness.srv SetIntegrator.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
 find_package(dynamic_reconfigure QUIET)   # optional: live tuning

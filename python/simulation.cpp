@@ -161,6 +161,25 @@ the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputEr
           "Releases all objects and places those named in `poses` (name: pose, shape (4, 4)), at rest. Raises "
           "InputError if "
           "a pose is invalid.")
+      .def(
+          "edit",
+          [](Simulation& s, const std::string& action, const std::string& name, const std::string& urdf,
+             const std::optional<Array>& pose, double mass, double friction) {
+            simulation::ObjectEdit edit;
+            edit.action = value_of<simulation::ObjectEdit::Action>(action, "edit: action");
+            edit.object = name;
+            edit.urdf = urdf;
+            if (pose) edit.X_WL = to_pose(*pose, "edit: pose");
+            edit.mass = mass;
+            edit.friction = friction;
+            s.edit(edit);
+          },
+          py::arg("action"), py::arg("name"), py::arg("urdf") = "", py::arg("pose") = py::none(), py::arg("mass") = 0.0,
+          py::arg("friction") = 0.0,
+          R"(Changes one object, all or nothing; everything else continues from where it is.
+
+action: add (its own URDF, with the pose of its link's frame in world, or on the bench), move (to that pose), remove,
+mass [kg] or friction. Raises InputError if the object or a value is not allowed.)")
       .def("reset", &Simulation::reset,
            "Puts all objects back to their initial poses; nothing is held, and all samples are forgotten.");
 }

@@ -311,6 +311,20 @@ class Simulation:
     def place(self, poses: Mapping[str, npt.ArrayLike]) -> None:
         """Releases all objects and places those named in `poses` (name: pose, shape (4, 4)), at rest. Raises InputError
         if a pose is invalid."""
+    def edit(
+        self,
+        action: str,
+        name: str,
+        urdf: str = ...,
+        pose: Optional[npt.ArrayLike] = None,
+        mass: float = 0.0,
+        friction: float = 0.0,
+    ) -> None:
+        """Changes one object, all or nothing; everything else continues from where it is.
+
+        action: add (its own URDF, with the pose of its link's frame in world, or on the bench), move (to that pose),
+        remove, mass [kg] or friction. Raises InputError if the object or a value is not allowed."""
+
     def reset(self) -> None:
         """Puts all objects back to their initial poses; nothing is held, and all samples are forgotten."""
 

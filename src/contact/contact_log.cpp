@@ -14,6 +14,14 @@ bool contains_pair(const std::vector<ContactState>& list, const ContactState& c)
 
 }  // namespace
 
+ContactRow row_of(const rigid_bodies::WorldContact& contact, double h) {
+  ContactRow row;
+  row.point = {contact.other, contact.p_W, contact.n_W, contact.depth};
+  row.gap = -contact.depth;
+  row.load_W = contact.impulse_W / h;
+  return row;
+}
+
 void ContactLog::reset(std::size_t objects) {
   touching_.assign(objects, {});
   with_contacts_.clear();
@@ -50,6 +58,14 @@ void ContactLog::note(std::size_t object, const bodies::BodyState& state, const 
   } else {
     with_contacts_.insert(object);
   }
+}
+
+void ContactLog::take(std::size_t object, const ContactLog& from, std::size_t its) {
+  touching_[object].clear();
+  for (const ContactState& c : from.touching_[its]) {
+    if (c.other == "workbench" || scene::find_body(scene_, c.other)) touching_[object].push_back(c);
+  }
+  if (!touching_[object].empty()) with_contacts_.insert(object);
 }
 
 std::vector<ContactState> ContactLog::all() const {

@@ -64,7 +64,7 @@ void Command::exchange(math::StateArchive& state) {
   state(kind, hand, tool, on, places);
   state(of_fork.dofs, of_fork.stretch_stiffness, of_fork.bend_stiffness, of_fork.torsion_stiffness,
         of_fork.damping_ratio, of_fork.damping_coefficient, of_fork.damping_law);
-  state(of_dynamics.integrator, of_dynamics.step, of_dynamics.tolerance);
+  state(of_dynamics.integrator, of_dynamics.step, of_dynamics.tolerance, edit);
 }
 
 simulation::ChangeReport perform(const Command& command, simulation::Simulation& simulation) {
@@ -83,6 +83,8 @@ simulation::ChangeReport perform(const Command& command, simulation::Simulation&
       simulation.reset();
       simulation.place(command.places);
       return {};
+    case Command::Kind::edit:
+      return simulation.edit(command.edit, command.roots);
     case Command::Kind::none:
     case Command::Kind::load_scene:
       break;

@@ -27,4 +27,8 @@ constexpr double longest_lag = 0.5;
 /// Pace.IsBehindWhereWhatIsTakenIsNotDoneSoon at 0.001, 10.
 constexpr double longest_look_ahead = 0.1;
 
+/// edits and resets that can be taken back. More: each keeps a whole state. Test:
+/// Undo.TakesBackAsManyEditsAsItSays.
+constexpr std::size_t most_undone = 20;
+
 }  // namespace spring_workbench::live

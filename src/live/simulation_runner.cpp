@@ -6,16 +6,6 @@
 #include "constants.h"
 
 namespace spring_workbench::live {
-namespace {
-
-std::map<std::string, RigidTransform> places_of(const simulation::Simulation& simulation) {
-  std::map<std::string, RigidTransform> places;
-  for (const bodies::BodyState& object : simulation.objects()) places[object.name] = object.X_WO;
-  return places;
-}
-
-}  // namespace
-
 SimulationRunner::Noted::Noted(SimulationRunner& runner, std::string what, Command command)
     : runner_(runner), what_(std::move(what)), command_(std::move(command)), committed_(runner.feed_.committed()) {
   if (runner_.keeps_journal_) hash_before_ = runner_.simulation_.state_hash();
@@ -26,7 +16,7 @@ SimulationRunner::Noted::~Noted() {
   runner_.ahead_.restart();
   if (!runner_.keeps_journal_) return;
   const std::string& scene = runner_.simulation_.scene().path;
-  runner_.note(committed_, Change{what_, command_, scene, hash_before_, runner_.simulation_.save()});
+  runner_.journal_.note(committed_, Change{what_, command_, scene, hash_before_, runner_.simulation_.save()});
 }
 
 SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
@@ -42,6 +32,18 @@ SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::
   }
 }
 
+void HandInput::tell(CycleReport& report) {
+  report.more |= !waiting.empty();
+  report.rejected[hand] = std::exchange(rejected, {});
+  report.input_age = std::max(report.input_age, newest_age);
+}
+
+void HandInput::used(double t, const StylusPose& pose) {
+  monitor.sample(t, t + pose.age);
+  newest_arrival = pose.arrival.loop;
+  newest_age = pose.age;
+}
+
 CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::LocalTime& now) {
   const Lock lock(mutex_);
   const auto begin = std::chrono::steady_clock::now();
@@ -52,11 +54,7 @@ CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::
   report.left_out = times_.take_left_out();
   if (const std::optional<double> stop = feed_.next_stop(now)) commit(*stop, report);
   report.more = feed_.next_stop(now).has_value();
-  for (HandInput& input : inputs_) {
-    report.more |= !input.waiting.empty();
-    report.rejected[input.hand] = std::exchange(input.rejected, {});
-    report.input_age = std::max(report.input_age, input.newest_age);
-  }
+  for (HandInput& input : inputs_) input.tell(report);
   report.input_age += feed_.waited(now);
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const double lag = simulation_.newest_sample() - simulation_.time();
@@ -135,9 +133,7 @@ void SimulationRunner::apply(HandInput& input, const StylusPose& pose) {
   if (std::isfinite(sample.t)) sample.t = time_of(input, sample.t);
   const hand_input::GateResult result = feed_.push_stylus(sample, pose.X_WP, pose.arrival, input.hand);
   if (!hand_input::usable(result)) return input.rejected.push_back({result, pose});
-  input.monitor.sample(sample.t, sample.t + pose.age);
-  input.newest_arrival = pose.arrival.loop;
-  input.newest_age = pose.age;
+  input.used(sample.t, pose);
 }
 
 void SimulationRunner::apply(HandInput& input, const StylusButton& button) {
@@ -161,6 +157,7 @@ void SimulationRunner::start_anew(const std::string& what, std::map<std::string,
 
 void SimulationRunner::restart() {
   const Lock lock(mutex_);
+  undo_.keep("reset", simulation_.save());
   places_.clear();
   start_anew("reset", {});
 }
@@ -168,30 +165,37 @@ void SimulationRunner::restart() {
 simulation::ChangeReport SimulationRunner::change(const std::string& what, const Command& command) {
   const Lock lock(mutex_);
   const Noted noted(*this, what, command);
-  return perform(command, simulation_);
+  if (command.kind != Command::Kind::edit) return perform(command, simulation_);
+  const simulation::SimulationState before = simulation_.save();
+  simulation::ChangeReport report = perform(command, simulation_);
+  undo_.keep(report.message, before);
+  task_ = assembly::TaskMonitor(simulation_.scene());
+  return report;
 }
 
+std::string SimulationRunner::undo() {
+  const Lock lock(mutex_);
+  const Noted noted(*this, "undo", {});
+  const std::string what = undo_.take_back(simulation_);
+  task_ = assembly::TaskMonitor(simulation_.scene());
+  feed_.restart();
+  return what;
+}
+
+/// The copies are made without the lock: they may take their time.
 void SimulationRunner::load(const scene::Scene& scene) {
-  // The copy is made without the lock: it may take its time.
-  const auto [settings, forks] = locked(
-      [](const simulation::Simulation& present) { return std::make_pair(present.settings(), forks_of(present)); });
-  simulation::Simulation simulation = make_simulation(scene, settings, forks);
-  LookAhead ahead(scene, settings);
+  const auto [settings, forks] = locked([](const auto& s) { return std::make_pair(s.settings(), forks_of(s)); });
   Command command;
   command.kind = Command::Kind::load_scene;
-  begin_with("load_scene", command, std::move(simulation), std::move(ahead), {});
+  begin_with("load_scene", command, make_simulation(scene, settings, forks), LookAhead(scene, settings), {});
 }
 
 void SimulationRunner::resume(const scene::Scene& scene, const simulation::SimulationState& state) {
-  const simulation::SimulationSettings settings =
-      locked([](const simulation::Simulation& present) { return present.settings(); });
+  const simulation::SimulationSettings settings = locked([](const auto& present) { return present.settings(); });
   simulation::Simulation simulation(scene, settings);
   simulation.restore(state);
-  std::map<std::string, RigidTransform> places = places_of(simulation);
-  simulation.reset();
-  simulation.place(places);
-  LookAhead ahead(scene, settings);
-  begin_with("resume", {}, std::move(simulation), std::move(ahead), std::move(places));
+  std::map<std::string, RigidTransform> places = put_to_rest(simulation, simulation.time());
+  begin_with("resume", {}, std::move(simulation), LookAhead(scene, settings), std::move(places));
 }
 
 void SimulationRunner::begin_with(const std::string& what, const Command& command, simulation::Simulation simulation,
@@ -199,6 +203,7 @@ void SimulationRunner::begin_with(const std::string& what, const Command& comman
   const Lock lock(mutex_);
   const Noted noted(*this, what, command);
   places_ = std::move(places);
+  undo_ = Undo();
   task_ = assembly::TaskMonitor(simulation.scene());
   simulation_ = std::move(simulation);
   ahead_ = std::move(ahead);
@@ -209,23 +214,14 @@ void SimulationRunner::keep_journal(bool keep) {
   const Lock lock(mutex_);
   keeps_journal_ = keep;
   if (!keep) return feed_.record(nullptr);
-  feed_.record([this](const hand_input::Accepted& accepted) { note(accepted.committed, accepted); });
+  feed_.record([this](const hand_input::Accepted& accepted) { journal_.note(accepted.committed, accepted); });
   const Noted noted(*this, "the journal begins", {});
 }
 
 void SimulationRunner::note_state() {
   const Lock lock(mutex_);
   if (!keeps_journal_) return;
-  note(feed_.committed(), comparison_of(simulation_));
-}
-
-void SimulationRunner::note(double committed, std::variant<hand_input::Accepted, Change> what) {
-  journal_.push_back({next_entry_++, committed, std::move(what)});
-}
-
-std::vector<Entry> SimulationRunner::take_journal() {
-  const Lock lock(mutex_);
-  return std::exchange(journal_, {});
+  journal_.note(feed_.committed(), comparison_of(simulation_));
 }
 
 std::int64_t SimulationRunner::stamp_of(double t) const {

@@ -31,7 +31,7 @@ std::string package_file(const std::string& name, const std::string& where, cons
 /// Links followed.
 bool is_in_a_root(const fs::path& path, const std::vector<std::string>& roots) {
   std::error_code error;
-  const fs::path file = fs::canonical(path, error);
+  const fs::path file = fs::weakly_canonical(path, error);
   return !error && std::any_of(roots.begin(), roots.end(), [&](const std::string& root) {
     const fs::path folder = fs::canonical(root, error);
     return !error && *file.lexically_relative(folder).begin() != "..";
@@ -83,30 +83,46 @@ bool is_flat(const geometry::TriangleMesh& mesh, const Eigen::Vector3i& t) {
   return (mesh.corner(t, 1) - mesh.corner(t, 0)).cross(mesh.corner(t, 2) - mesh.corner(t, 0)).norm() == 0.0;
 }
 
+/// A name as resolve_file() takes it, as a path.
+fs::path path_of(const std::string& name, const std::string& folder, const std::string& where, const std::string& key) {
+  if (starts_with(name, "package://")) return package_file(name, where, key);
+  if (starts_with(name, "file://")) return name.substr(std::string("file://").size());
+  return fs::path(folder) / name;
+}
+
+/// Throws InputError unless it lies where files may.
+void check_folder(const fs::path& path, const std::vector<std::string>& roots, const std::string& name,
+                  const std::string& where, const std::string& key) {
+  if (roots.empty() || is_in_a_root(path, roots) || is_in_a_package(path)) return;
+  validation::refuse(where, key, name, "in a ROS package or in one of the folders " + validation::join(roots));
+}
+
 }  // namespace
 
 std::string resolve_file(const std::string& name, const std::string& folder, const std::vector<std::string>& roots,
                          const std::string& where, const std::string& key) {
-  std::string path;
-  if (starts_with(name, "package://")) {
-    path = package_file(name, where, key);
-  } else if (starts_with(name, "file://")) {
-    path = name.substr(std::string("file://").size());
-  } else {
-    path = (fs::path(folder) / name).string();
-  }
+  const std::string path = path_of(name, folder, where, key).string();
   std::error_code error;
   if (!fs::is_regular_file(path, error))
     validation::refuse(where, key, name,
                        name.empty() ? "an existing file" : "an existing file (looked for " + path + ")");
-  if (!roots.empty() && !is_in_a_root(path, roots) && !is_in_a_package(path)) {
-    validation::refuse(where, key, name, "in a ROS package or in one of the folders " + validation::join(roots));
-  }
+  check_folder(path, roots, name, where, key);
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error || bytes > most_bytes) {
     validation::refuse(where, key, name, "a file of at most " + std::to_string(most_bytes >> 20) + " MiB");
   }
   return fs::absolute(path).lexically_normal().string();
+}
+
+std::string resolve_new_file(const std::string& name, const std::vector<std::string>& roots, const std::string& where,
+                             const std::string& key) {
+  const fs::path path = path_of(name, "", where, key);
+  std::error_code error;
+  if (!path.is_absolute() || !fs::is_directory(path.parent_path(), error)) {
+    validation::refuse(where, key, name, "a package:// URI or an absolute path, in a folder that exists");
+  }
+  check_folder(path, roots, name, where, key);
+  return path.lexically_normal().string();
 }
 
 geometry::TriangleMesh clean_mesh(geometry::TriangleMesh mesh, const std::string& where) {

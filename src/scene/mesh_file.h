@@ -16,6 +16,10 @@ namespace spring_workbench::scene {
 std::string resolve_file(const std::string& name, const std::string& folder, const std::vector<std::string>& roots,
                          const std::string& where, const std::string& key);
 
+/// The path of a file that may be written, there or not, by the same rules. Throws InputError where its folder is not.
+std::string resolve_new_file(const std::string& name, const std::vector<std::string>& roots, const std::string& where,
+                             const std::string& key);
+
 /// Makes a mesh fit for use: equal vertices become one, flat triangles go, a mesh that is inside out is turned.
 /// Throws InputError naming `where` for bad indices, values that are not finite, or no triangle left.
 geometry::TriangleMesh clean_mesh(geometry::TriangleMesh mesh, const std::string& where);

@@ -56,7 +56,7 @@ std::string find_package_in_ros_package_path(const std::string& package) {
 
 bool is_in_a_package(const fs::path& path) {
   std::error_code error;
-  fs::path folder = fs::canonical(path, error).parent_path();
+  fs::path folder = fs::weakly_canonical(path, error).parent_path();
   for (; !error && folder.has_relative_path(); folder = folder.parent_path()) {
     const std::string name = package_name(folder);
     if (name.empty()) continue;

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "mass.h"
 #include "mesh_file.h"
 #include "scene_file.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/scene/editing.h"
 #include "urdf_bodies.h"
 #include "urdf_file.h"
 
@@ -31,6 +33,19 @@ void lay_on_bench(double bench_height, std::vector<Body>& bodies) {
   for (Body& body : bodies) body.X_WO.pretranslate(Vector3d(0.0, 0.0, bench_height - lowest));
 }
 
+/// The one body of an object's own URDF, at `X_WL` or on the bench. `given`: the URDF's name in messages.
+Body build_object(const UrdfFile& urdf, const std::optional<RigidTransform>& X_WL, const Material& material,
+                  double bench_height, MeshCache& meshes, std::vector<std::string>& warnings, const std::string& where,
+                  const std::string& key, const std::string& given) {
+  std::vector<Body> bodies = build_bodies(
+      urdf, X_WL.value_or(RigidTransform::Identity()), [&](const std::string&) { return material; }, meshes, warnings);
+  if (bodies.size() != 1 || is_bench_scene(urdf)) {
+    validation::refuse(where, key, given, "the URDF of one object (one body, root not world or workbench)");
+  }
+  if (!X_WL) lay_on_bench(bench_height, bodies);
+  return std::move(bodies.front());
+}
+
 /// Puts a scene together from its URDF, the YAML beside it and the URDFs that this names.
 class SceneLoader {
  public:
@@ -50,8 +65,10 @@ class SceneLoader {
       if (entry.urdf) add_object(name, entry);
     }
     check_names();
-    for (const auto& [name, entry] : file_.objects) {
-      if (entry.massless) scene_.bodies[*find_body(scene_, name)].mass_properties = MassProperties();
+    for (Body& body : scene_.bodies) {
+      const auto entry = file_.objects.find(body.name);
+      const bool massless = entry != file_.objects.end() ? entry->second.massless : file_.massless;
+      if (massless) body.mass_properties = MassProperties();
     }
     return std::move(scene_);
   }
@@ -80,18 +97,12 @@ class SceneLoader {
     const std::string key = "objects." + name + ".urdf";
     const std::string folder = fs::path(path_).parent_path().string();
     const UrdfFile urdf = read_urdf(resolve_file(*entry.urdf, folder, roots_, entry.where, key));
-    const auto material = [&](const std::string&) { return entry.material; };
-    std::vector<Body> bodies =
-        build_bodies(urdf, entry.X_WL.value_or(RigidTransform::Identity()), material, meshes_, scene_.warnings);
-    if (bodies.size() != 1 || is_bench_scene(urdf)) {
-      validation::refuse(entry.where, key, *entry.urdf,
-                         "the URDF of one object (one body, root not world or workbench)");
-    }
+    Body body = build_object(urdf, entry.X_WL, entry.material, scene_.bench_height, meshes_, scene_.warnings,
+                             entry.where, key, *entry.urdf);
     if (find_body(scene_, name))
       validation::refuse(entry.where, "objects." + name, name, "a name that the scene's URDF does not use");
-    if (!entry.X_WL) lay_on_bench(scene_.bench_height, bodies);
-    bodies.front().name = name;
-    scene_.bodies.push_back(std::move(bodies.front()));
+    body.name = name;
+    scene_.bodies.push_back(std::move(body));
   }
 
   /// What the YAML says of bodies must fit the bodies that there are.
@@ -120,6 +131,35 @@ class SceneLoader {
 Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>& roots) {
   const std::string path = resolve_file(path_or_uri, "", roots, "scene", "path");
   return SceneLoader(path, roots).load();
+}
+
+Body read_object(const std::string& name, const std::string& urdf, const std::optional<RigidTransform>& X_WL,
+                 const Scene& scene, const std::vector<std::string>& roots, const std::string& where) {
+  if (name.empty() || name == "world" || name == "workbench" || find_body(scene, name)) {
+    validation::refuse(where, "name", name, "a name that no body of the scene has, and not world or workbench");
+  }
+  const std::string folder = fs::path(scene.path).parent_path().string();
+  const UrdfFile file = read_urdf_file(resolve_file(urdf, folder, roots, where, "urdf"));
+  std::vector<std::string> warnings;
+  MeshCache meshes(roots);
+  Body body = build_object(file, X_WL, scene.bench_material, scene.bench_height, meshes, warnings, where, "urdf", urdf);
+  body.name = name;
+  return body;
+}
+
+void set_mass(Body& body, double mass, const std::string& where) {
+  MassProperties& m = body.mass_properties;
+  if (mass > 0.0 && m.mass > 0.0) {
+    m.inertia_O *= mass / m.mass;
+  } else if (mass > 0.0) {
+    std::vector<std::string> warnings;
+    const RigidMass solid = solid_mass(body.collision.empty() ? body.visual : body.collision, 1.0, where, warnings);
+    if (!(solid.mass > 0.0)) validation::refuse(where, "mass", "one for " + body.name, "0: it has no volume");
+    m.inertia_O = mass / solid.mass * solid.inertia;
+  } else {
+    m.inertia_O.setZero();
+  }
+  m.mass = mass;
 }
 
 std::optional<std::size_t> find_body(const Scene& scene, const std::string& name) {

@@ -5,7 +5,7 @@
 namespace spring_workbench::scene {
 namespace {
 
-const std::vector<std::string> material_keys = {"friction", "restitution", "density", "material_stiffness"};
+const std::vector<std::string> default_keys = {"friction", "restitution", "density", "material_stiffness", "massless"};
 
 std::string line_of(const YAML::Node& node, const std::string& path) {
   return path + ":" + std::to_string(node.Mark().line + 1);
@@ -31,13 +31,14 @@ void read_material(const Fields& field, Material& material) {
 }
 
 ObjectEntry read_object(const YAML::Node& map, const std::string& path, const std::string& prefix,
-                        const Material& defaults) {
-  std::vector<std::string> keys = material_keys;
-  keys.insert(keys.end(), {"urdf", "pose", "massless"});
+                        const SceneFile& file) {
+  std::vector<std::string> keys = default_keys;
+  keys.insert(keys.end(), {"urdf", "pose"});
   config::check_keys(map, path, prefix, keys);
   ObjectEntry entry;
   entry.where = line_of(map, path);
-  entry.material = defaults;
+  entry.material = file.settings.bench_material;
+  entry.massless = file.massless;
   const Fields field{map, path, prefix};
   read_material(field, entry.material);
   field("massless", entry.massless, config::read_bool);
@@ -60,7 +61,8 @@ Target read_target(const YAML::Node& map, const std::string& path, const std::st
   return target;
 }
 
-void read_settings(const YAML::Node& map, const std::string& path, Scene& scene) {
+void read_settings(const YAML::Node& map, const std::string& path, SceneFile& file) {
+  Scene& scene = file.settings;
   const Fields field{map, path, ""};
   field("gravity", scene.gravity, config::read_number, validation::not_negative());
   field("bench_height", scene.bench_height, config::read_number, validation::any_number());
@@ -74,8 +76,10 @@ void read_settings(const YAML::Node& map, const std::string& path, Scene& scene)
   }
   if (map["defaults"].IsDefined()) {
     const YAML::Node defaults = map["defaults"];
-    config::check_keys(defaults, path, "defaults.", material_keys);
-    read_material({defaults, path, "defaults."}, scene.bench_material);
+    config::check_keys(defaults, path, "defaults.", default_keys);
+    const Fields field_of_all{defaults, path, "defaults."};
+    read_material(field_of_all, scene.bench_material);
+    field_of_all("massless", file.massless, config::read_bool);
   }
 }
 
@@ -96,9 +100,9 @@ SceneFile read_scene_file(const std::string& path) {
       map, path, "",
       {"gravity", "contact", "tool", "force_scale", "bench_height", "defaults", "objects", "targets", "start"});
   SceneFile file;
-  read_settings(map, path, file.settings);
+  read_settings(map, path, file);
   for_each_entry(map, path, "objects", [&](const std::string& name, const YAML::Node& node) {
-    file.objects[name] = read_object(node, path, "objects." + name + ".", file.settings.bench_material);
+    file.objects[name] = read_object(node, path, "objects." + name + ".", file);
   });
   for_each_entry(map, path, "targets", [&](const std::string& name, const YAML::Node& node) {
     file.settings.targets[name] = read_target(node, path, "targets." + name + ".");

@@ -19,7 +19,8 @@ struct ObjectEntry {
 
 /// The YAML beside a URDF. Defaults are those of `Scene`, `Material` and `Target`.
 struct SceneFile {
-  Scene settings;  ///< everything but name, path, bodies and warnings
+  Scene settings;         ///< everything but name, path, bodies and warnings
+  bool massless = false;  ///< all objects whose entry says nothing else
   std::map<std::string, ObjectEntry> objects;
   std::map<std::string, std::string> targets;  ///< name → "<file>:<line>"
 };

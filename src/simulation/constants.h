@@ -6,14 +6,6 @@
 
 namespace spring_workbench::simulation {
 
-/// [s] for which a free body is slow before it sleeps. Larger: it costs longer. With contact mode `dynamic` 0.5 s: no
-/// reason known. Test: Simulation.BoxThatIsDroppedComesToRestOnTheBench at 20.
-constexpr double asleep_after = 0.2;
-/// [m]; what is nearer above an object that is taken lies on it, and wakes. Smaller: it may go on floating. Test: none:
-/// no value tried makes one fail.
-constexpr double support_gap = 1e-4;
-/// [m] from the origin; a body that flies further stops there. Test: Simulation.WhatFliesAwayStopsAtTheEndOfTheWorld.
-constexpr double world_limit = 100.0;
 /// [m] of a rigid tool, whose length means nothing but to be there. Test: Tools.DirectAndRayAreRigid at 0.
 constexpr double least_length = 1e-4;
 /// [m] that the ray reaches. Test: Tools.DirectAndRayAreRigid at 0.2.

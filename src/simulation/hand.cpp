@@ -7,7 +7,7 @@
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench::simulation {
-Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, Objects& objects, tools::Tool tool)
+Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, contact::Objects& objects, tools::Tool tool)
     : scene_(scene),
       settings_(settings),
       loads_(scene, settings.grasp.world_goal),
@@ -25,6 +25,24 @@ void Hand::reset() {
   hold_.reset();
   probe_.reset();
   pushes_ = false;
+}
+
+void Hand::continue_from(Hand& before, const std::string& remade, double now) {
+  const std::string held = before.hold_ ? before.object().name : "";
+  const bool had_mass = before.springs();
+  const std::unique_ptr<tools::ToolHold> old = held == remade ? std::move(before.hold_) : nullptr;
+  before.grasp_.object = objects_.find(held).value_or(0);
+  math::StateArchive taken;
+  before.exchange(taken, now);
+  math::StateArchive given(taken.taken());
+  exchange(given, now);
+  if (!old) return;
+  const bool pulls = had_mass && !objects_.massless(grasp_.object);
+  if (!pulls) grasp_ = grasp_of(grasp_.object);
+  make_hold(now);
+  if (pulls && dynamic()) hold_->regrasp(object().X_WO, old->spring_pull());
+  keep_twist(object().V_WO_W);
+  objects_.take_state(grasp_.object, hold_->object());
 }
 
 double Hand::reach() const {
@@ -95,7 +113,7 @@ void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, 
   // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the
   // hand's.
   if (!follow_hand && dynamic()) hold_->take_twist(objects_.states()[object].V_WO_W);
-  objects_.hold(object, Objects::Grip::grasp, now);
+  objects_.hold(object, contact::Objects::Grip::grasp, now);
   objects_.take_state(object, hold_->object());
 }
 
@@ -132,7 +150,7 @@ void Hand::take_over(const Wrench& pull_W, double now) {
 
 void Hand::let_go(bool thrown, double now) {
   if (!hold_) return;
-  objects_.let_go(grasp_.object, Objects::Grip::grasp, thrown, now);
+  objects_.let_go(grasp_.object, contact::Objects::Grip::grasp, thrown, now);
   hold_.reset();
 }
 
@@ -168,7 +186,7 @@ bodies::SteppedBody* Hand::begin_step(double now, double h) {
     o.V_WO_W = Twist();
     return nullptr;
   }
-  if (was_asleep) objects_.wake_what_lies_on(grasp_.object, now);
+  if (was_asleep && scene_.contact == scene::ContactMode::stop) objects_.wake_what_lies_on(grasp_.object, now);
   moved_ = true;
   return hold_.get();
 }

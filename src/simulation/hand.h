@@ -3,10 +3,11 @@
 #include <memory>
 #include <optional>
 
-#include "objects.h"
+#include "spring_workbench/contact/objects.h"
 #include "spring_workbench/instruments/load_range.h"
 #include "spring_workbench/motion/slip.h"
 #include "spring_workbench/motion/stylus.h"
+#include "spring_workbench/simulation/simulation.h"
 #include "spring_workbench/tools/hold_maker.h"
 #include "spring_workbench/tools/sharing.h"
 
@@ -16,10 +17,14 @@ namespace spring_workbench::simulation {
 class Hand {
  public:
   /// Keeps references to scene, settings and objects.
-  Hand(const scene::Scene& scene, const SimulationSettings& settings, Objects& objects, tools::Tool tool);
+  Hand(const scene::Scene& scene, const SimulationSettings& settings, contact::Objects& objects, tools::Tool tool);
 
   /// Forgets all samples and holds nothing. The caller resets the objects.
   void reset();
+
+  /// Goes on from where `before` is, which is of another scene and has no probe on anything; its objects are among this
+  /// one's. Where it holds the object called `remade`, whose mass is another, its pull stays.
+  void continue_from(Hand& before, const std::string& remade, double now);
 
   motion::Stylus& stylus() { return stylus_; }
   const motion::Stylus& stylus() const { return stylus_; }
@@ -30,6 +35,8 @@ class Hand {
   void apply_buttons(double now);
   bool holds() const { return hold_ != nullptr; }
   void let_go(bool thrown, double now);
+  /// The probe leaves what it touches, which goes on as it moves; where it still is there, it is touched anew.
+  void leave_with_probe(double now);
   /// Leaves the tool where it is while the hand moves alone (`on`), or lets it follow the hand again. A held object
   /// keeps its twist.
   void set_clutch(bool on, double now);
@@ -91,12 +98,8 @@ class Hand {
   /// The paper, section 5: insert the fork, adjust it, press and hold, let go. Pressing in the air grasps nothing, also
   /// when the tip enters an object afterwards with the button still down.
   void apply_grasp_button(bool pressed, double now);
-  /// The nearest thing within `reach` [m] in front of the hand. `passes(body)`: not in the way.
-  template <typename Passes>
-  tools::InFront look_ahead(double reach, Passes&& passes) const;
   void select_pierced();
   void touch_with_probe(double now);
-  void leave_with_probe(double now);
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now);
   bool dynamic() const { return hold_ && hold_->coordinates() > 0; }  ///< there is something for an integrator to do
   const bodies::BodyState& object() const { return objects_.states()[grasp_.object]; }  ///< that is held, or pushed
@@ -122,7 +125,7 @@ class Hand {
   const SimulationSettings& settings_;
   const instruments::LoadRange loads_;
   rod::ForkSettings fork_;
-  Objects& objects_;
+  contact::Objects& objects_;
   tools::Tool tool_;
   motion::Stylus stylus_;
   double ray_length_;                    ///< to what the ray hits [m]

@@ -4,29 +4,10 @@
 
 #include "constants.h"
 #include "hand.h"
-#include "spring_workbench/geometry/ray.h"
+#include "look_ahead.h"
 #include "spring_workbench/geometry/shape_queries.h"
 
 namespace spring_workbench::simulation {
-
-template <typename Passes>
-tools::InFront Hand::look_ahead(double reach, Passes&& passes) const {
-  tools::InFront found{reach};
-  const auto look = [&](const scene::Body& body, const RigidTransform& X_WO) {
-    const RigidTransform X_OH = X_WO.inverse() * stylus_.X_WS();
-    const auto hit =
-        geometry::first_along_ray(body.collision, X_OH.translation(), X_OH.linear().col(2), found.distance);
-    if (hit && !passes(body, X_OH)) {
-      found = {hit->distance, &body, &body.material, X_OH * Vector3d(0.0, 0.0, hit->distance), hit->normal_O};
-    }
-  };
-  for (const scene::Body& body : scene_.bodies) {
-    if (!body.movable) look(body, body.X_WO);
-  }
-  const std::vector<bodies::BodyState>& objects = objects_.states();
-  for (std::size_t i = 0; i < objects.size(); ++i) look(objects_.body(i), objects[i].X_WO);
-  return found;
-}
 
 void Hand::select(double now) {
   if (tool_ == tools::Tool::spring_probe) {
@@ -42,9 +23,10 @@ void Hand::select_pierced() {
   const bool picks = tool_ == tools::Tool::ray;
   // The nearest thing in the way of the hand, and the objects that the tip is in.
   const tools::InFront front =
-      look_ahead(picks ? longest_ray : reach(), [&](const scene::Body& body, const RigidTransform& X_OH) {
-        return !picks && geometry::contains(body.collision, X_OH * Vector3d(0.0, 0.0, reach()));
-      });
+      look_ahead(scene_, objects_, stylus_.X_WS(), picks ? longest_ray : reach(),
+                 [&](const scene::Body& body, const RigidTransform& X_OH) {
+                   return !picks && geometry::contains(body.collision, X_OH * Vector3d(0.0, 0.0, reach()));
+                 });
   ray_length_ = front.distance;
   const Vector3d tip = stylus_.X_WS() * Vector3d(0.0, 0.0, reach());
   double nearest = std::numeric_limits<double>::infinity();
@@ -64,7 +46,8 @@ void Hand::select_pierced() {
 void Hand::touch_with_probe(double now) {
   if (!stylus_.known(now)) return leave_with_probe(now);
   const double length = fork_.length;
-  tools::InFront front = look_ahead(length, [](const scene::Body&, const RigidTransform&) { return false; });
+  tools::InFront front = look_ahead(scene_, objects_, stylus_.X_WS(), length,
+                                    [](const scene::Body&, const RigidTransform&) { return false; });
   const double down = -stylus_.X_WS().linear()(2, 2), height = stylus_.X_WS().translation().z() - scene_.bench_height;
   if (height > 0.0 && down * front.distance > height) front = {height / down, nullptr, &scene_.bench_material};
   const bool touches = front.material != nullptr && front.distance > 0.0;  // at 0 the hand itself is inside
@@ -76,13 +59,13 @@ void Hand::touch_with_probe(double now) {
     probe_ = std::make_unique<tools::Probe>(length, fork_, front, now);
     const std::optional<std::size_t> object = front.body != nullptr ? objects_.find(front.body->name) : std::nullopt;
     pushes_ = object && !objects_.massless(*object);
-    if (pushes_) objects_.hold(grasp_.object = *object, Objects::Grip::push, now);
+    if (pushes_) objects_.hold(grasp_.object = *object, contact::Objects::Grip::push, now);
   }
   if (!pushes_) probe_->press();
 }
 
 void Hand::leave_with_probe(double now) {
-  if (pushes_) objects_.let_go(grasp_.object, Objects::Grip::push, true, now);
+  if (pushes_) objects_.let_go(grasp_.object, contact::Objects::Grip::push, true, now);
   pushes_ = false;
   probe_.reset();
 }

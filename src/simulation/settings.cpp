@@ -92,6 +92,7 @@ std::vector<Field> scene_fields(S& s) {
           "lifts and carries what it touches",
           s.contact, as_scene),
       number("gravity", "m/s²", between(0.0, 1e3), "along −z of world", s.gravity, as_scene),
+      flag("massless", "no object has mass: each follows the tip, and stays where it is released", s.massless),
       number("force_scale", "–", between(1e-9, 1e9), "ratio of virtual to real force", s.force_scale, as_scene),
       number(
           "hand.scale", "–", between(1e-3, 1e3),
@@ -295,6 +296,28 @@ dynamics::DynamicsSettings DynamicsChange::applied_to(dynamics::DynamicsSettings
   dynamics.step = step.value_or(dynamics.step);
   dynamics.tolerance = tolerance.value_or(dynamics.tolerance);
   return dynamics;
+}
+
+bool ObjectEdit::operator==(const ObjectEdit& other) const {
+  const auto same_pose = [&] {
+    return X_WL.has_value() == other.X_WL.has_value() && (!X_WL || X_WL->matrix() == other.X_WL->matrix());
+  };
+  return action == other.action && object == other.object && urdf == other.urdf && mass == other.mass &&
+         friction == other.friction && same_pose();
+}
+
+void validate(const ObjectEdit& edit) {
+  const std::string where = "edit_object";
+  if (edit.action > ObjectEdit::Action::friction) {
+    validation::refuse(where, "action", std::to_string(static_cast<int>(edit.action)),
+                       "one of " + validation::join(validation::names<ObjectEdit::Action>()));
+  }
+  if (edit.X_WL && !edit.X_WL->matrix().allFinite()) {
+    validation::refuse(where, "pose", "NaN or infinity", "a finite pose");
+  }
+  if (edit.action == ObjectEdit::Action::move && !edit.X_WL) validation::refuse(where, "pose", "", "a pose to move to");
+  validation::check_number(where, "mass", edit.mass, between(0.0, 1e12));
+  validation::check_number(where, "friction", edit.friction, validation::not_negative());
 }
 
 std::vector<SettingDescription> setting_descriptions() {

@@ -8,9 +8,9 @@
 
 #include "constants.h"
 #include "hand.h"
-#include "objects.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/rod/shape_model.h"
+#include "spring_workbench/scene/editing.h"
 #include "spring_workbench/tools/calibration.h"
 #include "spring_workbench/tools/sharing.h"
 #include "spring_workbench/validation/names.h"
@@ -20,22 +20,71 @@ namespace {
 
 constexpr double same_time = motion::Stylus::same_time;
 
-/// The scene as the settings have it. Throws InputError when they do not fit.
-scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings) {
-  validate(settings, scene.path);
-  scene.gravity = settings.gravity.value_or(scene.gravity);
-  scene.force_scale = settings.force_scale.value_or(scene.force_scale);
-  scene.contact = settings.contact.value_or(scene.contact);
-  if (settings.tool) scene.tool = validation::name_of(*settings.tool);
-  if (settings.grasp.object.empty()) return scene;
-  const std::optional<std::size_t> index = scene::find_body(scene, settings.grasp.object);
-  if (index && scene.bodies[*index].movable) return scene;
+using Action = ObjectEdit::Action;
+
+std::vector<std::string> names_of_movable(const scene::Scene& scene) {
   std::vector<std::string> names;
   for (const scene::Body& b : scene.bodies) {
     if (b.movable) names.push_back(b.name);
   }
-  validation::refuse(scene.path, "grasp.object", settings.grasp.object,
-                     "a movable object of the scene (" + validation::join(names) + ")");
+  return names;
+}
+
+/// A movable body by its name. Throws InputError naming `where` and `key`.
+std::size_t movable_body(const scene::Scene& scene, const std::string& name, const std::string& where,
+                         const std::string& key) {
+  const std::optional<std::size_t> index = scene::find_body(scene, name);
+  if (index && scene.bodies[*index].movable) return *index;
+  validation::refuse(where, key, name,
+                     "a movable object of the scene (" + validation::join(names_of_movable(scene)) + ")");
+}
+
+/// Throws InputError when the edit does not fit the scene.
+void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bool massless, scene::Scene& scene) {
+  const std::string where = "edit_object";
+  validate(edit);
+  if (edit.action == Action::add) {
+    scene.bodies.push_back(scene::read_object(edit.object, edit.urdf, edit.X_WL, scene, roots, where));
+    if (!scene.bodies.back().movable) validation::refuse(where, "urdf", edit.urdf, "of an object whose root has mass");
+    if (massless) scene::set_mass(scene.bodies.back(), 0.0, where);
+    return;
+  }
+  const std::size_t index = movable_body(scene, edit.object, where, "name");
+  if (edit.action == Action::mass) scene::set_mass(scene.bodies[index], edit.mass, where);
+  if (edit.action == Action::friction) scene.bodies[index].material.friction = edit.friction;
+  if (edit.action != Action::remove) return;
+  scene.bodies.erase(scene.bodies.begin() + static_cast<std::ptrdiff_t>(index));
+  scene.targets.erase(edit.object);
+}
+
+/// The edits with one more, without those that it makes superfluous.
+std::vector<ObjectEdit> with(std::vector<ObjectEdit> edits, const ObjectEdit& edit) {
+  bool was_added = false;
+  const auto superfluous = [&](const ObjectEdit& other) {
+    const bool goes = other.object == edit.object && other.action != Action::remove &&
+                      (edit.action == Action::remove || other.action == edit.action);
+    was_added |= goes && other.action == Action::add;
+    return goes;
+  };
+  edits.erase(std::remove_if(edits.begin(), edits.end(), superfluous), edits.end());
+  if (!was_added) edits.push_back(edit);
+  return edits;
+}
+
+/// The scene as the settings and the edits have it. Throws InputError when they do not fit.
+scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, const std::vector<ObjectEdit>& edits,
+                    const std::vector<std::string>& roots) {
+  validate(settings, scene.path);
+  scene.gravity = settings.gravity.value_or(scene.gravity);
+  scene.force_scale = settings.force_scale.value_or(scene.force_scale);
+  scene.contact = settings.contact.value_or(scene.contact);
+  for (scene::Body& body : scene.bodies) {
+    if (settings.massless) body.mass_properties = scene::MassProperties();
+  }
+  if (settings.tool) scene.tool = validation::name_of(*settings.tool);
+  for (const ObjectEdit& edit : edits) make_edit(edit, roots, settings.massless, scene);
+  if (!settings.grasp.object.empty()) movable_body(scene, settings.grasp.object, scene.path, "grasp.object");
+  return scene;
 }
 
 /// What a tool may do at its tip of what it does, world axes, where that is more than its limit: the force cut down to
@@ -51,15 +100,24 @@ std::optional<Wrench> cut_down(const tools::LimitSettings& limit, const tools::T
 }  // namespace
 
 struct Simulation::Impl {
+  const scene::Scene given_scene;
+  const SimulationSettings given_settings;
+  std::vector<ObjectEdit> edits;  ///< of the given scene
   SimulationSettings settings;
   const scene::Scene scene;
-  Objects objects;
+  contact::Objects objects;
   std::vector<Hand> hands;
   bool started = false;
   double now = 0.0;
 
-  Impl(const scene::Scene& s, const SimulationSettings& set)
-      : settings(set), scene(set_up(s, set)), objects(scene, set.bisection_levels) {
+  Impl(const scene::Scene& s, const SimulationSettings& set, std::vector<ObjectEdit> edited = {},
+       const std::vector<std::string>& roots = {})
+      : given_scene(s),
+        given_settings(set),
+        edits(std::move(edited)),
+        settings(set),
+        scene(set_up(s, set, edits, roots)),
+        objects(scene, set.bisection_levels) {
     const auto tool = validation::named<tools::Tool>(scene.tool, scene.path, "tool");
     if (settings.grasp.calibrate == tools::Calibration::world) fit_to_world();
     for (std::size_t i = 0; i < most_hands; ++i) hands.emplace_back(scene, settings, objects, tool);
@@ -94,6 +152,10 @@ struct Simulation::Impl {
   void exchange(math::StateArchive& state);
   void set(const math::StateArchive::Words& words);
   double elastic_energy() const;
+  void move(const ObjectEdit& edit);
+  /// Goes on from where `before` is, of the same scene but for `edit`.
+  void continue_from(Impl& before, const ObjectEdit& edit);
+  void check_place(const std::string& name, const RigidTransform& X_WO) const;
   void check(const ForkChange& of_fork, const DynamicsChange& of_dynamics) const;
   void fill_parts(AdvanceReport& report) const;
 };
@@ -110,6 +172,7 @@ void Simulation::Impl::start(double t_end) {
   if (started) return;
   now = std::min(first_sample(), t_end);
   started = true;
+  objects.begin(now);
   for (Hand& hand : hands) hand.stylus().follow(now);
 }
 
@@ -176,7 +239,7 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
   for (Hand& hand : hands) {
     if (const auto object = hand.carried()) tools_on[*object].push_back(&hand);
   }
-  std::vector<Carried> carried;
+  std::vector<contact::Carried> carried;
   std::map<std::size_t, tools::Sharing> shared;
   for (const auto& [object, on_it] : tools_on) {
     if (const auto slip = slipping.find(on_it.front()); slip != slipping.end()) {
@@ -192,7 +255,14 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
     tools::Sharing sharing(tools, [&] { return on_it.front()->make_unheld(now); });
     carried.push_back({object, shared.emplace(object, std::move(sharing)).first->second.body()});
   }
-  objects.step(carried, now, h, report);
+  contact::StepCounts counts;
+  objects.step(carried, now, h, counts);
+  report.steps += counts.steps;
+  report.steps_among_movable += counts.steps_among_movable;
+  report.collision_queries += counts.collision_queries;
+  report.steps_blocked += counts.steps_blocked;
+  report.steps_rejected += counts.steps_rejected;
+  report.time_lost += counts.time_lost;
   for (auto& [object, sharing] : shared)
     sharing.end_step({objects.states()[object].X_WO, objects.states()[object].V_WO_W, {}}, now + h);
   for (Hand& hand : hands) hand.end_step(report);
@@ -263,12 +333,13 @@ void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
 
 std::string Simulation::Impl::signature() const {
   std::string text = validation::name_of(scene.contact) + "; " + validation::name_of(settings.fork.shape) + ";";
-  for (const scene::Body& body : scene.bodies) text += " " + body.name;
+  for (const scene::Body& body : given_scene.bodies) text += " " + body.name;
   return text;
 }
 
 void Simulation::Impl::exchange(math::StateArchive& state) {
-  state(now, started, settings.dynamics.integrator, settings.dynamics.step, settings.dynamics.tolerance, objects);
+  state(edits, now, started, settings.dynamics.integrator, settings.dynamics.step, settings.dynamics.tolerance,
+        objects);
   for (Hand& hand : hands) hand.exchange(state, now);
 }
 
@@ -421,6 +492,74 @@ void Simulation::change(const ForkChange& of_fork, const DynamicsChange& of_dyna
   if (!of_dynamics.empty()) change(of_dynamics);
 }
 
+void Simulation::Impl::check_place(const std::string& name, const RigidTransform& X_WO) const {
+  const std::string other = objects.inside_of(*objects.find(name), X_WO);
+  if (!other.empty()) validation::refuse("edit_object", "pose", "one of " + name + " inside " + other, "outside of it");
+}
+
+void Simulation::Impl::move(const ObjectEdit& edit) {
+  const scene::Body& body = scene.bodies[movable_body(scene, edit.object, "edit_object", "name")];
+  const std::size_t object = *objects.find(edit.object);
+  for (const Hand& hand : hands) {
+    if (hand.carried() == object) {
+      validation::refuse("edit_object", "name", edit.object + ", which a tool has", "an object that no tool has");
+    }
+  }
+  const RigidTransform X_WO = *edit.X_WL * body.X_OL.inverse();
+  check_place(edit.object, X_WO);
+  objects.wake_what_lies_on(object, now);
+  objects.place(object, X_WO, now);
+}
+
+void Simulation::Impl::continue_from(Impl& before, const ObjectEdit& edit) {
+  now = before.now;
+  started = before.started;
+  settings.dynamics = before.settings.dynamics;
+  if (edit.action == Action::add) {
+    objects.continue_from(before.objects, now);
+    check_place(edit.object, scene.bodies.back().X_WO);
+  }
+  // From here on nothing is refused.
+  const std::size_t edited = before.objects.find(edit.object).value_or(0);
+  before.with_handover([&] {
+    for (Hand& hand : before.hands) {
+      hand.leave_with_probe(now);
+      if (edit.action == Action::remove && hand.carried() == edited) hand.let_go(false, now);
+    }
+  });
+  if (edit.action == Action::remove) before.objects.wake_what_lies_on(edited, now);
+  objects.continue_from(before.objects, now);
+  for (std::size_t i = 0; i < most_hands; ++i) {
+    hands[i].continue_from(before.hands[i], edit.action == Action::mass ? edit.object : "", now);
+  }
+}
+
+ChangeReport Simulation::edit(const ObjectEdit& edit, const std::vector<std::string>& roots) {
+  validate(edit);
+  ChangeReport report;
+  report.elastic_energy_before = impl_->elastic_energy();
+  if (edit.action == Action::move) {
+    impl_->move(edit);
+  } else {
+    scene::Scene edited = impl_->scene;  // refused here if it does not fit what there is
+    make_edit(edit, roots, impl_->settings.massless, edited);
+    auto next = std::make_unique<Impl>(impl_->given_scene, impl_->given_settings, with(impl_->edits, edit), roots);
+    next->continue_from(*impl_, edit);
+    impl_ = std::move(next);
+  }
+  report.elastic_energy_after = impl_->elastic_energy();
+  report.message = validation::name_of(edit.action) + ": " + edit.object;
+  return report;
+}
+
+scene::Scene Simulation::scene_now() const {
+  scene::Scene scene = impl_->scene;
+  for (const bodies::BodyState& object : impl_->objects.states()) {
+    scene.bodies[*scene::find_body(scene, object.name)].X_WO = object.X_WO;
+  }
+  return scene;
+}
+
 ChangeReport Simulation::calibrate(std::optional<std::size_t> hand) {
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
@@ -446,7 +585,13 @@ void Simulation::restore(const SimulationState& state) {
   const SimulationState present = save();
   if (state.scene_ != present.scene_) validation::refuse("restore", "scene", state.scene_, present.scene_);
   try {
-    impl_->set(state.words_);
+    std::vector<ObjectEdit> edits;
+    math::StateArchive head(state.words_);
+    head(edits);
+    if (edits == impl_->edits) return impl_->set(state.words_);
+    auto edited = std::make_unique<Impl>(impl_->given_scene, impl_->given_settings, edits);
+    edited->set(state.words_);
+    impl_ = std::move(edited);
   } catch (const std::exception& error) {
     impl_->set(present.words_);
     throw validation::InputError(std::string("restore: not a saved state: ") + error.what());

@@ -19,10 +19,12 @@ import rospkg
 import rospy
 import rostest
 from dynamic_reconfigure.client import Client
+from geometry_msgs.msg import Point, Pose, Quaternion
 from sensor_msgs.msg import Joy
 from spring_workbench.msg import Accepted, Change, ObjectStates
 from spring_workbench.srv import (
     Calibrate,
+    EditObject,
     LoadScene,
     Release,
     SelectTool,
@@ -41,6 +43,7 @@ from stack import DEADLINE, DOWN, Listener, stylus_transform, wait_for
 SEEDS = int(os.environ.get("LIVE_SEEDS", "3"))
 DURATION = 6.0  # [s] of a run
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
+BRICK = "package://spring_workbench/test/integration/data/brick.urdf"
 SCENE = os.path.join(PACKAGE, "scenes", "single_box.urdf")
 MANIPULATION = roslib.packages.find_node("spring_workbench", "manipulation")
 REPLAY = roslib.packages.find_node("spring_workbench", "replay")
@@ -108,6 +111,8 @@ class Services:
             "set_integrator": SetIntegrator,
             "load_scene": LoadScene,
             "reset": Trigger,
+            "undo": Trigger,
+            "edit_object": EditObject,
             "release": Release,
             "calibrate": Calibrate,
             "clutch": SetClutch,
@@ -116,6 +121,12 @@ class Services:
             rospy.wait_for_service("manipulation/" + name, DEADLINE)
         self.call = {n: rospy.ServiceProxy("manipulation/" + n, kind) for n, kind in kinds.items()}
         self.panel = Client("manipulation/live", timeout=DEADLINE)
+
+    def add_or_remove(self):
+        name, edit = "brick_%d" % self.random.randint(1, 3), self.call["edit_object"]
+        place = Pose(Point(self.random.uniform(-0.2, 0.2), 0.15, 0.3), Quaternion(0.0, 0.0, 0.0, 1.0))
+        if not edit(action="add", name=name, urdf=BRICK, pose=place).success:
+            edit(action="remove", name=name)
 
     def one(self):
         r, call = self.random, self.call
@@ -142,6 +153,10 @@ class Services:
                 lambda: call["release"](stylus=r.randint(0, 2)),
                 lambda: call["calibrate"](stylus=r.randint(0, 2)),
                 lambda: call["clutch"](on=r.random() < 0.5, stylus=r.randint(0, 2)),
+                lambda: call["edit_object"](action="mass", name="box", mass=r.choice([0.0, r.uniform(0.5, 3.0)])),
+                lambda: call["edit_object"](action="friction", name="box", friction=r.uniform(0.0, 1.0)),
+                lambda: self.add_or_remove(),
+                lambda: call["undo"](),
                 call["reset"] if r.random() < 0.3 else call["release"],
                 (lambda: call["load_scene"](scene=SCENE)) if r.random() < 0.3 else call["calibrate"],
             ]

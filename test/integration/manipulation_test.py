@@ -1,17 +1,21 @@
 #!/usr/bin/python3
 """The node `manipulation` by its topics and services: scenes/single_box, a hand on its own clock."""
 import math
+import os
 import sys
+import tempfile
 import unittest
 
 import rospy
 import rostest
-from geometry_msgs.msg import WrenchStamped
+from geometry_msgs.msg import Point, Pose, Quaternion, WrenchStamped
 from spring_workbench.msg import Contact, Contacts, ForkState, ObjectStates, StepReport
 from spring_workbench.srv import (
     Calibrate,
+    EditObject,
     LoadScene,
     Release,
+    SaveScene,
     SetForkDamping,
     SetForkDofs,
     SetForkStiffness,
@@ -36,6 +40,9 @@ from stack import (
 
 NAN = float("nan")
 LENGTH, MASS, GRAVITY = 0.2, 1.0, 9.81
+BRICK = "package://spring_workbench/test/integration/data/brick.urdf"
+UPRIGHT = Pose(Point(0.3, 0.0, 0.0), Quaternion(0.0, 0.0, 0.0, 1.0))
+UNDER = Pose(Point(0.3, 0.0, -0.01), Quaternion(0.0, 0.0, 0.0, 1.0))
 IN_BOX = (0.03, 0.0, 0.02 + LENGTH)  # the tip is 3 cm beside the centre of the box
 LIFTED = (0.03, 0.0, 0.30 + LENGTH)
 
@@ -52,6 +59,9 @@ class Manipulation(unittest.TestCase):
             ("load_scene", LoadScene),
             ("calibrate", Calibrate),
             ("reset", Trigger),
+            ("undo", Trigger),
+            ("edit_object", EditObject),
+            ("save_scene", SaveScene),
             ("release", Release),
         ]:
             rospy.wait_for_service("manipulation/" + name, DEADLINE)
@@ -268,6 +278,46 @@ class Manipulation(unittest.TestCase):
         self.assertAlmostEqual(box.pose.position.z, 0.02, delta=1e-12)
         self.assertEqual(fork.held_object, "")
 
+    def edit(self, action, name, urdf="", at=None, mass=0.0, friction=0.0):
+        pose = Pose(Point(*at), Quaternion(0.0, 0.0, 0.0, 1.0)) if at else Pose()
+        return self.call("edit_object", action, name, urdf, pose, mass, friction)
+
+    def heights(self):
+        return {o.name: o.pose.position.z for o in self.objects.next().objects}
+
+    def test_objects_are_edited_taken_back_and_saved(self):
+        self.lift()
+        self.edit("mass", "box", mass=2.0)
+        self.edit("add", "brick", BRICK, at=(0.3, 0.0, 0.4))
+        self.edit("friction", "brick", friction=0.2)
+        self.hand.run(4.0)
+        fork = self.fork.next()
+        self.assertEqual(fork.held_object, "box")
+        self.assertAlmostEqual(fork.weight, 2.0, delta=0.02)
+        self.assertAlmostEqual(self.heights()["brick"], 0.02, delta=1e-4)  # it has fallen
+        self.edit("move", "brick", at=(-0.3, 0.1, 0.0))
+        self.hand.run(0.5)
+        with tempfile.TemporaryDirectory(dir="/tmp") as folder:
+            path = os.path.join(folder, "edited.urdf")
+            self.call("save_scene", path)
+            before = {o.name: o.pose for o in self.objects.next().objects}
+            self.edit("remove", "box")
+            self.hand.run(0.2)
+            self.assertEqual(self.fork.next().held_object, "")
+            self.assertEqual(list(self.heights()), ["brick"])
+            self.assertIn("remove: box", self.call("undo").message)
+            self.hand.run(1.0)
+            self.assertAlmostEqual(self.heights()["box"], 0.02, delta=1e-4)  # nothing holds it now
+            self.call("load_scene", path)
+        self.assertEqual(sorted(self.heights()), ["box", "brick"])
+        self.hand.pressed = False
+        self.hand.run(1.0)
+        for name, pose in before.items():
+            now = next(o.pose for o in self.objects.next().objects if o.name == name)
+            self.assertAlmostEqual(now.position.x, pose.position.x, delta=2e-3)
+            self.assertAlmostEqual(now.position.y, pose.position.y, delta=2e-3)
+        self.assertIn("since the scene was loaded", self.refused("undo"))
+
     def test_bad_calls_change_nothing(self):
         self.lift()
         before = self.fork.next()
@@ -287,6 +337,17 @@ class Manipulation(unittest.TestCase):
             ("load_scene", ("/nowhere/to/be/found.urdf",), ("/nowhere/to/be/found.urdf",)),
             ("load_scene", ("package://no_such_package/a.urdf",), ("no_such_package",)),
             ("load_scene", ("package://spring_workbench/package.xml",), ("package.xml",)),
+            ("edit_object", ("paint", "box", "", Pose(), 0.0, 0.0), ("action", "paint", "friction")),
+            ("edit_object", ("mass", "bin", "", Pose(), 1.0, 0.0), ("name", "bin", "box")),
+            ("edit_object", ("mass", "box", "", Pose(), NAN, 0.0), ("mass", "nan")),
+            ("edit_object", ("friction", "box", "", Pose(), 0.0, -1.0), ("friction", "-1")),
+            ("edit_object", ("move", "box", "", Pose(), 0.0, 0.0), ("pose",)),
+            ("edit_object", ("move", "box", "", UPRIGHT, 0.0, 0.0), ("box, which a tool has",)),
+            ("edit_object", ("add", "box", BRICK, UPRIGHT, 0.0, 0.0), ("name", "box")),
+            ("edit_object", ("add", "brick", BRICK, UNDER, 0.0, 0.0), ("brick inside the workbench",)),
+            ("edit_object", ("add", "brick", "/etc/hostname", UPRIGHT, 0.0, 0.0), ("urdf", "/etc/hostname")),
+            ("save_scene", ("/etc/scene.urdf",), ("path", "/etc/scene.urdf")),
+            ("save_scene", ("scene.urdf",), ("path", "scene.urdf")),
         ]:
             line = self.refused(service, *arguments)
             for word in words:

@@ -62,6 +62,21 @@ def test_a_free_body_falls_on_a_parabola():
     assert simulation.twists[0, 2] == pytest.approx(-GRAVITY * 0.5, abs=1e-9)
 
 
+def test_objects_are_edited():
+    simulation = sw.Simulation(sw.load_scene(BOX))
+    simulation.advance(0.0)
+    simulation.edit("move", "box", pose=sw.pose([0.0, 0.0, 0.5]))
+    simulation.edit("mass", "box", mass=2.0)
+    simulation.advance(0.2)
+    height = simulation.poses[0, 2, 3]
+    assert height == pytest.approx(0.52 - 0.5 * GRAVITY * 0.2**2, abs=1e-9)
+    for action, name, word in [("mass", "bin", "name"), ("paint", "box", "action"), ("move", "box", "pose")]:
+        with pytest.raises(sw.InputError, match=word):
+            simulation.edit(action, name)
+    simulation.edit("remove", "box")
+    assert simulation.names == []
+
+
 def test_a_motion_is_the_file_s():
     motion = sw.read_motion(MOTION)
     assert len(motion) == 226 and motion.poses.shape == (226, 4, 4)

@@ -6,8 +6,12 @@
 #include "spring_workbench/bodies/body_state.h"
 #include "spring_workbench/contact/contact_state.h"
 #include "spring_workbench/contact/contact_stepper.h"
+#include "spring_workbench/rigid_bodies/rigid_world.h"
 
 namespace spring_workbench::contact {
+
+/// A contact of a step of `h` [s] in the world of movable bodies.
+ContactRow row_of(const rigid_bodies::WorldContact& contact, double h);
 
 /// Which objects touch which bodies, and since when: the source of `Simulation::contacts`.
 class ContactLog {
@@ -18,6 +22,8 @@ class ContactLog {
   void reset(std::size_t objects);
   /// Contacts of one object after a step of `h` [s]. An object without a step keeps its contacts.
   void note(std::size_t object, const bodies::BodyState& state, const std::vector<ContactRow>& rows, double h);
+  /// This object has the contacts that object `its` of another scene's log has with what is in this scene.
+  void take(std::size_t object, const ContactLog& from, std::size_t its);
   const std::vector<ContactState>& touching(std::size_t object) const { return touching_[object]; }
 
   /// A call of `advance` begins and ends: `told` are then the contacts of that call with their phases.

@@ -22,6 +22,7 @@ struct Command {
     release,      ///< the same
     clutch,       ///< the same, to `on`
     restart,      ///< objects at `places`, the others at their start; nothing held
+    edit,         ///< `edit`
     load_scene    ///< another scene, with the settings and forks of the present
   };
   Kind kind = Kind::none;
@@ -31,6 +32,8 @@ struct Command {
   simulation::ForkChange of_fork;
   simulation::DynamicsChange of_dynamics;
   std::map<std::string, RigidTransform> places;
+  simulation::ObjectEdit edit;
+  std::vector<std::string> roots;  ///< of the edit's URDF; none where it is made again
 
   /// As numbers, and back; none for Kind::none. Throws InputError for words that are no command.
   std::vector<std::uint64_t> words() const;

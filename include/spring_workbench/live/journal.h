@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -36,6 +37,20 @@ struct ReplayedChanges {
   std::size_t given = 0;  ///< changes of which only the state after them is known
   std::vector<std::string>
       mismatches;  ///< changes that led to another state than the recorded one when they were repeated
+};
+
+/// Numbers entries, and keeps them until they are taken.
+class Journal {
+ public:
+  void note(double committed, std::variant<hand_input::Accepted, Change> what) {
+    entries_.push_back({next_++, committed, std::move(what)});
+  }
+  /// The entries since the last call.
+  std::vector<Entry> take() { return std::exchange(entries_, {}); }
+
+ private:
+  std::uint64_t next_ = 0;
+  std::vector<Entry> entries_;
 };
 
 /// Replays a journal: it starts from the state of the first change, gives each entry to its own simulation when that

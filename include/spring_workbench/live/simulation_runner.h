@@ -18,6 +18,7 @@
 #include "spring_workbench/live/look_ahead.h"
 #include "spring_workbench/live/pace.h"
 #include "spring_workbench/live/stylus_events.h"
+#include "spring_workbench/live/undo.h"
 #include "spring_workbench/motion/pose_predictor.h"
 #include "spring_workbench/motion/stream_monitor.h"
 
@@ -48,6 +49,11 @@ struct HandStatistics {
 /// Input of one hand that SimulationRunner keeps.
 struct HandInput {
   HandInput(std::size_t number, double dropout_after) : hand(number), monitor(dropout_after) {}
+  /// What was rejected since the last call, how old the newest sample was, and whether more waits.
+  void tell(CycleReport& report);
+  /// A pose was, at `t` [s].
+  void used(double t, const StylusPose& pose);
+
   std::size_t hand;
   motion::StreamMonitor monitor;
   double newest_arrival = 0.0;         ///< see HandStatistics
@@ -82,6 +88,8 @@ class SimulationRunner {
 
   /// Puts all objects back to their initial poses with nothing held; the simulation continues with the next sample.
   void restart();
+  /// Takes back the last edit or restart (Undo); the task begins anew, as after an edit.
+  std::string undo();
   /// Loads another scene with the present settings. Throws InputError, and keeps the old scene, if they do not match.
   void load(const scene::Scene& scene);
   /// Loads a scene with the tools, settings and poses of a saved state; nothing is held. The objects keep these poses
@@ -110,7 +118,10 @@ class SimulationRunner {
   /// Records the hash of the present state in the journal, for comparison.
   void note_state();
   /// Returns the entries since the last call.
-  std::vector<Entry> take_journal();
+  std::vector<Entry> take_journal() {
+    const Lock lock(mutex_);
+    return journal_.take();
+  }
   /// Returns the progress of the assembly.
   assembly::TaskMonitor task() const {
     return locked([this](const auto&) { return task_; });
@@ -153,7 +164,6 @@ class SimulationRunner {
   void start_anew(const std::string& what, std::map<std::string, RigidTransform> places);
   void begin_with(const std::string& what, const Command& command, simulation::Simulation simulation, LookAhead ahead,
                   std::map<std::string, RigidTransform> places);
-  void note(double committed, std::variant<hand_input::Accepted, Change> what);
 
   mutable FairMutex mutex_;
   simulation::Simulation simulation_;
@@ -166,10 +176,10 @@ class SimulationRunner {
   bool was_behind_ = false;  ///< and no sample has arrived since
   HandTimes times_;
   std::map<std::string, RigidTransform> places_;  ///< of objects, for the first epoch
+  Undo undo_;
   std::size_t revision_ = 0;
   bool keeps_journal_ = false;
-  std::uint64_t next_entry_ = 0;
-  std::vector<Entry> journal_;
+  Journal journal_;
 };
 
 }  // namespace spring_workbench::live

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spring_workbench/dynamics/settings.h"
+#include "spring_workbench/math/state_archive.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/tools/settings.h"
@@ -23,6 +24,7 @@ struct SimulationSettings {
   std::optional<scene::ContactMode> contact;  ///< key `contact`
   std::optional<double> gravity;              ///< key `gravity` [m/s²], 0 … 1000
   std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9
+  bool massless = false;                      ///< key `massless`: no object has mass
   double hand_scale = 1.0;                    ///< key `hand.scale`, 1e-3 … 1e3
   int clutch_button = 2;                      ///< key `clutch.button`, of the stylus' Joy
   dynamics::DynamicsSettings dynamics;        ///< keys `integrator`, `step`, `tolerance`, `inertia`
@@ -64,6 +66,25 @@ struct DynamicsChange {
   bool empty() const { return !integrator && !step && !tolerance; }
   dynamics::DynamicsSettings applied_to(dynamics::DynamicsSettings dynamics) const;
 };
+
+/// A change of one object of the scene while running.
+struct ObjectEdit {
+  enum class Action { add, move, remove, mass, friction };
+  Action action = Action::move;
+  std::string object;                  ///< its name
+  std::string urdf;                    ///< add: the object's own, a path or package:// URI
+  std::optional<RigidTransform> X_WL;  ///< pose of its URDF link's frame in world; move: needed; add without: on the
+                                       ///< bench at x = y = 0
+  double mass = 0.0;                   ///< mass: the new one [kg], 0 … 1e12; 0: follows the tip as a massless one
+  double friction = 0.0;               ///< friction: the new Coulomb coefficient, ≥ 0
+
+  bool operator==(const ObjectEdit& other) const;
+  void exchange(math::StateArchive& state) { state(action, object, urdf, X_WL, mass, friction); }
+};
+inline std::vector<std::string> names_of(ObjectEdit::Action) { return {"add", "move", "remove", "mass", "friction"}; }
+
+/// Throws InputError naming `edit_object`, field, value and rule for a value that no object can have.
+void validate(const ObjectEdit& edit);
 
 /// What one key means.
 struct SettingDescription {

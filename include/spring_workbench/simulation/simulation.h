@@ -93,6 +93,7 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
+  /// As edited; objects at their start.
   const scene::Scene& scene() const;
   /// The settings as given, with `dynamics` as changed since and `fork` as calibrated to the world.
   const SimulationSettings& settings() const;
@@ -148,6 +149,14 @@ class Simulation {
   void change(const DynamicsChange& change);
   /// Makes both changes, or neither.
   void change(const ForkChange& of_fork, const DynamicsChange& of_dynamics);
+  /// Adds, moves or removes an object, or changes its mass or friction; what else there is goes on from where it is.
+  /// Added and moved objects stand at rest and fall where nothing carries them; what lay on a moved or removed one
+  /// falls, and a removed one is released. Throws InputError, and changes nothing, for an object that is not there, a
+  /// held one that is to be moved, and a place (also of an added one) that is more than 0.1 mm inside something. A URDF
+  /// is read from `roots` as by load_scene(), and again by restore(). An object's start stays when it is moved.
+  ChangeReport edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {});
+  /// The scene as edited, with its objects where they are now.
+  scene::Scene scene_now() const;
   /// Stiffness from the mass and size of the held object, or of the world with `calibrate: world`, of the fork in one
   /// hand, or in each that holds something; the damping ratios stay. Throws InputError when nothing is held.
   ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
@@ -157,8 +166,8 @@ class Simulation {
   const std::vector<contact::ContactState>& contacts() const;
 
   /// The whole state: time, hands with their samples, buttons, tools and holds, objects, contacts and their warm
-  /// starts, histories of integrators, and the settings that can be changed while running. Two saves of one state are
-  /// equal.
+  /// starts, histories of integrators, the settings that can be changed while running, and what was edited. Two saves
+  /// of one state are equal.
   SimulationState save() const;
   /// Restores a saved state, from which the future is bit-identical, whatever has happened since. Throws InputError,
   /// and changes nothing, if the state has other objects, another contact mode or another shape of the fork, or is

@@ -18,5 +18,8 @@ constexpr double longest_attended = 0.01;
 /// [ns] between readings of two clocks from which on they are read once more. Longer: stamps jitter more. Test: none:
 /// only an interrupted process meets it.
 constexpr std::int64_t clocks_apart = 50'000;
+/// [s] of attended time in which the other stream may follow a jump back. Less: what a busy player sends late is lost.
+/// Test: tools_test.py::test_both_start_anew_when_time_jumps_back.
+constexpr double jump_patience = 1.0;
 
 }  // namespace spring_workbench::ros_common

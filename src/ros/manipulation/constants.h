@@ -21,12 +21,6 @@ constexpr std::uint32_t input_queue = 2000;
 constexpr std::size_t most_early = 2000;
 /// child frames that a hint can name. More: longer hints. Test: none: a line for people.
 constexpr std::size_t most_named_frames = 20;
-/// [s] a clock that is set back by less goes on. Less: a clock that is set right starts the scene anew. Test:
-/// manipulation_test.py::test_starts_anew_when_time_jumps_back.
-constexpr double clock_slip = 0.1;
-/// [s] of attended time in which the other stream may follow a jump back. Less: what a busy player sends late is lost.
-/// Test: tools_test.py::test_both_start_anew_when_time_jumps_back.
-constexpr double jump_patience = 1.0;
 /// [s] between two log lines of one reason to leave samples out. Test: none: a line for people.
 constexpr double told_again_after = 5.0;
 /// [s] between two hints why no sample of the stylus is used. Test: none: a line for people.

@@ -5,14 +5,18 @@
 #include <cstdio>
 
 #include "spring_workbench/Calibrate.h"
+#include "spring_workbench/EditObject.h"
 #include "spring_workbench/LoadScene.h"
 #include "spring_workbench/Release.h"
+#include "spring_workbench/SaveScene.h"
 #include "spring_workbench/SelectTool.h"
 #include "spring_workbench/SetClutch.h"
 #include "spring_workbench/SetForkDamping.h"
 #include "spring_workbench/SetForkDofs.h"
 #include "spring_workbench/SetForkStiffness.h"
 #include "spring_workbench/SetIntegrator.h"
+#include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/scene/editing.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::manipulation {
@@ -109,6 +113,32 @@ void load_scene(live::SimulationRunner& runner, const std::vector<std::string>& 
   if (!scene.warnings.empty()) response.message += "; " + validation::join(scene.warnings, "; ");
 }
 
+void edit_object(live::SimulationRunner& runner, const std::vector<std::string>& roots,
+                 const EditObject::Request& request, EditObject::Response& response) {
+  using Action = simulation::ObjectEdit::Action;
+  live::Command command;
+  command.kind = live::Command::Kind::edit;
+  command.roots = roots;
+  simulation::ObjectEdit& edit = command.edit;
+  edit.action = validation::named<Action>(request.action, "edit_object", "action");
+  edit.object = request.name;
+  const geometry_msgs::Quaternion& q = request.pose.orientation;
+  const bool given = q.x != 0.0 || q.y != 0.0 || q.z != 0.0 || q.w != 0.0;
+  if (edit.action == Action::add) edit.urdf = request.urdf;
+  if (given && (edit.action == Action::add || edit.action == Action::move)) {
+    edit.X_WL = ros_common::from_message(request.pose);
+  }
+  if (edit.action == Action::mass) edit.mass = request.mass;
+  if (edit.action == Action::friction) edit.friction = request.friction;
+  fill(runner.change("edit_object", command), response);
+}
+
+void save_scene(live::SimulationRunner& runner, const std::vector<std::string>& roots,
+                const SaveScene::Request& request, SaveScene::Response& response) {
+  const scene::Scene scene = runner.locked([](const simulation::Simulation& s) { return s.scene_now(); });
+  response.message = "wrote " + scene::save_scene(scene, request.path, roots) + " and the YAML beside it";
+}
+
 void calibrate(live::SimulationRunner& runner, const Calibrate::Request& request, Calibrate::Response& response) {
   fill(runner.change("calibrate", command_of(live::Command::Kind::calibrate, request.stylus, "calibrate")), response);
 }
@@ -156,10 +186,15 @@ std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, live::S
   change("set_stiffness", set_stiffness, SetForkStiffness());
   change("set_damping", set_damping, SetForkDamping());
   change("set_integrator", set_integrator, SetIntegrator());
-  serve(
-      "load_scene",
-      [&runner, scene_roots](auto& request, auto& response) { load_scene(runner, scene_roots, request, response); },
-      LoadScene());
+  const auto with_files = [&](const char* name, auto make, auto of_service) {
+    serve(
+        name,
+        [&runner, scene_roots, make](auto& request, auto& response) { make(runner, scene_roots, request, response); },
+        of_service);
+  };
+  with_files("load_scene", load_scene, LoadScene());
+  with_files("edit_object", edit_object, EditObject());
+  with_files("save_scene", save_scene, SaveScene());
   change("calibrate", calibrate, Calibrate());
   change("release", release, Release());
   change("clutch", set_clutch, SetClutch());
@@ -168,6 +203,8 @@ std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, live::S
     response.message = "all objects are back at their start";
   };
   serve("reset", reset, std_srvs::Trigger());
+  const auto undo = [&runner](auto&, auto& response) { response.message = "taken back: " + runner.undo(); };
+  serve("undo", undo, std_srvs::Trigger());
   return servers;
 }
 

@@ -30,7 +30,7 @@ void keep(const Message& message, std::deque<Message>& kept) {
 template <typename Message>
 std::deque<Message> newest_pass(std::deque<Message> kept) {
   for (std::size_t i = kept.size(); i-- > 1;) {
-    if ((kept[i - 1].header.stamp - kept[i].header.stamp).toSec() <= clock_slip) continue;
+    if ((kept[i - 1].header.stamp - kept[i].header.stamp).toSec() <= SimulatedClock::slip) continue;
     kept.erase(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(i));
     break;
   }
@@ -129,7 +129,7 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
 
 void StylusInput::on_simulated_time(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {
   const double age = (now - transform.header.stamp).toSec();
-  if ((poses_.newest - transform.header.stamp).toSec() > clock_slip) keep(transform, early_poses_);
+  if ((poses_.newest - transform.header.stamp).toSec() > SimulatedClock::slip) keep(transform, early_poses_);
   if (std::abs(age) > parameters_.max_age)
     return reject_stamp(transform, age > 0.0 ? "too old" : "from the future", age);
   if (use(transform, nanoseconds(transform.header.stamp), age)) {
@@ -188,7 +188,7 @@ void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
 
 void StylusInput::on_simulated_time(const sensor_msgs::Joy& message, const ros::Time& now) {
   const ros::Time& stamp = message.header.stamp;
-  if (!stamp.isZero() && (buttons_.newest - stamp).toSec() > clock_slip) return keep(message, early_buttons_);
+  if (!stamp.isZero() && (buttons_.newest - stamp).toSec() > SimulatedClock::slip) return keep(message, early_buttons_);
   const bool usable_stamp = std::abs((now - stamp).toSec()) <= parameters_.max_age;
   if (usable_stamp) go_on_to(stamp, buttons_, early_buttons_);
   on_buttons(message, nanoseconds(usable_stamp ? stamp : now));

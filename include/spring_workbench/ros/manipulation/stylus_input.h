@@ -15,11 +15,13 @@
 
 #include "spring_workbench/live/stylus_events.h"
 #include "spring_workbench/motion/stream_clock.h"
+#include "spring_workbench/ros/common/simulated_clock.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
-#include "spring_workbench/ros/manipulation/simulated_clock.h"
 #include "spring_workbench/ros/manipulation/static_frames.h"
 
 namespace spring_workbench::manipulation {
+
+using ros_common::SimulatedClock;
 
 /// What came in so far.
 struct InputStatistics {

@@ -1,4 +1,4 @@
-#include "spring_workbench/ros/manipulation/simulated_clock.h"
+#include "spring_workbench/ros/common/simulated_clock.h"
 
 #include <cmath>
 #include <utility>
@@ -6,17 +6,17 @@
 #include "constants.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::ros_common {
 
 std::optional<ros::Time> SimulatedClock::moment_of(const ros::Time& stamp, const Stream& stream, double max_age) {
   const ros::Time now = ros::Time::now();
   // The clock went back; or the whole way back was missed, and only the stamps show it.
-  const bool clock_jumped = !last_now_.isZero() && (last_now_ - now).toSec() > clock_slip;
-  const bool stamps_jumped = !stream.newest.isZero() && (stream.newest - stamp).toSec() > clock_slip &&
-                             (stream.newest - now).toSec() > clock_slip;
+  const bool clock_jumped = !last_now_.isZero() && (last_now_ - now).toSec() > slip;
+  const bool stamps_jumped =
+      !stream.newest.isZero() && (stream.newest - stamp).toSec() > slip && (stream.newest - now).toSec() > slip;
   if (!jumped_ && (clock_jumped || stamps_jumped)) {
     jumped_ = true;
-    jumped_at_ = ros_common::local_time().attended;
+    jumped_at_ = local_time().attended;
   }
   if (!jumped_) last_now_ = now;
   const bool goes_on =
@@ -25,7 +25,7 @@ std::optional<ros::Time> SimulatedClock::moment_of(const ros::Time& stamp, const
   return last_now_;
 }
 
-bool SimulatedClock::is_patient() const { return ros_common::local_time().attended - jumped_at_ < jump_patience; }
+bool SimulatedClock::is_patient() const { return local_time().attended - jumped_at_ < jump_patience; }
 
 double SimulatedClock::restart() {
   const ros::Time now = ros::Time::now();
@@ -33,4 +33,4 @@ double SimulatedClock::restart() {
   return (std::exchange(last_now_, now) - now).toSec();
 }
 
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::ros_common

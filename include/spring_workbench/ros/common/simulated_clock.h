@@ -4,12 +4,15 @@
 
 #include <optional>
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::ros_common {
 
 /// Jumps back of a simulated clock, as a bag that is played again makes them. The clock and its streams come by ways of
 /// their own, and what was sent before the jump may come after it.
 class SimulatedClock {
  public:
+  /// [s] a clock that is set back by less goes on. Less: a clock that is set right starts the scene anew. Test:
+  /// manipulation_test.py::test_starts_anew_when_time_jumps_back.
+  static constexpr double slip = 0.1;
   struct Stream {
     ros::Time newest;  ///< stamp, of this epoch; zero before the first message
   };
@@ -29,4 +32,4 @@ class SimulatedClock {
   double jumped_at_ = 0.0;  ///< when that was noticed, in attended time [s]
 };
 
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::ros_common

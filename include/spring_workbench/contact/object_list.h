@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "spring_workbench/bodies/body_state.h"
+#include "spring_workbench/scene/scene.h"
+
+namespace spring_workbench::contact {
+
+/// The movable objects of a scene, and where they are. One is named by its place in `states()`.
+class ObjectList {
+ public:
+  /// Keeps a reference to `scene`.
+  explicit ObjectList(const scene::Scene& scene);
+
+  const std::vector<bodies::BodyState>& states() const { return states_; }
+  bodies::BodyState& state(std::size_t object) { return states_[object]; }
+  std::size_t scene_index(std::size_t object) const { return in_scene_[object]; }
+  const scene::Body& body(std::size_t object) const { return scene_.bodies[in_scene_[object]]; }
+  bool massless(std::size_t object) const { return !(body(object).mass_properties.mass > 0.0); }
+  std::optional<std::size_t> find(const std::string& name) const;
+  void clear_highlights();
+  void highlight(std::size_t object);
+  bool with_contact() const { return scene_.contact != scene::ContactMode::none; }
+
+ protected:
+  /// All back to their start, asleep.
+  void put_back();
+
+  const scene::Scene& scene_;
+  std::vector<bodies::BodyState> states_;
+  std::vector<std::size_t> object_of_;    ///< by index in the scene; means something for movable bodies
+  std::vector<std::size_t> highlighted_;  ///< few of many: a step looks at no others
+
+ private:
+  std::vector<std::size_t> in_scene_;  ///< index in the scene, by object
+};
+
+}  // namespace spring_workbench::contact

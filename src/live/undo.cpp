@@ -1,0 +1,33 @@
+#include "spring_workbench/live/undo.h"
+
+#include "constants.h"
+#include "spring_workbench/validation/input_error.h"
+
+namespace spring_workbench::live {
+
+std::map<std::string, RigidTransform> put_to_rest(simulation::Simulation& simulation, double now) {
+  std::map<std::string, RigidTransform> places;
+  for (const bodies::BodyState& object : simulation.objects()) places[object.name] = object.X_WO;
+  simulation.reset();
+  simulation.advance(now);  // no hand is known: to there without a step
+  simulation.reset();
+  simulation.place(places);
+  return places;
+}
+
+void Undo::keep(std::string what, simulation::SimulationState before) {
+  before_.emplace_back(std::move(what), std::move(before));
+  if (before_.size() > most_undone) before_.pop_front();
+}
+
+std::string Undo::take_back(simulation::Simulation& simulation) {
+  if (before_.empty()) throw validation::InputError("undo: nothing was edited or reset since the scene was loaded");
+  const double now = simulation.time();
+  simulation.restore(before_.back().second);
+  put_to_rest(simulation, now);
+  const std::string what = before_.back().first;
+  before_.pop_back();
+  return what;
+}
+
+}  // namespace spring_workbench::live

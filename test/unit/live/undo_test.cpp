@@ -1,0 +1,163 @@
+// Edits and resets of a live run, and their way back.
+#include <gtest/gtest.h>
+
+#include "spring_workbench/live/simulation_runner.h"
+#include "spring_workbench/validation/input_error.h"
+#include "support/bench_scenes.h"
+
+namespace spring_workbench::live {
+namespace {
+
+using simulation::ObjectEdit;
+using Action = ObjectEdit::Action;
+
+const Vector3d handle(0.0, 0.0, 0.25);
+
+scene::Scene two_cubes() {
+  const Vector3d size = Vector3d::Constant(0.1);
+  scene::Scene scene = scene_of({box("held", size, 1.0, {0.0, 0.0, 0.05}), box("other", size, 1.0, {1.0, 0.0, 0.05})},
+                                scene::ContactMode::stop);
+  scene.targets["other"] = {};
+  return scene;
+}
+
+ObjectEdit new_mass(double mass) { return {Action::mass, "held", "", std::nullopt, mass}; }
+ObjectEdit removal(const std::string& name) { return {Action::remove, name, "", std::nullopt}; }
+
+/// A hand that holds a cube, and lifts it by up to 0.2 m.
+struct Bench {
+  SimulationRunner runner{two_cubes(), simulation::SimulationSettings(), hand_input::InputSettings(), false};
+  int k = 0;
+
+  void go_on(int samples) {
+    for (const int end = k + samples; k < end; ++k) {
+      const double t = 0.01 * k;
+      HandEvents events;
+      if (k == 0) events[0].push_back(NewEpoch{});
+      if (k % 300 == 1) events[0].push_back(StylusButton{t, motion::Press::grasp});
+      if (k % 300 == 250) events[0].push_back(StylusButton{t, motion::Press::release});
+      StylusPose pose;
+      const RigidTransform X =
+          pointing_down(handle + 0.1 * (1.0 - std::cos(0.02 * M_PI / 3.0 * k)) * Vector3d::UnitZ());
+      pose.sample = {t, X.translation(), Quaterniond(X.linear())};
+      pose.arrival = {t, t};
+      events[0].push_back(pose);
+      while (runner.cycle(std::exchange(events, {}), {t, t}).more) continue;
+      runner.show(0.0, {t, t});
+    }
+  }
+  double mass() const {
+    return runner.locked([](const auto& s) { return s.scene().bodies[0].mass_properties.mass; });
+  }
+  std::vector<bodies::BodyState> objects() const {
+    return runner.locked([](const auto& s) { return s.objects(); });
+  }
+  double time() const {
+    return runner.locked([](const auto& s) { return s.time(); });
+  }
+  void edit(const ObjectEdit& edit) {
+    Command command;
+    command.kind = Command::Kind::edit;
+    command.edit = edit;
+    runner.change("edit_object", command);
+  }
+};
+
+TEST(Undo, PutsObjectsAndMassesWhereTheyWereAndTimeGoesOn) {
+  Bench bench;
+  bench.go_on(120);
+  ASSERT_TRUE(bench.objects()[0].held);
+  const std::vector<bodies::BodyState> lifted = bench.objects();
+  bench.edit(removal("held"));
+  ASSERT_EQ(bench.objects().size(), 1u);
+  EXPECT_EQ(bench.runner.task().placements().size(), 1u);
+  bench.edit(removal("other"));
+  EXPECT_EQ(bench.runner.task().placements().size(), 0u);
+  bench.go_on(30);
+  const double now = bench.time();
+  EXPECT_EQ(bench.runner.undo(), "remove: other");
+  EXPECT_EQ(bench.objects().size(), 1u);
+  EXPECT_EQ(bench.runner.undo(), "remove: held");
+  EXPECT_EQ(bench.time(), now);
+  ASSERT_EQ(bench.objects().size(), 2u);
+  EXPECT_EQ(bench.runner.task().placements().size(), 1u);
+  for (int i : {0, 1}) EXPECT_EQ(bench.objects()[i].X_WO.matrix(), lifted[i].X_WO.matrix());
+  EXPECT_FALSE(bench.objects()[0].held);
+  bench.go_on(100);
+  EXPECT_GT(bench.time(), now);
+  EXPECT_NEAR(bench.objects()[0].X_WO.translation().z(), 0.05, 1e-4);  // has fallen
+  EXPECT_EQ(bench.runner.shown().objects().size(), 2u);
+  EXPECT_THROW(bench.runner.undo(), validation::InputError);
+}
+
+TEST(Undo, TakesAResetBack) {
+  Bench bench;
+  bench.go_on(120);
+  const RigidTransform lifted = bench.objects()[0].X_WO;
+  bench.runner.restart();
+  EXPECT_EQ(bench.objects()[0].X_WO.translation().z(), 0.05);
+  bench.go_on(5);
+  EXPECT_EQ(bench.runner.undo(), "reset");
+  EXPECT_EQ(bench.objects()[0].X_WO.matrix(), lifted.matrix());
+}
+
+TEST(Undo, TakesBackAsManyEditsAsItSays) {
+  Bench bench;
+  for (int i = 1; i <= 25; ++i) bench.edit(new_mass(i));
+  for (int i = 24; i >= 5; --i) {
+    bench.runner.undo();
+    EXPECT_EQ(bench.mass(), i);
+  }
+  EXPECT_THROW(bench.runner.undo(), validation::InputError);
+  EXPECT_EQ(bench.mass(), 5.0);
+  EXPECT_THROW(bench.edit(new_mass(-1.0)), validation::InputError);
+  EXPECT_THROW(bench.runner.undo(), validation::InputError);  // what was refused is no edit
+  bench.edit(new_mass(7.0));
+  bench.runner.load(two_cubes());
+  EXPECT_THROW(bench.runner.undo(), validation::InputError);
+}
+
+TEST(Undo, AndEditsAreReplayedFromTheJournalBitByBit) {
+  Bench bench;
+  std::vector<Entry> journal;
+  const auto go_on = [&](int samples) {
+    bench.go_on(samples);
+    bench.runner.note_state();
+    for (Entry& entry : bench.runner.take_journal()) journal.push_back(entry);
+  };
+  go_on(20);
+  bench.runner.keep_journal(true);
+  go_on(80);
+  bench.edit(new_mass(2.5));
+  go_on(80);
+  bench.edit(removal("other"));
+  go_on(150);
+  bench.runner.restart();
+  go_on(60);
+  bench.runner.undo();
+  go_on(90);
+  bench.runner.undo();
+  go_on(200);
+  Replayer replayer([](const std::string&) { return two_cubes(); }, simulation::SimulationSettings());
+  for (const Entry& entry : journal) replayer.play(entry, [](auto&, auto&) {});
+  EXPECT_TRUE(replayer.changes().mismatches.empty());
+  EXPECT_EQ(replayer.simulation()->objects().size(), 2u);
+  EXPECT_EQ(replayer.simulation()->state_hash(), bench.runner.locked([](const auto& s) { return s.state_hash(); }));
+}
+
+/// A node that is started again has what was edited.
+TEST(Undo, AResumedSceneIsTheEditedOne) {
+  Bench bench;
+  bench.go_on(120);
+  bench.edit(removal("other"));
+  bench.edit(new_mass(2.5));
+  const auto state = bench.runner.locked([](const auto& s) { return s.save(); });
+  Bench another;
+  another.runner.resume(two_cubes(), state);
+  another.go_on(3);
+  ASSERT_EQ(another.objects().size(), 1u);
+  EXPECT_EQ(another.mass(), 2.5);
+}
+
+}  // namespace
+}  // namespace spring_workbench::live
