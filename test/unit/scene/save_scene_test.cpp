@@ -153,7 +153,7 @@ TEST(SavedScenes, WhereTheyMayNotBeTheyAreRefused) {
   EXPECT_EQ(refusal(folder.path("box.xml")),
             "save_scene: path: must be one that ends in .urdf, got " + folder.path("box.xml"));
   fs::create_directory(folder.path("taken.urdf.new"));
-  EXPECT_EQ(refusal(folder.path("taken.urdf")).substr(0, 52), "save_scene: path: must be where a file can be written");
+  EXPECT_EQ(refusal(folder.path("taken.urdf")).substr(0, 53), "save_scene: path: must be where a file can be written");
   EXPECT_FALSE(fs::exists(folder.path("taken.urdf")));
   EXPECT_FALSE(fs::exists(folder.path("taken.yaml")));
 }
