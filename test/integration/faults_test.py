@@ -286,9 +286,9 @@ class Faults(unittest.TestCase):
         sent, node, end = 0, pid_of("/manipulation"), time.monotonic() + DEADLINE
         while int(status()["/tf"]) == 0 and time.monotonic() < end:  # what comes while it stands waits in the line
             os.kill(node, signal.SIGSTOP)
+            threading.Timer(1.0, os.kill, (node, signal.SIGCONT)).start()
             for _ in range(10000):
                 flood.publish(noise)
-            os.kill(node, signal.SIGCONT)
             sent += 10000
             diagnostics.next()
             diagnostics.next()
