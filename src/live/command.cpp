@@ -80,6 +80,7 @@ simulation::ChangeReport perform(const Command& command, simulation::Simulation&
     case Command::Kind::clutch:
       return clutch(command, simulation);
     case Command::Kind::restart:
+    case Command::Kind::reset:
       simulation.reset();
       simulation.place(command.places);
       return {};
@@ -87,6 +88,7 @@ simulation::ChangeReport perform(const Command& command, simulation::Simulation&
       return simulation.edit(command.edit, command.roots);
     case Command::Kind::none:
     case Command::Kind::load_scene:
+    case Command::Kind::undo:
       break;
   }
   throw validation::InputError("command: kind " + std::to_string(static_cast<int>(command.kind)) +

@@ -65,11 +65,11 @@ void Replayer::apply(const Change& change) {
                                  simulation::to_hex(change.hash_before));
   }
   if (change.state == simulation::SimulationState()) return;
-  const bool again = change.command.kind != Command::Kind::none;
-  if (again) make_again(change);
-  ++(again ? changes_.made_again : changes_.given);
+  const bool again = make_again(change);
   const simulation::SimulationState state = simulation_.front().save();
-  if (state == change.state) return;
+  const bool same = state == change.state;
+  ++(again || same ? changes_.made_again : changes_.given);
+  if (same) return;
   if (again) {
     changes_.mismatches.push_back(change.what + " at " + std::to_string(simulation_.front().time()) + " s: state " +
                                   simulation::to_hex(state.hash()) + ", recorded " +
@@ -80,18 +80,23 @@ void Replayer::apply(const Change& change) {
   simulation_.front().restore(change.state);
 }
 
-/// A change that could not be made in the live run cannot be made now either.
-void Replayer::make_again(const Change& change) {
+/// Whether enough is known for it: what is taken back may be from before the journal. A change that could not be made
+/// in the live run cannot be made now either.
+bool Replayer::make_again(const Change& change) {
   simulation::Simulation& simulation = simulation_.front();
+  const Command::Kind kind = change.command.kind;
+  if (kind == Command::Kind::none || (kind == Command::Kind::undo && undo_.empty())) return false;
   try {
-    if (change.command.kind == Command::Kind::load_scene) {
+    if (kind == Command::Kind::load_scene) {
       simulation = make_simulation(load_scene_(change.scene), simulation.settings(), forks_of(simulation));
       scene_ = change.scene;
+      undo_ = Undo();
     } else {
-      perform(change.command, simulation);
+      undo_.perform(change.command, simulation);
     }
   } catch (const validation::InputError&) {
   }
+  return true;
 }
 
 }  // namespace spring_workbench::live

@@ -109,7 +109,7 @@ void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
   if (joins(input, epoch)) {
     times_.join(input.hand, epoch.zero);
   } else {
-    start_anew("the hand's time begins", std::exchange(places_, {}));
+    start_anew("the hand's time begins", Command::Kind::restart);
     times_.begin(input.hand, epoch.zero);
   }
   feed_.restart_gate(input.hand);
@@ -144,12 +144,12 @@ void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {
   feed_.buttons_known(time_of(input, known.t), known.arrival, input.hand);
 }
 
-void SimulationRunner::start_anew(const std::string& what, std::map<std::string, RigidTransform> places) {
+void SimulationRunner::start_anew(const std::string& what, Command::Kind kind) {
   Command command;
-  command.kind = Command::Kind::restart;
-  command.places = std::move(places);
+  command.kind = kind;
+  command.places = std::exchange(places_, {});
   const Noted noted(*this, what, command);
-  perform(command, simulation_);
+  undo_.perform(command, simulation_);
   task_.reset();
   feed_.restart();
   ahead_.begin_anew();
@@ -157,29 +157,24 @@ void SimulationRunner::start_anew(const std::string& what, std::map<std::string,
 
 void SimulationRunner::restart() {
   const Lock lock(mutex_);
-  undo_.keep("reset", simulation_.save());
   places_.clear();
-  start_anew("reset", {});
+  start_anew("reset", Command::Kind::reset);
 }
 
 simulation::ChangeReport SimulationRunner::change(const std::string& what, const Command& command) {
   const Lock lock(mutex_);
   const Noted noted(*this, what, command);
-  if (command.kind != Command::Kind::edit) return perform(command, simulation_);
-  const simulation::SimulationState before = simulation_.save();
-  simulation::ChangeReport report = perform(command, simulation_);
-  undo_.keep(report.message, before);
-  task_ = assembly::TaskMonitor(simulation_.scene());
+  simulation::ChangeReport report = undo_.perform(command, simulation_);
+  const bool taken_back = command.kind == Command::Kind::undo;
+  if (taken_back || command.kind == Command::Kind::edit) task_ = assembly::TaskMonitor(simulation_.scene());
+  if (taken_back) feed_.restart();
   return report;
 }
 
 std::string SimulationRunner::undo() {
-  const Lock lock(mutex_);
-  const Noted noted(*this, "undo", {});
-  const std::string what = undo_.take_back(simulation_);
-  task_ = assembly::TaskMonitor(simulation_.scene());
-  feed_.restart();
-  return what;
+  Command command;
+  command.kind = Command::Kind::undo;
+  return change("undo", command).message;
 }
 
 /// The copies are made without the lock: they may take their time.

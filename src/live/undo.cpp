@@ -15,19 +15,26 @@ std::map<std::string, RigidTransform> put_to_rest(simulation::Simulation& simula
   return places;
 }
 
-void Undo::keep(std::string what, simulation::SimulationState before) {
-  before_.emplace_back(std::move(what), std::move(before));
+simulation::ChangeReport Undo::perform(const Command& command, simulation::Simulation& simulation) {
+  if (command.kind == Command::Kind::undo) return take_back(simulation);
+  const bool reset = command.kind == Command::Kind::reset;
+  if (!reset && command.kind != Command::Kind::edit) return live::perform(command, simulation);
+  simulation::SimulationState before = simulation.save();
+  simulation::ChangeReport report = live::perform(command, simulation);
+  before_.emplace_back(reset ? "reset" : report.message, std::move(before));
   if (before_.size() > most_undone) before_.pop_front();
+  return report;
 }
 
-std::string Undo::take_back(simulation::Simulation& simulation) {
+simulation::ChangeReport Undo::take_back(simulation::Simulation& simulation) {
   if (before_.empty()) throw validation::InputError("undo: nothing was edited or reset since the scene was loaded");
   const double now = simulation.time();
   simulation.restore(before_.back().second);
   put_to_rest(simulation, now);
-  const std::string what = before_.back().first;
+  simulation::ChangeReport report;
+  report.message = before_.back().first;
   before_.pop_back();
-  return what;
+  return report;
 }
 
 }  // namespace spring_workbench::live

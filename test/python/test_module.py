@@ -69,7 +69,7 @@ def test_objects_are_edited():
     simulation.edit("mass", "box", mass=2.0)
     simulation.advance(0.2)
     height = simulation.poses[0, 2, 3]
-    assert height == pytest.approx(0.52 - 0.5 * GRAVITY * 0.2**2, abs=1e-9)
+    assert height == pytest.approx(0.5 - 0.5 * GRAVITY * 0.2**2, abs=1e-9)
     for action, name, word in [("mass", "bin", "name"), ("paint", "box", "action"), ("move", "box", "pose")]:
         with pytest.raises(sw.InputError, match=word):
             simulation.edit(action, name)

@@ -23,7 +23,9 @@ struct Command {
     clutch,       ///< the same, to `on`
     restart,      ///< objects at `places`, the others at their start; nothing held
     edit,         ///< `edit`
-    load_scene    ///< another scene, with the settings and forks of the present
+    load_scene,   ///< another scene, with the settings and forks of the present
+    reset,        ///< restart, to be taken back
+    undo          ///< the last edit or reset is taken back
   };
   Kind kind = Kind::none;
   std::optional<std::size_t> hand;
@@ -43,8 +45,8 @@ struct Command {
   void exchange(math::StateArchive& state);
 };
 
-/// Makes the change, of any kind but `none` and `load_scene`. Throws InputError, and changes nothing, where it cannot
-/// be made.
+/// Makes the change, of any kind but `none`, `load_scene` and `undo`. Throws InputError, and changes nothing, where it
+/// cannot be made.
 simulation::ChangeReport perform(const Command& command, simulation::Simulation& simulation);
 
 /// Of each hand.

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "spring_workbench/hand_input/feed.h"
-#include "spring_workbench/live/command.h"
+#include "spring_workbench/live/undo.h"
 
 namespace spring_workbench::live {
 
@@ -78,12 +78,13 @@ class Replayer {
   void go_to(double t, const AtStop& at_stop);
   void apply(const hand_input::Accepted& accepted);
   void apply(const Change& change);
-  void make_again(const Change& change);
+  bool make_again(const Change& change);
 
   std::function<scene::Scene(const std::string&)> load_scene_;
   simulation::SimulationSettings settings_;
   std::vector<simulation::Simulation> simulation_;  ///< none or one
   std::string scene_;
+  Undo undo_;
   std::uint64_t next_ = 0;
   ReplayedChanges changes_;
 };

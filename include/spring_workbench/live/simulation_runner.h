@@ -161,7 +161,7 @@ class SimulationRunner {
   void feed(HandInput& input, const StylusEvent& event);
   void feed(const hand_input::LocalTime& now);
   void commit(double stop, CycleReport& report);
-  void start_anew(const std::string& what, std::map<std::string, RigidTransform> places);
+  void start_anew(const std::string& what, Command::Kind kind);
   void begin_with(const std::string& what, const Command& command, simulation::Simulation simulation, LookAhead ahead,
                   std::map<std::string, RigidTransform> places);
 
