@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "add_estimates.h"
 #include "constants.h"
 #include "spring_workbench/tools/calibration.h"
 
@@ -195,15 +196,7 @@ void Hand::end_step(AdvanceReport& report) {
   if (!hold_) return;
   slip_.accept();
   report.energy_added += hold_->energy_added() - energy_added_before_;
-  const tools::StepEstimates e = hold_->take_estimates();
-  report.position_error = std::max(report.position_error, e.position);
-  report.angle_error = std::max(report.angle_error, e.angle);
-  report.stiffest_omega_dt = std::max(report.stiffest_omega_dt, e.omega_dt);
-  report.steps += e.extra_steps;
-  report.substeps += e.substeps;
-  report.stops += e.stops;
-  report.steps_fallback += e.fallback;
-  report.energy_error += e.energy;
+  add_to(report, hold_->take_estimates());
 }
 
 bodies::SteppedBody* Hand::begin_slip(const Wrench& at_tip_W) {

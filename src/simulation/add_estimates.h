@@ -1,0 +1,22 @@
+#pragma once
+
+#include <algorithm>
+
+#include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/tools/tool_hold.h"
+
+namespace spring_workbench::simulation {
+
+/// Adds what a hold's steps estimate of their errors to the report of an advance.
+inline void add_to(AdvanceReport& report, const tools::StepEstimates& e) {
+  report.position_error = std::max(report.position_error, e.position);
+  report.angle_error = std::max(report.angle_error, e.angle);
+  report.stiffest_omega_dt = std::max(report.stiffest_omega_dt, e.omega_dt);
+  report.steps += e.extra_steps;
+  report.substeps += e.substeps;
+  report.stops += e.stops;
+  report.steps_fallback += e.fallback;
+  report.energy_error += e.energy;
+}
+
+}  // namespace spring_workbench::simulation
