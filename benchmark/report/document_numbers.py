@@ -7,7 +7,11 @@ document is shown:
 `the`, `max`, `min` or `mean` of a column, over the rows where all the cells named are as said (numbers as numbers);
 `the` wants one row alone; `count` is how many rows have anything in that column. `times X` at the end gives another
 unit. The number is the last one before the marker, and must be what the table says, rounded to as many digits as it
-has.
+has. Whole rows stand between two markers, each on a line of its own:
+
+    <!-- rows claim, measured of verdicts.csv where verdict=FAIL -->
+    (the table, which --write makes)
+    <!-- end of rows -->
 
 Usage: document_numbers.py            tells stale numbers and markers that say nothing; status 1 if there are any
        document_numbers.py --write    puts the tables' numbers in"""
@@ -23,6 +27,7 @@ DOCUMENTS = ["README.md", "benchmark/README.md", "doc/*.md"]
 MARKER = re.compile(
     r"<!--\s*(the|max|min|mean|count)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?(?:\s+times\s+([-+.\deE]+))?\s*-->"
 )
+ROWS = re.compile(r"(<!-- rows (.+?) of (\S+\.csv)(?: where (.+?))? -->\n)(.*?)(<!-- end of rows -->)", re.S)
 NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?")
 
 
@@ -44,9 +49,8 @@ def same(cell, wanted):
         return cell == wanted
 
 
-def value_of(marker, results):
-    """The number that a marker (a match of MARKER) stands for."""
-    kind, column, table, where, times = marker.groups()
+def chosen(table, where, results):
+    """The rows of a table where all cells are as said."""
     rows = rows_of(results / table)
     for condition in filter(None, (part.strip() for part in (where or "").split(","))):
         key, _, wanted = condition.partition("=")
@@ -55,6 +59,25 @@ def value_of(marker, results):
         rows = [row for row in rows if same(row[key], wanted)]
     if not rows:
         raise Stale(f"no such row in {table}")
+    return rows
+
+
+def table_of(marker, results):
+    """The table between two markers (a match of ROWS)."""
+    columns = [column.strip() for column in marker.group(2).split(",")]
+    rows = chosen(marker.group(3), marker.group(4), results)
+    for column in columns:
+        if column not in rows[0]:
+            raise Stale(f"{marker.group(3)} has no column {column}")
+    cells = [columns, ["---"] * len(columns)]
+    cells += [[row[column].replace("|", "\\|") for column in columns] for row in rows]
+    return "".join("| " + " | ".join(row) + " |\n" for row in cells)
+
+
+def value_of(marker, results):
+    """The number that a marker (a match of MARKER) stands for."""
+    kind, column, table, where, times = marker.groups()
+    rows = chosen(table, where, results)
     if column not in rows[0]:
         raise Stale(f"{table} has no column {column}")
     if kind == "the" and len(rows) > 1:
@@ -86,7 +109,19 @@ def written_like(text, value):
 def checked(text, results):
     """(the text with the tables' numbers, what is wrong with it line by line)."""
     lines, wrong = [], []
-    for number, line in enumerate(text.split("\n"), 1):
+
+    def made(marker):
+        number = text[: marker.start()].count("\n") + 1
+        try:
+            table = table_of(marker, results)
+        except Stale as what:
+            wrong.append(f"{number}: {what}: {marker.group(1).strip()}")
+            return marker.group()
+        if table != marker.group(5):
+            wrong.append(f"{number}: stale rows: {marker.group(1).strip()}")
+        return marker.group(1) + table + marker.group(6)
+
+    for number, line in enumerate(ROWS.sub(made, text).split("\n"), 1):
         done, at = "", 0
         for marker in MARKER.finditer(line):
             before = line[at : marker.start()]
@@ -103,7 +138,8 @@ def checked(text, results):
                 wrong.append(f"{number}: {what}: {marker.group()}")
             done += before + marker.group()
         lines.append(done + line[at:])
-        if "<!--" in MARKER.sub("", line) and ".csv" in MARKER.sub("", line).partition("<!--")[2]:
+        rest = MARKER.sub("", line)
+        if "<!-- rows" not in line and ".csv" in rest.partition("<!--")[2]:
             wrong.append(f"{number}: a marker that is not understood: {line.strip()}")
     return "\n".join(lines), wrong
 

@@ -199,21 +199,22 @@ TEST(Verdicts, ScenesMassesAndHandsAreNotMixed) {
   }
 }
 
-TEST(Verdicts, BySamplesEveryDecadeThatTheyAllowIsJudged) {
+TEST(Verdicts, BySamplesEveryErrorThatTheyAllowIsJudged) {
   for (const auto& [unknown, first] : {std::pair{1e-3, true}, std::pair{1e-5, false}}) {
     Measurements measured;
     add_line("exponential", 1.0, 10.0, measured.scenes, 1e5);
     add_line("hand_rk4", 1.0, 1e3, measured.scenes, 1e5);
-    // Cheaper than ours at 1e-4 of the amplitude alone.
+    // Cheaper than ours at 1e-4 of the deflection alone.
     add_line("solver_dop853", 1.0, 1.0, measured.scenes, 1e5);
     for (ErrorRow& row : measured.scenes) {
       row.hand = "samples";
-      row.hand_error = unknown * kAmplitude;
-      if (row.method == "solver_dop853") row.finite = std::abs(std::log10(row.error_over_hand_amplitude) + 4.0) < 0.5;
+      row.hand_error = unknown * kDeflection;
+      if (row.method == "solver_dop853")
+        row.finite = std::abs(std::log10(row.error_over_largest_deflection) + 4.0) < 0.5;
       if (row.method == "solver_dop853") row.wall_us_per_simulated_second = 1.0;
     }
     // At coarser errors its one point, where its line begins, is compared, too.
-    const Verdict verdict = verdict_on(measured, "every decade of error");
+    const Verdict verdict = verdict_on(measured, "at every error");
     EXPECT_EQ(verdict.result, kFail) << verdict.measured;
     EXPECT_EQ(verdict.measured.find("0.0001: ") == std::string::npos, first) << verdict.measured;
   }

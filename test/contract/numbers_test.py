@@ -53,6 +53,17 @@ class Markers(unittest.TestCase):
         ):
             self.assertEqual(self.check(text), (text, []))
 
+    def test_rows_are_made_told_when_stale_and_refused_where_there_are_none(self):
+        text = "a\n<!-- rows kind, n of t.csv where kind=stack -->\n%s<!-- end of rows -->\nb"
+        table = "| kind | n |\n| --- | --- |\n| stack | 3 |\n| stack | 3e0 |\n"
+        self.assertEqual(self.check(text % table), (text % table, []))
+        mended, wrong = self.check(text % "| kind | n |\n")
+        self.assertEqual(mended, text % table)
+        self.assertEqual(len(wrong), 1)
+        for bad in (text.replace("stack", "floor"), text.replace("kind, n", "kind, m"), text.replace("t.csv", "u.csv")):
+            same, wrong = self.check(bad % table)
+            self.assertEqual((same, len(wrong)), (bad % table, 1))
+
     def test_stale_numbers_are_told_and_mended(self):
         text = (
             "1 and 13 µm<!-- max depth [um] of t.csv where kind=stack -->, "
