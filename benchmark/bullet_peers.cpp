@@ -95,9 +95,11 @@ class BulletExplicit : public Method {
     const auto push = [&](double t) {
       if (scene.kind == SceneKind::stretch) {
         const double z = object.getCenterOfMassPosition().z();
-        object.applyCentralForce(btVector3(0.0, 0.0, spring.force(t, z, object.getLinearVelocity().z())));
+        object.applyCentralForce(
+            btVector3(0.0, 0.0, spring.force(scalar_hand(scene, t), z, object.getLinearVelocity().z())));
       } else if (scene.kind == SceneKind::torsion) {
-        object.applyTorque(btVector3(0.0, 0.0, spring.force(t, world.twist(), object.getAngularVelocity().z())));
+        object.applyTorque(
+            btVector3(0.0, 0.0, spring.force(scalar_hand(scene, t), world.twist(), object.getAngularVelocity().z())));
       } else {
         const BodyState body = world.object_state();
         const BodyLoad load = bushing_load(scene, hand_state(scene, t), body);

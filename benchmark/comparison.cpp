@@ -42,7 +42,7 @@ double SceneRows::share_of_deflection(const ErrorTarget& target) const {
   if (target.measure == &ErrorRow::error_over_largest_deflection) return target.error;
   for (const ErrorRow& row : rows) {
     if (row.finite && row.error > 0.0 && !row.own_reference) {
-      return target.error * row.error / row.error_over_hand_amplitude / row.largest_deflection;
+      return target.error * row.error_over_largest_deflection / row.error_over_hand_amplitude;
     }
   }
   return 0.0;

@@ -112,10 +112,10 @@ class DartWorld {
       skeleton_->setAcceleration(0, scalar_hand(scene_, t).acceleration);
       return;
     }
-    const HandAcceleration hand = hand_acceleration(scene_, t);
+    const auto& [state, hand] = hand_motion(scene_, t);
     auto* joint = static_cast<dart::dynamics::FreeJoint*>(skeleton_->getRootJoint());
     joint->setLinearAcceleration(hand.a_WT_W);
-    joint->setAngularAcceleration(hand_state(scene_, t).R_WT * hand.alpha_WT_T);
+    joint->setAngularAcceleration(state.R_WT * hand.alpha_WT_T);
   }
 
   Scenario scene_;

@@ -8,7 +8,8 @@ namespace {
 
 constexpr const char* kHeader =
     "scene,stiffness_factor,mass,shape,method,ours,hand,step,tolerance,own_reference,reference_uncertainty,hand_error,"
-    "largest_deflection,error,angle_error,error_over_hand_amplitude,error_over_largest_deflection,"
+    "largest_deflection,error,position_error,error_between,angle_error,error_over_hand_amplitude,error_over_largest_"
+    "deflection,"
     "wall_us_per_simulated_second,steps_per_second,error_over_tolerance,model_error,finite,steps_fallback,given_up";
 
 }  // namespace
@@ -24,14 +25,14 @@ void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out) {
     out << ',' << row.own_reference << ',' << row.reference_uncertainty << ',' << row.hand_error << ','
         << row.largest_deflection << ',';
     if (row.finite) {
-      out << row.error << ',' << row.angle_error << ',' << row.error_over_hand_amplitude << ','
-          << row.error_over_largest_deflection << ',' << row.wall_us_per_simulated_second << ',' << row.steps_per_second
-          << ',';
+      out << row.error << ',' << row.position_error << ',' << row.error_between << ',' << row.angle_error << ','
+          << row.error_over_hand_amplitude << ',' << row.error_over_largest_deflection << ','
+          << row.wall_us_per_simulated_second << ',' << row.steps_per_second << ',';
       if (row.error_over_tolerance > 0.0) out << row.error_over_tolerance;
       out << ',';
       if (row.own_reference) out << row.model_error;
     } else {
-      out << ",,,,";
+      out << ",,,,,,";
       if (row.given_up) out << row.wall_us_per_simulated_second;
       out << ",,,";
     }

@@ -4,11 +4,8 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <sstream>
 #include <utility>
-
-#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -92,36 +89,107 @@ ReferenceSolution own_solution(const Method& method, const Scenario& scene, int 
 
 namespace {
 
-ErrorRow error_row(const Method& method, const Scenario& scene, const ReferenceSolution& reference, double setting,
-                   const ErrorTablePlan& plan) {
-  const RunResult run = run_isolated(method, scene, setting, plan.repetition, plan.run_limit);
-  ErrorRow row;
-  row.scene = scene.name;
-  row.stiffness_factor = scene.stiffness_factor;
-  row.method = method.name();
-  row.ours = method.ours();
-  row.mass = scene.mass;
-  row.hand = scene.samples ? "samples" : "function";
-  if (method.knob() == Method::Knob::step) {
-    row.step = setting;
-    row.steps_per_second = 1.0 / step_length(scene, setting);
-  } else {
-    row.tolerance = setting;
-  }
-  row.reference_uncertainty = reference.uncertainty;
-  row.hand_error = reference.hand_error;
-  row.largest_deflection = reference.largest_deflection;
-  row.steps_fallback = run.steps_fallback;
-  row.given_up = run.given_up;
-  if (run.given_up) row.wall_us_per_simulated_second = 1e6 * plan.run_limit / scene.duration;
-  row.finite = run.finite && !reference.outputs.empty();
-  if (!row.finite) return row;
-  row.error = output_error(scene, reference, run.outputs);
-  row.error_over_hand_amplitude = row.error / hand_amplitude(scene);
-  row.error_over_largest_deflection = row.error / reference.largest_deflection;
-  row.wall_us_per_simulated_second = 1e6 * run.wall_seconds / scene.duration;
-  return row;
+/// The same scene with outputs half-way between its own, too.
+Scenario with_halfway_outputs(Scenario scene) {
+  scene.output_interval *= 0.5;
+  return scene;
 }
+
+/// Every other output: those of the scene itself.
+ReferenceSolution at_own_outputs(ReferenceSolution reference) {
+  for (std::size_t i = 0; 2 * i < reference.outputs.size(); ++i) reference.outputs[i] = reference.outputs[2 * i];
+  reference.outputs.resize((reference.outputs.size() + 1) / 2);
+  return reference;
+}
+
+/// A method on a scene, setting by setting.
+class Line {
+ public:
+  /// `reference` is that of the scene with_halfway_outputs().
+  Line(const Method& method, const Scenario& scene, const ReferenceSolution& reference, const ErrorTablePlan& plan)
+      : method_(method), scene_(scene), halfway_(with_halfway_outputs(scene)), plan_(plan), between_(reference) {
+    own_ = !method.has_scene_law(scene);
+    if (own_) {
+      between_ = own_solution(method, halfway_, plan.own_solution_steps, plan.time_limit);
+      between_.hand_error = reference.hand_error;
+      const bool comparable = !between_.outputs.empty() && !reference.outputs.empty();
+      if (comparable) model_error_ = output_error(halfway_, reference, between_.outputs);
+    }
+    reference_ = at_own_outputs(between_);
+    if (method.knob() == Method::Knob::tolerance) {
+      settings_ = plan.tolerances;
+      return;
+    }
+    for (const double n : plan.outputs_per_step) {
+      if (method.takes_long_steps() && !scene.samples) settings_.push_back(scene.output_interval * n);
+    }
+    for (const int n : plan.steps_per_output) settings_.push_back(scene.output_interval / n);
+  }
+
+  /// The next row; false where there is none.
+  bool advance() {
+    if (rows_.size() == settings_.size()) return false;
+    if (!rows_.empty() && (rows_.back().given_up || line_is_over(rows_, plan_.longest_run))) return false;
+    rows_.push_back(row(settings_[rows_.size()]));
+    return true;
+  }
+  const std::vector<ErrorRow>& rows() const { return rows_; }
+
+ private:
+  ErrorRow row(double setting) const {
+    const RunResult run = run_isolated(method_, scene_, setting, plan_.repetition, plan_.run_limit);
+    ErrorRow row;
+    row.scene = scene_.name;
+    row.stiffness_factor = scene_.stiffness_factor;
+    row.method = method_.name();
+    row.ours = method_.ours();
+    row.mass = scene_.mass;
+    row.hand = scene_.samples ? "samples" : "function";
+    row.own_reference = own_;
+    row.model_error = model_error_;
+    if (method_.knob() == Method::Knob::step) {
+      row.step = setting;
+      row.steps_per_second = 1.0 / step_length(scene_, setting);
+    } else {
+      row.tolerance = setting;
+    }
+    row.reference_uncertainty = reference_.uncertainty;
+    row.hand_error = reference_.hand_error;
+    row.largest_deflection = reference_.largest_deflection;
+    row.steps_fallback = run.steps_fallback;
+    row.given_up = run.given_up;
+    if (run.given_up) row.wall_us_per_simulated_second = 1e6 * plan_.run_limit / scene_.duration;
+    if (!run.finite || reference_.outputs.empty()) return row;
+    const RunResult between = run_between(setting);
+    row.finite = between.finite;
+    if (!row.finite) return row;
+    row.position_error = output_error(scene_, reference_, run.outputs);
+    row.error_between = output_error(halfway_, between_, between.outputs);
+    row.error = std::max(row.position_error, row.error_between);
+    row.error_over_hand_amplitude = row.error / hand_amplitude(scene_);
+    row.error_over_largest_deflection = row.error / reference_.largest_deflection;
+    row.wall_us_per_simulated_second = 1e6 * run.wall_seconds / scene_.duration;
+    return row;
+  }
+
+  /// Another run, of which nothing is timed: its steps end half-way between the outputs, too, but where they may be
+  /// longer than that.
+  RunResult run_between(double setting) const {
+    const bool is_long = setting > 1.000001 * scene_.output_interval || method_.knob() == Method::Knob::tolerance;
+    const double nearer = is_long ? setting : std::min(setting, halfway_.output_interval);
+    return run_isolated(method_, halfway_, nearer, {}, plan_.run_limit);
+  }
+
+  const Method& method_;
+  const Scenario& scene_;
+  Scenario halfway_;
+  const ErrorTablePlan& plan_;
+  ReferenceSolution between_, reference_;  ///< half-way, too; at the outputs
+  bool own_ = false;                       ///< measured against the limit of its own results
+  double model_error_ = 0.0;
+  std::vector<double> settings_;
+  std::vector<ErrorRow> rows_;
+};
 
 }  // namespace
 
@@ -130,6 +198,19 @@ std::string title_of(const ErrorRow& row) {
   title << row.scene << " × " << row.stiffness_factor << ", " << row.mass << " kg, hand by " << row.hand;
   return title.str();
 }
+
+namespace {
+
+std::string scene_title(const Scenario& scene) {
+  ErrorRow row;
+  row.scene = scene.name;
+  row.stiffness_factor = scene.stiffness_factor;
+  row.mass = scene.mass;
+  row.hand = scene.samples ? "samples" : "function";
+  return title_of(row);
+}
+
+}  // namespace
 
 bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run) {
   const ErrorRow& last = rows.back();
@@ -147,46 +228,58 @@ bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run) {
   return without_gain >= 3 && last.error_over_hand_amplitude < 1e-2;
 }
 
-std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, const ReferenceSolution& reference,
-                                 const ErrorTablePlan& plan) {
-  std::vector<double> settings = plan.tolerances;
-  if (method.knob() == Method::Knob::step) {
-    settings.clear();
-    for (const double n : plan.outputs_per_step) {
-      if (method.takes_long_steps() && !scene.samples) settings.push_back(scene.output_interval * n);
-    }
-    for (const int n : plan.steps_per_output) settings.push_back(scene.output_interval / n);
+void take_turns(const std::vector<std::function<bool()>>& lines) {
+  std::vector<bool> over(lines.size());
+  while (std::find(over.begin(), over.end(), false) != over.end()) {
+    for (std::size_t i = 0; i < lines.size(); ++i) over[i] = over[i] || !lines[i]();
   }
-  const bool own = !method.has_scene_law(scene);
-  ReferenceSolution measured_against =
-      own ? own_solution(method, scene, plan.own_solution_steps, plan.time_limit) : reference;
-  const bool comparable = own && !measured_against.outputs.empty() && !reference.outputs.empty();
-  const double model_error = comparable ? output_error(scene, reference, measured_against.outputs) : 0.0;
-  measured_against.hand_error = reference.hand_error;
-  std::vector<ErrorRow> rows;
-  for (const double setting : settings) {
-    rows.push_back(error_row(method, scene, measured_against, setting, plan));
-    rows.back().own_reference = own;
-    rows.back().model_error = model_error;
-    if (rows.back().given_up || line_is_over(rows, plan.longest_run)) break;
-  }
-  return rows;
 }
 
-std::size_t unit_count(const std::vector<const Method*>& methods, const ErrorTablePlan& plan) {
-  return 2 * methods.size() * plan.scenes.size();
+std::vector<std::size_t> in_turns(const std::vector<ErrorRow>& rows) {
+  std::vector<std::pair<std::size_t, std::size_t>> order;  // place in its line, number
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const bool same = i > 0 && rows[i - 1].method == rows[i].method;
+    order.emplace_back(same ? order.back().first + 1 : 0, i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<std::size_t> numbers;
+  for (const auto& [place, number] : order) numbers.push_back(number);
+  return numbers;
 }
+
+std::size_t unit_count(const ErrorTablePlan& plan) { return 2 * plan.scenes.size(); }
 
 namespace {
 
-/// The finite ones of `rows` with the run time of other runs.
-std::vector<ErrorRow> timed_again(const Method& method, const Scenario& scene, std::vector<ErrorRow> rows,
-                                  const ErrorTablePlan& plan) {
-  for (ErrorRow& row : rows) {
+/// Of every method on one scene.
+std::vector<ErrorRow> scene_rows(const std::vector<const Method*>& methods, const Scenario& scene,
+                                 const ErrorTablePlan& plan) {
+  const ReferenceSolution reference = reference_solution(with_halfway_outputs(scene));
+  std::vector<Line> lines;
+  lines.reserve(methods.size());
+  std::vector<std::function<bool()>> turns;
+  for (const Method* method : methods) {
+    lines.emplace_back(*method, scene, reference, plan);
+    turns.emplace_back([&line = lines.back()] { return line.advance(); });
+  }
+  take_turns(turns);
+  std::vector<ErrorRow> rows;
+  for (const Line& line : lines) rows.insert(rows.end(), line.rows().begin(), line.rows().end());
+  return rows;
+}
+
+/// The rows of one scene with the run time of other runs where these are less.
+std::vector<ErrorRow> timed_again(const std::vector<const Method*>& methods, const Scenario& scene,
+                                  std::vector<ErrorRow> rows, const ErrorTablePlan& plan) {
+  for (const std::size_t i : in_turns(rows)) {
+    ErrorRow& row = rows[i];
     if (!row.finite) continue;
+    const auto same = [&](const Method* method) { return method->name() == row.method; };
+    const Method& method = **std::find_if(methods.begin(), methods.end(), same);
     const double setting = method.knob() == Method::Knob::step ? row.step : row.tolerance;
     const RunResult run = run_isolated(method, scene, setting, plan.repetition, plan.run_limit);
-    row.wall_us_per_simulated_second = 1e6 * run.wall_seconds / scene.duration;
+    double& time = row.wall_us_per_simulated_second;
+    time = std::min(time, 1e6 * run.wall_seconds / scene.duration);
   }
   return rows;
 }
@@ -194,40 +287,17 @@ std::vector<ErrorRow> timed_again(const Method& method, const Scenario& scene, s
 }  // namespace
 
 std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan, Units& units) {
-  struct Line {
-    const Scenario* scene;
-    const Method* method;
-    std::string name;
-    std::vector<ErrorRow> rows;
-  };
-  std::vector<Line> lines;
-  for (const Scenario& scene : plan.scenes) {
-    std::optional<ReferenceSolution> reference;
-    for (const Method* method : methods) {
-      std::ostringstream name;
-      name << scene.name << " × " << scene.stiffness_factor << ", " << scene.mass << " kg, hand by "
-           << (scene.samples ? "samples " : "function ") << method->name();
-      const auto measure = [&] {
-        if (!reference) reference = reference_solution(scene);
-        return error_rows(*method, scene, *reference, plan);
-      };
-      lines.push_back({&scene, method, name.str(), units.rows<ErrorRow>(lines.size(), name.str(), measure)});
-    }
+  std::vector<std::vector<ErrorRow>> first;
+  for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
+    const Scenario& scene = plan.scenes[i];
+    first.push_back(units.rows<ErrorRow>(i, scene_title(scene), [&] { return scene_rows(methods, scene, plan); }));
   }
   std::vector<ErrorRow> all;
-  for (std::size_t number = 0; number < lines.size(); ++number) {
-    Line& line = lines[number];
-    const std::string name = line.name + ", timed again";
-    const std::vector<ErrorRow> again = units.rows<ErrorRow>(
-        number, name, [&line, &plan] { return timed_again(*line.method, *line.scene, line.rows, plan); });
-    if (again.size() != line.rows.size()) {
-      validation::refuse("shards", "unit", name, "as many rows as the line that it times again");
-    }
-    for (std::size_t i = 0; i < line.rows.size(); ++i) {
-      double& time = line.rows[i].wall_us_per_simulated_second;
-      time = std::min(time, again[i].wall_us_per_simulated_second);
-      all.push_back(line.rows[i]);
-    }
+  for (std::size_t i = 0; i < plan.scenes.size(); ++i) {
+    const Scenario& scene = plan.scenes[i];
+    const auto rows = units.rows<ErrorRow>(i, scene_title(scene) + ", timed again",
+                                           [&] { return timed_again(methods, scene, first[i], plan); });
+    all.insert(all.end(), rows.begin(), rows.end());
   }
   return all;
 }

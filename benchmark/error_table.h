@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <vector>
 
@@ -42,8 +43,12 @@ struct ErrorRow {
   double reference_uncertainty = 0.0;  ///< [m or rad]
   double hand_error = 0.0;             ///< as of ReferenceSolution [m or rad]
   double largest_deflection = 0.0;     ///< of the reference [m or rad]
-  double error = 0.0;                  ///< largest [m; in B rad]
-  double angle_error = 0.0;            ///< largest [rad]; of rods alone
+  /// What is compared, the largest of: position_error, error_between, and of rods angle_error times the distance of
+  /// the body's farthest point from its centre of mass [m; in B rad].
+  double error = 0.0;
+  double position_error = 0.0;  ///< of the centre of mass, or in B of the twist, at the outputs [m or rad]
+  double error_between = 0.0;   ///< the same in a run that is also asked half-way between the outputs
+  double angle_error = 0.0;     ///< the same runs' [rad]; of rods alone
   double error_over_hand_amplitude = 0.0;
   double error_over_largest_deflection = 0.0;
   double wall_us_per_simulated_second = 0.0;  ///< of a run that was given up: it takes longer than this
@@ -58,8 +63,8 @@ struct ErrorRow {
 template <typename Fields>
 void each_field(ErrorRow& r, Fields& fields) {
   fields(r.scene, r.stiffness_factor, r.mass, r.shape, r.method, r.ours, r.hand, r.step, r.tolerance, r.own_reference,
-         r.reference_uncertainty, r.hand_error, r.largest_deflection, r.error, r.angle_error,
-         r.error_over_hand_amplitude, r.error_over_largest_deflection, r.wall_us_per_simulated_second,
+         r.reference_uncertainty, r.hand_error, r.largest_deflection, r.error, r.position_error, r.error_between,
+         r.angle_error, r.error_over_hand_amplitude, r.error_over_largest_deflection, r.wall_us_per_simulated_second,
          r.steps_per_second, r.error_over_tolerance, r.model_error, r.finite, r.steps_fallback, r.given_up);
 }
 
@@ -76,16 +81,20 @@ ReferenceSolution own_solution(const Method& method, const Scenario& scene, int 
 /// have not lowered its error.
 bool line_is_over(const std::vector<ErrorRow>& rows, double longest_run);
 
-/// Rows of one method on one scene, coarsest first, until line_is_over(); `reference` is that of the scene.
-std::vector<ErrorRow> error_rows(const Method& method, const Scenario& scene, const ReferenceSolution& reference,
-                                 const ErrorTablePlan& plan);
+/// Lets lines take turns: each is asked for its next row until it says that there is none.
+void take_turns(const std::vector<std::function<bool()>>& lines);
+
+/// Numbers of `rows`, of which those of a method follow each other, in the order in which the methods take turns.
+std::vector<std::size_t> in_turns(const std::vector<ErrorRow>& rows);
 
 /// The rows with a header line, as CSV.
 void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out);
 
-/// The rows of all lines. Each line is two units of work: what it gives, and, when all have been through, its run times
-/// once more, of which the lesser ones count. So a slow phase of the machine does not hit one line alone.
-std::size_t unit_count(const std::vector<const Method*>& methods, const ErrorTablePlan& plan);
+/// The rows of all lines, a line for each method on each scene, coarsest first, until line_is_over(). A scene is two
+/// units of work, both of one shard: its rows, and, when all scenes have been through, their run times once more, of
+/// which the lesser ones count. In both the methods take turns, setting by setting, so that whatever the machine does
+/// meets all of them.
+std::size_t unit_count(const ErrorTablePlan& plan);
 std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan, Units& units);
 
 }  // namespace spring_workbench::benchmark

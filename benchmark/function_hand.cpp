@@ -3,23 +3,29 @@
 namespace spring_workbench::benchmark {
 
 motion::OwnAxesMotion FunctionHand::in_own_axes(double t) const {
-  const HandleMotion<double> handle = handle_motion(scene_, t);
+  const auto& [state, acceleration] = handle_motion(scene_, t);
   motion::OwnAxesMotion m;
-  m.X.linear() = math::matrix(handle.R_WH, 0);
-  m.X.translation() = math::vector(handle.p_W);
-  m.v_W = math::vector(handle.v_W);
-  m.a_W = math::vector(handle.a_W);
-  m.w_B = math::vector(handle.w_H);
-  m.alpha_B = math::vector(handle.alpha_H);
+  m.X.linear() = state.R_WT;
+  m.X.translation() = state.p_WT;
+  m.v_W = state.v_WT_W;
+  m.a_W = acceleration.a_WT_W;
+  m.w_B = state.w_WT_T;
+  m.alpha_B = acceleration.alpha_WT_T;
   return m;
 }
 
 motion::FrameForcing<math::Pack> FunctionHand::forcing(const math::Pack& t, double gravity) const {
-  HandleMotion<math::Pack> handle;
-  handle_motion(scene_, t, handle);
-  handle.a_W.z += gravity;
-  return {handle.R_WH, math::transposed(handle.R_WH, handle.v_W), handle.w_H, handle.alpha_H,
-          math::transposed(handle.R_WH, handle.a_W)};
+  motion::FrameForcing<math::Pack> all;
+  for (int i = 0; i < math::pack_size; ++i) {
+    const motion::OwnAxesMotion m = in_own_axes(t[i]);
+    const Matrix3d R_BW = m.X.linear().transpose();
+    math::set_lane(all.R_WB, i, math::three_by_three(m.X.linear()));
+    math::set_lane(all.v_B, i, math::three(R_BW * m.v_W));
+    math::set_lane(all.w_B, i, math::three(m.w_B));
+    math::set_lane(all.alpha_B, i, math::three(m.alpha_B));
+    math::set_lane(all.a_B, i, math::three(R_BW * (m.a_W + gravity * Vector3d::UnitZ())));
+  }
+  return all;
 }
 
 }  // namespace spring_workbench::benchmark

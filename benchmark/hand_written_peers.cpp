@@ -7,8 +7,8 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-BodyAcceleration acceleration(const Scenario& scene, double t, const BodyState& body) {
-  return body_acceleration(scene, bushing_load(scene, hand_state(scene, t), body), body.w_WO_O);
+BodyAcceleration acceleration(const Scenario& scene, const HandState& hand, const BodyState& body) {
+  return body_acceleration(scene, bushing_load(scene, hand, body), body.w_WO_O);
 }
 
 /// R ← R exp(h w)
@@ -33,7 +33,7 @@ class SemiImplicitEuler : public Method {
     return stepping_loop(
         scene, step,
         [&](double t, double h) {
-          v += h * spring.acceleration(t, x, v);
+          v += h * spring.acceleration(scalar_hand(scene, t), x, v);
           x += h * v;
         },
         [&](double) { return Vector3d(0.0, 0.0, x); });
@@ -44,7 +44,7 @@ class SemiImplicitEuler : public Method {
     return stepping_loop(
         scene, step,
         [&](double t, double h) {
-          const BodyAcceleration a = acceleration(scene, t, body);
+          const BodyAcceleration a = acceleration(scene, hand_state(scene, t), body);
           body.v_WO_W += h * a.a_WO_W;
           body.w_WO_O += h * a.alpha_WO_O;
           body.p_WO += h * body.v_WO_W;
@@ -54,6 +54,8 @@ class SemiImplicitEuler : public Method {
   }
 };
 
+/// Asks for the hand once at each distinct moment: the middle stages share theirs, and the last one's is the next
+/// step's first.
 class RungeKutta4 : public Method {
  public:
   std::string name() const override { return "hand_rk4"; }
@@ -65,17 +67,20 @@ class RungeKutta4 : public Method {
  private:
   static RunResult run_single(const Scenario& scene, double step) {
     const SingleSpring spring(scene);
-    double x = scalar_hand(scene, 0.0).value, v = scalar_hand(scene, 0.0).rate;
+    ScalarMotion hand = scalar_hand(scene, 0.0);
+    double x = hand.value, v = hand.rate;
     return stepping_loop(
         scene, step,
         [&](double t, double h) {
-          const double a1 = spring.acceleration(t, x, v);
+          const ScalarMotion middle = scalar_hand(scene, t + 0.5 * h);
+          const double a1 = spring.acceleration(hand, x, v);
           const double v2 = v + 0.5 * h * a1;
-          const double a2 = spring.acceleration(t + 0.5 * h, x + 0.5 * h * v, v2);
+          const double a2 = spring.acceleration(middle, x + 0.5 * h * v, v2);
           const double v3 = v + 0.5 * h * a2;
-          const double a3 = spring.acceleration(t + 0.5 * h, x + 0.5 * h * v2, v3);
+          const double a3 = spring.acceleration(middle, x + 0.5 * h * v2, v3);
           const double v4 = v + h * a3;
-          const double a4 = spring.acceleration(t + h, x + h * v3, v4);
+          hand = scalar_hand(scene, t + h);
+          const double a4 = spring.acceleration(hand, x + h * v3, v4);
           x += h / 6.0 * (v + 2.0 * v2 + 2.0 * v3 + v4);
           v += h / 6.0 * (a1 + 2.0 * a2 + 2.0 * a3 + a4);
         },
@@ -88,8 +93,8 @@ class RungeKutta4 : public Method {
     Vector3d alpha;
   };
 
-  static Rate rate(const Scenario& scene, double t, const BodyState& body) {
-    const BodyAcceleration a = acceleration(scene, t, body);
+  static Rate rate(const Scenario& scene, const HandState& hand, const BodyState& body) {
+    const BodyAcceleration a = acceleration(scene, hand, body);
     const Quaterniond w(0.0, body.w_WO_O.x(), body.w_WO_O.y(), body.w_WO_O.z());
     return {body.v_WO_W, a.a_WO_W, 0.5 * (body.R_WO * w).coeffs(), a.alpha_WO_O};
   }
@@ -106,13 +111,16 @@ class RungeKutta4 : public Method {
 
   static RunResult run_body(const Scenario& scene, double step) {
     BodyState body = start_state(scene);
+    HandState hand = hand_state(scene, 0.0);
     return stepping_loop(
         scene, step,
         [&](double t, double h) {
-          const Rate k1 = rate(scene, t, body);
-          const Rate k2 = rate(scene, t + 0.5 * h, moved(body, 0.5 * h, k1));
-          const Rate k3 = rate(scene, t + 0.5 * h, moved(body, 0.5 * h, k2));
-          const Rate k4 = rate(scene, t + h, moved(body, h, k3));
+          const HandState middle = hand_state(scene, t + 0.5 * h);
+          const Rate k1 = rate(scene, hand, body);
+          const Rate k2 = rate(scene, middle, moved(body, 0.5 * h, k1));
+          const Rate k3 = rate(scene, middle, moved(body, 0.5 * h, k2));
+          hand = hand_state(scene, t + h);
+          const Rate k4 = rate(scene, hand, moved(body, h, k3));
           body = moved(body, h / 6.0,
                        {k1.v + 2.0 * (k2.v + k3.v) + k4.v, k1.a + 2.0 * (k2.a + k3.a) + k4.a,
                         k1.R + 2.0 * (k2.R + k3.R) + k4.R, k1.alpha + 2.0 * (k2.alpha + k3.alpha) + k4.alpha});

@@ -61,9 +61,8 @@ BodyAcceleration body_acceleration(const Scenario& scene, const BodyLoad& load, 
           (load.moment_O - gyroscopic).cwiseQuotient(scene.inertia)};
 }
 
-Vector6d bushing_acceleration(const Scenario& scene, double t, const BushingState& state) {
-  const HandState hand = hand_state(scene, t);
-  const HandAcceleration hand_rate = hand_acceleration(scene, t);
+Vector6d bushing_acceleration(const Scenario& scene, const HandMotion& motion, const BushingState& state) {
+  const auto& [hand, hand_rate] = motion;
   const Vector3d d = state.q.head<3>(), phi = state.q.tail<3>();
   const Vector3d d_dot = state.q_dot.head<3>(), phi_dot = state.q_dot.tail<3>();
   const Matrix3d R_TE = math::exp_so3(phi);

@@ -36,9 +36,9 @@ BushingState bushing_state(const Scenario& scene, const HandState& hand, const B
 BodyLoad bushing_load(const Scenario& scene, const HandState& hand, const BushingState& state, const Matrix3d& R_WO);
 BodyLoad bushing_load(const Scenario& scene, const HandState& hand, const BodyState& body);
 
-/// Equation of motion of scene C in Lagrange's coordinates: `q̈(t, q, q̇)`. Newton and Euler for the object under
-/// `bushing_load` and gravity, carried over to the moving frame T.
-Vector6d bushing_acceleration(const Scenario& scene, double t, const BushingState& state);
+/// Equation of motion of scene C in Lagrange's coordinates: `q̈(t, q, q̇)`, the hand at t. Newton and Euler for the
+/// object under `bushing_load` and gravity, carried over to the moving frame T.
+Vector6d bushing_acceleration(const Scenario& scene, const HandMotion& hand, const BushingState& state);
 
 /// Linear [m/s²] and angular acceleration [rad/s², in O] of the object under a load and gravity.
 struct BodyAcceleration {

@@ -102,6 +102,8 @@ class MujocoForce : public Method {
     write_start(scene, world.data());
     const SingleSpring spring(scene);
     current_ = &spring;
+    single_ = {};
+    hand_ = {};
     mjcb_passive = scene.kind == SceneKind::six_dof ? &push_body : &push_single;
     RunResult result = stepping_loop(
         scene, step, [&](double t, double) { world.step(t); },
@@ -117,21 +119,24 @@ class MujocoForce : public Method {
 
  private:
   static void push_single(const mjModel*, mjData* data) {
-    data->qfrc_passive[0] += current_->force(data->time, data->qpos[0], data->qvel[0]);
+    data->qfrc_passive[0] += current_->force(single_.at(current_->scene, data->time), data->qpos[0], data->qvel[0]);
   }
 
   static void push_body(const mjModel*, mjData* data) {
-    const BodyLoad load =
-        bushing_load(current_->scene, hand_state(current_->scene, data->time), read_free_joint(*data));
+    const BodyLoad load = bushing_load(current_->scene, hand_.at(current_->scene, data->time), read_free_joint(*data));
     Eigen::Map<Vector3d>{data->qfrc_passive} += load.force_W;
     Eigen::Map<Vector3d>{data->qfrc_passive + 3} += load.moment_O;
   }
 
   static const SingleSpring* current_;
+  static RememberedScalar single_;
+  static RememberedState hand_;
   mjtIntegrator integrator_;
 };
 
 const SingleSpring* MujocoForce::current_ = nullptr;
+RememberedScalar MujocoForce::single_;
+RememberedState MujocoForce::hand_;
 
 /// Joints with stiffness and damping between a hand and the object. The hand is a body that is so heavy that the object
 /// does not move it, set to its exact pose and velocity before each step and driven with its exact acceleration.
@@ -166,8 +171,7 @@ class MujocoJoints : public Method {
       data.qfrc_applied[0] = kMujocoHandInertia * hand.acceleration;
       return;
     }
-    const HandState hand = hand_state(scene, t);
-    const HandAcceleration acceleration = hand_acceleration(scene, t);
+    const auto& [hand, acceleration] = hand_motion(scene, t);
     write_free_joint(hand.p_WT, hand.R_WT, hand.v_WT_W, hand.w_WT_T, data.qpos, data.qvel);
     Eigen::Map<Vector3d>{data.qfrc_applied} =
         kMujocoHandInertia * (acceleration.a_WT_W + scene.gravity * Vector3d::UnitZ());

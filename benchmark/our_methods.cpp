@@ -2,33 +2,22 @@
 
 #include <utility>
 
-#include "benchmark/function_hand.h"
 #include "benchmark/simulated_rod.h"
-#include "benchmark/stepping_loop.h"
 #include "spring_workbench/dynamics/integrator.h"
-#include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::benchmark {
 namespace {
 
-/// In steps of the library's integrator, after one that is thrown away: what it derives from stiffness and mass is set
-/// up then, as the peers' models are.
-RunResult run_on_function(const Scenario& scene, const std::string& name, double step) {
-  const dynamics::HeldBody body = held_body(rod_case(scene), "bushing");
-  const std::unique_ptr<dynamics::Integrator> integrator =
-      dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(name, "benchmark", "integrator"));
-  const FunctionHand hand(scene);
-  dynamics::StrainState state = body.zero_state();
-  integrator->step(body, hand, 0.0, step_length(scene, step), state);
-  state = body.zero_state();
-  return stepping_loop(
-      scene, step, [&](double t, double h) { integrator->step(body, hand, t, h, state); },
-      [&](double t) -> Vector3d {
-        const dynamics::HandleForcing handle = body.forcing(hand, t);
-        if (scene.kind != SceneKind::torsion) return body.object(handle, state).X.translation();
-        return {0.0, 0.0, math::log_so3(handle.X_WH.linear()).z() + state.q[0]};  // which no half turn ends
-      });
+/// A hand that is a function of time, by its pose at the end of every step of `h` [s]. One pose more, right after the
+/// first, so that the velocity there, which is that of a chord, is the function's.
+PoseSource poses_of_function(const Scenario& scene, double h) {
+  constexpr double soon = 1e-8;  // s
+  return [&scene, h](std::size_t i) -> motion::PoseSample {
+    const double t = i < 2 ? static_cast<double>(i) * soon : static_cast<double>(i - 1) * h;
+    const HandState handle = handle_state(scene, t);
+    return {t, make_transform(Quaterniond(handle.R_WT), handle.p_WT)};
+  };
 }
 
 class OurMethod : public Method {
@@ -42,8 +31,9 @@ class OurMethod : public Method {
   bool has_scene_law(const Scenario& scene) const override { return solves_ || scene.kind != SceneKind::six_dof; }
 
   RunResult run(const Scenario& scene, double step) const override {
-    if (!scene.samples) return run_on_function(scene, integrator_, step);
-    return as_result(scene, run_simulated(rod_case(scene), "bushing", integrator_, step));
+    const RodCase one = rod_case(scene);
+    const PoseSource poses = scene.samples ? poses_of_tracker(one) : poses_of_function(scene, step_length(scene, step));
+    return as_result(scene, run_simulated(one, "bushing", integrator_, step, 0.0, poses));
   }
 
  private:

@@ -57,6 +57,17 @@ std::vector<RigidTransform> fine_poses(const RodCase& one, const std::string& sh
   return std::move(run.X_WO);
 }
 
+RodCase with_halfway_outputs(RodCase one) {
+  one.output_interval *= 0.5;
+  return one;
+}
+
+std::vector<RigidTransform> every_other(const std::vector<RigidTransform>& poses) {
+  std::vector<RigidTransform> some;
+  for (std::size_t i = 0; i < poses.size(); i += 2) some.push_back(poses[i]);
+  return some;
+}
+
 PoseDistance largest_distance(const std::vector<RigidTransform>& a, const std::vector<RigidTransform>& b) {
   PoseDistance distance;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) {
@@ -69,8 +80,11 @@ PoseDistance largest_distance(const std::vector<RigidTransform>& a, const std::v
 RodReference rod_reference(const RodCase& one, const std::string& shape) {
   RodReference reference;
   if (one.recorded.empty()) {
-    reference.X_WO = fine_poses(one, shape, kFineTolerance);
-    reference.uncertainty = largest_distance(reference.X_WO, fine_poses(one, shape, 10.0 * kFineTolerance)).position;
+    const RodCase halfway = with_halfway_outputs(one);
+    reference.halfway = fine_poses(halfway, shape, kFineTolerance);
+    reference.X_WO = every_other(reference.halfway);
+    reference.uncertainty =
+        largest_distance(reference.halfway, fine_poses(halfway, shape, 10.0 * kFineTolerance)).position;
   } else {
     reference.X_WO = recorded_poses(one);
     reference.uncertainty = kRecordedUncertainty;

@@ -9,9 +9,10 @@ namespace spring_workbench::benchmark {
 
 /// What the runs of a rod case are measured against.
 struct RodReference {
-  std::vector<RigidTransform> X_WO;  ///< at output_times(one)
-  double largest_deflection = 0.0;   ///< of the centre of mass from where a rigid fork would hold it [m]
-  double uncertainty = 0.0;          ///< estimated error of the positions [m]
+  std::vector<RigidTransform> X_WO;     ///< at output_times(one)
+  std::vector<RigidTransform> halfway;  ///< at those and half-way between them; none for a recorded case
+  double largest_deflection = 0.0;      ///< of the centre of mass from where a rigid fork would hold it [m]
+  double uncertainty = 0.0;             ///< estimated error of the positions [m]
 };
 
 /// The tolerance of references that have no closed form, relative, and absolute over what a strain is under the weight.
@@ -22,6 +23,12 @@ constexpr double kFineTolerance = 1e-12;
 /// trajectory in its file, by another solver. Throws std::runtime_error when the method gives up or the file has too
 /// few rows.
 RodReference rod_reference(const RodCase& one, const std::string& shape);
+
+/// The case with outputs half-way between its own, too.
+RodCase with_halfway_outputs(RodCase one);
+
+/// Every other pose.
+std::vector<RigidTransform> every_other(const std::vector<RigidTransform>& poses);
 
 /// The same by Radau IIA for every case.
 std::vector<RigidTransform> fine_poses(const RodCase& one, const std::string& shape, double tolerance);

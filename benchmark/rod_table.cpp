@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
+#include <limits>
+#include <map>
 #include <utility>
 
 #include "benchmark/our_methods.h"
@@ -45,13 +48,15 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
   for (int digits = 0; digits <= 12; digits += quick ? 4 : 1) plan.peer_tolerances.push_back(std::pow(10.0, -digits));
   plan.longest_run = quick ? 0.005 : 0.01;
   plan.tolerance_time_limit = quick ? 0.1 : 1.0;
-  plan.repetition = quick ? Repetition{1, 0.005} : Repetition{2, 0.02};
+  plan.repetition = quick ? Repetition{1, 0.0025} : Repetition{2, 0.01};
   return plan;
 }
 
 double error_as_length(const RodCase& one, double position, double angle) {
   return std::max(position, angle * std::sqrt(0.5 * one.inertia.sum() / one.mass));
 }
+
+double farthest_point(const RodCase& one) { return std::sqrt(1.5 * one.inertia.sum() / one.mass); }
 
 namespace {
 
@@ -135,77 +140,93 @@ std::vector<RigidTransform> extrapolated(const RodRun& coarse, const RodRun& fin
 RodReference own_limit(const RodCase& one, const std::string& shape, const std::string& integrator,
                        const RodReference& exact) {
   constexpr int kStepsPerOutput = 64;
+  const RodCase halfway = with_halfway_outputs(one);
   RodRun runs[3];
-  for (int i = 0; i < 3; ++i) runs[i] = run_simulated(one, shape, integrator, kOutputInterval / (kStepsPerOutput << i));
+  for (int i = 0; i < 3; ++i)
+    runs[i] = run_simulated(halfway, shape, integrator, kOutputInterval / (kStepsPerOutput << i));
   RodReference limit = exact;
-  limit.X_WO = extrapolated(runs[1], runs[2]);
-  limit.uncertainty = largest_distance(limit.X_WO, extrapolated(runs[0], runs[1])).position;
+  limit.halfway = extrapolated(runs[1], runs[2]);
+  limit.X_WO = every_other(limit.halfway);
+  limit.uncertainty = largest_distance(limit.halfway, extrapolated(runs[0], runs[1])).position;
   return limit;
 }
 
+/// One of ours on a case, first by step and then by tolerance, or a general method, setting by setting.
 class Line {
  public:
   Line(const RodTablePlan& plan, const RodCase& one, const std::string& shape, const RodReference& exact,
-       const std::string& method)
-      : plan_(plan), case_(one), shape_(shape), exact_(exact), method_(method), reference_(exact) {}
-
-  /// Of one of ours.
-  std::vector<ErrorRow> rows() {
-    own_ = !solves_the_equation_of_motion(method_);
-    if (own_) reference_ = own_limit(case_, shape_, method_, exact_);
-    model_error_ = largest_distance(reference_.X_WO, exact_.X_WO).position;
-    std::vector<ErrorRow> all = rows_by_step([&](double step) { return run_simulated(case_, shape_, method_, step); });
-    std::vector<ErrorRow> rows;
-    for (const double tolerance : plan_.tolerances) {
-      rows.push_back(row(run_in_time(plan_.tolerance_time_limit, [&] {
-        return run_simulated(case_, shape_, method_, kOutputInterval, tolerance);
-      })));
-      ErrorRow& last = rows.back();
-      last.tolerance = tolerance;
-      if (last.given_up) break;
-      last.error_over_tolerance = error_as_length(case_, last.error, last.angle_error) / tolerance;
-      if (1e-6 * rows.back().wall_us_per_simulated_second > plan_.longest_run) break;
+       const std::string& method, bool ours)
+      : plan_(plan), case_(one), halfway_(with_halfway_outputs(one)), shape_(shape), method_(method), ours_(ours) {
+    own_ = ours && !solves_the_equation_of_motion(method);
+    reference_ = own_ ? own_limit(one, shape, method, exact) : exact;
+    model_error_ = largest_distance(reference_.X_WO, exact.X_WO).position;
+    if (ours || takes_step(method)) {
+      for (const int n : plan.steps_per_output) settings_.push_back({kOutputInterval / n, 0.0});
     }
-    all.insert(all.end(), rows.begin(), rows.end());
-    for (ErrorRow& row : all) row.ours = true;
-    return all;
+    for (const double tolerance : ours ? plan.tolerances : std::vector<double>{}) settings_.push_back({0.0, tolerance});
+    if (ours || takes_step(method)) return;
+    for (const double tolerance : plan.peer_tolerances) settings_.push_back({0.0, tolerance});
   }
 
-  /// Of a general method.
-  std::vector<ErrorRow> peer_rows() const {
-    const auto run = [&](double setting) { return run_solver(case_, shape_, method_, setting); };
-    if (takes_step(method_)) return rows_by_step(run);
-    std::vector<ErrorRow> rows;
-    for (const double tolerance : plan_.peer_tolerances) {
-      rows.push_back(row(run_in_time(plan_.tolerance_time_limit,
-                                     [&] { return fastest(plan_.repetition, [&] { return run(tolerance); }); })));
-      rows.back().tolerance = tolerance;
-      if (rows.back().given_up || line_is_over(rows, plan_.longest_run)) break;
+  /// The next row; false where there is none.
+  bool advance() {
+    if (!rows_.empty() && part_is_over()) {
+      const bool by_step = rows_.back().step > 0.0;
+      while (next_ < settings_.size() && by_step && settings_[next_].step > 0.0) ++next_;
+      if (!by_step) next_ = settings_.size();
     }
-    return rows;
+    if (next_ == settings_.size()) return false;
+    rows_.push_back(row(settings_[next_++]));
+    return true;
+  }
+  const std::vector<ErrorRow>& rows() const { return rows_; }
+
+  /// The run time of a row once more, where that is less. Ours to a tolerance take too long; no verdict has their run
+  /// time.
+  void time_again(ErrorRow& row) const {
+    if (!row.finite || row.error_over_tolerance > 0.0) return;
+    const RodRun again = timed({row.step, row.tolerance});
+    double& time = row.wall_us_per_simulated_second;
+    if (again.finite) time = std::min(time, 1e6 * again.wall_seconds / case_.duration);
   }
 
  private:
-  template <typename Run>
-  std::vector<ErrorRow> rows_by_step(Run&& run) const {
-    std::vector<ErrorRow> rows;
-    for (const int n : plan_.steps_per_output) {
-      const double step = kOutputInterval / n;
-      rows.push_back(row(fastest(plan_.repetition, [&] { return run(step); })));
-      rows.back().step = step;
-      if (line_is_over(rows, plan_.longest_run)) break;
-    }
-    return rows;
+  struct Setting {
+    double step = 0.0, tolerance = 0.0;  ///< one of them, [s]; of ours [m]
+  };
+
+  RodRun run(const RodCase& one, const Setting& setting) const {
+    if (!ours_) return run_solver(one, shape_, method_, setting.step > 0.0 ? setting.step : setting.tolerance);
+    const double step = setting.step > 0.0 ? setting.step : kOutputInterval;
+    return run_simulated(one, shape_, method_, step, setting.tolerance);
+  }
+  bool is_ours_to_tolerance(const Setting& setting) const { return ours_ && setting.tolerance > 0.0; }
+  RodRun timed(const Setting& setting) const {
+    const auto repeated = [&] { return fastest(plan_.repetition, [&] { return run(case_, setting); }); };
+    if (setting.step > 0.0) return repeated();
+    return run_in_time(plan_.tolerance_time_limit,
+                       [&] { return is_ours_to_tolerance(setting) ? run(case_, setting) : repeated(); });
   }
 
-  ErrorRow row(const RodRun& run) const {
+  /// Whether nothing finer is worth while, by step or by tolerance.
+  bool part_is_over() const {
+    const ErrorRow& last = rows_.back();
+    if (last.error_over_tolerance > 0.0) return 1e-6 * last.wall_us_per_simulated_second > plan_.longest_run;
+    return last.given_up || line_is_over(rows_, plan_.longest_run);
+  }
+
+  ErrorRow row(const Setting& setting) const {
+    const RodRun run = timed(setting);
     ErrorRow r;
     r.scene = case_.name;
     r.shape = shape_;
     r.stiffness_factor = case_.stiffness_factor;
     r.mass = case_.mass;
     r.method = method_;
+    r.ours = ours_;
     r.hand = "samples";
+    r.step = setting.step;
+    r.tolerance = setting.tolerance;
     r.own_reference = own_;
     r.model_error = model_error_;
     r.reference_uncertainty = reference_.uncertainty;
@@ -213,26 +234,45 @@ class Line {
     r.given_up = run.given_up;
     if (run.given_up) r.wall_us_per_simulated_second = 1e6 * plan_.tolerance_time_limit / case_.duration;
     if (!run.finite) return r;
-    const PoseDistance distance = largest_distance(run.X_WO, reference_.X_WO);
-    r.error = distance.position;
-    r.angle_error = distance.angle;
+    const PoseDistance at = largest_distance(run.X_WO, reference_.X_WO), between = distance_between(setting);
+    r.position_error = at.position;
+    r.error_between = between.position;
+    r.angle_error = std::max(at.angle, between.angle);
+    r.error = std::max({at.position, between.position, r.angle_error * farthest_point(case_)});
     r.largest_deflection = reference_.largest_deflection;
     r.error_over_hand_amplitude = r.error / hand_amplitude(case_);
     r.error_over_largest_deflection = r.error / reference_.largest_deflection;
     r.wall_us_per_simulated_second = 1e6 * run.wall_seconds / case_.duration;
     r.steps_fallback = run.steps_fallback;
     r.steps_per_second = static_cast<double>(run.steps) / case_.duration;
+    if (is_ours_to_tolerance(setting))
+      r.error_over_tolerance = error_as_length(case_, r.position_error, at.angle) / setting.tolerance;
     return r;
+  }
+
+  /// Of another run, of which nothing is timed: its steps end half-way between the outputs, too. None of ours to a
+  /// tolerance, where the error at the outputs is what was asked for, and none of a recorded case.
+  PoseDistance distance_between(const Setting& setting) const {
+    if (reference_.halfway.empty() || is_ours_to_tolerance(setting)) return {};
+    const RodRun between = setting.step > 0.0
+                               ? run(halfway_, setting)
+                               : run_in_time(plan_.tolerance_time_limit, [&] { return run(halfway_, setting); });
+    constexpr double none = std::numeric_limits<double>::infinity();
+    return between.finite ? largest_distance(between.X_WO, reference_.halfway) : PoseDistance{none, none};
   }
 
   const RodTablePlan& plan_;
   const RodCase& case_;
+  RodCase halfway_;
   const std::string& shape_;
-  const RodReference& exact_;
-  const std::string& method_;
+  std::string method_;
+  bool ours_;
   RodReference reference_;    ///< what it is measured against
   bool own_ = false;          ///< its own limit
   double model_error_ = 0.0;  ///< how far that is from the exact one [m]
+  std::vector<Setting> settings_;
+  std::size_t next_ = 0;
+  std::vector<ErrorRow> rows_;
 };
 
 /// Whether general methods run a pair, too: the default shape, or that of a recording.
@@ -242,34 +282,56 @@ bool has_peers(const RodCase& one, const std::string& shape) {
 
 }  // namespace
 
-std::size_t line_count(const RodTablePlan& plan) {
-  std::size_t lines = 0;
-  for (const auto& [one, shape] : pairs_of(plan.cases)) {
-    lines +=
-        1 + validation::names<dynamics::IntegratorKind>().size() + (has_peers(*one, shape) ? solver_names().size() : 0);
-  }
+std::size_t unit_count(const RodTablePlan& plan) { return 3 * pairs_of(plan.cases).size(); }
+
+namespace {
+
+/// All methods on a case and shape.
+std::vector<Line> lines_of(const RodTablePlan& plan, const RodCase& one, const std::string& shape,
+                           const RodReference& reference) {
+  std::vector<Line> lines;
+  for (const std::string& integrator : validation::names<dynamics::IntegratorKind>())
+    lines.emplace_back(plan, one, shape, reference, integrator, true);
+  if (!has_peers(one, shape)) return lines;
+  for (const std::string& solver : solver_names()) lines.emplace_back(plan, one, shape, reference, solver, false);
   return lines;
 }
+
+std::vector<ErrorRow> rows_of(std::vector<Line>& lines) {
+  std::vector<std::function<bool()>> turns;
+  for (Line& line : lines) turns.emplace_back([&line] { return line.advance(); });
+  take_turns(turns);
+  std::vector<ErrorRow> rows;
+  for (const Line& line : lines) rows.insert(rows.end(), line.rows().begin(), line.rows().end());
+  return rows;
+}
+
+std::vector<ErrorRow> timed_again(const std::vector<Line>& lines, std::vector<ErrorRow> rows) {
+  std::map<std::string, const Line*> line_of;
+  for (const Line& line : lines) line_of[line.rows().front().method] = &line;
+  for (const std::size_t i : in_turns(rows)) line_of.at(rows[i].method)->time_again(rows[i]);
+  return rows;
+}
+
+}  // namespace
 
 std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units) {
   const auto pairs = pairs_of(plan.cases);
   const std::vector<RodReference> references = rod_references(pairs, units);
+  std::vector<std::vector<Line>> lines(pairs.size());
+  std::vector<std::vector<ErrorRow>> first(pairs.size());
+  const auto name = [&](std::size_t i) { return pairs[i].first->name + ' ' + pairs[i].second; };
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    first[i] = units.rows<ErrorRow>(i, name(i), [&, i] {
+      lines[i] = lines_of(plan, *pairs[i].first, pairs[i].second, references[i]);
+      return rows_of(lines[i]);
+    });
+  }
   std::vector<ErrorRow> all;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const auto& [one, shape] = pairs[i];
-    for (const std::string& integrator : validation::names<dynamics::IntegratorKind>()) {
-      Line line(plan, *one, shape, references[i], integrator);
-      const std::vector<ErrorRow> rows =
-          units.rows<ErrorRow>(i, one->name + ' ' + shape + ' ' + integrator, [&] { return line.rows(); });
-      all.insert(all.end(), rows.begin(), rows.end());
-    }
-    if (!has_peers(*one, shape)) continue;
-    for (const std::string& solver : solver_names()) {
-      const Line line(plan, *one, shape, references[i], solver);
-      const std::vector<ErrorRow> rows =
-          units.rows<ErrorRow>(i, one->name + ' ' + shape + ' ' + solver, [&] { return line.peer_rows(); });
-      all.insert(all.end(), rows.begin(), rows.end());
-    }
+    const auto rows =
+        units.rows<ErrorRow>(i, name(i) + ", timed again", [&, i] { return timed_again(lines[i], first[i]); });
+    all.insert(all.end(), rows.begin(), rows.end());
   }
   return all;
 }

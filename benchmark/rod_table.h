@@ -22,12 +22,15 @@ struct RodTablePlan {
 RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder);
 
 /// Number of units of progress, and the rows of all: every integrator × shape × step of every case, with hand()
-/// "samples"; with the default shape general methods beside them. A unit of work is a method's line; the lines of a
-/// case and shape, which share a reference, are one shard's.
-std::size_t line_count(const RodTablePlan& plan);
+/// "samples"; with the default shape general methods beside them. The units of work of a case and shape, its reference,
+/// its rows and their run times once more, are one shard's, and its methods take turns, as in error_table().
+std::size_t unit_count(const RodTablePlan& plan);
 std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units);
 
 /// Size of a tolerance's error: the position's, and the angle times the body's radius of gyration [m].
 double error_as_length(const RodCase& one, double position, double angle);
+
+/// Distance from the centre of mass to the farthest corner of the uniform box that has the case's inertia [m].
+double farthest_point(const RodCase& one);
 
 }  // namespace spring_workbench::benchmark

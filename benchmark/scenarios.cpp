@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "benchmark/sine_and_cosine.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::benchmark {
@@ -22,11 +21,9 @@ constexpr double kTurnAmplitude = 0.6;  // rad
 constexpr double kTurnFrequency[2] = {1.1, 1.4};
 constexpr double kTurnPhase[2] = {0.0, 1.0};
 
-template <typename S>
-SPRING_WORKBENCH_INLINE ScalarMotionOf<S> sine(double amplitude, double frequency, double phase, const S& t) {
-  const double omega = kTwoPi * frequency;
-  const SineAndCosine<S> of = sine_and_cosine(S(omega * t + phase));
-  return {amplitude * of.sine, amplitude * omega * of.cosine, -amplitude * omega * omega * of.sine};
+ScalarMotion sine(double amplitude, double frequency, double phase, double t) {
+  const double omega = kTwoPi * frequency, angle = omega * t + phase, s = std::sin(angle);
+  return {amplitude * s, amplitude * omega * std::cos(angle), -amplitude * omega * omega * s};
 }
 
 /// A cube of 10 kg with 0.05 kg m² about every axis, held at its centre.
@@ -91,78 +88,47 @@ Scenario six_dof_scene(double stiffness_factor, double damping_ratio, double mas
 
 namespace {
 
-template <typename S>
-SPRING_WORKBENCH_INLINE ScalarMotionOf<S> scalar_motion(const Scenario& scene, const S& t) {
+ScalarMotion scalar_motion(const Scenario& scene, double t) {
   return scene.kind == SceneKind::stretch ? sine(kStretchAmplitude, kStretchFrequency, 0.0, t)
                                           : sine(kTorsionAmplitude, kTorsionFrequency, 0.0, t);
 }
 
-/// Of the tip's rest frame T in scene C, the names of HandleMotion standing for T.
-template <typename S>
-SPRING_WORKBENCH_INLINE HandleMotion<S> tip_on_lissajous(const S& t) {
-  const auto way = [&t](int i) { return sine(kLissajousAmplitude, kLissajousFrequency[i], kLissajousPhase[i], t); };
-  const auto turn = [&t](int i) { return sine(kTurnAmplitude, kTurnFrequency[i], kTurnPhase[i], t); };
-  const ScalarMotionOf<S> x = way(0), y = way(1), z = way(2), a = turn(0), b = turn(1);
-  const auto [sa, ca] = sine_and_cosine(a.value);
-  const auto [sb, cb] = sine_and_cosine(b.value);
-  HandleMotion<S> m;
-  m.R_WH = {{cb, sa * sb, -ca * sb}, {S{}, ca, sa}, {sb, -sa * cb, ca * cb}};
-  m.p_W = {x.value, y.value, z.value};
-  m.v_W = {x.rate, y.rate, z.rate};
-  m.a_W = {x.acceleration, y.acceleration, z.acceleration};
-  m.w_H = {a.rate * cb, b.rate, a.rate * sb};
-  m.alpha_H = {a.acceleration * cb - a.rate * b.rate * sb, b.acceleration, a.acceleration * sb + a.rate * b.rate * cb};
+HandMotion tip_on_lissajous(double t) {
+  HandMotion m;
+  for (int i = 0; i < 3; ++i) {
+    const ScalarMotion way = sine(kLissajousAmplitude, kLissajousFrequency[i], kLissajousPhase[i], t);
+    m.state.p_WT[i] = way.value;
+    m.state.v_WT_W[i] = way.rate;
+    m.acceleration.a_WT_W[i] = way.acceleration;
+  }
+  const ScalarMotion a = sine(kTurnAmplitude, kTurnFrequency[0], kTurnPhase[0], t);
+  const ScalarMotion b = sine(kTurnAmplitude, kTurnFrequency[1], kTurnPhase[1], t);
+  const double sa = std::sin(a.value), ca = std::cos(a.value), sb = std::sin(b.value), cb = std::cos(b.value);
+  m.state.R_WT << cb, 0.0, sb, sa * sb, ca, -sa * cb, -ca * sb, sa, ca * cb;
+  m.state.w_WT_T << a.rate * cb, b.rate, a.rate * sb;
+  m.acceleration.alpha_WT_T << a.acceleration * cb - a.rate * b.rate * sb, b.acceleration,
+      a.acceleration * sb + a.rate * b.rate * cb;
   return m;
 }
 
-/// The same in scenes A and B.
-template <typename S>
-SPRING_WORKBENCH_INLINE HandleMotion<S> tip_on_sine(const Scenario& scene, const S& t) {
-  const ScalarMotionOf<S> x = scalar_motion(scene, t);
-  const S zero{}, one = zero + 1.0;
-  HandleMotion<S> m{};
+HandMotion tip_on_sine(const Scenario& scene, double t) {
+  const ScalarMotion x = scalar_motion(scene, t);
+  HandMotion m;
   if (scene.kind == SceneKind::stretch) {
-    m.R_WH = {{one, zero, zero}, {zero, one, zero}, {zero, zero, one}};
-    m.p_W.z = x.value;
-    m.v_W.z = x.rate;
-    m.a_W.z = x.acceleration;
+    m.state.p_WT.z() = x.value;
+    m.state.v_WT_W.z() = x.rate;
+    m.acceleration.a_WT_W.z() = x.acceleration;
   } else {
-    const auto [s, c] = sine_and_cosine(x.value);
-    m.R_WH = {{c, s, zero}, {-s, c, zero}, {zero, zero, one}};
-    m.w_H.z = x.rate;
-    m.alpha_H.z = x.acceleration;
+    m.state.R_WT = Eigen::AngleAxisd(x.value, Vector3d::UnitZ()).toRotationMatrix();
+    m.state.w_WT_T.z() = x.rate;
+    m.acceleration.alpha_WT_T.z() = x.acceleration;
   }
   return m;
 }
 
-template <typename S>
-SPRING_WORKBENCH_INLINE HandleMotion<S> tip_motion(const Scenario& scene, const S& t) {
-  return scene.kind == SceneKind::six_dof ? tip_on_lissajous(t) : tip_on_sine(scene, t);
+HandMotion as_hand(const motion::OwnAxesMotion& m) {
+  return {{m.X.linear(), m.X.translation(), m.v_W, m.w_B}, {m.a_W, m.alpha_B}};
 }
-
-template <typename S>
-SPRING_WORKBENCH_INLINE HandleMotion<S> motion_of_handle(const Scenario& scene, const S& t) {
-  HandleMotion<S> m = tip_motion(scene, t);
-  m.p_W = m.p_W - scene.length * m.R_WH.z;
-  if (scene.kind != SceneKind::six_dof) return m;  // it turns about the fork's axis at most
-  const math::Three<S> p_TH{S{}, S{}, S{} - scene.length}, v = math::cross(m.w_H, p_TH);
-  m.v_W += m.R_WH * v;
-  m.a_W += m.R_WH * (math::cross(m.alpha_H, p_TH) + math::cross(m.w_H, v));
-  return m;
-}
-
-SPRING_WORKBENCH_INLINE HandState state(const HandleMotion<double>& m) {
-  return {math::matrix(m.R_WH, 0), math::vector(m.p_W), math::vector(m.v_W), math::vector(m.w_H)};
-}
-SPRING_WORKBENCH_INLINE HandAcceleration acceleration(const HandleMotion<double>& m) {
-  return {math::vector(m.a_W), math::vector(m.alpha_H)};
-}
-
-}  // namespace
-
-namespace {
-
-HandState state(const motion::OwnAxesMotion& m) { return {m.X.linear(), m.X.translation(), m.v_W, m.w_B}; }
 
 }  // namespace
 
@@ -173,26 +139,24 @@ ScalarMotion scalar_hand(const Scenario& scene, double t) {
   return {math::log_so3(m.X.linear()).z(), m.w_B.z(), m.alpha_B.z()};
 }
 
-HandState hand_state(const Scenario& scene, double t) {
-  return scene.samples ? state(scene.samples->tip(t).in_own_axes(t)) : state(tip_motion(scene, t));
+HandMotion hand_motion(const Scenario& scene, double t) {
+  if (scene.samples) return as_hand(scene.samples->tip(t).in_own_axes(t));
+  return scene.kind == SceneKind::six_dof ? tip_on_lissajous(t) : tip_on_sine(scene, t);
 }
-HandAcceleration hand_acceleration(const Scenario& scene, double t) {
-  if (!scene.samples) return acceleration(tip_motion(scene, t));
-  const motion::OwnAxesMotion m = scene.samples->tip(t).in_own_axes(t);
-  return {m.a_W, m.alpha_B};
+
+HandMotion handle_motion(const Scenario& scene, double t) {
+  if (scene.samples) return as_hand(scene.samples->handle(t).in_own_axes(t));
+  HandMotion m = hand_motion(scene, t);
+  const Matrix3d& R = m.state.R_WT;
+  const Vector3d &w = m.state.w_WT_T, p_TH = -scene.length * Vector3d::UnitZ(), v = w.cross(p_TH);
+  m.state.p_WT += R * p_TH;
+  m.state.v_WT_W += R * v;
+  m.acceleration.a_WT_W += R * (m.acceleration.alpha_WT_T.cross(p_TH) + w.cross(v));
+  return m;
 }
-HandState handle_state(const Scenario& scene, double t) {
-  return scene.samples ? state(scene.samples->handle(t).in_own_axes(t)) : state(motion_of_handle(scene, t));
-}
-HandAcceleration handle_acceleration(const Scenario& scene, double t) {
-  if (!scene.samples) return acceleration(motion_of_handle(scene, t));
-  const motion::OwnAxesMotion m = scene.samples->handle(t).in_own_axes(t);
-  return {m.a_W, m.alpha_B};
-}
-HandleMotion<double> handle_motion(const Scenario& scene, double t) { return motion_of_handle(scene, t); }
-SPRING_WORKBENCH_WIDE void handle_motion(const Scenario& scene, const math::Pack& t, HandleMotion<math::Pack>& out) {
-  out = motion_of_handle(scene, t);
-}
+
+HandState hand_state(const Scenario& scene, double t) { return hand_motion(scene, t).state; }
+HandState handle_state(const Scenario& scene, double t) { return handle_motion(scene, t).state; }
 
 Scenario with_sampled_hand(Scenario scene) {
   scene.samples.reset();

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "benchmark/sampled_hand.h"
-#include "spring_workbench/math/pack.h"
 
 namespace spring_workbench::benchmark {
 
@@ -84,31 +85,46 @@ struct HandAcceleration {
   Vector3d alpha_WT_T = Vector3d::Zero();  ///< angular, in T's axes [rad/s²]
 };
 
+/// All of T's motion at one moment.
+struct HandMotion {
+  HandState state;
+  HandAcceleration acceleration;
+};
+
 HandState hand_state(const Scenario& scene, double t);
-HandAcceleration hand_acceleration(const Scenario& scene, double t);
+HandMotion hand_motion(const Scenario& scene, double t);
 
 /// The same for the handle frame H, `length` behind T along the fork's axis.
 HandState handle_state(const Scenario& scene, double t);
-HandAcceleration handle_acceleration(const Scenario& scene, double t);
-
-/// All of the handle frame's motion where it is a function of time, at one moment (`S` double) or at four (Pack).
-/// Vectors in the axes of W, w and alpha in those of H.
-template <typename S>
-struct HandleMotion {
-  math::ThreeByThree<S> R_WH;
-  math::Three<S> p_W, v_W, a_W;  ///< [m], [m/s], [m/s²]
-  math::Three<S> w_H, alpha_H;   ///< [rad/s], [rad/s²]
-};
-HandleMotion<double> handle_motion(const Scenario& scene, double t);
-void handle_motion(const Scenario& scene, const math::Pack& t, HandleMotion<math::Pack>& out);
+HandMotion handle_motion(const Scenario& scene, double t);
 
 /// The one moving coordinate of the hand in scenes A and B: height [m] or twist [rad], with two derivatives.
-template <typename S>
-struct ScalarMotionOf {
-  S value{}, rate{}, acceleration{};
+struct ScalarMotion {
+  double value = 0.0, rate = 0.0, acceleration = 0.0;
 };
-using ScalarMotion = ScalarMotionOf<double>;
 ScalarMotion scalar_hand(const Scenario& scene, double t);
+
+/// What `of` says of a scene's hand, asked for only where the time [s] is another than the last one: several stages of
+/// a step, and all the differences of a Jacobian, share theirs.
+template <typename Motion, Motion (*of)(const Scenario&, double)>
+class Remembered {
+ public:
+  const Motion& at(const Scenario& scene, double t) {
+    constexpr double same_time = 1e-13;  // s; the end of a step and the start of the next one differ by rounding
+    if (!(std::abs(t - t_) < same_time)) {
+      motion_ = of(scene, t);
+      t_ = t;
+    }
+    return motion_;
+  }
+
+ private:
+  double t_ = std::numeric_limits<double>::quiet_NaN();
+  Motion motion_;
+};
+using RememberedState = Remembered<HandState, &hand_state>;
+using RememberedMotion = Remembered<HandMotion, &hand_motion>;
+using RememberedScalar = Remembered<ScalarMotion, &scalar_hand>;
 
 /// Output times: 0, output_interval, …, duration.
 std::vector<double> output_times(const Scenario& scene);

@@ -24,15 +24,16 @@ class SingleDeflection : public SceneProblem {
   bool rates(double t, const double* y, double* rate) const override {
     rate[0] = y[1];
     rate[1] = -(spring_.stiffness * y[0] + spring_.damping * y[1]) / spring_.inertia - spring_.gravity -
-              scalar_hand(spring_.scene, t).acceleration;
+              hand_.at(spring_.scene, t).acceleration;
     return true;
   }
   Vector3d output(double t, const double* y) const override {
-    return Vector3d(0.0, 0.0, scalar_hand(spring_.scene, t).value + y[0]);
+    return Vector3d(0.0, 0.0, hand_.at(spring_.scene, t).value + y[0]);
   }
 
  private:
   SingleSpring spring_;
+  mutable RememberedScalar hand_;
 };
 
 /// Scenes A and B in the object's height or twist and its rate.
@@ -47,13 +48,14 @@ class SingleWorld : public SceneProblem {
   void tolerance_scale(double* scale) const override { std::fill_n(scale, 2, 1.0); }
   bool rates(double t, const double* y, double* rate) const override {
     rate[0] = y[1];
-    rate[1] = spring_.acceleration(t, y[0], y[1]);
+    rate[1] = spring_.acceleration(hand_.at(spring_.scene, t), y[0], y[1]);
     return true;
   }
   Vector3d output(double, const double* y) const override { return Vector3d(0.0, 0.0, y[0]); }
 
  private:
   SingleSpring spring_;
+  mutable RememberedScalar hand_;
 };
 
 /// Scene C in Lagrange's coordinates.
@@ -78,17 +80,18 @@ class BushingDeflection : public SceneProblem {
     state.q_dot = Eigen::Map<const Vector6d>(y + 6);
     if (!state.q.allFinite() || state.q.tail<3>().norm() > 6.0) return false;  // the rotation vector ends at 2π
     Eigen::Map<Vector6d>{rate} = state.q_dot;
-    Eigen::Map<Vector6d>{rate + 6} = bushing_acceleration(scene_, t, state);
+    Eigen::Map<Vector6d>{rate + 6} = bushing_acceleration(scene_, hand_.at(scene_, t), state);
     return true;
   }
   Vector3d output(double t, const double* y) const override {
     BushingState state;
     state.q = Eigen::Map<const Vector6d>(y);
-    return body_state(scene_, hand_state(scene_, t), state).p_WO;
+    return body_state(scene_, hand_.at(scene_, t).state, state).p_WO;
   }
 
  private:
   Scenario scene_;
+  mutable RememberedMotion hand_;
 };
 
 /// Scene C in the object's position, velocity, quaternion and angular velocity.
@@ -112,8 +115,7 @@ class BodyWorld : public SceneProblem {
     const Eigen::Vector4d turning = 0.5 * (body.R_WO * w).coeffs();
     body.R_WO.normalize();
     body.w_WO_O = state.segment<3>(10);
-    const BodyAcceleration a =
-        body_acceleration(scene_, bushing_load(scene_, hand_state(scene_, t), body), body.w_WO_O);
+    const BodyAcceleration a = body_acceleration(scene_, bushing_load(scene_, hand_.at(scene_, t), body), body.w_WO_O);
     Eigen::Map<Vector13d>{rate} << body.v_WO_W, a.a_WO_W, turning, a.alpha_WO_O;
     return true;
   }
@@ -121,6 +123,7 @@ class BodyWorld : public SceneProblem {
 
  private:
   Scenario scene_;
+  mutable RememberedState hand_;
 };
 
 }  // namespace

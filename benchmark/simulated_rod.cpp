@@ -1,6 +1,9 @@
 #include "benchmark/simulated_rod.h"
 
 #include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "benchmark/held_body.h"
 #include "spring_workbench/validation/names.h"
@@ -38,8 +41,20 @@ simulation::SimulationSettings rod_settings(const RodCase& one, const std::strin
   return settings;
 }
 
+PoseSource poses_of_tracker(const RodCase& one) {
+  return [&one](std::size_t i) {
+    const bool there = i < one.hand.size();
+    return there ? one.hand[i] : motion::PoseSample{std::numeric_limits<double>::infinity()};
+  };
+}
+
 RodRun run_simulated(const RodCase& one, const std::string& shape, const std::string& integrator, double step,
                      double tolerance) {
+  return run_simulated(one, shape, integrator, step, tolerance, poses_of_tracker(one));
+}
+
+RodRun run_simulated(const RodCase& one, const std::string& shape, const std::string& integrator, double step,
+                     double tolerance, const PoseSource& poses) {
   using Clock = std::chrono::steady_clock;
   constexpr double same_time = 1e-9;   // s
   constexpr double farthest = 1000.0;  // m
@@ -48,10 +63,14 @@ RodRun run_simulated(const RodCase& one, const std::string& shape, const std::st
   RodRun run;
   run.X_WO.reserve(times.size());
   std::size_t pushed = 0;
+  double newest[2] = {0.0, 0.0};  // the times of the last poses but one, and but none [s]
   const Clock::time_point start = Clock::now();
+  motion::PoseSample next = poses(0);
   for (const double t : times) {
-    while (pushed < one.hand.size() && (pushed < 3 || one.hand[pushed - 2].t <= t + same_time)) {
-      simulation.push_stylus(one.hand[pushed++]);
+    while (std::isfinite(next.t) && (pushed < 3 || newest[0] <= t + same_time)) {
+      simulation.push_stylus(next);
+      newest[0] = std::exchange(newest[1], next.t);
+      next = poses(++pushed);
     }
     const simulation::AdvanceReport report = simulation.advance(t);
     run.steps += report.steps;

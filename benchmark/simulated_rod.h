@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,9 +30,18 @@ RunResult as_result(const Scenario& scene, const RodRun& run);
 simulation::SimulationSettings rod_settings(const RodCase& one, const std::string& shape, const std::string& integrator,
                                             double step, double tolerance = 0.0);
 
-/// The case through Simulation as its user runs it: two samples of the hand ahead, advance() to each output, the
-/// object's pose there. The timed loop holds all of that, from the grasp on. Steps of at most `step` [s], or as
-/// `tolerance` [m] chooses them; not finite where the object runs away or a step is refused.
+/// The pose of the handle with a number, in the order of their times, at rising times from 0 on without end.
+using PoseSource = std::function<motion::PoseSample(std::size_t)>;
+
+/// The samples of the case, which must outlive it; after the last one the hand is gone.
+PoseSource poses_of_tracker(const RodCase& one);
+
+/// The case through Simulation as its user runs it: two poses of the hand ahead, advance() to each output, the
+/// object's pose there. The timed loop holds all of that, from the grasp on, and what `poses` takes. Steps of at most
+/// `step` [s] that end at the poses, or as `tolerance` [m] chooses them; not finite where the object runs away or a
+/// step is refused.
+RodRun run_simulated(const RodCase& one, const std::string& shape, const std::string& integrator, double step,
+                     double tolerance, const PoseSource& poses);
 RodRun run_simulated(const RodCase& one, const std::string& shape, const std::string& integrator, double step,
                      double tolerance = 0.0);
 

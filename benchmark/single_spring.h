@@ -13,14 +13,15 @@ struct SingleSpring {
         inertia(given.single_inertia()),
         gravity(given.kind == SceneKind::stretch ? given.gravity : 0.0) {}
 
-  /// Force [N] or moment [N·m] on the object at height or twist `x` with the rate `v`, hand at time `t`.
-  double force(double t, double x, double v) const {
-    const ScalarMotion hand = scalar_hand(scene, t);
+  /// Force [N] or moment [N·m] on the object at height or twist `x` with the rate `v`.
+  double force(const ScalarMotion& hand, double x, double v) const {
     return -stiffness * (x - hand.value) - damping * (v - hand.rate);
   }
 
   /// Acceleration of the object under the spring and gravity.
-  double acceleration(double t, double x, double v) const { return force(t, x, v) / inertia - gravity; }
+  double acceleration(const ScalarMotion& hand, double x, double v) const {
+    return force(hand, x, v) / inertia - gravity;
+  }
 
   Scenario scene;
   double stiffness;

@@ -35,7 +35,9 @@ class Equations {
   const dynamics::HeldBody& body() const { return body_; }
   /// The hand from the sample at or before `t` to the next.
   void use_piece(double t) {
-    if (samples_) hand_ = &samples_->handle(t);
+    if (!samples_ || hand_ == &samples_->handle(t)) return;
+    hand_ = &samples_->handle(t);
+    known_.reset();
   }
   bool rates(double t, const double* y, double* rate) const {
     const int n = body_.size();
@@ -43,21 +45,27 @@ class Equations {
                                       Eigen::Map<const Eigen::VectorXd>(y + n, n)};
     if (!body_.shape().admissible(body_.full_state(t, state).q)) return false;
     Eigen::Map<Eigen::VectorXd>(rate, n) = state.q_dot;
-    Eigen::Map<Eigen::VectorXd>(rate + n, n) = body_.acceleration(body_.forcing(*hand_, t), state.q, state.q_dot);
+    Eigen::Map<Eigen::VectorXd>(rate + n, n) = body_.acceleration(forcing(t), state.q, state.q_dot);
     return true;
   }
   RigidTransform object(double t, const double* y) const {
     const int n = body_.size();
     return body_
-        .object(body_.forcing(*hand_, t),
-                {Eigen::Map<const Eigen::VectorXd>(y, n), Eigen::Map<const Eigen::VectorXd>(y + n, n)})
+        .object(forcing(t), {Eigen::Map<const Eigen::VectorXd>(y, n), Eigen::Map<const Eigen::VectorXd>(y + n, n)})
         .X;
   }
 
  private:
+  /// The hand at `t`: found once for all that is asked of the same moment.
+  const dynamics::HandleForcing& forcing(double t) const {
+    if (!known_ || known_->t != t) known_ = body_.forcing(*hand_, t);
+    return *known_;
+  }
+
   dynamics::HeldBody body_;
   std::optional<SampledHand> samples_;
   const motion::FrameMotion* hand_;
+  mutable std::optional<dynamics::HandleForcing> known_;
 };
 
 /// The scale of the absolute tolerances: of the strain roughly the static one; rates may be wrong by as much as makes

@@ -7,7 +7,12 @@ document is shown:
 `the`, `max`, `min` or `mean` of a column, over the rows where all the cells named are as said (numbers as numbers);
 `the` wants one row alone; `count` is how many rows have anything in that column. `times X` at the end gives another
 unit. The number is the last one before the marker, and must be what the table says, rounded to as many digits as it
-has. Whole rows stand between two markers, each on a line of its own:
+has. `run` is no number but `quick` or `full`: how the report was run that wrote the table, by the command in its
+header.
+
+    of a quick<!-- run of verdicts.csv --> run
+
+Whole rows stand between two markers, each on a line of its own:
 
     <!-- rows claim, measured of verdicts.csv where verdict=FAIL -->
     (the table, which --write makes)
@@ -27,6 +32,7 @@ DOCUMENTS = ["README.md", "benchmark/README.md", "doc/*.md"]
 MARKER = re.compile(
     r"<!--\s*(the|max|min|mean|count)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?(?:\s+times\s+([-+.\deE]+))?\s*-->"
 )
+RUN = re.compile(r"<!--\s*run\s+of\s+(\S+\.csv)\s*-->")
 ROWS = re.compile(r"(<!-- rows (.+?) of (\S+\.csv)(?: where (.+?))? -->\n)(.*?)(<!-- end of rows -->)", re.S)
 NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?")
 
@@ -40,6 +46,17 @@ def rows_of(path):
         raise Stale(f"no table {path.name}")
     with path.open(encoding="utf-8", newline="") as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
+
+
+def run_of(path):
+    """How the report was run that wrote a table."""
+    if not path.is_file():
+        raise Stale(f"no table {path.name}")
+    with path.open(encoding="utf-8") as file:
+        command = next((line for line in file if line.startswith("# command: report")), None)
+    if command is None:
+        raise Stale(f"{path.name} does not say how it was made")
+    return "quick" if "--quick" in command else "full"
 
 
 def same(cell, wanted):
@@ -106,6 +123,26 @@ def written_like(text, value):
     return f"{value:,.{decimals}f}" if "," in text else f"{value:.{decimals}f}"
 
 
+def with_runs(line, number, results, wrong):
+    """The line with what its RUN markers stand for."""
+    done, at = "", 0
+    for marker in RUN.finditer(line):
+        before = line[at : marker.start()]
+        at = marker.end()
+        word = re.search(r"(quick|full)$", before)
+        try:
+            if not word:
+                raise Stale("neither quick nor full before the marker")
+            now = run_of(results / marker.group(1))
+            if now != word.group():
+                wrong.append(f"{number}: {word.group()} is stale: {now} by {marker.group()}")
+                before = before[: word.start()] + now
+        except Stale as what:
+            wrong.append(f"{number}: {what}: {marker.group()}")
+        done += before + marker.group()
+    return done + line[at:]
+
+
 def checked(text, results):
     """(the text with the tables' numbers, what is wrong with it line by line)."""
     lines, wrong = [], []
@@ -122,6 +159,7 @@ def checked(text, results):
         return marker.group(1) + table + marker.group(6)
 
     for number, line in enumerate(ROWS.sub(made, text).split("\n"), 1):
+        line = with_runs(line, number, results, wrong)
         done, at = "", 0
         for marker in MARKER.finditer(line):
             before = line[at : marker.start()]
@@ -138,7 +176,7 @@ def checked(text, results):
                 wrong.append(f"{number}: {what}: {marker.group()}")
             done += before + marker.group()
         lines.append(done + line[at:])
-        rest = MARKER.sub("", line)
+        rest = RUN.sub("", MARKER.sub("", line))
         if "<!-- rows" not in line and ".csv" in rest.partition("<!--")[2]:
             wrong.append(f"{number}: a marker that is not understood: {line.strip()}")
     return "\n".join(lines), wrong

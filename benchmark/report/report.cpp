@@ -58,7 +58,7 @@ std::size_t units_of(const Plan& plan, const std::vector<const Method*>& methods
                      bool quick) {
   std::size_t counts = 0;
   for (const Method* method : methods) counts += has_stability_counts(*method) ? 2 : 0;
-  return unit_count(methods, plan.scenes) + line_count(plan.rods) + unit_count(plan.map) + (quick ? 0 : counts) +
+  return unit_count(plan.scenes) + unit_count(plan.rods) + unit_count(plan.map) + (quick ? 0 : counts) +
          contact_unit_count(drags, quick) + extreme_unit_count() + 3;
 }
 

@@ -32,10 +32,12 @@ PageSection scenes_section(const Measurements& measured, const Tables& tables, c
       "the others are given the motion through the poses, C1, with its velocity, as ours make it. Errors are those of "
       "integration, against a reference on the same motion; what nobody can know, since nobody knows how the hand "
       "moved "
-      "between two samples, stands beside them (hand_error). Then the hand as a function of time, which everybody asks "
-      "whenever they like; ours is then the library's integrator, since Simulation takes poses. Ours step 20 ms at "
-      "most, "
-      "to the next output. cvode_world is CVODE on the object's pose and velocity, cvode_deflection on the deflection, "
+      "between two samples, stands beside them (hand_error). Then the hand as a function of time, which the others ask "
+      "whenever they like; ours, since Simulation takes poses, are given the function's at the ends of their steps, "
+      "and "
+      "what they make of the motion between these counts as their error. Ours step 20 ms at most, to the next output. "
+      "Errors are the largest at the outputs and half-way between them. cvode_world is CVODE on the object's pose and "
+      "velocity, cvode_deflection on the deflection, "
       "with tolerances of its size. Run times between two settings of a method by a power law.";
   std::vector<std::pair<std::string, std::string>> names;
   for (const char* hand : {"samples", "function"}) {

@@ -64,7 +64,7 @@ std::string one_step_per_sample_csv(const std::vector<ErrorRow>& rods, const std
       for (const ErrorRow& row : rods) {
         if (row.scene != name || row.method != method || row.shape != shape || !one_per_sample(row)) continue;
         csv << ",\""
-            << (row.finite ? text(row.error) + " m, " + text(row.angle_error) + " rad (" +
+            << (row.finite ? text(row.position_error) + " m, " + text(row.angle_error) + " rad (" +
                                  text(row.error_over_largest_deflection) + "), " +
                                  (row.own_reference ? "model error " + text(row.model_error) + " m, " : "") +
                                  text(row.wall_us_per_simulated_second) + " µs/s"

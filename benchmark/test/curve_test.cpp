@@ -91,10 +91,31 @@ TEST(ErrorTable, ALineEndsAtItsFloorAtItsReferenceOrWhenItTakesTooLong) {
   EXPECT_FALSE(line_is_over({row("unstable", 0.0, 0.0, false)}, 1.0));
 }
 
+TEST(ErrorTable, MethodsTakeTurnsSettingBySettingAndSoDoTheirRowsWhenTheyAreTimedAgain) {
+  std::string order;
+  std::vector<ErrorRow> rows;
+  std::vector<std::function<bool()>> lines;
+  for (const auto& [name, settings] : {std::pair{'a', 3}, std::pair{'b', 1}, std::pair{'c', 2}}) {
+    for (int i = 0; i < settings; ++i) rows.push_back(row(std::string(1, name), 1.0, 1e-3));
+    lines.emplace_back([&order, name = name, left = settings]() mutable {
+      if (left-- <= 0) return false;
+      order += name;
+      return true;
+    });
+  }
+  take_turns(lines);
+  EXPECT_EQ(order, "abcaca");
+  std::string again;
+  for (const std::size_t i : in_turns(rows)) again += rows[i].method;
+  EXPECT_EQ(again, order);
+}
+
 TEST(ErrorTable, CsvHasEachFigureUnderItsName) {
   std::vector<ErrorRow> rows = {row("m", 12.5, 0.25), row("n", 1.0, 1.0, false)};
   rows[0].step = 0.02;
   rows[0].angle_error = 3.0;
+  rows[0].position_error = 0.125;
+  rows[0].error_between = 0.0625;
   rows[0].hand = "samples";
   std::stringstream csv;
   write_rows(rows, csv);
@@ -118,6 +139,8 @@ TEST(ErrorTable, CsvHasEachFigureUnderItsName) {
       {"step", {"0.02", ""}},
       {"tolerance", {"", ""}},
       {"error", {"0.25", ""}},
+      {"position_error", {"0.125", ""}},
+      {"error_between", {"0.0625", ""}},
       {"angle_error", {"3", ""}},
       {"error_over_largest_deflection", {"2.5", ""}},
       {"wall_us_per_simulated_second", {"12.5", ""}},

@@ -168,6 +168,39 @@ TEST(RodCases, ReferenceMeetsTheRecordedTrajectoriesOfAnotherSolver) {
   for (const RodCase& one : recorded) expect_to_meet_its_trajectory(one);
 }
 
+TEST(RodTable, WhatIsComparedIsTheLargestErrorOfPositionAngleAndHalfWay) {
+  RodTablePlan plan = rod_table_plan(true, "");
+  RodCase one = case_called("underdamped", 0.5);
+  one.shapes = {"linear"};
+  plan.cases = {one};
+  plan.steps_per_output = {1, 2};
+  plan.repetition = {};
+  plan.tolerance_time_limit = 60.0;
+  std::ostringstream log;
+  Progress progress(log, false, unit_count(plan));
+  Units units(progress, Shard{});
+  std::set<std::string> methods;
+  for (const ErrorRow& row : rod_table(plan, units)) {
+    methods.insert(row.method);
+    if (!row.finite) continue;
+    EXPECT_EQ(row.error, std::max({row.position_error, row.error_between, row.angle_error * farthest_point(one)}));
+    EXPECT_GE(row.angle_error, 0.0);
+    // Of two steps in 20 ms one ends half-way: the other run is the same, looked at more often.
+    if (row.step == 0.01) {
+      EXPECT_GE(row.error_between, row.position_error * (1.0 - 1e-6)) << row.method;
+    }
+  }
+  EXPECT_EQ(methods.size(), validation::names<dynamics::IntegratorKind>().size() + 7U);
+}
+
+TEST(RodTable, TheFarthestPointIsACornerOfTheBox) {
+  RodCase one;
+  one.mass = 2.0;
+  const Vector3d size(0.3, 0.2, 0.1), squares = size.cwiseAbs2();
+  one.inertia = one.mass / 12.0 * (Vector3d::Constant(squares.sum()) - squares);
+  EXPECT_NEAR(farthest_point(one), 0.5 * size.norm(), 1e-12);
+}
+
 TEST(Elastica, ExactSolutionSatisfiesItsDifferentialEquation) {
   // Shooting: θ'' = −α cos θ from θ = 0 with the slope that energy gives, θ'² = 2 α (sin ψ − sin θ), by RK4.
   for (const double alpha : {0.1, 1.0, 5.0, 10.0}) {

@@ -6,11 +6,11 @@
 #include <random>
 
 #include "benchmark/exact_oscillator.h"
+#include "benchmark/function_hand.h"
 #include "benchmark/held_body.h"
 #include "benchmark/reference_solution.h"
 #include "benchmark/rod_reference.h"
 #include "benchmark/scene_solver.h"
-#include "benchmark/sine_and_cosine.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::benchmark {
@@ -71,8 +71,8 @@ std::vector<Vector3d> outputs_by_world_rk4(const Scenario& scene, int steps_per_
 
 TEST(Scenarios, HandVelocityAndAccelerationAreDerivativesOfThePose) {
   for (const Scenario& scene : all_scenes()) {
-    for (const auto& [state, acceleration] :
-         {std::pair{&hand_state, &hand_acceleration}, std::pair{&handle_state, &handle_acceleration}}) {
+    for (const auto& [state, motion] :
+         {std::pair{&hand_state, &hand_motion}, std::pair{&handle_state, &handle_motion}}) {
       for (const double t : {0.0, 0.37, 1.9, 3.3}) {
         const HandState now = state(scene, t);
         const Vector3d v = derivative([&](double s) { return state(scene, s).p_WT; }, t);
@@ -81,8 +81,8 @@ TEST(Scenarios, HandVelocityAndAccelerationAreDerivativesOfThePose) {
         const Matrix3d R_dot = derivative([&](double s) { return state(scene, s).R_WT; }, t);
         EXPECT_LT((v - now.v_WT_W).norm(), 1e-8) << scene.name;
         EXPECT_LT((R_dot - now.R_WT * math::skew(now.w_WT_T)).norm(), 1e-7) << scene.name;
-        EXPECT_LT((a - acceleration(scene, t).a_WT_W).norm(), 1e-7) << scene.name;
-        EXPECT_LT((alpha - acceleration(scene, t).alpha_WT_T).norm(), 1e-7) << scene.name;
+        EXPECT_LT((a - motion(scene, t).acceleration.a_WT_W).norm(), 1e-7) << scene.name;
+        EXPECT_LT((alpha - motion(scene, t).acceleration.alpha_WT_T).norm(), 1e-7) << scene.name;
       }
     }
   }
@@ -96,40 +96,39 @@ TEST(Scenarios, HandleIsTheForksLengthBehindTheTip) {
   }
 }
 
-TEST(Scenarios, SinesOfFourAnglesAreTheLibrarys) {
-  std::mt19937 random(3);
-  for (const double most : {1e-3, 1.0, 10.0, 1e5}) {
-    std::uniform_real_distribution<double> angle(-most, most);
-    for (int n = 0; n < 10000; ++n) {
-      const math::Pack x{angle(random), angle(random), angle(random), angle(random)};
-      const SineAndCosine<math::Pack> of = sine_and_cosine(x);
-      for (int i = 0; i < math::pack_size; ++i) {
-        EXPECT_NEAR(of.sine[i], std::sin(x[i]), 3e-16 * std::min(1.0, most)) << x[i];
-        EXPECT_NEAR(of.cosine[i], std::cos(x[i]), 3e-16) << x[i];
-      }
+TEST(Scenarios, AHandThatIsAFunctionIsTheSameAtFourTimesAtOnce) {
+  for (const Scenario& scene : all_scenes()) {
+    const FunctionHand hand(scene);
+    const math::Pack t{0.0, 0.3, 1.7, 3.9};
+    const motion::FrameForcing<math::Pack> all = hand.forcing(t, 9.81);
+    for (int i = 0; i < math::pack_size; ++i) {
+      const motion::OwnAxesMotion one = hand.in_own_axes(t[i]);
+      const Matrix3d R = math::matrix(all.R_WB, i);
+      EXPECT_EQ(R, one.X.linear());
+      EXPECT_LT((R * math::vector(all.v_B, i) - one.v_W).norm(), 1e-14);
+      EXPECT_LT((R * math::vector(all.a_B, i) - one.a_W - 9.81 * Vector3d::UnitZ()).norm(), 1e-13);
+      EXPECT_EQ(math::vector(all.w_B, i), one.w_B);
+      EXPECT_EQ(math::vector(all.alpha_B, i), one.alpha_B);
     }
   }
 }
 
-TEST(Scenarios, HandleAtFourTimesIsTheHandleAtEachOfThem) {
-  const auto expect_near = [](const math::Three<math::Pack>& packs, const Vector3d& one, int i, double tolerance) {
-    EXPECT_LT((math::vector(packs, i) - one).norm(), tolerance);
-  };
-  for (const Scenario& scene : all_scenes()) {
-    const math::Pack t{0.0, 0.3, 1.7, 3.9};
-    HandleMotion<math::Pack> at;
-    handle_motion(scene, t, at);
-    for (int i = 0; i < math::pack_size; ++i) {
-      const HandState state = handle_state(scene, t[i]);
-      const HandAcceleration acceleration = handle_acceleration(scene, t[i]);
-      EXPECT_LT((math::matrix(at.R_WH, i) - state.R_WT).norm(), 1e-14);
-      expect_near(at.p_W, state.p_WT, i, 1e-14);
-      expect_near(at.v_W, state.v_WT_W, i, 1e-13);
-      expect_near(at.w_H, state.w_WT_T, i, 1e-13);
-      expect_near(at.a_W, acceleration.a_WT_W, i, 1e-12);
-      expect_near(at.alpha_H, acceleration.alpha_WT_T, i, 1e-12);
-    }
+int times_asked = 0;
+double counted(const Scenario&, double t) {
+  ++times_asked;
+  return 2.0 * t;
+}
+
+TEST(Scenarios, WhatIsRememberedIsAskedForOnceForEachMomentOfARungeKuttaStep) {
+  Remembered<double, &counted> hand;
+  const Scenario scene = stretch_scene(1e2);
+  constexpr int steps = 100;
+  constexpr double h = 0.1 / 3.0;
+  for (int i = 0; i < steps; ++i) {
+    const double t = i * h;
+    for (const double at : {t, t + 0.5 * h, t + 0.5 * h, t + h}) EXPECT_NEAR(hand.at(scene, at), 2.0 * at, 1e-12);
   }
+  EXPECT_EQ(times_asked, 2 * steps + 1);
 }
 
 TEST(Scenarios, BodyAndBushingStateAreInversesOfEachOther) {

@@ -273,7 +273,7 @@ TEST(Verdicts, ErrorsOfTheRodAreJudgedInPositionAndAngle) {
     row.ours = true;
     row.step = 0.02;
     row.finite = true;
-    row.error = error;
+    row.position_error = error;
     row.angle_error = angle;
     measured.rods = {row};
     EXPECT_EQ(result_of(measured, "Rod underdamped"), held ? Verdict::Result::pass : Verdict::Result::fail);

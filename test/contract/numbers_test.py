@@ -64,6 +64,19 @@ class Markers(unittest.TestCase):
             same, wrong = self.check(bad % table)
             self.assertEqual((same, len(wrong)), (bad % table, 1))
 
+    def test_how_a_table_was_made_is_told_by_its_header(self):
+        for command, word, other in (("report --quick", "quick", "full"), ("report --shard 1/2", "full", "quick")):
+            (self.results / "t.csv").write_text(f"# command: {command}\n" + TABLE, encoding="utf-8")
+            text = "of the %s<!-- run of t.csv --> run, 3<!-- count kind of t.csv -->"
+            self.assertEqual(self.check(text % word), (text % word, []))
+            mended, wrong = self.check(text % other)
+            self.assertEqual((mended, len(wrong)), (text % word, 1))
+        for bad in ("of the slow<!-- run of t.csv --> run", "of the full<!-- run of none.csv --> run"):
+            same, wrong = self.check(bad)
+            self.assertEqual((same, len(wrong)), (bad, 1))
+        (self.results / "t.csv").write_text(TABLE, encoding="utf-8")
+        self.assertEqual(len(self.check("full<!-- run of t.csv -->")[1]), 1)
+
     def test_stale_numbers_are_told_and_mended(self):
         text = (
             "1 and 13 µm<!-- max depth [um] of t.csv where kind=stack -->, "
