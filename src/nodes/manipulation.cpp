@@ -24,6 +24,7 @@ void ask_for_end(int) { end_asked = true; }
 void end_in_order() {
   std::signal(SIGINT, ask_for_end);
   std::signal(SIGTERM, ask_for_end);
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit of the size of files is an error of what is written, not the node's end
   ros::XMLRPCManager::instance()->unbind("shutdown");
   ros::XMLRPCManager::instance()->bind("shutdown", [](XmlRpc::XmlRpcValue&, XmlRpc::XmlRpcValue& result) {
     end_asked = true;

@@ -1,12 +1,5 @@
-#include <unistd.h>
-
 #include <array>
-#include <cerrno>
 #include <chrono>
-#include <cstdio>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <utility>
 
@@ -15,6 +8,7 @@
 #include "motion.h"
 #include "options.h"
 #include "spring_workbench/config/command_line.h"
+#include "spring_workbench/config/output_file.h"
 #include "spring_workbench/hand_input/feed.h"
 #include "spring_workbench/instruments/reading_average.h"
 #include "spring_workbench/motion_files/open_motion.h"
@@ -23,48 +17,6 @@
 
 namespace spring_workbench::replay {
 namespace {
-
-/// A text file that appears whole or not at all: it is written under another name and renamed by commit().
-/// What is no regular file (a pipe, /dev/null) is written in place.
-class OutputFile {
- public:
-  /// Throws InputError where the file cannot be made.
-  explicit OutputFile(const std::string& path) : path_(path) {
-    std::error_code none;
-    const auto status = std::filesystem::status(path, none);
-    if (std::filesystem::is_directory(status))
-      throw validation::InputError(path + ": cannot be written: it is a folder");
-    const bool in_place = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
-    written_path_ = in_place ? path : path + ".part" + std::to_string(getpid());
-    file_.open(written_path_, std::ios::binary | std::ios::trunc);
-    if (!file_) fail(path_);
-  }
-  /// Takes away what was not committed.
-  ~OutputFile() {
-    if (!committed_ && written_path_ != path_) std::remove(written_path_.c_str());
-  }
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
-
-  void write(const std::string& text) { file_ << text; }
-  /// Throws InputError where not everything could be written.
-  void commit() {
-    file_.close();
-    if (!file_) fail(path_);
-    if (written_path_ != path_ && std::rename(written_path_.c_str(), path_.c_str()) != 0) fail(path_);
-    committed_ = true;
-  }
-
- private:
-  [[noreturn]] static void fail(const std::string& path) {
-    throw validation::InputError(path + ": cannot be written: " + std::strerror(errno));
-  }
-
-  std::string path_;
-  std::string written_path_;
-  std::ofstream file_;
-  bool committed_ = false;
-};
 
 std::vector<Motion> load_motions(const Options& options) {
   if (!options.bag.empty()) {
@@ -120,8 +72,8 @@ void push_motion(const Motion& of_hand, std::size_t hand, bool with_grasp, hand_
 
 /// Goes through a live run again; a line for each time to which it was committed, and for each change.
 Summary run_journal(const Options& options, const std::vector<live::Entry>& journal) {
-  OutputFile objects(options.out);
-  OutputFile fork(fork_path(options.out));
+  config::OutputFile objects(options.out);
+  config::OutputFile fork(fork_path(options.out));
   objects.write(object_header());
   fork.write(fork_header());
   ForkRows fork_rows;
@@ -163,8 +115,8 @@ Summary run(const Options& options) {
   }
   const std::vector<Motion> motions = load_motions(options);
   simulation::Simulation simulation(load_scene(options.scene), options.settings);
-  OutputFile objects(options.out);
-  OutputFile fork(fork_path(options.out));
+  config::OutputFile objects(options.out);
+  config::OutputFile fork(fork_path(options.out));
   objects.write(object_header());
   fork.write(fork_header());
   ForkRows fork_rows;

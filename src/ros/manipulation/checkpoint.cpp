@@ -1,69 +1,83 @@
 #include "spring_workbench/ros/manipulation/checkpoint.h"
 
-#include <utility>
-
 #include "constants.h"
-#include "spring_workbench/config/yaml_fields.h"
-#include "spring_workbench/ros/common/parameters.h"
+#include "spring_workbench/validation/input_error.h"
+#include "spring_workbench/validation/one_line.h"
 
 namespace spring_workbench::manipulation {
-namespace {
 
-const std::string kKey = "resume";
+static const std::string kKey = "resume";
 
-}  // namespace
-
-Checkpoint::Checkpoint(const ros::NodeHandle& private_node, live::SimulationRunner& runner,
+Checkpoint::Checkpoint(const ros::NodeHandle& master, const ros::NodeHandle& disk, const std::string& file,
+                       live::SimulationRunner& runner, const std::string& given_scene,
                        const std::vector<std::string>& scene_roots)
-    : private_node_(private_node), runner_(runner) {
+    : master_(master), on_master_(runner, given_scene), in_file_(runner, given_scene) {
+  if (!file.empty()) file_.emplace(file);
+  master_.getParam(master_.getNamespace(), parameters_);
   resume(scene_roots);
-  private_node_.getParam(private_node_.getNamespace(), parameters_);
-  timer_ = private_node_.createSteadyTimer(ros::WallDuration(checkpoint_period),
-                                           [this](const ros::SteadyTimerEvent&) { keep(); });
+  const ros::WallDuration period(checkpoint_period);
+  master_timer_ = master_.createSteadyTimer(period, [this](const ros::SteadyTimerEvent&) { keep_on_master(); });
+  if (file_) file_timer_ = ros::NodeHandle(disk).createSteadyTimer(period, [this](const auto&) { keep_in_file(); });
 }
 
 Checkpoint::~Checkpoint() {
-  timer_.stop();
-  if (!handed_over_) private_node_.deleteParam(kKey);
+  master_timer_.stop();
+  file_timer_.stop();
+  if (handed_over_) return;
+  try {
+    if (file_) file_->remove();
+  } catch (const std::exception&) {  // told already: it could not be written either
+  }
+  master_.deleteParam(kKey);
 }
 
-void Checkpoint::keep() {
-  auto [scene, state] = runner_.locked([](const simulation::Simulation& simulation) {
-    return std::make_pair(simulation.scene().path, simulation.save());
-  });
-  if (scene == kept_scene_ && state == kept_state_) return;
-  XmlRpc::XmlRpcValue now;
-  now["given_scene"] = parameters_["scene"];
-  now["scene"] = scene;
-  now["state"] = serialise(state);
-  private_node_.setParam(kKey, now);
-  kept_scene_ = std::move(scene);
-  kept_state_ = std::move(state);
+void Checkpoint::keep_on_master() {
+  on_master_.keep([this](const std::string& text) { master_.setParam(kKey, text); });
+}
+
+void Checkpoint::keep_in_file() {
+  try {
+    in_file_.keep([this](const std::string& text) {
+      file_->write(text);
+      tell("");
+    });
+  } catch (const std::exception& error) {
+    tell(error.what());
+  }
+}
+
+void Checkpoint::tell(const std::string& file_error) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (file_error == file_error_) return;
+  file_error_ = file_error;
+  const std::string now = file_error.empty() ? "up to date again" : "not up to date: " + file_error;
+  ROS_WARN_STREAM("the checkpoint's file is " << now);
 }
 
 void Checkpoint::hand_over() {
   handed_over_ = true;
-  timer_.stop();
-  private_node_.setParam(private_node_.getNamespace(), parameters_);
-  kept_scene_.clear();  // the new master knows nothing of it
-  keep();
+  master_timer_.stop();
+  master_.setParam(master_.getNamespace(), parameters_);
+  on_master_.forget();  // the new master knows nothing of it
+  keep_on_master();
 }
 
 void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
-  const YAML::Node parameters = ros_common::private_parameters(private_node_);
-  const YAML::Node kept = parameters[kKey];
-  if (!kept) return;
+  const bool from_file = !parameters_.hasMember(kKey);
+  if (from_file && !file_) return;
+  const std::string where = from_file ? "checkpoint_file" : "~" + kKey;
+  std::string text;
   try {
-    if (!kept.IsMap()) throw validation::InputError("parameter resume: must be the map that this node wrote");
-    if (config::read_string(kept["given_scene"], kKey, "given_scene") != parameters["scene"].as<std::string>()) return;
-    const std::string scene = config::read_string(kept["scene"], kKey, "scene");
-    const auto state = simulation::parse_state(config::read_string(kept["state"], kKey, "state"));
-    const scene::Scene present =
-        runner_.locked([](const simulation::Simulation& simulation) { return simulation.scene(); });
-    runner_.resume(present.path == scene ? present : scene::load_scene(scene, scene_roots), state);
-    ROS_WARN("resuming from the state of the node that was killed; nothing is held");
+    if (!from_file && parameters_[kKey].getType() != XmlRpc::XmlRpcValue::TypeString)
+      throw validation::InputError(where + ": must be a text that this node wrote");
+    text = from_file ? file_->read() : static_cast<std::string>(parameters_[kKey]);
+    if (text.empty()) return;
+    on_master_.resume(text, where, scene_roots);
+    ROS_WARN_STREAM("resuming from the state of the node that was killed (" << where << "); nothing is held");
   } catch (const std::exception& error) {  // a broken one must not keep the node from starting
-    ROS_WARN_STREAM("the checkpoint is ignored: " << error.what());
+    ROS_WARN_STREAM("the checkpoint is ignored: " << validation::one_line(error.what()));
+    if (from_file && text.empty()) file_error_ = error.what();  // what is not ours stays, and is not told again
+    if (from_file && !text.empty()) file_->set_aside();         // another run may need it
   }
 }
 

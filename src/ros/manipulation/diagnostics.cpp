@@ -111,6 +111,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
     status.raise(DiagnosticStatus::WARN,
                  "the ROS master does not answer: present connections stay, new ones are impossible");
   }
+  if (!loop.checkpoint_error.empty()) status.raise(DiagnosticStatus::WARN, loop.checkpoint_error);
   if (loop.steps_rejected > last_loop_.steps_rejected) {
     status.raise(DiagnosticStatus::ERROR, "steps rejected: the result was not finite or bounded");
   }

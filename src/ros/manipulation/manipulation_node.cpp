@@ -50,7 +50,8 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
       publisher_(private_node, parameters_),
       services_(advertise_services(private_node, runner_, scene_roots(parameters_, runner_))),
       live_tuning_(make_live_tuning(private_node, runner_)),
-      checkpoint_(master_thread_.handle(private_node), runner_, scene_roots(parameters_, runner_)),
+      checkpoint_(master_thread_.handle(private_node), disk_thread_.handle(private_node), parameters_.checkpoint_file,
+                  runner_, parameters_.scene, scene_roots(parameters_, runner_)),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
       every_second_(node.createSteadyTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
@@ -127,6 +128,7 @@ void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
     loop = loop_;
   }
   loop.prediction_error = runner_.prediction_error_99();
+  loop.checkpoint_error = checkpoint_.file_error();
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
   TrackerInput first{input_.statistics(), runner_.hand_statistics(0), ""};

@@ -35,6 +35,8 @@ ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters
     if (!roots.IsSequence()) validation::refuse(where, "scene_roots", YAML::Dump(roots), "a list of folders");
     for (const YAML::Node& root : roots) result.scene_roots.push_back(config::read_string(root, where, "scene_roots"));
   }
+  if (const YAML::Node file = ros_common::take(rest, "checkpoint_file"))
+    result.checkpoint_file = config::read_string(file, where, "checkpoint_file");
   take_number(rest, where, "rate", validation::between(1.0, 2000.0), result.rate);
   take_number(rest, where, "display_latency", validation::between(0.0, motion::PosePredictor::farthest),
               result.display_latency);

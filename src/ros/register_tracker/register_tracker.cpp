@@ -4,10 +4,10 @@
 #include <sensor_msgs/Joy.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <fstream>
 #include <iostream>
 
 #include "spring_workbench/config/command_line.h"
+#include "spring_workbench/config/output_file.h"
 #include "spring_workbench/motion_files/motion_file.h"
 #include "spring_workbench/registration/touches.h"
 #include "spring_workbench/ros/common/conversions.h"
@@ -122,8 +122,9 @@ void run(const Options& options, int argc, char** argv) {
                                ? registration::find_tip(samples, present, options.largest_residual)
                                : registration::find_tracker(samples, known, present, options.largest_residual);
   std::cout << text;
-  std::ofstream file(options.out);
-  if (!(file << text) || !file.flush()) throw std::runtime_error(options.out + ": cannot be written");
+  config::OutputFile file(options.out);
+  file.write(text);
+  file.commit();
 }
 
 }  // namespace spring_workbench::register_tracker

@@ -2,21 +2,24 @@
 
 #include <ros/ros.h>
 
+#include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "spring_workbench/live/simulation_runner.h"
+#include "spring_workbench/live/checkpoint.h"
 
 namespace spring_workbench::manipulation {
 
-/// What a node `manipulation` that is started again after a crash goes on with: the scene's path and the simulation's
-/// state (simulation::serialise). It lies on the parameter server under `~resume`, is brought up to date twice a second
-/// while something changes, and is deleted when the node ends in order.
+/// Where a node `manipulation` keeps its checkpoint: on the parameter server under `~resume` and, if that is asked for,
+/// in a file. It is brought up to date twice a second while something changes, and deleted when the node ends in order.
 class Checkpoint {
  public:
-  /// Brings the runner to the checkpoint, where there is one of a node that was started with the same scene; one that
-  /// cannot be used is told, and nothing of it is. `runner` must outlive this; `scene_roots`: as of load_scene().
-  Checkpoint(const ros::NodeHandle& private_node, live::SimulationRunner& runner,
+  /// Brings the runner to the checkpoint that the master has, or else to that of the file; one that is of another scene
+  /// or cannot be used is told, and nothing of it is (such a file is set aside). `master`, `disk`: private handles of
+  /// the threads that may wait for these; `file`: empty: none. For the rest see live::Checkpoint.
+  Checkpoint(const ros::NodeHandle& master, const ros::NodeHandle& disk, const std::string& file,
+             live::SimulationRunner& runner, const std::string& given_scene,
              const std::vector<std::string>& scene_roots);
   ~Checkpoint();
   Checkpoint(const Checkpoint&) = delete;
@@ -24,18 +27,26 @@ class Checkpoint {
 
   /// To a master that was started anew: the node's parameters and the checkpoint, for the one that comes after this.
   void hand_over();
+  /// Why the file is not up to date; empty: it is, or there is none.
+  std::string file_error() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return file_error_;
+  }
 
  private:
   void resume(const std::vector<std::string>& scene_roots);
-  void keep();
+  void keep_on_master();
+  void keep_in_file();
+  void tell(const std::string& file_error);
 
-  ros::NodeHandle private_node_;
-  live::SimulationRunner& runner_;
+  ros::NodeHandle master_;
   XmlRpc::XmlRpcValue parameters_;  ///< of the node, at its start
-  std::string kept_scene_;          ///< path; empty: nothing is kept
-  simulation::SimulationState kept_state_;
+  live::Checkpoint on_master_, in_file_;
+  std::optional<live::CheckpointFile> file_;
+  mutable std::mutex mutex_;
+  std::string file_error_;
   bool handed_over_ = false;
-  ros::SteadyTimer timer_;
+  ros::SteadyTimer master_timer_, file_timer_;
 };
 
 }  // namespace spring_workbench::manipulation

@@ -23,6 +23,7 @@ struct LoopStatistics {
   std::size_t cycles_behind = 0;   ///< in which simulated time was slower than the hands'
   double longest_cycle = 0.0;      ///< wall time in the simulation [s]
   double master_silence = 0.0;     ///< since the ROS master last answered [s]
+  std::string checkpoint_error;    ///< see Checkpoint::file_error()
   double prediction_error = 0.0;   ///< see LookAhead::position_error_99() [m]
 };
 

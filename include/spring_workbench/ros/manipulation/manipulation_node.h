@@ -61,7 +61,7 @@ class ManipulationNode {
   const ManipulationParameters parameters_;
   live::SimulationRunner runner_;
   ros_common::Alarm alarm_;
-  CallbackThread input_thread_, master_thread_;
+  CallbackThread input_thread_, master_thread_, disk_thread_;
   StylusInput input_, second_input_;
   StatePublisher publisher_;
   std::vector<ros::ServiceServer> services_;

@@ -15,6 +15,7 @@ namespace spring_workbench::manipulation {
 struct ManipulationParameters {
   std::string scene;                     ///< `scene`, required: a URDF's path or package:// URI
   std::vector<std::string> scene_roots;  ///< `scene_roots`: folders that `~load_scene` may read from, beside packages
+  std::string checkpoint_file;           ///< `checkpoint_file`: where the state is kept as well; empty: nowhere
   double rate = 100.0;                   ///< `rate` [Hz], 1 … 2000: of what is shown between samples
   double display_latency = 0.0;    ///< `display_latency` [s], 0 … 0.1: how far what is shown is ahead of the samples
   double markers_rate = 30.0;      ///< `markers_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with

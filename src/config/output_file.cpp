@@ -1,0 +1,62 @@
+#include "spring_workbench/config/output_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "spring_workbench/validation/input_error.h"
+
+namespace spring_workbench::config {
+namespace {
+
+/// A renamed file survives the end of the machine only when its folder is on the disk, too.
+bool sync_folder(const std::string& path) {
+  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+  const int descriptor = open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool synced = fsync(descriptor) == 0 || errno == EINVAL;  // a file system that has nothing to bring there
+  close(descriptor);
+  return synced;
+}
+
+}  // namespace
+
+OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
+  std::error_code none;
+  const auto status = std::filesystem::status(path_, none);
+  if (std::filesystem::is_directory(status))
+    throw validation::InputError(path_ + ": cannot be written: it is a folder");
+  in_place_ = std::filesystem::exists(status) && !std::filesystem::is_regular_file(status);
+  written_path_ = in_place_ ? path_ : path_ + ".part" + std::to_string(getpid());
+  if (!in_place_) std::remove(written_path_.c_str());  // of a process of the same number that was killed
+  file_ = std::fopen(written_path_.c_str(), in_place_ ? "we" : "wxe");
+  check(file_ != nullptr);
+}
+
+OutputFile::~OutputFile() {
+  std::fclose(file_);
+  if (!committed_ && !in_place_) std::remove(written_path_.c_str());
+}
+
+void OutputFile::write(const std::string& text) {
+  check(std::fwrite(text.data(), 1, text.size(), file_) == text.size());
+}
+
+void OutputFile::commit() {
+  check(std::fflush(file_) == 0);
+  if (in_place_) return;
+  check(fsync(fileno(file_)) == 0);
+  check(std::rename(written_path_.c_str(), path_.c_str()) == 0);
+  committed_ = true;
+  check(sync_folder(path_));
+}
+
+void OutputFile::check(bool success) const {
+  if (!success) throw validation::InputError(path_ + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace spring_workbench::config
