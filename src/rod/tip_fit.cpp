@@ -1,6 +1,6 @@
 #include "spring_workbench/rod/tip_fit.h"
 
-#include <limits>
+#include <Eigen/SVD>
 
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/square_system.h"
@@ -10,10 +10,19 @@ namespace {
 
 constexpr int n = max_strain_coordinates;
 constexpr int most_iterations = 60;
+constexpr int most_halvings = 12;
+/// Of the way that is missing: if the slope leads no further at once, the rod is as near as it comes.
+constexpr double least_progress = 1e-3;
+constexpr double to_the_end = 1e-9;  ///< of a change that the end of the rod's range cuts short
 /// Newton's method converges quadratically: a last change of this size, of the rod's length or a radian, leaves none.
 constexpr double last_change = 3e-8;
 /// So far the pose is approached at once, of the rod's length or in radians: each pose on the way is near the last.
 constexpr double farthest = 0.5;
+/// Of the change that the slope foretells: by how much another may differ from it and still be of the same solution.
+constexpr double foretold = 0.5;
+/// Least motion of the tip by a strain of one over the length, which a straight rod compressed to its end still has (a
+/// rod that is not: a tenth). In a direction in which the tip moves less, the rod is at the end of what it can do.
+constexpr double least_motion = 1e-3;
 
 /// The rotation vector of each lane.
 template <typename S>
@@ -30,17 +39,159 @@ math::ThreeByThree<S> times_transposed(const math::ThreeByThree<S>& a, const mat
           b.x.z * a.x + b.y.z * a.y + b.z.z * a.z};
 }
 
-/// The tip's Jacobian, its velocities over the rod's length.
+/// The tip's Jacobian by its columns, velocities over the rod's length.
 template <typename S>
-math::SquareSystem<n, S> jacobian(const TipOf<S>& tip, double length) {
-  const double per_length = 1.0 / length;
-  S columns[n][n];
-  for (int j = 0; j < n; ++j) {
-    const math::Three<S>&v = tip.linear[j], &w = tip.angular[j];
-    const S column[n] = {per_length * v.x, per_length * v.y, per_length * v.z, w.x, w.y, w.z};
-    for (int i = 0; i < n; ++i) columns[j][i] = column[i];
+struct Columns {
+  S by[n][n];
+
+  Columns(const TipOf<S>& tip, double length) {
+    const double per_length = 1.0 / length;
+    for (int j = 0; j < n; ++j) {
+      const math::Three<S>&v = tip.linear[j], &w = tip.angular[j];
+      const S column[n] = {per_length * v.x, per_length * v.y, per_length * v.z, w.x, w.y, w.z};
+      for (int i = 0; i < n; ++i) by[j][i] = column[i];
+    }
   }
-  return math::SquareSystem<n, S>(columns);
+};
+
+/// The Jacobian of one rod, to solve with where the tip may move less than it should: from there on 1/σ of a singular
+/// value goes on as σ/σ₀², to none.
+class Slope {
+ public:
+  template <typename S>
+  Slope(const Columns<S>& columns, int lane, double length) {
+    // Of curvatures times the length; the stretch, the last one, has no unit.
+    units_ << length, length, length, length, length, 1.0;
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) J_(i, j) = math::lane(columns.by[j][i], lane) / units_[j];
+    }
+    svd_.compute(J_, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    inverse_ = svd_.singularValues().unaryExpr(
+        [](double s) { return s >= least_motion ? 1.0 / s : s / (least_motion * least_motion); });
+  }
+  Vector6d times(const Vector6d& x) const { return J_ * units_.cwiseProduct(x); }
+  /// Strain rates for velocities: of those that the rod cannot do, as much as it can.
+  Vector6d solve(const Vector6d& b) const {
+    return (svd_.matrixV() * inverse_.cwiseProduct(svd_.matrixU().transpose() * b)).cwiseQuotient(units_);
+  }
+  /// The transposed of solve(): forces for generalised ones.
+  Vector6d solve_transposed(const Vector6d& b) const {
+    return svd_.matrixU() * inverse_.cwiseProduct(svd_.matrixV().transpose() * b.cwiseQuotient(units_));
+  }
+
+ private:
+  Vector6d units_, inverse_;
+  Matrix6d J_;
+  Eigen::JacobiSVD<Matrix6d> svd_;
+};
+
+template <typename S>
+Vector6d lane_of(const S* x, int lane) {
+  Vector6d of;
+  for (int i = 0; i < n; ++i) of[i] = math::lane(x[i], lane);
+  return of;
+}
+template <typename S>
+void set_lane(S* x, int lane, const Vector6d& to) {
+  for (int i = 0; i < n; ++i) math::set_lane(x[i], lane, to[i]);
+}
+
+/// What the tip is away from a pose: over the rod's length, and in radians.
+template <typename S>
+struct Away {
+  S by[n];
+  S squared;
+
+  Away(const TipOf<S>& tip, const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE, double length) {
+    const math::Three<S> p = (1.0 / length) * (p_HE - tip.p_HE), theta = log_of(times_transposed(R_HE, tip.R_HE));
+    squared = dot(p, p) + dot(theta, theta);
+    const S all[n] = {p.x, p.y, p.z, theta.x, theta.y, theta.z};
+    for (int i = 0; i < n; ++i) by[i] = all[i];
+  }
+  Vector6d vector() const { return Eigen::Map<const Vector6d>(by); }
+  /// How much of it is gone at once.
+  S part() const {
+    S part = S{} + 1.0;
+    for (int i = 0; i < math::lanes<S>; ++i) {
+      const double distance = std::sqrt(math::lane(squared, i));
+      if (distance > farthest) math::set_lane(part, i, farthest / distance);
+    }
+    return part;
+  }
+};
+
+/// A strain of the rod's range with its tip, on the way to a pose.
+struct OnTheWay {
+  Vector6d q;
+  TipOf<double> tip;
+  Away<double> away;
+
+  OnTheWay(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
+           const Vector6d& strain)
+      : q(strain), tip(tip_of(shape, strain)), away(tip, R_HE, p_HE, shape.length()) {}
+  static TipOf<double> tip_of(const ShapeModel& shape, const Vector6d& q) {
+    const double zero[n] = {};
+    TipOf<double> tip;
+    shape.tip(q.data(), zero, tip);
+    return tip;
+  }
+};
+
+/// The longest part of the change by which a rod stays in its range, with the stretch cut short at its end if it is
+/// that which leads out. Halves `change` until there is one.
+bool stay_in_range(const ShapeModel& shape, const Vector6d& q, Vector6d& change) {
+  for (int halving = 0; halving < most_halvings; ++halving, change *= 0.5) {
+    if (shape.admissible(q + change)) return true;
+    const double whole = change[n - 1];
+    double most = 1.0;
+    change[n - 1] = 0.0;
+    if (shape.admissible(q + change)) {
+      for (double least = 0.0; most - least > to_the_end;) {
+        const double middle = 0.5 * (least + most);
+        change[n - 1] = middle * whole;
+        (shape.admissible(q + change) ? least : most) = middle;
+        if (most == middle) change[n - 1] = least * whole;
+      }
+      return true;
+    }
+    change[n - 1] = whole;
+  }
+  return false;
+}
+
+/// From `q` on to the pose, or as near to it as the rod's range and its slope lead: on one solution, by steps so short
+/// that the slope foretells the change. Returns how far from it that is.
+double approach(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
+                Vector6d& q) {
+  OnTheWay at(shape, R_HE, p_HE, q);
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    const bool last = !(at.away.squared > last_change * last_change);
+    const Slope slope(Columns<double>(at.tip, shape.length()), 0, shape.length());
+    Vector6d change = slope.solve(at.away.part() * at.away.vector());
+    bool went = false, on = true;
+    for (int halving = 0; halving < most_halvings && !went; ++halving, change *= 0.5) {
+      if (!stay_in_range(shape, at.q, change)) break;
+      const OnTheWay next(shape, R_HE, p_HE, at.q + change);
+      const Vector6d moves = slope.times(change);
+      const double error = (next.away.vector() - at.away.vector() + moves).norm();
+      went = last || (error <= foretold * moves.norm() && next.away.squared < at.away.squared);
+      on = moves.squaredNorm() > least_progress * least_progress * at.away.squared;
+      if (went) at = next;
+    }
+    if (!went || !on || last) break;
+  }
+  q = at.q;
+  return at.away.squared;
+}
+
+/// On the solution of `q`, or where that ends on the one of the straight rod; else the nearer to the pose of both.
+Vector6d fit(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
+             const Vector6d& start) {
+  Vector6d from_start = start, from_straight = Vector6d::Zero();
+  if (!shape.admissible(from_start)) from_start.setZero();
+  const double away = approach(shape, R_HE, p_HE, from_start);
+  if (away <= last_change * last_change) return from_start;
+  return approach(shape, R_HE, p_HE, from_straight) < away ? from_straight : from_start;
 }
 
 }  // namespace
@@ -48,53 +199,81 @@ math::SquareSystem<n, S> jacobian(const TipOf<S>& tip, double length) {
 template <typename S>
 TipFit<S>::TipFit(const ShapeModel& shape, const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE,
                   const math::Three<S>& v_HE, const math::Three<S>& w_HE, const S* start)
-    : length_(shape.length()) {
-  for (int i = 0; i < n; ++i) {
-    q[i] = start[i];
-    q_dot[i] = S{};
-  }
-  find_strain(shape, R_HE, p_HE);
-  const double per_length = 1.0 / length_;
+    : shape_(shape) {
+  find_strain(R_HE, p_HE, start);
+  const double L = shape.length(), per_length = 1.0 / L;
+  const Columns<S> columns(tip, L);
+  exact_ = math::SquareSystem<n, S>(columns.by);
+  const S inverse_squared = exact_.inverse_norm_squared({L, L, L, L, L, 1.0});
   const S velocity[n] = {per_length * v_HE.x, per_length * v_HE.y, per_length * v_HE.z, w_HE.x, w_HE.y, w_HE.z};
-  jacobian(tip_, length_).solve(velocity, q_dot);
+  exact_.solve(velocity, q_dot);
+  for (int l = 0; l < math::lanes<S>; ++l) {
+    at_its_end_[l] = !shape.strain_is_pose() && !(math::lane(inverse_squared, l) * least_motion * least_motion <= 1.0);
+    if (at_its_end_[l]) set_lane(q_dot, l, Slope(columns, l, L).solve(lane_of(velocity, l)));
+  }
 }
 
 template <typename S>
-void TipFit<S>::find_strain(const ShapeModel& shape, const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE) {
+void TipFit<S>::find_strain(const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE, const S* start) {
   const S zero[n] = {};
-  if (shape.strain_is_pose()) {
+  if (shape_.strain_is_pose()) {
     const math::Three<S> phi = log_of(R_HE);
-    const S strain[n] = {p_HE.x, p_HE.y, phi.x, phi.y, phi.z, p_HE.z - length_};
+    const S strain[n] = {p_HE.x, p_HE.y, phi.x, phi.y, phi.z, p_HE.z - shape_.length()};
     for (int i = 0; i < n; ++i) q[i] = strain[i];
-    return shape.tip(q, zero, tip_);
+    return shape_.tip(q, zero, tip);
   }
-  shape.tip(q, zero, tip_);
-  const double per_length = 1.0 / length_;
+  for (int i = 0; i < n; ++i) q[i] = start[i];
+  shape_.tip(q, zero, tip);
+  if (follow_slope(R_HE, p_HE)) return;
+  for (int l = 0; l < math::lanes<S>; ++l) {
+    const math::ThreeByThree<double> R = math::three_by_three(math::matrix(R_HE, l));
+    set_lane(q, l, fit(shape_, R, math::three(math::vector(p_HE, l)), lane_of(start, l)));
+  }
+  shape_.tip(q, zero, tip);
+}
+
+template <typename S>
+bool TipFit<S>::follow_slope(const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE) {
+  const S zero[n] = {};
+  Away<S> away(tip, R_HE, p_HE, shape_.length());
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const math::Three<S> p = per_length * (p_HE - tip_.p_HE), theta = log_of(times_transposed(R_HE, tip_.R_HE));
-    const S squared = dot(p, p) + dot(theta, theta);
-    S part = S{} + 1.0;
-    for (int i = 0; i < math::lanes<S>; ++i) {
-      const double distance = std::sqrt(math::lane(squared, i));
-      if (distance > farthest) math::set_lane(part, i, farthest / distance);
-    }
-    const S missing[n] = {part * p.x, part * p.y, part * p.z, part * theta.x, part * theta.y, part * theta.z};
-    S change[n];
-    jacobian(tip_, length_).solve(missing, change);
+    const S part = away.part();
+    S missing[n], change[n];
+    for (int i = 0; i < n; ++i) missing[i] = part * away.by[i];
+    math::SquareSystem<n, S>(Columns<S>(tip, shape_.length()).by).solve(missing, change);
     for (int i = 0; i < n; ++i) q[i] += change[i];
-    shape.tip(q, zero, tip_);
-    if (!(math::largest(squared) > last_change * last_change)) return;
+    shape_.tip(q, zero, tip);
+    for (int l = 0; l < math::lanes<S>; ++l) {
+      if (!shape_.admissible(lane_of(q, l))) return false;
+    }
+    if (!(math::largest(away.squared) > last_change * last_change)) return true;
+    const Away<S> next(tip, R_HE, p_HE, shape_.length());
+    S error = S{};
+    for (int i = 0; i < n; ++i) {
+      const S e = next.by[i] - (1.0 - part) * away.by[i];
+      error += e * e;
+    }
+    for (int l = 0; l < math::lanes<S>; ++l) {
+      const double moves = math::lane(part, l) * math::lane(part, l) * math::lane(away.squared, l);
+      const bool there = math::lane(away.squared, l) <= last_change * last_change;
+      if (!there && !(math::lane(error, l) <= foretold * foretold * moves)) return false;
+    }
+    away = next;
   }
-  for (int i = 0; i < n; ++i) q[i] = S{} + std::numeric_limits<double>::quiet_NaN();
-  shape.tip(q, zero, tip_);
+  return false;
 }
 
 template <typename S>
 void TipFit<S>::wrench(const S (&generalised)[max_strain_coordinates], math::Three<S>& force,
                        math::Three<S>& moment) const {
   S scaled[n];
-  jacobian(tip_, length_).solve_transposed(generalised, scaled);
-  force = (1.0 / length_) * math::Three<S>{scaled[0], scaled[1], scaled[2]};
+  exact_.solve_transposed(generalised, scaled);
+  for (int l = 0; l < math::lanes<S>; ++l) {
+    if (!at_its_end_[l]) continue;
+    const Slope slope(Columns<S>(tip, shape_.length()), l, shape_.length());
+    set_lane(scaled, l, slope.solve_transposed(lane_of(generalised, l)));
+  }
+  force = (1.0 / shape_.length()) * math::Three<S>{scaled[0], scaled[1], scaled[2]};
   moment = {scaled[3], scaled[4], scaled[5]};
 }
 

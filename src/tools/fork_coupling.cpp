@@ -135,7 +135,7 @@ dynamics::Coupling::Springs ForkCoupling::springs(double t, const dynamics::Rela
   return s;
 }
 
-dynamics::StrainState ForkCoupling::strain(const dynamics::RelativeMotion<double>& A_O) const {
+ForkCoupling::Following ForkCoupling::follow(const dynamics::RelativeMotion<double>& A_O) const {
   const Tip<double> at = tip(A_O, start_);
   dynamics::StrainState state = held_.zero_state();
   for (int i = 0; i < held_.size(); ++i) {
@@ -143,7 +143,12 @@ dynamics::StrainState ForkCoupling::strain(const dynamics::RelativeMotion<double
     state.q[i] = at.fit.q[c];
     state.q_dot[i] = at.fit.q_dot[c];
   }
-  return state;
+  RigidTransform X_HE = RigidTransform::Identity(), X_PE = X_HE;
+  X_HE.linear() = math::matrix(A_O.R_AB * R_OE_, 0);
+  X_HE.translation() = math::vector(A_O.p_AB + at.r_OE);
+  X_PE.linear() = math::matrix(at.fit.tip.R_HE, 0);
+  X_PE.translation() = math::vector(at.fit.tip.p_HE);
+  return {state, X_HE * X_PE.inverse()};
 }
 
 }  // namespace spring_workbench::tools

@@ -25,8 +25,12 @@ class ForkCoupling final : public dynamics::Coupling {
   Springs springs(double t, const dynamics::RelativeMotion<double>& A_O) const override;
   void begin_step() const override;
   void exchange(math::StateArchive& state) { state(since_); }
-  /// The fork's strain for the object's motion as seen from its handle.
-  dynamics::StrainState strain(const dynamics::RelativeMotion<double>& A_O) const;
+  /// What the fork is like for the object's motion as seen from its handle.
+  struct Following {
+    dynamics::StrainState strain;
+    RigidTransform X_HP;  ///< the handle from which it holds the object, P; where it reaches it, H
+  };
+  Following follow(const dynamics::RelativeMotion<double>& A_O) const;
 
  private:
   static constexpr int n = rod::max_strain_coordinates;

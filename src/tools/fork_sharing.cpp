@@ -31,8 +31,9 @@ void ForkBody::follow(double t, const ToolHold& leader, const motion::MotionStat
   coupling_.pull(t, A_O, pull);
   const Matrix3d& R_WA = A.X.linear();
   state_.pull_W = Wrench{R_WA * math::vector(pull.force), R_WA * math::vector(pull.moment)};
-  const dynamics::StrainState strain = coupling_.strain(A_O);
-  if (strain.q.allFinite() && strain.q_dot.allFinite()) state_.strain = strain;
+  const ForkCoupling::Following following = coupling_.follow(A_O);
+  state_.strain = following.strain;
+  place_proxy(A.X * following.X_HP * A.X.inverse() * state_.offset);
   if (held_.returning() && held_.drop_finished_returns(t) && held_.size() == 0) state_.strain = held_.zero_state();
 }
 

@@ -11,6 +11,7 @@ namespace spring_workbench::math {
 template <int n, typename S>
 class SquareSystem {
  public:
+  SquareSystem() = default;  ///< of no matrix yet
   /// `columns[j]`: column j.
   explicit SquareSystem(const S (&columns)[n][n]) {
     for (int j = 0; j < n; ++j) {
@@ -46,6 +47,20 @@ class SquareSystem {
       x[i] = Q_[0][i] * y[0];
       for (int j = 1; j < n; ++j) x[i] += Q_[j][i] * y[j];
     }
+  }
+  /// Σ (D A⁻¹)², over all elements, for a diagonal D.
+  SPRING_WORKBENCH_INLINE S inverse_norm_squared(const double (&D)[n]) const {
+    S sum{};
+    for (int j = 0; j < n; ++j) {
+      S x[n];
+      for (int i = j; i >= 0; --i) {
+        x[i] = S{} + (i == j ? 1.0 : 0.0);
+        for (int k = i + 1; k <= j; ++k) x[i] -= R_[i][k] * x[k];
+        x[i] = inverse_[i] * x[i];
+        sum += (D[i] * D[i]) * (x[i] * x[i]);
+      }
+    }
+    return sum;
   }
 
  private:

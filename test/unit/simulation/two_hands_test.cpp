@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/simulation/simulation.h"
@@ -117,6 +118,69 @@ TEST(TwoHands, NoStiffnessMakesItBlowUp) {
       }
     }
   }
+}
+
+/// Hands that go through each other and wind the forks up, further than these can follow, and come back to rest.
+TEST(TwoHands, HandsThatPassThroughEachOtherLeaveAllFiniteAndThenCarryTheWeight) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int trial = 0; trial < 6; ++trial) {
+    const std::string shape = test_support::shape_names()[static_cast<std::size_t>(trial) % 3];
+    SimulationSettings set = with_stiffness(2000.0, 500.0, 5.0, shape);
+    if (trial % 2 == 1) set.fork.dofs.stretch = false;
+    BothHold two(set);
+    for (std::size_t hand = 0; hand < 2; ++hand) {
+      const Vector3d a(uniform(random), uniform(random), uniform(random)), turned(uniform(random), 0, uniform(random));
+      for (double t = 0.22; t < 2.5; t += 0.02) {
+        const double u = std::min(1.0, (t - 0.22) / 2.0), away = std::sin(M_PI * u),
+                     there = 0.5 * (1 - std::cos(6 * M_PI * u));
+        RigidTransform X = pointing_down((hand == 0 ? left : right) + 0.3 * there * a);
+        X.linear() = math::exp_so3(3.0 * away * turned) * X.linear();
+        two.simulation.push_stylus({t, X}, hand);
+      }
+    }
+    for (double t = 0.3; t < 2.5; t += 0.01) {
+      two.simulation.advance(t);
+      for (std::size_t hand = 0; hand < 2; ++hand) {
+        const tools::ToolState f = two.simulation.fork(hand);
+        ASSERT_TRUE(f.strain.allFinite() && f.X_WE.matrix().allFinite() && f.tip_wrench_W.force.allFinite() &&
+                    f.tip_wrench_W.moment.allFinite())
+            << shape << trial << " at " << t;
+      }
+      ASSERT_TRUE(two.simulation.objects()[0].X_WO.matrix().allFinite());
+    }
+    two.simulation.advance(12.0);
+    const double carried =
+        two.simulation.fork(0).tip_wrench_W.force.z() + two.simulation.fork(1).tip_wrench_W.force.z();
+    EXPECT_NEAR(carried, 2.0 * g, 1e-3 * 2.0 * g) << shape << trial;
+  }
+}
+
+TEST(TwoHands, AForkPushedPastItsEndLeavesItsHandleBehindUntilItComesBack) {
+  BothHold two(with_stiffness(2000.0, 500.0, 5.0));
+  ForkChange stiff;
+  stiff.stretch_stiffness = stiff.bend_stiffness = stiff.torsion_stiffness = 1e9;
+  two.simulation.change(stiff, 0);
+  const double L = two.simulation.fork(1).length;
+  push_move(two.simulation, 0.22, 1.0, right, right - Vector3d(0.0, 0.0, 1.5 * L), 0.0, 1);
+  push_move(two.simulation, 1.22, 2.0, right - Vector3d(0.0, 0.0, 1.5 * L), right, 0.0, 1);
+  const Vector3d p_OE = two.simulation.objects()[0].X_WO.inverse() * two.simulation.fork(1).X_WE.translation();
+  double widest = 0.0;
+  for (double t = 0.3; t < 2.2; t += 0.01) {
+    two.simulation.advance(t);
+    const tools::ToolState f = two.simulation.fork(1);
+    ASSERT_TRUE(f.strain.allFinite() && f.tip_wrench_W.force.allFinite());
+    const RigidTransform& X_WO = two.simulation.objects()[0].X_WO;
+    // The tip is where it took hold of the object, also where the handle is not.
+    EXPECT_LT((X_WO.inverse() * f.X_WE.translation() - p_OE).norm(), 1e-9) << t;
+    widest = std::max(widest, (f.X_WH_proxy.translation() - f.X_WH.translation()).norm());
+  }
+  EXPECT_GT(widest, 1e-4);
+  EXPECT_LT(widest, 0.1 * L);
+  two.simulation.advance(6.0);
+  const tools::ToolState f = two.simulation.fork(1);
+  EXPECT_EQ(f.X_WH_proxy.matrix(), f.X_WH.matrix());
+  EXPECT_NEAR(f.tip_wrench_W.force.z() + two.simulation.fork(0).tip_wrench_W.force.z(), 2.0 * g, 1e-4);
 }
 
 /// Whatever the forks' stiffness: the second one takes over what the springs of both have done.
