@@ -1,19 +1,24 @@
+#include <geometry_msgs/PointStamped.h>
 #include <ros/ros.h>
 
+#include <algorithm>
 #include <exception>
 #include <fstream>
+#include <iomanip>
 #include <iostream>
 #include <mutex>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "benchmark/latency/played_device.h"
 #include "spring_workbench/ObjectStates.h"
 
-// End-to-end latency: from the first byte of a record on the serial line to the arrival of the message of
-// `manipulation/objects` from which on the held object has gone as far as that record says. The device of this program
-// moves the hand evenly along x, the fork is rigid, so the object's x tells which record a message knows of; no clock
-// but this process' own is asked. doc/tracker.md, "Latency".
+// End-to-end latency: from the first byte of a record on the serial line to the arrival of the message from which on
+// the held object has gone as far as that record says, of `manipulation/objects` (committed) and of
+// `manipulation/display/objects` (displayed). The device of this program moves the hands evenly along x, the fork is
+// rigid, so the object's x tells which record a message knows of; no clock but this process' own is asked. Beside it,
+// the way of a message of the same rate to a node that does nothing but send it back. doc/tracker.md, "Latency".
 
 namespace {
 
@@ -37,9 +42,8 @@ fastrak::PlayedMotion way(double length) {
 /// When and where the object was seen.
 class Observer {
  public:
-  explicit Observer(ros::NodeHandle& node)
-      : subscriber_(
-            node.subscribe("manipulation/objects", 10000, &Observer::take, this, ros::TransportHints().tcpNoDelay())) {}
+  Observer(ros::NodeHandle& node, const std::string& topic)
+      : subscriber_(node.subscribe(topic, 10000, &Observer::take, this, ros::TransportHints().tcpNoDelay())) {}
   std::vector<Moment> seen() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return seen_;
@@ -58,31 +62,87 @@ class Observer {
   ros::Subscriber subscriber_;
 };
 
+/// Messages to a relay and back: two connections, as from tracker_driver over manipulation to the observer.
+class BareLoop {
+ public:
+  BareLoop(ros::NodeHandle& node, double rate)
+      : publisher_(node.advertise<geometry_msgs::PointStamped>("bare", 100)),
+        subscriber_(node.subscribe("bare_relay", 10000, &BareLoop::take, this, ros::TransportHints().tcpNoDelay())),
+        timer_(node.createSteadyTimer(ros::WallDuration(1.0 / rate), &BareLoop::send, this)) {}
+  std::vector<double> latencies() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<double> sorted = latencies_;
+    std::sort(sorted.begin(), sorted.end());
+    return sorted;
+  }
+
+ private:
+  void send(const ros::SteadyTimerEvent&) {
+    geometry_msgs::PointStamped message;
+    message.point.x = steady_now();
+    publisher_.publish(message);
+  }
+  void take(const geometry_msgs::PointStamped::ConstPtr& message) {
+    const double t = steady_now();
+    const std::lock_guard<std::mutex> lock(mutex_);
+    latencies_.push_back(t - message->point.x);
+  }
+
+  mutable std::mutex mutex_;
+  std::vector<double> latencies_;
+  ros::Publisher publisher_;
+  ros::Subscriber subscriber_;
+  ros::SteadyTimer timer_;
+};
+
+/// Sends back what BareLoop sends.
+void relay(ros::NodeHandle& node) {
+  const ros::Publisher publisher = node.advertise<geometry_msgs::PointStamped>("bare_relay", 100);
+  const boost::function<void(const geometry_msgs::PointStamped::ConstPtr&)> pass =
+      [&](const geometry_msgs::PointStamped::ConstPtr& message) { publisher.publish(message); };
+  const ros::Subscriber subscriber =
+      node.subscribe<geometry_msgs::PointStamped>("bare", 100, pass, {}, ros::TransportHints().tcpNoDelay());
+  ros::spin();
+}
+
+void add_row(std::ostream& out, const std::string& run, const std::string& end, const std::vector<double>& all) {
+  out << run << "," << end << "," << all.size() << std::fixed << std::setprecision(2);
+  for (const double part : {0.0, 0.5, 0.99, 1.0}) out << "," << 1e3 * quantile(all, part);
+  out << std::endl;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   ros::init(argc, argv, "latency");
   ros::NodeHandle node, parameters("~");
+  if (parameters.param("relay", false)) {
+    relay(node);
+    return 0;
+  }
   const std::string port = parameters.param<std::string>("port", "/tmp/spring_workbench_latency");
   const double rate = parameters.param("rate", 120.0), length = parameters.param("length", 10.0);
-  double physics_rate = 0.0;
-  node.getParam("manipulation/rate", physics_rate);
+  const int hands = parameters.param("hands", 1), stations = parameters.param("stations", 1);
   ros::AsyncSpinner spinner(1);
   spinner.start();
-  const Observer observer(node);
+  const Observer committed(node, "manipulation/objects"), displayed(node, "manipulation/display/objects");
+  const BareLoop bare(node, rate);
   const fastrak::PlayedMotion motion = way(length);
-  fastrak::FastrakSimulator simulator(fastrak::FastrakDevice({motion}), fastrak::LineFaults(), port);
-  const auto held = [&] { return !ros::ok() || !observer.seen().empty(); };
+  const std::vector<fastrak::PlayedMotion> motions(static_cast<std::size_t>(stations), motion);
+  fastrak::FastrakSimulator simulator(fastrak::FastrakDevice(motions, {1, 2}), fastrak::LineFaults(), port);
+  const auto held = [&] { return !ros::ok() || (!committed.seen().empty() && !displayed.seen().empty()); };
   try {
     const std::vector<Moment> written =
-        play(simulator, motion, {rate, kSettle, kSettle + length, 2.0 * kSettle + length}, held);
-    const std::vector<Moment> seen = observer.seen();
-    const double offset = seen.empty() ? 0.0 : seen.back().x - (0.3 + kSpeed * length);  // in the end both are at rest
-    const std::vector<double> all = latencies(written, seen, offset);
+        play(simulator, motion, {rate, stations, kSettle, kSettle + length, 2.0 * kSettle + length}, held);
     std::ofstream out(parameters.param<std::string>("out", "/dev/stdout"), std::ios::app);
-    out << rate << "," << physics_rate << "," << all.size();
-    for (const double part : {0.0, 0.5, 0.99, 1.0}) out << "," << 1e3 * quantile(all, part);
-    out << std::endl;
+    std::ostringstream run;
+    run << rate << "," << hands << "," << stations;
+    add_row(out, run.str(), "bare loop", bare.latencies());
+    for (const bool is_display : {false, true}) {
+      const std::vector<Moment> seen = (is_display ? displayed : committed).seen();
+      const double offset = seen.empty() ? 0.0 : seen.back().x - (0.3 + kSpeed * length);  // in the end all are at rest
+      add_row(out, run.str(), is_display ? "displayed" : "committed", latencies(written, seen, offset));
+    }
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "latency: " << error.what() << std::endl;

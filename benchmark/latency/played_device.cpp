@@ -25,13 +25,17 @@ std::vector<Moment> play(fastrak::FastrakSimulator& simulator, const fastrak::Pl
   }
   std::vector<Moment> written;
   const double start = steady_now();
-  for (long cycle = 1; static_cast<double>(cycle) <= playing.until * playing.rate; ++cycle) {
-    const double t = static_cast<double>(cycle) / playing.rate;
+  const double cycles = playing.rate * playing.stations;  // [Hz]
+  for (long cycle = 1; static_cast<double>(cycle) <= playing.until * cycles; ++cycle) {
+    const double t = static_cast<double>(cycle) / cycles;
     simulator.serve(0.0);
     std::this_thread::sleep_until(steady_clock::time_point(
         std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(start + t))));
-    if (t > playing.begin && t < playing.end) written.push_back({steady_now(), motion.at(t).X.translation().x()});
+    const double begin = steady_now();
     simulator.measure(t);
+    // A record at the very begin says the same as those of the rest before it.
+    if (t > playing.begin + 0.5 / cycles && t < playing.end && simulator.device().last_station() == 1)
+      written.push_back({begin, motion.at(t).X.translation().x()});
   }
   return written;
 }

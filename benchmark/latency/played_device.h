@@ -17,12 +17,13 @@ double steady_now();  ///< [s]
 
 /// From and to when a motion goes evenly along x, and how long it is played, all in its own time [s].
 struct Playing {
-  double rate = 120.0;  ///< cycles of the device per second [Hz]
+  double rate = 120.0;  ///< records of each station per second [Hz]
+  int stations = 1;     ///< in use; they measure in turn
   double begin = 0.0, end = 0.0, until = 0.0;
 };
 
 /// Plays the device in real time, in which station 1 has `motion`; first it is served until `ready` says so. Gives the
-/// moments at which records of the moving hand were written.
+/// moments at which records of the moving station 1 were written.
 std::vector<Moment> play(fastrak::FastrakSimulator& simulator, const fastrak::PlayedMotion& motion,
                          const Playing& playing, const std::function<bool()>& ready);
 

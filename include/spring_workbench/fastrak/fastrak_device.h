@@ -38,10 +38,9 @@ class FastrakDevice {
 
   /// One cycle at time `t` [s]: the next active station measures. What is sent: a record in continuous mode.
   std::string measure(double t);
-
+  int last_station() const { return last_station_; }  ///< that measured last
   /// As at power-on: inches, ASCII, position and angles, polled.
   void reset();
-
   /// As another program may have left it: streaming inches in ASCII with the default list.
   void leave_in_another_mode();
 

@@ -29,7 +29,7 @@ class FastrakSimulator {
 
   /// One cycle at time `t` [s], later than the last one.
   void measure(double t);
-
+  const FastrakDevice& device() const { return device_; }
   std::size_t waiting() const { return waiting_.size(); }   ///< bytes that have not been read yet
   std::size_t records_sent() const { return sent_; }        ///< data records, whole or spoilt
   std::size_t records_dropped() const { return dropped_; }  ///< because they were not read

@@ -79,6 +79,41 @@ TEST(LookAhead, ASilentSecondHandDelaysNoPictureOfTheFirst) {
   }
 }
 
+/// Stations of one tracker measure in turn, one in a cycle. Each pose of the first hand is displayed in its own cycle,
+/// whatever the other stations do, and committed when the next one of each hand is there: with one hand after as many
+/// cycles as there are stations, with a second one, whose turn is next, after one more.
+TEST(LookAhead, StationsInTurnDelayTheDisplayByNothingAndTheCommittedByOneTurn) {
+  for (const auto& [stations, hands] : {std::pair(1, 1), {2, 1}, {2, 2}, {4, 1}, {4, 2}}) {
+    Bench bench;
+    int slowest = 0;
+    std::vector<int> uncommitted;  // cycles whose poses are
+    for (int cycle = 0; cycle < 200; ++cycle) {
+      const double t = cycle / 120.0;
+      const std::size_t station = static_cast<std::size_t>(cycle % stations);
+      HandEvents events;
+      if (station < static_cast<std::size_t>(hands)) {
+        if (cycle < stations) events[station].push_back(NewEpoch{});
+        if (cycle == stations) events[0].push_back(StylusButton{t, motion::Press::grasp});
+        events[station].push_back(pose_at(t, station == 0 ? hand_at(t) : right));
+      }
+      bench.commit(events, t);
+      bench.runner.show(0.0, {t, t});
+      if (station == 0) {
+        EXPECT_EQ(bench.runner.shown().time(), t) << stations << " stations, cycle " << cycle;
+        EXPECT_LT((bench.runner.shown().fork().X_WH.translation() - hand_at(t)).norm(), 1e-12) << cycle;
+        uncommitted.push_back(cycle);
+      }
+      const double committed = bench.runner.locked([](const auto& s) { return s.time(); });
+      while (!uncommitted.empty() && uncommitted.front() / 120.0 <= committed) {
+        slowest = std::max(slowest, cycle - uncommitted.front());
+        uncommitted.erase(uncommitted.begin());
+      }
+    }
+    EXPECT_EQ(slowest, stations + hands - 1) << stations << " stations";
+    EXPECT_LE(uncommitted.size(), 2u);
+  }
+}
+
 /// Hands whose epochs differ have stamps that differ by rounding: time goes on all the same.
 TEST(LookAhead, TwoHandsThatDifferByARoundingErrorGoOnTogether) {
   Bench bench;
