@@ -111,6 +111,7 @@ MapHandMotion map_hand_motion(MapHand hand, MapTail tail, double seconds, double
   }
   std::mt19937 engine(7);
   const auto random = [&] { return 2.0 * (static_cast<double>(engine()) + 0.5) / 4294967296.0 - 1.0; };
+  const std::size_t arrived = samples.size() - 1;
   const RigidTransform here = samples.back().X;
   const double size = tremor(tail);
   for (int i = 1, n = std::max(kLeastRests, static_cast<int>(std::lround(seconds / interval))); i <= n; ++i) {
@@ -122,19 +123,21 @@ MapHandMotion map_hand_motion(MapHand hand, MapTail tail, double seconds, double
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
     const bool gap = samples[i + 1].t - samples[i].t > kLongestHeld;
     // The hand's speed drops to zero as the gap begins, and its place changes where it ends.
-    if (gap) motion.rests.emplace_back(samples[i].t + step, samples[i + 1].t - step);
+    if (gap) motion.watched.push_back({samples[i].t + step, samples[i + 1].t - step});
     // Velocities come from three samples: a stretch rests where its neighbours do, too.
     const std::size_t last = std::min(i + 2, samples.size() - 1);
     if (gap || i == 0 || !same(samples[i - 1], samples[i]) || !same(samples[i], samples[i + 1]) ||
         !same(samples[i + 1], samples[last])) {
       continue;
     }
-    if (!motion.rests.empty() && motion.rests.back().second == samples[i].t) {
-      motion.rests.back().second = samples[i + 1].t;
+    if (!motion.watched.empty() && motion.watched.back().end == samples[i].t) {
+      motion.watched.back().end = samples[i + 1].t;
     } else {
-      motion.rests.emplace_back(samples[i].t, samples[i + 1].t);
+      motion.watched.push_back({samples[i].t, samples[i + 1].t});
     }
   }
+  // From the second sample at the new place on, three neighbours have the same attitude.
+  if (size > 0.0) motion.watched.push_back({samples[arrived + 1].t, samples.back().t, false});
   return motion;
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "spring_workbench/motion/pose_track.h"
@@ -27,10 +26,16 @@ enum class MapTail {
 };
 std::string name_of(MapTail tail);
 
-/// The samples of a hand, and when it rests for certain: from one end of a step to another.
+/// From one end of a step to another [s].
+struct WatchedTime {
+  double begin = 0.0, end = 0.0;
+  bool rests = true;  ///< for certain; else the hand trembles, and does not turn for certain
+};
+
+/// The samples of a hand, and when it rests or does not turn, in order.
 struct MapHandMotion {
   std::vector<motion::PoseSample> samples;
-  std::vector<std::pair<double, double>> rests;  ///< begin, end [s]
+  std::vector<WatchedTime> watched;
 };
 
 /// Sampled every `interval` [s], for a simulation in steps of `step` [s]; `seconds` of `tail`.

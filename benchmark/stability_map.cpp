@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "benchmark/contact/processor_time.h"
+#include "benchmark/energy_watch.h"
 #include "benchmark/parallel.h"
 #include "benchmark/simulated_rod.h"
 #include "spring_workbench/dynamics/integrator.h"
@@ -21,7 +22,6 @@ constexpr double kFlight = 400.0;          // m/s; beside what an object on no s
 constexpr double kFall = 0.5 * 9.81;       // m/s²; and falls
 constexpr double kTrackerInterval = 0.02;  // s
 constexpr double kWatchedSteps = 20.0;
-constexpr double most_estimated = 0.01;    // of the largest energy: steps that say they err by more do not excuse it
 constexpr std::size_t kFailuresKept = 12;  // of an integrator and a shape
 
 RodCase case_of(const StabilityCell& cell) {
@@ -36,34 +36,6 @@ RodCase case_of(const StabilityCell& cell) {
   return one;
 }
 
-/// Watches the energy while the hand rests: elastic, kinetic and potential. Growth is relative to the largest of
-/// elastic and kinetic energy in that time plus the body's weight times the fork's length, the least that still means
-/// something.
-class EnergyWatch {
- public:
-  EnergyWatch(double weight, double length) : weight_(weight), largest_(weight * length) {}
-
-  /// `estimated`: the sum of the errors in energy that the steps since the last look say they have [J].
-  void look(const simulation::Simulation& simulation, double estimated) {
-    const tools::ToolState fork = simulation.fork();
-    const double moving = fork.elastic_energy + fork.kinetic_energy;
-    const double energy = moving + weight_ * simulation.objects()[0].X_WO.translation().z();
-    largest_ = std::max(largest_, moving);
-    estimated_ += estimated;
-    growth_ = std::max(growth_, energy - lowest_ - std::min(estimated_, most_estimated * largest_));
-    if (energy > lowest_) return;
-    lowest_ = energy;
-    estimated_ = 0.0;
-  }
-  double relative_growth() const { return growth_ > 0.0 ? growth_ / largest_ : 0.0; }
-
- private:
-  double weight_, largest_;
-  double lowest_ = std::numeric_limits<double>::infinity();
-  double estimated_ = 0.0;
-  double growth_ = 0.0;
-};
-
 /// Advances the simulation and looks at what comes out.
 class CellRun {
  public:
@@ -73,9 +45,9 @@ class CellRun {
         explicit_(
             !dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(integrator, "map", "integrator"))
                  ->stiffly_stable()),
-        has_energy_(
-            dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(integrator, "map", "integrator"))
-                ->solves_the_equation_of_motion()),
+        energy_(dynamics::make_integrator(validation::named<dynamics::IntegratorKind>(integrator, "map", "integrator"))
+                    ->energy()),
+        p_HO_(one.fork.length * Vector3d::UnitZ() - one.p_OE),
         hand_goes_on_(hand_goes_on) {
     for (const motion::PoseSample& sample : hand) simulation_.push_stylus(sample);
   }
@@ -99,18 +71,28 @@ class CellRun {
     return outcome_.bounded && !left_;
   }
 
-  const simulation::Simulation& simulation() const { return simulation_; }
-  bool has_energy() const { return has_energy_; }  ///< that of the equation of motion
+  dynamics::Integrator::Energy energy() const { return energy_; }
   StabilityOutcome& outcome() { return outcome_; }
-  double estimated() const { return estimated_; }  ///< error in energy of the last advance() [J]
+  /// Where the last advance() has come to.
+  EnergyLook look() const {
+    const tools::ToolState fork = simulation_.fork();
+    const bodies::BodyState& object = simulation_.objects()[0];
+    const Vector3d p = object.X_WO.translation();
+    return {
+        simulation_.time(), fork.elastic_energy + fork.kinetic_energy, p, object.V_WO_W.linear, p - fork.X_WH * p_HO_,
+        estimated_};
+  }
 
  private:
   simulation::Simulation simulation_;
-  bool explicit_, has_energy_, hand_goes_on_;
+  bool explicit_;
+  dynamics::Integrator::Energy energy_;
+  Vector3d p_HO_;  ///< the object's centre of mass in the handle's frame, were the fork rigid [m]
+  bool hand_goes_on_;
   bool left_ =
       false;  ///< an explicit method has left what a rod can have: what another rule makes of it is not its own
   StabilityOutcome outcome_;
-  double estimated_ = 0.0;
+  double estimated_ = 0.0;  ///< error in energy of the last advance() [J]
 };
 
 std::string families_name(const rod::ForkDofs& dofs) {
@@ -147,6 +129,7 @@ void add(const StabilityCell& cell, const StabilityOutcome& outcome, StabilityRo
   row.finite += outcome.finite;
   row.bounded += outcome.bounded;
   row.energy_kept += outcome.energy_kept();
+  row.energy_judged += outcome.energy_judged;
   row.none_refused += outcome.refused == 0;
   row.held += outcome.held();
 }
@@ -190,7 +173,7 @@ StabilityMap map_of_cells(const StabilityPlan& plan, const std::string& integrat
 
 bool worse(const StabilityOutcome& a, const StabilityOutcome& b) {
   const auto badness = [](const StabilityOutcome& o) {
-    return std::tuple(!o.finite, !o.bounded, o.energy_kept() ? 0.0 : o.energy_growth, o.refused);
+    return std::tuple(!o.finite, !o.bounded, !o.energy_kept(), o.energy_kept() ? 0.0 : o.energy_growth, o.refused);
   };
   return badness(a) > badness(b);
 }
@@ -237,7 +220,27 @@ std::vector<StabilityCell> cells_of(const StabilityPlan& plan, const std::string
 
 namespace {
 
+/// Times to look at between `begin` and `end` [s], both included: of a hand at rest every step at first, and then every
+/// 20 ms, since what has grown stays above the lowest; else every end of a step.
+std::vector<double> looks_of(const MapHandMotion& hand, double begin, double end, double step, bool rests) {
+  std::vector<double> looks;
+  if (rests) {
+    for (double t = begin; t < end + 1e-9; t += t - begin < kWatchedSteps * step ? step : kTrackerInterval)
+      looks.push_back(t);
+    return looks;
+  }
+  for (std::size_t i = 0; i + 1 < hand.samples.size(); ++i) {
+    const double from = hand.samples[i].t, to = hand.samples[i + 1].t;
+    if (from < begin) continue;
+    const int steps = static_cast<int>(std::ceil((to - from) / step * (1.0 - 1e-9)));
+    for (int j = 0; j < steps; ++j) looks.push_back(from + (to - from) * j / steps);
+  }
+  looks.push_back(end);
+  return looks;
+}
+
 void follow(const RodCase& one, const MapHandMotion& hand, double step, CellRun& run) {
+  using Energy = dynamics::Integrator::Energy;
   double reached = 0.0;
   const auto go_to = [&](double t) {
     const int looks = std::max(1, static_cast<int>(std::ceil((t - reached) / kTrackerInterval)));
@@ -247,17 +250,23 @@ void follow(const RodCase& one, const MapHandMotion& hand, double step, CellRun&
     reached = t;
     return true;
   };
-  for (const auto& [begin, end] : hand.rests) {
+  motion::PoseTrack track;
+  for (const motion::PoseSample& sample : hand.samples) track.push(sample);
+  StabilityOutcome& outcome = run.outcome();
+  for (const auto& [begin, end, rests] : hand.watched) {
     if (!go_to(begin)) return;
-    EnergyWatch watch(one.mass * 9.81, one.fork.length);
-    // Every step at first, and then every 20 ms: what has grown stays above the lowest.
-    for (reached = begin; reached < end + 1e-9;
-         reached += reached - begin < kWatchedSteps * step ? step : kTrackerInterval) {
-      if (!run.advance(reached)) return;
-      if (one.mass > 0.0 && run.has_energy()) watch.look(run.simulation(), run.estimated());
+    EnergyWatch watch(one.mass, one.fork.length);
+    double last = begin;
+    for (const double t : looks_of(hand, begin, end, step, rests)) {
+      if (!run.advance(t)) return;
+      watch.look(run.look(), track.segment(0.5 * (last + t)));
+      last = t;
     }
     reached = end;
-    run.outcome().energy_growth = std::max(run.outcome().energy_growth, watch.relative_growth());
+    if (one.mass == 0.0 || run.energy() == Energy::of_its_own || !watch.is_certain()) continue;
+    outcome.energy_growth = std::max(outcome.energy_growth, watch.growth());
+    if (run.energy() == Energy::kept) outcome.energy_estimated = std::max(outcome.energy_estimated, watch.estimates());
+    outcome.energy_judged = end == hand.samples.back().t;
   }
   if (hand.samples.back().t > reached) go_to(hand.samples.back().t);
 }
@@ -310,14 +319,15 @@ StabilityMap stability_map(const StabilityPlan& plan, Units& units) {
 
 std::string stability_csv(const StabilityMap& map) {
   std::ostringstream out;
-  out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,cells,finite,bounded,energy_kept,none_refused,"
+  out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,cells,finite,bounded,energy_judged,energy_kept,"
+         "none_refused,"
          "held,cannot_fail,real_time,three_times,steps,stops,steps_fallback\n";
   for (const StabilityRow& row : map.rows) {
     out << row.integrator << ',' << row.shape << ',' << row.stiffness_factor << ',' << row.mass << ',' << row.step
         << ',' << row.damping_ratio << ',' << row.cells << ',' << row.finite << ',' << row.bounded << ','
-        << row.energy_kept << ',' << row.none_refused << ',' << row.held << ',' << row.cannot_fail << ','
-        << row.real_time << ',' << row.three_times << ',' << row.steps << ',' << row.stops << ',' << row.fallback
-        << '\n';
+        << row.energy_judged << ',' << row.energy_kept << ',' << row.none_refused << ',' << row.held << ','
+        << row.cannot_fail << ',' << row.real_time << ',' << row.three_times << ',' << row.steps << ',' << row.stops
+        << ',' << row.fallback << '\n';
   }
   return out.str();
 }
@@ -325,13 +335,14 @@ std::string stability_csv(const StabilityMap& map) {
 std::string failures_csv(const StabilityMap& map) {
   std::ostringstream out;
   out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,families,hand,tail,seconds,finite,bounded,"
-         "energy_growth,steps_refused,steps,stops,steps_fallback,processor_time\n";
+         "energy_judged,energy_growth,energy_estimated,steps_refused,steps,stops,steps_fallback,processor_time\n";
   for (const StabilityRun& f : map.failures) {
     out << f.integrator << ',' << f.shape << ',' << f.cell.stiffness_factor << ',' << f.cell.mass << ',' << f.cell.step
         << ',' << f.cell.damping_ratio << ',' << families_name(f.cell.families) << ',' << name_of(f.cell.hand) << ','
         << name_of(f.cell.tail) << ',' << f.cell.seconds << ',' << f.outcome.finite << ',' << f.outcome.bounded << ','
-        << f.outcome.energy_growth << ',' << f.outcome.refused << ',' << f.outcome.steps << ',' << f.outcome.stops
-        << ',' << f.outcome.fallback << ',' << f.outcome.processor << '\n';
+        << f.outcome.energy_judged << ',' << f.outcome.energy_growth << ',' << f.outcome.energy_estimated << ','
+        << f.outcome.refused << ',' << f.outcome.steps << ',' << f.outcome.stops << ',' << f.outcome.fallback << ','
+        << f.outcome.processor << '\n';
   }
   return out.str();
 }

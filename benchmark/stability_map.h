@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/energy_watch.h"
 #include "benchmark/map_hand.h"
 #include "benchmark/rod_case.h"
 #include "benchmark/units.h"
@@ -44,14 +45,15 @@ struct StabilityCell {
 
 /// What came of it.
 struct StabilityOutcome {
-  bool finite = true;          ///< pose and twist of the object
-  bool bounded = true;         ///< no further from the hand than free flight may be (see the .cpp)
-  double energy_growth = 0.0;  ///< largest growth while the hand rests beyond the steps' own estimates of their
-                               ///< errors, over the largest energy then (see the .cpp)
-  int refused = 0;             ///< steps not taken, or of an explicit method stopped or done by the L-stable rule
+  bool finite = true;             ///< pose and twist of the object
+  bool bounded = true;            ///< no further from the hand than free flight may be (see the .cpp)
+  double energy_growth = 0.0;     ///< largest growth while the hand does not turn (EnergyWatch::growth)
+  double energy_estimated = 0.0;  ///< what the steps of an integrator that keeps its energy say of their errors then
+  bool energy_judged = false;     ///< to the end, and the hand's work was known well enough
+  int refused = 0;                ///< steps not taken, or of an explicit method stopped or done by the L-stable rule
   int steps = 0, stops = 0, fallback = 0;  ///< of the integrator; that met a stop; done by the L-stable rule
   double processor = 0.0;                  ///< time over simulated time
-  bool energy_kept() const { return energy_growth <= 1e-9; }
+  bool energy_kept() const { return energy_growth <= 1e-9 && energy_estimated <= EnergyWatch::most_share; }
   bool held() const { return finite && bounded && energy_kept() && refused == 0; }
 };
 
@@ -67,7 +69,7 @@ struct StabilityRow {
   std::string integrator, shape;
   double stiffness_factor = 0.0, mass = 0.0, step = 0.0, damping_ratio = 0.0;
   int cannot_fail = 0;  ///< cells that were drawn beside
-  int cells = 0, finite = 0, bounded = 0, energy_kept = 0, none_refused = 0, held = 0;
+  int cells = 0, finite = 0, bounded = 0, energy_judged = 0, energy_kept = 0, none_refused = 0, held = 0;
   int real_time = 0, three_times = 0;  ///< processor time below the simulated time; below three times that
   double steps = 0.0, stops = 0.0, fallback = 0.0;
 };
@@ -75,8 +77,8 @@ struct StabilityRow {
 template <typename Fields>
 void each_field(StabilityRow& r, Fields& fields) {
   fields(r.integrator, r.shape, r.stiffness_factor, r.mass, r.step, r.damping_ratio, r.cells, r.finite, r.bounded,
-         r.energy_kept, r.none_refused, r.held, r.cannot_fail, r.real_time, r.three_times, r.steps, r.stops,
-         r.fallback);
+         r.energy_judged, r.energy_kept, r.none_refused, r.held, r.cannot_fail, r.real_time, r.three_times, r.steps,
+         r.stops, r.fallback);
 }
 
 /// A cell and what came of it.
@@ -91,7 +93,7 @@ void each_field(StabilityRun& f, Fields& fields) {
   StabilityOutcome& o = f.outcome;
   fields(f.integrator, f.shape, c.stiffness_factor, c.mass, c.step, c.damping_ratio, c.families.stretch,
          c.families.bend, c.families.torsion, c.hand, c.tail, c.seconds, o.finite, o.bounded, o.energy_growth,
-         o.refused, o.steps, o.stops, o.fallback, o.processor);
+         o.energy_estimated, o.energy_judged, o.refused, o.steps, o.stops, o.fallback, o.processor);
 }
 
 struct StabilityMap {

@@ -292,6 +292,7 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
       if (row.integrator != name) continue;
       sum.cells += row.cells;
       sum.held += row.held;
+      sum.energy_judged += row.energy_judged;
       sum.stops += row.stops;
       sum.fallback += row.fallback;
       sum.steps += row.steps;
@@ -299,7 +300,8 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
     if (sum.cells == 0) continue;
     const auto kind = validation::named<dynamics::IntegratorKind>(name, "benchmark", "integrator");
     const std::string figure = std::to_string(sum.held) + " of " + std::to_string(sum.cells) + " cells hold, " +
-                               std::to_string(sum.cells - sum.held) + " do not; of " + text(sum.steps) + " steps " +
+                               std::to_string(sum.cells - sum.held) + " do not (energy was judged to the end in " +
+                               std::to_string(sum.energy_judged) + "); of " + text(sum.steps) + " steps " +
                                text(sum.fallback) + " by the fallback, " + text(sum.stops) + " at a stop";
     const std::string claim = "Stability map, " + name;
     if (has_own_law(name)) {
@@ -308,8 +310,9 @@ void stability(const Measurements& m, std::vector<Verdict>& out) {
     } else if (dynamics::make_integrator(kind)->stiffly_stable()) {
       out.push_back(
           judged(claim,
-                 "every cell stays finite and within reach, no step is refused, and no energy is gained while "
-                 "the hand rests (while it trembles or moves energy is not judged)",
+                 "every cell stays finite and within reach, no step is refused, and, while the hand rests or trembles, "
+                 "no energy is gained beyond the hand's work but what the steps estimate, a hundredth at most (not "
+                 "judged while the hand turns, and where its work is not known to a hundredth)",
                  figure, sum.held == sum.cells));
     } else {
       out.push_back({claim + " (a baseline with a stability limit)", "none", figure, Verdict::Result::not_measured});

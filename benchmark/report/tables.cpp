@@ -139,6 +139,7 @@ std::string map_summary_csv(const StabilityMap& map) {
     sum.cells += row.cells;
     sum.finite += row.finite;
     sum.bounded += row.bounded;
+    sum.energy_judged += row.energy_judged;
     sum.energy_kept += row.energy_kept;
     sum.none_refused += row.none_refused;
     sum.held += row.held;
@@ -150,13 +151,14 @@ std::string map_summary_csv(const StabilityMap& map) {
     sum.fallback += row.fallback;
   }
   std::ostringstream csv;
-  csv << "integrator,shape,cells,finite,bounded,energy kept,no step refused,all of these,faster than real "
+  csv << "integrator,shape,cells,finite,bounded,energy judged,energy kept,no step refused,all of these,faster than "
+         "real "
          "time,below three times that,steps,stops,steps_fallback,cells that cannot fail\n";
   for (const StabilityRow& sum : sums) {
     csv << sum.integrator << ',' << sum.shape << ',' << sum.cells << ',' << sum.finite << ',' << sum.bounded << ','
-        << sum.energy_kept << ',' << sum.none_refused << ',' << sum.held << ',' << sum.real_time << ','
-        << sum.three_times << ',' << sum.steps << ',' << sum.stops << ',' << sum.fallback << ',' << sum.cannot_fail
-        << '\n';
+        << sum.energy_judged << ',' << sum.energy_kept << ',' << sum.none_refused << ',' << sum.held << ','
+        << sum.real_time << ',' << sum.three_times << ',' << sum.steps << ',' << sum.stops << ',' << sum.fallback << ','
+        << sum.cannot_fail << '\n';
   }
   return csv.str();
 }
