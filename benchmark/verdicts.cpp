@@ -444,7 +444,9 @@ std::vector<Verdict> verdicts(const Measurements& measured) {
   stability(measured, out);
   const double limit = measured.quick ? 60.0 : 1200.0;
   out.push_back(judged(measured.quick ? "report --quick" : "report", "under " + text(limit / 60.0) + " min",
-                       text(measured.seconds) + " s", measured.seconds < limit));
+                       text(measured.seconds) + " s from its begin to the last picture, " +
+                           text(measured.processor_seconds) + " s of processor time",
+                       measured.seconds < limit));
   return out;
 }
 

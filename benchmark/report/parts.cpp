@@ -1,5 +1,8 @@
 #include "benchmark/report/parts.h"
 
+#include <sys/resource.h>
+#include <sys/time.h>
+
 #include <algorithm>
 #include <fstream>
 #include <set>
@@ -13,13 +16,14 @@ struct Head {
   std::string first = kFirst;
   Shard shard;
   bool quick = false;
-  double seconds = 0.0;
+  RunTime time;
   std::string warning;
   std::size_t facts = 0, units = 0;
 };
 template <typename Fields>
 void each_field(Head& h, Fields& fields) {
-  fields(h.first, h.shard.index, h.shard.count, h.quick, h.seconds, h.warning, h.facts, h.units);
+  fields(h.first, h.shard.index, h.shard.count, h.quick, h.time.begun, h.time.ended, h.time.processor, h.warning,
+         h.facts, h.units);
 }
 
 /// What stands before the rows of a unit.
@@ -64,7 +68,7 @@ ReportPart read_part(const std::string& path) {
   if (head.first != kFirst || head.shard.count == 0 || head.shard.index - 1 >= head.shard.count) {
     validation::refuse(file.where(), "first line", head.first, "one that report --shard writes");
   }
-  ReportPart part{head.shard, head.quick, head.seconds, head.warning, {}, {}};
+  ReportPart part{head.shard, head.quick, head.time, head.warning, {}, {}};
   for (std::size_t i = 0; i < head.facts; ++i) part.facts.push_back(file.row<RunFact>());
   for (std::size_t i = 0; i < head.units; ++i) {
     const UnitHead unit = file.row<UnitHead>();
@@ -83,8 +87,24 @@ void join(const std::string& text, std::string& all) {
 
 }  // namespace
 
+RunTime run_time_now() {
+  const auto seconds = [](const timeval& t) {
+    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
+  };
+  RunTime time;
+  timeval clock{};
+  gettimeofday(&clock, nullptr);
+  time.ended = seconds(clock);
+  for (const int whose : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
+    rusage used{};
+    getrusage(whose, &used);
+    time.processor += seconds(used.ru_utime) + seconds(used.ru_stime);
+  }
+  return time;
+}
+
 void write_part(const ReportPart& part, std::ostream& out) {
-  const Head head{kFirst, part.shard, part.quick, part.seconds, part.warning, part.facts.size(), part.rows.size()};
+  const Head head{kFirst, part.shard, part.quick, part.time, part.warning, part.facts.size(), part.rows.size()};
   out << row_text(head) << '\n';
   for (const RunFact& fact : part.facts) out << row_text(fact) << '\n';
   for (const auto& [name, rows] : part.rows) {
@@ -109,7 +129,9 @@ ReportPart read_parts(const std::vector<std::string>& paths) {
       validation::refuse(path, "shard", name, "of the same report as the others");
     }
     if (!seen.insert(part.shard.index).second) validation::refuse(path, "shard", name + " again", "given once");
-    all.seconds = std::max(all.seconds, part.seconds);
+    all.time.begun = seen.size() == 1 ? part.time.begun : std::min(all.time.begun, part.time.begun);
+    all.time.ended = std::max(all.time.ended, part.time.ended);
+    all.time.processor += part.time.processor;
     join(part.warning, all.warning);
     for (std::size_t i = 0; i < part.facts.size(); ++i) join(part.facts[i].value, all.facts[i].value);
     all.rows.insert(part.rows.begin(), part.rows.end());

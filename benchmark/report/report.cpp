@@ -7,6 +7,7 @@
 #include <iomanip>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "benchmark/our_methods.h"
 #include "benchmark/peers.h"
@@ -78,10 +79,10 @@ Measurements measure(const Plan& plan, const std::vector<const Method*>& methods
   return measured;
 }
 
-/// Tables, pictures and the page.
-void write_report(const Measurements& measured, PageContents page, const std::string& folder, std::ostream& out,
-                  std::ostream& log) {
-  const std::vector<Verdict> judged = verdicts(measured);
+/// Tables, pictures and the page. The shards, or this process so far, took `measuring`; `begun`: since when this
+/// process has done what is not in that [s].
+void write_report(Measurements measured, const RunTime& measuring, const RunTime& begun, PageContents page,
+                  const std::string& folder, std::ostream& out, std::ostream& log) {
   const std::string header = as_csv_header(page.facts);
   Tables tables;
   const auto keep = [&](const std::string& name, const std::string& csv) {
@@ -93,7 +94,6 @@ void write_report(const Measurements& measured, PageContents page, const std::st
   tables.map = keep("stability_map.csv", stability_csv(measured.map));
   tables.extremes = keep("contact_extremes.csv", extremes_csv(measured.extremes));
   keep("stability_failures.csv", failures_csv(measured.map));
-  keep("verdicts.csv", verdicts_csv(judged));
   if (!measured.quick) keep("stability_counts.csv", stability_counts_csv(measured.stability_counts));
   keep("step_cost.csv", step_cost_csv(measured.step_costs));
   keep("fork_curve.csv", fork_curves_csv(measured.fork_curves));
@@ -101,7 +101,13 @@ void write_report(const Measurements& measured, PageContents page, const std::st
   tables.impacts = keep("contact_impact.csv", impacts_csv(measured.contact.impacts));
   tables.world_steps = keep("contact_steps.csv", world_steps_csv(measured.contact.world_steps));
   keep("contact_costs.csv", contact_costs_csv(measured.contact.costs));
-  page.sections = page_sections(measured, judged, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), tables, folder);
+  page.sections = page_sections(measured, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), tables, folder);
+  const RunTime now = run_time_now();
+  measured.seconds = measuring.ended - measuring.begun + now.ended - begun.ended;
+  measured.processor_seconds = measuring.processor + now.processor - begun.processor;
+  const std::vector<Verdict> judged = verdicts(measured);
+  keep("verdicts.csv", verdicts_csv(judged));
+  page.sections.insert(page.sections.begin(), verdicts_section(judged));
   const std::string path = write_file(folder, "report.html", html_page(page));
   print(judged, out);
   log << "wrote " << path << '\n';
@@ -110,6 +116,7 @@ void write_report(const Measurements& measured, PageContents page, const std::st
 }  // namespace
 
 void make_report(const ReportOptions& options, const std::string& command, std::ostream& out, std::ostream& log) {
+  const RunTime begun = run_time_now();
   const bool merging = !options.parts.empty();
   ReportPart part;
   if (merging) part = read_parts(options.parts);
@@ -139,14 +146,17 @@ void make_report(const ReportOptions& options, const std::string& command, std::
     validation::refuse("shards", "unit", units.kept().begin()->first,
                        "one that this report has: same build, same peers, same recordings");
   }
-  if (!merging) part.seconds = progress.elapsed();
+  if (!merging) {
+    part.time = run_time_now();
+    part.time.begun = begun.ended;
+  }
   if (options.shard) {
     part.rows = units.kept();
     write_part(part, out);
     return;
   }
-  measured.seconds = part.seconds;
-  write_report(measured, {part.facts, part.warning, {}}, options.out, out, log);
+  write_report(std::move(measured), part.time, merging ? begun : part.time, {part.facts, part.warning, {}}, options.out,
+               out, log);
 }
 
 }  // namespace spring_workbench::benchmark

@@ -200,12 +200,16 @@ PageSection contact_section(const ContactTable& contact, const Tables& tables, c
 
 }  // namespace
 
-std::vector<PageSection> page_sections(const Measurements& measured, const std::vector<Verdict>& judged,
-                                       double elastica_difference, const Tables& tables, const std::string& folder) {
+PageSection verdicts_section(const std::vector<Verdict>& judged) {
   PageSection verdict;
   verdict.title = "Verdicts";
   verdict.text = "What was promised, what was measured in this run.";
   verdict.tables.push_back({"", verdicts_csv(judged), false});
+  return verdict;
+}
+
+std::vector<PageSection> page_sections(const Measurements& measured, double elastica_difference, const Tables& tables,
+                                       const std::string& folder) {
   PageSection costs;
   costs.title = "What each part of a step costs";
   costs.text =
@@ -213,7 +217,6 @@ std::vector<PageSection> page_sections(const Measurements& measured, const std::
       "runs [ns].";
   costs.tables.push_back({"", step_cost_csv(measured.step_costs), false});
   const std::vector<std::function<PageSection()>> sections = {
-      [&] { return verdict; },
       [&] { return scenes_section(measured, tables, folder); },
       [&] { return rods_section(measured, tables, folder); },
       [&] { return shapes_section(measured, elastica_difference, tables, folder); },

@@ -97,11 +97,18 @@ TEST(Shards, MergedTheyAreTheWholeHoweverManyThereAre) {
       work.tables(units);
       idle += units.kept().empty();
       paths.push_back(written(folder, std::to_string(i),
-                              text_of({{i, count}, true, 1.0 * static_cast<double>(i), "", {}, units.kept()})));
+                              text_of({{i, count},
+                                       true,
+                                       {100.0 - static_cast<double>(i), 100.0 + static_cast<double>(i), 1.0},
+                                       "",
+                                       {},
+                                       units.kept()})));
     }
     EXPECT_EQ(idle > 0, count == 50);  // more shards than work: some have none, and are merged as all others
     ReportPart parts = read_parts(paths);
-    EXPECT_EQ(parts.seconds, static_cast<double>(count));
+    EXPECT_EQ(parts.time.begun, 100.0 - static_cast<double>(count));
+    EXPECT_EQ(parts.time.ended, 100.0 + static_cast<double>(count));
+    EXPECT_EQ(parts.time.processor, static_cast<double>(count));
     Units merging(progress, std::move(parts.rows));
     EXPECT_EQ(work.tables(merging), whole);
     EXPECT_TRUE(merging.kept().empty());
@@ -133,7 +140,7 @@ TEST(Shards, EveryBitOfARowComesBack) {
 TEST(Shards, WhatIsNotAllShardsOfOneReportIsRefused) {
   const RowsByUnit rows = {{"a unit", UnitRows{{row_text(StabilityCount{"rk4", "A", 1, 2, 3, 4})}, ""}}};
   const auto part = [&](std::size_t i, std::size_t count, bool quick) {
-    return text_of({{i, count}, quick, 1.0, "", {{"machine", "this"}}, rows});
+    return text_of({{i, count}, quick, {}, "", {{"machine", "this"}}, rows});
   };
   const TemporaryFolder folder;
   const std::string one = written(folder, "one", part(1, 2, true)), two = written(folder, "two", part(2, 2, true));
