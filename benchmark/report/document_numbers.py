@@ -28,7 +28,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESULTS = "benchmark/results"
-DOCUMENTS = ["README.md", "benchmark/README.md", "doc/*.md"]
+DOCUMENTS = ["README.md", "benchmark/README.md", "benchmark/contact/README.md", "doc/*.md"]
 MARKER = re.compile(
     r"<!--\s*(the|max|min|mean|count)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?(?:\s+times\s+([-+.\deE]+))?\s*-->"
 )
