@@ -75,19 +75,20 @@ ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, U
   ContactTable table;
   const std::vector<DragMethod> methods = all_drags(peers);
   std::size_t number = 0;
-  for (const double factor : factors(quick)) {
-    for (const Line& line : lines_of(methods)) {
-      for (const double step : steps()) {
+  for (const double factor : factors(quick)) {  // a stiffness is one shard's, and its methods take turns
+    for (const double step : steps()) {
+      for (const Line& line : lines_of(methods)) {
         DragScene scene;
         scene.stiffness_factor = factor;
         scene.turns = line.turns;
         std::ostringstream name;
         name << "drag × " << factor << (line.turns ? ", " : ", cannot turn, ") << step << " s, " << line.method->name;
         const auto rows = units.rows<DragRow>(
-            number++, name.str(), [&] { return std::vector{isolated_drag(*line.method, scene, step, quick ? 1 : 3)}; });
+            number, name.str(), [&] { return std::vector{isolated_drag(*line.method, scene, step, quick ? 1 : 3)}; });
         table.drags.insert(table.drags.end(), rows.begin(), rows.end());
       }
     }
+    ++number;
   }
   table.impacts = units.rows<ImpactRow>(number++, "search for the pose of contact",
                                         [&] { return measure_impact_search(quick ? 60 : 500); });
