@@ -111,6 +111,11 @@ void bind_report(py::module_& module) {
       .def_readonly("position_error", &AdvanceReport::position_error, "Largest estimate of a step's local error [m].")
       .def_readonly("angle_error", &AdvanceReport::angle_error,
                     "Largest estimate of a step's local error in the angle [rad].")
+      .def_readonly("error_bound", &AdvanceReport::error_bound, "Largest bound of the run's error in position [m].")
+      .def_readonly("angle_error_bound", &AdvanceReport::angle_error_bound,
+                    "Largest bound of the run's error in angle [rad].")
+      .def_readonly("steps_unbounded", &AdvanceReport::steps_unbounded,
+                    "Steps for which there is no bound, in contact for example.")
       .def_readonly("energy_added", &AdvanceReport::energy_added,
                     "Energy added by the integration beyond hand, gravity, contact and damping [J].")
       .def_readonly("stiffest_omega_dt", &AdvanceReport::stiffest_omega_dt,

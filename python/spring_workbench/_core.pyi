@@ -204,6 +204,15 @@ class Report:
     def angle_error(self) -> float:
         """Largest estimate of a step's local error in the angle [rad]."""
     @property
+    def error_bound(self) -> float:
+        """Largest bound of the run's error in position [m]."""
+    @property
+    def angle_error_bound(self) -> float:
+        """Largest bound of the run's error in angle [rad]."""
+    @property
+    def steps_unbounded(self) -> int:
+        """Steps for which there is no bound, in contact for example."""
+    @property
     def energy_added(self) -> float:
         """Energy added by the integration beyond hand, gravity, contact and damping [J]."""
     @property

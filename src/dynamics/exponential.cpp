@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "by_size.h"
+#include "error_spread.h"
 #include "modal_decomposition.h"
 #include "spring_workbench/math/anderson_mixer.h"
 #include "spring_workbench/math/exponential_collocation.h"
@@ -33,6 +34,8 @@ constexpr double slow_convergence = 0.7;
 constexpr double forget_rate = 1.3;
 /// The last step's polynomial is extrapolated to a step of this many times its length, and no further.
 constexpr double farthest_extrapolated = 1.5;
+/// What the bound of an error allows for, of what further iterations would change.
+constexpr double share_of_iterations = 0.5;
 /// Of the step: the start of a step and the end of the last one are the same moment.
 constexpr double same_time = 1e-9;
 
@@ -47,6 +50,7 @@ class Exponential::Core {
                             StrainState& state) = 0;
   virtual bool response(const HeldBody& body, double h, Response& r) = 0;
   virtual void carry(StrainState& deviation) const = 0;
+  virtual void follow(const HeldBody& body, RunError& error) = 0;
   virtual void exchange(math::StateArchive& state) = 0;
 };
 
@@ -85,10 +89,37 @@ class Exponential::CoreOf final : public Core {
     deviation = {y.template head<n>(), y.template tail<n>()};
   }
 
+  void follow(const HeldBody& body, RunError& run) override { follow_error(body, run); }
+  /// The estimate goes along the equation, linear part and one iteration; the spread grows by what is left out.
+  SPRING_WORKBENCH_WIDE void follow_error(const HeldBody& body, RunError& run) {
+    Modes begin;
+    begin << run.estimate.q, run.estimate.q_dot;
+    const NodeModes missed_at_nodes = collocation_.effect(defect_);
+    NodeModes guess = collocation_.carried_in_modes(collocation_.in_modes(begin)), e, x;
+    for (int m = 0; m < 2 * n; ++m) {
+      guess[at(m)] -= missed_at_nodes[at(m)];
+      x[at(m)] = done_.x[at(m)] - guess[at(m)];
+    }
+    NodeStrains r = residual(body, done_.forcing, done_.q0, done_.q_dot0, x);
+    for (int i = 0; i < n; ++i) r[at(i)] = done_.residual[at(i)] - r[at(i)];
+    collocation_.drive(guess, collocation_.in_modes(r), e);
+    const Modes end = collocation_.deviation(at_end(e));
+    run.estimate = {end.template head<n>(), end.template tail<n>()};
+    for (int m = 0; m < 2 * n; ++m) e[at(m)] -= guess[at(m)];
+    const double left = rate_ < 1.0 ? rate_ / (1.0 - rate_) : std::numeric_limits<double>::infinity();
+    const double missed = spread_.amplitude(collocation_, missed_at_nodes)[last],
+                 changed = spread_.amplitude(collocation_, e)[last];
+    run.unsure = missed +
+                 math::largest(spread_.amplitude(collocation_, collocation_.effect_of_highest_degree(defect_))) +
+                 share_of_iterations * left * (missed + changed);
+    spread_.carry(collocation_, run);
+  }
+
   void exchange(math::StateArchive& state) override {
     state(version_);
     if (version_ < 0) return;  // nothing derived yet
     state(collocation_, model_, rate_, squared_error_, slow_iterations_, last_h_, t_end_, end_);
+    if (state.sets()) spread_.set(collocation_.modes());
   }
 
  private:
@@ -105,6 +136,7 @@ class Exponential::CoreOf final : public Core {
     const ModalDecomposition found = modal_decomposition(body, handle, q);
     if (version_ == body.version() && !(found.to_modes.allFinite() && found.from_modes.allFinite())) return;
     collocation_.set(found);
+    spread_.set(found);
     version_ = body.version();
     t_end_ = std::numeric_limits<double>::quiet_NaN();
     rate_ = 1.0;
@@ -194,13 +226,14 @@ class Exponential::CoreOf final : public Core {
   /// samples.
   SPRING_WORKBENCH_INLINE Modes defect_effect(const HeldBody& body, const motion::FrameMotion& handle, double t,
                                               double h, const Strain& q0, const Strain& q_dot0, NodeModes& x,
-                                              const NodeStrains& r, const NodeModes& in_modes) const {
+                                              const NodeStrains& r, const NodeModes& in_modes) {
     collocation_.drive_samples(x, in_modes, x);
     NodeStrains defect = residual(body, body.forcing(handle, t + h * pack(s)), q0, q_dot0, x);
     for (int i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < nodes; ++j) defect[at(i)] -= at_samples()[j] * r[at(i)][j];
     }
-    return collocation_.effect(collocation_.in_modes(defect));
+    defect_ = collocation_.in_modes(defect);
+    return collocation_.end_effect(defect_);
   }
 
   /// Fixed-point iteration on the residual at the nodes, then the defect of the polynomial through it at the samples.
@@ -260,6 +293,7 @@ class Exponential::CoreOf final : public Core {
     last_h_ = h;
     t_end_ = t + h;
     end_ = state;
+    done_ = {forcing, q0, q_dot0, r, mixer_.last().x};
     return {error.template head<n>(), modes().fastest * h, error.template tail<n>(), converged && end.allFinite()};
   }
 
@@ -284,6 +318,15 @@ class Exponential::CoreOf final : public Core {
   int slow_iterations_ = 0;     ///< beyond few_iterations, with this linear part
   double last_h_ = 0.0, t_end_ = 0.0;
   StrainState end_;
+  ErrorSpread<n, Collocation> spread_;
+  // Of the last step, for follow(); nothing of it goes on to the next.
+  struct {
+    HandleForcings forcing;
+    Strain q0, q_dot0;
+    NodeStrains residual;
+    NodeModes x;
+  } done_;
+  NodeModes defect_;
 };
 
 Exponential::Exponential() = default;
@@ -306,6 +349,10 @@ StepEstimate Exponential::step(const HeldBody& body, const motion::FrameMotion& 
 void Exponential::carry(const HeldBody&, const motion::FrameMotion&, double, double, const StrainState&,
                         const StrainState&, StrainState& deviation) {
   if (deviation.q.size() > 0) core_->carry(deviation);  // of the step just done
+}
+
+void Exponential::follow(const HeldBody& body, RunError& error) {
+  if (body.size() > 0) core_->follow(body, error);  // of the step just done
 }
 
 void Exponential::exchange(math::StateArchive& state) {

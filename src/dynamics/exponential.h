@@ -26,6 +26,8 @@ class Exponential final : public Integrator {
                     StrainState& state) override;
   void carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h, const StrainState& begin,
              const StrainState& end, StrainState& deviation) override;
+  bool follows_errors() const override { return true; }
+  void follow(const HeldBody& body, RunError& error) override;
   Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state) override;
   void exchange(math::StateArchive& state) override;
 

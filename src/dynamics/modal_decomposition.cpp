@@ -87,11 +87,12 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
   const HeldBody::Springs springs = body.springs(handle, q);
   const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> undamped(springs.K, M);
   const rod::StrainMatrix shapes = undamped.eigenvectors();
-  const rod::StrainMatrix to_shapes = shapes.transpose() * M;
+  const rod::StrainMatrix to_shapes = part.to_undamped = shapes.transpose() * M;
   // A free mode has no two eigenvectors, and free modes none of their own: the frozen part gets the stiffness of 1, 2,
   // … rad/s, and the rest takes it back.
   const rod::StrainVector least = rod::StrainVector::LinSpaced(n, 1.0, n).cwiseAbs2();
   const rod::StrainVector scale = undamped.eigenvalues().cwiseMax(least).cwiseSqrt();
+  part.swing_rates = (scale.cwiseAbs2() + (shapes.transpose() * springs.D * shapes).diagonal().cwiseAbs2()).cwiseSqrt();
   const rod::StrainVector missing = (least - undamped.eigenvalues()).cwiseMax(0.0);
   part.stiffness += shapes * missing.asDiagonal() * to_shapes;
   const rod::StrainMatrix modal_stiffness = to_shapes * part.stiffness * shapes;

@@ -17,6 +17,10 @@ struct ModalDecomposition {
   rod::StrainMatrix stiffness, damping;  ///< M⁻¹ K with the loads' own stiffness, and M⁻¹ D
   rod::StrainMatrix inverse_mass;
   rod::StrainVector mass;  ///< diagonal of M
+  /// To the modes without damping, in which M is the unit matrix; and what velocities there swing or run out to, which
+  /// is at most the velocity over this rate [1/s], > 0.
+  rod::StrainMatrix to_undamped;
+  rod::StrainVector swing_rates;
   /// Acceleration of the coordinates by a wrench [force; moment] on the object at its centre of mass, axes of H; and by
   /// the handle's acceleration less gravity and its angular acceleration.
   Eigen::Matrix<double, Eigen::Dynamic, 6, 0, rod::max_strain_coordinates, 6> by_wrench, by_handle;
@@ -27,8 +31,8 @@ struct ModalDecomposition {
   double fastest = 0.0;                                ///< largest |rate|
 
   void exchange(math::StateArchive& state) {
-    state(q_reference, stiffness, damping, inverse_mass, mass, by_wrench, by_handle, to_modes, from_modes, pairs, rates,
-          fastest);
+    state(q_reference, stiffness, damping, inverse_mass, mass, to_undamped, swing_rates, by_wrench, by_handle, to_modes,
+          from_modes, pairs, rates, fastest);
   }
 };
 

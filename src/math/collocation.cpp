@@ -57,4 +57,16 @@ const std::array<std::array<double, 2 * count>, count>& Collocation::defect_powe
   return coefficients;
 }
 
+const Collocation::Row& Collocation::third_degree() {
+  static const Row row = [] {
+    Row values;
+    for (std::size_t k = 0; k < count; ++k) {
+      values[k] = 1.0;
+      for (std::size_t m = 0; m < count; ++m) values[k] *= (s[k] - c[m]) * (m == k ? 1.0 : s[k] - s[m]);
+    }
+    return values;
+  }();
+  return row;
+}
+
 }  // namespace spring_workbench::math

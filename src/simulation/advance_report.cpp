@@ -22,6 +22,10 @@ void AdvanceReport::add(const AdvanceReport& later) {
   simulated_time += later.simulated_time;
   position_error = std::max(position_error, later.position_error);
   angle_error = std::max(angle_error, later.angle_error);
+  local_error_bound = std::max(local_error_bound, later.local_error_bound);
+  error_bound = std::max(error_bound, later.error_bound);
+  angle_error_bound = std::max(angle_error_bound, later.angle_error_bound);
+  steps_unbounded += later.steps_unbounded;
   energy_added += later.energy_added;
   stiffest_omega_dt = std::max(stiffest_omega_dt, later.stiffest_omega_dt);
   steps_among_movable += later.steps_among_movable;

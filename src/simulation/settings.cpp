@@ -111,6 +111,7 @@ std::vector<Field> dynamics_fields(dynamics::DynamicsSettings& d) {
       number("tolerance", "m", between(0.0, stepping::StepControl::largest_tolerance),
              "0: fixed steps; otherwise steps are short enough to keep the error of the run near this value",
              d.tolerance),
+      flag("error_bound", "follow the error of the run and report a bound of it", d.error_bound),
       choice("inertia", "exact: the object's own; point_mass: the paper's I = r² m", d.inertia),
   };
 }

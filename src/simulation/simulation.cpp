@@ -367,6 +367,7 @@ void Simulation::Impl::fill_parts(AdvanceReport& report) const {
   part("stretch", run.stretch);
   part("bend", run.bend);
   part("torsion", run.torsion);
+  part("error_bound", settings.dynamics.error_bound && report.steps > 0);
   part("gravity", scene.gravity > 0.0 && report.steps > 0);
   part("free_bodies", objects.any_free());
   part("collision", objects.with_contact() && report.steps > 0);

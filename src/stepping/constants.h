@@ -13,6 +13,9 @@ constexpr double most_saved = 0.1;
 /// Of a span. Fewer: more steps are the fallback's. Test: UndampedFork.GainsNoEnergyWhileTheHandTremblesByANanometre at
 /// 0.
 constexpr int most_halvings = 6;
+/// Times what a step's own error may differ by from its estimate, which a run adds up as if all did to one side. Test:
+/// ErrorBound.IsNotBelowTheErrorOfRunsAndSteps at 0.1.
+constexpr double local_margin = 4.0;
 /// In the coordinates' own units; no state to go on from has more. Test: StepControl.TakesNoStepFromAStrainFarOff at
 /// 1e300.
 constexpr double most_strain = 1e12;

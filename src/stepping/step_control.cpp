@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "constants.h"
@@ -54,8 +55,17 @@ struct StepControl::Tried {
   double position_error = 0.0, angle_error = 0.0;   ///< [m], [rad]
 };
 
-StepControl::StepControl(std::unique_ptr<dynamics::Integrator> integrator, double tolerance)
-    : integrator_(std::move(integrator)), tolerance_(tolerance) {}
+StepControl::StepControl(std::unique_ptr<dynamics::Integrator> integrator, double tolerance, bool error_bound)
+    : integrator_(std::move(integrator)), tolerance_(tolerance), error_bound_(error_bound) {
+  if (error_bound_ && !integrator_->follows_errors()) {
+    companion_ = dynamics::make_integrator(dynamics::IntegratorKind::exponential);
+  }
+}
+
+void StepControl::exchange(math::StateArchive& state) {
+  state(*integrator_);
+  if (companion_ != nullptr) state(*companion_);
+}
 
 ControlledStep StepControl::advance(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t,
                                     double h, dynamics::StrainState& state, Memory& memory) const {
@@ -64,6 +74,7 @@ ControlledStep StepControl::advance(const dynamics::HeldBody& body, const motion
   dynamics::StrainState next = state;
   span.report.accepted = usable(next) && body.shape().admissible(body.full_state(t, next).q);
   if (!span.report.accepted) return span.report;
+  if (error_bound_) begin_bound(span, t, next);
   if (memory.version != body.version() || memory.t != t || memory.error.q.size() != body.size()) {
     if (memory.version != body.version() || memory.swing.rows() != body.size())
       set_modes(body, body.forcing(handle, t), next.q, memory);
@@ -83,6 +94,9 @@ ControlledStep StepControl::advance(const dynamics::HeldBody& body, const motion
   if (span.report.accepted) {
     state = next;
     memory.t = t + h;
+    if (error_bound_) end_bound(span, t + h, state);
+    memory.bounded = memory.bounded && error_bound_;
+    if (!memory.bounded) span.report.bounds.unbounded = span.report.steps;
   } else {
     memory = before;
   }
@@ -126,6 +140,7 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, dynam
     stop_at_range(body, body.forcing(span.handle, t + h), h, state, next);
     ++span.report.stops;
   }
+  if (error_bound_) follow_error(span, t, h, tried, state);
   if (!body.returning()) span.report.energy_added += energy_added(body, span.handle, t, h, state, next);
   body.rechart(next);
   state = next;
@@ -138,6 +153,75 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, dynam
   span.memory.energy_saved = std::clamp(span.memory.energy_saved + h - spent, 0.0, most_saved);
   const double known = tried.estimate.omega_dt;
   span.report.omega_dt = std::max(span.report.omega_dt, known > 0.0 ? known : span.memory.stiffest_omega * h);
+}
+
+void StepControl::begin_bound(const Span& span, double t, const dynamics::StrainState& state) const {
+  Memory& memory = span.memory;
+  const Eigen::Index n = state.q.size();
+  const Wrench& contact = span.body.external_wrench();
+  const bool free = contact.force.isZero(0.0) && contact.moment.isZero(0.0);
+  const bool goes_on = memory.spread.rows() == 2 * n && memory.t == t && memory.end.q == state.q &&
+                       memory.end.q_dot == state.q_dot && (memory.bounded || !free);
+  memory.bounded = free;
+  if (goes_on) return;
+  memory.exact = state;
+  memory.spread = dynamics::RunError::Moments::Zero(2 * n, 2 * n);
+}
+
+/// What follows is told from here on; in this span it is no bound.
+void StepControl::forget_error(Memory& memory, const dynamics::StrainState& state) {
+  memory.exact = state;
+  memory.spread.setZero();
+  memory.bounded = false;
+}
+
+void StepControl::follow_error(Span& span, double t, double h, const Tried& tried,
+                               const dynamics::StrainState& begin) const {
+  const dynamics::HeldBody& body = span.body;
+  Memory& memory = span.memory;
+  dynamics::StrainState& exact = memory.exact;
+  bool known = tried.solved;
+  double local = std::numeric_limits<double>::infinity();
+  dynamics::RunError run{body.zero_state(), memory.spread};
+  if (companion_ != nullptr) {
+    known = companion_->step(body, span.handle, t, h, exact).converged;
+    if (known) companion_->follow(body, run);
+    exact.q -= run.estimate.q;
+    exact.q_dot -= run.estimate.q_dot;
+  } else if (known) {
+    run.estimate = {begin.q - exact.q, begin.q_dot - exact.q_dot};
+    integrator_->follow(body, run);
+    exact = {tried.state.q - run.estimate.q, tried.state.q_dot - run.estimate.q_dot};
+    const double directions = std::min<double>(3.0, static_cast<double>(body.size()));
+    local = tried.position_error + local_margin * run.unsure * std::sqrt(directions / body.body().mass);
+  }
+  memory.spread = run.spread;
+  // Of the motion itself, a stop and another chart are not followed.
+  known =
+      known && usable(exact) && memory.spread.allFinite() && body.shape().admissible(body.full_state(t + h, exact).q);
+  if (known) known = !body.rechart(exact);
+  if (!known) return forget_error(memory, tried.state);
+  span.report.bounds.add({local, 0.0, 0.0, 0});
+}
+
+void StepControl::end_bound(Span& span, double t, const dynamics::StrainState& state) const {
+  const dynamics::HeldBody& body = span.body;
+  Memory& memory = span.memory;
+  memory.end = state;
+  const dynamics::HandleForcing end = body.forcing(span.handle, t);
+  const RigidTransform as_should_be = body.object(end, memory.exact).X, as_is = body.object(end, state).X;
+  const auto J = body.object_jacobian(t, state.q);
+  const rod::StrainMatrix spread = memory.spread.topLeftCorner(body.size(), body.size());
+  const Eigen::Matrix<double, 6, 1> squared = (J * spread).cwiseProduct(J).rowwise().sum().cwiseMax(0.0);
+  const double extent = std::sqrt(squared.head<3>().sum());
+  memory.error_bound = (as_is.translation() - as_should_be.translation()).norm() + extent;
+  memory.angle_bound = math::turn_between(as_should_be, as_is).norm() + std::sqrt(squared.tail<3>().sum());
+  // Further out than the rod is long, what holds to first order says nothing.
+  if (!(extent < body.shape().length() && std::isfinite(memory.error_bound + memory.angle_bound))) {
+    forget_error(memory, state);
+    memory.error_bound = memory.angle_bound = 0.0;
+  }
+  span.report.bounds.add({0.0, memory.error_bound, memory.angle_bound, 0});
 }
 
 void StepControl::fall_back(Span& span, double t, double h, dynamics::StrainState& state) const {

@@ -109,8 +109,8 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
     held_.set_external_wrench(contact_W);
     const stepping::ControlledStep step = control_.advance(held_, motion, state_.t, h, next, state_.stepping);
     if (!step.accepted) return false;
-    trial_ = {step.position_error, step.angle_error, step.omega_dt, step.steps - 1,
-              step.substeps,       step.stops,       step.fallback, step.energy_error};
+    trial_ = {step.position_error, step.angle_error, step.omega_dt,     step.steps - 1, step.substeps,
+              step.stops,          step.fallback,    step.energy_error, step.bounds};
     added_ = step.energy_added;
   }
   state_.t += h;
@@ -141,7 +141,7 @@ void ForkBody::restore(const bodies::TrialStart& start) {
 }
 
 void ForkBody::exchange(math::StateArchive& state) {
-  state(held_, coupling_, control_.integrator(), X_SH_, hand_, state_, estimates_, sleep_);
+  state(held_, coupling_, control_, X_SH_, hand_, state_, estimates_, sleep_);
   if (state.sets()) added_ = 0.0;
   if (state.sets()) trial_ = {};
 }

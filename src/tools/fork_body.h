@@ -69,7 +69,7 @@ class ForkBody : public ToolHold {
   /// Fills in what the fork knows of its state. `massless`: the object has no mass, and forces mean nothing.
   void describe(bool massless, ToolState& state) const override;
 
-  StepEstimates take_estimates() override { return std::exchange(estimates_, {}); }
+  stepping::StepEstimates take_estimates() override { return std::exchange(estimates_, {}); }
   void exchange(math::StateArchive& state) override;
 
  protected:  // of tools that are another spring for the same body
@@ -77,6 +77,7 @@ class ForkBody : public ToolHold {
   const dynamics::HeldBody& held() const { return held_; }
   double time() const { return state_.t; }
   const dynamics::StrainState& strain() const { return state_.strain; }
+  void describe_bound(ToolState& state) const;
   void set_strain(const dynamics::StrainState& strain) { state_.strain = strain; }
 
  private:
@@ -123,8 +124,9 @@ class ForkBody : public ToolHold {
   RigidTransform X_SH_;         ///< from one grip to the next
   motion::MotionSegment hand_;  ///< of the handle as the hand has it
   State state_;
-  double added_ = 0.0;               ///< energy by the last advance(), which may turn out to have been a trial [J]
-  StepEstimates trial_, estimates_;  ///< the same of what steps say: of that advance(); of those that were none
+  double added_ = 0.0;  ///< energy by the last advance(), which may turn out to have been a trial [J]
+  stepping::StepEstimates trial_,
+      estimates_;  ///< the same of what steps say: of that advance(); of those that were none
   /// What a sleeper's rest rests on.
   struct Sleep {
     long version = -1;  ///< of the equations; −1: awake

@@ -16,7 +16,8 @@ bool ForkBody::set_dofs(const rod::ForkDofs& dofs, double switch_off_time) {
 }
 
 stepping::StepControl ForkBody::make_step_control(const dynamics::DynamicsSettings& settings) {
-  return stepping::StepControl(dynamics::make_integrator(settings.integrator), settings.tolerance);
+  return stepping::StepControl(dynamics::make_integrator(settings.integrator), settings.tolerance,
+                               settings.error_bound);
 }
 
 double ForkBody::elastic_energy() const { return held_.elastic_energy(state_.t, state_.strain); }
@@ -31,10 +32,16 @@ Wrench ForkBody::rod_load(const motion::MotionState& o) const {
       I_W * o.acceleration.angular + w.cross(I_W * w) - contact.moment - others.moment};
 }
 
+void ForkBody::describe_bound(ToolState& state) const {
+  state.error_bound = state_.stepping.error_bound;
+  state.error_bounded = state_.stepping.bounded;
+}
+
 void ForkBody::describe(bool massless, ToolState& f) const {
   const dynamics::StrainState full = held_.full_state(state_.t, state_.strain);
   const rod::ShapeModel& shape = held_.shape();
   f.strain = full.q;
+  describe_bound(f);
   f.X_WH = hand_pose();
   f.X_WH_proxy = handle().X_WH;
   f.stretch = shape.extension(full.q);

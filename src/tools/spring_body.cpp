@@ -168,6 +168,7 @@ void SpringBody::exchange(math::StateArchive& state) {
 }
 
 void SpringBody::describe(bool, ToolState& state) const {
+  describe_bound(state);
   const Reading now = reading();
   const Vector3d n = direction(now.d);
   const motion::MotionState o = object();

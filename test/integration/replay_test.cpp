@@ -43,7 +43,7 @@ TEST_F(Replay, WritesALinePerOutputTimeAndObject) {
   EXPECT_EQ(summary["samples_rejected"].as<int>(), 0);
   EXPECT_GE(summary["steps"].as<int>(), 50);  // none while nothing moves
   EXPECT_NEAR(summary["simulated_time"].as<double>(), 2.0, 1e-9);
-  for (const char* key : {"wall_time", "time_per_step", "position_error", "angle_error", "energy_drift", "contacts",
+  for (const char* key : {"wall_time", "time_per_step", "position_error", "angle_error", "energy_balance", "contacts",
                           "collision_queries", "steps_rejected", "stiffest_omega_dt"}) {
     EXPECT_TRUE(std::isfinite(summary[key].as<double>())) << key;
   }

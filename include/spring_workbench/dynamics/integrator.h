@@ -18,6 +18,17 @@ struct StepEstimate {
   bool converged = true;  ///< whether an implicit method solved its equation; if false, the state must not be used
 };
 
+/// What is known of the error of a run, the state less the exact solution of the equation of motion.
+struct RunError {
+  using Moments = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * rod::max_strain_coordinates,
+                                2 * rod::max_strain_coordinates>;
+  StrainState estimate;
+  /// The ellipsoid about the estimate that holds it: of (strain, rate) the error e less the estimate has
+  /// eᵀ spread⁻¹ e ≤ 1. Positive semi-definite.
+  Moments spread;
+  double unsure = 0.0;  ///< how much the last step's own error may differ from its estimate, as an amplitude [m √kg]
+};
+
 /// One way to carry the held body's state over a step (doc/model.md, "Integrators"). An integrator may keep what it has
 /// derived from the equations and the last step; HeldBody::version() tells when that is out of date.
 /// No allocation in a step.
@@ -46,6 +57,11 @@ class Integrator {
   /// of the method.
   virtual void carry(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                      const StrainState& begin, const StrainState& end, StrainState& deviation);
+
+  /// Whether the method has an interpolant whose defect it samples, so that it can follow the error of a run.
+  virtual bool follows_errors() const { return false; }
+  /// Carries what is known of the run's error over the step that was done last, and adds what that one errs by.
+  virtual void follow(const HeldBody&, RunError&) {}
 
   /// How the state at the end of the step depends on a constant generalised force Q over the step, to first order:
   /// Δq = response.q Q, Δq̇ = response.q_dot Q. For contact.

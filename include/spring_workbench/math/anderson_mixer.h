@@ -22,6 +22,8 @@ class AndersonMixer {
   void restart() { count_ = 0; }
   /// To be filled with the next iteration's image.
   Image& next() { return images_[++count_ % 3]; }
+  /// The last iteration's.
+  const Image& last() const { return images_[count_ % 3]; }
   /// Where the iteration after the one that next() was filled by is to begin; `squared_weight` of each pack.
   template <typename Weight>
   SPRING_WORKBENCH_INLINE void mix(const Weight& squared_weight, Point& x) const {

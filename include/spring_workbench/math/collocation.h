@@ -27,6 +27,10 @@ struct Collocation {
   /// and 0 at the others.
   static const std::array<std::array<double, 2 * count>, count>& defect_power();
 
+  /// A defect, over the polynomial that vanishes at the nodes, is a cubic through the samples; its third degree is
+  /// Σ_k d_k / third_degree()[k]. A defect of third_degree()[k] at sample k alone has 1 of it.
+  static const Row& third_degree();
+
   /// What one mode needs for a step, `Scalar` real or complex.
   template <typename Scalar>
   struct Weights {
@@ -35,7 +39,7 @@ struct Collocation {
     std::array<Column, count> node;    ///< a_j(c_i, z)
     Column sample_constant;            ///< the same at the samples
     std::array<Column, count> sample;  ///< the same at the samples
-    Column defect;                     ///< what a defect at each sample does to the end, on the polynomials above
+    std::array<Column, count> defect;  ///< what a defect at each sample does to each node, on the polynomials above
   };
   /// For `z` = h λ.
   template <typename Scalar>
@@ -66,10 +70,13 @@ Collocation::Weights<Scalar> Collocation::weights(Scalar z) {
   for (std::size_t k = 1; k < count; ++k) {
     row(samples[k], phi_functions<count>(Scalar(samples[k] * z)), w.sample_constant[k], w.sample[k]);
   }
-  double factorial = 1.0;
-  for (std::size_t m = 0; m < 2 * count; ++m) {
-    for (std::size_t k = 0; k < count; ++k) w.defect[k] += factorial * defect_power()[k][m] * end[m + 1];
-    factorial *= static_cast<double>(m + 1);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto phi = i + 1 < count ? phi_functions<2 * count>(Scalar(nodes[i] * z)) : end;
+    double factor = nodes[i];
+    for (std::size_t m = 0; m < 2 * count; ++m) {
+      for (std::size_t k = 0; k < count; ++k) w.defect[i][k] += factor * defect_power()[k][m] * phi[m + 1];
+      factor *= nodes[i] * static_cast<double>(m + 1);
+    }
   }
   return w;
 }

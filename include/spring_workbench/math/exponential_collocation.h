@@ -34,6 +34,7 @@ class ExponentialCollocation {
     h_ = 0.0;
   }
   const ModalDecomposition& modes() const { return modes_; }
+  double h() const { return h_; }  ///< prepared for [s]; 0: none
   const Square& stiffness() const { return stiffness_; }
   const Square& damping() const { return damping_; }
 
@@ -49,10 +50,11 @@ class ExponentialCollocation {
       for (std::size_t i = 0; i < count; ++i) {
         set(constant_, i, m, h * w.constant[i]);
         set(sample_constant_, i, m, h * w.sample_constant[i]);
-        set(defect_, i, m, h * w.defect[i]);
         for (std::size_t j = 0; j < count; ++j) {
           set(node_[j], i, m, h * w.node[i][j]);
           set(sample_[j], i, m, h * w.sample[i][j]);
+          set(defect_[j], i, m, h * w.defect[i][j]);
+          if (i + 1 == count) set(end_defect_, j, m, h * w.defect[i][j]);
         }
       }
     };
@@ -99,6 +101,7 @@ class ExponentialCollocation {
     }
   }
   Modes deviation(const Modes& x) const { return from_modes_ * x; }
+  Modes in_modes(const Modes& deviation) const { return to_modes_ * deviation; }
   /// What the linear part gives of the acceleration at these deviations is taken off: q̈ becomes the residual.
   SPRING_WORKBENCH_INLINE void take_linear_part(const NodeStrains& q, const NodeStrains& q_dot,
                                                 NodeStrains& q_ddot) const {
@@ -107,27 +110,51 @@ class ExponentialCollocation {
     }
   }
   /// What a defect of the residual at the samples, in modes, does to the modes at the end.
-  SPRING_WORKBENCH_INLINE Modes effect(const NodeModes& defect) const {
+  SPRING_WORKBENCH_INLINE Modes end_effect(const NodeModes& defect) const {
     Modes e;
     for (int m = 0; m < 2 * n; ++m) {
-      e[m] = sum(defect_.own[at(m)] * defect[at(m)] + defect_.other[at(m)] * defect[at(m ^ 1)]);
+      e[m] = sum(end_defect_.own[at(m)] * defect[at(m)] + end_defect_.other[at(m)] * defect[at(m ^ 1)]);
     }
     return e;
   }
-  /// A small deviation (strain, rate) at the start of the last step prepared for, at its end.
-  Modes carried(const Modes& deviation) const {
-    const Modes x = to_modes_ * deviation;  // e^{hλ} = 1 + λ h φ₁(hλ)
+  /// The same at the nodes.
+  SPRING_WORKBENCH_INLINE NodeModes effect(const NodeModes& defect) const {
+    NodeModes e;
+    drive(defect_, NodeModes{}, defect, e);
+    return e;
+  }
+  /// What the highest degree of a defect does to the modes at the end, lane k if it is one of sample k alone: as much
+  /// as a defect with one sample more might be another one.
+  SPRING_WORKBENCH_INLINE NodeModes effect_of_highest_degree(const NodeModes& defect) const {
+    const auto& row = Collocation::third_degree();
+    const Pack third{row[0], row[1], row[2], row[3]};
+    NodeModes alone, e;
+    for (int m = 0; m < 2 * n; ++m) alone[at(m)] = sum(defect[at(m)] / third) * third;
+    for (int m = 0; m < 2 * n; ++m) {
+      e[at(m)] = end_defect_.own[at(m)] * alone[at(m)] + end_defect_.other[at(m)] * alone[at(m ^ 1)];
+    }
+    return e;
+  }
+  /// A small deviation at the start of the step prepared for, in modes, at the nodes.
+  SPRING_WORKBENCH_INLINE NodeModes carried_in_modes(const Modes& x) const {  // e^{hλ} = 1 + λ h φ₁(hλ)
     Modes rate;
     for (int m = 0; m < 2 * n; ++m) {
       const std::complex<double> z = modes_.rates[at(m)];
       const bool pair = m < 2 * modes_.pairs;
       rate[m] = z.real() * x[m] + (pair ? (m % 2 == 0 ? z.imag() : -z.imag()) * x[m ^ 1] : 0.0);
     }
-    Modes y = x;
+    NodeModes y;
     for (int m = 0; m < 2 * n; ++m) {
-      y[m] += constant_.own[at(m)][count - 1] * rate[m] + constant_.other[at(m)][count - 1] * rate[m ^ 1];
+      y[at(m)] = x[m] + constant_.own[at(m)] * rate[m] + constant_.other[at(m)] * rate[m ^ 1];
     }
-    return from_modes_ * y;
+    return y;
+  }
+  /// The same of strain and rate, at the end.
+  Modes carried(const Modes& deviation) const {
+    const NodeModes y = carried_in_modes(in_modes(deviation));
+    Modes end;
+    for (int m = 0; m < 2 * n; ++m) end[m] = y[at(m)][count - 1];
+    return from_modes_ * end;
   }
   /// Strain and rate at the end of the step for constant accelerations, a column each.
   Eigen::Matrix<double, 2 * n, n> response(const Square& acceleration) const {
@@ -183,8 +210,10 @@ class ExponentialCollocation {
   Eigen::Matrix<double, 2 * n, 2 * n> to_modes_, from_modes_;
   double h_ = 0.0;  ///< what the operators are for
   Modes squared_weight_ = Modes::Zero();
-  Operator constant_, sample_constant_, defect_;
+  Operator constant_, sample_constant_;
   std::array<Operator, count> node_{}, sample_{};  ///< of the residual at each node
+  std::array<Operator, count> defect_{};           ///< of its defect at each sample
+  Operator end_defect_;                            ///< of that at each sample, lane by lane, to the end
 };
 
 }  // namespace spring_workbench::math

@@ -54,6 +54,10 @@ struct AdvanceReport {
   double simulated_time = 0.0;     ///< [s]
   double position_error = 0.0;     ///< largest estimate of a step's local error [m]
   double angle_error = 0.0;        ///< [rad]
+  double local_error_bound = 0.0;  ///< of a step's local error in position, the largest [m]; infinite: none
+  double error_bound = 0.0;        ///< of the run's error in position, the largest [m] (doc/model.md, "Error bound")
+  double angle_error_bound = 0.0;  ///< of its error in attitude [rad]
+  int steps_unbounded = 0;         ///< steps for which there is none
   double energy_added = 0.0;       ///< energy of the held object and the fork beyond the work of hand, gravity, damping
                                    ///< and contact [J]; meaningful if stiffest_omega_dt is below about 1
   double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode

@@ -1,10 +1,27 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 
 #include "spring_workbench/dynamics/integrator.h"
 
 namespace spring_workbench::stepping {
+
+/// Bounds of errors at the object's centre of mass (doc/model.md, "Error bound").
+struct ErrorBounds {
+  double local = 0.0;     ///< of a step's local error in position, the largest [m]; infinite: none
+  double position = 0.0;  ///< of the run's error since it was exact, the largest [m]
+  double angle = 0.0;     ///< of its error in attitude [rad]
+  int unbounded = 0;      ///< steps for which there are none
+
+  void add(const ErrorBounds& next) {
+    local = std::max(local, next.local);
+    position = std::max(position, next.position);
+    angle = std::max(angle, next.angle);
+    unbounded += next.unbounded;
+  }
+  void exchange(math::StateArchive& state) { state(local, position, angle, unbounded); }
+};
 
 /// What a StepControl did over a span of time.
 struct ControlledStep {
@@ -18,6 +35,7 @@ struct ControlledStep {
   double energy_error = 0.0;    ///< sum of the estimates of the steps' errors in energy [J]
   double energy_added = 0.0;    ///< beyond what hand, gravity, contact and dampers account for [J]
   double omega_dt = 0.0;        ///< largest ω·dt of the stiffest mode
+  ErrorBounds bounds;
 };
 
 /// Carries the held body over a span of time with an integrator: in one step, or in as many as it takes.
@@ -33,6 +51,10 @@ struct ControlledStep {
 /// from where it should be [m] and the angle times the object's radius of gyration, as one length. Where nothing damps
 /// an error away, it may grow by the tolerance in each `undamped_horizon`. A step of less than 4 µs, or two
 /// ten-thousandths of the span, is taken whatever its error.
+///
+/// With `error_bound`, the error of the run is followed from the grasp on, and anew after anything that cannot be
+/// followed (Integrator::follow). For a method without an
+/// interpolant of its own, `exponential` is carried along, and what it follows is the distance between the two.
 class StepControl {
  public:
   /// What goes on from one span to the next; belongs to the state.
@@ -46,14 +68,22 @@ class StepControl {
     double stiffest_omega = 0.0;  ///< of the undamped modes [rad/s]
     double largest_energy = 0.0;  ///< of body and fork since the grasp [J]
     double energy_saved = 0.0;    ///< of the error in energy that steps may have: what is left over, as a time [s]
+    dynamics::StrainState exact;  ///< where the run should be, as far as known
+    dynamics::RunError::Moments spread;  ///< how far that may be off (RunError)
+    dynamics::StrainState end;           ///< of the last span
+    double error_bound = 0.0;            ///< of the object's position at the end of the last span [m]
+    double angle_bound = 0.0;            ///< of its attitude [rad]
+    bool bounded = false;                ///< whether these are bounds (doc/model.md, "Error bound")
 
     void exchange(math::StateArchive& state) {
-      state(next_h, level, version, t, error, swing, stiffest_omega, largest_energy, energy_saved);
+      state(next_h, level, version, t, error, swing, stiffest_omega, largest_energy, energy_saved, exact, spread, end,
+            error_bound, angle_bound, bounded);
     }
   };
 
   /// `tolerance` [m]: 0 takes spans as they come; up to largest_tolerance.
-  explicit StepControl(std::unique_ptr<dynamics::Integrator> integrator, double tolerance = 0.0);
+  explicit StepControl(std::unique_ptr<dynamics::Integrator> integrator, double tolerance = 0.0,
+                       bool error_bound = false);
 
   dynamics::Integrator& integrator() const { return *integrator_; }
   double tolerance() const { return tolerance_; }  ///< [m]
@@ -61,6 +91,9 @@ class StepControl {
   /// From `t` to `t + h` [s], h > 0; `handle` must cover that time.
   ControlledStep advance(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                          dynamics::StrainState& state, Memory& memory) const;
+
+  /// The integrators' histories.
+  void exchange(math::StateArchive& state);
 
   static constexpr double undamped_horizon = 1.0;   ///< [s]
   static constexpr double largest_tolerance = 0.1;  ///< [m]
@@ -74,9 +107,15 @@ class StepControl {
   void fall_back(Span& span, double t, double h, dynamics::StrainState& state) const;
   void step_in_halves(Span& span, double t, double h, int level, dynamics::StrainState& state) const;
   void steps_to_tolerance(Span& span, double t, double h, dynamics::StrainState& state) const;
+  void begin_bound(const Span& span, double t, const dynamics::StrainState& state) const;
+  void follow_error(Span& span, double t, double h, const Tried& tried, const dynamics::StrainState& begin) const;
+  static void forget_error(Memory& memory, const dynamics::StrainState& state);
+  void end_bound(Span& span, double t, const dynamics::StrainState& state) const;
 
   std::unique_ptr<dynamics::Integrator> integrator_;
   double tolerance_;
+  bool error_bound_;
+  std::unique_ptr<dynamics::Integrator> companion_;  ///< follows the error where the integrator does not
 };
 
 }  // namespace spring_workbench::stepping

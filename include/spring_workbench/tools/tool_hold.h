@@ -1,43 +1,16 @@
 #pragma once
 
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "spring_workbench/bodies/stepped_body.h"
 #include "spring_workbench/dynamics/coupling.h"
 #include "spring_workbench/dynamics/settings.h"
+#include "spring_workbench/stepping/step_estimates.h"
 #include "spring_workbench/tools/settings.h"
 #include "spring_workbench/tools/tool_state.h"
 
 namespace spring_workbench::tools {
-
-/// Error estimates of the steps since the last call, without the trial steps that were discarded.
-struct StepEstimates {
-  double position = 0.0;  ///< [m]
-  double angle = 0.0;     ///< [rad]
-  double omega_dt = 0.0;  ///< of the stiffest mode
-  int extra_steps = 0;    ///< more than one for each call of advance()
-  int substeps = 0;       ///< attempts repeated with a shorter step because of their error
-  int stops = 0;          ///< that met the end of the fork's range
-  int fallback = 0;       ///< taken by an L-stable rule in place of the integrator
-  double energy = 0.0;    ///< sum of the estimated errors in energy [J]
-
-  void add(const StepEstimates& next) {
-    position = std::max(position, next.position);
-    angle = std::max(angle, next.angle);
-    omega_dt = std::max(omega_dt, next.omega_dt);
-    extra_steps += next.extra_steps;
-    substeps += next.substeps;
-    stops += next.stops;
-    fallback += next.fallback;
-    energy += next.energy;
-  }
-
-  void exchange(math::StateArchive& state) {
-    state(position, angle, omega_dt, extra_steps, substeps, stops, fallback, energy);
-  }
-};
 
 /// A tool's hold on an object: the object as the hand moves it through the tool.
 class ToolHold : public bodies::SteppedBody {
@@ -87,7 +60,7 @@ class ToolHold : public bodies::SteppedBody {
   virtual double length() const = 0;          ///< rest length [m]
   virtual double elastic_energy() const = 0;  ///< [J]
   virtual double energy_added() const = 0;    ///< by integration since the grasp [J]
-  virtual StepEstimates take_estimates() = 0;
+  virtual stepping::StepEstimates take_estimates() = 0;
   /// The whole state between two steps, including the integrator's history and the estimates; it is restored into a
   /// hold made for the same grasp and settings.
   virtual void exchange(math::StateArchive& state) = 0;

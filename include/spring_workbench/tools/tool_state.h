@@ -40,6 +40,8 @@ struct ToolState {
   Wrench handle_wrench_H;                                  ///< wrench on the hand, at and in the handle frame
   double elastic_energy = 0.0;                             ///< [J]
   double kinetic_energy = 0.0;                             ///< of the held object, in world [J]
+  double error_bound = 0.0;                                ///< of the run's error in position [m]
+  bool error_bounded = false;                              ///< whether it is a bound (doc/model.md, "Error bound")
   double force_scale = 1.0;                                ///< ratio of virtual to real force
   double weight = 0.0;            ///< the tool as a scale: upward force on the object over g [vkg]
   double torque = 0.0;            ///< the tool as a torque wrench: moment about its axis at the tip [N·m]

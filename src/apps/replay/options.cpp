@@ -124,17 +124,17 @@ RUN.fork.csv, a line per output time and hand:
   weight,weight_mean,weight_uncertainty     [vkg] the tool as a scale: now, over the last second, standard deviation
   torque,torque_mean,torque_uncertainty     [N*m] the tool as a torque wrench
   material_stiffness,material_stiffness_uncertainty  [N/m] what spring_probe reads; inf: rigid; 0: no reading
+  error_bound,error_bounded                 [m] of the position; 0: it is no bound
 
 The last line on standard output is one JSON object: steps, simulated_time, wall_time and time_per_step [s], outputs,
 samples, samples_rejected (by the rules of input.*; rejected has the reasons), dropouts (gaps longer than
 dropout_after), reacquisitions, losses (of the hand), position_error [m] and angle_error [rad] (the largest estimate of
-a step's local error), energy_drift [J] (added by integration beyond hand, gravity, damping and contact),
-stiffest_omega_dt, contacts (pairs that came into contact, as seen at the output times), collision_queries, substeps
-(attempts repeated with a shorter step), stops (steps that met the end of the fork's range), steps_fallback (steps taken
-by an L-stable rule because the integrator's equation was not solved), steps_blocked (steps in which contact admitted no
-motion of an object), time_lost [s] (during which an object did not follow its equation), steps_rejected, changes (by
-services and panels, from a bag with ~changes), changes_made_again, changes_mismatched (made again with another state
-than the recorded one), state_hash (of the whole state at the end, 16 hexadecimal digits), active, skipped.
+a step's local error), local_error_bound [m] (null: none), error_bound [m] and angle_error_bound [rad] (of the run, the
+largest; null: none), steps_unbounded (for which there was none), energy_balance [J] (added by integration beyond hand,
+gravity, damping and contact), stiffest_omega_dt, contacts (pairs, at the output times), collision_queries, substeps
+(attempts repeated with a shorter step), stops (at the end of the fork's range), steps_fallback (by an L-stable rule),
+steps_blocked (no motion admitted), time_lost [s], steps_rejected, changes (by services and panels), changes_made_again,
+changes_mismatched (made again with another state), state_hash (of the end), active, skipped.
 Exit status: 0 done; 2 bad arguments or input, with one line on standard error.
 
 Keys (unit; allowed; default): meaning

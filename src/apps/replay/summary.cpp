@@ -1,6 +1,7 @@
 #include "summary.h"
 
 #include <cmath>
+#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -51,12 +52,14 @@ void Summary::add_contacts(const std::vector<contact::ContactState>& contacts) {
 }
 
 std::string Summary::json() const {
+  constexpr double no_bound = std::numeric_limits<double>::infinity();
   std::vector<std::string> rejected;
   std::size_t samples_rejected = 0;
   for (const auto& [result, count] : gate.rejected) {
     rejected.push_back(quoted(hand_input::to_string(result)) + ": " + std::to_string(count));
     samples_rejected += count;
   }
+  const auto bound = [this](double b) { return number(advance.steps_unbounded < advance.steps ? b : no_bound); };
   std::ostringstream out;
   out.imbue(std::locale::classic());
   out << "{\"steps\": " << advance.steps << ", \"simulated_time\": " << number(advance.simulated_time)
@@ -66,7 +69,11 @@ std::string Summary::json() const {
       << ", \"rejected\": {" << validation::join(rejected) << "}, \"dropouts\": " << gate.dropouts
       << ", \"reacquisitions\": " << hand.reacquisitions << ", \"losses\": " << hand.losses
       << ", \"position_error\": " << number(advance.position_error)
-      << ", \"angle_error\": " << number(advance.angle_error) << ", \"energy_drift\": " << number(advance.energy_added)
+      << ", \"angle_error\": " << number(advance.angle_error) << ", \"error_bound\": " << bound(advance.error_bound)
+      << ", \"angle_error_bound\": " << bound(advance.angle_error_bound)
+      << ", \"local_error_bound\": " << number(advance.local_error_bound)
+      << ", \"steps_unbounded\": " << advance.steps_unbounded
+      << ", \"energy_balance\": " << number(advance.energy_added)
       << ", \"stiffest_omega_dt\": " << number(advance.stiffest_omega_dt) << ", \"contacts\": " << contacts_
       << ", \"collision_queries\": " << advance.collision_queries << ", \"substeps\": " << advance.substeps
       << ", \"stops\": " << advance.stops << ", \"steps_fallback\": " << advance.steps_fallback

@@ -98,10 +98,12 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   ros_common::DiagnosticStatusBuilder status(name_ + ": physics loop", "simulation");
   status.add("cycles", loop.cycles)
       .add("deadlines missed", loop.deadlines_missed)
-      .add("steps rejected", loop.steps_rejected)
-      .add("time lost in steps [s]", loop.time_lost)
-      .add("steps by the fallback", loop.steps_fallback)
-      .add("stops at the end of the fork's range", loop.stops)
+      .add("steps rejected", loop.advance.steps_rejected)
+      .add("time lost in steps [s]", loop.advance.time_lost)
+      .add("steps by the fallback", loop.advance.steps_fallback)
+      .add("largest bound of a run's error [m]", loop.advance.error_bound)
+      .add("steps without such a bound", loop.advance.steps_unbounded)
+      .add("stops at the end of the fork's range", loop.advance.stops)
       .add("time skipped [s]", loop.left_out)
       .add("cycles behind the hands", loop.cycles_behind)
       .add("longest cycle [s]", loop.longest_cycle)
@@ -112,7 +114,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
                  "the ROS master does not answer: present connections stay, new ones are impossible");
   }
   if (!loop.checkpoint_error.empty()) status.raise(DiagnosticStatus::WARN, loop.checkpoint_error);
-  if (loop.steps_rejected > last_loop_.steps_rejected) {
+  if (loop.advance.steps_rejected > last_loop_.advance.steps_rejected) {
     status.raise(DiagnosticStatus::ERROR, "steps rejected: the result was not finite or bounded");
   }
   if (loop.deadlines_missed > last_loop_.deadlines_missed) status.raise(DiagnosticStatus::WARN, "deadlines missed");

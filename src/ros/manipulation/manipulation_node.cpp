@@ -110,10 +110,7 @@ void ManipulationNode::count(const live::CycleReport& report, bool deadline_miss
   const std::lock_guard<std::mutex> lock(loop_mutex_);
   ++loop_.cycles;
   loop_.deadlines_missed += deadline_missed ? 1 : 0;
-  loop_.steps_rejected += static_cast<std::size_t>(report.advance.steps_rejected);
-  loop_.time_lost += report.advance.time_lost;
-  loop_.steps_fallback += static_cast<std::size_t>(report.advance.steps_fallback);
-  loop_.stops += static_cast<std::size_t>(report.advance.stops);
+  loop_.advance.add(report.advance);
   loop_.left_out += report.left_out;
   loop_.cycles_behind += report.behind ? 1 : 0;
   loop_.longest_cycle = std::max(loop_.longest_cycle, report.wall_time);

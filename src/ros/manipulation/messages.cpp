@@ -137,6 +137,10 @@ StepReport to_message(const simulation::AdvanceReport& report) {
   message.steps = static_cast<uint32_t>(report.steps);
   message.position_error = report.position_error;
   message.angle_error = report.angle_error;
+  message.local_error_bound = report.local_error_bound;
+  message.error_bound = report.error_bound;
+  message.angle_error_bound = report.angle_error_bound;
+  message.steps_unbounded = static_cast<uint32_t>(report.steps_unbounded);
   message.energy_added = report.energy_added;
   message.omega_dt = report.stiffest_omega_dt;
   message.collision_queries = static_cast<uint32_t>(report.collision_queries);

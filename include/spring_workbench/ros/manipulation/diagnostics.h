@@ -15,16 +15,13 @@ namespace spring_workbench::manipulation {
 struct LoopStatistics {
   std::size_t cycles = 0;
   std::size_t deadlines_missed = 0;
-  std::size_t steps_rejected = 0;  ///< steps refused by the simulation
-  double time_lost = 0.0;          ///< of steps, in which an object did not follow its equation [s]
-  std::size_t steps_fallback = 0;  ///< steps done by an L-stable rule in place of the integrator
-  std::size_t stops = 0;           ///< steps that met the end of a fork's range
-  double left_out = 0.0;           ///< of time, since the process stood or time leapt [s]
-  std::size_t cycles_behind = 0;   ///< in which simulated time was slower than the hands'
-  double longest_cycle = 0.0;      ///< wall time in the simulation [s]
-  double master_silence = 0.0;     ///< since the ROS master last answered [s]
-  std::string checkpoint_error;    ///< see Checkpoint::file_error()
-  double prediction_error = 0.0;   ///< see LookAhead::position_error_99() [m]
+  simulation::AdvanceReport advance;  ///< all steps together
+  double left_out = 0.0;              ///< of time, since the process stood or time leapt [s]
+  std::size_t cycles_behind = 0;      ///< in which simulated time was slower than the hands'
+  double longest_cycle = 0.0;         ///< wall time in the simulation [s]
+  double master_silence = 0.0;        ///< since the ROS master last answered [s]
+  std::string checkpoint_error;       ///< see Checkpoint::file_error()
+  double prediction_error = 0.0;      ///< see LookAhead::position_error_99() [m]
 };
 
 /// What came of one stylus, and what became of the hand.

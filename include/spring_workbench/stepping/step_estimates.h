@@ -1,0 +1,38 @@
+#pragma once
+
+#include <algorithm>
+
+#include "spring_workbench/stepping/step_control.h"
+
+namespace spring_workbench::stepping {
+
+/// What the steps of several spans say of their errors, without the trial steps that were discarded.
+struct StepEstimates {
+  double position = 0.0;  ///< [m]
+  double angle = 0.0;     ///< [rad]
+  double omega_dt = 0.0;  ///< of the stiffest mode
+  int extra_steps = 0;    ///< more than one for each span
+  int substeps = 0;       ///< attempts repeated with a shorter step because of their error
+  int stops = 0;          ///< that met the end of the fork's range
+  int fallback = 0;       ///< taken by an L-stable rule in place of the integrator
+  double energy = 0.0;    ///< sum of the estimated errors in energy [J]
+  ErrorBounds bounds;
+
+  void add(const StepEstimates& next) {
+    position = std::max(position, next.position);
+    angle = std::max(angle, next.angle);
+    omega_dt = std::max(omega_dt, next.omega_dt);
+    extra_steps += next.extra_steps;
+    substeps += next.substeps;
+    stops += next.stops;
+    fallback += next.fallback;
+    energy += next.energy;
+    bounds.add(next.bounds);
+  }
+
+  void exchange(math::StateArchive& state) {
+    state(position, angle, omega_dt, extra_steps, substeps, stops, fallback, energy, bounds);
+  }
+};
+
+}  // namespace spring_workbench::stepping
