@@ -2,6 +2,7 @@
 #include <ros/ros.h>
 
 #include <algorithm>
+#include <atomic>
 #include <exception>
 #include <fstream>
 #include <iomanip>
@@ -12,6 +13,7 @@
 #include <vector>
 
 #include "benchmark/latency/played_device.h"
+#include "spring_workbench/ForkState.h"
 #include "spring_workbench/ObjectStates.h"
 
 // End-to-end latency: from the first byte of a record on the serial line to the arrival of the message from which on
@@ -130,10 +132,22 @@ int main(int argc, char** argv) {
   const fastrak::PlayedMotion motion = way(length);
   const std::vector<fastrak::PlayedMotion> motions(static_cast<std::size_t>(stations), motion);
   fastrak::FastrakSimulator simulator(fastrak::FastrakDevice(motions, {1, 2}), fastrak::LineFaults(), port);
-  const auto held = [&] { return !ros::ok() || (!committed.seen().empty() && !displayed.seen().empty()); };
+  Playing playing{rate, stations, 1, kSettle, kSettle + length, 2.0 * kSettle + length};
+  std::atomic<int> holder{1};  // the hand that is there first has the box
+  const boost::function<void(const ForkState::ConstPtr&)> take_holder = [&](const ForkState::ConstPtr& fork) {
+    if (!fork->held_object.empty()) holder = 1;
+  };
+  const boost::function<void(const ForkState::ConstPtr&)> take_second = [&](const ForkState::ConstPtr& fork) {
+    if (!fork->held_object.empty()) holder = 2;
+  };
+  ros::Subscriber fork = node.subscribe<ForkState>("manipulation/fork", 10, take_holder);
+  ros::Subscriber second = node.subscribe<ForkState>("manipulation/fork_2", 10, take_second);
+  const auto held = [&] {
+    playing.counted = holder;
+    return !ros::ok() || (!committed.seen().empty() && !displayed.seen().empty());
+  };
   try {
-    const std::vector<Moment> written =
-        play(simulator, motion, {rate, stations, kSettle, kSettle + length, 2.0 * kSettle + length}, held);
+    const std::vector<Moment> written = play(simulator, motion, playing, held);
     std::ofstream out(parameters.param<std::string>("out", "/dev/stdout"), std::ios::app);
     std::ostringstream run;
     run << rate << "," << hands << "," << stations;

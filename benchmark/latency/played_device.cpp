@@ -34,7 +34,7 @@ std::vector<Moment> play(fastrak::FastrakSimulator& simulator, const fastrak::Pl
     const double begin = steady_now();
     simulator.measure(t);
     // A record at the very begin says the same as those of the rest before it.
-    if (t > playing.begin + 0.5 / cycles && t < playing.end && simulator.device().last_station() == 1)
+    if (t > playing.begin + 0.5 / cycles && t < playing.end && simulator.device().last_station() == playing.counted)
       written.push_back({begin, motion.at(t).X.translation().x()});
   }
   return written;

@@ -19,11 +19,12 @@ double steady_now();  ///< [s]
 struct Playing {
   double rate = 120.0;  ///< records of each station per second [Hz]
   int stations = 1;     ///< in use; they measure in turn
+  int counted = 1;      ///< the station whose records are; may be set until `ready` says so
   double begin = 0.0, end = 0.0, until = 0.0;
 };
 
 /// Plays the device in real time, in which station 1 has `motion`; first it is served until `ready` says so. Gives the
-/// moments at which records of the moving station 1 were written.
+/// moments at which records of the moving station `counted` were written.
 std::vector<Moment> play(fastrak::FastrakSimulator& simulator, const fastrak::PlayedMotion& motion,
                          const Playing& playing, const std::function<bool()>& ready);
 

@@ -175,7 +175,7 @@ int main(int argc, char** argv) {
     for (const Vector3d& place : objects_of(scene, static_cast<std::size_t>(hands)))
       motions.push_back(work_at(place, length));
     fastrak::FastrakSimulator simulator(fastrak::FastrakDevice(motions, {1, 2}), fastrak::LineFaults(), port);
-    const Playing playing{rate, hands, kBegin, kBegin + length, kBegin + length + kEnd};
+    const Playing playing{rate, hands, 1, kBegin, kBegin + length, kBegin + length + kEnd};
     const std::vector<Moment> written =
         play(simulator, motions.front(), playing, [&] { return !ros::ok() || observer.sees_hand(); });
     const std::vector<double> all = latencies(written, observer.locked([&] { return observer.seen; }), 0.0);
