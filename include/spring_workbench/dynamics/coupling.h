@@ -58,8 +58,8 @@ class Coupling {
 
 /// Coupling with the motion of its frame A.
 struct Attached {
-  const Coupling* coupling;
-  const motion::FrameMotion* frame;
+  const Coupling* coupling = nullptr;
+  const motion::FrameMotion* frame = nullptr;
   /// Reference handle for `frame`; null: the handle passed to look(). If it is set, A keeps the same pose relative to
   /// the handle passed to look() as `frame` has relative to this reference handle.
   const motion::FrameMotion* handle = nullptr;

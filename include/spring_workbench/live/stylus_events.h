@@ -24,7 +24,7 @@ struct StylusPose {
 };
 /// Pose that the gate rejected.
 struct RejectedPose {
-  hand_input::GateResult result;
+  hand_input::GateResult result = hand_input::GateResult::accepted;
   StylusPose pose;
 };
 /// Edge of a button at time `t` [s].

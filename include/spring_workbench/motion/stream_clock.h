@@ -145,10 +145,10 @@ class StampedStream {
   static constexpr std::size_t most_kept = 16;
   struct Kept {
     Message message;
-    std::int64_t stamp;
+    std::int64_t stamp = 0;
     WallMoment came;
-    StampVerdict verdict;
-    double age;
+    StampVerdict verdict = StampVerdict::fits;
+    double age = 0.0;
   };
   StreamClock clock_;
   double max_age_;

@@ -25,8 +25,8 @@ class ContactSynthesizer {
  private:
   /// A decaying oscillation as a rotating pointer.
   struct Mode {
-    double decay, cosine, sine;  ///< per sample
-    double gain;
+    double decay = 0.0, cosine = 0.0, sine = 0.0;  ///< per sample
+    double gain = 0.0;
     double x = 0.0, y = 0.0;
   };
 
