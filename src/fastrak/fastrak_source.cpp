@@ -178,8 +178,8 @@ void FastrakSource::take(const FastrakReply& reply, Time) {
   ++portion_;
   if (portion_ < set_up_.size()) return send_portion();
   if (status->binary == (settings_.format == FastrakFormat::binary) && status->centimetres) return begin_stream();
-  problem_ = settings_.port + ": the device does not take its settings" +
-             (refusal_.empty() ? std::string() : ": it says " + refusal_);
+  problem_ = settings_.port + ": the device does not accept its settings" +
+             (refusal_.empty() ? std::string() : ": it reports " + refusal_);
   begin_set_up();
 }
 
@@ -203,13 +203,14 @@ std::string FastrakSource::why_silent() const {
   const std::string at_baud = " at " + std::to_string(settings_.baud) + " baud";
   if (state_ == State::streaming) {
     if (has_streamed_) return where + "the stream broke off; setting the device up anew";
-    const std::string said = refusal_.empty() ? "" : "; it says " + refusal_;
+    const std::string said = refusal_.empty() ? "" : "; it reports " + refusal_;
     return where + "the device answers but sends no data: is a receiver plugged into each socket of `stations`?" + said;
   }
   if (!answered_)
     return where + "silent" + at_baud + ": is the device on, its cable plugged in, its baud rate the same?";
   if (!understood_)
-    return where + "what comes" + at_baud + " is no FASTRAK's: is its baud rate the same, 8 bits, no parity?";
+    return where + "the data received" + at_baud +
+           " is no FASTRAK's: is the device set to this baud rate, 8 bits and no parity?";
   return where + "the device stopped answering while it was set up";
 }
 

@@ -57,7 +57,8 @@ Command Command::from(const std::vector<std::uint64_t>& words) {
     if (archive.at_end()) return command;
   } catch (const std::out_of_range&) {
   }
-  throw validation::InputError("command: " + std::to_string(words.size()) + " words: expected those that were written");
+  throw validation::InputError("command: must be one that was recorded in ~changes, got " +
+                               std::to_string(words.size()) + " words that cannot be decoded");
 }
 
 void Command::exchange(math::StateArchive& state) {
@@ -91,8 +92,9 @@ simulation::ChangeReport perform(const Command& command, simulation::Simulation&
     case Command::Kind::undo:
       break;
   }
-  throw validation::InputError("command: kind " + std::to_string(static_cast<int>(command.kind)) +
-                               ": expected one of a change of the present scene");
+  throw validation::InputError(
+      "command: kind: must be a change of the present scene (not none, load_scene or undo), got " +
+      std::to_string(static_cast<int>(command.kind)));
 }
 
 std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation) {

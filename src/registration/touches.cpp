@@ -78,8 +78,8 @@ std::vector<Landmark> touched_landmarks(std::vector<Landmark> landmarks,
     for (const motion::StylusSample& sample : touches[i]) {
       const double off = (sample.X.translation() - mean).norm();
       if (off <= largest_residual) continue;
-      validation::refuse("registration", "touch of " + landmarks[i].name, millimetres(off) + " from its mean",
-                         "at rest to within " + millimetres(largest_residual) + " while the button is down");
+      validation::refuse("registration", "touch of " + landmarks[i].name, millimetres(off),
+                         "within " + millimetres(largest_residual) + " of its mean while the button is down");
     }
     landmarks[i].p_T = mean;
   }

@@ -83,7 +83,7 @@ void WorkbenchPanel::make_families(QVBoxLayout* layout) {
     const char* unit;
   };
   const std::array<Look, 3> looks{
-      {{"Stretch", 1.0, 1e6, "N/m"}, {"Bend", 1.0, 1e6, "N/m"}, {"Torsion", 1e-3, 1e4, "N m"}}};
+      {{"Stretch", 1.0, 1e6, "N/m"}, {"Bend", 1.0, 1e6, "N/m"}, {"Torsion", 1e-3, 1e4, "N m/rad"}}};
   auto* grid = new QGridLayout;
   for (std::size_t i = 0; i < 3; ++i) {
     const int row = 2 * static_cast<int>(i);

@@ -154,7 +154,10 @@ void set_mass(Body& body, double mass, const std::string& where) {
   } else if (mass > 0.0) {
     std::vector<std::string> warnings;
     const RigidMass solid = solid_mass(body.collision.empty() ? body.visual : body.collision, 1.0, where, warnings);
-    if (!(solid.mass > 0.0)) validation::refuse(where, "mass", "one for " + body.name, "0: it has no volume");
+    if (!(solid.mass > 0.0)) {
+      throw validation::InputError(where + ": mass: " + body.name +
+                                   " has no volume, so its inertia is not known; only 0 is allowed");
+    }
     m.inertia_O = mass / solid.mass * solid.inertia;
   } else {
     m.inertia_O.setZero();

@@ -465,7 +465,7 @@ void Simulation::Impl::check(const ForkChange& of_fork, const DynamicsChange& of
   changed.dynamics = of_dynamics.applied_to(settings.dynamics);
   for (const Hand& hand : hands) {
     changed.fork = of_fork.applied_to(hand.fork());
-    validate(changed, "change");
+    validate(changed, "new settings");
   }
 }
 
@@ -495,7 +495,9 @@ void Simulation::change(const ForkChange& of_fork, const DynamicsChange& of_dyna
 
 void Simulation::Impl::check_place(const std::string& name, const RigidTransform& X_WO) const {
   const std::string other = objects.inside_of(*objects.find(name), X_WO);
-  if (!other.empty()) validation::refuse("edit_object", "pose", "one of " + name + " inside " + other, "outside of it");
+  if (other.empty()) return;
+  validation::refuse("edit_object", "pose", "one inside " + other,
+                     "where " + name + " is at most 0.1 mm inside anything else");
 }
 
 void Simulation::Impl::move(const ObjectEdit& edit) {
@@ -503,7 +505,8 @@ void Simulation::Impl::move(const ObjectEdit& edit) {
   const std::size_t object = *objects.find(edit.object);
   for (const Hand& hand : hands) {
     if (hand.carried() == object) {
-      validation::refuse("edit_object", "name", edit.object + ", which a tool has", "an object that no tool has");
+      validation::refuse("edit_object", "name", edit.object + ", which a tool holds or pushes",
+                         "an object that no tool holds or pushes");
     }
   }
   const RigidTransform X_WO = *edit.X_WL * body.X_OL.inverse();

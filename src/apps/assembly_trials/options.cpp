@@ -49,8 +49,8 @@ assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--tria
   --table     a Markdown table of the means of each tool with 95 % confidence intervals
   --record    the hand of the first trial as a motion file for replay and tracker_driver
 
-Without --out the lines go to standard output. Exit status: 0 done; 2 bad arguments or input, with one line on standard
-error.
+Without --out the lines go to standard output. Exit status: 0 done; 1 failed; 2 bad arguments or input, with one line on
+standard error.
 )";
 }
 

@@ -114,8 +114,8 @@ RUN.csv, a line per output time and movable object (world, centre of mass; m, -,
 RUN.fork.csv, a line per output time and hand:
   t,fork,tool,held                          [s], the hand's fork (fork, fork_2), its tool, the object held
   stretch,bend_x,bend_y,torsion             [m, m, m, rad] deformation of the fork, measured at its tip
-  handle_x,...,handle_qw                    the hand in world
-  proxy_x,...,proxy_qw                      the proxy handle (differs from the hand if the object cannot follow)
+  handle_x,...,handle_qw                    the handle in world
+  proxy_x,...,proxy_qw                      the proxy handle (differs from the handle if the object cannot follow)
   tip_x,...,tip_qw                          the tip in world
   tip_fx,tip_fy,tip_fz,tip_mx,tip_my,tip_mz          [N, N*m] on the object, at the tip, world axes
   handle_fx,...,handle_mz                            [N, N*m] on the hand, handle axes
@@ -135,7 +135,7 @@ gravity, damping and contact), stiffest_omega_dt, contacts (pairs, at the output
 (attempts repeated with a shorter step), stops (at the end of the fork's range), steps_fallback (by an L-stable rule),
 steps_blocked (no motion admitted), time_lost [s], steps_rejected, changes (by services and panels), changes_made_again,
 changes_mismatched (made again with another state), state_hash (of the end), active, skipped.
-Exit status: 0 done; 2 bad arguments or input, with one line on standard error.
+Exit status: 0 done; 1 failed; 2 bad arguments or input, with one line on standard error.
 
 Keys (unit; allowed; default): meaning
   rate (Hz; a number between 0.001 and 1e6; 50): output times per second

@@ -187,7 +187,7 @@ class TrackerDriver {
     const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
     std::string reason = why_not_sent(sample, parameters_.source);
     if (reason.empty() && t <= station.newest) reason = "stamp not later";
-    if (reason.empty() && t - station.newest < shortest) reason = "more than ~rate";
+    if (reason.empty() && t - station.newest < shortest) reason = "above ~rate";
     if (!reason.empty()) {
       ++station.not_sent[reason];
       ++not_sent_;

@@ -201,7 +201,7 @@ TEST_P(Edits, WhatDoesNotFitIsRefusedInOneLineAndChangesNothing) {
   expect(new_mass("held", -1.0), "edit_object: mass: must be a number between 0 and 1e12, got -1");
   expect(new_friction("held", -0.1), "edit_object: friction: must be a finite number >= 0, got -0.1");
   expect(move_to("held", at(Vector3d(0.0, 1.0, 0.05))),
-         "edit_object: name: must be an object that no tool has, got held, which a tool has");
+         "edit_object: name: must be an object that no tool holds or pushes, got held, which a tool holds or pushes");
   expect({Action::move, "below", "", std::nullopt}, "edit_object: pose: missing");
   expect(move_to("below", at(Vector3d(nan, 0.0, 0.0))), "edit_object: pose: must be a finite pose");
   expect(addition("wall", std::nullopt), "edit_object: name: must be a name that no body of the scene has");
@@ -211,11 +211,11 @@ TEST_P(Edits, WhatDoesNotFitIsRefusedInOneLineAndChangesNothing) {
          "edit_object: action: must be one of add, move, remove, mass, friction");
   if (GetParam() == ContactMode::none) return;
   expect(move_to("below", at(Vector3d(2.0, 0.0, 0.3))),
-         "edit_object: pose: must be outside of it, got one of below inside wall");
+         "edit_object: pose: must be where below is at most 0.1 mm inside anything else, got one inside wall");
   expect(addition("brick", at(Vector3d(-1.0, 0.0, 0.049))),
-         "edit_object: pose: must be outside of it, got one of brick inside the workbench");
+         "edit_object: pose: must be where brick is at most 0.1 mm inside anything else, got one inside the workbench");
   expect(addition("brick", object(s, "held").X_WO),
-         "edit_object: pose: must be outside of it, got one of brick inside");
+         "edit_object: pose: must be where brick is at most 0.1 mm inside anything else, got one inside");
 }
 
 TEST(EditedFriction, DecidesHowFarABoxSlides) {
