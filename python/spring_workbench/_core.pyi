@@ -193,7 +193,8 @@ class Report:
         """Number of steps taken."""
     @property
     def substeps(self) -> int:
-        """Number of steps that were discarded and repeated with a shorter step because their error was too large."""
+        """Number of attempts that were discarded and repeated with a shorter step (equation not solved, or error too
+        large)."""
     @property
     def simulated_time(self) -> float:
         """Simulated time [s]."""
@@ -238,7 +239,7 @@ class State:
     """Saved state of a whole simulation. It can be compared and pickled."""
     @property
     def hash(self) -> str:
-        """Hash of the state: 16 hexadecimal digits, the same on every machine."""
+        """Hash of the state, 16 hexadecimal digits: equal states have equal hashes on every machine."""
     def __eq__(self, other: object) -> bool: ...
     def __hash__(self) -> int: ...
 
@@ -313,8 +314,8 @@ class Simulation:
         each of the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a value is not
         allowed."""
     def calibrate(self) -> None:
-        """Chooses the stiffness of each hand's tool from the mass and size of its object. Raises InputError if nothing
-        is held by a fork or a spring."""
+        """Fits each hand's tool to the object that it holds or, with calibrate: world, restores the scene's stiffness.
+        Raises InputError if nothing is held by a fork or a spring."""
     def release(self) -> bool:
         """Releases the objects of all hands. Returns False if nothing was held."""
     def place(self, poses: Mapping[str, npt.ArrayLike]) -> None:

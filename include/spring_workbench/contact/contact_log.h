@@ -22,7 +22,7 @@ class ContactLog {
   void reset(std::size_t objects);
   /// Contacts of one object after a step of `h` [s]. An object without a step keeps its contacts.
   void note(std::size_t object, const bodies::BodyState& state, const std::vector<ContactRow>& rows, double h);
-  /// This object has the contacts that object `its` of another scene's log has with what is in this scene.
+  /// Copies to `object` the contacts that object `its` has in `from`, another scene's log, with bodies of this scene.
   void take(std::size_t object, const ContactLog& from, std::size_t its);
   const std::vector<ContactState>& touching(std::size_t object) const { return touching_[object]; }
 

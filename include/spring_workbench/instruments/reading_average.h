@@ -13,8 +13,8 @@ namespace spring_workbench::instruments {
 /// the mean of parts of a tenth of a second each, so that what swings faster does not make it seem better known.
 class ReadingAverage {
  public:
-  /// Takes the tool's readings at time `t` [s] down, and fills in their averages: before a part is over what is read
-  /// now, without a known uncertainty. An earlier time than before, or another object, starts anew.
+  /// Adds the tool's readings at time `t` [s], and fills in their averages; until the first part is complete, the
+  /// present reading with an unknown uncertainty. A time before the last one, or another object, starts a new average.
   void take(double t, tools::ToolState& tool);
 
  private:

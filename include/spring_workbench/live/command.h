@@ -11,21 +11,21 @@
 
 namespace spring_workbench::live {
 
-/// A change of a simulation by other means than its hands, so that it can be made again. What a kind does not need is
-/// ignored.
+/// A change of a simulation that does not come from its hands, recorded so that it can be repeated. A kind ignores the
+/// members that it does not need.
 struct Command {
   enum class Kind {
-    none,         ///< no change, or one that is not made again: only the state after it is known
-    select_tool,  ///< `tool`, of `hand` or else the first
-    settings,     ///< `of_fork`, of `hand` or else of all; with `of_dynamics`, of all
-    calibrate,    ///< of `hand`, or else of all
-    release,      ///< the same
-    clutch,       ///< the same, to `on`
-    restart,      ///< objects at `places`, the others at their start; nothing held
-    edit,         ///< `edit`
-    load_scene,   ///< another scene, with the settings and forks of the present
-    reset,        ///< restart, to be taken back
-    undo          ///< the last edit or reset is taken back
+    none,         ///< no change, or one that cannot be repeated: only the state after it is known
+    select_tool,  ///< select `tool` in `hand`, or else in the first hand
+    settings,     ///< apply `of_fork` to `hand`, or else to all; if `of_dynamics` is set, both to all
+    calibrate,    ///< calibrate `hand`, or else all hands
+    release,      ///< release what `hand`, or else each hand, holds
+    clutch,       ///< set the clutch of `hand`, or else of all, to `on`
+    restart,      ///< put objects to `places`, all others to their start; nothing is held
+    edit,         ///< make `edit`
+    load_scene,   ///< load another scene, and keep settings and forks
+    reset,        ///< like restart, but can be undone
+    undo          ///< undo the last edit or reset
   };
   Kind kind = Kind::none;
   std::optional<std::size_t> hand;
@@ -35,25 +35,26 @@ struct Command {
   simulation::DynamicsChange of_dynamics;
   std::map<std::string, RigidTransform> places;
   simulation::ObjectEdit edit;
-  std::vector<std::string> roots;  ///< of the edit's URDF; none where it is made again
+  std::vector<std::string> roots;  ///< folders for the edit's URDF; none if the change is repeated
 
-  /// As numbers, and back; none for Kind::none. Throws InputError for words that are no command.
+  /// Returns the command as numbers; none for Kind::none.
   std::vector<std::uint64_t> words() const;
+  /// Returns the command that words() wrote. Throws InputError if `words` are no command.
   static Command from(const std::vector<std::uint64_t>& words);
 
  private:
   void exchange(math::StateArchive& state);
 };
 
-/// Makes the change, of any kind but `none`, `load_scene` and `undo`. Throws InputError, and changes nothing, where it
-/// cannot be made.
+/// Makes a change of any kind but `none`, `load_scene` and `undo`. Throws InputError, and changes nothing, if that is
+/// impossible.
 simulation::ChangeReport perform(const Command& command, simulation::Simulation& simulation);
 
-/// Of each hand.
+/// Returns the fork settings of each hand.
 std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation);
 
-/// Of a scene, each hand with its fork; the stiffness of forks that are calibrated to the world is the scene's. Throws
-/// InputError where the settings do not fit the scene.
+/// Makes a simulation of a scene in which each hand has its fork of `forks`; forks that are calibrated to the world get
+/// the scene's stiffness. Throws InputError if the settings do not fit the scene.
 simulation::Simulation make_simulation(const scene::Scene& scene, const simulation::SimulationSettings& settings,
                                        const std::vector<rod::ForkSettings>& forks);
 

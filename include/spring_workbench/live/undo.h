@@ -9,17 +9,17 @@
 
 namespace spring_workbench::live {
 
-/// All objects where they are, at rest, at time `now` [s]; nothing is held and no sample is known. Where they are.
+/// Resets the simulation to time `now` [s], with all objects at rest at their present poses. Returns these poses.
 std::map<std::string, RigidTransform> put_to_rest(simulation::Simulation& simulation, double now);
 
 /// The states before the last 20 edits and resets, each to be taken back.
 class Undo {
  public:
-  /// Makes a change as live::perform() does. An edit and a reset are kept; Kind::undo takes the last one back: objects,
-  /// tools and settings are as they were before it, objects are at rest and nothing is held, no sample is known, and
-  /// time does not go back; the report's message tells what it was. Throws InputError where there is none.
+  /// Makes a change like live::perform(), and saves the state before an edit or a reset. Kind::undo restores the last
+  /// of these states at the present time, with all objects at rest, nothing held and no samples; the report's message
+  /// names the change that was undone. Throws InputError if none is left to undo.
   simulation::ChangeReport perform(const Command& command, simulation::Simulation& simulation);
-  /// Whether nothing is kept.
+  /// Returns true if there is nothing to undo.
   bool empty() const { return before_.empty(); }
 
  private:

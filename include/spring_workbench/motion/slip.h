@@ -4,19 +4,19 @@
 
 namespace spring_workbench::motion {
 
-/// How far a tool has slipped in the hand: its stylus is not where the hand has it, and comes back (doc/model.md, "At
-/// the limit").
+/// Displacement of a tool's stylus from the hand's after the tool has slipped, and its return (doc/model.md, "At the
+/// limit").
 class Slip {
  public:
   bool open() const { return open_; }
   void close() { open_ = false; }
-  /// The tool's stylus is at `seen` where the hand has it at `X_WS`.
+  /// Begins a slip: the hand's stylus is at `X_WS`, the tool's at `seen`.
   void begin(const RigidTransform& X_WS, const RigidTransform& seen);
-  /// The tool's stylus where the hand has it at `X_WS`.
+  /// Returns the pose of the tool's stylus when the hand's is at `X_WS`.
   RigidTransform of(const RigidTransform& X_WS) const { return displaced(X_WS, 1.0); }
-  /// The motion of the tool's stylus over the next `h` [s], on which it comes back.
+  /// Returns the motion of the tool's stylus over the next `h` [s], during which it returns towards the hand's.
   MotionSegment motion(const MotionSegment& hand, double now, double h);
-  /// That step has been made; of no effect where it is not open.
+  /// Accepts the step of the last motion(). No effect if there is no slip.
   void accept();
 
   void exchange(math::StateArchive& state) { state(open_, by_W_, turn_S_, left_); }

@@ -11,8 +11,8 @@
 
 namespace spring_workbench::motion {
 
-/// What one stylus has told: how it moves, and the edges of its buttons. With the clutch on, S stays where it is while
-/// the hand goes on alone; then S goes on from there, as the hand moves and turns in world.
+/// Motion and button edges of one stylus, from its samples. With the clutch on, S stays where it is while the hand
+/// moves alone; afterwards S continues from there, and moves and turns in world as the hand does.
 class Stylus {
  public:
   /// [s]; stamps nearer to each other are one. Smaller: a rounding error makes a step of its own. Test:

@@ -40,7 +40,7 @@ const std::vector<std::string>& names_of(ShapeKind);
 enum class DampingLaw { per_dof, modal, coefficients };
 const std::vector<std::string>& names_of(DampingLaw);
 
-/// The spring-fork's elastic part (doc/model.md, "The spring-fork is a rod").
+/// The spring-fork's elastic part (doc/model.md, "The rod").
 struct ForkSettings {
   ShapeKind shape = ShapeKind::linear;    ///< key `shape`
   double length = 0.2;                    ///< key `fork.length` [m], > 0: rest length L

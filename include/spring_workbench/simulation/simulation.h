@@ -25,7 +25,7 @@ class SimulationState {
   /// The state of no simulation.
   SimulationState() = default;
 
-  /// Hash of all its numbers; the same on every machine.
+  /// Returns the hash of all its numbers: equal states have equal hashes on every machine.
   std::uint64_t hash() const { return math::hash(words_); }
   bool operator==(const SimulationState& other) const { return scene_ == other.scene_ && words_ == other.words_; }
   bool operator!=(const SimulationState& other) const { return !(*this == other); }
@@ -63,8 +63,8 @@ struct AdvanceReport {
   double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
   int steps_among_movable = 0;     ///< those of `steps` with other movable objects (contact mode `dynamic`)
   int collision_queries = 0;
-  int substeps = 0;           ///< attempts that were repeated with a shorter step because of their error
-  int stops = 0;              ///< steps that met the end of the fork's range
+  int substeps = 0;  ///< discarded attempts, repeated with a shorter step (equation not solved, or error too large)
+  int stops = 0;     ///< steps that met the end of the fork's range
   int steps_fallback = 0;     ///< steps taken by an L-stable rule because the integrator's equation was not solved
   double energy_error = 0.0;  ///< sum of the steps' estimated errors in energy [J]
   int steps_blocked = 0;      ///< steps in which no admissible motion of a body was found, so that it stayed
@@ -107,8 +107,8 @@ class Simulation {
   /// Simulated time [s]: the first sample's stamp at first.
   double time() const;
 
-  /// A new pose of the handle, whose place is scaled by `settings().hand_scale`. Returns false, and ignores
-  /// the pose, if its stamp is not later than the newest one. Throws InputError if it is not finite.
+  /// Adds a pose of the stylus; its position is scaled by `settings().hand_scale`. Returns false, and ignores the pose,
+  /// if its stamp is not later than the newest one. Throws InputError if the pose is invalid (motion::PoseTrack::push).
   bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
   /// A button of the stylus goes down or up at time `t` [s]; takes effect at the first step that begins at or after
   /// `t`.
@@ -150,6 +150,7 @@ class Simulation {
   ChangeReport select_tool(tools::Tool tool, std::size_t hand = 0);
   /// Changes the fork in one hand, or in all.
   ChangeReport change(const ForkChange& change, std::optional<std::size_t> hand = std::nullopt);
+  /// Changes integrator, step or tolerance of all hands. Throws InputError if a value is invalid.
   void change(const DynamicsChange& change);
   /// Makes both changes, or neither.
   void change(const ForkChange& of_fork, const DynamicsChange& of_dynamics);
@@ -161,8 +162,8 @@ class Simulation {
   ChangeReport edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {});
   /// The scene as edited, with its objects where they are now.
   scene::Scene scene_now() const;
-  /// Stiffness from the mass and size of the held object, or of the world with `calibrate: world`, of the fork in one
-  /// hand, or in each that holds something; the damping ratios stay. Throws InputError when nothing is held.
+  /// Fits the tool in one hand, or in each, to the object that it holds; with `calibrate: world`, restores the scene's
+  /// stiffness. The damping ratios stay. Throws InputError if no object is held by a fork or a spring.
   ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
 
   const std::vector<bodies::BodyState>& objects() const;

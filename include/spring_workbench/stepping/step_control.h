@@ -23,12 +23,12 @@ struct ErrorBounds {
   void exchange(math::StateArchive& state) { state(local, position, angle, unbounded); }
 };
 
-/// What a StepControl did over a span of time.
+/// Report of a StepControl on a span of time.
 struct ControlledStep {
-  bool accepted = true;         ///< false: the state given was none to go on from, and none was taken
+  bool accepted = true;         ///< false: no step was possible from the given state, and none was taken
   int steps = 0;                ///< steps taken
-  int substeps = 0;             ///< steps tried and taken again shorter
-  int fallback = 0;             ///< steps done by fallback_step()
+  int substeps = 0;             ///< attempts that were discarded and repeated with a shorter step
+  int fallback = 0;             ///< steps taken by fallback_step()
   int stops = 0;                ///< steps that met the end of the rod's range
   double position_error = 0.0;  ///< largest estimate of a step's local error, at the object's centre of mass [m]
   double angle_error = 0.0;     ///< the same of its attitude [rad]
@@ -38,23 +38,23 @@ struct ControlledStep {
   ErrorBounds bounds;
 };
 
-/// Carries the held body over a span of time with an integrator: in one step, or in as many as it takes.
+/// Integrates the held body over a span of time, in one step or in as many as needed.
 ///
 /// A method that no stiffness limits takes shorter steps (halves, to the 64th part of the span) if it does not solve
 /// its equation or does not keep to its energy (Integrator::Energy): its error in energy, by its own estimate, may be a
 /// hundredth, in a minute, of the largest energy since the grasp; one that takes energy away may gain as much. A step
-/// that still is not done then is done by an L-stable rule that always has a solution (fallback_step.h). A strain
-/// beyond the rod's range meets a stop (range_stop.h). So every span comes to its end.
+/// that still fails is taken by an L-stable rule that always has a solution (fallback_step.h). A strain beyond the
+/// rod's range meets a stop (range_stop.h). So every span is completed.
 ///
-/// With a tolerance, what is held to it is the error that the run has at any time: the estimates of all local errors so
-/// far, each carried on by the method itself to the present. Its size is the distance of the object's centre of mass
-/// from where it should be [m] and the angle times the object's radius of gyration, as one length. Where nothing damps
-/// an error away, it may grow by the tolerance in each `undamped_horizon`. A step of less than 4 µs, or two
-/// ten-thousandths of the span, is taken whatever its error.
+/// A tolerance bounds the error of the run at any time: the estimates of all local errors so far, each propagated to
+/// the present by the method itself. Its size is the distance of the object's centre of mass from where it should be
+/// [m] and the angle times the object's radius of gyration, as one length. Where nothing damps an error away, it may
+/// grow by the tolerance in each `undamped_horizon`. A step of less than 4 µs, or two ten-thousandths of the span, is
+/// taken whatever its error.
 ///
 /// With `error_bound`, the error of the run is followed from the grasp on, and anew after anything that cannot be
-/// followed (Integrator::follow). For a method without an
-/// interpolant of its own, `exponential` is carried along, and what it follows is the distance between the two.
+/// followed (Integrator::follow). For a method without an interpolant of its own, `exponential` is carried along, and
+/// what is followed is the distance between the two.
 class StepControl {
  public:
   /// What goes on from one span to the next; belongs to the state.

@@ -12,7 +12,7 @@ struct StepEstimates {
   double angle = 0.0;     ///< [rad]
   double omega_dt = 0.0;  ///< of the stiffest mode
   int extra_steps = 0;    ///< more than one for each span
-  int substeps = 0;       ///< attempts repeated with a shorter step because of their error
+  int substeps = 0;       ///< discarded attempts, repeated with a shorter step
   int stops = 0;          ///< that met the end of the fork's range
   int fallback = 0;       ///< taken by an L-stable rule in place of the integrator
   double energy = 0.0;    ///< sum of the estimated errors in energy [J]

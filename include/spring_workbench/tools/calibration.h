@@ -6,19 +6,19 @@
 
 namespace spring_workbench::tools {
 
-/// The acceleration [m/s²] that tells a weight from a mass: the scene's gravity, and without any the Earth's.
+/// Returns the acceleration [m/s²] that converts masses to weights: the scene's gravity or, if that is 0, the Earth's.
 double weighing_gravity(double gravity);
 
 /// Stiffness [N/m, N/m, N·m/rad] of a fork of shape model `shape` and `length` [m] for the body as it is grasped
 /// (`body.X_OE`). Hanging from the upright fork it extends the fork by `goal.sag` of its length; held level, gravity
 /// along −x of the handle, it deflects the tip by as much: both in the full nonlinear equilibrium. Then every
 /// direction, twisting too, has near to the natural frequency `ω = sqrt(g / (sag · length))`, whatever the mass.
-/// Without gravity as on Earth.
+/// If `gravity` is 0, the Earth's is used.
 rod::PerDof calibrated_stiffness(rod::ShapeKind shape, double length, const dynamics::BodyInertia& body, double gravity,
                                  const ObjectGoal& goal = {});
 
-/// Stiffness [N/m] of the tool `spring` that the weight of `mass` [kg] extends by `sag` [m]. Without gravity as on
-/// Earth.
+/// Returns the stiffness [N/m] of the tool `spring` with which the weight of `mass` [kg] extends it by `sag` [m]. If
+/// `gravity` is 0, the Earth's is used.
 double calibrated_spring(double mass, double sag, double gravity);
 
 /// Length [m] of a fork for a body, from its size and its weight (paper, section 3.1): `2 twist r / sag`, with r the
@@ -39,7 +39,7 @@ WorldLoad world_load(const scene::Scene& scene, const WorldGoal& goal);
 /// `slope_stiffness` as in `fork`: hanging from the upright fork, `load.mass` extends it by `goal.stretch` of its
 /// length; held level at its centre it deflects the tip by `goal.bend` of the length; held level at a lever of
 /// `load.lever` from its centre it twists the fork by `goal.twist`: each in the full nonlinear equilibrium. What weighs
-/// less does so in proportion. Without gravity as on Earth.
+/// less does so in proportion. If `gravity` is 0, the Earth's is used.
 rod::PerDof world_stiffness(const rod::ForkSettings& fork, const WorldLoad& load, double gravity,
                             const WorldGoal& goal = {});
 

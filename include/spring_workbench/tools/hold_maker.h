@@ -40,9 +40,9 @@ class HoldMaker {
 
   /// A hold without strain, at time `now` [s]. Set the hand's motion before using it.
   std::unique_ptr<ToolHold> make(const Grasp& grasp, const GraspedBody& object, double now) const;
-  /// The object at time `now` [s] as none holds it, with this velocity, to be pushed by tools. Its mass must be > 0.
+  /// Makes the object, at time `now` [s], a body that no tool holds, to be pushed by tools. Its mass must be > 0.
   std::unique_ptr<ToolHold> make_unheld(const GraspedBody& object, const Twist& V_WO_W, double now) const;
-  /// The object as it moves so, on a tool that does no more than `at_tip_W` to it at its tip.
+  /// Makes the object as a free body with this twist, under the constant wrench `at_tip_W` of a tool at its limit.
   std::unique_ptr<bodies::SteppedBody> make_pulled(const Grasp& grasp, const GraspedBody& object, const Twist& V_WO_W,
                                                    const Wrench& at_tip_W) const;
   /// The DOFs in which the object can move: those that are on and in which it has an inertia.

@@ -37,13 +37,13 @@ class ToolHold : public bodies::SteppedBody {
   /// has come to rest on it. `may_fall_asleep`: false if something else may move it.
   virtual bool sleeps(double h, bool may_fall_asleep) = 0;
   virtual void let_pass(double h) = 0;
-  /// What the springs do to the object at its centre, world axes; its dampers left out.
+  /// Returns the wrench that the springs, without the dampers, exert on the object at its centre, world axes.
   virtual Wrench spring_pull() const = 0;
   /// Regrasps with the object at `X_WO`: the old strain is gone, and the springs exert `pull_W` on the object, at its
   /// centre, as far as the tool has springs for it (doc/model.md, "Regrasping").
   virtual void regrasp(const RigidTransform& X_WO, const Wrench& pull_W) = 0;
-  /// `h` [s] have passed, in which the tool slipped in the hand and did `at_tip_W` to the object at the tip; the object
-  /// moves so now. The stylus rests where the tool is: the pose that it would have (doc/model.md, "At the limit").
+  /// Ends a step of `h` [s] in which the tool slipped and exerted `at_tip_W` at the tip on the object, whose motion is
+  /// now `object`. Returns the pose of the stylus that fits the tool's strain (doc/model.md, "At the limit").
   virtual RigidTransform slip(double h, const motion::MotionState& object, const Wrench& at_tip_W) = 0;
   /// Brings the object's twist as close to this one as possible.
   virtual void take_twist(const Twist& V_WO_W) = 0;

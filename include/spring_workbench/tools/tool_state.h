@@ -50,7 +50,7 @@ struct ToolState {
   double stretching_force = 0.0;  ///< along the tool's axis at the handle, > 0: it is pulled out [N] (paper, section 4)
   double bending_force = 0.0;     ///< across that axis [N]
   double force_angle = 0.0;       ///< Φ of the force on the tool from that axis, 0 … π [rad]
-  double load = 0.0;              ///< where what it does is in the scene's range of loads, 0 … 1 (LoadRange)
+  double load = 0.0;              ///< position of the load in the scene's range of loads, 0 … 1 (LoadRange)
   bool clutch = false;            ///< on: the hand moves without the tool
   double material_stiffness = 0.0;              ///< reading of the probe [N/m]; infinite: rigid; 0: no reading
   double material_stiffness_uncertainty = 0.0;  ///< one standard deviation [N/m]

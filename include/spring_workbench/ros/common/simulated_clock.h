@@ -6,24 +6,25 @@
 
 namespace spring_workbench::ros_common {
 
-/// Jumps back of a simulated clock, as a bag that is played again makes them. The clock and its streams come by ways of
-/// their own, and what was sent before the jump may come after it.
+/// Handles jumps back of a simulated clock, e.g. when a bag is played again. The clock and the streams come over
+/// separate connections, so messages that were sent before a jump may arrive after it.
 class SimulatedClock {
  public:
-  /// [s] a clock that is set back by less goes on. Less: a clock that is set right starts the scene anew. Test:
+  /// [s] a step back of up to this is no jump. Less: a small correction of the clock restarts the scene. Test:
   /// manipulation_test.py::test_starts_anew_when_time_jumps_back.
   static constexpr double slip = 0.1;
   struct Stream {
     ros::Time newest;  ///< stamp, of this epoch; zero before the first message
   };
 
-  /// The time now, for a message with this stamp of this stream; nothing when it belongs to the time after a jump back
-  /// for which it has to wait. A stamp that goes on where its stream was, within `max_age` [s] of what the clock said
-  /// then, belongs to the time before.
+  /// Returns the present time for a message of `stream` with this stamp, or nothing if the message belongs to the time
+  /// after a jump that has not been made yet, and has to wait. After a jump of the clock, a stamp that is later than
+  /// its stream's newest and within `max_age` [s] of the clock's last time before the jump belongs to the time before
+  /// it.
   std::optional<ros::Time> moment_of(const ros::Time& stamp, const Stream& stream, double max_age);
-  /// Whether the other stream may still follow a jump back.
+  /// Returns true as long as the other stream may still follow a jump back.
   bool is_patient() const;
-  /// The jump is made. By how much the clock went back [s].
+  /// Makes the jump. Returns by how much the clock went back [s].
   double restart();
 
  private:

@@ -11,13 +11,13 @@
 
 namespace spring_workbench::manipulation {
 
-/// Where a node `manipulation` keeps its checkpoint: on the parameter server under `~resume` and, if that is asked for,
-/// in a file. It is brought up to date twice a second while something changes, and deleted when the node ends in order.
+/// Keeps the checkpoint of a node `manipulation` on the parameter server under `~resume` and, if asked for, in a file.
+/// It is updated twice a second while something changes, and deleted when the node ends normally.
 class Checkpoint {
  public:
-  /// Brings the runner to the checkpoint that the master has, or else to that of the file; one that is of another scene
-  /// or cannot be used is told, and nothing of it is (such a file is set aside). `master`, `disk`: private handles of
-  /// the threads that may wait for these; `file`: empty: none. For the rest see live::Checkpoint.
+  /// Restores the runner from the checkpoint on the master, or else from the file. A checkpoint of another scene, or
+  /// one that cannot be restored, is reported and ignored as a whole (such a file is set aside). `master`, `disk`:
+  /// private handles of the threads that may wait for these; `file`: empty: none. For the rest see live::Checkpoint.
   Checkpoint(const ros::NodeHandle& master, const ros::NodeHandle& disk, const std::string& file,
              live::SimulationRunner& runner, const std::string& given_scene,
              const std::vector<std::string>& scene_roots);
@@ -25,9 +25,9 @@ class Checkpoint {
   Checkpoint(const Checkpoint&) = delete;
   Checkpoint& operator=(const Checkpoint&) = delete;
 
-  /// To a master that was started anew: the node's parameters and the checkpoint, for the one that comes after this.
+  /// Writes the node's parameters and the checkpoint to a master that was restarted, for the node's successor.
   void hand_over();
-  /// Why the file is not up to date; empty: it is, or there is none.
+  /// Returns why the file is not up to date; empty: it is, or there is none.
   std::string file_error() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return file_error_;
