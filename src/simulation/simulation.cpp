@@ -252,7 +252,7 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
     }
     std::vector<tools::ToolOnObject> tools;
     for (Hand* hand : on_it) tools.push_back(hand->begin_shared_step(now));
-    tools::Sharing sharing(tools, [&] { return on_it.front()->make_unheld(now); });
+    tools::Sharing sharing(tools, [this, first = on_it.front()] { return first->make_unheld(now); });
     carried.push_back({object, shared.emplace(object, std::move(sharing)).first->second.body()});
   }
   contact::StepCounts counts;

@@ -43,7 +43,7 @@ class DynamicStepper {
  private:
   /// Motion of a held body over a substep under the contact load of the last one; the body is then at its end.
   struct Candidate {
-    bodies::SteppedBody* body;
+    bodies::SteppedBody* body = nullptr;
     bodies::TrialStart start;
     motion::MotionState begin, end;
     Wrench load_W;

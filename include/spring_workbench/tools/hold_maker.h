@@ -12,19 +12,19 @@ namespace spring_workbench::tools {
 
 /// How a tool is about to hold an object.
 struct Grasp {
-  Tool tool;
-  std::size_t object;   ///< in the workbench
-  RigidTransform X_WS;  ///< the stylus
-  RigidTransform X_OE;  ///< the tip in the object
-  double reach;         ///< from the stylus to the tip, along z [m]
-  double length;        ///< of the spring part of a fork [m]; the rest of the reach is rigid
+  Tool tool = Tool::spring_fork;
+  std::size_t object = 0;  ///< in the workbench
+  RigidTransform X_WS;     ///< the stylus
+  RigidTransform X_OE;     ///< the tip in the object
+  double reach = 0.0;      ///< from the stylus to the tip, along z [m]
+  double length = 0.0;     ///< of the spring part of a fork [m]; the rest of the reach is rigid
 
   void exchange(math::StateArchive& state) { state(tool, object, X_WS, X_OE, reach, length); }
 };
 
 /// The object that it takes.
 struct GraspedBody {
-  std::size_t index;  ///< in the scene
+  std::size_t index = 0;  ///< in the scene
   const scene::Body& body;
   RigidTransform X_WO;
 
