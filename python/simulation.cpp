@@ -149,9 +149,9 @@ stiffness: of stretching, bending [N/m] and twisting [N m/rad]; damping_ratio: o
 the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputError if a value is not allowed.)")
       .def(
           "calibrate", [](Simulation& s) { s.calibrate(); },
-          "Chooses the stiffness of each hand's tool from the mass and size of its object. Raises InputError if "
-          "nothing is "
-          "held by a fork or a spring.")
+          "Fits each hand's tool to the object that it holds or, with calibrate: world, restores the scene's "
+          "stiffness. "
+          "Raises InputError if nothing is held by a fork or a spring.")
       .def(
           "release", [](Simulation& s) { return s.release(); },
           "Releases the objects of all hands. Returns False if nothing was held.")

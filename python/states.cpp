@@ -104,9 +104,9 @@ void bind_report(py::module_& module) {
   using simulation::AdvanceReport;
   py::class_<AdvanceReport>(module, "Report", "Report of one call of `advance`.")
       .def_readonly("steps", &AdvanceReport::steps, "Number of steps taken.")
-      .def_readonly(
-          "substeps", &AdvanceReport::substeps,
-          "Number of steps that were discarded and repeated with a shorter step because their error was too large.")
+      .def_readonly("substeps", &AdvanceReport::substeps,
+                    "Number of attempts that were discarded and repeated with a shorter step (equation not solved, or "
+                    "error too large).")
       .def_readonly("simulated_time", &AdvanceReport::simulated_time, "Simulated time [s].")
       .def_readonly("position_error", &AdvanceReport::position_error, "Largest estimate of a step's local error [m].")
       .def_readonly("angle_error", &AdvanceReport::angle_error,
@@ -140,7 +140,7 @@ void bind_states(py::module_& module) {
   py::class_<SimulationState>(module, "State", "Saved state of a whole simulation. It can be compared and pickled.")
       .def_property_readonly(
           "hash", [](const SimulationState& s) { return simulation::to_hex(s.hash()); },
-          "Hash of the state: 16 hexadecimal digits, the same on every machine.")
+          "Hash of the state, 16 hexadecimal digits: equal states have equal hashes on every machine.")
       .def(
           "__eq__", [](const SimulationState& a, const SimulationState& b) { return a == b; }, py::is_operator())
       .def("__hash__", [](const SimulationState& s) { return static_cast<std::size_t>(s.hash()); })

@@ -34,8 +34,8 @@ constexpr double slow_convergence = 0.7;
 constexpr double forget_rate = 1.3;
 /// The last step's polynomial is extrapolated to a step of this many times its length, and no further.
 constexpr double farthest_extrapolated = 1.5;
-/// What the bound of an error allows for, of what further iterations would change.
-constexpr double share_of_iterations = 0.5;
+/// Of the bound: what it allows for of what further iterations would change; how much that is, at an unknown rate.
+constexpr double share_of_iterations = 0.5, not_known = 1e3;
 /// Of the step: the start of a step and the end of the last one are the same moment.
 constexpr double same_time = 1e-9;
 
@@ -106,7 +106,7 @@ class Exponential::CoreOf final : public Core {
     const Modes end = collocation_.deviation(at_end(e));
     run.estimate = {end.template head<n>(), end.template tail<n>()};
     for (int m = 0; m < 2 * n; ++m) e[at(m)] -= guess[at(m)];
-    const double left = rate_ < 1.0 ? rate_ / (1.0 - rate_) : std::numeric_limits<double>::infinity();
+    const double left = rate_ < 1.0 ? rate_ / (1.0 - rate_) : not_known;
     const double missed = spread_.amplitude(collocation_, missed_at_nodes)[last],
                  changed = spread_.amplitude(collocation_, e)[last];
     run.unsure = missed +
@@ -273,7 +273,7 @@ class Exponential::CoreOf final : public Core {
       if (iterations > 1) rate = std::sqrt(all / all_before);
       if (iterations == 2) rate_ = rate;
       if (iterations > iterations_to_judge && rate > slow_convergence && all > rounding) break;
-      left = rate < 1.0 ? rate / (1.0 - rate) : 1e3;
+      left = rate < 1.0 ? rate / (1.0 - rate) : not_known;
       squared_left = left * left * squared_size(change);
       converged = squared_left <= std::max(share_of_error * share_of_error * squared_error_, rounding);
       all_before = all;

@@ -339,7 +339,7 @@ std::string Simulation::Impl::signature() const {
 
 void Simulation::Impl::exchange(math::StateArchive& state) {
   state(edits, now, started, settings.dynamics.integrator, settings.dynamics.step, settings.dynamics.tolerance,
-        objects);
+        settings.dynamics.error_bound, objects);
   for (Hand& hand : hands) hand.exchange(state, now);
 }
 

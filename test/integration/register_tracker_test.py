@@ -134,7 +134,7 @@ class RegisterTracker(unittest.TestCase):
         again = ["--landmarks", known, "--registration", tip, "--motion"]
         self.refuse("order b, a, c, d, e", *again, self.motion([straight[i] for i in (1, 0, 2, 3, 4)]))
         self.refuse("touches: must be one per landmark (5), got 4", *again, self.motion(straight[:4]))
-        self.refuse("at rest", "--landmarks", known, "--motion", self.motion(straight))  # without the tip
+        self.refuse("of its mean while", "--landmarks", known, "--motion", self.motion(straight))  # without the tip
         self.refuse(
             "turned by",
             "--pivot",
