@@ -9,6 +9,7 @@
 #include "modal_decomposition.h"
 #include "spring_workbench/math/anderson_mixer.h"
 #include "spring_workbench/math/exponential_collocation.h"
+#include "spring_workbench/math/spatial.h"
 
 namespace spring_workbench::dynamics {
 namespace {
@@ -103,7 +104,7 @@ class Exponential::CoreOf final : public Core {
     NodeStrains r = residual(body, done_.forcing, done_.q0, done_.q_dot0, x);
     for (int i = 0; i < n; ++i) r[at(i)] = done_.residual[at(i)] - r[at(i)];
     collocation_.drive(guess, collocation_.in_modes(r), e);
-    const Modes end = collocation_.deviation(at_end(e));
+    const Modes end = collocation_.deviation(Collocation::at_end(e));
     run.estimate = {end.template head<n>(), end.template tail<n>()};
     for (int m = 0; m < 2 * n; ++m) e[at(m)] -= guess[at(m)];
     const double left = rate_ < 1.0 ? rate_ / (1.0 - rate_) : not_known;
@@ -192,9 +193,6 @@ class Exponential::CoreOf final : public Core {
     return r;
   }
 
-  SPRING_WORKBENCH_INLINE double squared_size(const Modes& x) const {
-    return collocation_.squared_weight().dot(x.cwiseAbs2());
-  }
   /// The squared size of what is rounded in a step: of the state, and where couplings pull, whose strains are
   /// differences of places so far from the origin, of these, as far as the step feels it.
   double rounded(const HeldBody& body, double distance, double h, const Strain& q, const Strain& q_dot) const {
@@ -202,10 +200,14 @@ class Exponential::CoreOf final : public Core {
     return modes().mass.dot(rod::StrainVector(q.cwiseAbs2() + h * h * q_dot.cwiseAbs2())) +
            body.body().mass * felt * felt;
   }
-  SPRING_WORKBENCH_INLINE static Modes at_end(const NodeModes& x) {
-    Modes end;
-    for (int m = 0; m < 2 * n; ++m) end[m] = x[at(m)][last];
-    return end;
+  /// The same, at most, where springs, dampers and a load cancel: the acceleration is a small difference of large ones.
+  double rounded_where_loads_cancel(const HeldBody& body, const Strain& q, const Strain& q_dot) const {
+    const Wrench& load = body.external_wrench();
+    const Wrench all{Vector3d::Constant(load.force.norm()), Vector3d::Constant(load.moment.norm())};
+    return share_of_change * share_of_change *
+           collocation_.squared_effect(collocation_.stiffness().cwiseAbs() * q.cwiseAbs() +
+                                       collocation_.damping().cwiseAbs() * q_dot.cwiseAbs() +
+                                       modes().by_wrench.cwiseAbs() * to_vector(all));
   }
 
   /// The residual at the modes `x`.
@@ -230,10 +232,21 @@ class Exponential::CoreOf final : public Core {
     collocation_.drive_samples(x, in_modes, x);
     NodeStrains defect = residual(body, body.forcing(handle, t + h * pack(s)), q0, q_dot0, x);
     for (int i = 0; i < n; ++i) {
-      for (std::size_t j = 0; j < nodes; ++j) defect[at(i)] -= at_samples()[j] * r[at(i)][j];
+      for (std::size_t j = 0; j < nodes; ++j) defect[at(i)] -= math::Collocation::at_samples()[j] * r[at(i)][j];
     }
     defect_ = collocation_.in_modes(defect);
     return collocation_.end_effect(defect_);
+  }
+
+  /// What an iteration changed, from where it began, and its squared size.
+  template <typename Image>
+  SPRING_WORKBENCH_INLINE double take_change(const NodeModes& from, Image& image) const {
+    double all = 0.0;
+    for (int m = 0; m < 2 * n; ++m) {
+      image.change[at(m)] = image.x[at(m)] - from[at(m)];
+      all += collocation_.squared_weight()[m] * math::sum(image.change[at(m)] * image.change[at(m)]);
+    }
+    return all;
   }
 
   /// Fixed-point iteration on the residual at the nodes, then the defect of the polynomial through it at the samples.
@@ -248,7 +261,6 @@ class Exponential::CoreOf final : public Core {
     collocation_.begin(q_dot0, begin, begin_samples);
     collocation_.drive(begin, in_modes, x);
 
-    const Modes& weight = collocation_.squared_weight();
     const double squared_state = rounded(body, forcing.seen.distance, h, q0, q_dot0);
     mixer_.restart();
     double all_before = 0.0, rate = std::min(1.0, rate_ * forget_rate), left = 0.0, squared_left = 0.0;
@@ -261,28 +273,28 @@ class Exponential::CoreOf final : public Core {
       r = residual(body, forcing, q0, q_dot0, x);
       in_modes = collocation_.in_modes(r);
       collocation_.drive(begin, in_modes, image.x);
-      double all = 0.0;
-      for (int m = 0; m < 2 * n; ++m) {
-        image.change[at(m)] = image.x[at(m)] - x[at(m)];
-        all += weight[m] * math::sum(image.change[at(m)] * image.change[at(m)]);
-      }
+      const double all = take_change(x, image);
       if (!(all < 1e300)) return {rod::StrainVector(), 0.0, rod::StrainVector(), false};
-      reached = at_end(image.x);
-      change = at_end(image.change);
-      const double rounding = share_of_change * share_of_change * (squared_size(reached) + squared_state);
+      reached = Collocation::at_end(image.x);
+      change = Collocation::at_end(image.change);
+      const double rounding = share_of_change * share_of_change * (collocation_.squared_size(reached) + squared_state);
       if (iterations > 1) rate = std::sqrt(all / all_before);
       if (iterations == 2) rate_ = rate;
-      if (iterations > iterations_to_judge && rate > slow_convergence && all > rounding) break;
+      if (iterations > 2 && rate > slow_convergence && all > rounding) {
+        converged = all <= rounded_where_loads_cancel(body, q0, q_dot0);
+        if (converged) left = 1.0;  // a further iteration changes as much again
+        if (converged || iterations > iterations_to_judge) break;
+      }
       left = rate < 1.0 ? rate / (1.0 - rate) : not_known;
-      squared_left = left * left * squared_size(change);
+      squared_left = left * left * collocation_.squared_size(change);
       converged = squared_left <= std::max(share_of_error * share_of_error * squared_error_, rounding);
       all_before = all;
-      mixer_.mix(weight, x);
+      mixer_.mix(collocation_.squared_weight(), x);
     }
     slow_iterations_ += std::max(0, iterations - few_iterations);
 
     const Modes missed = defect_effect(body, handle, t, h, q0, q_dot0, begin_samples, r, in_modes);
-    squared_error_ = squared_size(missed);
+    squared_error_ = collocation_.squared_size(missed);
     converged = converged || squared_left <= share_of_error * share_of_error * squared_error_;
     const Modes end = collocation_.deviation(reached),
                 error = -collocation_.deviation(Modes((1.0 + left) * missed + left * change));
@@ -295,18 +307,6 @@ class Exponential::CoreOf final : public Core {
     end_ = state;
     done_ = {forcing, q0, q_dot0, r, mixer_.last().x};
     return {error.template head<n>(), modes().fastest * h, error.template tail<n>(), converged && end.allFinite()};
-  }
-
-  /// The polynomial at the samples, from its values at the nodes.
-  static const std::array<math::Pack, nodes>& at_samples() {
-    static const auto rows = [] {
-      std::array<math::Pack, nodes> r;
-      for (std::size_t k = 0; k < nodes; ++k) {
-        for (std::size_t j = 0; j < nodes; ++j) r[j][k] = math::Collocation::interpolated(s[k])[j];
-      }
-      return r;
-    }();
-    return rows;
   }
 
   Collocation collocation_;

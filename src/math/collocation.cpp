@@ -52,6 +52,17 @@ Collocation::Row Collocation::interpolated(double at) {
   return row;
 }
 
+const std::array<Pack, count>& Collocation::at_samples() {
+  static const auto rows = [] {
+    std::array<Pack, count> r;
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t j = 0; j < count; ++j) r[j][k] = interpolated(s[k])[j];
+    }
+    return r;
+  }();
+  return rows;
+}
+
 const std::array<std::array<double, 2 * count>, count>& Collocation::defect_power() {
   static const auto coefficients = defects();
   return coefficients;

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 
+#include "spring_workbench/math/pack.h"
 #include "spring_workbench/math/phi_functions.h"
 
 namespace spring_workbench::math {
@@ -23,6 +24,8 @@ struct Collocation {
   static const std::array<Row, count>& power();
   /// The cubic through values at the nodes, at `c`: its value is Σ_j row[j] N_j.
   static Row interpolated(double c);
+  /// Lane k of pack j: that cubic of node j at sample k.
+  static const std::array<Pack, count>& at_samples();
   /// `defect_power()[k]`: coefficients of the polynomial of degree seven that vanishes at the nodes, is 1 at sample k
   /// and 0 at the others.
   static const std::array<std::array<double, 2 * count>, count>& defect_power();

@@ -64,6 +64,17 @@ class ExponentialCollocation {
 
   /// Squared weights of the modes: a displacement counts as it is, a velocity times what is left of it over the step.
   const Modes& squared_weight() const { return squared_weight_; }
+  SPRING_WORKBENCH_INLINE double squared_size(const Modes& x) const { return squared_weight_.dot(x.cwiseAbs2()); }
+  SPRING_WORKBENCH_INLINE static Modes at_end(const NodeModes& x) {
+    Modes end;
+    for (int m = 0; m < 2 * n; ++m) end[m] = x[at(m)][count - 1];
+    return end;
+  }
+  /// The squared size, at most, of what terms of this size in the acceleration change in a step.
+  double squared_effect(const Strain& accelerations) const {
+    const Modes rates = to_modes_.template rightCols<n>().cwiseAbs() * accelerations;
+    return squared_size(rates.cwiseProduct(squared_weight_.cwiseSqrt()));
+  }
 
   /// The modes at the nodes from the rate at the start alone, and at the samples.
   SPRING_WORKBENCH_INLINE void begin(const Strain& q_dot, NodeModes& nodes, NodeModes& samples) const {
@@ -150,12 +161,7 @@ class ExponentialCollocation {
     return y;
   }
   /// The same of strain and rate, at the end.
-  Modes carried(const Modes& deviation) const {
-    const NodeModes y = carried_in_modes(in_modes(deviation));
-    Modes end;
-    for (int m = 0; m < 2 * n; ++m) end[m] = y[at(m)][count - 1];
-    return from_modes_ * end;
-  }
+  Modes carried(const Modes& deviation) const { return from_modes_ * at_end(carried_in_modes(in_modes(deviation))); }
   /// Strain and rate at the end of the step for constant accelerations, a column each.
   Eigen::Matrix<double, 2 * n, n> response(const Square& acceleration) const {
     const Eigen::Matrix<double, 2 * n, n> force = to_modes_.template rightCols<n>() * acceleration;

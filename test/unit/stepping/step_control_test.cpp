@@ -106,6 +106,38 @@ TEST_P(SteppedWithATolerance, LandsWithinAFactorOfThreeOfItsTolerance) {
   }
 }
 
+/// A stiff fork at rest, bent by a load that its springs hold: the acceleration is the small difference of large ones,
+/// and its rounding is no reason to halve the step.
+TEST(StepControl, GoesOnInWholeStepsWhereALoadAndTheSpringsCancel) {
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int trial = 0; trial < 24; ++trial) {
+    std::mt19937 random(static_cast<unsigned>(trial));
+    Case c =
+        random_case(test_support::shape_names()[static_cast<std::size_t>(trial) % test_support::shape_names().size()],
+                    1.0, 1.0, random);
+    const double stiffness = std::pow(10.0, 4.0 + trial % 8);
+    rod::ForkSettings fork;
+    fork.stiffness = {stiffness, stiffness, 0.01 * stiffness};
+    fork.damping_ratio = {1.0, 1.0, 1.0};
+    c.held.set_springs(fork);
+    const Vector3d F = 0.005 * stiffness * Vector3d(uniform(random), uniform(random), uniform(random));
+    c.held.set_external_wrench({F, Vector3d(0.05 * uniform(random), 0.05 * uniform(random), -0.02).cross(F)});
+    const motion::MotionSegment hand(c.held.forcing(c.hand, 0.0).X_WH);
+    for (const double h : {0.02, 0.002, 0.0003}) {
+      const StepControl control(test_support::make_integrator("exponential"));
+      StepControl::Memory memory;
+      StrainState state = c.held.zero_state();
+      for (int i = 0; i < 400; ++i) {
+        const ControlledStep step = control.advance(c.held, hand, i * h, h, state, memory);
+        ASSERT_TRUE(step.accepted);
+        if (i * h < 0.1 && i < 200) continue;  // it swings in
+        EXPECT_EQ(step.substeps, 0) << trial << " " << h << " " << i;
+        EXPECT_EQ(step.fallback, 0) << trial << " " << h << " " << i;
+      }
+    }
+  }
+}
+
 /// A strain that is finite, but so far off that the equations overflow and have no modes.
 TEST(StepControl, TakesNoStepFromAStrainFarOff) {
   std::mt19937 random(1);
