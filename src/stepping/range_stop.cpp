@@ -1,9 +1,11 @@
 #include "range_stop.h"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 
 #include "constants.h"
+#include "energy_account.h"
 #include "spring_workbench/dynamics/linearised_motion.h"
 
 namespace spring_workbench::stepping {
@@ -25,31 +27,40 @@ void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing
     }
     return g;
   };
-  const auto kinetic = [&](const dynamics::StrainState& s) { return s.q_dot.dot(body.mass_matrix(t, s.q) * s.q_dot); };
-  const double before = kinetic(end);
+  // What the step itself gained; the stop adds nothing.
+  const double allowed = std::max(0.0, energy_gained(body, handle, begin, end));
   const dynamics::LinearisedMotion motion(body, handle, begin.q);
   const dynamics::ImplicitMatrix step(motion, h);
-  rod::StrainVector q = end.q, g;
+  rod::StrainVector q = end.q;
   for (int i = 0; i < most_iterations && !(used(q) < 1.0); ++i) {
-    g = slope(q);
-    const rod::StrainVector moved = step.solve(g);
+    const rod::StrainVector g = slope(q), moved = step.solve(g);
     q -= (used(q) - inside) / g.dot(moved) * moved;
   }
-  if (!(used(q) < 1.0)) {
+  // Beyond what the motion's energy reaches, or not inside: where it is on its way.
+  const bool reached = used(q) < 1.0 && energy_gained(body, handle, begin, {q, 0.0 * end.q_dot}) <= allowed;
+  if (!reached) {
     double shortest = 0.0, longest = 1.0;
     for (int k = 0; k < most_bisections; ++k) {
       const double part = 0.5 * (shortest + longest);
       (used(begin.q + part * (end.q - begin.q)) < 1.0 ? shortest : longest) = part;
     }
     q = begin.q + shortest * (end.q - begin.q);
-    g = slope(q);
   }
   end.q = q;
-  const rod::StrainVector moved = motion.M.llt().solve(g);
-  const double out = g.dot(end.q_dot);
-  if (out > 0.0) end.q_dot -= out / g.dot(moved) * moved;
-  const double after = kinetic(end);
-  if (after > before) end.q_dot *= std::sqrt(before / after);
+  // Compressed and wound up at once, it is at two stops.
+  const Eigen::LLT<rod::StrainMatrix> mass(motion.M);
+  for (int i = 0; i < most_iterations && end.q_dot.norm() > 0.0; ++i) {
+    const rod::StrainVector on = q + range_difference / body.shape().length() * end.q_dot.normalized();
+    if (!(used(on) > inside)) break;
+    const rod::StrainVector g = slope(on), moved = mass.solve(g);
+    const double out = g.dot(end.q_dot);
+    if (!(out > 0.0)) break;
+    end.q_dot -= out / g.dot(moved) * moved;
+  }
+  // What the strain gained on its way back, the rates lose.
+  const double kinetic = 0.5 * end.q_dot.dot(body.mass_matrix(t, end.q) * end.q_dot),
+               gained = energy_gained(body, handle, begin, end) - allowed;
+  if (gained > 0.0 && kinetic > 0.0) end.q_dot *= std::sqrt(std::max(0.0, 1.0 - gained / kinetic));
 }
 
 }  // namespace spring_workbench::stepping

@@ -7,7 +7,8 @@ namespace spring_workbench::stepping {
 /// The stop at the end of the rod's range (compressed to nothing, wound up), for a step of `h` [s] to the moment of
 /// `handle` from the strain `begin` inside the range to `end` outside: a one-sided constraint. The strain goes back to
 /// the range as the stop's force over the step moves it, against springs and dampers; an impulse takes the rate that
-/// leads out, as a stop that gives nothing back (Moreau's time stepping).
+/// leads out, as a stop that gives nothing back (Moreau's time stepping), or those that lead out at two stops. If the
+/// strain gains energy on its way back, the rates lose as much.
 void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, double h,
                    const dynamics::StrainState& begin, dynamics::StrainState& end);
 

@@ -141,6 +141,24 @@ TEST_P(StableIntegrator, AnObjectThatFallsOntoItsHandleStopsThereAndTurnsOn) {
   }
 }
 
+TEST_P(StableIntegrator, AnObjectThatIsAtTwoStopsRestsThere) {
+  // Compressed by its weight, and wound up by its spin.
+  for (const double step : {0.05, 0.02, 0.003}) {
+    const HeldBody held = body_of({0.0, 2.0, step, 0.0, 1 + 4, Hand::jump}, "linear");
+    const StepControl control(test_support::make_integrator(GetParam()));
+    StepControl::Memory memory;
+    const motion::MotionSegment rest(RigidTransform::Identity());
+    StrainState state = held.zero_state();
+    state.q_dot[0] = 2000.0;
+    for (double t = 0.0; t < 1.0; t += step) {
+      ASSERT_TRUE(control.advance(held, rest, t, step, state, memory).accepted) << step << " " << t;
+      ASSERT_TRUE(held.shape().admissible(held.full_state(t, state).q));
+    }
+    EXPECT_NEAR(state.q[1], -0.98, 1e-6) << step;
+    EXPECT_NEAR(state.q_dot.norm(), 0.0, 1e-9) << step;
+  }
+}
+
 TEST(UndampedFork, GainsNoEnergyWhileTheHandTremblesByANanometre) {
   // After a leap of 1 m and after a half turn. What the hand's tremor can do is far below what is asked.
   for (const Hand hand : {Hand::jump, Hand::flip}) {
