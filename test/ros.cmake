@@ -6,7 +6,7 @@ if(SPRING_WORKBENCH_FCL_FOUND)
   list(APPEND nodes checkpoint contact_sound fastrak faults killed_nodes launch_files limits
     live_replay manipulation master moved_by_messages
     played_recordings
-    register_tracker rviz tools)
+    register_tracker rviz study tools)
 endif()
 foreach(name ${nodes})
   add_rostest(integration/${name}.test)
@@ -23,6 +23,13 @@ if(dynamic_reconfigure_FOUND AND SPRING_WORKBENCH_FCL_FOUND)
   add_rostest(integration/live_tuning.test)
   add_rostest(integration/tutorials.test DEPENDENCIES replay)
 endif()
+
+# The study of tools with people: its plan, records and questionnaire.
+add_test(NAME study_plan COMMAND ${PYTHON_EXECUTABLE} ${CMAKE_CURRENT_SOURCE_DIR}/integration/study_plan_test.py
+  $<TARGET_FILE:assembly_trials> ${PROJECT_SOURCE_DIR})
+# Its analysis, on numbers of known distributions.
+add_test(NAME study_analysis COMMAND ${PYTHON_EXECUTABLE}
+  ${CMAKE_CURRENT_SOURCE_DIR}/integration/study_analysis_test.py ${PROJECT_SOURCE_DIR})
 
 # A package of another name in a catkin workspace, on top of this one as it is installed.
 add_test(NAME catkin_workspace COMMAND ${PYTHON_EXECUTABLE}

@@ -31,7 +31,7 @@ class AssemblyTrials(unittest.TestCase):
             shards = [run(*arguments[:-3], "1", "--seed", seed).stdout for seed in ["3", "4"]]  # doc/hosts.md, sweeps
             self.assertEqual(shards[0] + shards[1].split("\n", 1)[1], text)
             rows = list(csv.DictReader(text.splitlines()))
-            self.assertEqual([(r["tool"], r["seed"]) for r in rows], [("direct", "3"), ("direct", "4")])
+            self.assertEqual([(r["condition"], r["participant"]) for r in rows], [("direct", "3"), ("direct", "4")])
             for row in rows:
                 self.assertEqual((row["placed"], row["targets"], row["drops"]), ("7", "7", "0"))
             self.assertNotEqual(rows[0]["time_s"], rows[1]["time_s"])

@@ -45,7 +45,7 @@ void run(const Options& options) {
     if (!path.empty()) expect_written(std::ofstream(path, std::ios::app).good(), path);
   }
   for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
-  std::string csv = "tool,seed," + assembly::score_csv_header() + "\n";
+  std::string csv = csv_header() + "\n";
   std::vector<ToolTrials> all;
   for (const std::string& label : options.tool.empty() ? tool_labels() : std::vector<std::string>{options.tool}) {
     all.push_back({label, {}});
@@ -55,7 +55,8 @@ void run(const Options& options) {
       hand.seed = static_cast<unsigned>(options.seed + k);
       const assembly::Trial trial = assembly::run_trial(scene, settings, hand);
       all.back().scores.push_back(trial.score);
-      csv += label + "," + std::to_string(hand.seed) + "," + assembly::score_csv(trial.score) + "\n";
+      csv += std::to_string(hand.seed) + "," + std::to_string(all.size()) + "," + label + ",1,0," +
+             assembly::score_csv(trial.score) + "\n";
       if (!options.record.empty() && all.size() == 1 && k == 0) write_file(options.record, motion_text(trial.motion));
     }
   }

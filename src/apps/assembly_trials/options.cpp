@@ -30,6 +30,8 @@ std::optional<Options> parse_options(int argc, char** argv) {
   return options;
 }
 
+std::string csv_header() { return "participant,order,condition,trial,practice," + assembly::score_csv_header(); }
+
 std::string help_text() {
   return R"(A simulated operator assembles a scene with one tool after another, without a person, ROS or a clock.
 The same arguments give bit-identical output.
@@ -44,8 +46,10 @@ assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--tria
   --trials    number of trials per tool; default 20
   --seed      seed of the first trial, which increases by 1 per trial; default 1
   --out       a line of CSV per trial:
-              tool,seed,)" +
-         assembly::score_csv_header() + R"(
+              )" +
+         csv_header() + R"(
+              participant is the seed, condition the tool, order its place in the list above; columns as of a study
+              with people
   --table     a Markdown table of the means of each tool with 95 % confidence intervals
   --record    the hand of the first trial as a motion file for replay and tracker_driver
 

@@ -22,6 +22,9 @@ struct Options {
 /// Nothing where help is asked for. Throws InputError for everything that cannot be used.
 std::optional<Options> parse_options(int argc, char** argv);
 
+/// Names of the columns of `--out`, those of the records of a study with people (doc/reference.md).
+std::string csv_header();
+
 /// What `--help` prints.
 std::string help_text();
 

@@ -1,0 +1,132 @@
+#!/usr/bin/python3
+"""scripts/study with the simulated operator in place of a person: broken off, continued, recorded, replayed."""
+import csv
+import glob
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import roslib.packages
+import rospkg
+import rospy
+import rostest
+from spring_workbench.msg import TaskState
+from spring_workbench.srv import SelectTool
+
+from stack import DEADLINE, Listener, wait_for
+
+PACKAGE = rospkg.RosPack().get_path("spring_workbench")
+TARGET = "\ntargets:\n  box: {pose: [0.12, 0.05, 0.02, 0, 0, 0, 1], position_tolerance: 0.02, angle_tolerance: 0.2}\n"
+PLAN = """
+scene: single_box.urdf
+conditions:
+  rigid: {tool: direct}
+  bending: {tool: spring_fork, dofs: [bend]}
+practice: 0
+trials: 1
+time_limit: %g
+"""
+# Answers that only stand for some.
+TLX = "{rigid: &same {mental: 1, physical: 2, temporal: 3, performance: 4, effort: 5, frustration: 6}, bending: *same}"
+
+
+class Study(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        for name in ("single_box.urdf", "single_box.yaml"):
+            shutil.copy(os.path.join(PACKAGE, "scenes", name), self.folder)
+        with open(self.path("single_box.yaml"), "a", encoding="utf-8") as file:
+            file.write(TARGET)
+        self.write("tlx.yaml", TLX)
+        self.write("plan.yaml", PLAN % 100)
+        self.task = Listener("/manipulation/task", TaskState)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def write(self, name, text):
+        with open(self.path(name), "w", encoding="utf-8") as file:
+            file.write(text)
+
+    def rows(self, name):
+        with open(self.path("out/" + name), encoding="utf-8", newline="") as file:
+            return list(csv.DictReader(file))
+
+    def start(self):
+        command = [os.path.join(PACKAGE, "scripts/study"), "--participant", "2", "--plan", self.path("plan.yaml")]
+        command += ["--out", self.path("out"), "--operator", "--tlx", self.path("tlx.yaml"), "rviz:=false"]
+        return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+
+    def end(self, process):
+        out, err = process.communicate(timeout=DEADLINE)
+        return process.returncode, out, err
+
+    def test_broken_off_and_continued(self):
+        study = self.start()
+        wait_for(lambda: os.path.exists(self.path("out/participant_002.csv")), "the first trial")
+        self.task.next(lambda m: m.grasps == 1 and not m.complete, "a grasp in the second trial")
+        study.send_signal(signal.SIGINT)
+        status, _, err = self.end(study)
+        self.assertEqual((status, err), (130, "broken off after 1 of 2 trials; the same command continues\n"))
+        first = self.rows("participant_002.csv")
+        self.assertEqual([row["condition"] for row in first], ["bending"])
+        self.assertEqual([row["tlx_raw"] for row in self.rows("participant_002_tlx.csv")], ["3.5"])
+
+        status, out, err = self.end(self.start())
+        self.assertEqual((status, err), (0, ""))
+        self.assertIn("2 of 2: rigid, trial 1 of 1", out)
+        self.assertNotIn("bending", out)
+        rows = self.rows("participant_002.csv")
+        self.assertEqual(rows[0], first[0])
+        self.assertEqual(
+            [(r["participant"], r["order"], r["condition"]) for r in rows], [("2", "1", "bending"), ("2", "2", "rigid")]
+        )
+        for row in rows:
+            self.assertEqual((row["placed"], row["targets"], row["grasps"]), ("1", "1", "1"))
+            self.assertTrue(1.0 < float(row["time_s"]) < 100.0)
+        self.assertEqual([row["condition"] for row in self.rows("participant_002_tlx.csv")], ["bending", "rigid"])
+        self.replay()
+
+    def replay(self):
+        """Each bag is the trial: the object comes to its target by the condition's DOFs."""
+        program = roslib.packages.find_node("spring_workbench", "replay")[0]
+        for name, dofs in [("1_bending", {"bend"}), ("2_rigid", set())]:
+            bag = self.path(f"out/participant_002/{name}_trial_1.bag")
+            command = [program, "--scene", self.path("single_box.urdf"), "--bag", bag, "--out", self.path("run.csv")]
+            run = subprocess.run(command, capture_output=True, text=True, check=True)
+            summary = json.loads(run.stdout.splitlines()[-1])
+            self.assertEqual(set(summary["active"]) & {"bend", "stretch", "torsion"}, dofs)
+            self.assertGreaterEqual(summary["changes"], 1)  # the reset at its begin
+            self.assertEqual((summary["changes_made_again"], summary["changes_mismatched"]), (summary["changes"], 0))
+            with open(self.path("run.csv"), encoding="utf-8", newline="") as file:
+                last = list(csv.DictReader(file))[-1]
+            self.assertAlmostEqual(float(last["x"]), 0.12, delta=0.02)
+            self.assertAlmostEqual(float(last["y"]), 0.05, delta=0.02)
+
+    def test_a_trial_with_another_tool_does_not_count(self):
+        study = self.start()
+        self.task.next(lambda m: m.grasps == 1, "a grasp")
+        rospy.ServiceProxy("/manipulation/select_tool", SelectTool)(tool="ray", stylus=1)
+        status, _, err = self.end(study)
+        self.assertEqual(
+            (status, err), (1, "error: the tool was changed to ray during the trial, which does not count\n")
+        )
+        self.assertEqual(glob.glob(self.path("out/*.csv")), [])
+
+    def test_bad_input_is_refused_in_one_line(self):
+        self.write("plan.yaml", PLAN % 0)
+        status, out, err = self.end(self.start())
+        self.assertEqual((status, out, len(err.splitlines())), (2, "", 1), err)
+        self.assertIn("time_limit", err)
+
+
+if __name__ == "__main__":
+    rospy.init_node("study_test", disable_rostime=True)
+    rostest.rosrun("spring_workbench", "study_test", Study, sys.argv)
