@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Runs the tutorials command by command: every ```bash block, in order, in a folder of its own."""
+import glob
 import os
 import re
 import subprocess
@@ -70,7 +71,8 @@ class Tutorials(unittest.TestCase):
                     bad.remove(heading)
                     self.assertEqual((done.returncode, len(done.stderr.splitlines())), (2, 1), done.stderr)
                 else:
-                    self.assertEqual(done.returncode, 0, "%s: %s%s" % (heading, before, done.stderr))
+                    logs = "".join(open(log).read() for log in glob.glob(folder + "/**/*.log", recursive=True))
+                    self.assertEqual(done.returncode, 0, "%s: %s%s%s" % (heading, before, done.stderr, logs))
                     # Two calls are refused where nothing is held at the moment, and say so; no other is.
                     refused = re.findall(r"success: False\s+message: .?(\w+): no object is held", done.stdout)
                     self.assertLessEqual(set(refused), set(re.findall("calibrate|release", before)))
