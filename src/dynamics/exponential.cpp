@@ -4,10 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "by_size.h"
 #include "error_spread.h"
 #include "modal_decomposition.h"
 #include "spring_workbench/math/anderson_mixer.h"
+#include "spring_workbench/math/by_size.h"
 #include "spring_workbench/math/exponential_collocation.h"
 #include "spring_workbench/math/spatial.h"
 
@@ -335,8 +335,8 @@ Exponential::~Exponential() = default;
 Exponential::Core& Exponential::core(int n) {
   if (n == n_) return *core_;
   n_ = n;
-  core_ =
-      by_size(n, [](auto size) -> std::unique_ptr<Core> { return std::make_unique<CoreOf<decltype(size)::value>>(); });
+  core_ = math::by_size(
+      n, [](auto size) -> std::unique_ptr<Core> { return std::make_unique<CoreOf<decltype(size)::value>>(); });
   return *core_;
 }
 

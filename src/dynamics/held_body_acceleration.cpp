@@ -2,8 +2,8 @@
 #include <cmath>
 #include <type_traits>
 
-#include "by_size.h"
 #include "spring_workbench/dynamics/held_body.h"
+#include "spring_workbench/math/by_size.h"
 #include "spring_workbench/math/positive_definite.h"
 #include "spring_workbench/math/so3.h"
 
@@ -109,25 +109,24 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const ForcingOf<S>& handle, co
   math::solve_positive_definite<n>(M, q_ddot);
   if constexpr (std::is_same_v<S, math::Pack>) {
     if (balance == nullptr) return;
-    // What the rod does to the body, axes of H and of O, and the handle to the rod: the rod has no mass.
-    math::Three<S> force = rigid.force, moment = rigid.moment_O;
     S elastic{}, damped{};
     for (int i = 0; i < n; ++i) {
-      force += (body_.mass * q_ddot[i]) * linear[i];
-      moment += q_ddot[i] * momentum[i];
       const S pull = K_[coordinates_[i]] * q[i];
       elastic += 0.5 * pull * q[i];
       damped += (springs[i] + pull) * q_dot[i];
     }
-    const math::Three<S> v = h.v_B + math::cross(h.w_B, rigid.p_HO) + rigid.v_rel;
-    S power = dot(force, h.v_B) + dot(rigid.R_HO * moment + math::cross(rigid.p_HO, force), h.w_B) + damped -
-              (body_.mass * gravity_) * (h.R_WB * v).z;
+    const math::Three<S> v = h.v_B + math::cross(h.w_B, rigid.p_HO) + rigid.v_rel, spin = I * rigid.w_O;
+    const math::Three<S> about_H = rigid.R_HO * spin + body_.mass * math::cross(rigid.p_HO, v);
+    const math::Three<S> g = gravity_ * math::Three<S>{h.R_WB.x.z, h.R_WB.y.z, h.R_WB.z.z};
+    const math::Three<S> changed = h.a_B - g - math::cross(h.w_B, h.v_B);  // rate of h.v_B
+    balance->energy = elastic + 0.5 * (body_.mass * dot(v, v) + dot(rigid.w_O, spin)) +
+                      body_.mass * (dot(g, rigid.p_HO) - dot(v, h.v_B)) - dot(about_H, h.w_B);
+    balance->power =
+        damped - dot(about_H, h.alpha_B) + body_.mass * (dot(h.w_B, math::cross(rigid.p_HO, g)) - dot(v, changed));
     if (loaded_) {
-      power += dot(math::transposed(h.R_WB, math::three(external_W_.force)), v) +
-               dot(math::transposed(h.R_WB, math::three(external_W_.moment)), rigid.R_HO * rigid.w_O);
+      balance->power += dot(math::transposed(h.R_WB, math::three(external_W_.force)), rigid.v_rel) +
+                        dot(math::transposed(h.R_WB, math::three(external_W_.moment)), rigid.R_HO * rigid.w_O - h.w_B);
     }
-    balance->energy = elastic + 0.5 * (body_.mass * dot(v, v) + dot(rigid.w_O, I * rigid.w_O));
-    balance->power = power;
   }
 }
 
@@ -178,14 +177,14 @@ SPRING_WORKBENCH_WIDE void HeldBody::balance(const HandleForcings& h, const math
 
 rod::StrainVector HeldBody::acceleration(const HandleForcing& h, const rod::StrainVector& q,
                                          const rod::StrainVector& q_dot) const {
-  return by_size(size(), [&](auto size) -> rod::StrainVector {
+  return math::by_size(size(), [&](auto size) -> rod::StrainVector {
     constexpr int n = decltype(size)::value;
     return acceleration<n>(h, Eigen::Matrix<double, n, 1>(q), Eigen::Matrix<double, n, 1>(q_dot));
   });
 }
 
 EnergyBalance HeldBody::energy_balance(const HandleForcings& h, const math::Pack* q, const math::Pack* q_dot) const {
-  EnergyBalance all = by_size(size(), [&](auto size) {
+  EnergyBalance all = math::by_size(size(), [&](auto size) {
     EnergyBalance out;
     balance<decltype(size)::value>(h, q, q_dot, out);
     return out;
@@ -196,9 +195,13 @@ EnergyBalance HeldBody::energy_balance(const HandleForcings& h, const math::Pack
       state.q[i] = q[i][k];
       state.q_dot[i] = q_dot[i][k];
     }
-    const Couplings::Reading others = read_couplings(h.at(k), state);
+    const HandleForcing at = h.at(k);
+    const Couplings::Reading others = read_couplings(at, state);
+    const Vector3d p_HO_W = object(at, state).X.translation() - at.X_WH.translation();
+    const Wrench& pull = others.pull_W;
     all.energy[k] += others.springs.energy;
-    all.power[k] += others.power;
+    all.power[k] += others.power - pull.force.dot(at.v_WH_W) -
+                    (pull.moment + p_HO_W.cross(pull.force)).dot(at.X_WH.linear() * at.angular_velocity);
   }
   return all;
 }

@@ -27,17 +27,26 @@ void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing
     }
     return g;
   };
+  const auto kinetic = [&](const dynamics::StrainState& s) {
+    return 0.5 * s.q_dot.dot(body.mass_matrix(t, s.q) * s.q_dot);
+  };
+  // Against a contact's load, which holds for one step, only what moves counts.
+  const auto gained = [&](const dynamics::StrainState& s) {
+    return body.loaded() ? kinetic(s) : energy_gained(body, handle, begin, s);
+  };
   // What the step itself gained; the stop adds nothing.
-  const double allowed = std::max(0.0, energy_gained(body, handle, begin, end));
+  const double allowed = std::max(0.0, gained(end));
   const dynamics::LinearisedMotion motion(body, handle, begin.q);
   const dynamics::ImplicitMatrix step(motion, h);
+  // Not further in than it is already.
+  const double target = std::max(inside, used(begin.q));
   rod::StrainVector q = end.q;
   for (int i = 0; i < most_iterations && !(used(q) < 1.0); ++i) {
     const rod::StrainVector g = slope(q), moved = step.solve(g);
-    q -= (used(q) - inside) / g.dot(moved) * moved;
+    q -= (used(q) - target) / g.dot(moved) * moved;
   }
   // Beyond what the motion's energy reaches, or not inside: where it is on its way.
-  const bool reached = used(q) < 1.0 && energy_gained(body, handle, begin, {q, 0.0 * end.q_dot}) <= allowed;
+  const bool reached = used(q) < 1.0 && gained({q, 0.0 * end.q_dot}) <= allowed;
   if (!reached) {
     double shortest = 0.0, longest = 1.0;
     for (int k = 0; k < most_bisections; ++k) {
@@ -58,9 +67,17 @@ void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing
     end.q_dot -= out / g.dot(moved) * moved;
   }
   // What the strain gained on its way back, the rates lose.
-  const double kinetic = 0.5 * end.q_dot.dot(body.mass_matrix(t, end.q) * end.q_dot),
-               gained = energy_gained(body, handle, begin, end) - allowed;
-  if (gained > 0.0 && kinetic > 0.0) end.q_dot *= std::sqrt(std::max(0.0, 1.0 - gained / kinetic));
+  const double moving = kinetic(end), excess = gained(end) - allowed;
+  if (excess > 0.0 && moving > 0.0) end.q_dot *= std::sqrt(std::max(0.0, 1.0 - excess / moving));
+}
+
+double slow_down(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
+                 const dynamics::StrainState& begin, dynamics::StrainState& end) {
+  const double added = energy_added(body, handle, t, h, begin, end);
+  if (!(added > 0.0) || body.loaded() || body.coupled()) return added;
+  const double kinetic = 0.5 * end.q_dot.dot(body.mass_matrix(t + h, end.q) * end.q_dot);
+  if (kinetic > 0.0) end.q_dot *= std::sqrt(std::max(0.0, 1.0 - added / kinetic));
+  return energy_added(body, handle, t, h, begin, end);
 }
 
 }  // namespace spring_workbench::stepping

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <utility>
 
 #include "constants.h"
@@ -51,8 +52,9 @@ struct StepControl::Tried {
   dynamics::StrainState state;
   dynamics::StepEstimate estimate{};
   bool solved = false;
-  double energy_error = 0.0, largest_energy = 0.0;  ///< estimate of the error; of the run [J]
-  double position_error = 0.0, angle_error = 0.0;   ///< [m], [rad]
+  double energy_error = 0.0, energy = 0.0;         ///< estimate of the error; what there is [J]
+  std::optional<double> energy_added{};            ///< energy_added() [J], where the state is the step's end
+  double position_error = 0.0, angle_error = 0.0;  ///< [m], [rad]
 };
 
 StepControl::StepControl(std::unique_ptr<dynamics::Integrator> integrator, double tolerance, bool error_bound)
@@ -125,9 +127,14 @@ StepControl::Tried StepControl::try_step(const Span& span, double t, double h,
   const Wrench& load = body.external_wrench();
   const Vector3d moved = as_is.X.translation() - as_should_be.X.translation(),
                  turned = as_should_be.X.linear() * math::turn_between(as_should_be.X, as_is.X);
-  tried.energy_error = kinetic(as_is) - kinetic(as_should_be) + found - potential(as_should_be, truth) -
-                       load.force.dot(moved) - load.moment.dot(turned);
-  tried.largest_energy = kinetic(as_is) + std::abs(found);
+  tried.energy_error = std::abs(kinetic(as_is) - kinetic(as_should_be) + found - potential(as_should_be, truth) -
+                                load.force.dot(moved) - load.moment.dot(turned));
+  tried.energy = std::max(kinetic(as_is) + std::abs(found), weight * body.shape().length());
+  if (!body.returning() && body.shape().admissible(body.full_state(t + h, tried.state).q)) {
+    tried.energy_added = energy_added(body, span.handle, t, h, state, tried.state);
+    // What is seen to be gained is an error, whatever the method's estimate.
+    if (!body.loaded() && !body.coupled()) tried.energy_error = std::max(tried.energy_error, *tried.energy_added);
+  }
   tried.position_error = moved.norm();
   tried.angle_error = turned.norm();
   return tried;
@@ -141,16 +148,19 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, dynam
     ++span.report.stops;
   }
   if (error_bound_) follow_error(span, t, h, tried, state);
-  if (!body.returning()) span.report.energy_added += energy_added(body, span.handle, t, h, state, next);
+  if (!body.returning()) {
+    span.report.energy_added +=
+        tried.energy_added ? *tried.energy_added : slow_down(body, span.handle, t, h, state, next);
+  }
   body.rechart(next);
   state = next;
   ++span.report.steps;
   span.report.position_error = std::max(span.report.position_error, tried.position_error);
   span.report.angle_error = std::max(span.report.angle_error, tried.angle_error);
-  span.report.energy_error += std::abs(tried.energy_error);
-  span.memory.largest_energy = std::max(span.memory.largest_energy, tried.largest_energy);
-  const double spent = std::abs(tried.energy_error) / std::max(energy_share * span.memory.largest_energy, 1e-300);
-  span.memory.energy_saved = std::clamp(span.memory.energy_saved + h - spent, 0.0, most_saved);
+  span.report.energy_error += tried.energy_error;
+  const double energy = std::max(tried.energy, std::exchange(span.memory.energy, tried.energy));
+  const double spent = tried.energy_error / std::max(energy_share * energy, 1e-300);
+  span.memory.energy_saved = std::clamp(span.memory.energy_saved + h - spent, -most_saved, most_saved);
   const double known = tried.estimate.omega_dt;
   span.report.omega_dt = std::max(span.report.omega_dt, known > 0.0 ? known : span.memory.stiffest_omega * h);
 }
@@ -158,8 +168,7 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, dynam
 void StepControl::begin_bound(const Span& span, double t, const dynamics::StrainState& state) const {
   Memory& memory = span.memory;
   const Eigen::Index n = state.q.size();
-  const Wrench& contact = span.body.external_wrench();
-  const bool free = contact.force.isZero(0.0) && contact.moment.isZero(0.0);
+  const bool free = !span.body.loaded();
   const bool goes_on = memory.spread.rows() == 2 * n && memory.t == t && memory.end.q == state.q &&
                        memory.end.q_dot == state.q_dot && (memory.bounded || !free);
   memory.bounded = free;
@@ -234,13 +243,15 @@ void StepControl::fall_back(Span& span, double t, double h, dynamics::StrainStat
 void StepControl::step_in_halves(Span& span, double t, double h, int level, dynamics::StrainState& state) const {
   span.memory.level = std::max(span.memory.level, level);
   const Tried tried = try_step(span, t, h, state);
-  const double largest = std::max(span.memory.largest_energy, tried.largest_energy);
-  const double share = energy_share * (h + span.memory.energy_saved) * largest;
-  const bool fine = integrator_->energy() == dynamics::Integrator::Energy::kept ? std::abs(tried.energy_error) <= share
+  const bool shortest = level == most_halvings || !integrator_->stiffly_stable();
+  const double energy = std::max(span.memory.energy, tried.energy);
+  // The shortest may run into debt, which later ones pay: what comes in its place errs by far more.
+  const double saved = span.memory.energy_saved, credit = shortest ? saved + most_saved : std::max(saved, 0.0);
+  const double share = energy_share * (h + credit) * energy;
+  const bool fine = integrator_->energy() == dynamics::Integrator::Energy::kept ? tried.energy_error <= share
                     : integrator_->energy() == dynamics::Integrator::Energy::dissipated
                         ? energy_gained(span.body, span.body.forcing(span.handle, t + h), state, tried.state) <= share
                         : true;
-  const bool shortest = level == most_halvings || !integrator_->stiffly_stable();
   if (tried.solved && fine) return take(span, t, h, tried, state);
   if (shortest) return fall_back(span, t, h, state);
   ++span.report.substeps;

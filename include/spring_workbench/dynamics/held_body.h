@@ -46,8 +46,10 @@ struct HandleForcings : ForcingOf<math::Pack> {
 
 /// Energy of held body and springs at several moments, with the power that should change it.
 struct EnergyBalance {
-  math::Pack energy;  ///< elastic and kinetic [J]
-  math::Pack power;   ///< of hand, gravity, contact and dampers [W]
+  /// That which a handle at rest leaves as it is [J]: elastic, kinetic, of the weight above the handle's origin, less
+  /// what the body's momentum and angular momentum about that origin do at the handle's velocities.
+  math::Pack energy;
+  math::Pack power;  ///< of the handle's accelerations, of contact and dampers in the frame of the handle [W]
 };
 
 /// The equation of motion of doc/model.md for a rigid body on a rod on a moving handle, in the active coordinates:
@@ -96,6 +98,7 @@ class HeldBody {
   /// Sets the constant wrench of contact on the body at its centre of mass, in world axes; zero at first.
   void set_external_wrench(const Wrench& wrench_W);
   const Wrench& external_wrench() const { return external_W_; }
+  bool loaded() const { return loaded_; }  ///< whether it is not zero
 
   /// Checks whether the object meets nothing on its straight path between two poses. For the step that follows, and for
   /// methods that aim for a pose (`paper`); not part of the state. Empty: nothing can be in the path.

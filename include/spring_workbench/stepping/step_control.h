@@ -41,8 +41,9 @@ struct ControlledStep {
 /// Integrates the held body over a span of time, in one step or in as many as needed.
 ///
 /// A method that no stiffness limits takes shorter steps (halves, to the 64th part of the span) if it does not solve
-/// its equation or does not keep to its energy (Integrator::Energy): its error in energy, by its own estimate, may be a
-/// hundredth, in a minute, of the largest energy since the grasp; one that takes energy away may gain as much. A step
+/// its equation or does not keep to its energy (Integrator::Energy): its error in energy, by its own estimate or by
+/// what the motion is seen to gain, whichever is more, may be a hundredth, in a minute, of what there is; one that
+/// takes energy away may gain as much. The shortest steps may use a tenth of a second's worth in advance. A step
 /// that still fails is taken by an L-stable rule that always has a solution (fallback_step.h). A strain beyond the
 /// rod's range meets a stop (range_stop.h). So every span is completed.
 ///
@@ -66,8 +67,8 @@ class StepControl {
     dynamics::StrainState error;  ///< of the run
     rod::StrainMatrix swing;      ///< from rates to the strains that they swing to [s]
     double stiffest_omega = 0.0;  ///< of the undamped modes [rad/s]
-    double largest_energy = 0.0;  ///< of body and fork since the grasp [J]
-    double energy_saved = 0.0;    ///< of the error in energy that steps may have: what is left over, as a time [s]
+    double energy = 0.0;          ///< of body and fork at the end of the last step [J]
+    double energy_saved = 0.0;    ///< of the error in energy that steps may have: left over, or owed, as a time [s]
     dynamics::StrainState exact;  ///< where the run should be, as far as known
     dynamics::RunError::Moments spread;  ///< how far that may be off (RunError)
     dynamics::StrainState end;           ///< of the last span
@@ -76,7 +77,7 @@ class StepControl {
     bool bounded = false;                ///< whether these are bounds (doc/model.md, "Error bound")
 
     void exchange(math::StateArchive& state) {
-      state(next_h, level, version, t, error, swing, stiffest_omega, largest_energy, energy_saved, exact, spread, end,
+      state(next_h, level, version, t, error, swing, stiffest_omega, energy, energy_saved, exact, spread, end,
             error_bound, angle_bound, bounded);
     }
   };

@@ -60,6 +60,18 @@ TEST(SimulatedOperator, AssemblesTheMiniWorldWithEveryFork) {
   }
 }
 
+/// A blow of what it carries may cost it some kilonewtons, a stop that made energy of nothing far more.
+TEST(SimulatedOperator, PressesNoHarderThanABlowOfItsHand) {
+  const scene::Scene scene = scene::load_scene(mini_world);
+  for (const unsigned seed : {1u, 3u}) {
+    simulation::SimulationSettings settings = assembly_settings();
+    settings.tool = tools::Tool::spring;
+    OperatorSettings hand;
+    hand.seed = seed;
+    EXPECT_LT(run_trial(scene, settings, hand).score.largest_force, 1e5) << seed;
+  }
+}
+
 TEST(SimulatedOperator, SameSeedSameBits) {
   const scene::Scene scene = scene::load_scene(mini_world);
   OperatorSettings hand;

@@ -146,7 +146,7 @@ TEST(StepControl, TakesNoStepFromAStrainFarOff) {
       for (const bool stretch_alone : {false, true}) {
         Case c = random_case(shape, 1.0, 0.02, random);
         if (stretch_alone) c.held.set_dofs({true, false, false}, 0.0, 0.05, c.held.zero_state());
-        for (const double size : {1e20, 1e100, 1e153, 1e155, 1e200, 1e305}) {
+        for (const double size : {1e101, 1e153, 1e155, 1e200, 1e305}) {
           const StepControl control(test_support::make_integrator(integrator));
           StepControl::Memory memory;
           StrainState state = c.held.zero_state();

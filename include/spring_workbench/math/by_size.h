@@ -3,7 +3,7 @@
 #include <type_traits>
 #include <utility>
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::math {
 
 /// Calls `of(std::integral_constant<int, size>())` for a size of 1 … `most`: what the compiler has to know. A value of
 /// its result's type by default for another size.
@@ -14,4 +14,4 @@ auto by_size(int size, const Of& of) -> decltype(of(std::integral_constant<int, 
   return decltype(of(std::integral_constant<int, 1>()))();
 }
 
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::math
