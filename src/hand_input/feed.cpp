@@ -122,8 +122,13 @@ void Feed::push_press(double t, motion::Press press, std::size_t hand) {
   note(Accepted::kind_of(press), hand, t);
 }
 
+void Feed::push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand) {
+  simulation_.push_external_wrench(sample, hand);
+  if (record_) record_({Kind::external_wrench, hand, sample.t, RigidTransform::Identity(), sample, committed()});
+}
+
 void Feed::note(Accepted::Kind kind, std::size_t hand, double t, const RigidTransform& X_WH) const {
-  if (record_) record_({kind, hand, t, X_WH, committed()});
+  if (record_) record_({kind, hand, t, X_WH, {}, committed()});
 }
 
 double Feed::committed() const { return began_ ? simulation_.time() : kNever; }

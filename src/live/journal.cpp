@@ -53,6 +53,8 @@ void Replayer::apply(const Accepted& accepted) {
     simulation.push_stylus({accepted.t, accepted.X_WH}, accepted.hand);
   } else if (accepted.kind == Accepted::Kind::lost) {
     simulation.release(accepted.hand);
+  } else if (accepted.kind == Accepted::Kind::external_wrench) {
+    simulation.push_external_wrench(accepted.wrench, accepted.hand);
   }
 }
 

@@ -77,7 +77,7 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
   }
 }
 
-/// Behind, no pose is taken; what the buttons did counts at the newest that was.
+/// Behind, no pose is taken; what buttons did and sensors measured counts at the newest that was.
 void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
   was_behind_ |= pace_.is_behind();
   if (!pace_.is_behind() || std::holds_alternative<NewEpoch>(event)) {
@@ -86,6 +86,7 @@ void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
   const double newest = simulation_.newest_sample();
   if (const auto* pose = std::get_if<StylusPose>(&event)) feed_.heard(pose->arrival, input.hand);
   if (const auto* button = std::get_if<StylusButton>(&event)) feed_.push_press(newest, button->press, input.hand);
+  if (const auto* wrench = std::get_if<StylusWrench>(&event)) push(input, *wrench, newest);
 }
 
 void SimulationRunner::commit(double stop, CycleReport& report) {
@@ -142,6 +143,11 @@ void SimulationRunner::apply(HandInput& input, const StylusButton& button) {
 
 void SimulationRunner::apply(HandInput& input, const ButtonsKnown& known) {
   feed_.buttons_known(time_of(input, known.t), known.arrival, input.hand);
+}
+
+void SimulationRunner::push(HandInput& input, StylusWrench wrench, double t) {
+  wrench.sample.t = t;
+  feed_.push_external_wrench(wrench.sample, input.hand);
 }
 
 void SimulationRunner::start_anew(const std::string& what, Command::Kind kind) {

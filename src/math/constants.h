@@ -21,5 +21,8 @@ constexpr double least_friction = 1e-6;
 /// Of that of the contact that gives way most: the scale of the others, at least. Test:
 /// FrictionCones.KeepCoulombsLawHoweverUnlikeTheMassesAre at 1e-4.
 constexpr double least_response = 1e-6;
+/// Cosine of half the turn that is the shortest way; one nearer to a half turn is none. Test:
+/// MovingFrames.AlignedRateIsTheDerivativeOfTheShortestTurn at 0.
+constexpr double no_shortest_way = 1e-6;
 
 }  // namespace spring_workbench::math

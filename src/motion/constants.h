@@ -13,6 +13,11 @@ constexpr double shortest_interval = 0.5e-9;
 constexpr double farthest_time = 1e12;
 /// [m]; a coordinate beyond it is refused. Test: PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas at 0.
 constexpr double farthest_position = 1e9;
+/// [N]; a component of an external wrench beyond it is refused. Test:
+/// WrenchTrack.RefusesWhatNoSensorMeasuresAndStaysAsItWas.
+constexpr double largest_force = 1e5;
+/// [N·m]; likewise. Test: WrenchTrack.RefusesWhatNoSensorMeasuresAndStaysAsItWas.
+constexpr double largest_moment = 1e5;
 /// Of RᵀR − I; what is off by more is no rotation and refused. Test: PoseTrack.RefusesWhatIsNotAPoseAndStaysAsItWas at
 /// 0.
 constexpr double rotation_tolerance = 1e-6;

@@ -37,6 +37,7 @@ void AdvanceReport::add(const AdvanceReport& later) {
   steps_blocked += later.steps_blocked;
   time_lost += later.time_lost;
   steps_rejected += later.steps_rejected;
+  wrench_timeouts += later.wrench_timeouts;
   add_missing(later.active, active);
   add_missing(later.skipped, skipped);
   skipped.erase(std::remove_if(skipped.begin(), skipped.end(), [&](const auto& part) { return has(active, part); }),

@@ -5,6 +5,7 @@
 
 #include "add_estimates.h"
 #include "constants.h"
+#include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench::simulation {
@@ -15,7 +16,7 @@ Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, contac
       fork_(settings.fork),
       objects_(objects),
       tool_(tool),
-      stylus_(settings.dropout_after, scene.X_WH_start),
+      stylus_(settings.dropout_after, settings.wrench_timeout, scene.X_WH_start),
       ray_length_(longest_ray) {}
 
 void Hand::reset() {
@@ -174,8 +175,9 @@ tools::ToolOnObject Hand::begin_shared_step(double now) {
   return {hold_.get(), probe_.get()};
 }
 
-bodies::SteppedBody* Hand::begin_step(double now, double h) {
+bodies::SteppedBody* Hand::begin_step(double now, double h, const Wrench& load_W) {
   hold_->set_hand(slip_.motion(stylus_.motion(now), now, h), now);
+  hold_->set_load(load_W);
   hold_->lead({});
   if (slip_.open()) hold_->take_twist(object().V_WO_W);
   energy_added_before_ = hold_->energy_added();
@@ -232,7 +234,7 @@ bool Hand::calibrate(ChangeReport& change, double now) {
   return true;
 }
 
-tools::ToolState Hand::state() const {
+tools::ToolState Hand::state(double now) const {
   const double length = hold_ ? hold_->length() : reach();
   tools::ToolState f = instruments::unloaded(tool_, fork_, settings_.dynamics.integrator, length, stylus_.X_WS());
   f.present = !stylus_.track().empty();
@@ -242,6 +244,7 @@ tools::ToolState Hand::state() const {
     if (slip_.open()) f.X_WH = stylus_.X_WS() * slip_.of(stylus_.X_WS()).inverse() * f.X_WH;
   }
   if (probe_) probe_->describe(stylus_.X_WS(), f);
+  if (!hold_) f.V_WE_W = math::shifted(stylus_.twist(now), f.X_WE.translation() - stylus_.X_WS().translation());
   f.clutch = stylus_.clutched();
   loads_.read(f);
   return f;

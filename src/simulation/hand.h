@@ -44,9 +44,9 @@ class Hand {
   std::optional<std::size_t> carried() const {
     return hold_ || pushes_ ? std::optional<std::size_t>(grasp_.object) : std::nullopt;
   }
-  /// Returns the object that this tool alone holds, ready to be carried over the next `h` [s]; null if it rests and
-  /// nothing has to be done.
-  bodies::SteppedBody* begin_step(double now, double h);
+  /// Returns the object that this tool alone holds, ready to be carried over the next `h` [s] under a load
+  /// (tools::ToolHold::set_load); null if it rests and nothing has to be done.
+  bodies::SteppedBody* begin_step(double now, double h, const Wrench& load_W);
   /// Prepares a step of a tool that shares its object with other tools, or pushes it.
   tools::ToolOnObject begin_shared_step(double now);
   /// Returns the object that the tool pushes, as a body that no tool holds.
@@ -89,7 +89,7 @@ class Hand {
     slip_.begin(stylus_.X_WS(), hold_->slip(h, {object().X_WO, object().V_WO_W, {}}, at_tip_W));
   }
   void begin_call() { moved_ = false; }
-  tools::ToolState state() const;
+  tools::ToolState state(double now) const;
 
   /// Between two calls of `advance`; settings and objects come before.
   void exchange(math::StateArchive& state, double now);

@@ -205,6 +205,8 @@ std::vector<Field> grasp_fields(S& s) {
       choice("release", "a released object keeps its velocity (thrown) or is set to rest (dropped)", s.grasp.release),
       number("dropout_after", "s", validation::positive_or_infinite(),
              "if the gap between two samples is longer, the handle stays still until the next sample", s.dropout_after),
+      number("external_wrench_timeout", "s", between(1e-3, 10.0),
+             "if no external wrench of a machine comes for longer, it is zero until the next one", s.wrench_timeout),
       integer("bisection_levels", 0, 30,
               "number of bisections that find the end of a step in which contact begins (section 5 of the paper); 0: "
               "the time of impact is computed instead",

@@ -9,6 +9,7 @@
 #include "constants.h"
 #include "hand.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/scene/editing.h"
 #include "spring_workbench/tools/calibration.h"
@@ -87,6 +88,14 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, cons
   return scene;
 }
 
+/// What a machine measures on what the hand holds: at the tip, world axes, in virtual units.
+Wrench measured_at_tip(const Hand& hand, const tools::ToolState& tool) {
+  const auto& [force, moment] = hand.stylus().wrench()->wrench;
+  const bool of_tip = hand.stylus().wrench()->axes == motion::ExternalWrench::Axes::tip;
+  const Matrix3d R = tool.force_scale * (of_tip ? Matrix3d(tool.X_WE.linear()) : Matrix3d(Matrix3d::Identity()));
+  return {R * force, R * moment};
+}
+
 /// What a tool may do at its tip of what it does, world axes, where that is more than its limit: the force cut down to
 /// its limit, and the moment in the same proportion and to its own.
 std::optional<Wrench> cut_down(const tools::LimitSettings& limit, const tools::ToolState& tool) {
@@ -135,13 +144,14 @@ struct Simulation::Impl {
   double first_sample() const;
   void start(double t_end);
   void advance(double t_end, AdvanceReport& report);
-  void act();
+  void act(AdvanceReport& report);
   /// Does `change`, by which a hand may let go. Where it leaves another one alone with what both held, that takes over.
   template <typename Change>
   void with_handover(Change&& change);
   std::map<std::size_t, std::vector<Hand*>> holders();
+  Wrench measured_load(std::size_t object, const std::vector<Hand*>& on_it) const;
   double next_sample(double after) const;
-  double next_button() const;
+  double next_edge() const;
   double end_of_step(double t_end) const;
   using Slipping = std::map<Hand*, Wrench>;  ///< what these may do to what they hold
   bool beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go);
@@ -200,9 +210,10 @@ void Simulation::Impl::with_handover(Change&& change) {
   }
 }
 
-/// Highlights, grasps and releases.
-void Simulation::Impl::act() {
+/// Highlights, grasps and releases, and takes the wrenches that act from now on.
+void Simulation::Impl::act(AdvanceReport& report) {
   objects.clear_highlights();
+  for (Hand& hand : hands) report.wrench_timeouts += hand.stylus().follow_wrench(now) ? 1 : 0;
   with_handover([&] {
     for (Hand& hand : hands) {
       hand.select(now);
@@ -217,20 +228,33 @@ double Simulation::Impl::next_sample(double after) const {
   return next;
 }
 
-double Simulation::Impl::next_button() const {
+double Simulation::Impl::next_edge() const {
   double next = std::numeric_limits<double>::infinity();
-  for (const Hand& hand : hands) next = std::min(next, hand.stylus().next_button(now));
+  for (const Hand& hand : hands) next = std::min(next, hand.stylus().next_edge(now));
   return next;
 }
 
-/// Where a step from now ends: at the next sample or button edge, or sooner.
+/// Where a step from now ends: at the next sample, button edge or change of a wrench, or sooner.
 double Simulation::Impl::end_of_step(double t_end) const {
-  const double next_sample = this->next_sample(now), next_button = this->next_button();
+  const double next_sample = this->next_sample(now), next_edge = this->next_edge();
   // Equal steps up to the sample or the end rather than a last small one.
   const double stretch_end = next_sample < t_end + same_time ? next_sample : t_end;
   const double count = std::ceil((stretch_end - now) / settings.dynamics.step - 1e-9);
   const double end = count > 1.0 ? now + (stretch_end - now) / count : stretch_end;
-  return next_button > end && next_button < end + same_time ? next_button : std::min(end, next_button);
+  // An edge a rounding error beside that makes no step of its own.
+  return std::abs(next_edge - end) < same_time ? std::max(end, next_edge) : std::min(end, next_edge);
+}
+
+/// What machines measure on an object that these hands hold, at its centre, world axes, in virtual units.
+Wrench Simulation::Impl::measured_load(std::size_t object, const std::vector<Hand*>& on_it) const {
+  Wrench load_W;
+  for (const Hand* hand : on_it) {
+    if (!hand->stylus().wrench() || !hand->holds()) continue;
+    const tools::ToolState tool = hand->state(now);
+    const Vector3d lever = tool.X_WE.translation() - objects.states()[object].X_WO.translation();
+    load_W += math::shifted(measured_at_tip(*hand, tool), lever);
+  }
+  return load_W;
 }
 
 /// An object that one tool holds is that tool's.
@@ -243,16 +267,21 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
   std::map<std::size_t, tools::Sharing> shared;
   for (const auto& [object, on_it] : tools_on) {
     if (const auto slip = slipping.find(on_it.front()); slip != slipping.end()) {
-      carried.push_back({object, on_it.front()->begin_slip(slip->second)});
+      Wrench at_tip_W = slip->second;
+      const Hand& hand = *slip->first;
+      if (hand.stylus().wrench()) at_tip_W += measured_at_tip(hand, hand.state(now));
+      carried.push_back({object, on_it.front()->begin_slip(at_tip_W)});
       continue;
     }
+    const Wrench load_W = measured_load(object, on_it);
     if (on_it.size() == 1 && on_it.front()->holds()) {
-      if (bodies::SteppedBody* body = on_it.front()->begin_step(now, h)) carried.push_back({object, body});
+      if (bodies::SteppedBody* body = on_it.front()->begin_step(now, h, load_W)) carried.push_back({object, body});
       continue;
     }
     std::vector<tools::ToolOnObject> tools;
     for (Hand* hand : on_it) tools.push_back(hand->begin_shared_step(now));
     tools::Sharing sharing(tools, [this, first = on_it.front()] { return first->make_unheld(now); });
+    sharing.body()->set_load(load_W);
     carried.push_back({object, shared.emplace(object, std::move(sharing)).first->second.body()});
   }
   contact::StepCounts counts;
@@ -274,7 +303,7 @@ bool Simulation::Impl::beyond_limits(Slipping& slipping, std::vector<Hand*>& let
   for (const auto& [object, of_object] : holders()) {
     for (Hand* hand : of_object) {
       if (slipping.count(hand) > 0 || !hand->springs()) continue;
-      const std::optional<Wrench> pull = cut_down(settings.limit, hand->state());
+      const std::optional<Wrench> pull = cut_down(settings.limit, hand->state(now));
       if (!pull) continue;
       if (of_object.size() == 1 && settings.limit.action == tools::LimitAction::slip) {
         slipping[hand] = *pull;
@@ -321,10 +350,10 @@ void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
   const double begin = now;
   objects.contacts().begin_call();
   for (Hand& hand : hands) hand.begin_call();
-  act();
+  act(report);
   while (now < t_end - same_time) {
     step(end_of_step(t_end), report);
-    act();
+    act(report);
   }
   objects.contacts().end_call();
   report.simulated_time = now - begin;
@@ -398,6 +427,10 @@ void Simulation::push_press(double t, motion::Press press, std::size_t hand) {
   impl_->hand(hand).stylus().push(t, press);
 }
 
+void Simulation::push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand) {
+  impl_->hand(hand).stylus().push(sample);
+}
+
 double Simulation::newest_sample() const {
   double newest = -std::numeric_limits<double>::infinity();
   for (const Hand& hand : impl_->hands) {
@@ -408,7 +441,7 @@ double Simulation::newest_sample() const {
 
 double Simulation::next_edge() const {
   if (!impl_->started) return impl_->first_sample();
-  return std::min(impl_->next_sample(impl_->now + same_time), impl_->next_button());
+  return std::min(impl_->next_sample(impl_->now + same_time), impl_->next_edge());
 }
 
 AdvanceReport Simulation::advance(double t_end) {
@@ -604,6 +637,6 @@ void Simulation::restore(const SimulationState& state) {
 
 const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->objects.states(); }
 const std::vector<contact::ContactState>& Simulation::contacts() const { return impl_->objects.contacts().told(); }
-tools::ToolState Simulation::fork(std::size_t hand) const { return impl_->hand(hand).state(); }
+tools::ToolState Simulation::fork(std::size_t hand) const { return impl_->hand(hand).state(impl_->now); }
 
 }  // namespace spring_workbench::simulation

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "constants.h"
+#include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::tools {
@@ -38,6 +39,13 @@ void ForkBody::set_hand(const motion::MotionSegment& hand, double t) {
   const bool as_stylus = X_SH_.matrix() == RigidTransform::Identity().matrix();
   hand_ = as_stylus ? hand : hand.of_frame(X_SH_);
   state_.t = t;
+}
+
+void ForkBody::set_load(const Wrench& load_W) {
+  if (is_zero(load_W - load_W_)) return;
+  held_.set_external_wrench(held_.external_wrench() - (load_W_ - load_W));
+  load_W_ = load_W;
+  sleep_ = Sleep();
 }
 
 RigidTransform ForkBody::hand_pose() const { return hand_.at(state_.t).X; }
@@ -105,8 +113,8 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   const bool as_hand = !behind && !state_.behind;
   const motion::MotionSegment motion = as_hand ? hand_ : proxy_motion(h, offset);
   dynamics::StrainState next = state_.strain;
+  held_.set_external_wrench(held_.size() > 0 ? math::sum(contact_W, load_W_) : load_W_);
   if (held_.size() > 0) {
-    held_.set_external_wrench(contact_W);
     const stepping::ControlledStep step = control_.advance(held_, motion, state_.t, h, next, state_.stepping);
     if (!step.accepted) return false;
     trial_ = {step.position_error, step.angle_error, step.omega_dt,     step.steps - 1, step.substeps,
@@ -141,7 +149,7 @@ void ForkBody::restore(const bodies::TrialStart& start) {
 }
 
 void ForkBody::exchange(math::StateArchive& state) {
-  state(held_, coupling_, control_, X_SH_, hand_, state_, estimates_, sleep_);
+  state(held_, coupling_, control_, X_SH_, hand_, state_, estimates_, sleep_, load_W_);
   if (state.sets()) added_ = 0.0;
   if (state.sets()) trial_ = {};
 }

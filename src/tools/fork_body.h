@@ -37,6 +37,7 @@ class ForkBody : public ToolHold {
   void follow(double t, const ToolHold& leader, const motion::MotionState& object) override;
   const motion::MotionSegment& hand() const override { return hand_; }
   const RigidTransform& offset() const override { return state_.offset; }
+  void set_load(const Wrench& load_W) override;
   void set_hand(const motion::MotionSegment& hand, double t) override;
   bool sleeps(double h, bool may_fall_asleep) override;
   void let_pass(double h) override { state_.t += h; }
@@ -134,6 +135,7 @@ class ForkBody : public ToolHold {
     void exchange(math::StateArchive& state) { state(version, X_WH); }
   };
   Sleep sleep_;
+  Wrench load_W_;
 };
 
 }  // namespace spring_workbench::tools

@@ -1,5 +1,6 @@
 // Changes of the fork while it holds, and what it tells of itself.
 #include "fork_body.h"
+#include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench::tools {
@@ -50,6 +51,7 @@ void ForkBody::describe(bool massless, ToolState& f) const {
   f.bend = X_HE_bent.translation().head<2>();
   f.X_WE = f.X_WH_proxy * X_HE_bent;
   const motion::MotionState o = object();
+  f.V_WE_W = math::shifted(o.velocity, f.X_WE.translation() - o.X.translation());
   f.elastic_energy = elastic_energy();
   if (massless) return;
   f.kinetic_energy = held_.kinetic_energy(o.velocity, o.X.linear());

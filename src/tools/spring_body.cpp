@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "constants.h"
+#include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench::tools {
@@ -172,7 +173,11 @@ void SpringBody::describe(bool, ToolState& state) const {
   const Reading now = reading();
   const Vector3d n = direction(now.d);
   const motion::MotionState o = object();
-  const RigidTransform X_WH = hand_.at(time()).X;
+  const motion::MotionState handle = hand_.at(time());
+  const RigidTransform& X_WH = handle.X;
+  const Vector3d v = (o.velocity.linear - handle.velocity.linear) / std::max(now.d.norm(), no_length);
+  const Vector3d w = math::aligned_rate(X_WH.linear(), handle.velocity.angular, n, v - n * n.dot(v));
+  state.V_WE_W = {o.velocity.linear, w};
   state.stretch = now.d.norm() - spring_.rest_length();
   // Drawn straight from the hand to the object's centre.
   state.X_WH = state.X_WH_proxy = X_WH;

@@ -18,7 +18,7 @@ import rospy
 import rostest
 import yaml
 
-from geometry_msgs.msg import TransformStamped
+from geometry_msgs.msg import TransformStamped, WrenchStamped
 from sensor_msgs.msg import Joy
 from spring_workbench.msg import ForkState, ObjectStates
 from stack import Listener, diagnostic_values, diagnostics_listener, wait_for
@@ -203,11 +203,12 @@ class Limits(unittest.TestCase):
         publishers = {
             "/tf": rospy.Publisher("/tf", TFMessage, queue_size=10),
             "stylus/joy": rospy.Publisher("stylus/joy", Joy, queue_size=10),
+            "~external_wrench": rospy.Publisher("manipulation/external_wrench", WrenchStamped, queue_size=10),
         }
         diagnostics = diagnostics_listener()
         wait_for(lambda: all(p.get_num_connections() > 0 for p in publishers.values()), "the node to listen")
         publishers["/tf"].publish(self.transform("{}", rospy.Time.now()))
-        values = lambda: diagnostic_values(diagnostics.messages, "tracker input")
+        values = lambda status="tracker input": diagnostic_values(diagnostics.messages, status)
         wait_for(lambda: values().get("samples") == "1", "the good one")
         place = self.fork.next(lambda m: m.handle.position.x == 0.2, "the hand there").handle
         good = 1
@@ -216,15 +217,20 @@ class Limits(unittest.TestCase):
             nonlocal good
             given = yaml.safe_load(text)
             age = rospy.Duration(given.pop("age", 0))
-            before = {key: value for key, value in values().items() if key.startswith("rejected: ")}
+            status = "external wrench" if topic == "~external_wrench" else "tracker input"
+            before = {key: value for key, value in values(status).items() if key.startswith("rejected: ")}
             if topic == "/tf":
                 publishers[topic].publish(self.transform(yaml.safe_dump(given), rospy.Time.now() - age))
                 if age:  # may be of a clock that was set; one that fits says that it was not
                     publishers[topic].publish(self.transform("{}", rospy.Time.now()))
                     good += 1
+            elif topic == "~external_wrench":
+                wrench = WrenchStamped()
+                genpy.message.fill_message_args(wrench, [{"header": {"frame_id": "world"}, **given}])
+                publishers[topic].publish(wrench)
             else:
                 publishers[topic].publish(Joy(buttons=given["buttons"]))
-            more = lambda: [k for k, v in values().items() if k.startswith("rejected: ") and before.get(k) != v]
+            more = lambda: [k for k, v in values(status).items() if k.startswith("rejected: ") and before.get(k) != v]
             return wait_for(more, text + " to be rejected")[0].replace("rejected: ", "")
 
         self.walk("Topics", answer)

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""A live run is its replay: two hands, services and live settings changed at random, recorded with rosbag; what was
-committed equals what `replay` makes of the bag, bit by bit, and the state's hash at every comparison. `replay` makes
-each change again at its time, and it leads to the recorded state. LIVE_SEEDS: how many."""
+"""A live run is its replay: two hands, what two machines measure, services and live settings changed at random,
+recorded with rosbag; what was committed equals what `replay` makes of the bag, bit by bit, and the state's hash at
+every comparison. `replay` makes each change again at its time, and it leads to the recorded state. LIVE_SEEDS: how
+many."""
 import csv
 import json
 import os
@@ -19,7 +20,7 @@ import rospkg
 import rospy
 import rostest
 from dynamic_reconfigure.client import Client
-from geometry_msgs.msg import Point, Pose, Quaternion
+from geometry_msgs.msg import Point, Pose, Quaternion, Vector3, Wrench, WrenchStamped
 from sensor_msgs.msg import Joy
 from spring_workbench.msg import Accepted, Change, ObjectStates
 from spring_workbench.srv import (
@@ -57,6 +58,10 @@ class TwoHands:
         self.random = random.Random(seed)
         self.tf = rospy.Publisher("/tf", TFMessage, queue_size=100)
         self.joy = [rospy.Publisher(name, Joy, queue_size=100) for name in ("stylus/joy", "stylus_2/joy")]
+        self.sensors = [
+            rospy.Publisher("manipulation/external_wrench" + ending, WrenchStamped, queue_size=100)
+            for ending in ("", "_2")
+        ]
         self.rates = [self.random.choice([30.0, 60.0, 120.0]) for _ in range(2)]
         self.goal = [self.new_goal(hand) for hand in range(2)]
         self.position = list(self.goal)
@@ -98,6 +103,17 @@ class TwoHands:
             joy = Joy(buttons=[int(down) for down in buttons])
             joy.header.stamp = stamp
             self.joy[hand].publish(joy)
+            if self.random.random() < 0.6:
+                self.measure(hand, stamp)
+
+    def measure(self, hand, stamp):
+        """The force sensor of a machine that this hand drives."""
+        measured = WrenchStamped()
+        measured.header.stamp = stamp
+        measured.header.frame_id = self.random.choice(["world", "fork_tip" if hand == 0 else "fork_tip_2"])
+        force = [self.random.gauss(0.0, 2.0) for _ in range(3)]
+        measured.wrench = Wrench(Vector3(*force), Vector3(0.0, 0.0, self.random.gauss(0.0, 0.02)))
+        self.sensors[hand].publish(measured)
 
 
 class Services:
@@ -252,10 +268,11 @@ class LiveReplay(unittest.TestCase):
                 same += 1
         comparisons = sum(not m.state for m in messages[TOPICS[1]])
         held = sum(m.objects[0].held for m in messages[TOPICS[2]])
+        wrenches = sum(m.kind == Accepted.EXTERNAL_WRENCH for m in messages[TOPICS[0]])
         print(
             "seed %d: %d states equal, %d outside the journal, %d with no hand, %d changes made again, %d hashes, "
-            "held in %d"
-            % (seed, same, outside, waiting, summary["changes_made_again"], comparisons, held)
+            "%d wrenches, held in %d"
+            % (seed, same, outside, waiting, summary["changes_made_again"], comparisons, wrenches, held)
         )
         self.assertGreater(same, 100)
         self.assertLess(outside + waiting, 0.2 * same)
@@ -263,6 +280,7 @@ class LiveReplay(unittest.TestCase):
         self.assertEqual(summary["changes_made_again"], summary["changes"])
         self.assertEqual(summary["changes_mismatched"], 0)
         self.assertGreater(comparisons, 3)
+        self.assertGreater(wrenches, 100)
         return held
 
     def test_live_is_its_replay(self):

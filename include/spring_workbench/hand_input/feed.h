@@ -26,6 +26,7 @@ struct Accepted {
     rest,       ///< no input: all hands rested until `t`
     clutch_on,  ///< at time `t`
     clutch_off,
+    external_wrench,
   };
   static Kind kind_of(motion::Press press);
   /// Returns the edge of a button that `kind` stands for; none if it stands for something else.
@@ -35,6 +36,7 @@ struct Accepted {
   std::size_t hand = 0;
   double t = 0.0;                                               ///< [s]
   RigidTransform X_WH = RigidTransform::Identity();             ///< of a pose
+  motion::ExternalWrench wrench;                                ///< of an external wrench, which is of the time `t`
   double committed = -std::numeric_limits<double>::infinity();  ///< simulated time reached before it [s];
                                                                 ///< −infinity before the simulation began
 };
@@ -62,6 +64,8 @@ class Feed {
   void push_button(double t, bool pressed, std::size_t hand = 0) {
     push_press(t, pressed ? motion::Press::grasp : motion::Press::release, hand);
   }
+  /// Adds what a machine's force sensor measured; see Simulation. Nothing waits for it.
+  void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   /// Reports that the buttons of a hand are known up to `t`, whether or not one of them changed.
   void buttons_known(double t, const LocalTime& arrival, std::size_t hand = 0);
 

@@ -33,6 +33,8 @@ class HandTimes {
   void leave_out(double seconds);
   /// Returns the time skipped since the last call [s].
   double take_left_out() { return std::exchange(left_out_, 0.0); }
+  /// Returns the simulation time of a stamp [ns] [s].
+  double time_of_stamp(std::int64_t stamp) const { return 1e-9 * static_cast<double>(stamp - zero_); }
   /// Returns the stamp of a simulation time `t` [s] [ns].
   std::int64_t stamp_of(double t) const { return zero_ + std::llround(1e9 * t); }
 

@@ -156,6 +156,8 @@ class SimulationRunner {
   void apply(HandInput& input, const StylusPose& pose);
   void apply(HandInput& input, const StylusButton& button);
   void apply(HandInput& input, const ButtonsKnown& known);
+  void apply(HandInput& input, const StylusWrench& wrench) { push(input, wrench, times_.time_of_stamp(wrench.stamp)); }
+  void push(HandInput& input, StylusWrench wrench, double t);
   bool joins(const HandInput& input, const NewEpoch& epoch) const;
   double time_of(const HandInput& input, double t);
   void feed(HandInput& input, const StylusEvent& event);

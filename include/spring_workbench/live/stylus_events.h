@@ -37,7 +37,12 @@ struct ButtonsKnown {
   double t = 0.0;
   hand_input::LocalTime arrival;
 };
-using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, ButtonsKnown>;
+/// What a machine's force sensor measured on what the stylus holds.
+struct StylusWrench {
+  std::int64_t stamp = 0;         ///< when, in local time [ns]
+  motion::ExternalWrench sample;  ///< without its time
+};
+using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, ButtonsKnown, StylusWrench>;
 
 /// Events of each stylus since the last cycle.
 using HandEvents = std::array<std::vector<StylusEvent>, simulation::Simulation::most_hands>;

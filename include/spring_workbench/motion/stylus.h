@@ -6,33 +6,38 @@
 #include <limits>
 #include <optional>
 
+#include "spring_workbench/motion/external_wrench.h"
 #include "spring_workbench/motion/pose_track.h"
 #include "spring_workbench/motion/stylus_source.h"
 
 namespace spring_workbench::motion {
 
-/// Motion and button edges of one stylus, from its samples. With the clutch on, S stays where it is while the hand
-/// moves alone; afterwards S continues from there, and moves and turns in world as the hand does.
+/// Motion and button edges of one stylus, and the wrench on what it holds, from their samples. With the clutch on, S
+/// stays where it is while the hand moves alone; afterwards S continues from there, and moves and turns in world as the
+/// hand does.
 class Stylus {
  public:
   /// [s]; stamps nearer to each other are one. Smaller: a rounding error makes a step of its own. Test:
   /// Simulation.ACallThatEndsARoundingErrorBesideASampleMakesNoStepOfItsOwn at 0.
   static constexpr double same_time = 1e-9;
 
-  /// `dropout_after` [s]: as for PoseTrack. Without a sample it is at `X_WS_start`.
-  Stylus(double dropout_after, const RigidTransform& X_WS_start)
-      : track_(dropout_after), X_WS_start_(X_WS_start), X_WS_(X_WS_start) {}
+  /// `dropout_after` [s]: as for PoseTrack; `wrench_timeout` [s]: as for WrenchTrack. Without a sample it is at
+  /// `X_WS_start`.
+  Stylus(double dropout_after, double wrench_timeout, const RigidTransform& X_WS_start)
+      : track_(dropout_after), wrench_(wrench_timeout), X_WS_start_(X_WS_start), X_WS_(X_WS_start) {}
 
   /// Forgets samples and buttons.
   void reset() {
     track_.clear();
     presses_.clear();
+    wrench_.clear();
     X_WS_ = X_WS_start_;
     clutched_ = displaced_ = false;
   }
 
   bool push(const PoseSample& sample) { return track_.push(sample); }
   void push(double t, Press press) { presses_.push_back({t, press}); }
+  void push(const ExternalWrench& sample) { wrench_.push(sample); }
   const PoseTrack& track() const { return track_; }
   /// Whether a sample says where it is at time `now` [s].
   bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
@@ -42,11 +47,22 @@ class Stylus {
   MotionSegment provisional(double now) const { return of_tool(track_.provisional(std::max(now, track_.begin()))); }
   /// The time after `now` at which the next piece of the motion begins; infinity where there is none.
   double next_sample(double now) const { return track_.next_after(now); }
-  /// The time after `now` of the next button edge; infinity where there is none.
-  double next_button(double now) const {
-    const bool later = !presses_.empty() && presses_.front().t > now + same_time;
-    return later ? presses_.front().t : std::numeric_limits<double>::infinity();
+  /// Its twist at `now`, world axes; zero where that is not known.
+  Twist twist(double now) const {
+    if (clutched_ || !known(now)) return {};
+    const MotionSegment segment = provisional(now);
+    return segment.at(std::max(now, segment.begin())).velocity;
   }
+  /// The time after `now` of the next button edge or change of the wrench; infinity where there is none.
+  double next_edge(double now) const {
+    const bool later = !presses_.empty() && presses_.front().t > now + same_time;
+    const double press = later ? presses_.front().t : std::numeric_limits<double>::infinity();
+    return std::min(press, wrench_.next_edge(now, same_time));
+  }
+  /// Goes to the wrench at `now`. Returns whether it has timed out there.
+  bool follow_wrench(double now) { return wrench_.follow(now, same_time); }
+  /// What is measured at the time that was followed to; none: zero.
+  const std::optional<ExternalWrench>& wrench() const { return wrench_.present(); }
   /// Takes the next button edge up to `now`, where there is one.
   std::optional<Press> take_press(double now) {
     if (presses_.empty() || presses_.front().t > now + same_time) return std::nullopt;
@@ -79,7 +95,9 @@ class Stylus {
     if (!track_.empty() && track_.begin() < now) track_.forget_before(now);
   }
 
-  void exchange(math::StateArchive& state) { state(track_, presses_, X_WS_, clutched_, displaced_, by_, turned_); }
+  void exchange(math::StateArchive& state) {
+    state(track_, presses_, wrench_, X_WS_, clutched_, displaced_, by_, turned_);
+  }
 
  private:
   struct Edge {
@@ -104,6 +122,7 @@ class Stylus {
 
   PoseTrack track_;
   std::deque<Edge> presses_;
+  WrenchTrack wrench_;
   RigidTransform X_WS_start_, X_WS_;
   bool clutched_ = false;
   bool displaced_ = false;  ///< S is not where the hand is, but `by_` away in world, and `turned_` against it

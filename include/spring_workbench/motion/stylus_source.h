@@ -1,7 +1,10 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
+#include "spring_workbench/math/state_archive.h"
 #include "spring_workbench/motion/pose_track.h"
 
 namespace spring_workbench::motion {
@@ -14,6 +17,21 @@ struct StylusSample : PoseSample {
 
 /// An edge of one of a stylus' buttons.
 enum class Press { grasp, release, next_tool, clutch_on, clutch_off };
+
+/// What the force sensor of a machine measures: a wrench on the held object at the tip E.
+struct ExternalWrench {
+  /// world: fixed in the world; tip: those of E, with which it turns.
+  enum class Axes { world, tip };
+  double t = 0.0;  ///< when it was measured [s]
+  Wrench wrench;   ///< about the origin of E, each component within ±1e5 [N, N·m]
+  Axes axes = Axes::world;
+
+  void exchange(math::StateArchive& state) { state(t, wrench, axes); }
+};
+inline std::vector<std::string> names_of(ExternalWrench::Axes) { return {"world", "tip"}; }
+
+/// Throws InputError naming `where`, field, value and rule for a wrench that no sensor measures.
+void validate(const ExternalWrench& sample, const std::string& where);
 
 /// Source of a stylus: a device, a recording or a script. Stamps are passed on as they come, including repeated and
 /// backward ones (PoseTrack ignores those).

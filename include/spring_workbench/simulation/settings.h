@@ -32,6 +32,7 @@ struct SimulationSettings {
   tools::LimitSettings limit;                 ///< keys `limit.*`
   tools::GraspSettings grasp;                 ///< keys `calibrate`, `grasp.*`, `start.follow`, `release`
   double dropout_after = 0.5;                 ///< key `dropout_after` [s]
+  double wrench_timeout = 0.1;                ///< key `external_wrench_timeout` [s]
   int bisection_levels = 8;  ///< key `bisection_levels`; 0 … 30 (paper, section 5); 0: time of impact
 };
 

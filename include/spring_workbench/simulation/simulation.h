@@ -70,6 +70,7 @@ struct AdvanceReport {
   int steps_blocked = 0;      ///< steps in which no admissible motion of a body was found, so that it stayed
   double time_lost = 0.0;     ///< time during which a body did not follow its equation [s]
   int steps_rejected = 0;     ///< steps rejected because the result was not finite or bounded
+  int wrench_timeouts = 0;    ///< times an external wrench went to zero because no next one came in time
   std::vector<std::string> active;  ///< e.g. "stretch", "gravity", "collision"
   std::vector<std::string> skipped;
 
@@ -124,10 +125,15 @@ class Simulation {
   void push_clutch(double t, bool on, std::size_t hand = 0) {
     push_press(t, on ? motion::Press::clutch_on : motion::Press::clutch_off, hand);
   }
+  /// What a machine's force sensor measures on what the hand holds, in real units (times the scene's `force_scale` it
+  /// is virtual). It acts from its time on, beside contact, until the next one or for `settings().wrench_timeout`; one
+  /// that comes later than its time acts at once. Throws InputError, and changes nothing, for an invalid one.
+  void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   /// Time of the newest sample of any hand, or time() if there is none.
   double newest_sample() const;
-  /// The next time after time() at which a hand has a sample or a button an edge, or of the first sample; infinity if
-  /// there is none. If every call of `advance` ends at one of these, the number of calls has no effect.
+  /// The next time after time() at which a hand has a sample, a button an edge or an external wrench a change, or of
+  /// the first sample; infinity if there is none. If every call of `advance` ends at one of these, the number of calls
+  /// has no effect.
   double next_edge() const;
 
   /// Simulates from time() to `t_end` in steps of at most `settings().dynamics.step` that end at the samples.

@@ -22,7 +22,7 @@ class Sharing {
   /// All tools on the object, which know their hands' motion; `make_unheld`: it as none holds it.
   Sharing(const std::vector<ToolOnObject>& tools, const std::function<std::unique_ptr<ToolHold>()>& make_unheld);
 
-  bodies::SteppedBody* body() { return leader_; }
+  ToolHold* body() { return leader_; }
   /// The step is done, and the object is there at time `now` [s].
   void end_step(const motion::MotionState& object, double now);
 

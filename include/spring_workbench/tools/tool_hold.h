@@ -31,6 +31,8 @@ class ToolHold : public bodies::SteppedBody {
   /// Of the handle that the object sees from the hand's: seen = offset · hand, in world.
   virtual const RigidTransform& offset() const = 0;
 
+  /// A constant wrench on the object beyond contact, at its centre, world axes. To be told before each step.
+  virtual void set_load(const Wrench& load_W) = 0;
   /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
   virtual void set_hand(const motion::MotionSegment& hand, double t) = 0;
   /// Whether nothing moves for the next `h` [s], so that only let_pass() is needed: the hand is at rest and the object

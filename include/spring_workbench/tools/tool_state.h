@@ -36,6 +36,7 @@ struct ToolState {
                                                      ///< calibration or a regrasp has moved it
   RigidTransform X_WH_proxy = RigidTransform::Identity();  ///< the proxy handle
   RigidTransform X_WE = RigidTransform::Identity();        ///< the tip
+  Twist V_WE_W;                                            ///< of the tip, world axes
   Wrench tip_wrench_W;                                     ///< on the object at the tip, world axes [N, N·m]
   Wrench handle_wrench_H;                                  ///< wrench on the hand, at and in the handle frame
   double elastic_energy = 0.0;                             ///< [J]

@@ -47,6 +47,8 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
              [this] { alarm_.ring(); }),
       second_input_(input_thread_.handle(node), parameters_, parameters_.stylus_frame + "_2", "stylus_2/joy",
                     [this] { alarm_.ring(); }),
+      wrenches_(input_thread_.handle(private_node), parameters_.world_frame, parameters_.max_age,
+                [this] { alarm_.ring(); }),
       publisher_(private_node, parameters_),
       services_(advertise_services(private_node, runner_, scene_roots(parameters_, runner_))),
       live_tuning_(make_live_tuning(private_node, runner_)),
@@ -88,7 +90,9 @@ void ManipulationNode::run_physics() {
 /// Whether there is more to do at once. `begin`: when this was due, or a sample woke the thread.
 bool ManipulationNode::run_step(double begin) {
   const hand_input::LocalTime local = ros_common::local_time();
-  const live::CycleReport report = runner_.cycle({input_.take_events(), second_input_.take_events()}, local);
+  live::HandEvents events{input_.take_events(), second_input_.take_events()};
+  wrenches_.add_to(events);
+  const live::CycleReport report = runner_.cycle(events, local);
   input_.count_rejected(report.rejected[0]);
   second_input_.count_rejected(report.rejected[1]);
   // In simulated time the clock may have gone on by itself.
@@ -138,6 +142,7 @@ void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
     ROS_WARN_STREAM_DELAYED_THROTTLE(hint_patience, "no sample of the stylus yet: " << first.hint);
   const TrackerInput second{second_input_.statistics(), runner_.hand_statistics(1), ""};
   message.status = diagnostics_.report(first, second, loop, ros_common::loop_time());
+  wrenches_.report(loop.advance.wrench_timeouts, message.status);
   message.status.push_back(lost_messages_.report(ros::this_node::getName()));
   diagnostics_publisher_.publish(message);
 }

@@ -1,5 +1,6 @@
 #include "messages.h"
 
+#include "spring_workbench/math/spatial.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/validation/names.h"
 
@@ -118,6 +119,11 @@ Accepted to_message(const hand_input::Accepted& accepted) {
   message.time = accepted.t;
   message.committed = accepted.committed;
   Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(message.handle.data()) = accepted.X_WH.affine();
+  if (accepted.kind == hand_input::Accepted::Kind::external_wrench) {
+    const Vector6d wrench = to_vector(accepted.wrench.wrench);
+    message.wrench.assign(wrench.data(), wrench.data() + wrench.size());
+    message.wrench_axes = static_cast<uint8_t>(accepted.wrench.axes);
+  }
   return message;
 }
 

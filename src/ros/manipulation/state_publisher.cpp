@@ -1,7 +1,5 @@
 #include "spring_workbench/ros/manipulation/state_publisher.h"
 
-#include <geometry_msgs/WrenchStamped.h>
-
 #include <algorithm>
 
 #include "constants.h"
@@ -42,8 +40,6 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
       objects_publisher_(private_node.advertise<ObjectStates>("objects", state_queue)),
       fork_publisher_(private_node.advertise<ForkState>("fork", state_queue)),
       second_fork_publisher_(private_node.advertise<ForkState>("fork_2", state_queue)),
-      wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench", state_queue)),
-      second_wrench_publisher_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench_2", state_queue)),
       contacts_publisher_(private_node.advertise<Contacts>("contacts", state_queue)),
       steps_publisher_(private_node.advertise<StepReport>("steps", state_queue)),
       task_publisher_(private_node.advertise<TaskState>("task", state_queue)),
@@ -52,7 +48,9 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
       shown_second_fork_publisher_(private_node.advertise<ForkState>("display/fork_2", 5)),
       markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 5)),
       accepted_publisher_(private_node.advertise<Accepted>("accepted", state_queue)),
-      changes_publisher_(private_node.advertise<Change>("changes", state_queue)) {}
+      changes_publisher_(private_node.advertise<Change>("changes", state_queue)),
+      output_(private_node, "", state_queue),
+      second_output_(private_node, "_2", state_queue) {}
 
 void StatePublisher::publish_journal(live::SimulationRunner& runner) {
   const std::uint32_t listeners =
@@ -98,10 +96,10 @@ void StatePublisher::publish_committed(const live::SimulationRunner& runner, con
     averages_[1].take(simulation.time(), second);
     publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
     publish_made(fork_publisher_, header, [&] { return to_message(tool); });
-    publish_wrench(wrench_publisher_, tool, "", header);
+    output_.publish(tool, header);
     if (second.present) {
       publish_made(second_fork_publisher_, header, [&] { return to_message(second); });
-      publish_wrench(second_wrench_publisher_, second, "_2", header);
+      second_output_.publish(second, header);
     }
     publish_contacts(simulation, header);
   });
@@ -163,18 +161,6 @@ void StatePublisher::publish_transforms(const simulation::Simulation& simulation
     transforms.push_back(ros_common::to_transform(object.X_WO * body.X_OL, world_frame_, object.name, stamp));
   });
   transforms_.sendTransform(transforms);
-}
-
-/// In real units: what the hand would feel.
-void StatePublisher::publish_wrench(const ros::Publisher& to, const tools::ToolState& tool, const std::string& number,
-                                    std_msgs::Header header) {
-  header.frame_id = handle_frame + number;
-  publish_made(to, header, [&] {
-    geometry_msgs::WrenchStamped message;
-    const Wrench& felt = tool.handle_wrench_H;
-    message.wrench = ros_common::to_wrench({felt.force / tool.force_scale, felt.moment / tool.force_scale});
-    return message;
-  });
 }
 
 void StatePublisher::publish_contacts(const simulation::Simulation& simulation, const std_msgs::Header& header) {

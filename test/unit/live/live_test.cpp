@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -209,14 +210,24 @@ void change_at_random(SimulationRunner& runner, std::mt19937& random) {
   }
 }
 
-/// A run with changes at random, the state noted after it.
+/// A machine's force sensor measured this at `t`, on what the first hand holds.
+StylusWrench wrench_at(double t) {
+  const Wrench pull{{3.0 * std::sin(9.0 * t), 1.0, 5.0}, {0.0, 0.02, 0.01}};
+  const auto axes = static_cast<motion::ExternalWrench::Axes>(std::llround(t / interval) % 2);
+  return {std::llround(1e9 * t), {0.0, pull, axes}};
+}
+
+/// A run with changes at random and a sensor whose messages are late at random or do not come, the state noted after
+/// it.
 std::vector<Entry> random_journal(unsigned seed, std::uint64_t& hash) {
   Bench bench;
   std::mt19937 random(seed);
   std::vector<Entry> journal;
   for (int k = 0; k < 300; ++k) {
     if (k == 20) bench.runner.keep_journal(true);
-    bench.commit(bench.sample(k, k < 100 || k > 180), interval * k);
+    HandEvents events = bench.sample(k, k < 100 || k > 180);
+    if (k % 60 > 30) events[0].push_back(wrench_at(interval * (k - 0.01 * static_cast<double>(random() % 400))));
+    bench.commit(events, interval * k);
     if (random() % 20 == 0) change_at_random(bench.runner, random);
     if (k % 10 == 0) bench.runner.note_state();
     for (Entry& entry : bench.runner.take_journal()) journal.push_back(entry);
@@ -234,17 +245,43 @@ TEST(Journal, ReplayedComesToTheSameBits) {
     std::vector<Entry> journal = random_journal(seed, hash);
     ASSERT_GT(journal.size(), 300u);
     Replayer replayer = replayer_of_two_boxes();
-    int stops = 0;
+    int stops = 0, timeouts = 0;
     for (Entry& entry : journal) {
       if (auto* change = std::get_if<Change>(&entry.what)) change->command = Command::from(change->command.words());
-      replayer.play(entry, [&](auto&, auto&) { ++stops; });
+      replayer.play(entry, [&](auto&, const simulation::AdvanceReport& report) {
+        ++stops;
+        timeouts += report.wrench_timeouts;
+      });
     }
     EXPECT_GT(stops, 200);
+    EXPECT_GT(timeouts, 1);
+    const auto is_wrench = [](const Entry& entry) {
+      const auto* accepted = std::get_if<hand_input::Accepted>(&entry.what);
+      return accepted != nullptr && accepted->kind == hand_input::Accepted::Kind::external_wrench;
+    };
+    EXPECT_GT(std::count_if(journal.begin(), journal.end(), is_wrench), 100);
     EXPECT_GT(replayer.changes().made_again, 5u);
     EXPECT_EQ(replayer.changes().given, 0u);
     for (const std::string& mismatch : replayer.changes().mismatches) ADD_FAILURE() << seed << ": " << mismatch;
     EXPECT_EQ(replayer.simulation()->state_hash(), hash);
   }
+}
+
+/// It acts at its stamp, whenever it comes before that time is committed.
+TEST(ExternalWrench, ActsAtItsStamp) {
+  RigidTransform X_WO[3];
+  for (const int late : {0, 1, 2}) {  // 2: there is none
+    Bench bench;
+    for (int k = 0; k < 60; ++k) {
+      HandEvents events = bench.sample(k, false);
+      const double t = interval * (k - late - 0.5);
+      if (late < 2 && t > 0.29 && t < 0.5) events[0].push_back(wrench_at(t));
+      bench.commit(events, interval * k);
+    }
+    X_WO[late] = bench.runner.locked([](const auto& s) { return s.objects()[0].X_WO; });
+  }
+  EXPECT_EQ(X_WO[0].matrix(), X_WO[1].matrix());
+  EXPECT_NE(X_WO[0].matrix(), X_WO[2].matrix());
 }
 
 /// A change whose command says something else is told, and the run goes on from the state that was recorded.

@@ -89,6 +89,11 @@ void act(Simulation& s, unsigned session, int k) {
     if (chance(random, 0.06)) s.select_tool(any<tools::Tool>(random), hand);
     if (chance(random, 0.02)) s.release(hand);
   }
+  if (session % 2 == 1 && k % 5 == 0) {
+    const Wrench pull{{4.0 * std::sin(k), 2.0, 5.0 * std::cos(k)}, {0.0, 0.02, 0.01}};
+    const auto axes = static_cast<motion::ExternalWrench::Axes>(k % 2);
+    s.push_external_wrench({(k + 0.3) * slot, pull, axes}, static_cast<std::size_t>(k) % Simulation::most_hands);
+  }
   ForkChange fork;
   if (chance(random, 0.05)) fork.dofs = {chance(random, 0.7), chance(random, 0.7), chance(random, 0.7)};
   if (chance(random, 0.05)) fork.stretch_stiffness = uniform(random, 100.0, 5e3);

@@ -13,6 +13,7 @@
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/lost_messages.h"
+#include "spring_workbench/ros/machine_link/wrench_input.h"
 #include "spring_workbench/ros/manipulation/checkpoint.h"
 #include "spring_workbench/ros/manipulation/diagnostics.h"
 #include "spring_workbench/ros/manipulation/live_tuning.h"
@@ -63,6 +64,7 @@ class ManipulationNode {
   ros_common::Alarm alarm_;
   CallbackThread input_thread_, master_thread_, disk_thread_;
   StylusInput input_, second_input_;
+  machine_link::WrenchInput wrenches_;
   StatePublisher publisher_;
   std::vector<ros::ServiceServer> services_;
   std::unique_ptr<LiveTuning> live_tuning_;

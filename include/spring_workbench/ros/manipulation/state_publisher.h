@@ -8,15 +8,16 @@
 
 #include "spring_workbench/instruments/reading_average.h"
 #include "spring_workbench/live/simulation_runner.h"
+#include "spring_workbench/ros/machine_link/tool_output.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
 #include "spring_workbench/ros/markers/markers.h"
 
 namespace spring_workbench::manipulation {
 
-/// Sends the committed simulation, to be recorded (~objects, ~fork, ~fork_2, ~wrench, ~wrench_2, ~contacts, ~steps and
-/// ~task), the journal (~accepted, ~changes), and what is shown, to be looked at (/tf, ~display/objects, ~display/fork,
-/// ~display/fork_2, ~markers). Messages are made only while there is a subscriber. What has not changed is sent again
-/// ten times a second.
+/// Sends the committed simulation, to be recorded (~objects, ~fork, ~wrench, ~tip_twist, those of the second stylus,
+/// ~contacts, ~steps and ~task), the journal (~accepted, ~changes), and what is shown, to be looked at (/tf,
+/// ~display/objects, ~display/fork, ~display/fork_2, ~markers). Messages are made only while there is a subscriber.
+/// What has not changed is sent again ten times a second.
 class StatePublisher {
  public:
   StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters);
@@ -37,8 +38,6 @@ class StatePublisher {
     bool due(const ros::Time& stamp, std::size_t revision);
   };
   void publish_transforms(const simulation::Simulation& simulation, const ros::Time& stamp);
-  void publish_wrench(const ros::Publisher& to, const tools::ToolState& tool, const std::string& number,
-                      std_msgs::Header header);
   void publish_contacts(const simulation::Simulation& simulation, const std_msgs::Header& header);
   void publish_markers(const simulation::Simulation& simulation, const std_msgs::Header& header, double now);
   std_msgs::Header header_at(const ros::Time& stamp) const;
@@ -56,9 +55,10 @@ class StatePublisher {
   markers::MarkerBuilder markers_;
   std::array<instruments::ReadingAverage, simulation::Simulation::most_hands> averages_;  ///< of each hand's readings
   tf2_ros::TransformBroadcaster transforms_;
-  ros::Publisher objects_publisher_, fork_publisher_, second_fork_publisher_, wrench_publisher_,
-      second_wrench_publisher_, contacts_publisher_, steps_publisher_, task_publisher_, shown_objects_publisher_,
-      shown_fork_publisher_, shown_second_fork_publisher_, markers_publisher_, accepted_publisher_, changes_publisher_;
+  ros::Publisher objects_publisher_, fork_publisher_, second_fork_publisher_, contacts_publisher_, steps_publisher_,
+      task_publisher_, shown_objects_publisher_, shown_fork_publisher_, shown_second_fork_publisher_,
+      markers_publisher_, accepted_publisher_, changes_publisher_;
+  machine_link::ToolOutput output_, second_output_;
   std::uint32_t journal_listeners_ = 0;
 };
 

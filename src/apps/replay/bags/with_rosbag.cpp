@@ -17,6 +17,7 @@
 #include "../motion.h"
 #include "spring_workbench/Accepted.h"
 #include "spring_workbench/Change.h"
+#include "spring_workbench/math/spatial.h"
 #include "spring_workbench/simulation/simulation.h"
 #include "spring_workbench/validation/number_rule.h"
 #include "spring_workbench/validation/renamed.h"
@@ -49,7 +50,7 @@ RigidTransform to_pose(const geometry_msgs::Transform& transform, const std::str
 
 live::Entry to_entry(const Accepted& message) {
   hand_input::Accepted accepted;
-  validation::check_number("~accepted", "kind", message.kind, validation::between(0, Accepted::CLUTCH_OFF));
+  validation::check_number("~accepted", "kind", message.kind, validation::between(0, Accepted::EXTERNAL_WRENCH));
   validation::check_number("~accepted", "stylus", message.stylus,
                            validation::between(1, simulation::Simulation::most_hands));
   accepted.kind = static_cast<hand_input::Accepted::Kind>(message.kind);
@@ -57,6 +58,14 @@ live::Entry to_entry(const Accepted& message) {
   accepted.t = message.time;
   accepted.committed = message.committed;
   accepted.X_WH.affine() = Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>>(message.handle.data());
+  if (message.kind == Accepted::EXTERNAL_WRENCH) {
+    validation::check_number("~accepted", "numbers of wrench", static_cast<double>(message.wrench.size()),
+                             validation::between(6, 6));
+    validation::check_number("~accepted", "wrench_axes", message.wrench_axes,
+                             validation::between(0, Accepted::TIP_AXES));
+    accepted.wrench = {message.time, to_wrench(Eigen::Map<const Vector6d>(message.wrench.data())),
+                       static_cast<motion::ExternalWrench::Axes>(message.wrench_axes)};
+  }
   return {message.index, message.committed, accepted};
 }
 

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <diagnostic_msgs/DiagnosticStatus.h>
+#include <geometry_msgs/WrenchStamped.h>
+#include <ros/ros.h>
+
+#include <array>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "spring_workbench/live/stylus_events.h"
+#include "spring_workbench/motion/stream_clock.h"
+
+namespace spring_workbench::machine_link {
+
+/// Listens to `external_wrench` and `external_wrench_2`: what machines' force sensors measure on what the styluses
+/// hold. What cannot be used is left out, counted by reason and told in one throttled line.
+class WrenchInput {
+ public:
+  /// `world_frame`: the frame for wrenches in world axes; `max_age` [s]: a stamp further from now is not believed.
+  /// `wake` is called when something has come.
+  WrenchInput(ros::NodeHandle private_node, const std::string& world_frame, double max_age, std::function<void()> wake);
+
+  /// Adds what came since the last call.
+  void add_to(live::HandEvents& events);
+  /// Adds a status of /diagnostics once a message has come; `timeouts`: how often the watchdog has set a wrench to zero
+  /// so far. WARN where that, or a rejection, is new since the last call.
+  void report(int timeouts, std::vector<diagnostic_msgs::DiagnosticStatus>& statuses);
+
+ private:
+  struct Sensor {
+    std::string topic, tip_frame;
+    motion::StreamClock clock;
+    std::vector<live::StylusWrench> came;
+    ros::Subscriber subscriber;
+  };
+  void on_wrench(Sensor& sensor, const geometry_msgs::WrenchStamped& message);
+  std::int64_t local_stamp(Sensor& sensor, const ros::Time& stamp) const;
+  void reject(const std::string& reason, const std::string& line);
+
+  const std::string name_, world_frame_;
+  const double max_age_;
+  const std::function<void()> wake_;
+  std::mutex mutex_;
+  std::size_t messages_ = 0;
+  std::map<std::string, std::size_t> rejected_;  ///< by reason
+  std::map<std::string, double> told_;           ///< when a reason was last logged [s]
+  std::size_t reported_rejected_ = 0;
+  int reported_timeouts_ = 0;
+  std::array<Sensor, simulation::Simulation::most_hands> sensors_;
+};
+
+}  // namespace spring_workbench::machine_link

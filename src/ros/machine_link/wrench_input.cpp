@@ -1,0 +1,112 @@
+#include "spring_workbench/ros/machine_link/wrench_input.h"
+
+#include <cmath>
+#include <utility>
+
+#include "constants.h"
+#include "spring_workbench/ros/common/diagnostic_status.h"
+#include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/validation/input_error.h"
+#include "spring_workbench/validation/number_rule.h"
+
+namespace spring_workbench::machine_link {
+namespace {
+
+std::string ending(std::size_t hand) { return hand == 0 ? "" : "_" + std::to_string(hand + 1); }
+
+std::int64_t nanoseconds(const ros::Time& stamp) { return static_cast<std::int64_t>(stamp.toNSec()); }
+
+Vector3d vector_of(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
+
+}  // namespace
+
+WrenchInput::WrenchInput(ros::NodeHandle private_node, const std::string& world_frame, double max_age,
+                         std::function<void()> wake)
+    : name_(private_node.getNamespace()),
+      world_frame_(world_frame),
+      max_age_(max_age),
+      wake_(std::move(wake)),
+      sensors_{{{"", "", motion::StreamClock(max_age), {}, {}}, {"", "", motion::StreamClock(max_age), {}, {}}}} {
+  const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+  for (std::size_t hand = 0; hand < sensors_.size(); ++hand) {
+    Sensor& sensor = sensors_[hand];
+    sensor.topic = private_node.resolveName("external_wrench" + ending(hand));
+    sensor.tip_frame = "fork_tip" + ending(hand);
+    sensor.subscriber = private_node.subscribe<geometry_msgs::WrenchStamped>(
+        sensor.topic, input_queue,
+        [this, &sensor](const geometry_msgs::WrenchStampedConstPtr& message) { on_wrench(sensor, *message); },
+        ros::VoidConstPtr(), hints);
+  }
+}
+
+void WrenchInput::add_to(live::HandEvents& events) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (std::size_t hand = 0; hand < sensors_.size(); ++hand) {
+    for (const live::StylusWrench& wrench : std::exchange(sensors_[hand].came, {})) events[hand].emplace_back(wrench);
+  }
+}
+
+/// By the stamp if it fits the present time, otherwise now [ns].
+std::int64_t WrenchInput::local_stamp(Sensor& sensor, const ros::Time& stamp) const {
+  if (!ros::Time::isSimTime()) return sensor.clock.local_or_now(nanoseconds(stamp), ros_common::wall_moment());
+  const ros::Time now = ros::Time::now();
+  return nanoseconds(std::abs((now - stamp).toSec()) <= max_age_ ? stamp : now);
+}
+
+void WrenchInput::on_wrench(Sensor& sensor, const geometry_msgs::WrenchStamped& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  ++messages_;
+  if (ros::Time::now().isZero()) return reject("no clock", sensor.topic + ": no time on /clock yet");
+  const std::string& frame = message.header.frame_id;
+  live::StylusWrench event;
+  event.sample.wrench = {vector_of(message.wrench.force), vector_of(message.wrench.torque)};
+  event.sample.axes =
+      frame == sensor.tip_frame ? motion::ExternalWrench::Axes::tip : motion::ExternalWrench::Axes::world;
+  try {
+    if (frame != sensor.tip_frame && frame != world_frame_) {
+      validation::refuse(sensor.topic, "header.frame_id", "\"" + frame + "\"",
+                         world_frame_ + " or " + sensor.tip_frame);
+    }
+  } catch (const validation::InputError& error) {
+    return reject("unknown frame", error.what());
+  }
+  try {
+    motion::validate(event.sample, sensor.topic);
+  } catch (const validation::InputError& error) {
+    return reject("invalid value", error.what());
+  }
+  event.stamp = local_stamp(sensor, message.header.stamp);
+  sensor.came.push_back(event);
+  wake_();
+}
+
+void WrenchInput::reject(const std::string& reason, const std::string& line) {
+  ++rejected_[reason];
+  const double now = ros_common::steady_time();
+  const auto told = told_.find(reason);
+  if (told != told_.end() && now - told->second < told_again_after) return;
+  told_[reason] = now;
+  ROS_WARN_STREAM(line << "; rejected");
+}
+
+void WrenchInput::report(int timeouts, std::vector<diagnostic_msgs::DiagnosticStatus>& statuses) {
+  using diagnostic_msgs::DiagnosticStatus;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (messages_ == 0 && timeouts == 0) return;
+  ros_common::DiagnosticStatusBuilder status(name_ + ": external wrench", "force sensor");
+  status.add("messages", messages_).add("timeouts", timeouts);
+  std::size_t rejected = 0;
+  for (const auto& [reason, count] : rejected_) {
+    status.add("rejected: " + reason, count);
+    rejected += count;
+  }
+  if (timeouts > std::exchange(reported_timeouts_, timeouts)) {
+    status.raise(DiagnosticStatus::WARN, "no external wrench came in time: it was set to zero");
+  }
+  if (rejected > std::exchange(reported_rejected_, rejected)) {
+    status.raise(DiagnosticStatus::WARN, "external wrenches rejected");
+  }
+  statuses.push_back(status.status());
+}
+
+}  // namespace spring_workbench::machine_link
