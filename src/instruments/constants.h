@@ -17,5 +17,17 @@ constexpr double below_lightest = 0.5;
 constexpr double reading_part = 0.1;
 /// Parts of an average. More: it is slower. Test: ReadingAverage.IsOfTheLastSecond at 20.
 constexpr std::size_t reading_parts = 10;
+/// [N·s] of a strike that is felt with full intensity, in real units. Less: weak ones feel like strong ones. Test:
+/// Vibration.AStrikeIsFeltInProportionInRealUnitsAndDiesAway.
+constexpr double full_strike = 0.5;
+/// [N/s]; a force that changes so fast is felt with full intensity. Less: a hand that only moves feels it. Test:
+/// Vibration.AJoltIsTheRateOfTheForce.
+constexpr double full_jolt = 2000.0;
+/// [s] in which what is felt goes down to 1/e. Longer: strikes blur into one. Test:
+/// Vibration.AStrikeIsFeltInProportionInRealUnitsAndDiesAway.
+constexpr double vibration_time = 0.05;
+/// Intensity below which nothing is felt, so that it ends. More: weak strikes are not felt. Test:
+/// Vibration.AStrikeIsFeltInProportionInRealUnitsAndDiesAway at 0.
+constexpr double least_vibration = 0.02;
 
 }  // namespace spring_workbench::instruments

@@ -8,6 +8,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import TwistStamped, Vector3, Wrench, WrenchStamped
 from rosgraph_msgs.msg import Log
+from sensor_msgs.msg import JoyFeedback, JoyFeedbackArray
 from spring_workbench.msg import ForkState, ObjectStates
 from std_srvs.srv import Trigger
 
@@ -49,6 +50,7 @@ class MachineLink(unittest.TestCase):
         cls.fork = Listener("manipulation/fork", ForkState)
         cls.objects = Listener("manipulation/objects", ObjectStates)
         cls.twist = Listener("manipulation/tip_twist", TwistStamped)
+        cls.feedback = Listener("manipulation/joy_feedback", JoyFeedbackArray)
         cls.log = Listener("/rosout", Log)
         cls.diagnostics = diagnostics_listener()
         cls.hand = Machine()
@@ -113,6 +115,21 @@ class MachineLink(unittest.TestCase):
         self.hand.run(2.0)
         self.assertAlmostEqual(self.fork.last.stretch, WEIGHT / STIFFNESS, delta=1e-5)
         wait_for(lambda: int(self.values().get("timeouts", 0)) == before + 1, "one more timeout in /diagnostics")
+
+    def test_a_strike_on_the_bench_is_felt_and_ends(self):
+        self.hand.run(0.5)
+        at_rest = len(self.feedback.messages)
+        self.hand.run(0.5)
+        self.assertEqual(len(self.feedback.messages), at_rest)
+        self.hand.move(IN_BOX, DOWN, 0.25)  # the box comes down on the bench
+        self.hand.run(1.0)
+        felt = [m.array for m in self.feedback.messages[at_rest:]]
+        self.assertTrue(all(len(a) == 1 and a[0].type == JoyFeedback.TYPE_RUMBLE and a[0].id == 0 for a in felt))
+        intensities = [a[0].intensity for a in felt]
+        self.assertGreater(max(intensities), 0.3)
+        self.assertLessEqual(max(intensities), 1.0)
+        self.assertEqual(intensities[-1], 0.0)
+        self.assertFalse(any(a == b == 0.0 for a, b in zip(intensities, intensities[1:])))
 
     def test_every_measurement_is_taken(self):
         self.hand.measured = wrench_of((0.0, 0.0, 1.0))

@@ -2,6 +2,9 @@
 
 #include <geometry_msgs/TwistStamped.h>
 #include <geometry_msgs/WrenchStamped.h>
+#include <sensor_msgs/JoyFeedbackArray.h>
+
+#include <utility>
 
 #include "spring_workbench/ros/common/conversions.h"
 
@@ -10,9 +13,12 @@ namespace spring_workbench::machine_link {
 ToolOutput::ToolOutput(ros::NodeHandle private_node, const std::string& number, std::uint32_t queue)
     : handle_frame_("fork_handle" + number),
       wrench_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench" + number, queue)),
-      tip_twist_(private_node.advertise<geometry_msgs::TwistStamped>("tip_twist" + number, queue)) {}
+      tip_twist_(private_node.advertise<geometry_msgs::TwistStamped>("tip_twist" + number, queue)),
+      joy_feedback_(private_node.advertise<sensor_msgs::JoyFeedbackArray>("joy_feedback" + number, queue)) {}
 
-void ToolOutput::publish(const tools::ToolState& tool, const std_msgs::Header& header) const {
+void ToolOutput::publish(const simulation::Simulation& simulation, const tools::ToolState& tool,
+                         const std_msgs::Header& header) {
+  vibrate(simulation, tool);
   if (wrench_.getNumSubscribers() > 0) {
     geometry_msgs::WrenchStamped message;
     message.header = header;
@@ -28,6 +34,23 @@ void ToolOutput::publish(const tools::ToolState& tool, const std_msgs::Header& h
     message.twist.angular = ros_common::to_vector(tool.V_WE_W.angular);
     tip_twist_.publish(message);
   }
+}
+
+/// Sent while it vibrates, and once more when that ends.
+void ToolOutput::vibrate(const simulation::Simulation& simulation, const tools::ToolState& tool) {
+  if (joy_feedback_.getNumSubscribers() == 0) return;
+  double impulse = 0.0;
+  for (const contact::ContactState& contact : simulation.contacts()) {
+    const bool of_held = contact.object == tool.held_object || contact.other == tool.held_object;
+    if (of_held && contact.phase == contact::ContactPhase::started) impulse += contact.impulse;
+  }
+  const double intensity = vibration_.feel(simulation.time(), tool, impulse);
+  if (std::exchange(vibrates_, intensity) == 0.0 && intensity == 0.0) return;
+  sensor_msgs::JoyFeedbackArray message;
+  message.array.resize(1);
+  message.array[0].type = sensor_msgs::JoyFeedback::TYPE_RUMBLE;
+  message.array[0].intensity = static_cast<float>(intensity);
+  joy_feedback_.publish(message);
 }
 
 }  // namespace spring_workbench::machine_link

@@ -96,10 +96,10 @@ void StatePublisher::publish_committed(const live::SimulationRunner& runner, con
     averages_[1].take(simulation.time(), second);
     publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
     publish_made(fork_publisher_, header, [&] { return to_message(tool); });
-    output_.publish(tool, header);
+    output_.publish(simulation, tool, header);
     if (second.present) {
       publish_made(second_fork_publisher_, header, [&] { return to_message(second); });
-      second_output_.publish(second, header);
+      second_output_.publish(simulation, second, header);
     }
     publish_contacts(simulation, header);
   });

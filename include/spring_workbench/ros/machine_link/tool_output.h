@@ -6,24 +6,30 @@
 #include <cstdint>
 #include <string>
 
-#include "spring_workbench/tools/tool_state.h"
+#include "spring_workbench/instruments/vibration.h"
+#include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench::machine_link {
 
-/// What a device or a machine takes of the tool in one hand: `wrench`, which the hand would feel, and `tip_twist`, for
-/// a servo that follows the tip. A message is made only while it has a subscriber.
+/// What a device or a machine takes of the tool in one hand: `wrench`, which the hand would feel, `tip_twist`, for a
+/// servo that follows the tip, and `joy_feedback`, which makes a game pad vibrate. A message is made only while it has
+/// a subscriber.
 class ToolOutput {
  public:
   /// `number`: what the topics and frames of this hand end in ("", "_2"); `queue`: messages that wait for a slow
   /// subscriber.
   ToolOutput(ros::NodeHandle private_node, const std::string& number, std::uint32_t queue);
 
-  /// `header`: the state's stamp, and the world frame.
-  void publish(const tools::ToolState& tool, const std_msgs::Header& header) const;
+  /// `tool`: that of this hand in the simulation; `header`: the state's stamp, and the world frame.
+  void publish(const simulation::Simulation& simulation, const tools::ToolState& tool, const std_msgs::Header& header);
 
  private:
+  void vibrate(const simulation::Simulation& simulation, const tools::ToolState& tool);
+
   std::string handle_frame_;
-  ros::Publisher wrench_, tip_twist_;
+  ros::Publisher wrench_, tip_twist_, joy_feedback_;
+  instruments::Vibration vibration_;
+  double vibrates_ = 0.0;  ///< intensity that was published last
 };
 
 }  // namespace spring_workbench::machine_link

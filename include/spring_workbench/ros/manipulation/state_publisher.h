@@ -14,10 +14,10 @@
 
 namespace spring_workbench::manipulation {
 
-/// Sends the committed simulation, to be recorded (~objects, ~fork, ~wrench, ~tip_twist, those of the second stylus,
-/// ~contacts, ~steps and ~task), the journal (~accepted, ~changes), and what is shown, to be looked at (/tf,
-/// ~display/objects, ~display/fork, ~display/fork_2, ~markers). Messages are made only while there is a subscriber.
-/// What has not changed is sent again ten times a second.
+/// Sends the committed simulation, to be recorded (~objects, ~fork, ~wrench, ~tip_twist, ~joy_feedback, those of the
+/// second stylus, ~contacts, ~steps and ~task), the journal (~accepted, ~changes), and what is shown, to be looked at
+/// (/tf, ~display/objects, ~display/fork, ~display/fork_2, ~markers). Messages are made only while there is a
+/// subscriber. What has not changed is sent again ten times a second.
 class StatePublisher {
  public:
   StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters);
