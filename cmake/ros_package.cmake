@@ -16,8 +16,8 @@ endif()
 find_package(catkin REQUIRED COMPONENTS
   interactive_markers message_generation rosbag rosconsole roscpp tf2 tf2_ros ${SPRING_WORKBENCH_MESSAGE_PACKAGES})
 
-add_message_files(FILES Accepted.msg Change.msg Contact.msg Contacts.msg ForkState.msg ObjectState.msg ObjectStates.msg
-  PlacementState.msg
+add_message_files(FILES Accepted.msg BodyDescription.msg Change.msg Contact.msg Contacts.msg ForkState.msg
+  MeshDescription.msg ObjectState.msg ObjectStates.msg PlacementState.msg SceneDescription.msg ShapeDescription.msg
   StepReport.msg
   TaskState.msg)
 add_service_files(FILES Calibrate.srv EditObject.srv LoadScene.srv Release.srv SaveScene.srv SelectTool.srv

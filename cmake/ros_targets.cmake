@@ -9,7 +9,7 @@ add_module(manipulation FOLDER ros/manipulation DEPENDS ros_common live fork_mes
 add_module(tracker_driver FOLDER ros/tracker_driver DEPENDS ros_common assembly fastrak motion_files registration)
 add_module(contact_sound FOLDER ros/contact_sound DEPENDS ros_common sound)
 add_module(register_tracker FOLDER ros/register_tracker DEPENDS ros_common motion_files registration)
-foreach(module manipulation tracker_driver contact_sound)
+foreach(module markers manipulation tracker_driver contact_sound)
   add_dependencies(spring_workbench_${module} ${PROJECT_NAME}_generate_messages_cpp)
 endforeach()
 if(dynamic_reconfigure_FOUND)

@@ -9,7 +9,15 @@ import unittest
 import rospy
 import rostest
 from geometry_msgs.msg import Point, Pose, Quaternion, WrenchStamped
-from spring_workbench.msg import Contact, Contacts, ForkState, ObjectStates, StepReport
+from spring_workbench.msg import (
+    Contact,
+    Contacts,
+    ForkState,
+    ObjectStates,
+    SceneDescription,
+    ShapeDescription,
+    StepReport,
+)
 from spring_workbench.srv import (
     Calibrate,
     EditObject,
@@ -193,6 +201,31 @@ class Manipulation(unittest.TestCase):
         self.assertLessEqual({"workbench", "box", "fork"}, names)
         self.assertNotIn(Marker.DELETEALL, [m.action for m in array.markers])
         markers.subscriber.unregister()
+
+    def test_displays_leave_little_to_markers(self):
+        everything, beside = (Listener("manipulation" + t, MarkerArray) for t in ("/markers", "/display/markers"))
+        names = [{m.ns for m in self.run_until(listener).markers} for listener in (everything, beside)]
+        self.assertEqual(names[0] - names[1], {"workbench", "box", "fork"})
+        self.assertLessEqual({"legend", "legend marks"}, names[1])
+        everything.subscriber.unregister()
+        beside.subscriber.unregister()
+
+    def test_a_late_listener_gets_the_scene(self):
+        scenes = Listener("manipulation/scene_description", SceneDescription)
+        scene = wait_for(lambda: scenes.last, "the scene")
+        self.assertEqual(scene.header.frame_id, "world")
+        self.assertEqual([body.name for body in scene.bodies if body.movable], ["box"])
+        box = next(body for body in scene.bodies if body.name == "box")
+        self.assertEqual((box.mass, len(box.visual), box.visual[0].type), (MASS, 1, ShapeDescription.BOX))
+        self.edit("add", "brick", BRICK, at=(0.3, 0.0, 0.4))
+        there = lambda s: [body.name for body in s.bodies if body.movable] == ["box", "brick"]
+        wait_for(lambda: there(scenes.last), "the added object")
+        self.edit("mass", "brick", mass=3.5)
+        wait_for(lambda: scenes.last.bodies[-1].mass == 3.5, "its new mass")
+        seen = len(scenes.messages)
+        self.edit("remove", "brick")
+        wait_for(lambda: len(scenes.messages) > seen and not there(scenes.last), "the object to be gone")
+        scenes.subscriber.unregister()
 
     def run_until(self, listener):
         def one():

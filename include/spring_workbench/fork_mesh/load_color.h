@@ -12,4 +12,7 @@ inline Vector3d load_color(double place) {
                      : Vector3d(half + (2.0 * place - 1.0) * (full - half));
 }
 
+/// Color of what a press of the button would grasp, from its own: it lights up.
+inline Vector3d highlighted(const Vector3d& color) { return 0.35 * color + 0.65 * Vector3d(1.0, 1.0, 0.55); }
+
 }  // namespace spring_workbench::fork_mesh

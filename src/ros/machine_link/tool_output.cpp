@@ -10,8 +10,9 @@
 
 namespace spring_workbench::machine_link {
 
-ToolOutput::ToolOutput(ros::NodeHandle private_node, const std::string& number, std::uint32_t queue)
-    : handle_frame_("fork_handle" + number),
+ToolOutput::ToolOutput(ros::NodeHandle private_node, const std::string& frame_prefix, const std::string& number,
+                       std::uint32_t queue)
+    : handle_frame_(frame_prefix + "fork_handle" + number),
       wrench_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench" + number, queue)),
       tip_twist_(private_node.advertise<geometry_msgs::TwistStamped>("tip_twist" + number, queue)),
       joy_feedback_(private_node.advertise<sensor_msgs::JoyFeedbackArray>("joy_feedback" + number, queue)) {}

@@ -20,8 +20,8 @@ Vector3d vector_of(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-WrenchInput::WrenchInput(ros::NodeHandle private_node, const std::string& world_frame, double max_age,
-                         std::function<void()> wake)
+WrenchInput::WrenchInput(ros::NodeHandle private_node, const std::string& world_frame, const std::string& frame_prefix,
+                         double max_age, std::function<void()> wake)
     : name_(private_node.getNamespace()),
       world_frame_(world_frame),
       max_age_(max_age),
@@ -31,7 +31,7 @@ WrenchInput::WrenchInput(ros::NodeHandle private_node, const std::string& world_
   for (std::size_t hand = 0; hand < sensors_.size(); ++hand) {
     Sensor& sensor = sensors_[hand];
     sensor.topic = private_node.resolveName("external_wrench" + ending(hand));
-    sensor.tip_frame = "fork_tip" + ending(hand);
+    sensor.tip_frame = frame_prefix + "fork_tip" + ending(hand);
     sensor.subscriber = private_node.subscribe<geometry_msgs::WrenchStamped>(
         sensor.topic, input_queue,
         [this, &sensor](const geometry_msgs::WrenchStampedConstPtr& message) { on_wrench(sensor, *message); },

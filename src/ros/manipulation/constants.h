@@ -10,9 +10,6 @@ namespace spring_workbench::manipulation {
 /// messages of one topic that wait for a slow subscriber. Fewer: a run of steps without pause loses some. Test:
 /// played_recordings_test.py::test_a_hundred_rounds_are_the_same.
 constexpr std::uint32_t state_queue = 1000;
-/// [s] for which rviz keeps a marker that is not sent again, at least. Shorter: flickers when the node is late. Test:
-/// rviz_recovery_test.py::test_markers.
-constexpr double shortest_marker_lifetime = 2.0;
 /// messages of /tf or of buttons that wait while the machine is busy. Fewer: samples are lost. Test:
 /// played_recordings_test.py::test_a_hundred_rounds_are_the_same.
 constexpr std::uint32_t input_queue = 2000;
@@ -34,5 +31,8 @@ constexpr double checkpoint_period = 0.5;
 /// [s] after which a state that stays as it is is sent again, for who came late. Longer: they wait. Test:
 /// manipulation_test.py::test_bad_calls_change_nothing.
 constexpr double repeat_after = 0.1;
+/// [s] between two looks whether the scene was changed. Longer: rviz draws the old one for longer. Test:
+/// manipulation_test.py::test_a_late_listener_gets_the_scene at 100.
+constexpr double scene_period = 0.1;
 
 }  // namespace spring_workbench::manipulation

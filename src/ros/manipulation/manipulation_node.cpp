@@ -47,9 +47,10 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
              [this] { alarm_.ring(); }),
       second_input_(input_thread_.handle(node), parameters_, parameters_.stylus_frame + "_2", "stylus_2/joy",
                     [this] { alarm_.ring(); }),
-      wrenches_(input_thread_.handle(private_node), parameters_.world_frame, parameters_.max_age,
-                [this] { alarm_.ring(); }),
+      wrenches_(input_thread_.handle(private_node), parameters_.world_frame, parameters_.frame_prefix,
+                parameters_.max_age, [this] { alarm_.ring(); }),
       publisher_(private_node, parameters_),
+      scene_publisher_(private_node, parameters_.world_frame),
       services_(advertise_services(private_node, runner_, scene_roots(parameters_, runner_))),
       live_tuning_(make_live_tuning(private_node, runner_)),
       checkpoint_(master_thread_.handle(private_node), disk_thread_.handle(private_node), parameters_.checkpoint_file,
@@ -59,6 +60,8 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
       every_second_(node.createSteadyTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
       asks_master_(master_thread_.handle(node).createSteadyTimer(
           ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { ask_master(); })),
+      describes_scene_(node.createSteadyTimer(ros::WallDuration(scene_period),
+                                              [this](const ros::SteadyTimerEvent&) { describe_scene(); })),
       master_answered_(ros_common::steady_time()),
       physics_([this] { run_physics(); }) {
   runner_.locked([](const simulation::Simulation& simulation) {
@@ -145,6 +148,14 @@ void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
   wrenches_.report(loop.advance.wrench_timeouts, message.status);
   message.status.push_back(lost_messages_.report(ros::this_node::getName()));
   diagnostics_publisher_.publish(message);
+}
+
+/// The message is made outside of the lock: meshes are shared.
+void ManipulationNode::describe_scene() {
+  const auto changed = runner_.locked([this](const simulation::Simulation& simulation) {
+    return scene_publisher_.is_new(simulation.scene()) ? std::make_optional(simulation.scene()) : std::nullopt;
+  });
+  if (changed) scene_publisher_.publish(*changed);
 }
 
 /// In a thread of its own: it takes as long as the master does, and nothing waits for it.

@@ -14,10 +14,11 @@ void take_number(YAML::Node& map, const std::string& where, const std::string& k
 }
 
 void take_frame(YAML::Node& map, const std::string& where, const std::string& key, std::string& value) {
+  const bool may_be_empty = value.empty();
   const YAML::Node node = ros_common::take(map, key);
   if (!node) return;
   value = config::read_string(node, where, key);
-  if (value.empty() || value.front() == '/')
+  if ((value.empty() && !may_be_empty) || value.front() == '/')
     validation::refuse(where, key, "\"" + value + "\"", "a frame name without a leading /");
 }
 
@@ -46,6 +47,7 @@ ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters
   }
   take_number(rest, where, "max_age", validation::positive(), result.max_age);
   take_frame(rest, where, "world_frame", result.world_frame);
+  take_frame(rest, where, "frame_prefix", result.frame_prefix);
   take_frame(rest, where, "workbench_frame", result.workbench_frame);
   take_frame(rest, where, "stylus_frame", result.stylus_frame);
   hand_input::take_input_settings(rest, where, result.input);

@@ -12,9 +12,6 @@
 namespace spring_workbench::manipulation {
 namespace {
 
-const std::string handle_frame = "fork_handle";
-const std::string tip_frame = "fork_tip";
-
 /// Now, as stamps of the simulation are [ns].
 std::int64_t now() { return ros_common::wall_moment().now; }
 /// Such a stamp as the clock stands now.
@@ -35,8 +32,8 @@ void publish_made(const ros::Publisher& publisher, const std_msgs::Header& heade
 
 StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters)
     : world_frame_(parameters.world_frame),
-      marker_period_(1.0 / parameters.markers_rate),
-      markers_(parameters.fork_curve, std::max(shortest_marker_lifetime, 3.0 / parameters.markers_rate)),
+      frame_prefix_(parameters.frame_prefix),
+      markers_(private_node, parameters.fork_curve, parameters.markers_rate),
       objects_publisher_(private_node.advertise<ObjectStates>("objects", state_queue)),
       fork_publisher_(private_node.advertise<ForkState>("fork", state_queue)),
       second_fork_publisher_(private_node.advertise<ForkState>("fork_2", state_queue)),
@@ -46,11 +43,10 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
       shown_objects_publisher_(private_node.advertise<ObjectStates>("display/objects", 5)),
       shown_fork_publisher_(private_node.advertise<ForkState>("display/fork", 5)),
       shown_second_fork_publisher_(private_node.advertise<ForkState>("display/fork_2", 5)),
-      markers_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 5)),
       accepted_publisher_(private_node.advertise<Accepted>("accepted", state_queue)),
       changes_publisher_(private_node.advertise<Change>("changes", state_queue)),
-      output_(private_node, "", state_queue),
-      second_output_(private_node, "_2", state_queue) {}
+      output_(private_node, parameters.frame_prefix, "", state_queue),
+      second_output_(private_node, parameters.frame_prefix, "_2", state_queue) {}
 
 void StatePublisher::publish_journal(live::SimulationRunner& runner) {
   const std::uint32_t listeners =
@@ -135,7 +131,7 @@ void StatePublisher::publish_shown(const live::SimulationRunner& runner, double 
   publish_made(shown_fork_publisher_, header, [&] { return to_message(simulation.fork()); });
   if (const tools::ToolState second = simulation.fork(1); second.present)
     publish_made(shown_second_fork_publisher_, header, [&] { return to_message(second); });
-  publish_markers(simulation, header, local_time);
+  markers_were_built_ = markers_.publish(simulation, header, local_time);
 }
 
 void StatePublisher::publish_transforms(const simulation::Simulation& simulation, const ros::Time& stamp) {
@@ -146,8 +142,9 @@ void StatePublisher::publish_transforms(const simulation::Simulation& simulation
     const tools::ToolState tool = simulation.fork(hand);
     if (hand > 0 && !tool.present) continue;
     const std::string number = hand > 0 ? "_" + std::to_string(hand + 1) : "";
-    transforms.push_back(ros_common::to_transform(tool.X_WH, world_frame_, handle_frame + number, stamp));
-    transforms.push_back(ros_common::to_transform(tool.X_WE, world_frame_, tip_frame + number, stamp));
+    transforms.push_back(
+        ros_common::to_transform(tool.X_WH, world_frame_, frame_prefix_ + "fork_handle" + number, stamp));
+    transforms.push_back(ros_common::to_transform(tool.X_WE, world_frame_, frame_prefix_ + "fork_tip" + number, stamp));
   }
   const double steady = ros_common::steady_time();
   const bool all = steady >= all_transforms_ + repeat_after || sent_X_.size() != simulation.objects().size();
@@ -158,7 +155,8 @@ void StatePublisher::publish_transforms(const simulation::Simulation& simulation
     RigidTransform& last = *sent++;
     if (!all && last.matrix() == object.X_WO.matrix()) return;
     last = object.X_WO;
-    transforms.push_back(ros_common::to_transform(object.X_WO * body.X_OL, world_frame_, object.name, stamp));
+    transforms.push_back(
+        ros_common::to_transform(object.X_WO * body.X_OL, world_frame_, frame_prefix_ + object.name, stamp));
   });
   transforms_.sendTransform(transforms);
 }
@@ -171,17 +169,6 @@ void StatePublisher::publish_contacts(const simulation::Simulation& simulation, 
     contacts_publisher_.publish(message);
   }
   had_contacts_ = has_contacts;
-}
-
-void StatePublisher::publish_markers(const simulation::Simulation& simulation, const std_msgs::Header& header,
-                                     double now) {
-  markers_were_built_ = false;
-  const bool wait = now < next_markers_ && now > next_markers_ - marker_period_;  // a clock that went back waits not
-  if (wait || markers_publisher_.getNumSubscribers() == 0) return;
-  next_markers_ = now < next_markers_ + marker_period_ && now >= next_markers_ ? next_markers_ + marker_period_
-                                                                               : now + marker_period_;
-  markers_were_built_ = true;
-  markers_publisher_.publish(markers_.build(simulation, header));
 }
 
 std_msgs::Header StatePublisher::header_at(const ros::Time& stamp) const {

@@ -16,6 +16,9 @@ constexpr double smallest_gap = 1e-5;
 constexpr double least_shadow_height = 2e-3;
 /// [m] less: the bench shines through. Test: MarkersOfALift.ARaisedBoxThrowsItsOwnOutlineOnTheBench.
 constexpr double shadow_above_bench = 1e-3;
+/// [s] for which rviz keeps a marker that is not sent again, at least. Shorter: flickers when the node is late. Test:
+/// rviz_recovery_test.py::test_markers.
+constexpr double shortest_marker_lifetime = 2.0;
 /// of the ghosts where objects belong. Test: none: a look.
 constexpr double target_opacity = 0.25;
 /// corners of a circle's shadow. Test: none: a look.

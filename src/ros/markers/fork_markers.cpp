@@ -49,10 +49,13 @@ void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, const
 
 }  // namespace
 
-void draw_fork(const fork_mesh::ForkModel& model, const fork_mesh::ForkMesh& mesh, const tools::ToolState& tool,
-               const Color& spring_color, const std::string& number, MarkerList& markers) {
+void draw_fork(const fork_mesh::ForkModel& model, const fork_mesh::ForkMesh& mesh, const Color& spring_color,
+               const std::string& number, MarkerList& markers) {
   add_triangles("fork" + number, 0, model.spring(), mesh, spring_color, markers);
   add_triangles("fork" + number, 1, model.shaft_and_end(), mesh, rigid_color, markers);
+}
+
+void draw_gap(const tools::ToolState& tool, const std::string& number, MarkerList& markers) {
   const Vector3d hand = tool.X_WH.translation(), seen = tool.X_WH_proxy.translation();
   if ((hand - seen).norm() < smallest_gap) return;
   markers.add_points("gap" + number, 0, Marker::LINE_LIST, {hand, seen}, gap_color).scale.x = 0.01 * tool.length;

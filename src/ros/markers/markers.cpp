@@ -10,14 +10,14 @@ namespace spring_workbench::markers {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-MarkerBuilder::MarkerBuilder(std::string fork_curve, double lifetime)
-    : fork_curve_(std::move(fork_curve)), lifetime_(lifetime), fork_(fork_mesh::ForkLook()) {}
+MarkerBuilder::MarkerBuilder(std::string fork_curve, double lifetime, Drawn drawn)
+    : fork_curve_(std::move(fork_curve)), lifetime_(lifetime), drawn_(drawn), fork_(fork_mesh::ForkLook()) {}
 
 MarkerArray MarkerBuilder::build(const simulation::Simulation& simulation, const std_msgs::Header& header) {
   const scene::Scene& scene = simulation.scene();
   const LoadScale scale(simulation);
   MarkerList list(header, lifetime_);
-  draw_bodies(simulation, list);
+  if (drawn_ == Drawn::everything) draw_bodies(simulation, list);
   draw_targets(scene, list);
   scale.draw_legend(list);
   for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand)
@@ -37,7 +37,8 @@ void MarkerBuilder::draw_hand(const simulation::Simulation& simulation, const Lo
   const std::string number = hand > 0 ? "_" + std::to_string(hand + 1) : "";
   deform(tool);
   forks_W_.push_back(fork_mesh_.vertices);
-  draw_fork(fork_, fork_mesh_, tool, load_color(tool.load), number, list);
+  if (drawn_ == Drawn::everything) draw_fork(fork_, fork_mesh_, load_color(tool.load), number, list);
+  draw_gap(tool, number, list);
   draw_load(simulation.scene(), tool, number, list);
   if (!tool.held_object.empty()) scale.draw_load(tool, number, list);
 }

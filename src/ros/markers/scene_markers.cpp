@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "constants.h"
+#include "spring_workbench/fork_mesh/load_color.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/markers/for_each_object.h"
@@ -14,7 +15,6 @@ namespace {
 using visualization_msgs::Marker;
 
 const Color contact_color(1.0, 0.25, 0.05, 1.0);
-const Color highlight_color(1.0, 1.0, 0.55, 1.0);
 const Color shadow_color(0.0, 0.0, 0.0, 0.45);
 
 /// A mesh by its file where it has one: rviz reads it once, and a message is small.
@@ -52,7 +52,7 @@ void draw_body(const scene::Body& body, const RigidTransform& X_WO, bool highlig
   int id = 0;
   for (const geometry::Shape& shape : body.visual) {
     Color color = shape.color;
-    if (highlighted) color.head<3>() = 0.35 * color.head<3>() + 0.65 * highlight_color.head<3>();
+    if (highlighted) color.head<3>() = fork_mesh::highlighted(color.head<3>());
     draw_shape(body.name, id++, shape, X_WO, color, markers);
   }
 }

@@ -60,12 +60,14 @@ TEST(ToYaml, RefusesWhatYamlHasNoWordFor) {
 }
 
 TEST(ManipulationParameters, NodeAndSimulationAreReadFromOneMap) {
-  const auto parameters = read_manipulation_parameters(
-      YAML::Load("{scene: a.urdf, rate: 250, stylus_frame: pen, fork: {stiffness: {bend: 77}}, integrator: rk4}"),
-      "/m");
+  const auto parameters =
+      read_manipulation_parameters(YAML::Load("{scene: a.urdf, rate: 250, stylus_frame: pen, frame_prefix: left_, "
+                                              "fork: {stiffness: {bend: 77}}, integrator: rk4}"),
+                                   "/m");
   EXPECT_EQ(parameters.scene, "a.urdf");
   EXPECT_EQ(parameters.rate, 250.0);
   EXPECT_EQ(parameters.stylus_frame, "pen");
+  EXPECT_EQ(parameters.frame_prefix, "left_");
   EXPECT_EQ(parameters.simulation.fork.stiffness.bend, 77.0);
   EXPECT_EQ(parameters.simulation.dynamics.integrator, dynamics::IntegratorKind::rk4);
   EXPECT_EQ(parameters.world_frame, ManipulationParameters().world_frame);
@@ -79,6 +81,7 @@ TEST(ManipulationParameters, RefusesWithTheKeyInTheMessage) {
       {"{scene: a.urdf, rate: fast}", "rate"},
       {"{scene: a.urdf, max_age: .nan}", "max_age"},
       {"{scene: a.urdf, world_frame: /world}", "world_frame"},
+      {"{scene: a.urdf, frame_prefix: /left_}", "frame_prefix"},
       {"{scene: a.urdf, fork: {stiffness: {bend: .nan}}}", "fork.stiffness.bend"},
       {"{scene: a.urdf, fork: {stiffness: {stretch: -1}}}", "fork.stiffness.stretch"},
       {"{scene: a.urdf, fork: {colour: red}}", "fork.colour"},

@@ -16,9 +16,10 @@ namespace spring_workbench::machine_link {
 /// a subscriber.
 class ToolOutput {
  public:
-  /// `number`: what the topics and frames of this hand end in ("", "_2"); `queue`: messages that wait for a slow
-  /// subscriber.
-  ToolOutput(ros::NodeHandle private_node, const std::string& number, std::uint32_t queue);
+  /// `frame_prefix`, `number`: what the frames of this hand begin with, and its topics and frames end in ("", "_2");
+  /// `queue`: messages that wait for a slow subscriber.
+  ToolOutput(ros::NodeHandle private_node, const std::string& frame_prefix, const std::string& number,
+             std::uint32_t queue);
 
   /// `tool`: that of this hand in the simulation; `header`: the state's stamp, and the world frame.
   void publish(const simulation::Simulation& simulation, const tools::ToolState& tool, const std_msgs::Header& header);

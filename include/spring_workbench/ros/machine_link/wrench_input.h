@@ -20,9 +20,10 @@ namespace spring_workbench::machine_link {
 /// hold. What cannot be used is left out, counted by reason and told in one throttled line.
 class WrenchInput {
  public:
-  /// `world_frame`: the frame for wrenches in world axes; `max_age` [s]: a stamp further from now is not believed.
-  /// `wake` is called when something has come.
-  WrenchInput(ros::NodeHandle private_node, const std::string& world_frame, double max_age, std::function<void()> wake);
+  /// `world_frame`: the frame for wrenches in world axes; `frame_prefix`: what those of the tip begin with; `max_age`
+  /// [s]: a stamp further from now is not believed. `wake` is called when something has come.
+  WrenchInput(ros::NodeHandle private_node, const std::string& world_frame, const std::string& frame_prefix,
+              double max_age, std::function<void()> wake);
 
   /// Adds what came since the last call.
   void add_to(live::HandEvents& events);

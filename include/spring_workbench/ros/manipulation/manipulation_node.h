@@ -21,6 +21,7 @@
 #include "spring_workbench/ros/manipulation/services.h"
 #include "spring_workbench/ros/manipulation/state_publisher.h"
 #include "spring_workbench/ros/manipulation/stylus_input.h"
+#include "spring_workbench/ros/markers/scene_publisher.h"
 
 namespace spring_workbench::manipulation {
 
@@ -56,6 +57,7 @@ class ManipulationNode {
   void count(const live::CycleReport& report, bool deadline_missed);
   void on_every_second(const ros::SteadyTimerEvent&);
   void place_workbench();
+  void describe_scene();
   void ask_master();
   void end_with_its_master();
 
@@ -66,6 +68,7 @@ class ManipulationNode {
   StylusInput input_, second_input_;
   machine_link::WrenchInput wrenches_;
   StatePublisher publisher_;
+  markers::ScenePublisher scene_publisher_;
   std::vector<ros::ServiceServer> services_;
   std::unique_ptr<LiveTuning> live_tuning_;
   Checkpoint checkpoint_;
@@ -76,7 +79,7 @@ class ManipulationNode {
   bool workbench_placed_ = false;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   ros::Publisher diagnostics_publisher_;
-  ros::SteadyTimer every_second_, asks_master_;
+  ros::SteadyTimer every_second_, asks_master_, describes_scene_;
   std::mutex master_mutex_;
   std::vector<std::string> senders_of_tf_;  ///< by the master's last answer
   double master_answered_;                  ///< when that came [s], by the steady clock

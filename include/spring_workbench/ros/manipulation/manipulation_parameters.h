@@ -22,6 +22,7 @@ struct ManipulationParameters {
   std::string fork_curve = "rod";  ///< `fork_curve`: one of fork_curve_names(), the curve that `~markers` draws
   double max_age = 1.0;  ///< `max_age` [s], > 0: older samples are left out; a stream begins no further from now
   std::string world_frame = "world";  ///< `world_frame`: frame of all that is published
+  std::string frame_prefix;           ///< `frame_prefix`: of the frames of tools and objects; may be empty
   std::string workbench_frame =
       "workbench";                      ///< `workbench_frame`: put at the origin of world unless /tf_static says else
   std::string stylus_frame = "stylus";  ///< `stylus_frame`: the child frame on /tf that is the handle of the tool

@@ -10,14 +10,14 @@
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/ros/machine_link/tool_output.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
-#include "spring_workbench/ros/markers/markers.h"
+#include "spring_workbench/ros/markers/marker_publisher.h"
 
 namespace spring_workbench::manipulation {
 
 /// Sends the committed simulation, to be recorded (~objects, ~fork, ~wrench, ~tip_twist, ~joy_feedback, those of the
 /// second stylus, ~contacts, ~steps and ~task), the journal (~accepted, ~changes), and what is shown, to be looked at
-/// (/tf, ~display/objects, ~display/fork, ~display/fork_2, ~markers). Messages are made only while there is a
-/// subscriber. What has not changed is sent again ten times a second.
+/// (/tf, ~display/objects, ~display/fork, ~display/fork_2, ~markers, ~display/markers). Messages are made only while
+/// there is a subscriber. What has not changed is sent again ten times a second.
 class StatePublisher {
  public:
   StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters);
@@ -39,12 +39,9 @@ class StatePublisher {
   };
   void publish_transforms(const simulation::Simulation& simulation, const ros::Time& stamp);
   void publish_contacts(const simulation::Simulation& simulation, const std_msgs::Header& header);
-  void publish_markers(const simulation::Simulation& simulation, const std_msgs::Header& header, double now);
   std_msgs::Header header_at(const ros::Time& stamp) const;
 
-  std::string world_frame_;
-  double marker_period_;  ///< [s]
-  double next_markers_ = 0.0;
+  std::string world_frame_, frame_prefix_;
   ros::Time last_transforms_;
   double all_transforms_ = -1.0;        ///< when all were sent last [s], by the steady clock
   std::vector<RigidTransform> sent_X_;  ///< of the objects
@@ -52,12 +49,12 @@ class StatePublisher {
   double horizon_ = 0.0;
   bool had_contacts_ = false;
   bool markers_were_built_ = false;  ///< in this cycle
-  markers::MarkerBuilder markers_;
+  markers::MarkerPublisher markers_;
   std::array<instruments::ReadingAverage, simulation::Simulation::most_hands> averages_;  ///< of each hand's readings
   tf2_ros::TransformBroadcaster transforms_;
   ros::Publisher objects_publisher_, fork_publisher_, second_fork_publisher_, contacts_publisher_, steps_publisher_,
       task_publisher_, shown_objects_publisher_, shown_fork_publisher_, shown_second_fork_publisher_,
-      markers_publisher_, accepted_publisher_, changes_publisher_;
+      accepted_publisher_, changes_publisher_;
   machine_link::ToolOutput output_, second_output_;
   std::uint32_t journal_listeners_ = 0;
 };

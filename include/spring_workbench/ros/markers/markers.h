@@ -15,6 +15,9 @@ namespace spring_workbench::markers {
 class LoadScale;
 class MarkerList;
 
+/// What to draw: everything, or what the displays `Objects` and `SpringFork` leave out.
+enum class Drawn { everything, beside_displays };
+
 /// Draws the simulation for rviz: bodies, targets, shadows on the bench, the deformed fork in the colour of its load
 /// with a legend, force and moment at the tip of each as arrows and text, contact points with their normals. Every
 /// marker keeps its namespace and id while what it shows is there and is deleted by name when it is gone, so that
@@ -22,7 +25,7 @@ class MarkerList;
 class MarkerBuilder {
  public:
   /// `fork_curve`: one of fork_curve_names(). `lifetime` [s] of a marker that is not sent again.
-  MarkerBuilder(std::string fork_curve, double lifetime);
+  MarkerBuilder(std::string fork_curve, double lifetime, Drawn drawn = Drawn::everything);
 
   visualization_msgs::MarkerArray build(const simulation::Simulation& simulation, const std_msgs::Header& header);
 
@@ -36,6 +39,7 @@ class MarkerBuilder {
 
   std::string fork_curve_;
   double lifetime_;
+  Drawn drawn_;
   fork_mesh::ForkModel fork_;
   fork_mesh::ForkMesh fork_mesh_;
   std::vector<std::vector<Vector3d>> forks_W_;  ///< corners of each hand's fork

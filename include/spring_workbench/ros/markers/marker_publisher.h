@@ -1,0 +1,28 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "spring_workbench/ros/markers/markers.h"
+
+namespace spring_workbench::markers {
+
+/// Sends `~markers` (everything) and `~display/markers` (what the displays of rviz leave to markers), each while it has
+/// a subscriber.
+class MarkerPublisher {
+ public:
+  /// `fork_curve`: one of fork_curve_names(). `rate` [Hz]: the most of each topic.
+  MarkerPublisher(ros::NodeHandle private_node, const std::string& fork_curve, double rate);
+
+  /// Returns whether markers were due at `now` [s], local time, and made.
+  bool publish(const simulation::Simulation& simulation, const std_msgs::Header& header, double now);
+
+ private:
+  double period_;  ///< [s]
+  double next_ = 0.0;
+  MarkerBuilder all_, beside_displays_;
+  ros::Publisher all_publisher_, beside_displays_publisher_;
+};
+
+}  // namespace spring_workbench::markers

@@ -1,0 +1,27 @@
+#include "spring_workbench/ros/markers/marker_publisher.h"
+
+#include <algorithm>
+
+#include "constants.h"
+
+namespace spring_workbench::markers {
+
+MarkerPublisher::MarkerPublisher(ros::NodeHandle private_node, const std::string& fork_curve, double rate)
+    : period_(1.0 / rate),
+      all_(fork_curve, std::max(shortest_marker_lifetime, 3.0 / rate)),
+      beside_displays_(fork_curve, std::max(shortest_marker_lifetime, 3.0 / rate), Drawn::beside_displays),
+      all_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 5)),
+      beside_displays_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("display/markers", 5)) {}
+
+bool MarkerPublisher::publish(const simulation::Simulation& simulation, const std_msgs::Header& header, double now) {
+  const bool wait = now < next_ && now > next_ - period_;  // a clock that went back waits not
+  const bool all = all_publisher_.getNumSubscribers() > 0;
+  const bool beside_displays = beside_displays_publisher_.getNumSubscribers() > 0;
+  if (wait || (!all && !beside_displays)) return false;
+  next_ = now < next_ + period_ && now >= next_ ? next_ + period_ : now + period_;
+  if (all) all_publisher_.publish(all_.build(simulation, header));
+  if (beside_displays) beside_displays_publisher_.publish(beside_displays_.build(simulation, header));
+  return true;
+}
+
+}  // namespace spring_workbench::markers
