@@ -19,10 +19,13 @@ add_library(spring_workbench_rviz SHARED ${sources})
 set_target_properties(spring_workbench_rviz PROPERTIES AUTOMOC ON)
 target_compile_options(spring_workbench_rviz PRIVATE ${SPRING_WORKBENCH_WARNINGS})
 target_compile_definitions(spring_workbench_rviz PRIVATE QT_NO_KEYWORDS)
-target_include_directories(spring_workbench_rviz SYSTEM PRIVATE
+target_include_directories(spring_workbench_rviz SYSTEM PUBLIC
   ${catkin_INCLUDE_DIRS} ${rviz_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
-target_link_libraries(spring_workbench_rviz PRIVATE
+add_library(spring_workbench_rviz_plugin ALIAS spring_workbench_rviz)   # the module's name, for its tests
+target_link_libraries(spring_workbench_rviz PUBLIC
   spring_workbench_fork_mesh spring_workbench_tools ${catkin_LIBRARIES} ${rviz_LIBRARIES} Qt5::Widgets)
+# The thread that ends rviz must not come back to code that is gone.
+target_link_options(spring_workbench_rviz PRIVATE LINKER:-z,nodelete)
 add_dependencies(spring_workbench_rviz ${PROJECT_NAME}_generate_messages_cpp)
 set(SPRING_WORKBENCH_RVIZ_FOUND TRUE)
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 namespace spring_workbench::rviz_plugin {
 
 // Each with its unit, what changing it does, and the test that notices (scripts/mutate).
@@ -14,7 +16,17 @@ constexpr double settling = 0.7;
 constexpr double kept_for = 10.0;
 /// of a logarithmic slider. Fewer: coarser values. Test: none: a look.
 constexpr int slider_positions = 1000;
+/// cosine of the angle between two triangles below which their edge is drawn smooth. Greater: round meshes have facets.
+/// Test: Meshes.AreSmoothBelowTheCrease.
+constexpr float crease_cosine = 0.7F;
+/// triangles at a vertex up to which it is drawn smooth: making a fan of n takes n². Fewer: the tips of cones have
+/// facets. Test: Meshes.AreSmoothBelowTheCrease at 4, 200.
+constexpr std::size_t most_smoothed = 64;
 /// looks in a second whether rviz ends. Fewer: it ends later. Test: none: rviz ends later.
 constexpr int master_slices = 10;
+/// [s] from the end of rviz' windows until it ends without the ROS master's leave. Longer: with a master that hangs,
+/// rviz is there for longer; much shorter: it ends while it still frees things. Test:
+/// rviz_recovery_test.py::test_rviz_ends_while_the_master_hangs at 600.
+constexpr double exit_patience = 5.0;
 
 }  // namespace spring_workbench::rviz_plugin

@@ -1,24 +1,23 @@
 #include "fork_display.h"
 
 #include <OgreManualObject.h>
-#include <OgreMaterialManager.h>
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
-#include <OgreTechnique.h>
 #include <ros/message_traits.h>
 #include <rviz/display_context.h>
-#include <rviz/frame_manager.h>
 #include <rviz/properties/ros_topic_property.h>
 
 #include <algorithm>
-#include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
 #include "constants.h"
+#include "material.h"
+#include "message_checks.h"
 #include "spring_workbench/fork_mesh/load_color.h"
 #include "spring_workbench/validation/names.h"
 #include "spring_workbench/validation/number_rule.h"
+#include "world_frame.h"
 
 namespace spring_workbench::rviz_plugin {
 namespace {
@@ -34,43 +33,28 @@ Ogre::ColourValue load_color(double place) {
   return Ogre::ColourValue(static_cast<float>(c.x()), static_cast<float>(c.y()), static_cast<float>(c.z()));
 }
 
-Ogre::MaterialPtr make_material(const Ogre::ColourValue& color) {
-  static int count = 0;
-  const Ogre::MaterialPtr material = Ogre::MaterialManager::getSingleton().create(
-      "spring_workbench/fork/" + std::to_string(count++), Ogre::ResourceGroupManager::DEFAULT_RESOURCE_GROUP_NAME);
-  material->setReceiveShadows(false);
-  material->getTechnique(0)->setLightingEnabled(true);
-  material->setAmbient(color * 0.5F);
-  material->setDiffuse(color);
-  material->setCullingMode(Ogre::CULL_NONE);
-  return material;
-}
-
-bool is_finite(const geometry_msgs::Pose& pose) {
-  const auto& p = pose.position;
-  const auto& q = pose.orientation;
-  return std::isfinite(p.x + p.y + p.z) && std::abs(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w - 1.0) < 0.1;
-}
-
 }  // namespace
 
 ForkDisplay::ForkDisplay() : model_(fork_mesh::ForkLook()) {
   topic_ = new rviz::RosTopicProperty(
-      "Topic", "/manipulation/display/fork", QString::fromStdString(ros::message_traits::datatype<ForkState>()),
+      "Topic", "manipulation/display/fork", QString::fromStdString(ros::message_traits::datatype<ForkState>()),
       "The fork as it is shown, ~display/fork of manipulation.", this, SLOT(subscribe()), this);
 }
 
 ForkDisplay::~ForkDisplay() {
   subscriber_.shutdown();
   if (object_) scene_manager_->destroyManualObject(object_);
+  remove_material(spring_material_);
+  remove_material(rigid_material_);
 }
 
 void ForkDisplay::onInitialize() {
   object_ = scene_manager_->createManualObject();
   object_->setDynamic(true);
   scene_node_->attachObject(object_);
-  spring_material_ = make_material(load_color(0.0));
-  rigid_material_ = make_material(Ogre::ColourValue(0.55F, 0.58F, 0.63F));
+  spring_material_ = make_material();
+  rigid_material_ = make_material();
+  set_color(Ogre::ColourValue(0.55F, 0.58F, 0.63F), rigid_material_);
   master_ = MasterWatch::shared();
 }
 
@@ -112,26 +96,10 @@ void ForkDisplay::update(float wall_dt, float) {
   if (!newest_) return;
   const ForkStateConstPtr fork = newest_;
   newest_.reset();
-  if (!place(*fork) || !deform(*fork)) return hide();
+  if (!place_node(fork->header.frame_id, fixed_frame_, context_, *this) || !deform(*fork)) return hide();
   draw(*fork);
   setStatus(StatusProperty::Ok, "Topic", "Drawing");
   context_->queueRender();
-}
-
-/// The world frame of the message in the fixed frame of rviz.
-bool ForkDisplay::place(const ForkState& fork) {
-  Ogre::Vector3 position = Ogre::Vector3::ZERO;
-  Ogre::Quaternion rotation = Ogre::Quaternion::IDENTITY;
-  if (fork.header.frame_id != fixed_frame_.toStdString() &&
-      !context_->getFrameManager()->getTransform(fork.header.frame_id, ros::Time(), position, rotation)) {
-    setStatus(StatusProperty::Error, "Transform",
-              "No transform from " + QString::fromStdString(fork.header.frame_id) + " to " + fixed_frame_);
-    return false;
-  }
-  deleteStatus("Transform");
-  scene_node_->setPosition(position);
-  scene_node_->setOrientation(rotation);
-  return true;
 }
 
 bool ForkDisplay::deform(const ForkState& fork) {
@@ -142,7 +110,7 @@ bool ForkDisplay::deform(const ForkState& fork) {
         fork.strain.data(),
         std::min<Eigen::Index>(static_cast<Eigen::Index>(fork.strain.size()), rod::max_strain_coordinates));
     validation::check_number("fork", "load", fork.load, validation::between(0.0, 1.0));
-    if (q.size() != shape->size() || !shape->admissible(q) || !is_finite(fork.proxy_handle)) {
+    if (q.size() != shape->size() || !shape->admissible(q) || !is_pose(fork.proxy_handle)) {
       throw validation::InputError("fork: strain, proxy_handle: must be finite and possible for a rod of shape " +
                                    fork.shape);
     }
@@ -158,9 +126,7 @@ bool ForkDisplay::deform(const ForkState& fork) {
 }
 
 void ForkDisplay::draw(const ForkState& fork) {
-  const Ogre::ColourValue color = load_color(fork.load);
-  spring_material_->setAmbient(color * 0.5F);
-  spring_material_->setDiffuse(color);
+  set_color(load_color(fork.load), spring_material_);
   const bool is_new = object_->getSections().empty();
   fill(0, model_.spring(), spring_material_, is_new);
   fill(1, model_.shaft_and_end(), rigid_material_, is_new);

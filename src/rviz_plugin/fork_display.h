@@ -43,7 +43,6 @@ class ForkDisplay : public rviz::Display {
 
  private:
   void on_fork(const ForkStateConstPtr& message);
-  bool place(const ForkState& fork);
   bool deform(const ForkState& fork);
   void draw(const ForkState& fork);
   void fill(unsigned int section, const fork_mesh::ForkModel::Triangles& triangles, const Ogre::MaterialPtr& material,

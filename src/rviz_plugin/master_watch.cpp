@@ -10,6 +10,7 @@
 #include <string>
 
 #include "constants.h"
+#include "exit_guard.h"
 
 namespace spring_workbench::rviz_plugin {
 namespace {
@@ -67,6 +68,7 @@ void register_topics() {
 }  // namespace
 
 std::shared_ptr<MasterWatch> MasterWatch::shared() {
+  guard_exit();
   static std::weak_ptr<MasterWatch> watch;
   std::shared_ptr<MasterWatch> held = watch.lock();
   if (!held) watch = held = std::shared_ptr<MasterWatch>(new MasterWatch);

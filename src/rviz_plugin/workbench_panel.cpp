@@ -35,7 +35,7 @@
 namespace spring_workbench::rviz_plugin {
 namespace {
 
-const std::string node = "/manipulation/";
+const std::string node = "manipulation/";  // in the namespace of rviz, as all names here
 
 QComboBox* choice_of(const std::vector<std::string>& names, QWidget* parent) {
   auto* box = new QComboBox(parent);
@@ -161,7 +161,7 @@ void WorkbenchPanel::make_buttons(QVBoxLayout* layout) {
     std_srvs::SetBool::Request request;
     request.data = on ? 1 : 0;
     free_at_ = panel_time() + settling;
-    services_.call<std_srvs::SetBool>("grasp", "/tracker_driver/grasp", request);
+    services_.call<std_srvs::SetBool>("grasp", "tracker_driver/grasp", request);
   });
   auto* clutch = new QCheckBox("Clutch", this);
   clutch->setToolTip("on: the hand moves without its tool");
@@ -177,7 +177,7 @@ void WorkbenchPanel::onInitialize() {
   ros::NodeHandle handle;
   fork_subscriber_ = handle.subscribe(node + "fork", 1, &WorkbenchPanel::on_fork, this);
   steps_subscriber_ = handle.subscribe(node + "steps", 200, &WorkbenchPanel::on_steps, this);
-  joy_subscriber_ = handle.subscribe("/stylus/joy", 1, &WorkbenchPanel::on_joy, this);
+  joy_subscriber_ = handle.subscribe("stylus/joy", 1, &WorkbenchPanel::on_joy, this);
   master_ = MasterWatch::shared();
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &WorkbenchPanel::refresh);

@@ -71,7 +71,7 @@ class KilledNodes(unittest.TestCase):
         self.addCleanup(server.wait)
         self.addCleanup(server.terminate)
         screen = {"DISPLAY": ":" + os.read(reader, 16).decode().strip(), "LIBGL_ALWAYS_SOFTWARE": "1"}
-        shown = lambda: any(name.startswith("/rviz") for name in subscribers("/manipulation/markers"))
+        shown = lambda: any(name.startswith("/rviz") for name in subscribers("/manipulation/display/objects"))
         with Launched(*STACK, *MOVING, "rviz:=true", "respawn_rviz:=true", environment=screen):
             wait_for(shown, "rviz to show the fork")
             self.kill("/rviz")

@@ -104,7 +104,8 @@ class LaunchFiles(unittest.TestCase):
         try:
             with Launched("workbench.launch"):
                 subscribers = lambda: dict(rosgraph.Master("/test").getSystemState()[1])
-                wait_for(lambda: "/rviz" in subscribers().get("/manipulation/markers", []), "rviz to show the markers")
+                shown = lambda: "/rviz" in subscribers().get("/manipulation/display/objects", [])
+                wait_for(shown, "rviz to show the objects")
         finally:
             server.terminate()
             server.wait()

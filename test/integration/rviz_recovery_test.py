@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""What rviz shows while nodes come and go, by the pixels of its window: no fork is left of a node that has ended, and
-display, markers and panel are there again when the node, rviz or the ROS master is started anew, or another scene
+"""What rviz shows while nodes come and go, by the pixels of its window: nothing is left of a node that has ended, and
+displays, markers and panel are there again when the node, rviz or the ROS master is started anew, or another scene
 loaded. Needs the setup file sourced; where rviz' plugins or a program for a virtual display are missing it is skipped
 (exit status 77). Usage: rviz_recovery_test.py DEVEL_SPACE"""
 import os
@@ -12,6 +12,7 @@ import sys
 import tempfile
 import time
 import unittest
+from xmlrpc.client import ServerProxy
 
 import yaml
 
@@ -24,6 +25,12 @@ DEADLINE = 90.0  # [s] for each thing waited for; far more than it takes
 SCENES = "package://spring_workbench/scenes/"
 DISPLAYS = {
     "fork": {"Class": "spring_workbench/SpringFork", "Name": "Fork", "Topic": "/manipulation/display/fork"},
+    "objects": {
+        "Class": "spring_workbench/Objects",
+        "Name": "Objects",
+        "Topic": "manipulation/display/objects",
+        "Scene Topic": "manipulation/scene_description",
+    },
     "markers": {"Class": "rviz/MarkerArray", "Name": "Markers", "Marker Topic": "/manipulation/markers"},
 }
 
@@ -234,12 +241,63 @@ class Recovery(unittest.TestCase):
     def test_fork_of_the_display(self):
         self.check("fork")
 
+    def test_objects_of_the_display(self):
+        self.check("objects")
+
     def test_markers(self):
         self.check("markers")
+
+    def say(self, topic, kind, values):
+        """From a node of its own, for long enough."""
+        sender = self.stack.start("rostopic", "pub", "-l", "manipulation/" + topic, "spring_workbench/" + kind, values)
+        time.sleep(5.0)
+        self.stack.stop(sender)
+
+    def test_malformed_messages_are_harmless(self):
+        stack = self.stack
+        stack.master()
+        rviz = self.open_rviz("objects")
+        pose = "{position: {z: 0.1}, orientation: {w: 1.0}}"
+        shape = "{type: %d, pose: " + pose + ", size: {x: 0.2, y: 0.2, z: 0.2}, color: {g: 1.0, a: 1.0}, mesh: 7}"
+        scene = "{bodies: [{name: box, movable: true, pose: " + pose + ", visual: [" + shape + "]}]}"
+        state = "{header: {frame_id: %s}, objects: [{name: box, pose: {position: {x: %s}, orientation: {w: %s}}}]}"
+        topic, kind = "manipulation/display/objects", "spring_workbench/ObjectStates"
+        poses = stack.start("rostopic", "pub", "-r", "10", topic, kind, state % ("world", 0, 1))
+        self.say("scene_description", "SceneDescription", scene % 3)
+        for bad in [("world", ".nan", 1), ("world", 0, 0), ("nowhere", 0, 1)]:
+            self.say("display/objects", "ObjectStates", state % bad)
+        self.assertEqual(self.look()[0], 0)
+        self.say("scene_description", "SceneDescription", scene % 0)
+        stack.until(lambda: self.look()[0] > 1000, "the box to be drawn")
+        self.say("scene_description", "SceneDescription", scene % 9)
+        self.assertGreater(self.look()[0], 1000)  # what there was stays
+        stack.stop(poses)
+        self.expect_gone("the box without poses to go")
+        self.assertIsNone(rviz.poll())
+
+    def test_rviz_ends_while_the_master_hangs(self):
+        stack = self.stack
+        stack.master()
+        stack.manipulation("single_box")
+        rviz = self.open_rviz_with("objects")
+        master = ServerProxy(stack.environment["ROS_MASTER_URI"]).getPid("/test")[2]
+        os.kill(master, signal.SIGSTOP)
+        try:
+            time.sleep(3.0)  # the panel and the watch on the master ask it meanwhile
+            begin = time.monotonic()
+            rviz.send_signal(signal.SIGINT)
+            stack.until(lambda: rviz.poll() is not None, "rviz to end")
+            print("rviz ended after %.1f s without its master's answer" % (time.monotonic() - begin))
+        finally:
+            os.kill(master, signal.SIGCONT)
+
+    def open_rviz_with(self, kind):
+        """rviz with something drawn."""
+        return self.start_rviz(kind, lambda: sum(p == BACKGROUND for p in self.stack.pixels()) > SIZE[0] * SIZE[1] // 4)
 
 
 if __name__ == "__main__":
     if not os.path.exists(PLUGINS) or not all(map(shutil.which, ["Xvfb", "import", "rviz"])):
         print("skipped: needs the rviz plugins, Xvfb and ImageMagick")
         sys.exit(SKIPPED)
-    unittest.main(argv=sys.argv[:1])
+    unittest.main(argv=[sys.argv[0], *sys.argv[2:]])

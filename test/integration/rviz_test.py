@@ -32,12 +32,9 @@ def xdotool(*arguments):
 
 
 def config(folder):
-    """The shipped one, looking along +y, with the fork drawn by its display."""
+    """The shipped one, looking along +y."""
     content = yaml.safe_load(open(PACKAGE + "/rviz/workbench.rviz"))
     manager = content["Visualization Manager"]
-    for display in manager["Displays"]:
-        if display["Class"] == "spring_workbench/SpringFork":
-            display["Enabled"] = display["Value"] = True
     manager["Views"]["Current"].update(
         {"Pitch": 0.0, "Yaw": 4.712389, "Distance": DISTANCE, "Focal Point": {"X": 0.0, "Y": 0.0, "Z": FOCUS}}
     )

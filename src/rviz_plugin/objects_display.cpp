@@ -1,0 +1,115 @@
+#include "objects_display.h"
+
+#include <OgreException.h>
+#include <OgreSceneManager.h>
+#include <OgreSceneNode.h>
+#include <ros/message_traits.h>
+#include <rviz/display_context.h>
+#include <rviz/properties/ros_topic_property.h>
+
+#include <pluginlib/class_list_macros.hpp>
+#include <string>
+
+#include "constants.h"
+#include "spring_workbench/validation/input_error.h"
+#include "world_frame.h"
+
+namespace spring_workbench::rviz_plugin {
+
+using rviz::StatusProperty;
+
+ObjectsDisplay::ObjectsDisplay() {
+  topic_ = new rviz::RosTopicProperty("Topic", "manipulation/display/objects",
+                                      QString::fromStdString(ros::message_traits::datatype<ObjectStates>()),
+                                      "Poses, ~display/objects of manipulation.", this, SLOT(subscribe()), this);
+  scene_topic_ =
+      new rviz::RosTopicProperty("Scene Topic", "manipulation/scene_description",
+                                 QString::fromStdString(ros::message_traits::datatype<SceneDescription>()),
+                                 "Shapes, ~scene_description of manipulation.", this, SLOT(subscribe()), this);
+}
+
+ObjectsDisplay::~ObjectsDisplay() { unsubscribe(); }
+
+void ObjectsDisplay::onInitialize() {
+  objects_ = std::make_unique<SceneObjects>(scene_manager_, scene_node_);
+  master_ = MasterWatch::shared();
+}
+
+void ObjectsDisplay::onEnable() { subscribe(); }
+
+void ObjectsDisplay::onDisable() { unsubscribe(); }
+
+void ObjectsDisplay::setTopic(const QString& topic, const QString&) { topic_->setString(topic); }
+
+void ObjectsDisplay::unsubscribe() {
+  objects_subscriber_.shutdown();
+  scene_subscriber_.shutdown();
+  scene_.reset();
+  newest_.reset();
+  frame_.clear();
+  if (objects_) objects_->clear();
+}
+
+void ObjectsDisplay::subscribe() {
+  if (!initialized()) return;
+  unsubscribe();
+  if (!isEnabled() || topic_->getTopicStd().empty() || scene_topic_->getTopicStd().empty()) return;
+  setStatus(StatusProperty::Warn, "Topic", "No message yet");
+  setStatus(StatusProperty::Warn, "Scene", "No description yet");
+  const ros::TransportHints at_once = ros::TransportHints().tcpNoDelay();
+  objects_subscriber_ = update_nh_.subscribe(topic_->getTopicStd(), 1, &ObjectsDisplay::on_objects, this, at_once);
+  scene_subscriber_ = update_nh_.subscribe(scene_topic_->getTopicStd(), 1, &ObjectsDisplay::on_scene, this, at_once);
+}
+
+void ObjectsDisplay::reset() {
+  Display::reset();
+  subscribe();
+}
+
+void ObjectsDisplay::on_scene(const SceneDescriptionConstPtr& message) { scene_ = message; }
+
+void ObjectsDisplay::on_objects(const ObjectStatesConstPtr& message) { newest_ = message; }
+
+/// The callbacks were called just before, in this thread: what is newest now is what the frame shows.
+void ObjectsDisplay::update(float wall_dt, float) {
+  silence_ += static_cast<double>(wall_dt);
+  if (scene_) describe();
+  if (newest_) place();
+  if (silence_ > longest_silence && !frame_.empty()) {
+    frame_.clear();
+    setStatus(StatusProperty::Warn, "Topic", "Silent: is manipulation running?");
+  }
+  if (frame_.empty() || !place_node(frame_, fixed_frame_, context_, *this)) scene_node_->setVisible(false);
+}
+
+void ObjectsDisplay::describe() {
+  const SceneDescriptionConstPtr scene = std::move(scene_);
+  scene_.reset();
+  try {
+    objects_->describe(*scene);
+    setStatusStd(StatusProperty::Ok, "Scene", std::to_string(objects_->bodies()) + " bodies of " + scene->name);
+  } catch (const validation::InputError& error) {
+    setStatusStd(StatusProperty::Error, "Scene", error.what());
+  } catch (const Ogre::Exception& error) {
+    setStatusStd(StatusProperty::Error, "Scene", error.getDescription());
+  }
+}
+
+void ObjectsDisplay::place() {
+  const ObjectStatesConstPtr objects = std::move(newest_);
+  newest_.reset();
+  try {
+    scene_node_->setVisible(true);
+    objects_->place(*objects);
+    frame_ = objects->header.frame_id;
+    silence_ = 0.0;
+    setStatus(StatusProperty::Ok, "Topic", "Drawing");
+    context_->queueRender();
+  } catch (const validation::InputError& error) {
+    setStatusStd(StatusProperty::Error, "Topic", error.what());
+  }
+}
+
+}  // namespace spring_workbench::rviz_plugin
+
+PLUGINLIB_EXPORT_CLASS(spring_workbench::rviz_plugin::ObjectsDisplay, rviz::Display)

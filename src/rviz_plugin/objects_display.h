@@ -1,0 +1,60 @@
+#pragma once
+
+#ifndef Q_MOC_RUN
+#include <ros/subscriber.h>
+#include <rviz/display.h>
+
+#include <memory>
+#include <string>
+
+#include "master_watch.h"
+#include "scene_objects.h"
+#include "spring_workbench/ObjectStates.h"
+#include "spring_workbench/SceneDescription.h"
+#endif
+
+namespace rviz {
+class RosTopicProperty;
+}  // namespace rviz
+
+namespace spring_workbench::rviz_plugin {
+
+/// Draws the bodies of the scene: builds them from the latched `SceneDescription`, once for each change of the scene,
+/// and moves them by the newest `ObjectStates` at the begin of each frame. Gone when no message has come for two
+/// seconds.
+class ObjectsDisplay : public rviz::Display {
+  Q_OBJECT
+ public:
+  ObjectsDisplay();
+  ~ObjectsDisplay() override;
+
+  void update(float wall_dt, float ros_dt) override;
+  void reset() override;
+  void setTopic(const QString& topic, const QString& datatype) override;
+
+ protected:
+  void onInitialize() override;
+  void onEnable() override;
+  void onDisable() override;
+
+ private Q_SLOTS:
+  void subscribe();
+
+ private:
+  void on_scene(const SceneDescriptionConstPtr& message);
+  void on_objects(const ObjectStatesConstPtr& message);
+  void describe();
+  void place();
+  void unsubscribe();
+
+  rviz::RosTopicProperty *topic_, *scene_topic_;
+  ros::Subscriber objects_subscriber_, scene_subscriber_;
+  std::shared_ptr<MasterWatch> master_;
+  SceneDescriptionConstPtr scene_;  ///< not yet built
+  ObjectStatesConstPtr newest_;     ///< not yet drawn
+  std::string frame_;               ///< of the poses; empty: nothing is shown
+  double silence_ = 0.0;            ///< since the newest message that could be drawn [s]
+  std::unique_ptr<SceneObjects> objects_;
+};
+
+}  // namespace spring_workbench::rviz_plugin

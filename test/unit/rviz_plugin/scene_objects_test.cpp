@@ -1,0 +1,252 @@
+#include "src/rviz_plugin/scene_objects.h"
+
+#include <OgreEntity.h>
+#include <OgreSubEntity.h>
+#include <OgreTechnique.h>
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "ogre.h"
+#include "spring_workbench/fork_mesh/load_color.h"
+#include "spring_workbench/validation/input_error.h"
+
+namespace spring_workbench::rviz_plugin {
+namespace {
+
+const double nan = std::numeric_limits<double>::quiet_NaN();
+
+ShapeDescription shape_of(std::uint8_t type) {
+  ShapeDescription shape;
+  shape.type = type;
+  shape.pose.position.x = 0.1;
+  shape.pose.orientation.w = 1.0;
+  shape.size.x = shape.size.y = 0.2;
+  shape.size.z = 0.3;
+  shape.color.r = 0.8F;
+  shape.color.a = 1.0F;
+  return shape;
+}
+
+BodyDescription body_of(const std::string& name, bool movable, std::uint8_t type) {
+  BodyDescription body;
+  body.name = name;
+  body.movable = movable ? 1 : 0;
+  body.pose.orientation.w = 1.0;
+  body.pose.position.z = 1.0;
+  body.visual = {shape_of(type)};
+  return body;
+}
+
+/// A fixed table and movable objects of every kind.
+SceneDescription scene_of_all() {
+  SceneDescription scene;
+  scene.bodies = {body_of("table", false, ShapeDescription::BOX), body_of("box", true, ShapeDescription::BOX),
+                  body_of("ball", true, ShapeDescription::SPHERE), body_of("rod", true, ShapeDescription::CYLINDER),
+                  body_of("mesh", true, ShapeDescription::MESH)};
+  scene.bodies[1].visual.push_back(shape_of(ShapeDescription::SPHERE));
+  scene.meshes.resize(1);
+  scene.meshes[0].vertices = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+  scene.meshes[0].triangles = {0, 1, 2};
+  return scene;
+}
+
+ObjectStates states_of(const SceneDescription& scene, std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  ObjectStates states;
+  for (const BodyDescription& body : scene.bodies) {
+    if (body.movable == 0) continue;
+    ObjectState state;
+    state.name = body.name;
+    state.pose.position.x = normal(random);
+    state.pose.position.y = normal(random);
+    state.pose.position.z = normal(random);
+    const Quaterniond q = Quaterniond(normal(random), normal(random), normal(random), normal(random)).normalized();
+    state.pose.orientation.w = q.w();
+    state.pose.orientation.x = q.x();
+    state.pose.orientation.y = q.y();
+    state.pose.orientation.z = q.z();
+    states.objects.push_back(state);
+  }
+  return states;
+}
+
+Ogre::Entity* entity_of(const SceneObjects& objects, const std::string& name) {
+  const auto* part =
+      dynamic_cast<const Ogre::SceneNode*>(const_cast<Ogre::SceneNode*>(objects.node(name))->getChild(0));
+  return dynamic_cast<Ogre::Entity*>(const_cast<Ogre::SceneNode*>(part)->getAttachedObject(0));
+}
+
+Ogre::ColourValue color_of(const SceneObjects& objects, const std::string& name) {
+  return entity_of(objects, name)->getSubEntity(0)->getMaterial()->getTechnique(0)->getPass(0)->getDiffuse();
+}
+
+class SceneObjectsTest : public Ogre3d {
+ protected:
+  std::mt19937 random_{7};
+};
+
+TEST_F(SceneObjectsTest, NodesAreWhereTheMessageSays) {
+  SceneObjects objects(manager_, parent_);
+  const SceneDescription scene = scene_of_all();
+  objects.describe(scene);
+  EXPECT_EQ(objects.node("table")->getPosition(), Ogre::Vector3(0, 0, 1));
+  for (int i = 0; i < 100; ++i) {
+    const ObjectStates states = states_of(scene, random_);
+    objects.place(states);
+    parent_->_update(true, true);  // as a frame does
+    for (const ObjectState& state : states.objects) {
+      const Ogre::SceneNode* node = objects.node(state.name);
+      const auto& p = state.pose.position;
+      const auto& q = state.pose.orientation;
+      const RigidTransform X_WO = make_transform(Quaterniond(q.w, q.x, q.y, q.z), Vector3d(p.x, p.y, p.z));
+      EXPECT_NEAR(static_cast<double>(node->getPosition().x), p.x, 1e-6);
+      EXPECT_NEAR(static_cast<double>(node->getPosition().y), p.y, 1e-6);
+      EXPECT_NEAR(static_cast<double>(node->getPosition().z), p.z, 1e-6);
+      EXPECT_NEAR(static_cast<double>(node->getOrientation().w), q.w, 1e-6);
+      EXPECT_NEAR(static_cast<double>(node->getOrientation().x), q.x, 1e-6);
+      const Ogre::Vector3 shape = entity_of(objects, state.name)->getParentNode()->_getDerivedPosition();
+      const Vector3d expected = X_WO * Vector3d(0.1, 0.0, 0.0);
+      EXPECT_NEAR(static_cast<double>(shape.x), expected.x(), 1e-5);
+      EXPECT_NEAR(static_cast<double>(shape.z), expected.z(), 1e-5);
+    }
+  }
+}
+
+TEST_F(SceneObjectsTest, ShapesHaveTheirSize) {
+  SceneObjects objects(manager_, parent_);
+  objects.describe(scene_of_all());
+  for (const std::string name : {"table", "box", "ball", "rod"}) {
+    const Ogre::Vector3 size = entity_of(objects, name)->getWorldBoundingBox(true).getSize();
+    EXPECT_NEAR(size.x, 0.2F, 0.01F) << name;
+    EXPECT_NEAR(size.y, 0.2F, 0.01F) << name;
+    EXPECT_NEAR(size.z, 0.3F, 0.01F) << name;
+  }
+}
+
+TEST_F(SceneObjectsTest, FramesBuildNothing) {
+  SceneObjects objects(manager_, parent_);
+  const SceneDescription scene = scene_of_all();
+  objects.describe(scene);
+  EXPECT_EQ(objects.built(), 6u);
+  const Counts before = counts();
+  for (int i = 0; i < 1000; ++i) {
+    ObjectStates states = states_of(scene, random_);
+    states.objects[0].highlighted = i % 2 == 0 ? 1 : 0;
+    objects.place(states);
+  }
+  EXPECT_EQ(objects.built(), 6u);
+  EXPECT_EQ(counts(), before);
+}
+
+TEST_F(SceneObjectsTest, EverythingIsFreed) {
+  const Counts before = counts();
+  {
+    SceneObjects objects(manager_, parent_);
+    objects.describe(scene_of_all());
+    const Counts with = counts();
+    for (std::size_t i = 0; i < with.size(); ++i) EXPECT_GT(with[i], before[i]);
+    for (int i = 0; i < 20; ++i) objects.describe(scene_of_all());
+    EXPECT_EQ(counts()[0], with[0]);
+    EXPECT_EQ(counts()[2], with[2]);
+    EXPECT_EQ(counts()[3], with[3]);
+  }
+  const Counts after = counts();
+  EXPECT_EQ(after[0], before[0]);
+  EXPECT_LE(after[1], before[1] + 3);  // rviz' own cube, sphere and cylinder stay loaded
+  EXPECT_EQ(after[2], before[2]);
+  EXPECT_EQ(after[3], before[3]);
+}
+
+TEST_F(SceneObjectsTest, FollowAnotherDescription) {
+  SceneObjects objects(manager_, parent_);
+  SceneDescription scene = scene_of_all();
+  objects.describe(scene);
+  scene.bodies.erase(scene.bodies.begin() + 1);                         // removed
+  scene.bodies.push_back(body_of("new", true, ShapeDescription::BOX));  // added
+  scene.bodies[0].visual[0].size.x = 0.7;                               // changed
+  objects.describe(scene);
+  EXPECT_EQ(objects.bodies(), 5u);
+  EXPECT_EQ(objects.node("box"), nullptr);
+  ASSERT_NE(objects.node("new"), nullptr);
+  EXPECT_NEAR(entity_of(objects, "table")->getWorldBoundingBox(true).getSize().x, 0.7F, 1e-5F);
+}
+
+TEST_F(SceneObjectsTest, MovableOnesAreSeenWhileTheMessageNamesThem) {
+  SceneObjects objects(manager_, parent_);
+  const SceneDescription scene = scene_of_all();
+  objects.describe(scene);
+  EXPECT_TRUE(entity_of(objects, "table")->getVisible());
+  EXPECT_FALSE(entity_of(objects, "box")->getVisible());
+  ObjectStates states = states_of(scene, random_);
+  objects.place(states);
+  EXPECT_TRUE(entity_of(objects, "box")->getVisible());
+  states.objects.erase(states.objects.begin());
+  states.objects[0].name = "not described yet";
+  objects.place(states);
+  EXPECT_FALSE(entity_of(objects, "box")->getVisible());
+  EXPECT_FALSE(entity_of(objects, "ball")->getVisible());
+  EXPECT_TRUE(entity_of(objects, "rod")->getVisible());
+  EXPECT_TRUE(entity_of(objects, "table")->getVisible());
+}
+
+TEST_F(SceneObjectsTest, WhatWouldBeGraspedLightsUp) {
+  SceneObjects objects(manager_, parent_);
+  const SceneDescription scene = scene_of_all();
+  objects.describe(scene);
+  ObjectStates states = states_of(scene, random_);
+  const Vector3d lit = fork_mesh::highlighted(Vector3d(0.8, 0.0, 0.0));
+  for (const bool on : {false, true, true, false}) {
+    states.objects[0].highlighted = on ? 1 : 0;
+    objects.place(states);
+    EXPECT_NEAR(static_cast<double>(color_of(objects, "box").r), on ? lit.x() : 0.8, 1e-6);
+    EXPECT_NEAR(static_cast<double>(color_of(objects, "box").b), on ? lit.z() : 0.0, 1e-6);
+    EXPECT_NEAR(static_cast<double>(color_of(objects, "ball").g), 0.0, 1e-6);
+  }
+}
+
+TEST_F(SceneObjectsTest, WhatCannotBeDrawnIsRefusedAndChangesNothing) {
+  SceneObjects objects(manager_, parent_);
+  const SceneDescription scene = scene_of_all();
+  objects.describe(scene);
+  const ObjectStates states = states_of(scene, random_);
+  objects.place(states);
+  const Counts before = counts();
+  const Ogre::Vector3 position = objects.node("box")->getPosition();
+  const std::vector<std::function<void(SceneDescription&)>> faults = {
+      [](SceneDescription& s) { s.bodies[0].name = "box"; },
+      [](SceneDescription& s) { s.bodies[0].pose.position.x = nan; },
+      [](SceneDescription& s) { s.bodies[0].pose.position.x = 1e300; },
+      [](SceneDescription& s) { s.bodies[0].pose.orientation.w = 0.0; },
+      [](SceneDescription& s) { s.bodies[1].visual[0].size.y = nan; },
+      [](SceneDescription& s) { s.bodies[1].visual[0].type = 4; },
+      [](SceneDescription& s) { s.bodies[1].visual[0].color.a = static_cast<float>(nan); },
+      [](SceneDescription& s) { s.bodies[4].visual[0].mesh = 1; },
+      [](SceneDescription& s) { s.meshes[0].triangles[1] = 3; },
+      [](SceneDescription& s) { s.meshes[0].triangles.pop_back(); },
+      [](SceneDescription& s) { s.meshes[0].vertices.pop_back(); },
+      [](SceneDescription& s) { s.meshes[0].vertices[2] = static_cast<float>(nan); },
+  };
+  for (std::size_t i = 0; i < faults.size(); ++i) {
+    SceneDescription bad = scene;
+    faults[i](bad);
+    EXPECT_THROW(objects.describe(bad), validation::InputError) << i;
+    EXPECT_EQ(counts(), before) << i;
+  }
+  ObjectStates bad = states;
+  bad.objects[0].pose.position.x += 1.0;
+  bad.objects.back().pose.orientation.x = nan;
+  EXPECT_THROW(objects.place(bad), validation::InputError);
+  EXPECT_EQ(objects.node("box")->getPosition(), position);
+  SceneDescription empty_mesh = scene;
+  empty_mesh.meshes[0].triangles.clear();
+  objects.describe(empty_mesh);  // nothing of it is seen
+  objects.place(states);
+}
+
+}  // namespace
+}  // namespace spring_workbench::rviz_plugin
