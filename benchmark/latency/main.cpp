@@ -7,11 +7,14 @@
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <memory>
 #include <mutex>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "benchmark/latency/pixel_observer.h"
 #include "benchmark/latency/played_device.h"
 #include "spring_workbench/ForkState.h"
 #include "spring_workbench/ObjectStates.h"
@@ -20,15 +23,18 @@
 // the held object has gone as far as that record says, of `manipulation/objects` (committed) and of
 // `manipulation/display/objects` (displayed). The device of this program moves the hands evenly along x, the fork is
 // rigid, so the object's x tells which record a message knows of; no clock but this process' own is asked. Beside it,
-// the way of a message of the same rate to a node that does nothing but send it back. doc/tracker.md, "Latency".
+// the way of a message of the same rate to a node that does nothing but send it back. With ~pixel, the object is a
+// ruler that rviz shows from above on the X display of this process, whose pixels are watched. doc/tracker.md,
+// "Latency".
 
 namespace {
 
 using namespace spring_workbench;
 using namespace spring_workbench::benchmark;
 
-constexpr double kSpeed = 0.02;  // [m/s]
-constexpr double kSettle = 3.0;  // [s] before and after the way
+constexpr double kSpeed = 0.02;     // [m/s]
+constexpr double kSettle = 3.0;     // [s] before and after the way
+constexpr double kPatience = 60.0;  // [s] until rviz shows the object, at the most
 
 /// Rests, goes `length` [s] along x, and rests.
 fastrak::PlayedMotion way(double length) {
@@ -113,6 +119,35 @@ void add_row(std::ostream& out, const std::string& run, const std::string& end, 
   out << std::endl;
 }
 
+/// From the records to what was seen of the object; throws std::runtime_error if it did not go with the hand.
+std::vector<double> latencies_of(const std::vector<Moment>& written, const std::vector<Moment>& seen, double length) {
+  const double way = kSpeed * length;  // [m]
+  if (seen.empty() || seen.back().x - seen.front().x < 0.9 * way)
+    throw std::runtime_error("the object did not go with the hand");
+  return latencies(written, seen, seen.back().x - (0.3 + way));  // in the end all are at rest
+}
+
+/// What rviz showed: latency, the records whose pose it never showed, and the time between two pictures, as rows; or
+/// that it is lost.
+void add_pixels(std::ostream& out, const std::string& run, const std::vector<Moment>& written,
+                const std::vector<Moment>& seen, double length) {
+  try {
+    const std::vector<double> shown = latencies_of(written, seen, length);
+    add_row(out, run, "pixel", shown);
+    out << run << ",never shown," << written.size() - shown.size() << ",,,," << std::endl;
+    std::vector<double> between;
+    for (std::size_t i = 1; i < seen.size(); ++i) {
+      if (seen[i - 1].t > written.front().t && seen[i].t < written.back().t)
+        between.push_back(seen[i].t - seen[i - 1].t);
+    }
+    std::sort(between.begin(), between.end());
+    add_row(out, run, "between pictures", between);
+  } catch (const std::exception& error) {
+    std::cerr << "latency: pixel: " << error.what() << std::endl;
+    out << run << ",pixel,0,lost,lost,lost,lost" << std::endl;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -142,21 +177,22 @@ int main(int argc, char** argv) {
   };
   ros::Subscriber fork = node.subscribe<ForkState>("manipulation/fork", 10, take_holder);
   ros::Subscriber second = node.subscribe<ForkState>("manipulation/fork_2", 10, take_second);
-  const auto held = [&] {
-    playing.counted = holder;
-    return !ros::ok() || (!committed.seen().empty() && !displayed.seen().empty());
-  };
+  const double latest = steady_now() + kPatience;
   try {
+    const auto pixels = parameters.param("pixel", false) ? std::make_unique<PixelObserver>(Ruler()) : nullptr;
+    const auto held = [&] {
+      playing.counted = holder;
+      const bool shown = !pixels || !pixels->seen().empty() || steady_now() > latest;
+      return !ros::ok() || (shown && !committed.seen().empty() && !displayed.seen().empty());
+    };
     const std::vector<Moment> written = play(simulator, motion, playing, held);
     std::ofstream out(parameters.param<std::string>("out", "/dev/stdout"), std::ios::app);
     std::ostringstream run;
     run << rate << "," << hands << "," << stations;
     add_row(out, run.str(), "bare loop", bare.latencies());
-    for (const bool is_display : {false, true}) {
-      const std::vector<Moment> seen = (is_display ? displayed : committed).seen();
-      const double offset = seen.empty() ? 0.0 : seen.back().x - (0.3 + kSpeed * length);  // in the end all are at rest
-      add_row(out, run.str(), is_display ? "displayed" : "committed", latencies(written, seen, offset));
-    }
+    if (!pixels) add_row(out, run.str(), "committed", latencies_of(written, committed.seen(), length));
+    add_row(out, run.str(), "displayed", latencies_of(written, displayed.seen(), length));
+    if (pixels) add_pixels(out, run.str(), written, pixels->seen(), length);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "latency: " << error.what() << std::endl;

@@ -19,18 +19,23 @@ double steady_now() { return std::chrono::duration<double>(steady_clock::now().t
 
 std::vector<Moment> play(fastrak::FastrakSimulator& simulator, const fastrak::PlayedMotion& motion,
                          const Playing& playing, const std::function<bool()>& ready) {
-  while (!ready()) {  // the nodes start, the device is set up
+  const double cycles = playing.rate * playing.stations;  // [Hz]
+  const auto wait_for_cycle = [&](double start, long cycle) {
+    simulator.serve(0.0);
+    std::this_thread::sleep_until(steady_clock::time_point(std::chrono::duration_cast<steady_clock::duration>(
+        std::chrono::duration<double>(start + static_cast<double>(cycle) / cycles))));
+  };
+  // The nodes start, the device is set up; at the same rate, by which the driver knows the device's clock.
+  const double before = steady_now();
+  for (long cycle = 1; !ready(); ++cycle) {
+    wait_for_cycle(before, cycle);
     simulator.measure(0.0);
-    simulator.serve(0.005);
   }
   std::vector<Moment> written;
   const double start = steady_now();
-  const double cycles = playing.rate * playing.stations;  // [Hz]
   for (long cycle = 1; static_cast<double>(cycle) <= playing.until * cycles; ++cycle) {
     const double t = static_cast<double>(cycle) / cycles;
-    simulator.serve(0.0);
-    std::this_thread::sleep_until(steady_clock::time_point(
-        std::chrono::duration_cast<steady_clock::duration>(std::chrono::duration<double>(start + t))));
+    wait_for_cycle(start, cycle);
     const double begin = steady_now();
     simulator.measure(t);
     // A record at the very begin says the same as those of the rest before it.

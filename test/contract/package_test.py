@@ -20,6 +20,7 @@ KEYS = {
     "SPRING_WORKBENCH_BULLET_INCLUDE": "bullet",
     "SPRING_WORKBENCH_PYBIND11_INCLUDE": "pybind11-dev",
     "Threads": "",
+    "X11": "libx11-dev",
     "urdfdom": "liburdfdom-dev",
     "urdfdom_headers": "liburdfdom-headers-dev",
     "spring_workbench": "",
