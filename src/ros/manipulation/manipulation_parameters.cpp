@@ -18,7 +18,7 @@ void take_frame(YAML::Node& map, const std::string& where, const std::string& ke
   const YAML::Node node = ros_common::take(map, key);
   if (!node) return;
   value = config::read_string(node, where, key);
-  if ((value.empty() && !may_be_empty) || value.front() == '/')
+  if (value.empty() ? !may_be_empty : value.front() == '/')
     validation::refuse(where, key, "\"" + value + "\"", "a frame name without a leading /");
 }
 
