@@ -148,7 +148,7 @@ class Files(unittest.TestCase):
             file.writelines(lines[:-3])  # participant 3 broke off in d
         done = self.run_it(*files)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("time [s]: left out, since a condition is missing: participants 3.", done.stdout)
+        self.assertIn("time [s]: excluded, since a condition is missing: participants 3.", done.stdout)
         self.assertIn("3 participants.", done.stdout.split("## raw")[0].split("## time")[1])
 
     def test_bad_files_are_refused_in_one_line(self):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""scripts/study with the simulated operator in place of a person: broken off, continued, recorded, replayed."""
+"""scripts/study with the simulated operator in place of a person: interrupted, continued, recorded, replayed."""
 import csv
 import glob
 import json
@@ -74,7 +74,7 @@ class Study(unittest.TestCase):
         self.task.next(lambda m: m.grasps == 1 and not m.complete, "a grasp in the second trial")
         study.send_signal(signal.SIGINT)
         status, _, err = self.end(study)
-        self.assertEqual((status, err), (130, "broken off after 1 of 2 trials; the same command continues\n"))
+        self.assertEqual((status, err), (130, "interrupted after 1 of 2 trials; the same command continues\n"))
         first = self.rows("participant_002.csv")
         self.assertEqual([row["condition"] for row in first], ["bending"])
         self.assertEqual([row["tlx_raw"] for row in self.rows("participant_002_tlx.csv")], ["3.5"])
