@@ -121,7 +121,7 @@ def scenes_table(master, folder, length):
             rows.append([name, contact, f[10], f[11], "%.0f" % float(f[3]), "%.0f" % float(f[0]), "%.1f" % float(f[1])])
             print("| " + " | ".join(rows[-1]) + " |", flush=True)
     return table(
-        ["scene", "contact", "parts run", "parts left out", "cycle, median [µs]", "start [ms]", "resident [MB]"], rows
+        ["scene", "contact", "active", "skipped", "cycle, median [µs]", "start [ms]", "resident [MB]"], rows
     )
 
 

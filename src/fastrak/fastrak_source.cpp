@@ -56,8 +56,8 @@ FastrakSource::FastrakSource(const FastrakSettings& settings)
   for (const int station : settings_.stations) {
     layouts_.emplace(station, FastrakLayout(list_of(settings_, station), settings_.format, FastrakUnits::centimetres));
   }
-  for (const char* name : {"records", "records with a warning", "bytes left out", "set-ups",
-                           "errors told by the device", "times the port was lost", "times the stream was lost"}) {
+  for (const char* name : {"records", "records with a warning", "bytes skipped", "set-ups",
+                           "errors reported by the device", "times the port was lost", "times the stream was lost"}) {
     counters_[name] = 0;
   }
 }
@@ -134,7 +134,7 @@ void FastrakSource::listen(Time until) {
   const std::size_t left_out_before = decoder_.bytes_left_out();
   const auto messages = decoder_.decode(bytes);
   const std::size_t samples_before = samples_.size();
-  if (state_ == State::streaming) counters_["bytes left out"] += decoder_.bytes_left_out() - left_out_before;
+  if (state_ == State::streaming) counters_["bytes skipped"] += decoder_.bytes_left_out() - left_out_before;
   for (const FastrakMessage& message : messages) {
     std::visit([&](const auto& m) { take(m, now); }, message);
   }
@@ -169,7 +169,7 @@ void FastrakSource::take(const FastrakRecord& record, Time now) {
 void FastrakSource::take(const FastrakReply& reply, Time) {
   understood_ = true;
   if (reply.text.find("*ERROR*") != std::string::npos) {
-    ++counters_["errors told by the device"];
+    ++counters_["errors reported by the device"];
     refusal_ = reply.text;
   }
   const auto status = read_fastrak_status(reply.text);
@@ -202,7 +202,7 @@ std::string FastrakSource::why_silent() const {
   const std::string where = settings_.port + ": ";
   const std::string at_baud = " at " + std::to_string(settings_.baud) + " baud";
   if (state_ == State::streaming) {
-    if (has_streamed_) return where + "the stream broke off; setting the device up anew";
+    if (has_streamed_) return where + "the stream stopped; setting the device up again";
     const std::string said = refusal_.empty() ? "" : "; it reports " + refusal_;
     return where + "the device answers but sends no data: is a receiver plugged into each socket of `stations`?" + said;
   }
@@ -210,7 +210,7 @@ std::string FastrakSource::why_silent() const {
     return where + "silent" + at_baud + ": is the device on, its cable plugged in, its baud rate the same?";
   if (!understood_)
     return where + "the data received" + at_baud +
-           " is no FASTRAK's: is the device set to this baud rate, 8 bits and no parity?";
+           " is not a FASTRAK's: is the device set to this baud rate, 8 bits and no parity?";
   return where + "the device stopped answering while it was set up";
 }
 

@@ -69,7 +69,7 @@ void Checkpoint::resume(const std::string& text, const std::string& where,
     map = YAML::Load(text);
   } catch (const YAML::Exception&) {  // cut short: no map
   }
-  if (!map.IsMap()) throw validation::InputError(where + ": must be a whole checkpoint");
+  if (!map.IsMap()) throw validation::InputError(where + ": must be a complete checkpoint");
   const std::string given = config::read_string(map["given_scene"], where, "given_scene");
   if (given != given_scene_) validation::refuse(where, "given_scene", given, "that of this start, " + given_scene_);
   const std::string scene = config::read_string(map["scene"], where, "scene");

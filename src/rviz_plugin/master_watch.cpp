@@ -62,7 +62,7 @@ void register_topics() {
       announce_publishers(topic, publishers);
     }
   }
-  ROS_INFO("a new ROS master: registered with it");
+  ROS_INFO("new ROS master: registered again");
 }
 
 }  // namespace

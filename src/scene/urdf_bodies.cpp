@@ -136,7 +136,7 @@ class BodyBuilder {
     if (!link.inertial) return {};
     const urdf::Inertial& i = *link.inertial;
     if (!(i.mass > 0.0)) {
-      warnings_.push_back(where + ": mass " + std::to_string(i.mass) + " is not positive: the inertial is left out");
+      warnings_.push_back(where + ": mass " + std::to_string(i.mass) + " is not positive: <inertial> is ignored");
       return {};
     }
     Matrix3d inertia;
@@ -210,7 +210,7 @@ std::vector<Body> build_bodies(const UrdfFile& file, const RigidTransform& X_WR,
     Body body = builder.build(group, material_of(group.first->name));
     const bool empty = body.collision.empty() && body.visual.empty();
     if (empty && !body.movable) {
-      if (!is_bench_scene(file)) warnings.push_back(file.where(body.name) + ": neither mass nor shape: left out");
+      if (!is_bench_scene(file)) warnings.push_back(file.where(body.name) + ": skipped: neither mass nor shape");
       continue;
     }
     bodies.push_back(std::move(body));

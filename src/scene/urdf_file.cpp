@@ -237,7 +237,7 @@ UrdfFile read_urdf_file(const std::string& path) {
   ParseResult result = parse(document);
   if (!result.model) {
     throw validation::InputError(
-        path + ": not a URDF: " + (result.complaints.empty() ? "refused without a reason" : result.complaints.front()));
+        path + ": not a URDF: " + (result.complaints.empty() ? "no reason was given" : result.complaints.front()));
   }
   file.model = result.model;
   for (const std::string& complaint : result.complaints) file.warnings.push_back(path + ": " + complaint);

@@ -65,7 +65,7 @@ void run(const Options& options) {
     }
   }
   std::cout << simulator.records_sent() << " records sent, " << simulator.records_dropped()
-            << " dropped because nobody read" << std::endl;
+            << " dropped because no program read them" << std::endl;
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
   if (replayer.simulation() == nullptr) validation::refuse(options.bag, "~changes", "none", "at least one message");
   summary.changes = replayer.changes();
   for (const std::string& mismatch : summary.changes.mismatches) {
-    std::cerr << "warning: a repeated change had another result: " << mismatch << "; the recorded state is used\n";
+    std::cerr << "warning: a repeated change led to another state: " << mismatch << "; the recorded state is used\n";
   }
   summary.state_hash = replayer.simulation()->state_hash();
   fork.commit();

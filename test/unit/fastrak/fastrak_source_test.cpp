@@ -213,7 +213,7 @@ TEST(FastrakSource, LosesNoRecordInTenMinutesOfFourStations) {
   EXPECT_EQ(wrong, 0u);
   auto counters = source.health().counters;
   EXPECT_EQ(counters["records"], received);
-  EXPECT_EQ(counters["bytes left out"], 0u);
+  EXPECT_EQ(counters["bytes skipped"], 0u);
   EXPECT_EQ(counters["times the stream was lost"], 0u);
 }
 
@@ -230,8 +230,8 @@ TEST(FastrakSource, ReadsEveryModeThatItCanAskFor) {
       EXPECT_TRUE(!exact || bench.wrong() == 0);
       EXPECT_EQ(bench.far(), 0u) << exact << variant;
       EXPECT_TRUE(bench.source().health().streaming);
-      EXPECT_EQ(bench.source().health().counters.at("bytes left out"), 0u);
-      EXPECT_EQ(bench.source().health().counters.at("errors told by the device"), 0u);
+      EXPECT_EQ(bench.source().health().counters.at("bytes skipped"), 0u);
+      EXPECT_EQ(bench.source().health().counters.at("errors reported by the device"), 0u);
     }
   }
 }
@@ -328,12 +328,12 @@ TEST(FastrakSource, SaysThatTheBytesAreNoFastraks) {
   settings.port = terminal.path();
   FastrakSource source(settings);
   const auto give_up = steady_clock::now() + duration<double>(kDeadline);
-  while (source.health().text.find("is no FASTRAK's") == std::string::npos && steady_clock::now() < give_up) {
+  while (source.health().text.find("is not a FASTRAK's") == std::string::npos && steady_clock::now() < give_up) {
     terminal.read(0.0);
     terminal.write("$GPGGA,123519,4807.038,N\r\n");
     EXPECT_TRUE(source.read(1e-3).empty());
   }
-  EXPECT_NE(source.health().text.find("is no FASTRAK's"), std::string::npos) << source.health().text;
+  EXPECT_NE(source.health().text.find("is not a FASTRAK's"), std::string::npos) << source.health().text;
 }
 
 TEST(FastrakSource, StopsTheStreamWhenItEnds) {
