@@ -120,9 +120,7 @@ def scenes_table(master, folder, length):
             f = measure(master, folder, ROOT / "scenes" / (name + ".urdf"), contact, 1, 120, 100, min(length, 5.0))
             rows.append([name, contact, f[10], f[11], "%.0f" % float(f[3]), "%.0f" % float(f[0]), "%.1f" % float(f[1])])
             print("| " + " | ".join(rows[-1]) + " |", flush=True)
-    return table(
-        ["scene", "contact", "active", "skipped", "cycle, median [µs]", "start [ms]", "resident [MB]"], rows
-    )
+    return table(["scene", "contact", "active", "skipped", "cycle, median [µs]", "start [ms]", "resident [MB]"], rows)
 
 
 def load_table(master, folder, length):
