@@ -9,12 +9,12 @@ namespace spring_workbench::assembly {
 struct TaskScore {
   int targets = 0;           ///< objects that have a target
   int placed = 0;            ///< of them in place at present
-  double time = 0.0;         ///< from the first sample of the hand until all are in place, or till now [s]
-  double hand_path = 0.0;    ///< way of the hand [m]
-  double object_path = 0.0;  ///< way of held objects' centres of mass [m]
-  int grasps = 0;            ///< times that an object was taken up
-  int collisions = 0;  ///< times that the held object ran against something; being set down on what is fixed is none
-  int drops = 0;       ///< releases after which the object fell by more than 2 cm
+  double time = 0.0;         ///< from the first sample of the hand until all are in place, or until now [s]
+  double hand_path = 0.0;    ///< path length of the hand [m]
+  double object_path = 0.0;  ///< path length of the centres of mass of held objects [m]
+  int grasps = 0;            ///< times that an object was grasped
+  int collisions = 0;        ///< times that a held object hit something; setting it down on a fixed body does not count
+  int drops = 0;             ///< releases after which the object fell by more than 2 cm
   double largest_force = 0.0;   ///< between an object and what it touches [N]
   double position_error = 0.0;  ///< mean over the targets, at present [m]
   double angle_error = 0.0;     ///< mean over the targets that ask for an angle, at present [rad]

@@ -41,8 +41,8 @@ class CollisionWorld {
   virtual void set_pose(std::size_t body, const RigidTransform& X_WO);
 
   /// Broadphase: returns whether anything else, including the bench, may come within `margin` [m] of the path of the
-  /// body from `X0_WO` to `X1_WO`. The result may be true wrongly, but never false wrongly; the rotation in between is
-  /// covered.
+  /// body from `X0_WO` to `X1_WO`. It may return a false positive but never a false negative; the rotation in
+  /// between is covered.
   virtual bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                          double margin) const;
 

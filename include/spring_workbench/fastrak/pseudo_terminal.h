@@ -8,9 +8,9 @@ namespace spring_workbench::fastrak {
 /// A cable: what opens `path()` as a serial port talks to the holder of this object.
 class PseudoTerminal {
  public:
-  /// Throws std::system_error where there is none to be had.
+  /// Throws std::system_error if none can be opened.
   PseudoTerminal();
-  ~PseudoTerminal();  ///< what has opened the path loses it
+  ~PseudoTerminal();  ///< programs that have opened the path lose it
   PseudoTerminal(const PseudoTerminal&) = delete;
   PseudoTerminal& operator=(const PseudoTerminal&) = delete;
 

@@ -9,7 +9,7 @@
 namespace spring_workbench::fastrak {
 
 /// The stamps of one station of a device: by the device's cadence. That is measured over three seconds without a gap,
-/// anew if it proves wrong; until then a stamp is the moment of receipt.
+/// again if it proves wrong; until then a stamp is the moment of receipt.
 class StationStream {
  public:
   /// `dropout_after` [s], > 0: see StreamMonitor. `even_stamps`: false leaves the moments of receipt as they are.

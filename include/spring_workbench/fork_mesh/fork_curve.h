@@ -40,8 +40,8 @@ ForkCurve rod_curve(const rod::ShapeModel& shape, const rod::StrainVector& q, co
 
 /// The paper's arc-length parameterised Bézier curve with compensated length (section 4): from the handle along its z
 /// to the tip `X_WE` along the tip's z, both control arms equally long, such that the curve is `arc_length` [m] long.
-/// Frames are carried along without twist; the rest up to the tip's rotation, within half a turn of `twist` [rad], is
-/// spread evenly. Where no arms give the length (a tip farther away than it), they are a third of it.
+/// Frames are transported without twist; the remaining rotation to the tip's frame, within half a turn of `twist`
+/// [rad], is spread evenly. If no arms give the length (the tip is farther away), they are a third of it.
 ForkCurve bezier_curve(const RigidTransform& X_WH, const RigidTransform& X_WE, double arc_length, double twist);
 
 /// The curves that `make_fork_curve` knows: "rod" and "bezier".

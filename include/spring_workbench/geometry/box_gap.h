@@ -21,8 +21,8 @@ inline double reach(const OutlineBox& box, const Vector3d& n_W) {
   return (box.X.linear().transpose() * n_W).cwiseAbs().dot(box.half);
 }
 
-/// Along which direction two boxes are furthest apart, and by how much: at least the gap between them. Negative where
-/// they overlap; its size is then the least way that separates them (the fifteen axes of the separating axis theorem).
+/// Direction along which two boxes are furthest apart, and by how much: a lower bound of their distance. Negative if
+/// they overlap: minus the shortest displacement that separates them (fifteen axes of the separating axis theorem).
 struct BoxGap {
   double gap = 0.0;                  ///< [m]
   Vector3d n_W = Vector3d::UnitZ();  ///< unit, from `b` towards `a`

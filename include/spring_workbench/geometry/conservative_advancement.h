@@ -17,13 +17,13 @@ struct HalfSpace {
   double height = 0.0;               ///< [m]
 };
 
-/// Up to which fraction of `way`, at most `longest`, a box that goes with the body surely has no corner deeper than
-/// `tolerance` [m] in the half-space: a corner's height is its tangent but for ½ f² of its largest second derivative.
+/// Fraction of `motion`, at most `longest`, up to which surely no corner of the body's box is deeper than `tolerance`
+/// [m] in the half-space: a corner's height differs from its tangent by at most ½ f² times its second derivative.
 double clear_above(const OutlineBox& own, const StraightMotion& motion, const HalfSpace& below, double tolerance,
                    double longest);
 
-/// The same for a box that stands still: the plane between the two is held fast to one of them, whichever keeps clear
-/// longer.
+/// The same for a box that stands still: the separating plane is fixed to that one of the two that gives the larger
+/// fraction.
 double clear_of(const OutlineBox& own, const StraightMotion& motion, const OutlineBox& other, double tolerance,
                 double longest);
 

@@ -13,7 +13,7 @@ struct RayHit {
 };
 
 /// The first of the shapes that begins along the unit vector `d_O` from `p_O` [m] on (both in the frame of the shapes),
-/// at most `reach` [m] away; at 0 where the start is inside. Nothing when the way is free.
+/// at most `reach` [m] away; at 0 where the start is inside. Nothing if the path is free.
 std::optional<RayHit> first_along_ray(const std::vector<Shape>& shapes, const Vector3d& p_O, const Vector3d& d_O,
                                       double reach);
 

@@ -12,7 +12,7 @@ namespace spring_workbench::instruments {
 class Vibration {
  public:
   /// Adds the tool at time `t` [s]; `impulse`: of the contacts of what it holds that began since the last call, in
-  /// virtual units [N·s]. Returns the intensity, 0 … 1. A time before the last one, or another object, starts anew.
+  /// virtual units [N·s]. Returns the intensity, 0 … 1. A time before the last one, or another object, starts again.
   double feel(double t, const tools::ToolState& tool, double impulse);
 
  private:

@@ -9,8 +9,8 @@
 
 namespace spring_workbench::live {
 
-/// What a program that is started again after a crash goes on with, as a text: the scene's path and the simulation's
-/// state (simulation::serialise). One for each place where it is kept.
+/// State from which a program continues when it is restarted after a crash, as text: the scene's path and the state
+/// of the simulation (simulation::serialise). One for each place where it is kept.
 class Checkpoint {
  public:
   /// `given_scene`: what the program was told to begin with. `runner` must outlive this.

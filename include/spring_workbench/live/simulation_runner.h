@@ -88,7 +88,7 @@ class SimulationRunner {
 
   /// Puts all objects back to their initial poses with nothing held; the simulation continues with the next sample.
   void restart();
-  /// Takes back the last edit or restart (Undo); the task begins anew, as after an edit.
+  /// Takes back the last edit or restart (Undo); the task restarts, as after an edit.
   std::string undo();
   /// Loads another scene with the present settings. Throws InputError, and keeps the old scene, if they do not match.
   void load(const scene::Scene& scene);

@@ -15,13 +15,13 @@ class WrenchTrack {
   /// `timeout` [s] > 0.
   explicit WrenchTrack(double timeout) : timeout_(timeout) {}
 
-  /// Adds a sample, in place of those that are not before it and do not act yet. Throws as validate().
+  /// Adds a sample, which replaces those at the same or a later time that do not act yet. Throws as validate().
   void push(const ExternalWrench& sample);
   /// Goes to time `now` [s]; stamps `same_time` [s] apart are one. Returns whether the sample that acted has timed out.
   bool follow(double now, double same_time);
   /// The time after `now` at which the wrench changes; infinity where there is none.
   double next_edge(double now, double same_time) const;
-  /// What acts at the time that was followed to; none where it is zero.
+  /// The wrench at the time of the last follow(); none if it is zero.
   const std::optional<ExternalWrench>& present() const { return present_; }
   void clear();
 

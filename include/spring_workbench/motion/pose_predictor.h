@@ -7,7 +7,7 @@
 
 namespace spring_workbench::motion {
 
-/// Says where a tracked frame will be soon, from its last samples: position and rotation vector go on along the curve
+/// Predicts the pose of a tracked frame from its last samples: position and rotation vector continue along the curve
 /// through the newest sample that fits the others best, in the sense of least squares; a line over the last 30 ms up to
 /// 20 ms ahead, a parabola over the last 120 ms beyond.
 class PosePredictor {

@@ -15,8 +15,8 @@ struct WallMoment {
   std::int64_t steps = 0;  ///< by how much it has been set since: it shows `now + steps`
 };
 
-/// Takes the steps out of a wall clock: what moves it against the steady clock by more than 0.1 s between two looks is
-/// a step (somebody set it, or the machine was suspended), what moves it by less is followed. Any thread.
+/// Takes the steps out of a wall clock: a change against the steady clock by more than 0.1 s between two looks is a
+/// step (the clock was set, or the machine was suspended), a smaller change is followed. Any thread.
 class WallClock {
  public:
   /// The wall clock shows `wall` while the steady clock shows `steady`, both [ns].
@@ -28,7 +28,7 @@ class WallClock {
   std::int64_t steps_ = 0;
 };
 
-/// What a message's stamp says by a StreamClock.
+/// Result of checking a message's stamp by a StreamClock.
 enum class StampVerdict {
   fits,
   stepped,          ///< the sender's clock was set: judge again those just before that did not fit, and this one
@@ -36,13 +36,13 @@ enum class StampVerdict {
   from_the_future,  ///< ahead of the stream by more than 0.1 s
   not_later,        ///< before the stream's newest by more than 0.1 s
 };
-/// The verdict in words, as /diagnostics tells it.
+/// The result in words, as in /diagnostics.
 std::string to_string(StampVerdict verdict);
 
 /// The clock of one stream of stamped messages: it keeps the offset between the sender's clock and the local wall clock
-/// without its steps. Slow drift is followed. A step of the sender's clock is a new offset: at once where this host's
-/// own clock made the same one; else when at least three messages over 0.05 s of their stamps have come as evenly as
-/// they are stamped. A message alone moves nothing.
+/// without its steps. Slow drift is followed. A step of the sender's clock is a new offset: at once if this host's own
+/// clock made the same step; otherwise once at least three messages over 0.05 s of their stamps have arrived as evenly
+/// as they are stamped. A single message never changes the offset.
 class StreamClock {
  public:
   /// `max_age` [s], > 0: the first message must be no further from now, and no message older.

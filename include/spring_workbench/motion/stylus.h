@@ -43,9 +43,9 @@ class Stylus {
   bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
   /// Its motion from `now` to the next sample.
   MotionSegment motion(double now) { return of_tool(track_.segment(now)); }
-  /// The same before it is gone along: the next sample may still say another velocity at its end.
+  /// The same before a step has used it: the next sample may still change the velocity at its end.
   MotionSegment provisional(double now) const { return of_tool(track_.provisional(std::max(now, track_.begin()))); }
-  /// The time after `now` at which the next piece of the motion begins; infinity where there is none.
+  /// The time after `now` at which the next segment of the motion begins; infinity if there is none.
   double next_sample(double now) const { return track_.next_after(now); }
   /// Its twist at `now`, world axes; zero where that is not known.
   Twist twist(double now) const {
@@ -61,7 +61,7 @@ class Stylus {
   }
   /// Goes to the wrench at `now`. Returns whether it has timed out there.
   bool follow_wrench(double now) { return wrench_.follow(now, same_time); }
-  /// What is measured at the time that was followed to; none: zero.
+  /// The wrench at the time of the last follow_wrench(); none: zero.
   const std::optional<ExternalWrench>& wrench() const { return wrench_.present(); }
   /// Takes the next button edge up to `now`, where there is one.
   std::optional<Press> take_press(double now) {

@@ -126,7 +126,7 @@ class Simulation {
     push_press(t, on ? motion::Press::clutch_on : motion::Press::clutch_off, hand);
   }
   /// What a machine's force sensor measures on what the hand holds, in real units (times the scene's `force_scale` it
-  /// is virtual). It acts from its time on, beside contact, until the next one or for `settings().wrench_timeout`; one
+  /// is virtual). It acts from its time on, plus contact, until the next one or for `settings().wrench_timeout`; one
   /// that comes later than its time acts at once. Throws InputError, and changes nothing, for an invalid one.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   /// Time of the newest sample of any hand, or time() if there is none.
@@ -160,7 +160,7 @@ class Simulation {
   void change(const DynamicsChange& change);
   /// Makes both changes, or neither.
   void change(const ForkChange& of_fork, const DynamicsChange& of_dynamics);
-  /// Adds, moves or removes an object, or changes its mass or friction; what else there is goes on from where it is.
+  /// Adds, moves or removes an object, or changes its mass or friction; everything else continues from where it is.
   /// Added and moved objects stand at rest and fall where nothing carries them; what lay on a moved or removed one
   /// falls, and a removed one is released. Throws InputError, and changes nothing, for an object that is not there, a
   /// held one that is to be moved, and a place (also of an added one) that is more than 0.1 mm inside something. A URDF
