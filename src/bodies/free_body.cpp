@@ -55,6 +55,14 @@ bool FreeBody::advance(double h, const Wrench& contact_W) {
   return true;
 }
 
+void FreeBody::correct(double h, const Wrench& change_W) {
+  const Vector3d turn = 0.5 * h * h * angular_velocity(state_.X_WO.linear(), change_W.moment);
+  state_.X_WO.translation() += 0.5 * h * h / mass_ * change_W.force;
+  state_.X_WO.linear() = Quaterniond(math::exp_so3(turn) * state_.X_WO.linear()).normalized().toRotationMatrix();
+  state_.velocity += h / mass_ * change_W.force;
+  state_.angular_momentum += h * change_W.moment;
+}
+
 Matrix6d FreeBody::mobility() const {
   const Matrix3d& R = state_.X_WO.linear();
   return spatial_matrix(1.0 / mass_, R * inverse_inertia_O_ * R.transpose());

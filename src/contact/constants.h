@@ -37,9 +37,6 @@ constexpr double solved_share = 0.01;
 /// [m]; largest chord deviation between the path and the straight segments that are swept. Larger: corners are cut.
 /// Goes into `StopContact.APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling`.
 constexpr double most_chord_deviation = 5e-5;
-/// [m]; chord deviation above which the loads of a substep are not improved any further. Goes into
-/// `StopExtremes.LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded`.
-constexpr double hopeless_chord_deviation = 0.1;
 /// [m/s]; an approach that is slower counts as none. Goes into
 /// `StopExtremes.LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded`.
 constexpr double slow_approach = 1e-6;
@@ -63,10 +60,11 @@ constexpr double safety = 0.9;
 constexpr double longer = 2.0;
 /// Largest number of substeps tried in a step. Goes into
 /// `StopExtremes.LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded`.
-constexpr int most_tries = 100;
-/// Number of substeps of a step without a solution after which the body is blocked. Goes into
+constexpr int most_tries = 400;
+/// Largest number of times that a substep is integrated, each time under the loads of the last solution; further
+/// solutions correct its end to first order. Goes into
 /// `StopExtremes.LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded`.
-constexpr int most_unsolved = 6;
+constexpr int most_advances = 3;
 /// Largest number of solutions of one substep, each linearised about the last. Contact mode `dynamic` has 4, for no
 /// known reason. Goes into `StopExtremes.LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded`.
 constexpr int most_solutions = 8;

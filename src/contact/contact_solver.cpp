@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "constants.h"
+#include "spring_workbench/math/friction_cones.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::contact {
@@ -16,6 +17,32 @@ Vector3d into_cone(const Vector3d& load, const Vector3d& n, double friction) {
   const double size = tangential.norm();
   const double most = friction * normal;
   return size <= most ? load : Vector3d(normal * n + tangential * (most / size));
+}
+
+/// All contacts at once, for which sweeps, which have moved the body by `motion` so far, would take too long.
+void solve_at_once(const Matrix6d& compliance, const Vector6d& motion, std::vector<ContactRow>& rows) {
+  const auto n = static_cast<Eigen::Index>(rows.size());
+  Eigen::MatrixXd to_points(3 * n, 6);
+  Eigen::VectorXd x(3 * n), y(3 * n);
+  std::vector<double> friction;
+  std::vector<Matrix3d> axes;
+  for (const ContactRow& row : rows) {
+    const auto first = 3 * static_cast<Eigen::Index>(axes.size());
+    const Vector3d& normal = row.point.n_W;
+    const Vector3d across = normal.unitOrthogonal();
+    axes.emplace_back();
+    axes.back() << normal, across, normal.cross(across);
+    to_points.middleRows<3>(first) << axes.back().transpose(), -axes.back().transpose() * math::skew(row.lever_W);
+    x.segment<3>(first) = axes.back().transpose() * row.load_W;
+    y.segment<3>(first) = axes.back().transpose() * row.slip_W + row.gap * Vector3d::UnitX();
+    friction.push_back(row.friction);
+  }
+  const Eigen::MatrixXd A = to_points * (0.5 * (compliance + compliance.transpose())) * to_points.transpose();
+  y += to_points * motion;
+  if (!math::solve_in_cones(A, y - A * x, friction, x)) return;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].load_W = axes[i] * x.segment<3>(3 * static_cast<Eigen::Index>(i));
+  }
 }
 
 }  // namespace
@@ -68,6 +95,7 @@ void solve_contacts(const Matrix6d& compliance, std::vector<ContactRow>& rows) {
     }
     if (change <= small_change * largest) return;
   }
+  solve_at_once(compliance, motion, rows);
 }
 
 Wrench total_load(const std::vector<ContactRow>& rows) {

@@ -99,9 +99,9 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
     row.lever_W = row.point.p_W - X0.translation();
     starts.push_back({row.gap, row.lever_W});
   }
-  const Matrix6d C = body.response(h).displacement;
-  for (int solution = 1; solution <= most_solutions; ++solution) {
-    if (!body.advance(h, total_load(work))) break;
+  Matrix6d C = body.response(h).displacement;
+  if (!body.advance(h, total_load(work))) return false;
+  for (int solution = 1, advances = 1; solution <= most_solutions; ++solution) {
     look_at_end(body, X0, work, starts, outcome);
     std::vector<ContactRow> assumed = work;
     double worst = 0.0;
@@ -113,20 +113,25 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
     }
     solve_contacts(C, work);
     // Done when solving again would not move the body, however the contacts share what they carry.
-    const Wrench before = total_load(assumed), after = total_load(work);
-    const Vector6d moves = C * (to_vector(after) - to_vector(before));
+    const Wrench corrects = total_load(work) - total_load(assumed);
+    const Vector6d moves = C * to_vector(corrects);
     const double change = moves.head<3>().norm() + radius_[body.index()] * moves.tail<3>().norm();
     const double path = extent(X0, body.object().X, radius_[body.index()]);
     const bool solved = worst < std::clamp(solved_share * path, slack, 3.0 * touching) &&
                         change < std::clamp(solved_share * path, 1e-3 * touching, 10.0 * touching);
-    if (solved || (solution == most_solutions && worst < 0.5 * closed && change < touching)) {
+    if (solved ||
+        (solution == most_solutions && worst < 0.5 * closed && change < std::max(closed, solved_share * path))) {
       rows = std::move(assumed);
       return true;
     }
-    const bool runs_away =
-        solution > 2 && chord_deviation(body.index(), begin, body.object(), h) > hopeless_chord_deviation;
-    body.restore(start_);
-    if (runs_away || change == 0.0) break;
+    if (advances < most_advances && change * change > touching * radius_[body.index()]) {
+      body.restore(start_);
+      if (!body.advance(h, total_load(work))) return false;
+      ++advances;
+    } else {
+      body.correct(h, corrects);
+      C = body.response(h).displacement;
+    }
   }
   return false;
 }
@@ -227,12 +232,12 @@ ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, dou
   if (!possible || !bodies::is_finite(body.object())) {
     body.restore(start_);
     outcome.refused = outcome.refused || !in_contact;
-    return {false, in_contact ? shorter : 0.0, {}, false};
+    return {false, in_contact ? shorter : 0.0, {}};
   }
   const motion::MotionState end = body.object();
   if (!may_go(begin.X, end.X)) {
     body.restore(start_);
-    return {false, 0.0, {}, true, false};
+    return {false, 0.0, {}, false};
   }
   const double bowed = chord_deviation(index, begin, end, h);
   const double straight = safety * std::sqrt(most_segments * most_segments * most_chord_deviation /
@@ -250,6 +255,11 @@ ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, dou
       Piece substep{false, found.free, {}};
       body.restore(start_);
       add_contacts(index, found.X_WO, touching, substep.touched, outcome);
+      // Between its ends it goes deeper into what it touches already: how deep is of second order.
+      const bool sags = std::all_of(substep.touched.begin(), substep.touched.end(), [&](const ContactRow& at) {
+        return std::any_of(rows.begin(), rows.end(), [&](const ContactRow& r) { return is_same(r.point, at.point); });
+      });
+      if (sags) substep.next = std::max(substep.next, shorter);
       for (ContactRow& row : substep.touched) {
         const Vector3d here = moved(found.X_WO, begin.X, row.point.p_W);
         row.gap = std::max(0.0, row.gap + (here - row.point.p_W).dot(row.point.n_W));
@@ -269,7 +279,6 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
   const MayGo on_the_way = [](const RigidTransform&, const RigidTransform&) { return true; };
   if (const RigidTransform here = body.object().X; !may_go(here, here)) return false;
   double left = h, substep = h;
-  int unsolved = 0;
   const auto block = [&](double duration) {
     body.block(duration);
     outcome.time_lost += duration;
@@ -292,11 +301,12 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
       }
       continue;
     }
-    if (!tried.solved) ++unsolved;
-    if (unsolved <= most_unsolved && tried.next * substep > shortest_share * h) {
+    if (tried.next * substep > shortest_share * h) {
       substep *= tried.next;
     } else if (tried.touched.empty() || !meet(body, tried.touched, h, rows, outcome)) {
       block(std::min(left, std::max(substep, blocked_share * h)));
+    } else if (rows.empty()) {
+      substep *= tried.next;  // too fast to be near yet
     }
   }
   if (left > 1e-9 * h) block(left);

@@ -46,5 +46,11 @@ constexpr double range_difference = 1e-6;
 constexpr int most_iterations = 20;
 /// Of the way back to the begin, where that leads nowhere. Test: none: no value tried makes one fail.
 constexpr int most_bisections = 50;
+/// Of Newton's method for the strain under a force. Test: TwoHands.HandoverMovesTheObjectLessThanAMillimetre at 0.
+constexpr int most_strain_iterations = 30;
+/// Of one of its steps. Test: TwoHands.HandoverMovesTheObjectLessThanAMillimetre at 0.
+constexpr int most_strain_halvings = 20;
+/// Of the strain, for the slope of that force. Test: TwoHands.HandoverMovesTheObjectLessThanAMillimetre at 0.
+constexpr double strain_difference = 1e-6;
 
 }  // namespace spring_workbench::stepping

@@ -9,24 +9,31 @@
 #include "spring_workbench/dynamics/linearised_motion.h"
 
 namespace spring_workbench::stepping {
+namespace {
+
+double range_used(const dynamics::HeldBody& body, double t, const rod::StrainVector& q) {
+  return body.shape().range_used(body.full_state(t, {q, rod::StrainVector::Zero(q.size())}).q);
+}
+
+}  // namespace
+
+rod::StrainVector range_slope(const dynamics::HeldBody& body, double t, const rod::StrainVector& q) {
+  rod::StrainVector g(q.size());
+  const double dq = range_difference / body.shape().length();
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    rod::StrainVector up = q, down = q;
+    up[i] += dq;
+    down[i] -= dq;
+    g[i] = (range_used(body, t, up) - range_used(body, t, down)) / (2.0 * dq);
+  }
+  return g;
+}
 
 void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, double h,
                    const dynamics::StrainState& begin, dynamics::StrainState& end) {
   const double t = handle.t;
-  const auto used = [&](const rod::StrainVector& q) {
-    return body.shape().range_used(body.full_state(t, {q, rod::StrainVector::Zero(q.size())}).q);
-  };
-  const auto slope = [&](const rod::StrainVector& q) {
-    rod::StrainVector g(q.size());
-    const double dq = range_difference / body.shape().length();
-    for (Eigen::Index i = 0; i < q.size(); ++i) {
-      rod::StrainVector up = q, down = q;
-      up[i] += dq;
-      down[i] -= dq;
-      g[i] = (used(up) - used(down)) / (2.0 * dq);
-    }
-    return g;
-  };
+  const auto used = [&](const rod::StrainVector& q) { return range_used(body, t, q); };
+  const auto slope = [&](const rod::StrainVector& q) { return range_slope(body, t, q); };
   const auto kinetic = [&](const dynamics::StrainState& s) {
     return 0.5 * s.q_dot.dot(body.mass_matrix(t, s.q) * s.q_dot);
   };

@@ -12,6 +12,9 @@ namespace spring_workbench::stepping {
 void stop_at_range(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, double h,
                    const dynamics::StrainState& begin, dynamics::StrainState& end);
 
+/// How much of the rod's range is used, by strain, at a strain `q`.
+rod::StrainVector range_slope(const dynamics::HeldBody& body, double t, const rod::StrainVector& q);
+
 /// Takes from the rates at the end of a step of `h` to `t + h` [s], which a stop or the fallback made, what the body
 /// has gained beyond what hand, weight and dampers account for, as far as the rates go. Returns energy_added() of the
 /// result [J]. While contact or other tools pull, whose work over a step is not known so well, nothing is taken.

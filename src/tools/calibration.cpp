@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "constants.h"
-#include "find_strain.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/spatial.h"
 #include "spring_workbench/scene/constants.h"
+#include "spring_workbench/stepping/find_strain.h"
 
 namespace spring_workbench::tools {
 namespace {
@@ -32,7 +32,7 @@ class Weighed {
     const auto force = [&](const rod::StrainVector& at) -> rod::StrainVector {
       return held_.mass_matrix(0.0, at) * held_.acceleration(handle, at, rod::StrainVector::Zero(at.size()));
     };
-    q_ = find_strain(held_, 0.0, force, q_, 1e-10 * held_.gravity());
+    q_ = stepping::find_strain(held_, 0.0, force, q_, 1e-10 * held_.gravity());
   }
   double extension() const { return std::abs(held_.shape().extension(q_)); }  ///< [m]
   double deflection() const {                                                 ///< of the tip [m]

@@ -46,11 +46,5 @@ constexpr double position_uncertainty = 1e-4;
 /// [kg/m³]: objects of another density have a larger or smaller tool than their size asks. Larger: smaller tools. Test:
 /// none: not tried yet.
 constexpr double density_of_water = 1000.0;
-/// Of Newton's method for the strain under a force. Test: TwoHands.HandoverMovesTheObjectLessThanAMillimetre at 0.
-constexpr int most_strain_iterations = 30;
-/// Of one of its steps. Test: TwoHands.HandoverMovesTheObjectLessThanAMillimetre at 0.
-constexpr int most_strain_halvings = 20;
-/// Of the strain, for the slope of that force. Test: TwoHands.HandoverMovesTheObjectLessThanAMillimetre at 0.
-constexpr double strain_difference = 1e-6;
 
 }  // namespace spring_workbench::tools

@@ -76,27 +76,33 @@ motion::MotionState ForkBody::object_with_acceleration() const {
 }
 
 Matrix6d ForkBody::proxy_compliance(double h) const {
-  if (held_.size() == rod::max_strain_coordinates) return Matrix6d::Zero();
+  if (yields_everywhere()) return Matrix6d::Zero();
   const Matrix3d R = object().X.linear();
-  const Matrix6d P = spatial_matrix(1.0 / held_.body().mass, R * held_.body().inertia_O.inverse() * R.transpose());
-  return give_time * give_time * (1.0 - std::exp(-h / return_time)) * (P - mobility());
+  Matrix6d P = spatial_matrix(1.0 / held_.body().mass, R * held_.body().inertia_O.inverse() * R.transpose());
+  P -= mobility();
+  if (const rod::StrainMatrix& stops = load_response_.stops(); stops.cols() > 0) {
+    const rod::StrainMatrix by_stops = inverse_mass() * stops;
+    const auto lost = (jacobian_W() * by_stops).eval();
+    P += lost * (stops.transpose() * by_stops).llt().solve(lost.transpose());
+  }
+  return give_time * give_time * (1.0 - std::exp(-h / return_time)) * P;
 }
 
 RigidTransform ForkBody::returned_offset(double h) const {
   return state_.behind ? shrunk(state_.offset, std::exp(-h / return_time)) : RigidTransform::Identity();
 }
 
-RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
-  const RigidTransform returned = returned_offset(h);
-  const bool gives_way = held_.size() < rod::max_strain_coordinates;
-  if (!gives_way || is_zero(contact_W)) return returned;
-  const Vector6d given_way = proxy_compliance(h) * to_vector(contact_W);
-  // A rotation about the object's centre of mass and a translation.
+RigidTransform ForkBody::given_way(double h, const Wrench& contact_W) const {
+  const Vector6d way = proxy_compliance(h) * to_vector(contact_W);
   const Vector3d centre = object().X.translation();
   RigidTransform X = RigidTransform::Identity();
-  X.linear() = math::exp_so3(given_way.tail<3>());
-  X.translation() = centre - X.linear() * centre + given_way.head<3>();
-  return X * returned;
+  X.linear() = math::exp_so3(way.tail<3>());
+  X.translation() = centre - X.linear() * centre + way.head<3>();
+  return X;
+}
+
+RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
+  return yields_everywhere() || is_zero(contact_W) ? returned_offset(h) : given_way(h, contact_W) * returned_offset(h);
 }
 
 motion::MotionSegment ForkBody::proxy_motion(double h, const RigidTransform& offset_end) const {
@@ -121,6 +127,7 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
               step.stops,          step.fallback,    step.energy_error, step.bounds};
     added_ = step.energy_added;
   }
+  load_response_.begin_step(held_.size());
   state_.t += h;
   state_.strain = next;
   state_.pull_W.reset();
@@ -140,18 +147,22 @@ bool ForkBody::advance_freely(double h, const PathCheck& is_free) {
 void ForkBody::accept() {
   state_.energy_added += std::exchange(added_, 0.0);
   estimates_.add(std::exchange(trial_, {}));
+  load_response_.begin_step(held_.size());
 }
 
 void ForkBody::restore(const bodies::TrialStart& start) {
   state_ = start.kept<State>();
   added_ = 0.0;
   trial_ = {};
+  load_response_.begin_step(held_.size());
 }
 
 void ForkBody::exchange(math::StateArchive& state) {
   state(held_, coupling_, control_, X_SH_, hand_, state_, estimates_, sleep_, load_W_);
-  if (state.sets()) added_ = 0.0;
-  if (state.sets()) trial_ = {};
+  if (!state.sets()) return;
+  added_ = 0.0;
+  trial_ = {};
+  load_response_.begin_step(held_.size());
 }
 
 ForkBody::Jacobian ForkBody::jacobian_W(const Matrix3d& R_WH, double t) const {
@@ -174,11 +185,23 @@ bodies::SteppedBody::Response ForkBody::response(double h) const {
   Response a{proxy, proxy / h};
   if (held_.size() > 0) {
     const auto J = jacobian_W();
-    const dynamics::Integrator::Response r = control_.integrator().response(held_, handle(), h, state_.strain);
+    const dynamics::Integrator::Response r =
+        load_response_.response(control_.integrator(), held_, handle(), h, state_.strain);
     a.displacement += J * r.q * J.transpose();
     a.velocity += J * r.q_dot * J.transpose();
   }
   return a;
+}
+
+void ForkBody::correct(double h, const Wrench& change_W) {
+  const RigidTransform offset = yields_everywhere() ? state_.offset : given_way(h, change_W) * state_.offset;
+  if (held_.size() > 0) {
+    const rod::StrainVector change = jacobian_W().transpose() * to_vector(change_W);
+    const Eigen::Index known = load_response_.stops().cols();
+    load_response_.correct(control_.integrator(), held_, handle(), h, change, state_.strain);
+    trial_.stops += static_cast<int>(load_response_.stops().cols() - known);
+  }
+  place_proxy(offset);
 }
 
 Matrix6d ForkBody::mobility() const {

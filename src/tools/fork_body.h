@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "fork_coupling.h"
+#include "spring_workbench/stepping/load_response.h"
 #include "spring_workbench/stepping/step_control.h"
 #include "spring_workbench/tools/tool_hold.h"
 
@@ -25,6 +26,7 @@ class ForkBody : public ToolHold {
   void restore(const bodies::TrialStart& start) override;
   void accept() override;
   Response response(double h) const override;
+  void correct(double h, const Wrench& change_W) override;
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
   void block(double h) override;
@@ -95,9 +97,15 @@ class ForkBody : public ToolHold {
 
     void exchange(math::StateArchive& state) { state(t, strain, behind, offset, energy_added, stepping, pull_W); }
   };
+  /// Whether the strain can move the object in every direction.
+  bool yields_everywhere() const {
+    return held_.size() == rod::max_strain_coordinates && load_response_.stops().cols() == 0;
+  }
   /// Compliance of the proxy to a wrench at the centre of mass over a step, in the directions that the coordinates
   /// cannot follow: that of a spring and a damper in parallel (doc/model.md, "When the fork cannot follow").
   Matrix6d proxy_compliance(double h) const;
+  /// How the proxy gives way to a wrench over a step: a rotation about the object's centre of mass and a translation.
+  RigidTransform given_way(double h, const Wrench& contact_W) const;
   /// The proxy's offset at the end of a step without a load.
   RigidTransform returned_offset(double h) const;
   /// The offset of the proxy at the end of a step under a wrench.
@@ -125,6 +133,7 @@ class ForkBody : public ToolHold {
   RigidTransform X_SH_;         ///< from one grip to the next
   motion::MotionSegment hand_;  ///< of the handle as the hand has it
   State state_;
+  stepping::LoadResponse load_response_;
   double added_ = 0.0;  ///< energy by the last advance(), which may turn out to have been a trial [J]
   stepping::StepEstimates trial_,
       estimates_;  ///< the same of what steps say: of that advance(); of those that were none

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "constants.h"
-#include "find_strain.h"
 #include "fork_body.h"
+#include "spring_workbench/stepping/find_strain.h"
 
 namespace spring_workbench::tools {
 namespace {
@@ -37,7 +37,7 @@ rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R
     return f;
   };
   const double small = exact_pull * (missing(rod::StrainVector::Zero(present.size())).norm() + 1e-300);
-  const rod::StrainVector q = find_strain(held_, state_.t, missing, present, small);
+  const rod::StrainVector q = stepping::find_strain(held_, state_.t, missing, present, small);
   return missing(q).norm() < 1e-6 * small / exact_pull ? q : present;
 }
 

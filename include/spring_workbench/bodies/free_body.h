@@ -18,6 +18,7 @@ class FreeBody final : public SteppedBody {
   void save(TrialStart& start) const override { start.keep(state_); }
   void restore(const TrialStart& start) override { state_ = start.kept<State>(); }
   Response response(double h) const override { return {0.5 * h * h * mobility(), h * mobility()}; }
+  void correct(double h, const Wrench& change_W) override;
   Matrix6d mobility() const override;
   void add_impulse(const Wrench& impulse_W) override;
   bool reverses() const override { return true; }

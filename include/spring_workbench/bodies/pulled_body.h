@@ -17,6 +17,7 @@ class PulledBody final : public SteppedBody {
   void save(TrialStart& start) const override { free_.save(start); }
   void restore(const TrialStart& start) override { free_.restore(start); }
   Response response(double h) const override { return free_.response(h); }
+  void correct(double h, const Wrench& change_W) override { free_.correct(h, change_W); }
   Matrix6d mobility() const override { return free_.mobility(); }
   void add_impulse(const Wrench& impulse_W) override { free_.add_impulse(impulse_W); }
   bool reverses() const override { return true; }

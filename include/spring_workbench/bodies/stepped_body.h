@@ -65,6 +65,9 @@ class SteppedBody {
     Matrix6d displacement, velocity;
   };
   virtual Response response(double h) const = 0;
+  /// Moves the end of the last advance(), of `h` [s], to where it would be if its wrench were changed by `change_W`, to
+  /// first order.
+  virtual void correct(double h, const Wrench& change_W) = 0;
   /// Returns the change of the velocity per impulse.
   virtual Matrix6d mobility() const = 0;
   virtual void add_impulse(const Wrench& impulse_W) = 0;

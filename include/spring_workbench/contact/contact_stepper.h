@@ -62,7 +62,6 @@ class ContactStepper {
     bool done = false;                ///< the body has made this substep
     double next = 0.0;                ///< length of the next substep to try, relative to this one
     std::vector<ContactRow> touched;  ///< if not done: the obstacles
-    bool solved = true;               ///< loads were found under which the body can be carried
     bool allowed = true;              ///< `may_go` allows the motion
   };
   /// Tries to advance by `h`, under the loads of the rows if there are any. If it fails, the body is where it was.

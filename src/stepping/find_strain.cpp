@@ -1,10 +1,10 @@
-#include "find_strain.h"
+#include "spring_workbench/stepping/find_strain.h"
 
 #include <Eigen/LU>
 
 #include "constants.h"
 
-namespace spring_workbench::tools {
+namespace spring_workbench::stepping {
 namespace {
 
 rod::StrainMatrix slope(const std::function<rod::StrainVector(const rod::StrainVector&)>& force,
@@ -46,4 +46,4 @@ rod::StrainVector find_strain(const dynamics::HeldBody& held, double t,
   return q;
 }
 
-}  // namespace spring_workbench::tools
+}  // namespace spring_workbench::stepping
