@@ -76,7 +76,7 @@ constexpr int most_dynamic_solutions = 4;
 constexpr int most_sweeps = 200;
 /// Fraction of the largest load; the iterations end when no load changes by more. Goes into
 /// `Simulation.PressedOnTheBenchItStaysOutsideAndTheForkTakesUpTheDifference`.
-constexpr double small_change = 1e-10;
+constexpr double small_change = 1e-6;
 /// [s]; longest substep among movable bodies if something is touched. Longer: friction and pushing are less exact. Goes
 /// into `DynamicContact.PushesANeighbourAlong`.
 constexpr double longest_piece = 2e-3;

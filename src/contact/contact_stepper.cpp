@@ -130,7 +130,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
       ++advances;
     } else {
       body.correct(h, corrects);
-      C = body.response(h).displacement;
+      if (solution > 1) C = body.response(h).displacement;
     }
   }
   return false;
@@ -301,12 +301,14 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
       }
       continue;
     }
-    if (tried.next * substep > shortest_share * h) {
-      substep *= tried.next;
-    } else if (tried.touched.empty() || !meet(body, tried.touched, h, rows, outcome)) {
+    const double next = tried.next * substep;
+    if (next > shortest_share * h) {
+      substep = next;
+    } else if (tried.touched.empty() || !meet(body, tried.touched, h, rows, outcome) ||
+               (rows.empty() && next < 1e-9 * h)) {
       block(std::min(left, std::max(substep, blocked_share * h)));
     } else if (rows.empty()) {
-      substep *= tried.next;  // too fast to be near yet
+      substep = next;  // too fast to be near yet
     }
   }
   if (left > 1e-9 * h) block(left);

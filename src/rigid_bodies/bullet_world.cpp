@@ -32,6 +32,15 @@ BulletWorld::BulletWorld(const scene::Scene& scene)
                              std::pair(STATIC_PLANE_PROXYTYPE, GIMPACT_SHAPE_PROXYTYPE)}) {
     dispatcher_.registerCollisionCreateFunc(a, b, configuration_.getCollisionAlgorithmCreateFunc(a, b));
   }
+  // What is concave meets what is convex triangle by triangle, also where it moves.
+  for (const int convex :
+       {BOX_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, CYLINDER_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE}) {
+    constexpr int fixed = TRIANGLE_MESH_SHAPE_PROXYTYPE, movable = GIMPACT_SHAPE_PROXYTYPE;
+    dispatcher_.registerCollisionCreateFunc(convex, movable,
+                                            configuration_.getCollisionAlgorithmCreateFunc(convex, fixed));
+    dispatcher_.registerCollisionCreateFunc(movable, convex,
+                                            configuration_.getCollisionAlgorithmCreateFunc(fixed, convex));
+  }
   configuration_.setPlaneConvexMultipointIterations(4,
                                                     4);  // a flush face touches with its corners from the first step on
   configuration_.setConvexConvexMultipointIterations(4, 4);

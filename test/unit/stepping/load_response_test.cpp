@@ -1,0 +1,121 @@
+#include "spring_workbench/stepping/load_response.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "support/named.h"
+
+namespace spring_workbench::stepping {
+namespace {
+
+using namespace dynamics;
+
+/// A fork somewhere in its range, most of them far from straight, after a short step.
+struct Case {
+  explicit Case(unsigned seed) : random(seed) {
+    const std::string shape = std::vector<std::string>{"linear", "constant", "bushing"}[seed % 3];
+    integrator = make_integrator(seed % 2 == 0 ? IntegratorKind::exponential : IntegratorKind::rosenbrock);
+    BodyInertia body;
+    body.mass = std::pow(10.0, 3.0 * unit());
+    body.inertia_O = body.mass * Vector3d(0.001, 0.003, 0.004).asDiagonal().toDenseMatrix();
+    body.X_OE.translation() << 0.08, 0.0, 0.0;
+    held.emplace(rod::make_shape_model(test_support::shape_named(shape), 0.2), body, 9.81);
+    const double k = std::pow(10.0, 3.0 + 3.0 * unit()), zeta = seed % 5 == 0 ? 0.0 : 1.0;
+    held->set_springs({k, 0.4 * k, 0.004 * k}, {zeta, zeta, zeta});
+    h = std::pow(10.0, -3.5 + 1.5 * unit());
+    const StrainState begin = somewhere();
+    state = begin;
+    integrator->step(*held, hand, 0.0, h, state);
+    if (!admissible()) state = begin;
+    end = held->forcing(hand, h);
+  }
+  double unit() { return std::uniform_real_distribution<double>(-1.0, 1.0)(random); }
+  bool admissible() const { return held->shape().admissible(held->full_state(h, state).q); }
+  StrainState somewhere() {
+    StrainState s = held->zero_state();
+    do {
+      for (Eigen::Index i = 0; i < s.q.size(); ++i) s.q[i] = unit() * (held->shape().size() == 6 ? 20.0 : 5.0);
+    } while (!held->shape().admissible(held->full_state(0.0, s).q));
+    return s;
+  }
+  rod::StrainVector change() {
+    rod::StrainVector Q(held->size());
+    for (Eigen::Index i = 0; i < Q.size(); ++i) Q[i] = unit() * std::pow(10.0, 3.0 + 3.0 * unit());
+    return Q;
+  }
+
+  std::mt19937 random;
+  std::unique_ptr<Integrator> integrator;
+  std::optional<HeldBody> held;
+  double h = 0.0;
+  motion::MotionSegment hand{RigidTransform::Identity()};
+  StrainState state;
+  HandleForcing end;
+};
+
+double range_used(const Case& c) { return c.held->shape().range_used(c.held->full_state(c.h, c.state).q); }
+
+TEST(LoadResponse, NothingComesTowardsALoad) {
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    Case c(seed);
+    LoadResponse load_response;
+    load_response.begin_step(c.held->size());
+    const Integrator::Response r = load_response.response(*c.integrator, *c.held, c.end, c.h, c.state);
+    ASSERT_TRUE(r.q.allFinite() && r.q_dot.allFinite()) << seed;
+    const rod::StrainMatrix symmetric = 0.5 * (r.q + r.q.transpose());
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<rod::StrainMatrix>(symmetric).eigenvalues().minCoeff(), 0.0) << seed;
+  }
+}
+
+TEST(LoadResponse, IsWhatAChangedLoadDoesToTheStep) {
+  for (unsigned seed = 0; seed < 100; ++seed) {
+    Case c(seed);
+    LoadResponse load_response;
+    load_response.begin_step(c.held->size());
+    const rod::StrainVector Q = 1e-6 * c.change();
+    const Integrator::Response r = load_response.response(*c.integrator, *c.held, c.end, c.h, c.state);
+    const StrainState before = c.state;
+    load_response.correct(*c.integrator, *c.held, c.end, c.h, Q, c.state);
+    EXPECT_LE((c.state.q - before.q - r.q * Q).norm(), 1e-12 * (before.q.norm() + (r.q * Q).norm())) << seed;
+    EXPECT_LE((c.state.q_dot - before.q_dot - r.q_dot * Q).norm(), 1e-12 * (before.q_dot.norm() + (r.q_dot * Q).norm()))
+        << seed;
+    EXPECT_EQ(load_response.stops().cols(), 0) << seed;
+  }
+}
+
+TEST(LoadResponse, AStopThatIsMetHoldsForTheRestOfTheStep) {
+  int met = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    Case c(seed);
+    LoadResponse load_response;
+    load_response.begin_step(c.held->size());
+    for (int k = 0; k < 5; ++k) {
+      load_response.correct(*c.integrator, *c.held, c.end, c.h, c.change(), c.state);
+      ASSERT_TRUE(c.state.q.allFinite() && c.state.q_dot.allFinite()) << seed;
+      ASSERT_LT(range_used(c), 1.0) << seed;
+    }
+    const rod::StrainMatrix& stops = load_response.stops();
+    ASSERT_LE(stops.cols(), 2) << seed;
+    if (stops.cols() == 0) continue;
+    ++met;
+    const rod::StrainVector Q = c.change();
+    const Integrator::Response r = load_response.response(*c.integrator, *c.held, c.end, c.h, c.state);
+    const rod::StrainVector way = r.q * Q;
+    for (Eigen::Index i = 0; i < stops.cols(); ++i) {
+      EXPECT_LE(std::abs(stops.col(i).dot(way)), 1e-9 * stops.col(i).norm() * way.norm()) << seed;
+    }
+    load_response.begin_step(c.held->size());
+    EXPECT_EQ(load_response.stops().cols(), 0);
+  }
+  EXPECT_GT(met, 100);
+}
+
+}  // namespace
+}  // namespace spring_workbench::stepping
