@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 // The constants of the module: unit, what changing one does, and the test that notices: "noticed by" was seen to fail
 // with another value, "goes into" is by reading alone.
 
@@ -74,6 +76,9 @@ constexpr int most_dynamic_solutions = 4;
 /// Largest number of iterations of solve_contacts(). Goes into
 /// `StopExtremes.LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded`.
 constexpr int most_sweeps = 200;
+/// Contacts that are solved at once where the iterations are not done. More: where meshes touch, steps cost several
+/// times as much. Test: none: none that was tried fails.
+constexpr std::size_t most_at_once = 12;
 /// Fraction of the largest load; the iterations end when no load changes by more. Goes into
 /// `Simulation.PressedOnTheBenchItStaysOutsideAndTheForkTakesUpTheDifference`.
 constexpr double small_change = 1e-6;

@@ -95,7 +95,7 @@ void solve_contacts(const Matrix6d& compliance, std::vector<ContactRow>& rows) {
     }
     if (change <= small_change * largest) return;
   }
-  solve_at_once(compliance, motion, rows);
+  if (rows.size() <= most_at_once) solve_at_once(compliance, motion, rows);
 }
 
 Wrench total_load(const std::vector<ContactRow>& rows) {

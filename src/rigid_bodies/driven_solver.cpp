@@ -205,6 +205,9 @@ DrivenSolver::Rows DrivenSolver::make_rows(const btContactSolverInfo& info) {
       const bool pushes = !(driven_of(n.a) || n.answer_a.isZero(0.0)) || !(driven_of(n.b) || n.answer_b.isZero(0.0));
       const double undone = (pushes ? info.m_erp2 : 1.0) * std::min(1.0, h_ / recovery_time);
       n.target = -rate(n, false) - (n.gap < 0.0 ? undone : 1.0) * way_left;
+    } else if (n.gap < -blind_way_of_free) {
+      // Deeper than a way leads, between triangles that push to both sides: bounces off both have no end.
+      n.target = -rate(n, false);
     } else if (way_left > 0.0 && restitution > 0.0) {
       // Bullet lets a body bounce before it is there, and then loses the bounce on the rest of the way.
       const double approach = (n.target + way_left) / (1.0 + restitution);
