@@ -191,7 +191,11 @@ btCollisionAlgorithmCreateFunc* BoxesSeenEarly::getCollisionAlgorithmCreateFunc(
   };
   const bool boxes = proxy_a == BOX_SHAPE_PROXYTYPE && proxy_b == BOX_SHAPE_PROXYTYPE;
   if (boxes || with_plane(proxy_a, proxy_b) || with_plane(proxy_b, proxy_a)) return &create_;
-  return btDefaultCollisionConfiguration::getCollisionAlgorithmCreateFunc(proxy_a, proxy_b);
+  // A movable mesh meets what is convex like a fixed one, triangle by triangle.
+  const auto as_fixed = [](int proxy) {
+    return proxy == GIMPACT_SHAPE_PROXYTYPE ? static_cast<int>(TRIANGLE_MESH_SHAPE_PROXYTYPE) : proxy;
+  };
+  return btDefaultCollisionConfiguration::getCollisionAlgorithmCreateFunc(as_fixed(proxy_a), as_fixed(proxy_b));
 }
 
 btCollisionAlgorithm* BoxesSeenEarly::Create::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,

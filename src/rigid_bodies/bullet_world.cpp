@@ -28,18 +28,10 @@ BulletWorld::BulletWorld(const scene::Scene& scene)
   static const double set_once = gDeactivationTime = asleep_after;  // worlds may be made in several threads
   static_cast<void>(set_once);
   btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
-  for (const auto& [a, b] : {std::pair(GIMPACT_SHAPE_PROXYTYPE, STATIC_PLANE_PROXYTYPE),
-                             std::pair(STATIC_PLANE_PROXYTYPE, GIMPACT_SHAPE_PROXYTYPE)}) {
-    dispatcher_.registerCollisionCreateFunc(a, b, configuration_.getCollisionAlgorithmCreateFunc(a, b));
-  }
-  // What is concave meets what is convex triangle by triangle, also where it moves.
-  for (const int convex :
-       {BOX_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, CYLINDER_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE}) {
-    constexpr int fixed = TRIANGLE_MESH_SHAPE_PROXYTYPE, movable = GIMPACT_SHAPE_PROXYTYPE;
-    dispatcher_.registerCollisionCreateFunc(convex, movable,
-                                            configuration_.getCollisionAlgorithmCreateFunc(convex, fixed));
-    dispatcher_.registerCollisionCreateFunc(movable, convex,
-                                            configuration_.getCollisionAlgorithmCreateFunc(fixed, convex));
+  for (const int other : {STATIC_PLANE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, CYLINDER_SHAPE_PROXYTYPE,
+                          CONVEX_HULL_SHAPE_PROXYTYPE}) {
+    for (const auto& [a, b] : {std::pair<int, int>(GIMPACT_SHAPE_PROXYTYPE, other), {other, GIMPACT_SHAPE_PROXYTYPE}})
+      dispatcher_.registerCollisionCreateFunc(a, b, configuration_.getCollisionAlgorithmCreateFunc(a, b));
   }
   configuration_.setPlaneConvexMultipointIterations(4,
                                                     4);  // a flush face touches with its corners from the first step on
