@@ -77,7 +77,7 @@ constexpr int most_dynamic_solutions = 4;
 /// `StopExtremes.LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded`.
 constexpr int most_sweeps = 200;
 /// Contacts that are solved at once where the iterations are not done. More: where meshes touch, steps cost several
-/// times as much. Test: none: none that was tried fails.
+/// times as much. Test: none: not tried yet.
 constexpr std::size_t most_at_once = 12;
 /// Fraction of the largest load; the iterations end when no load changes by more. Goes into
 /// `Simulation.PressedOnTheBenchItStaysOutsideAndTheForkTakesUpTheDifference`.
