@@ -45,7 +45,10 @@ SPRING_WORKBENCH_INLINE void Bushing::tip_of(const S* q, const S* q_dot, TipOf<S
   out.linear_bias = zero;
 }
 
-void Bushing::tip(const double* q, const double* q_dot, TipOf<double>& out) const { tip_of(q, q_dot, out); }
+SPRING_WORKBENCH_WIDE void Bushing::one_tip(const double* q, const double* q_dot, TipOf<double>& out) const {
+  tip_of(q, q_dot, out);
+}
+void Bushing::tip(const double* q, const double* q_dot, TipOf<double>& out) const { one_tip(q, q_dot, out); }
 SPRING_WORKBENCH_WIDE void Bushing::tips(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const {
   tip_of(q, q_dot, out);
 }

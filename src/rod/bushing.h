@@ -29,6 +29,7 @@ class Bushing final : public ShapeModel {
  private:
   template <typename S>
   void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
+  void one_tip(const double* q, const double* q_dot, TipOf<double>& out) const;
   void tips(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const;
 
   StrainVector diagonal(const PerDof& per_dof, double slope) const;

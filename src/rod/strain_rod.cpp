@@ -165,7 +165,10 @@ SPRING_WORKBENCH_INLINE void StrainRod::tip_of(const S* q, const S* q_dot, TipOf
   return integrate<most_nodes>(q, q_dot, segments(angle), angle, out);
 }
 
-void StrainRod::tip(const double* q, const double* q_dot, TipOf<double>& out) const { tip_of(q, q_dot, out); }
+SPRING_WORKBENCH_WIDE void StrainRod::one_tip(const double* q, const double* q_dot, TipOf<double>& out) const {
+  tip_of(q, q_dot, out);
+}
+void StrainRod::tip(const double* q, const double* q_dot, TipOf<double>& out) const { one_tip(q, q_dot, out); }
 SPRING_WORKBENCH_WIDE void StrainRod::tips(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const {
   tip_of(q, q_dot, out);
 }

@@ -385,9 +385,9 @@ double Simulation::Impl::elastic_energy() const {
 }
 
 void Simulation::Impl::fill_parts(AdvanceReport& report) const {
-  const auto part = [&](const std::string& name, bool runs) {
-    (runs ? report.active : report.skipped).push_back(name);
-  };
+  report.active.reserve(8);
+  report.skipped.reserve(8);
+  const auto part = [&](const char* name, bool runs) { (runs ? report.active : report.skipped).emplace_back(name); };
   rod::ForkDofs run{false, false, false};
   for (const Hand& hand : hands) {
     const rod::ForkDofs of_hand = hand.dofs_run();

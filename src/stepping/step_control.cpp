@@ -51,9 +51,9 @@ struct StepControl::Span {
 struct StepControl::Tried {
   dynamics::StrainState state;
   dynamics::StepEstimate estimate{};
-  bool solved = false;
+  bool solved = false, in_range = false;           ///< in_range: of the rod
   double energy_error = 0.0, energy = 0.0;         ///< estimate of the error; what there is [J]
-  std::optional<double> energy_added{};            ///< energy_added() [J], where the state is the step's end
+  std::optional<double> energy_added{};            ///< energy_added() [J], where it was asked for
   double position_error = 0.0, angle_error = 0.0;  ///< [m], [rad]
 };
 
@@ -115,7 +115,8 @@ StepControl::Tried StepControl::try_step(const Span& span, double t, double h,
   const dynamics::HandleForcing end = body.forcing(span.handle, t + h);
   const dynamics::StrainState truth{tried.state.q - tried.estimate.q_error,
                                     tried.state.q_dot - tried.estimate.q_dot_error};
-  const motion::MotionState as_is = body.object(end, tried.state), as_should_be = body.object(end, truth);
+  // The result last: its tip is the one asked for next.
+  const motion::MotionState as_should_be = body.object(end, truth), as_is = body.object(end, tried.state);
   const double weight = body.body().mass * body.gravity();
   const auto kinetic = [&](const motion::MotionState& o) { return body.kinetic_energy(o.velocity, o.X.linear()); };
   const auto potential = [&](const motion::MotionState& o, const dynamics::StrainState& s) {
@@ -130,20 +131,24 @@ StepControl::Tried StepControl::try_step(const Span& span, double t, double h,
   tried.energy_error = std::abs(kinetic(as_is) - kinetic(as_should_be) + found - potential(as_should_be, truth) -
                                 load.force.dot(moved) - load.moment.dot(turned));
   tried.energy = std::max(kinetic(as_is) + std::abs(found), weight * body.shape().length());
-  if (!body.returning() && body.shape().admissible(body.full_state(t + h, tried.state).q)) {
-    tried.energy_added = energy_added(body, span.handle, t, h, state, tried.state);
-    // What is seen to be gained is an error, whatever the method's estimate.
-    if (!body.loaded() && !body.coupled()) tried.energy_error = std::max(tried.energy_error, *tried.energy_added);
-  }
+  tried.in_range = body.shape().admissible(body.full_state(t + h, tried.state).q);
   tried.position_error = moved.norm();
   tried.angle_error = turned.norm();
   return tried;
 }
 
+void StepControl::weigh(const Span& span, double t, double h, const dynamics::StrainState& state, Tried& tried) {
+  const dynamics::HeldBody& body = span.body;
+  if (body.returning() || !tried.in_range) return;
+  tried.energy_added = energy_added(body, span.handle, t, h, state, tried.state);
+  // What is seen to be gained is an error, whatever the method's estimate.
+  if (!body.loaded() && !body.coupled()) tried.energy_error = std::max(tried.energy_error, *tried.energy_added);
+}
+
 void StepControl::take(Span& span, double t, double h, const Tried& tried, dynamics::StrainState& state) const {
   const dynamics::HeldBody& body = span.body;
   dynamics::StrainState next = tried.state;
-  if (!body.shape().admissible(body.full_state(t + h, next).q)) {
+  if (!tried.in_range) {
     stop_at_range(body, body.forcing(span.handle, t + h), h, state, next);
     ++span.report.stops;
   }
@@ -236,23 +241,29 @@ void StepControl::end_bound(Span& span, double t, const dynamics::StrainState& s
 void StepControl::fall_back(Span& span, double t, double h, dynamics::StrainState& state) const {
   Tried tried{state};
   fallback_step(span.body, span.handle, t, h, tried.state);
+  tried.in_range = span.body.shape().admissible(span.body.full_state(t + h, tried.state).q);
   ++span.report.fallback;
   take(span, t, h, tried, state);
 }
 
 void StepControl::step_in_halves(Span& span, double t, double h, int level, dynamics::StrainState& state) const {
   span.memory.level = std::max(span.memory.level, level);
-  const Tried tried = try_step(span, t, h, state);
+  Tried tried = try_step(span, t, h, state);
   const bool shortest = level == most_halvings || !integrator_->stiffly_stable();
   const double energy = std::max(span.memory.energy, tried.energy);
   // The shortest may run into debt, which later ones pay: what comes in its place errs by far more.
   const double saved = span.memory.energy_saved, credit = shortest ? saved + most_saved : std::max(saved, 0.0);
   const double share = energy_share * (h + credit) * energy;
-  const bool fine = integrator_->energy() == dynamics::Integrator::Energy::kept ? tried.energy_error <= share
-                    : integrator_->energy() == dynamics::Integrator::Energy::dissipated
-                        ? energy_gained(span.body, span.body.forcing(span.handle, t + h), state, tried.state) <= share
-                        : true;
-  if (tried.solved && fine) return take(span, t, h, tried, state);
+  const auto fine = [&] {
+    if (integrator_->energy() == dynamics::Integrator::Energy::kept) return tried.energy_error <= share;
+    return integrator_->energy() != dynamics::Integrator::Energy::dissipated ||
+           energy_gained(span.body, span.body.forcing(span.handle, t + h), state, tried.state) <= share;
+  };
+  if (tried.solved && fine()) {
+    const double estimated = tried.energy_error;
+    weigh(span, t, h, state, tried);
+    if (tried.energy_error == estimated || fine()) return take(span, t, h, tried, state);
+  }
   if (shortest) return fall_back(span, t, h, state);
   ++span.report.substeps;
   step_in_halves(span, t, 0.5 * h, level + 1, state);
@@ -267,7 +278,7 @@ void StepControl::steps_to_tolerance(Span& span, double t, double h, dynamics::S
     const double left = end - t;
     const double dt = memory.next_h > 0.95 * left ? left : memory.next_h;
     const bool smallest = dt < 2.0 * shortest;
-    const Tried tried = try_step(span, t, dt, state);
+    Tried tried = try_step(span, t, dt, state);
     dynamics::StrainState error = memory.error;
     double growth = least_growth;
     bool good = false;
@@ -295,6 +306,7 @@ void StepControl::steps_to_tolerance(Span& span, double t, double h, dynamics::S
     if (good || smallest) {
       // A step that the span's end has cut short says nothing against a longer one.
       memory.next_h = std::max({dt < memory.next_h ? memory.next_h : 0.0, dt * growth, shortest});
+      if (tried.solved) weigh(span, t, dt, state, tried);
       tried.solved ? take(span, t, dt, tried, state) : fall_back(span, t, dt, state);
       memory.error = error;
       t += dt;

@@ -104,6 +104,8 @@ class StepControl {
   struct Tried;  ///< a step and what it says of itself
 
   Tried try_step(const Span& span, double t, double h, const dynamics::StrainState& state) const;
+  /// Takes the energy balance of a step that may be taken.
+  static void weigh(const Span& span, double t, double h, const dynamics::StrainState& state, Tried& tried);
   void take(Span& span, double t, double h, const Tried& tried, dynamics::StrainState& state) const;
   void fall_back(Span& span, double t, double h, dynamics::StrainState& state) const;
   void step_in_halves(Span& span, double t, double h, int level, dynamics::StrainState& state) const;
