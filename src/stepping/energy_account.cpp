@@ -1,6 +1,29 @@
 #include "energy_account.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/math/so3.h"
+
 namespace spring_workbench::stepping {
+
+Difference difference(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
+                      const dynamics::StrainState& state, const dynamics::StrainState& other) {
+  // The state last: its tip is the one asked for next.
+  const motion::MotionState b = body.object(handle, other), a = body.object(handle, state);
+  const double weight = body.body().mass * body.gravity();
+  const auto kinetic = [&](const motion::MotionState& o) { return body.kinetic_energy(o.velocity, o.X.linear()); };
+  const auto potential = [&](const motion::MotionState& o, const dynamics::StrainState& s) {
+    return body.elastic_energy(handle.t, s) + body.read_couplings(handle, s).springs.energy +
+           weight * (o.X.translation().z() - handle.X_WH.translation().z());
+  };
+  const double moving = kinetic(a), found = potential(a, state);
+  const Wrench& load = body.external_wrench();
+  const Vector3d moved = a.X.translation() - b.X.translation(), turned = b.X.linear() * math::turn_between(b.X, a.X);
+  return {moved.norm(), turned.norm(),
+          moving - kinetic(b) + found - potential(b, other) - load.force.dot(moved) - load.moment.dot(turned),
+          std::max(moving + std::abs(found), weight * body.shape().length())};
+}
 
 double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     const dynamics::StrainState& begin, const dynamics::StrainState& end) {

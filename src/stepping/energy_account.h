@@ -4,6 +4,15 @@
 
 namespace spring_workbench::stepping {
 
+/// How much further a state is than another one at the same moment.
+struct Difference {
+  double position = 0.0, angle = 0.0;  ///< of the object [m], [rad]
+  double energy = 0.0;                 ///< of body, fork and couplings, less the work of a constant contact load [J]
+  double present = 0.0;                ///< energy of the first state, at least its weight over the fork's length [J]
+};
+Difference difference(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
+                      const dynamics::StrainState& state, const dynamics::StrainState& other);
+
 /// Energy of body and fork after a step of `h` to `t + h` [s] beyond what hand, gravity, contact and dampers account
 /// for [J]: their work by Lobatto's rule of four points on the cubics through both ends.
 double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& handle, double t, double h,

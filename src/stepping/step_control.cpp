@@ -115,25 +115,12 @@ StepControl::Tried StepControl::try_step(const Span& span, double t, double h,
   const dynamics::HandleForcing end = body.forcing(span.handle, t + h);
   const dynamics::StrainState truth{tried.state.q - tried.estimate.q_error,
                                     tried.state.q_dot - tried.estimate.q_dot_error};
-  // The result last: its tip is the one asked for next.
-  const motion::MotionState as_should_be = body.object(end, truth), as_is = body.object(end, tried.state);
-  const double weight = body.body().mass * body.gravity();
-  const auto kinetic = [&](const motion::MotionState& o) { return body.kinetic_energy(o.velocity, o.X.linear()); };
-  const auto potential = [&](const motion::MotionState& o, const dynamics::StrainState& s) {
-    return body.elastic_energy(end.t, s) + body.read_couplings(end, s).springs.energy +
-           weight * (o.X.translation().z() - end.X_WH.translation().z());
-  };
-  const double found = potential(as_is, tried.state);
-  // The contact's load, which is constant, does work on the difference, too.
-  const Wrench& load = body.external_wrench();
-  const Vector3d moved = as_is.X.translation() - as_should_be.X.translation(),
-                 turned = as_should_be.X.linear() * math::turn_between(as_should_be.X, as_is.X);
-  tried.energy_error = std::abs(kinetic(as_is) - kinetic(as_should_be) + found - potential(as_should_be, truth) -
-                                load.force.dot(moved) - load.moment.dot(turned));
-  tried.energy = std::max(kinetic(as_is) + std::abs(found), weight * body.shape().length());
+  const Difference error = difference(body, end, tried.state, truth);
+  tried.position_error = error.position;
+  tried.angle_error = error.angle;
+  tried.energy_error = std::abs(error.energy);
+  tried.energy = error.present;
   tried.in_range = body.shape().admissible(body.full_state(t + h, tried.state).q);
-  tried.position_error = moved.norm();
-  tried.angle_error = turned.norm();
   return tried;
 }
 
