@@ -71,6 +71,22 @@ inline geometry::MeshPtr prism(const std::vector<double>& radii, double height) 
   return mesh;
 }
 
+/// A torus of 24 × 12 × 2 triangles, its corners on the surface; its axis is z.
+inline geometry::MeshPtr torus(double radius, double tube_radius) {
+  constexpr int around = 24, across = 12;
+  auto mesh = std::make_shared<geometry::TriangleMesh>();
+  const auto at = [](int i, int j) { return i % around * across + j % across; };
+  for (int i = 0; i < around; ++i) {
+    for (int j = 0; j < across; ++j) {
+      const double u = 2.0 * M_PI * i / around, v = 2.0 * M_PI * j / across, r = radius + tube_radius * std::cos(v);
+      mesh->vertices.emplace_back(r * std::cos(u), r * std::sin(u), tube_radius * std::sin(v));
+      mesh->triangles.emplace_back(at(i, j), at(i + 1, j), at(i + 1, j + 1));
+      mesh->triangles.emplace_back(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+    }
+  }
+  return mesh;
+}
+
 /// A movable one of uniform density.
 inline scene::Body uniform(const std::string& name, const geometry::Geometry& geometry, const RigidTransform& X_WO,
                            double friction, double mass) {

@@ -8,8 +8,13 @@
 #include <sstream>
 
 #include "benchmark/contact/bodies.h"
+#include "benchmark/contact/card_house.h"
 #include "benchmark/contact/drops.h"
+#include "benchmark/contact/marbles.h"
+#include "benchmark/contact/piles.h"
+#include "benchmark/contact/rings.h"
 #include "benchmark/contact/scale.h"
+#include "benchmark/contact/shown.h"
 #include "benchmark/contact/throws.h"
 #include "benchmark/contact/wild_motions.h"
 #include "spring_workbench/validation/number_rule.h"
@@ -129,10 +134,51 @@ void run_scale(int most, std::ostream& out) {
   }
 }
 
+/// Those without seeds, whole or quick.
+const std::map<std::string, void (*)(bool quick, const TakeRow& take)>& trials() {
+  static const std::map<std::string, void (*)(bool, const TakeRow&)> all{
+      {"pile", run_piles}, {"stack", run_stacks}, {"cards", run_card_houses}, {"marbles", run_marbles}};
+  return all;
+}
+
+/// Those of seeds first … first + count − 1.
+const std::map<std::string, void (*)(int count, int first, const TakeRow& take)>& seeded_trials() {
+  static const std::map<std::string, void (*)(int, int, const TakeRow&)> all{{"rings", run_rings},
+                                                                             {"chain", run_chains}};
+  return all;
+}
+
+/// What can be looked at.
+ContactTrial shown_trial(const std::string& name) {
+  const std::map<std::string, std::function<ContactTrial()>> all{{"pile", [] { return pushed_pile(5, 4, 0.02); }},
+                                                                 {"stack", [] { return standing_stack(1e3, 60.0); }},
+                                                                 {"cards", [] { return card_house(false, 10.0); }},
+                                                                 {"drawn_card", [] { return card_house(true, 2.5); }},
+                                                                 {"marbles", [] { return tilted_marbles(1000, 5.0); }},
+                                                                 {"rings", [] { return rings_on_peg(0); }},
+                                                                 {"chain", [] { return swung_chain(0); }}};
+  const auto found = all.find(name);
+  if (found == all.end()) validation::refuse(where, "trial", name, "one that can be shown");
+  return found->second();
+}
+
 }  // namespace
 
 void run_contact_trials(const std::vector<std::string>& arguments, std::ostream& out) {
   const std::string what = arguments.empty() ? "" : arguments[0];
+  const bool quick = arguments.size() == 2 && arguments[1] == "quick";
+  const TakeRow to_out = [&](const TrialRow& row) { print(row, out); };
+  if (trials().count(what) > 0 && (arguments.size() == 1 || quick)) {
+    print_trial_header(out);
+    return trials().at(what)(quick, to_out);
+  }
+  if (what == "show" && arguments.size() == 3) {
+    return show(shown_trial(arguments[1]), 1e-3 * count_at(arguments, 2, 0), out);
+  }
+  if (seeded_trials().count(what) > 0 && arguments.size() <= 3) {
+    print_trial_header(out);
+    return seeded_trials().at(what)(count_at(arguments, 1, 100), count_at(arguments, 2, 0), to_out);
+  }
   if (what == "wild" && arguments.size() <= 5) {
     run_wild(count_at(arguments, 1, 100), count_at(arguments, 2, 0), scenes_at(arguments, 3), modes_at(arguments, 4),
              out);
@@ -149,7 +195,8 @@ void run_contact_trials(const std::vector<std::string>& arguments, std::ostream&
     validation::refuse(
         where, "arguments", what,
         "wild [N [FIRST_SEED [SCENE [CONTACT]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED, drops [N "
-        "[FIRST_SEED]], throws [N [FIRST_SEED]], or scale [MOST]");
+        "[FIRST_SEED]], throws [N [FIRST_SEED]], scale [MOST], pile|stack|cards|marbles [quick], rings|chain [N "
+        "[FIRST_SEED]], or show TRIAL MILLISECONDS");
   }
 }
 

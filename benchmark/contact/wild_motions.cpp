@@ -6,6 +6,7 @@
 #include <random>
 #include <stdexcept>
 
+#include "benchmark/contact/bodies.h"
 #include "benchmark/contact/processor_time.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/simulation/simulation.h"
@@ -20,52 +21,8 @@ const Vector3d middle(0.0, 0.0, 1.0);                     // of the scene, m
 const Vector3d rod_size(0.3, 0.01, 0.01);                 // m
 constexpr double room = 0.25, wall = 0.001;               // m: from the middle to a wall's middle, its thickness
 constexpr double ring_radius = 0.05, tube_radius = 0.01;  // m
-constexpr int ring_segments = 24, tube_segments = 12;
+constexpr double friction = 0.3;
 constexpr double pin_radius = 0.005, pin_length = 4.0;  // m, of the rod through the ring
-
-scene::Body fixed(const std::string& name, const geometry::Geometry& geometry, const RigidTransform& X_WO) {
-  scene::Body body;
-  body.name = name;
-  body.X_WO = X_WO;
-  body.material.friction = 0.3;
-  body.collision.push_back({geometry});
-  return body;
-}
-
-scene::Body movable(const std::string& name, const geometry::Geometry& geometry, const RigidTransform& X_WO,
-                    double mass, const Vector3d& principal) {
-  scene::Body body = fixed(name, geometry, X_WO);
-  body.movable = true;
-  body.mass_properties.mass = mass;
-  body.mass_properties.inertia_O = principal.asDiagonal();
-  return body;
-}
-
-Vector3d ring_point(int around, int across) {
-  const double u = 2.0 * M_PI * around / ring_segments, v = 2.0 * M_PI * across / tube_segments;
-  const double r = ring_radius + tube_radius * std::cos(v);
-  return Vector3d(r * std::cos(u), r * std::sin(u), tube_radius * std::sin(v));
-}
-
-geometry::MeshPtr ring_mesh() {
-  auto mesh = std::make_shared<geometry::TriangleMesh>();
-  for (int i = 0; i < ring_segments; ++i) {
-    for (int j = 0; j < tube_segments; ++j) mesh->vertices.push_back(ring_point(i, j));
-  }
-  const auto at = [](int i, int j) { return i % ring_segments * tube_segments + j % tube_segments; };
-  for (int i = 0; i < ring_segments; ++i) {
-    for (int j = 0; j < tube_segments; ++j) {
-      mesh->triangles.emplace_back(at(i, j), at(i + 1, j), at(i + 1, j + 1));
-      mesh->triangles.emplace_back(at(i, j), at(i + 1, j + 1), at(i, j + 1));
-    }
-  }
-  return mesh;
-}
-
-Vector3d box_inertia(double mass, const Vector3d& size) {
-  const Vector3d s = size.cwiseAbs2();
-  return mass / 12.0 * Vector3d(s.y() + s.z(), s.x() + s.z(), s.x() + s.y());
-}
 
 RigidTransform at_middle(const Matrix3d& R = Matrix3d::Identity()) {
   RigidTransform X = RigidTransform::Identity();
@@ -103,7 +60,7 @@ bool linked(const RigidTransform& X_AR) {
 
 struct Setting {
   scene::Scene scene;
-  geometry::MeshPtr ring = ring_mesh();
+  geometry::MeshPtr ring = torus(ring_radius, tube_radius);
   RigidTransform X_WF = at_middle();  // of the room or the pin
 };
 
@@ -115,19 +72,19 @@ Setting set_scene(const WildMotion& motion, const Matrix3d& R_scene, const Matri
   const double mass = 0.3;
   if (motion.scene == WildScene::rod_in_room) {
     s.scene.bodies.push_back(
-        movable("held", geometry::Box{rod_size}, at_middle(R_held), mass, box_inertia(mass, rod_size)));
+        movable("held", geometry::Box{rod_size}, at_middle(R_held), friction, mass, box_inertia(mass, rod_size)));
     for (int axis = 0; axis < 3; ++axis) {
       for (const double side : {-room, room}) {
         Vector3d size = Vector3d::Constant(2.0 * room + 0.1), p = Vector3d::Zero();
         size[axis] = wall;
         p[axis] = side;
-        s.scene.bodies.push_back(fixed("wall" + std::to_string(s.scene.bodies.size()), geometry::Box{size},
-                                       s.X_WF * Eigen::Translation3d(p)));
+        s.scene.bodies.push_back(standing("wall" + std::to_string(s.scene.bodies.size()), geometry::Box{size},
+                                          s.X_WF * Eigen::Translation3d(p), friction));
       }
     }
   } else {
-    s.scene.bodies.push_back(movable("held", s.ring, s.X_WF, mass, mass * Vector3d(1.5e-3, 1.5e-3, 3e-3)));
-    s.scene.bodies.push_back(fixed("pin", geometry::Cylinder{pin_radius, pin_length}, s.X_WF));
+    s.scene.bodies.push_back(movable("held", s.ring, s.X_WF, friction, mass, mass * Vector3d(1.5e-3, 1.5e-3, 3e-3)));
+    s.scene.bodies.push_back(standing("pin", geometry::Cylinder{pin_radius, pin_length}, s.X_WF, friction));
     s.scene.bench_height = -10.0;
   }
   return s;

@@ -1,0 +1,65 @@
+// Small parts of what `contact_trials` runs: what holds of them. The whole tables are in README.md here.
+#include <gtest/gtest.h>
+
+#include "benchmark/contact/card_house.h"
+#include "benchmark/contact/marbles.h"
+#include "benchmark/contact/piles.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+/// Of the pose that is furthest from its start [m].
+double moved(const TrialRun& run) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < run.start().size(); ++i) {
+    const bodies::BodyState& now = run.simulation().objects()[i];
+    if (!now.held) most = std::max(most, (now.X_WO.translation() - run.start()[i].X_WO.translation()).norm());
+  }
+  return most;
+}
+
+void expect_sound(const TrialRun& run) {
+  const Measured m = run.measured();
+  EXPECT_TRUE(m.finite && m.to_the_end);
+  EXPECT_LE(m.deepest.depth, 1e-4) << m.deepest.first << " in " << m.deepest.second;
+  EXPECT_EQ(m.steps_blocked, 0);
+  EXPECT_EQ(m.time_lost, 0.0);
+  EXPECT_EQ(m.steps_rejected, 0);
+  EXPECT_LE(m.gained_height, 3e-6);
+}
+
+TEST(ContactTrials, APileIsPushed) {
+  TrialRun run(pushed_pile(2, 2, 0.02));
+  while (run.advance()) continue;
+  expect_sound(run);
+  for (std::size_t i = 0; i < run.start().size(); ++i) {
+    const Vector3d way = run.simulation().objects()[i].X_WO.translation() - run.start()[i].X_WO.translation();
+    EXPECT_NEAR(way.x(), 0.05, 2e-3) << run.start()[i].name;  // the gaps, and what the fork gives way
+  }
+}
+
+TEST(ContactTrials, AStackStandsAwake) {
+  TrialRun run(standing_stack(1.0, 0.6));
+  while (run.advance()) {
+    for (const bodies::BodyState& o : run.simulation().objects()) EXPECT_TRUE(run.time() < 0.1 || !o.asleep);
+  }
+  expect_sound(run);
+  EXPECT_LE(moved(run), 1e-5);
+}
+
+TEST(ContactTrials, ACardHouseStands) {
+  TrialRun run(card_house(false, 0.4));
+  while (run.advance()) continue;
+  expect_sound(run);
+  EXPECT_LE(moved(run), 2e-4);
+}
+
+TEST(ContactTrials, MarblesStayInTheirTray) {
+  TrialRun run(tilted_marbles(18, 0.2));
+  while (run.advance()) continue;
+  expect_sound(run);
+  EXPECT_LE(moved(run), 0.02);
+}
+
+}  // namespace
+}  // namespace spring_workbench::benchmark
