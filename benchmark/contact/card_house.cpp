@@ -66,7 +66,7 @@ ContactTrial card_house(bool pulled, double duration) {
   trial.X_WH = [=](double t) {
     return hand_above(p + (pulled ? minimum_jerk(t / pull_time) * pull : 0.0) * Vector3d::UnitY(), fork);
   };
-  trial.kept_awake = !pulled;
+  trial.woken_until = pulled ? 0.0 : duration;
   trial.rests_from = pulled ? pull_time : 0.0;
   trial.duration = duration;
   return trial;

@@ -119,7 +119,7 @@ ContactTrial standing_stack(double ratio, double duration) {
   trial.settings.fork.shape = rod::ShapeKind::bushing;
   const double length = trial.settings.fork.length;
   trial.X_WH = [length](double) { return hand_above(place_in_stack(stacked - 1), length); };
-  trial.kept_awake = true;
+  trial.woken_until = duration;
   trial.rests_from = 0.0;
   trial.duration = duration;
   return trial;

@@ -71,7 +71,7 @@ TrialRun::TrialRun(const ContactTrial& trial)
   hardest_ = weight_;
   const int samples = static_cast<int>(std::lround(trial_.duration / interval_));
   for (int i = 0; i <= samples; ++i) simulation_.push_stylus({interval_ * i, trial_.X_WH(interval_ * i)});
-  for (double t = 0.0; trial_.kept_awake && t < trial_.duration; t += take_every) {
+  for (double t = 0.0; t < trial_.woken_until; t += take_every) {
     simulation_.push_button(t, true);
     simulation_.push_button(t + sample_time, false);
   }

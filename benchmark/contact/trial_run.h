@@ -19,7 +19,7 @@ struct ContactTrial {
   std::function<RigidTransform(double t)> X_WH;  ///< the hand; sampled at 50 Hz, or at the step where that is longer
   double duration = 0.0;                         ///< [s]
   double rests_from = std::numeric_limits<double>::infinity();  ///< the hand does not move any more [s]
-  bool kept_awake = false;  ///< with no `grasp.object`: what the tip is in is taken for 20 ms every 0.14 s
+  double woken_until = 0.0;  ///< with no `grasp.object`: what the tip is in is taken for 20 ms every 0.14 s [s]
 };
 
 /// What every case is measured by. Depths are taken at the ends of steps, the finest that a user of Simulation sees.

@@ -10,12 +10,16 @@
 #include "benchmark/contact/bodies.h"
 #include "benchmark/contact/card_house.h"
 #include "benchmark/contact/drops.h"
+#include "benchmark/contact/exact_motions.h"
 #include "benchmark/contact/marbles.h"
+#include "benchmark/contact/pegs.h"
 #include "benchmark/contact/piles.h"
 #include "benchmark/contact/rings.h"
+#include "benchmark/contact/same_bits.h"
 #include "benchmark/contact/scale.h"
 #include "benchmark/contact/shown.h"
 #include "benchmark/contact/throws.h"
+#include "benchmark/contact/wedge.h"
 #include "benchmark/contact/wild_motions.h"
 #include "spring_workbench/validation/number_rule.h"
 
@@ -137,7 +141,9 @@ void run_scale(int most, std::ostream& out) {
 /// Those without seeds, whole or quick.
 const std::map<std::string, void (*)(bool quick, const TakeRow& take)>& trials() {
   static const std::map<std::string, void (*)(bool, const TakeRow&)> all{
-      {"pile", run_piles}, {"stack", run_stacks}, {"cards", run_card_houses}, {"marbles", run_marbles}};
+      {"pile", run_piles},      {"stack", run_stacks},     {"cards", run_card_houses},
+      {"marbles", run_marbles}, {"peg", run_pegs},         {"wedge", run_wedges},
+      {"motion", run_motions},  {"incline", run_inclines}, {"bits", run_same_bits}};
   return all;
 }
 
@@ -150,13 +156,16 @@ const std::map<std::string, void (*)(int count, int first, const TakeRow& take)>
 
 /// What can be looked at.
 ContactTrial shown_trial(const std::string& name) {
-  const std::map<std::string, std::function<ContactTrial()>> all{{"pile", [] { return pushed_pile(5, 4, 0.02); }},
-                                                                 {"stack", [] { return standing_stack(1e3, 60.0); }},
-                                                                 {"cards", [] { return card_house(false, 10.0); }},
-                                                                 {"drawn_card", [] { return card_house(true, 2.5); }},
-                                                                 {"marbles", [] { return tilted_marbles(1000, 5.0); }},
-                                                                 {"rings", [] { return rings_on_peg(0); }},
-                                                                 {"chain", [] { return swung_chain(0); }}};
+  const std::map<std::string, std::function<ContactTrial()>> all{
+      {"pile", [] { return pushed_pile(5, 4, 0.02); }},
+      {"stack", [] { return standing_stack(1e3, 60.0); }},
+      {"cards", [] { return card_house(false, 10.0); }},
+      {"drawn_card", [] { return card_house(true, 2.5); }},
+      {"marbles", [] { return tilted_marbles(1000, 5.0); }},
+      {"rings", [] { return rings_on_peg(0); }},
+      {"chain", [] { return swung_chain(0); }},
+      {"peg", [] { return peg_in_hole(true, scene::ContactMode::dynamic); }},
+      {"wedge", [] { return driven_wedge(0.3); }}};
   const auto found = all.find(name);
   if (found == all.end()) validation::refuse(where, "trial", name, "one that can be shown");
   return found->second();
@@ -195,7 +204,8 @@ void run_contact_trials(const std::vector<std::string>& arguments, std::ostream&
     validation::refuse(
         where, "arguments", what,
         "wild [N [FIRST_SEED [SCENE [CONTACT]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED, drops [N "
-        "[FIRST_SEED]], throws [N [FIRST_SEED]], scale [MOST], pile|stack|cards|marbles [quick], rings|chain [N "
+        "[FIRST_SEED]], throws [N [FIRST_SEED]], scale [MOST], pile|stack|cards|marbles|peg|wedge|motion|incline|bits "
+        "[quick], rings|chain [N "
         "[FIRST_SEED]], or show TRIAL MILLISECONDS");
   }
 }

@@ -12,8 +12,9 @@ namespace spring_workbench::benchmark {
 /// - `contact_trials drops [N [FIRST_SEED]]`: N (default 100) seeded things let go above the bench, in both modes
 /// - `contact_trials throws [N [FIRST_SEED]]`: N (default 100) seeded things thrown at a thin wall, fixed and loose
 /// - `contact_trials scale [MOST]`: 10, 100, … MOST (default 10,000) resting objects in every contact mode
-/// - `contact_trials pile|stack|cards|marbles [quick]`, `contact_trials rings|chain [N [FIRST_SEED]]`: a row for each
-///   case (`ContactTrial`), with its figures beside their bars
+/// - `contact_trials pile|stack|cards|marbles|peg|wedge|motion|incline|bits [quick]`: a row for each case
+///   (`ContactTrial`), with its figures beside their bars
+/// - `contact_trials rings|chain [N [FIRST_SEED]]`: likewise, for N (default 100) seeds
 /// - `contact_trials show TRIAL MILLISECONDS`: its shapes at that time, for plot_scene.py
 /// Throws InputError for other arguments.
 void run_contact_trials(const std::vector<std::string>& arguments, std::ostream& out);

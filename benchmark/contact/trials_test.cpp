@@ -2,8 +2,11 @@
 #include <gtest/gtest.h>
 
 #include "benchmark/contact/card_house.h"
+#include "benchmark/contact/exact_motions.h"
 #include "benchmark/contact/marbles.h"
+#include "benchmark/contact/pegs.h"
 #include "benchmark/contact/piles.h"
+#include "benchmark/contact/same_bits.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -60,6 +63,25 @@ TEST(ContactTrials, MarblesStayInTheirTray) {
   expect_sound(run);
   EXPECT_LE(moved(run), 0.02);
 }
+
+TEST(ContactTrials, APegOfABoxGoesInWithATenthOfAMillimetre) {
+  for (const scene::ContactMode contact : {scene::ContactMode::stop, scene::ContactMode::dynamic}) {
+    TrialRun run(peg_in_hole(false, contact));
+    while (run.advance()) continue;
+    expect_sound(run);
+    EXPECT_LE(run.measured().deepest.depth, 1e-5);
+    EXPECT_LE(run.pose("held").translation().z() - run.start()[0].X_WO.translation().z(), -0.03);
+  }
+}
+
+void expect_to_hold(const TrialRow& row) {
+  EXPECT_TRUE(row.holds()) << row.trial << ' ' << row.name << ' ' << row.contact << ": "
+                           << (row.bars.empty() ? 0.0 : row.bars[0].measured);
+}
+
+TEST(ContactTrials, InclinesHoldBelowTheAngleOfFriction) { run_inclines(true, expect_to_hold); }
+
+TEST(ContactTrials, TheSameCallsGiveTheSameBits) { run_same_bits(true, expect_to_hold); }
 
 }  // namespace
 }  // namespace spring_workbench::benchmark
