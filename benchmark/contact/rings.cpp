@@ -41,47 +41,6 @@ bool linked(const RigidTransform& X_AB, double radius) {
   return inside == 1;
 }
 
-/// The rows of seeds: each that misses a bar, and the sum.
-class Seeds {
- public:
-  explicit Seeds(const TakeRow& take) : take_(take) {}
-  void add(const TrialRow& row) {
-    if (!row.holds()) take_(row);
-    if (++count_ == 1) {
-      sum_ = row;
-      return;
-    }
-    Measured& m = sum_.measured;
-    const Measured& n = row.measured;
-    m.finite = m.finite && n.finite;
-    if (n.deepest.depth > m.deepest.depth) m.deepest = n.deepest;
-    m.to_the_end = m.to_the_end && n.to_the_end;
-    m.looks += n.looks;
-    m.steps_blocked += n.steps_blocked;
-    m.time_lost += n.time_lost;
-    m.steps_rejected += n.steps_rejected;
-    m.cpu_mean += (n.cpu_mean - m.cpu_mean) / count_;
-    m.cpu_99 = std::max(m.cpu_99, n.cpu_99);
-    m.cpu_most = std::max(m.cpu_most, n.cpu_most);
-    m.energy_gained = std::max(m.energy_gained, n.energy_gained);
-    m.gained_height = std::max(m.gained_height, n.gained_height);
-  }
-  /// Its bars are of the sum, with these first.
-  void finish(const std::string& name, int lost, const std::string& what, double mean_bar) {
-    if (count_ == 0) return;
-    sum_.name = std::to_string(count_) + ' ' + name;
-    const Measured& m = sum_.measured;
-    sum_.bars = {at_most(what, lost, 0.0), depth_bar(m), blocked_bar(m), rejected_bar(m),
-                 at_most("mean", 1e3 * m.cpu_mean, 1e3 * mean_bar, "ms")};
-    take_(sum_);
-  }
-
- private:
-  const TakeRow& take_;
-  TrialRow sum_;
-  int count_ = 0;
-};
-
 }  // namespace
 
 ContactTrial rings_on_peg(unsigned seed) {
@@ -127,7 +86,7 @@ ContactTrial rings_on_peg(unsigned seed) {
 }
 
 void run_rings(int count, int first, const TakeRow& take) {
-  Seeds seeds(take);
+  TrialSum sum;
   int lost = 0;
   for (int seed = first; seed < first + count; ++seed) {
     TrialRun run(rings_on_peg(static_cast<unsigned>(seed)));
@@ -141,9 +100,10 @@ void run_rings(int count, int first, const TakeRow& take) {
     }
     lost += off ? 1 : 0;
     const Measured m = run.measured();
-    seeds.add(run.row({at_most("off the peg", off, 0.0), depth_bar(m), blocked_bar(m), rejected_bar(m)}));
+    take(sum.add(run.row({at_most("off the peg", off, 0.0), depth_bar(m), blocked_bar(m), rejected_bar(m)})));
   }
-  seeds.finish("wild motions", lost, "with a ring off the peg", 0.02);
+  take(sum.row("wild motions", {at_most("with a ring off the peg", lost, 0.0),
+                                at_most("mean", 1e3 * sum.measured().cpu_mean, 20.0, "ms")}));
 }
 
 ContactTrial swung_chain(unsigned seed) {
@@ -178,7 +138,7 @@ ContactTrial swung_chain(unsigned seed) {
 }
 
 void run_chains(int count, int first, const TakeRow& take) {
-  Seeds seeds(take);
+  TrialSum sum;
   int lost = 0;
   for (int seed = first; seed < first + count; ++seed) {
     TrialRun run(swung_chain(static_cast<unsigned>(seed)));
@@ -192,9 +152,9 @@ void run_chains(int count, int first, const TakeRow& take) {
     }
     lost += apart ? 1 : 0;
     const Measured m = run.measured();
-    seeds.add(run.row({at_most("unlinked", apart, 0.0), depth_bar(m), blocked_bar(m), rejected_bar(m)}));
+    take(sum.add(run.row({at_most("unlinked", apart, 0.0), depth_bar(m), blocked_bar(m), rejected_bar(m)})));
   }
-  seeds.finish("swings", lost, "unlinked", 0.04);
+  take(sum.row("swings", {at_most("unlinked", lost, 0.0), at_most("mean", 1e3 * sum.measured().cpu_mean, 40.0, "ms")}));
 }
 
 }  // namespace spring_workbench::benchmark

@@ -12,9 +12,8 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double sample_time = 0.02;   // s
-constexpr double most_seconds = 60.0;  // of processor time, for a case
-constexpr double take_every = 0.14;    // s, shorter than it takes a slow one to fall asleep
+constexpr double sample_time = 0.02;  // s
+constexpr double take_every = 0.14;   // s, shorter than it takes a slow one to fall asleep
 
 }  // namespace
 
@@ -97,7 +96,7 @@ bool TrialRun::advance() {
   spent_ += spent;
   measured_.simulated = time_;
   measured_.to_the_end = time_ > trial_.duration - 0.5 * interval_;
-  return !measured_.to_the_end && spent_ < most_seconds;
+  return !measured_.to_the_end && spent_ < trial_.most_seconds;
 }
 
 std::vector<RigidTransform> TrialRun::poses() const {
@@ -163,6 +162,39 @@ Measured TrialRun::measured() const {
 TrialRow TrialRun::row(std::vector<Bar> bars) const {
   return {trial_.trial, trial_.name,    name_of(trial_.scene.contact), trial_.settings.dynamics.step,
           measured(),   std::move(bars)};
+}
+
+const TrialRow& TrialSum::add(const TrialRow& row) {
+  if (++count_ == 1) {
+    sum_ = row;
+    return row;
+  }
+  Measured& m = sum_.measured;
+  const Measured& n = row.measured;
+  m.finite = m.finite && n.finite;
+  m.to_the_end = m.to_the_end && n.to_the_end;
+  m.simulated = std::min(m.simulated, n.simulated);
+  if (n.deepest.depth > m.deepest.depth) m.deepest = n.deepest;
+  m.looks += n.looks;
+  m.steps_blocked += n.steps_blocked;
+  m.time_lost += n.time_lost;
+  m.steps_rejected += n.steps_rejected;
+  m.cpu_mean += (n.cpu_mean - m.cpu_mean) / count_;
+  m.cpu_99 = std::max(m.cpu_99, n.cpu_99);
+  m.cpu_most = std::max(m.cpu_most, n.cpu_most);
+  m.energy_gained = std::max(m.energy_gained, n.energy_gained);
+  m.gained_height = std::max(m.gained_height, n.gained_height);
+  return row;
+}
+
+TrialRow TrialSum::row(const std::string& name, std::vector<Bar> bars) const {
+  TrialRow row = sum_;
+  row.name = std::to_string(count_) + ' ' + name;
+  row.bars = std::move(bars);
+  for (const Bar& bar : {depth_bar(row.measured), blocked_bar(row.measured), rejected_bar(row.measured)}) {
+    row.bars.push_back(bar);
+  }
+  return row;
 }
 
 void print_trial_header(std::ostream& out) {

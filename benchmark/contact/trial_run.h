@@ -19,6 +19,7 @@ struct ContactTrial {
   std::function<RigidTransform(double t)> X_WH;  ///< the hand; sampled at 50 Hz, or at the step where that is longer
   double duration = 0.0;                         ///< [s]
   double rests_from = std::numeric_limits<double>::infinity();  ///< the hand does not move any more [s]
+  double most_seconds = 60.0;                                   ///< of processor time; after them it is given up
   double woken_until = 0.0;  ///< with no `grasp.object`: what the tip is in is taken for 20 ms every 0.14 s [s]
 };
 
@@ -69,7 +70,7 @@ class TrialRun {
   TrialRun(const TrialRun&) = delete;
   TrialRun& operator=(const TrialRun&) = delete;
 
-  /// One more sample of the hand; false at the end, where a state is not finite, and after a minute of processor
+  /// One more sample of the hand; false at the end, where a state is not finite, and after `most_seconds` of processor
   /// time: what takes as long is told in `Measured::simulated` and does not hold.
   bool advance();
   double time() const { return time_; }
@@ -95,6 +96,21 @@ class TrialRun {
   double interval_, time_ = 0.0, spent_ = 0.0, weight_ = 0.0, hardest_ = 0.0,
                     lowest_ = std::numeric_limits<double>::infinity();
   int sample_ = 0;
+};
+
+/// The largest figures of many cases, the sums of their counts, and the mean of their times.
+class TrialSum {
+ public:
+  /// The same row, which has been added.
+  const TrialRow& add(const TrialRow& row);
+  const Measured& measured() const { return sum_.measured; }
+  int count() const { return count_; }
+  /// Of all: "N NAME", with these bars and those of depth, blocked and rejected steps.
+  TrialRow row(const std::string& name, std::vector<Bar> bars) const;
+
+ private:
+  TrialRow sum_;
+  int count_ = 0;
 };
 
 void print_trial_header(std::ostream& out);

@@ -14,7 +14,7 @@ namespace spring_workbench::benchmark {
 /// - `contact_trials scale [MOST]`: 10, 100, … MOST (default 10,000) resting objects in every contact mode
 /// - `contact_trials pile|stack|cards|marbles|peg|wedge|motion|incline|bits [quick]`: a row for each case
 ///   (`ContactTrial`), with its figures beside their bars
-/// - `contact_trials rings|chain [N [FIRST_SEED]]`: likewise, for N (default 100) seeds
+/// - `contact_trials rings|chain|map [N [FIRST]]`: likewise, for N (default 100) seeds or cells, and all together
 /// - `contact_trials show TRIAL MILLISECONDS`: its shapes at that time, for plot_scene.py
 /// Throws InputError for other arguments.
 void run_contact_trials(const std::vector<std::string>& arguments, std::ostream& out);
