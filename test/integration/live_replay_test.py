@@ -39,7 +39,7 @@ from spring_workbench.srv import (
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
-from stack import DEADLINE, DOWN, Listener, stylus_transform, wait_for
+from stack import DEADLINE, DOWN, Listener, services_of_manipulation, stylus_transform, wait_for
 
 SEEDS = int(os.environ.get("LIVE_SEEDS", "3"))
 DURATION = 6.0  # [s] of a run
@@ -119,23 +119,22 @@ class TwoHands:
 class Services:
     def __init__(self, seed):
         self.random = random.Random(1000 + seed)
-        kinds = {
-            "select_tool": SelectTool,
-            "set_dofs": SetForkDofs,
-            "set_stiffness": SetForkStiffness,
-            "set_damping": SetForkDamping,
-            "set_integrator": SetIntegrator,
-            "load_scene": LoadScene,
-            "reset": Trigger,
-            "undo": Trigger,
-            "edit_object": EditObject,
-            "release": Release,
-            "calibrate": Calibrate,
-            "clutch": SetClutch,
-        }
-        for name in kinds:
-            rospy.wait_for_service("manipulation/" + name, DEADLINE)
-        self.call = {n: rospy.ServiceProxy("manipulation/" + n, kind) for n, kind in kinds.items()}
+        self.call = services_of_manipulation(
+            {
+                "select_tool": SelectTool,
+                "set_dofs": SetForkDofs,
+                "set_stiffness": SetForkStiffness,
+                "set_damping": SetForkDamping,
+                "set_integrator": SetIntegrator,
+                "load_scene": LoadScene,
+                "reset": Trigger,
+                "undo": Trigger,
+                "edit_object": EditObject,
+                "release": Release,
+                "calibrate": Calibrate,
+                "clutch": SetClutch,
+            }
+        )
         self.panel = Client("manipulation/live", timeout=DEADLINE)
 
     def add_or_remove(self):

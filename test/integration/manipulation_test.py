@@ -34,7 +34,6 @@ from tf2_msgs.msg import TFMessage
 from visualization_msgs.msg import Marker, MarkerArray
 
 from stack import (
-    DEADLINE,
     DOWN,
     Hand,
     Listener,
@@ -42,6 +41,7 @@ from stack import (
     diagnostics_listener,
     product,
     quaternion,
+    services_of_manipulation,
     stylus_transform,
     wait_for,
 )
@@ -58,22 +58,21 @@ LIFTED = (0.03, 0.0, 0.30 + LENGTH)
 class Manipulation(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.services = {}
-        for name, kind in [
-            ("set_dofs", SetForkDofs),
-            ("set_stiffness", SetForkStiffness),
-            ("set_damping", SetForkDamping),
-            ("set_integrator", SetIntegrator),
-            ("load_scene", LoadScene),
-            ("calibrate", Calibrate),
-            ("reset", Trigger),
-            ("undo", Trigger),
-            ("edit_object", EditObject),
-            ("save_scene", SaveScene),
-            ("release", Release),
-        ]:
-            rospy.wait_for_service("manipulation/" + name, DEADLINE)
-            cls.services[name] = rospy.ServiceProxy("manipulation/" + name, kind)
+        cls.services = services_of_manipulation(
+            {
+                "set_dofs": SetForkDofs,
+                "set_stiffness": SetForkStiffness,
+                "set_damping": SetForkDamping,
+                "set_integrator": SetIntegrator,
+                "load_scene": LoadScene,
+                "calibrate": Calibrate,
+                "reset": Trigger,
+                "undo": Trigger,
+                "edit_object": EditObject,
+                "save_scene": SaveScene,
+                "release": Release,
+            }
+        )
         cls.objects = Listener("manipulation/objects", ObjectStates)
         cls.fork = Listener("manipulation/fork", ForkState)
         cls.wrench = Listener("manipulation/wrench", WrenchStamped)

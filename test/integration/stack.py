@@ -72,6 +72,13 @@ class Listener:
         )
 
 
+def services_of_manipulation(kinds):
+    """Proxies of these services (name -> kind) by their names, once the node has them all."""
+    for name in kinds:
+        rospy.wait_for_service("manipulation/" + name, DEADLINE)
+    return {name: rospy.ServiceProxy("manipulation/" + name, kind) for name, kind in kinds.items()}
+
+
 def diagnostic_values(messages, name_part):
     """Key -> value of the newest status whose name contains the part."""
     for message in reversed(messages):

@@ -14,7 +14,16 @@ from spring_workbench.srv import Calibrate, Release, SelectTool, SetClutch, SetF
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
-from stack import DEADLINE, DOWN, Hand, Listener, diagnostic_values, diagnostics_listener, stylus_transform, wait_for
+from stack import (
+    DOWN,
+    Hand,
+    Listener,
+    diagnostic_values,
+    diagnostics_listener,
+    services_of_manipulation,
+    stylus_transform,
+    wait_for,
+)
 
 LENGTH, WEIGHT, FORCE_SCALE = 0.2, 9.81, 4.0
 IN_BOX, LIFTED, AWAY = (0.02, 0.0, 0.02 + LENGTH), (0.02, 0.0, 0.30 + LENGTH), (0.02, 0.3, 0.30 + LENGTH)
@@ -48,17 +57,16 @@ class Hands(Hand):
 class Tools(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        cls.services = {}
-        for name, kind in [
-            ("select_tool", SelectTool),
-            ("set_stiffness", SetForkStiffness),
-            ("reset", Trigger),
-            ("calibrate", Calibrate),
-            ("release", Release),
-            ("clutch", SetClutch),
-        ]:
-            rospy.wait_for_service("manipulation/" + name, DEADLINE)
-            cls.services[name] = rospy.ServiceProxy("manipulation/" + name, kind)
+        cls.services = services_of_manipulation(
+            {
+                "select_tool": SelectTool,
+                "set_stiffness": SetForkStiffness,
+                "reset": Trigger,
+                "calibrate": Calibrate,
+                "release": Release,
+                "clutch": SetClutch,
+            }
+        )
         cls.objects = Listener("manipulation/objects", ObjectStates)
         cls.fork = Listener("manipulation/fork", ForkState)
         cls.fork_2 = Listener("manipulation/fork_2", ForkState)
