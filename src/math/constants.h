@@ -7,8 +7,8 @@ namespace spring_workbench::math {
 /// Of the interior point method, which takes some twenty. Test: FrictionCones.KeepCoulombsLawHoweverUnlikeTheMassesAre
 /// at 10.
 constexpr int most_iterations = 100;
-/// Of the rates and impulses, both scaled to 1, to which the law is kept. Larger: less exact. Test: none: no value
-/// tried makes one fail.
+/// Of the rates and impulses, both scaled to 1, to which the law is kept. Larger: less exact. Test:
+/// FrictionCones.KeepCoulombsLawHoweverUnlikeTheMassesAre at 1.
 constexpr double solved = 1e-11;
 /// Likewise, where no iteration comes nearer; what is further off is refused. Test:
 /// FrictionCones.KeepCoulombsLawHoweverUnlikeTheMassesAre at 1e-4.

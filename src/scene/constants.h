@@ -21,14 +21,15 @@ constexpr int most_nesting = 64;
 /// LoadScene.RefusesHostileFiles.
 constexpr std::size_t most_links = 10000;
 /// Elements from which a child process tries whether TinyXML's recursion gets through. Larger: a deep file may crash;
-/// smaller: small files cost a process. Test: none: no value tried makes one fail.
+/// smaller: small files cost a process. Test: LoadScene.RefusesHostileFiles at 1e9.
 constexpr int tried_from = 500;
-/// Folders below one of ROS_PACKAGE_PATH in which a package is looked for. Test: none: no value tried makes one fail.
+/// Folders below one of ROS_PACKAGE_PATH in which a package is looked for. Test:
+/// LoadScene.PackagesAreFoundByTheFinderAndInRosPackagePath.
 constexpr int package_depth = 3;
 /// [kg] of a body; a larger one is refused. Test: LoadScene.MassThatIsNotPositiveComesFromTheShapeOrIsRefused at 0.
 constexpr double most_mass = 1e12;
-/// Of an inertia's figures as people write them; what is wrong by more is mended. Test: none: no value tried makes one
-/// fail.
+/// Of an inertia's figures as people write them; what is wrong by more is mended. Test:
+/// LoadScene.TheRadiusOfGyrationMayReachTheShapesEndAndNoFurther at 0.1.
 constexpr double inertia_rounding = 1e-6;
 
 }  // namespace spring_workbench::scene

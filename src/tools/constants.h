@@ -44,7 +44,7 @@ constexpr double no_give = 1e-9;
 /// proportion. Test: Probe.ReadsTheMaterialStiffnessInSeriesWithItsOwn.
 constexpr double position_uncertainty = 1e-4;
 /// [kg/m³]: objects of another density have a larger or smaller tool than their size asks. Larger: smaller tools. Test:
-/// none: not tried yet.
+/// Calibration.LengthGrowsWithTheObjectAndWithItsWeight.
 constexpr double density_of_water = 1000.0;
 
 }  // namespace spring_workbench::tools

@@ -9,9 +9,10 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 NOT_YET = {"contact", "dynamics", "rod"}  # modules whose constants are not looked at yet; only ever made smaller
 # What a standard, a device or a file says, and the size of a type: not to be tuned, and at home where it is used.
-FORMATS = {"fastrak/fastrak_protocol.cpp", "fastrak/fastrak_device.cpp", "motion_files/motion_file.cpp"}
-FORMATS |= {"fastrak/fastrak_protocol.h", "math/pack.h", "scene/scene.h", "rod/shape_model.h"}
-MOST_UNNOTICED = 63  # constants that no test notices; only ever made smaller
+FORMATS = {"fastrak/fastrak_protocol.cpp", "fastrak/fastrak_status.cpp", "fastrak/record_numbers.cpp"}
+FORMATS |= {"simulated_fastrak/fastrak_device.cpp", "motion_files/motion_file.cpp", "fastrak/fastrak_protocol.h"}
+FORMATS |= {"math/pack.h", "scene/scene.h", "rod/shape_model.h"}
+MOST_UNNOTICED = 53  # constants that no test notices; only ever made smaller
 TYPE = r"(?:unsigned |signed )?(?:double|float|bool|char|short|int|long|unsigned|(?:std::)?u?int\d+_t|(?:std::)?size_t)"
 DEFINITION = re.compile(rf"^(?:inline |static )*const(?:expr)? (?:inline )?{TYPE} (\w+)\s*[={{][^;]*\d", re.MULTILINE)
 ENTRY = re.compile(

@@ -36,6 +36,16 @@ TEST(PosePredictor, FollowsAParabolaExactlyAndALineThroughNoise) {
   EXPECT_LT((curve.predict(0.65)->X.linear() - parabola(0.65).X.linear()).norm(), 1e-9);
 }
 
+TEST(PosePredictor, TakesAParabolaFromItsWindowAlone) {
+  PosePredictor predictor;
+  const auto parabola = [](double t) { return at(t, Vector3d(0.1 * t, 0.0, t * t), 0.3 * t * t); };
+  for (int k = 0; k <= 75; ++k) {
+    const double t = 0.008 * k;
+    predictor.push(t < 0.44 ? at(t, Vector3d(std::sin(50.0 * t), 1.0, 0.0), 1.0) : parabola(t));
+  }
+  EXPECT_LT((predictor.predict(0.65)->X.matrix() - parabola(0.65).X.matrix()).norm(), 1e-9);
+}
+
 TEST(PosePredictor, RestsBeyondItsReachAndWhereNothingIsKnown) {
   PosePredictor predictor;
   EXPECT_FALSE(predictor.predict(1.0));

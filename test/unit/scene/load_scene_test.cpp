@@ -423,6 +423,10 @@ TEST_F(LoadScene, PackagesAreFoundByTheFinderAndInRosPackagePath) {
   EXPECT_EQ(std::get<geometry::MeshPtr>(load_part(mesh).bodies[0].collision[0].geometry)->uri,
             "package://some_package/meshes/t.obj");
   EXPECT_EQ(find_package_in_ros_package_path("other_package"), "");
+  write_mesh("shelf/of/third_package/package.xml", "<package><name>third_package</name></package>");
+  write_mesh("shelf/of/many/fourth_package/package.xml", "<package><name>fourth_package</name></package>");
+  EXPECT_EQ(find_package_in_ros_package_path("third_package"), folder_.path("shelf/of/third_package"));
+  EXPECT_EQ(find_package_in_ros_package_path("fourth_package"), "");
   setenv("ROS_PACKAGE_PATH", folder_.path("some_package").c_str(), 1);
   EXPECT_NE(find_package_in_ros_package_path("some_package"), "");
   setenv("ROS_PACKAGE_PATH", saved.c_str(), 1);
