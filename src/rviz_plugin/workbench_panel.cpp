@@ -12,20 +12,17 @@
 #include <QPushButton>
 #include <QTimer>
 #include <QVBoxLayout>
-#include <algorithm>
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
 #include "constants.h"
+#include "dof_controls.h"
 #include "log_slider.h"
 #include "spring_workbench/Calibrate.h"
 #include "spring_workbench/LoadScene.h"
 #include "spring_workbench/Release.h"
 #include "spring_workbench/SelectTool.h"
 #include "spring_workbench/SetClutch.h"
-#include "spring_workbench/SetForkDamping.h"
-#include "spring_workbench/SetForkDofs.h"
-#include "spring_workbench/SetForkStiffness.h"
 #include "spring_workbench/SetIntegrator.h"
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/tools/tool.h"
@@ -70,39 +67,21 @@ QWidget* WorkbenchPanel::make_controls() {
   auto* controls = new QWidget(this);
   auto* layout = new QVBoxLayout(controls);
   layout->setContentsMargins(0, 0, 0, 0);
-  make_families(layout);
+  make_dofs(layout);
   make_choices(layout);
   make_buttons(layout);
   return controls;
 }
 
-void WorkbenchPanel::make_families(QVBoxLayout* layout) {
-  struct Look {
-    const char* name;
-    double softest, stiffest;
-    const char* unit;
-  };
-  const std::array<Look, 3> looks{
-      {{"Stretch", 1.0, 1e6, "N/m"}, {"Bend", 1.0, 1e6, "N/m"}, {"Torsion", 1e-3, 1e4, "N m/rad"}}};
-  auto* grid = new QGridLayout;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const int row = 2 * static_cast<int>(i);
-    Family& family = families_[i];
-    family.on = new QCheckBox(looks[i].name, this);
-    family.stiffness = new LogSlider(looks[i].softest, looks[i].stiffest, looks[i].unit, this);
-    family.damping = new LogSlider(0.01, 10.0, "", this);
-    family.on->setToolTip("off: rigid");
-    family.stiffness->setToolTip("stiffness");
-    family.damping->setToolTip("damping ratio: 1 is critical");
-    grid->addWidget(family.on, row, 0);
-    grid->addWidget(family.stiffness, row, 1);
-    grid->addWidget(new QLabel("  damping", this), row + 1, 0);
-    grid->addWidget(family.damping, row + 1, 1);
-    connect(family.on, &QCheckBox::clicked, this, [this] { set_dofs(); });
-    connect(family.stiffness, &LogSlider::moved, this, [this, i] { set_stiffness(i); });
-    connect(family.damping, &LogSlider::moved, this, [this] { set_damping(); });
-  }
-  layout->addLayout(grid);
+void WorkbenchPanel::make_dofs(QVBoxLayout* layout) {
+  dofs_ = new DofControls(this);
+  layout->addWidget(dofs_);
+  connect(dofs_, &DofControls::switched, this, [this] { ask<SetForkDofs>("set_dofs", dofs_->dofs()); });
+  connect(dofs_, &DofControls::stiffness_moved, this, [this](int i) {
+    services_.call<SetForkStiffness>("stiffness " + std::to_string(i), node + "set_stiffness", dofs_->stiffness(i));
+  });
+  connect(dofs_, &DofControls::damping_moved, this,
+          [this] { services_.call<SetForkDamping>("damping", node + "set_damping", dofs_->damping()); });
 }
 
 void WorkbenchPanel::make_choices(QVBoxLayout* layout) {
@@ -213,43 +192,12 @@ void WorkbenchPanel::refresh() {
 
 void WorkbenchPanel::show_fork() {
   const ForkState& fork = *fork_;
-  const std::array<double, 3> stiffness{fork.stretch_stiffness, fork.bend_stiffness, fork.torsion_stiffness};
-  const std::array<double, 3> damping{fork.stretch_damping_ratio, fork.bend_damping_ratio, fork.torsion_damping_ratio};
-  for (std::size_t i = 0; i < 3; ++i) {
-    families_[i].stiffness->show_value(stiffness[i]);
-    families_[i].damping->show_value(damping[i]);
-  }
+  dofs_->show_sliders(fork);
   held_->setText(QString::fromStdString(fork.held_object.empty() ? fork.touched : fork.held_object));
   if (panel_time() < free_at_ || integrator_->view()->isVisible() || tool_->view()->isVisible()) return;
-  const std::array<bool, 3> on{fork.stretch_on != 0, fork.bend_on != 0, fork.torsion_on != 0};
-  for (std::size_t i = 0; i < 3; ++i) families_[i].on->setChecked(on[i]);
+  dofs_->show_switches(fork);
   integrator_->setCurrentText(QString::fromStdString(fork.integrator));
   tool_->setCurrentText(QString::fromStdString(fork.tool));
-}
-
-void WorkbenchPanel::set_dofs() {
-  SetForkDofs::Request request;
-  request.stretch = families_[0].on->isChecked() ? 1 : 0;
-  request.bend = families_[1].on->isChecked() ? 1 : 0;
-  request.torsion = families_[2].on->isChecked() ? 1 : 0;
-  ask<SetForkDofs>("set_dofs", request);
-}
-
-void WorkbenchPanel::set_stiffness(std::size_t family) {
-  SetForkStiffness::Request request;  // 0 keeps what is there
-  const std::array<double*, 3> fields{&request.stretch, &request.bend, &request.torsion};
-  *fields[family] = families_[family].stiffness->value();
-  services_.call<SetForkStiffness>("stiffness " + std::to_string(family), node + "set_stiffness", request);
-}
-
-void WorkbenchPanel::set_damping() {
-  SetForkDamping::Request request;
-  request.stretch = families_[0].damping->value();
-  request.bend = families_[1].damping->value();
-  request.torsion = families_[2].damping->value();
-  const bool one_ratio = request.stretch == request.bend && request.bend == request.torsion;
-  request.law = one_ratio ? "" : "per_dof";  // the modal law knows one ratio alone
-  services_.call<SetForkDamping>("damping", node + "set_damping", request);
 }
 
 }  // namespace spring_workbench::rviz_plugin

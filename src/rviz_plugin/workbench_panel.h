@@ -5,7 +5,6 @@
 #include <rviz/panel.h>
 #include <sensor_msgs/Joy.h>
 
-#include <array>
 #include <memory>
 
 #include "master_watch.h"
@@ -16,7 +15,6 @@
 
 class QCheckBox;
 class QComboBox;
-class QGridLayout;
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -24,7 +22,7 @@ class QVBoxLayout;
 
 namespace spring_workbench::rviz_plugin {
 
-class LogSlider;
+class DofControls;
 class StepFigures;
 
 /// Tunes the fork of the node `manipulation` while it is used. It shows only what `~fork` and `~steps` report; each
@@ -40,14 +38,8 @@ class WorkbenchPanel : public rviz::Panel {
   void answered(const QString& text);
 
  private:
-  struct Family {
-    QCheckBox* on;
-    LogSlider* stiffness;
-    LogSlider* damping;
-  };
-
   QWidget* make_controls();
-  void make_families(QVBoxLayout* layout);
+  void make_dofs(QVBoxLayout* layout);
   void make_choices(QVBoxLayout* layout);
   void make_buttons(QVBoxLayout* layout);
 
@@ -57,9 +49,6 @@ class WorkbenchPanel : public rviz::Panel {
   void refresh();
   void show_fork();
 
-  void set_dofs();
-  void set_stiffness(std::size_t family);
-  void set_damping();
   template <typename Service>  // switches and choices wait for what comes of it
   void ask(const std::string& service, const typename Service::Request& request);
 
@@ -70,7 +59,7 @@ class WorkbenchPanel : public rviz::Panel {
   double free_at_ = 0.0;         ///< when switches and choices follow the node again [s]
 
   QWidget* controls_;
-  std::array<Family, 3> families_{};  ///< stretch, bend, torsion
+  DofControls* dofs_;
   QComboBox *integrator_, *tool_;
   QCheckBox* grasp_;
   QLineEdit* scene_;

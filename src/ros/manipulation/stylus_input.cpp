@@ -19,24 +19,6 @@ std::string place_of(const geometry_msgs::TransformStamped& transform) {
 
 std::int64_t nanoseconds(const ros::Time& stamp) { return static_cast<std::int64_t>(stamp.toNSec()); }
 
-/// Keeps the newest few.
-template <typename Message>
-void keep(const Message& message, std::deque<Message>& kept) {
-  kept.push_back(message);
-  if (kept.size() > most_early) kept.pop_front();
-}
-
-/// What was kept since time went back for the last time.
-template <typename Message>
-std::deque<Message> newest_pass(std::deque<Message> kept) {
-  for (std::size_t i = kept.size(); i-- > 1;) {
-    if ((kept[i - 1].header.stamp - kept[i].header.stamp).toSec() <= SimulatedClock::slip) continue;
-    kept.erase(kept.begin(), kept.begin() + static_cast<std::ptrdiff_t>(i));
-    break;
-  }
-  return kept;
-}
-
 std::string number(double value) {
   std::ostringstream out;
   out << value;
@@ -54,7 +36,9 @@ StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& par
       static_frames_(parameters.world_frame, parameters.workbench_frame),
       sender_(parameters.simulation.dropout_after),
       wall_poses_(parameters.max_age),
-      wall_buttons_(parameters.max_age) {
+      wall_buttons_(parameters.max_age),
+      early_poses_(most_early),
+      early_buttons_(most_early) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   static_subscriber_ = node.subscribe("/tf_static", 100, &StylusInput::on_static_transforms, this, hints);
   tf_subscriber_ = node.subscribe("/tf", input_queue, &StylusInput::on_transforms, this, hints);
@@ -96,7 +80,7 @@ void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessag
                    clock_.moment_of(transform.header.stamp, poses_, parameters_.max_age)) {
       if (is_followed(event.getPublisherName())) on_simulated_time(transform, *now);
     } else {
-      keep(transform, early_poses_);
+      early_poses_.keep(transform);
       start_anew_when_due();
     }
   }
@@ -129,7 +113,7 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
 
 void StylusInput::on_simulated_time(const geometry_msgs::TransformStamped& transform, const ros::Time& now) {
   const double age = (now - transform.header.stamp).toSec();
-  if ((poses_.newest - transform.header.stamp).toSec() > SimulatedClock::slip) keep(transform, early_poses_);
+  if ((poses_.newest - transform.header.stamp).toSec() > SimulatedClock::slip) early_poses_.keep(transform);
   if (std::abs(age) > parameters_.max_age)
     return reject_stamp(transform, age > 0.0 ? "too old" : "from the future", age);
   if (use(transform, nanoseconds(transform.header.stamp), age)) {
@@ -182,13 +166,13 @@ void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   }
   if (const std::optional<ros::Time> now = clock_.moment_of(message->header.stamp, buttons_, parameters_.max_age))
     return on_simulated_time(*message, *now);
-  keep(*message, early_buttons_);
+  early_buttons_.keep(*message);
   start_anew_when_due();
 }
 
 void StylusInput::on_simulated_time(const sensor_msgs::Joy& message, const ros::Time& now) {
   const ros::Time& stamp = message.header.stamp;
-  if (!stamp.isZero() && (buttons_.newest - stamp).toSec() > SimulatedClock::slip) return keep(message, early_buttons_);
+  if (!stamp.isZero() && (buttons_.newest - stamp).toSec() > SimulatedClock::slip) return early_buttons_.keep(message);
   const bool usable_stamp = std::abs((now - stamp).toSec()) <= parameters_.max_age;
   if (usable_stamp) go_on_to(stamp, buttons_, early_buttons_);
   on_buttons(message, nanoseconds(usable_stamp ? stamp : now));
@@ -211,7 +195,7 @@ void StylusInput::on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp
 
 /// A stream that goes on shows that what was kept of it was out of order, and not after a jump.
 template <typename Message>
-void StylusInput::go_on_to(const ros::Time& stamp, SimulatedClock::Stream& stream, std::deque<Message>& early) {
+void StylusInput::go_on_to(const ros::Time& stamp, SimulatedClock::Stream& stream, EarlyMessages<Message>& early) {
   if (stamp <= stream.newest) return;
   stream.newest = stamp;
   early.clear();
@@ -231,10 +215,10 @@ void StylusInput::start_anew_when_due() {
   ++statistics_.restarts;
   // By now the clock of a bag that is played quickly may be far on: what waited is as old as it was.
   const auto came_at = [&](const ros::Time& stamp) { return stamp.isZero() ? now : stamp; };
-  for (const geometry_msgs::TransformStamped& transform : newest_pass(std::exchange(early_poses_, {}))) {
+  for (const geometry_msgs::TransformStamped& transform : early_poses_.take()) {
     on_simulated_time(transform, came_at(transform.header.stamp));
   }
-  for (const sensor_msgs::Joy& message : newest_pass(std::exchange(early_buttons_, {}))) {
+  for (const sensor_msgs::Joy& message : early_buttons_.take()) {
     on_simulated_time(message, came_at(message.header.stamp));
   }
 }

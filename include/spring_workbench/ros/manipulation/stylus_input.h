@@ -4,7 +4,6 @@
 #include <sensor_msgs/Joy.h>
 #include <tf2_msgs/TFMessage.h>
 
-#include <deque>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -15,12 +14,14 @@
 
 #include "spring_workbench/live/stylus_events.h"
 #include "spring_workbench/motion/stream_clock.h"
+#include "spring_workbench/ros/common/early_messages.h"
 #include "spring_workbench/ros/common/simulated_clock.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
 #include "spring_workbench/ros/manipulation/static_frames.h"
 
 namespace spring_workbench::manipulation {
 
+using ros_common::EarlyMessages;
 using ros_common::SimulatedClock;
 
 /// What came in so far.
@@ -68,7 +69,7 @@ class StylusInput {
   void on_simulated_time(const sensor_msgs::Joy& message, const ros::Time& now);
   void on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp);
   template <typename Message>
-  void go_on_to(const ros::Time& stamp, SimulatedClock::Stream& stream, std::deque<Message>& early);
+  void go_on_to(const ros::Time& stamp, SimulatedClock::Stream& stream, EarlyMessages<Message>& early);
   void start_anew_when_due();
   double seconds(std::int64_t stamp);
   void reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason, double age);
@@ -86,9 +87,8 @@ class StylusInput {
   std::vector<live::StylusEvent> events_;
   InputStatistics statistics_;
   // Of simulated time.
-  /// What was stamped before the newest: it waits for the clock, or for the other stream, to jump back.
-  std::deque<geometry_msgs::TransformStamped> early_poses_;
-  std::deque<sensor_msgs::Joy> early_buttons_;
+  EarlyMessages<geometry_msgs::TransformStamped> early_poses_;
+  EarlyMessages<sensor_msgs::Joy> early_buttons_;
   SimulatedClock::Stream poses_, buttons_;
   SimulatedClock clock_;
   std::map<std::string, double> told_;  ///< when a reason to leave a sample out was last logged [s]
