@@ -37,14 +37,14 @@ constexpr double kSettle = 3.0;     // [s] before and after the way
 constexpr double kPatience = 60.0;  // [s] until rviz shows the object, at the most
 
 /// Rests, goes `length` [s] along x, and rests.
-fastrak::PlayedMotion way(double length) {
+simulated_fastrak::PlayedMotion way(double length) {
   std::vector<motion::StylusSample> samples(4);
   const double times[] = {0.0, kSettle, kSettle + length, kSettle + length + 1e5};
   for (std::size_t i = 0; i < samples.size(); ++i) {
     samples[i].t = times[i];
     samples[i].X.translation() = Vector3d(0.3 + (i < 2 ? 0.0 : kSpeed * length), 0.0, 0.4);
   }
-  return fastrak::PlayedMotion(samples);
+  return simulated_fastrak::PlayedMotion(samples);
 }
 
 /// When and where the object was seen.
@@ -164,9 +164,10 @@ int main(int argc, char** argv) {
   spinner.start();
   const Observer committed(node, "manipulation/objects"), displayed(node, "manipulation/display/objects");
   const BareLoop bare(node, rate);
-  const fastrak::PlayedMotion motion = way(length);
-  const std::vector<fastrak::PlayedMotion> motions(static_cast<std::size_t>(stations), motion);
-  fastrak::FastrakSimulator simulator(fastrak::FastrakDevice(motions, {1, 2}), fastrak::LineFaults(), port);
+  const simulated_fastrak::PlayedMotion motion = way(length);
+  const std::vector<simulated_fastrak::PlayedMotion> motions(static_cast<std::size_t>(stations), motion);
+  simulated_fastrak::FastrakSimulator simulator(simulated_fastrak::FastrakDevice(motions, {1, 2}),
+                                                simulated_fastrak::LineFaults(), port);
   Playing playing{rate, stations, 1, kSettle, kSettle + length, 2.0 * kSettle + length};
   std::atomic<int> holder{1};  // the hand that is there first has the box
   const boost::function<void(const ForkState::ConstPtr&)> take_holder = [&](const ForkState::ConstPtr& fork) {

@@ -17,7 +17,7 @@ constexpr double kTolerance = 1e-7;  // [m] of the floats on the line
 
 double steady_now() { return std::chrono::duration<double>(steady_clock::now().time_since_epoch()).count(); }
 
-std::vector<Moment> play(fastrak::FastrakSimulator& simulator, const fastrak::PlayedMotion& motion,
+std::vector<Moment> play(simulated_fastrak::FastrakSimulator& simulator, const simulated_fastrak::PlayedMotion& motion,
                          const Playing& playing, const std::function<bool()>& ready) {
   const double cycles = playing.rate * playing.stations;  // [Hz]
   const auto wait_for_cycle = [&](double start, long cycle) {

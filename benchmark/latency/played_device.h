@@ -3,7 +3,7 @@
 #include <functional>
 #include <vector>
 
-#include "spring_workbench/fastrak/fastrak_simulator.h"
+#include "spring_workbench/simulated_fastrak/fastrak_simulator.h"
 
 namespace spring_workbench::benchmark {
 
@@ -25,7 +25,7 @@ struct Playing {
 
 /// Plays the device in real time, in which station 1 has `motion`; first it is served until `ready` says so. Gives the
 /// moments at which records of the moving station `counted` were written.
-std::vector<Moment> play(fastrak::FastrakSimulator& simulator, const fastrak::PlayedMotion& motion,
+std::vector<Moment> play(simulated_fastrak::FastrakSimulator& simulator, const simulated_fastrak::PlayedMotion& motion,
                          const Playing& playing, const std::function<bool()>& ready);
 
 /// From each record to the first of those moments seen that have gone as far for good [s], in ascending order.

@@ -32,7 +32,7 @@ constexpr double kAbove = 0.15, kPressed = 0.005;                      // [m]
 constexpr double kDown = 1.0, kGrasp = 1.5, kBegin = 2.5, kEnd = 2.0;  // [s]
 
 /// Down to an object, in which the tip then is; grasps, presses, goes evenly along x, and rests.
-fastrak::PlayedMotion work_at(const Vector3d& object, double length) {
+simulated_fastrak::PlayedMotion work_at(const Vector3d& object, double length) {
   std::vector<motion::StylusSample> samples;
   const auto add = [&](double t, double x, double height, bool button) {
     motion::StylusSample sample;
@@ -48,7 +48,7 @@ fastrak::PlayedMotion work_at(const Vector3d& object, double length) {
   add(kBegin, 0.0, -kPressed, true);
   add(kBegin + length, kSpeed * length, -kPressed, true);
   add(kBegin + length + 1e5, kSpeed * length, -kPressed, true);
-  return fastrak::PlayedMotion(samples);
+  return simulated_fastrak::PlayedMotion(samples);
 }
 
 /// Of a process, from /proc.
@@ -171,10 +171,11 @@ int main(int argc, char** argv) {
   Observer observer(node, process);
   try {
     const scene::Scene scene = scene::load_scene(parameters.param<std::string>("scene", ""));
-    std::vector<fastrak::PlayedMotion> motions;
+    std::vector<simulated_fastrak::PlayedMotion> motions;
     for (const Vector3d& place : objects_of(scene, static_cast<std::size_t>(hands)))
       motions.push_back(work_at(place, length));
-    fastrak::FastrakSimulator simulator(fastrak::FastrakDevice(motions, {1, 2}), fastrak::LineFaults(), port);
+    simulated_fastrak::FastrakSimulator simulator(simulated_fastrak::FastrakDevice(motions, {1, 2}),
+                                                  simulated_fastrak::LineFaults(), port);
     const Playing playing{rate, hands, 1, kBegin, kBegin + length, kBegin + length + kEnd};
     const std::vector<Moment> written =
         play(simulator, motions.front(), playing, [&] { return !ros::ok() || observer.sees_hand(); });

@@ -9,10 +9,10 @@
 #include <thread>
 
 #include "motions.h"
-#include "spring_workbench/fastrak/fastrak_simulator.h"
 #include "spring_workbench/fastrak/fastrak_source.h"
 #include "spring_workbench/fastrak/station_stream.h"
 #include "spring_workbench/hand_input/sample_gate.h"
+#include "spring_workbench/simulated_fastrak/fastrak_simulator.h"
 
 namespace spring_workbench {
 namespace {
@@ -140,9 +140,10 @@ void simulated(int stations, std::ostream& out) {
   settings.port = folder / "port";
   settings.stations.clear();
   for (int station = 1; station <= stations; ++station) settings.stations.push_back(station);
-  fastrak::FastrakSimulator simulator(
-      fastrak::FastrakDevice(std::vector<fastrak::PlayedMotion>(settings.stations.size(), fastrak::PlayedMotion(way))),
-      fastrak::LineFaults(), settings.port);
+  simulated_fastrak::FastrakSimulator simulator(
+      simulated_fastrak::FastrakDevice(
+          std::vector<simulated_fastrak::PlayedMotion>(settings.stations.size(), simulated_fastrak::PlayedMotion(way))),
+      simulated_fastrak::LineFaults(), settings.port);
   const auto start = steady_clock::now();
   std::atomic<bool> over{false};
   std::thread device([&] {

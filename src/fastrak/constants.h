@@ -40,8 +40,6 @@ constexpr double late_reader_chance = 0.05;
 constexpr int attempts_per_opening = 5;
 /// [s] for a write. Longer: a stuck port shows later. Test: none: a pseudo-terminal always takes them.
 constexpr double longest_write = 0.2;
-/// [m] what three digits of centimetres hold. Test: limits_test.py::test_programs.
-constexpr double farthest_played = 9.99;
 /// [m] twice the reach. More: spoilt records pass. Test: FastrakLayout.RefusesWhatNoTrackerMeasures.
 constexpr double farthest_measured = 10.0;
 /// of a quaternion's length. More: spoilt records pass. Test: FastrakLayout.RefusesWhatNoTrackerMeasures.
@@ -50,9 +48,5 @@ constexpr double norm_tolerance = 0.01;
 constexpr double extended_resolution = 1e-5;
 /// [bytes] More: a false start costs more. Test: FastrakDecoder.GetsOutOfAFalseStart.
 constexpr std::size_t longest_reply = 256;
-/// [bytes] of a fault. More: more records lost at once. Test: LineFaults.AddEightyBytesOfNoiseAtMost.
-constexpr std::size_t longest_noise = 80;
-/// [bytes] nobody read. Fewer: dropped. Test: FastrakSource.LosesNoRecordInTenMinutesOfFourStations.
-constexpr std::size_t most_waiting = 4096;
 
 }  // namespace spring_workbench::fastrak

@@ -5,7 +5,6 @@
 namespace spring_workbench::fastrak {
 namespace {
 
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_station(char c) { return c >= '1' && c <= '0' + kFastrakStations; }
 
 }  // namespace

@@ -1,13 +1,12 @@
 #include "spring_workbench/fastrak/fastrak_protocol.h"
 
 #include <algorithm>
-#include <boost/endian/buffers.hpp>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
 #include <map>
 
 #include "constants.h"
+#include "record_numbers.h"
 #include "spring_workbench/config/yaml_fields.h"
 
 namespace spring_workbench::fastrak {
@@ -15,75 +14,8 @@ namespace {
 
 constexpr std::size_t kHeaderLength = 3;
 constexpr std::size_t kLongestRecord = 254;  // the manual, command O
-constexpr std::size_t kStatusLength = 53;    // without the end of line
-constexpr unsigned kBinaryFlag = 1, kCentimetresFlag = 2, kContinuousFlag = 8, kOtherFlags = 0x3F4;
-constexpr double kDegree = M_PI / 180.0;
 constexpr std::size_t kNumberLength = 7;     // Sxxx.xx, Sx.xxxx
 constexpr std::size_t kExtendedLength = 13;  // Sx.xxxxxESxx and a blank
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-
-/// Right-aligned digits with a point before the last `decimals`; the sign first or next to the digits.
-std::optional<double> read_fixed(std::string_view text, std::size_t decimals) {
-  const std::size_t point = text.size() - decimals - 1;
-  double sign = 1.0, digits = 0.0, scale = 1.0;
-  bool signed_already = false, in_number = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (i == point ? c == '.' : is_digit(c)) {
-      in_number = true;
-      if (i == point) continue;
-      digits = 10.0 * digits + (c - '0');
-      if (i > point) scale *= 10.0;
-    } else if (i < point && !in_number && (c == '-' || c == '+') && !signed_already) {
-      signed_already = true;
-      if (c == '-') sign = -1.0;
-    } else if (c != ' ' || in_number) {
-      return std::nullopt;
-    }
-  }
-  return sign * (digits / scale);
-}
-
-/// Sx.xxxxxESxx and a blank.
-std::optional<double> read_extended(std::string_view text) {
-  const auto mantissa = read_fixed(text.substr(0, 8), 5);
-  const char sign = text[9];
-  if (!mantissa || text[8] != 'E' || (sign != '-' && sign != '+' && sign != ' ') || !is_digit(text[10]) ||
-      !is_digit(text[11]) || text[12] != ' ') {
-    return std::nullopt;
-  }
-  const int exponent = 10 * (text[10] - '0') + (text[11] - '0');
-  return *mantissa * std::pow(10.0, sign == '-' ? -exponent : exponent);
-}
-
-// IEEE 754, 32 bit, least significant byte first.
-using LittleFloat = boost::endian::endian_buffer<boost::endian::order::little, float, 32>;
-
-double read_float(std::string_view bytes) {
-  LittleFloat value;
-  std::memcpy(&value, bytes.data(), sizeof value);
-  return static_cast<double>(value.value());
-}
-
-void write_float(double value, std::string& bytes) {
-  const LittleFloat single(static_cast<float>(value));
-  bytes.append(reinterpret_cast<const char*>(single.data()), sizeof single);
-}
-
-/// Azimuth, elevation, roll [deg] of R = Rz(azimuth) Ry(elevation) Rx(roll).
-std::array<double, 4> to_angles(const Quaterniond& q) {
-  const Matrix3d R = q.normalized().toRotationMatrix();
-  return {std::atan2(R(1, 0), R(0, 0)) / kDegree, std::asin(std::clamp(-R(2, 0), -1.0, 1.0)) / kDegree,
-          std::atan2(R(2, 1), R(2, 2)) / kDegree, 0.0};
-}
-
-Quaterniond from_angles(const std::array<double, 4>& angles) {
-  return Eigen::AngleAxisd(angles[0] * kDegree, Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(angles[1] * kDegree, Vector3d::UnitY()) *
-         Eigen::AngleAxisd(angles[2] * kDegree, Vector3d::UnitX());
-}
 
 bool all_within(const std::array<double, 4>& values, double limit) {
   return std::all_of(values.begin(), values.end(), [&](double v) { return std::abs(v) <= limit; });
@@ -277,33 +209,6 @@ std::string fastrak_list_command(int station, const std::vector<int>& items) {
   std::string command = "O" + std::to_string(station);
   for (const int item : items) command += "," + std::to_string(item);
   return command + "\r";
-}
-
-std::optional<FastrakStatus> read_fastrak_status(const std::string& reply) {
-  if (reply.size() != kStatusLength || reply[0] != '2' || reply[2] != 'S') return std::nullopt;
-  unsigned flags = 0;
-  for (std::size_t i = 3; i < 6; ++i) {
-    const char c = reply[i];
-    const int digit = is_digit(c) ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-    if (digit < 0) return std::nullopt;
-    flags = 16 * flags + static_cast<unsigned>(digit);
-  }
-  FastrakStatus status;
-  status.binary = (flags & kBinaryFlag) != 0;
-  status.centimetres = (flags & kCentimetresFlag) != 0;
-  status.continuous = (flags & kContinuousFlag) != 0;
-  const std::string version = reply.substr(15, 6);
-  const std::size_t first = version.find_first_not_of(' ');
-  if (first != std::string::npos) status.firmware = version.substr(first, version.find_last_not_of(' ') - first + 1);
-  return status;
-}
-
-std::string write_fastrak_status(const FastrakStatus& status) {
-  const unsigned flags = kOtherFlags | (status.binary ? kBinaryFlag : 0) | (status.centimetres ? kCentimetresFlag : 0) |
-                         (status.continuous ? kContinuousFlag : 0);
-  char text[64];
-  std::snprintf(text, sizeof text, "21S%03X    F3F  %6.6s%-32.32s\r\n", flags, status.firmware.c_str(), "simulated");
-  return text;
 }
 
 }  // namespace spring_workbench::fastrak

@@ -30,7 +30,7 @@ WITHOUT_YAML = set("math validation geometry motion rod fork_mesh dynamics stepp
 EXECUTABLES = {  # folders of executables, which have no module of their own: what they may use
     "rviz_plugin": {"fork_mesh", "tools"},
     "nodes": NODES,
-    "apps": {"live", "motion_files", "fastrak", "assembly"},
+    "apps": {"live", "motion_files", "simulated_fastrak", "assembly"},
 }
 # A pose enters each module once: hand_input is entered by these headers, from these modules. Gate, smoothing,
 # re-acquisition and playout clock are the feed's own, and what hands a pose on towards it knows none of them.

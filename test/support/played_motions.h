@@ -3,12 +3,12 @@
 #include <cmath>
 #include <vector>
 
-#include "spring_workbench/fastrak/fastrak_device.h"
+#include "spring_workbench/simulated_fastrak/fastrak_device.h"
 
 namespace spring_workbench::test_support {
 
 /// A hand that goes round a circle in 3 s and turns, in the half-space x > 0 of the transmitter; never twice the same.
-inline fastrak::PlayedMotion circling_hand(double x = 0.5) {
+inline simulated_fastrak::PlayedMotion circling_hand(double x = 0.5) {
   std::vector<motion::StylusSample> samples;
   for (int i = 0; i <= 300; ++i) {
     const double angle = 2.0 * M_PI * i / 300.0;
@@ -19,18 +19,18 @@ inline fastrak::PlayedMotion circling_hand(double x = 0.5) {
     sample.button = i % 100 >= 50;
     samples.push_back(sample);
   }
-  return fastrak::PlayedMotion(samples);
+  return simulated_fastrak::PlayedMotion(samples);
 }
 
 /// The button is down in the second half of each second.
-inline fastrak::PlayedMotion pressing_hand() {
+inline simulated_fastrak::PlayedMotion pressing_hand() {
   std::vector<motion::StylusSample> samples(3);
   for (int i = 0; i < 3; ++i) {
     samples[static_cast<std::size_t>(i)].t = 0.5 * i;
     samples[static_cast<std::size_t>(i)].X = make_transform(Quaterniond::Identity(), {0.3, 0.0, 0.1});
     samples[static_cast<std::size_t>(i)].button = i == 1;
   }
-  return fastrak::PlayedMotion(samples);
+  return simulated_fastrak::PlayedMotion(samples);
 }
 
 }  // namespace spring_workbench::test_support

@@ -15,6 +15,9 @@ namespace spring_workbench::fastrak {
 
 constexpr int kFastrakStations = 4;
 
+/// ASCII, whatever the locale.
+inline bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
 enum class FastrakFormat { ascii, binary };
 enum class FastrakUnits { inches, centimetres };
 

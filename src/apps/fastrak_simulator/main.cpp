@@ -7,8 +7,8 @@
 #include "constants.h"
 #include "options.h"
 #include "spring_workbench/config/command_line.h"
-#include "spring_workbench/fastrak/fastrak_simulator.h"
 #include "spring_workbench/motion_files/open_motion.h"
+#include "spring_workbench/simulated_fastrak/fastrak_simulator.h"
 
 namespace spring_workbench::fastrak_simulator {
 namespace {
@@ -18,15 +18,15 @@ using std::chrono::steady_clock;
 
 volatile std::sig_atomic_t interrupted = 0;
 
-fastrak::PlayedMotion read_motion(const std::string& path) {
+simulated_fastrak::PlayedMotion read_motion(const std::string& path) {
   const auto source = motion_files::open_motion(path);
   std::vector<motion::StylusSample> samples;
   while (const auto sample = source->next()) samples.push_back(*sample);
-  return fastrak::PlayedMotion(samples);
+  return simulated_fastrak::PlayedMotion(samples);
 }
 
 /// Serves the host up to a moment of the wall's clock.
-void serve_until(fastrak::FastrakSimulator& simulator, steady_clock::time_point moment) {
+void serve_until(simulated_fastrak::FastrakSimulator& simulator, steady_clock::time_point moment) {
   while (interrupted == 0) {
     const double left = duration<double>(moment - steady_clock::now()).count();
     if (left <= 0.0) break;
@@ -45,11 +45,11 @@ void serve_until(fastrak::FastrakSimulator& simulator, steady_clock::time_point 
 void run(const Options& options) {
   std::signal(SIGINT, [](int) { interrupted = 1; });
   std::signal(SIGTERM, [](int) { interrupted = 1; });
-  std::vector<fastrak::PlayedMotion> motions;
+  std::vector<simulated_fastrak::PlayedMotion> motions;
   for (const std::string& path : options.motions) motions.push_back(read_motion(path));
-  fastrak::FastrakSimulator simulator(fastrak::FastrakDevice(std::move(motions), options.switches),
-                                      fastrak::LineFaults(options.faults, static_cast<unsigned>(options.seed)),
-                                      options.link);
+  simulated_fastrak::FastrakSimulator simulator(
+      simulated_fastrak::FastrakDevice(std::move(motions), options.switches),
+      simulated_fastrak::LineFaults(options.faults, static_cast<unsigned>(options.seed)), options.link);
   std::string path;
   const auto start = steady_clock::now();
   for (long cycle = 0; interrupted == 0; ++cycle) {

@@ -28,7 +28,7 @@ std::optional<Options> parse_options(int argc, char** argv) {
            config::number_option("speed", validation::between(0.01, 1e3), options.speed),
            config::number_option("duration", validation::not_negative(), options.duration),
            {"switch", add_switch},
-           {"fault", [&](const std::string& f) { options.faults.push_back(fastrak::parse_fault(f)); }},
+           {"fault", [&](const std::string& f) { options.faults.push_back(simulated_fastrak::parse_fault(f)); }},
            config::integer_option("seed", 0, std::numeric_limits<int>::max(), options.seed)})) {
     return std::nullopt;
   }

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "spring_workbench/fastrak/line_faults.h"
+#include "spring_workbench/simulated_fastrak/line_faults.h"
 
 namespace spring_workbench::fastrak_simulator {
 
@@ -16,7 +16,7 @@ struct Options {
   double speed = 1.0;                ///< of the device's clock against the wall's
   double duration = 0.0;             ///< of the device's clock [s]; 0: until it is interrupted
   std::vector<int> switches{1};      ///< stations whose switch works
-  std::vector<fastrak::Fault> faults;
+  std::vector<simulated_fastrak::Fault> faults;
   int seed = 1;
 };
 

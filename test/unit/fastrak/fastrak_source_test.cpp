@@ -14,12 +14,14 @@
 #include <string>
 #include <unordered_set>
 
-#include "spring_workbench/fastrak/fastrak_simulator.h"
+#include "spring_workbench/simulated_fastrak/fastrak_simulator.h"
 #include "support/played_motions.h"
 #include "support/temporary_folder.h"
 
 namespace spring_workbench::fastrak {
 namespace {
+
+using namespace simulated_fastrak;
 
 using std::chrono::duration;
 using std::chrono::steady_clock;

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::simulated_fastrak {
 
 /// A cable: what opens `path()` as a serial port talks to the holder of this object.
 class PseudoTerminal {
@@ -28,4 +28,4 @@ class PseudoTerminal {
   std::string path_;
 };
 
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::simulated_fastrak

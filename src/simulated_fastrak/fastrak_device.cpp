@@ -1,4 +1,4 @@
-#include "spring_workbench/fastrak/fastrak_device.h"
+#include "spring_workbench/simulated_fastrak/fastrak_device.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,14 @@
 #include "constants.h"
 #include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::simulated_fastrak {
+
+using fastrak::FastrakFormat;
+using fastrak::FastrakLayout;
+using fastrak::FastrakRecord;
+using fastrak::FastrakUnits;
+using fastrak::kFastrakStations;
+
 namespace {
 
 constexpr int kFieldMissing = -1, kNotANumber = -2, kOutOfRange = -3, kUnknownCommand = -99;
@@ -116,7 +123,7 @@ std::string FastrakDevice::immediate(char command) {
       units_ = command == 'u' ? FastrakUnits::centimetres : FastrakUnits::inches;
       return "";
     case 'S':
-      return write_fastrak_status(
+      return fastrak::write_fastrak_status(
           {format_ == FastrakFormat::binary, units_ == FastrakUnits::centimetres, continuous_, "0.1"});
     case 'W':
     case kCtrlY:
@@ -172,7 +179,7 @@ std::string FastrakDevice::set_list(int number, const std::vector<double>& argum
   try {
     FastrakLayout(wanted, format_, units_);
   } catch (const validation::InputError&) {
-    return error(fastrak_list_command(number, wanted), kOutOfRange);
+    return error(fastrak::fastrak_list_command(number, wanted), kOutOfRange);
   }
   items = wanted;
   return "";
@@ -249,4 +256,4 @@ std::string FastrakDevice::error(const std::string& command, int code) {
   return "2 E*ERROR*" + shown.substr(0, 60) + "*ERROR* EC" + std::to_string(code) + "*PS0*FL0*ST0\r\n";
 }
 
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::simulated_fastrak

@@ -5,11 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "spring_workbench/fastrak/fastrak_device.h"
-#include "spring_workbench/fastrak/line_faults.h"
-#include "spring_workbench/fastrak/pseudo_terminal.h"
+#include "spring_workbench/simulated_fastrak/fastrak_device.h"
+#include "spring_workbench/simulated_fastrak/line_faults.h"
+#include "spring_workbench/simulated_fastrak/pseudo_terminal.h"
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::simulated_fastrak {
 
 /// A FASTRAK on a pseudo-terminal, with faults. Time is the caller's.
 class FastrakSimulator {
@@ -48,4 +48,4 @@ class FastrakSimulator {
   std::size_t sent_ = 0, dropped_ = 0;
 };
 
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::simulated_fastrak

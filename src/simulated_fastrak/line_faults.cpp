@@ -1,4 +1,4 @@
-#include "spring_workbench/fastrak/line_faults.h"
+#include "spring_workbench/simulated_fastrak/line_faults.h"
 
 #include <algorithm>
 #include <utility>
@@ -6,7 +6,7 @@
 #include "constants.h"
 #include "spring_workbench/config/yaml_fields.h"
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::simulated_fastrak {
 namespace {
 
 const char* const kWhere = "command line";
@@ -108,4 +108,4 @@ void LineFaults::report_error(std::string& record) {
   }
 }
 
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::simulated_fastrak

@@ -1,4 +1,4 @@
-#include "spring_workbench/fastrak/fastrak_simulator.h"
+#include "spring_workbench/simulated_fastrak/fastrak_simulator.h"
 
 #include <chrono>
 #include <filesystem>
@@ -8,7 +8,7 @@
 #include "constants.h"
 #include "spring_workbench/validation/number_rule.h"
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::simulated_fastrak {
 
 FastrakSimulator::FastrakSimulator(FastrakDevice device, LineFaults faults, std::string link)
     : device_(std::move(device)), faults_(std::move(faults)), link_(std::move(link)) {
@@ -70,4 +70,4 @@ void FastrakSimulator::measure(double t) {
   send(faults_.pass(record, t));
 }
 
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::simulated_fastrak

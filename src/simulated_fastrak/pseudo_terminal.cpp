@@ -1,4 +1,4 @@
-#include "spring_workbench/fastrak/pseudo_terminal.h"
+#include "spring_workbench/simulated_fastrak/pseudo_terminal.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <system_error>
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::simulated_fastrak {
 namespace {
 
 [[noreturn]] void fail(const std::string& what) { throw std::system_error(errno, std::generic_category(), what); }
@@ -50,4 +50,4 @@ std::size_t PseudoTerminal::write(std::string_view bytes) {
   return size > 0 ? static_cast<std::size_t>(size) : 0;
 }
 
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::simulated_fastrak

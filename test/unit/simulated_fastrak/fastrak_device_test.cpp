@@ -1,4 +1,4 @@
-#include "spring_workbench/fastrak/fastrak_device.h"
+#include "spring_workbench/simulated_fastrak/fastrak_device.h"
 
 #include <gtest/gtest.h>
 
@@ -9,10 +9,11 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/played_motions.h"
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::simulated_fastrak {
 namespace {
 
 using test_support::circling_hand;
+using namespace fastrak;
 
 FastrakDevice device_with(std::size_t stations) {
   return FastrakDevice(std::vector<PlayedMotion>(stations, circling_hand()));
@@ -167,4 +168,4 @@ TEST(PlayedMotion, GoesRoundAndThroughItsSamples) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::simulated_fastrak

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::simulated_fastrak {
 
 /// One thing that goes wrong on the line or in the device, from `from` to before `until` [s].
 struct Fault {
@@ -51,4 +51,4 @@ class LineFaults {
   std::mt19937 random_;
 };
 
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::simulated_fastrak

@@ -9,7 +9,7 @@
 #include "spring_workbench/fastrak/fastrak_protocol.h"
 #include "spring_workbench/motion/stylus_source.h"
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::simulated_fastrak {
 
 /// A motion that is played round and round, straight and evenly turning between its samples.
 class PlayedMotion {
@@ -62,18 +62,18 @@ class FastrakDevice {
 
   std::vector<PlayedMotion> motions_;
   std::vector<int> switches_;
-  std::array<Station, kFastrakStations> stations_;
-  FastrakFormat format_ = FastrakFormat::ascii;
-  FastrakUnits units_ = FastrakUnits::inches;
+  std::array<Station, fastrak::kFastrakStations> stations_;
+  fastrak::FastrakFormat format_ = fastrak::FastrakFormat::ascii;
+  fastrak::FastrakUnits units_ = fastrak::FastrakUnits::inches;
   bool continuous_ = false;
   bool held_ = false;    ///< by the switch
   bool paused_ = false;  ///< by Ctrl-S
   bool switch_acts_ =
       true;  ///< mode 1: in continuous mode a press stops and starts the stream, else it asks for records
   bool pressed_ = false;
-  int last_station_ = kFastrakStations;
+  int last_station_ = fastrak::kFastrakStations;
   double t_ = 0.0;
   std::string command_;  ///< one with arguments, up to now
 };
 
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::simulated_fastrak
