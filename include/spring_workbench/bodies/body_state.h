@@ -12,7 +12,7 @@ struct BodyState {
   RigidTransform X_WO = RigidTransform::Identity();
   Twist V_WO_W;  ///< [m/s, rad/s]
   bool held = false;
-  bool highlighted = false;  ///< the tip or ray of a hand that holds nothing is in or on it
+  bool highlighted = false;  ///< whether the tip or ray of an empty hand touches it: it can be grasped
   bool in_contact = false;
   bool asleep = true;
 

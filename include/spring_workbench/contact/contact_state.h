@@ -14,10 +14,10 @@ struct ContactState {
   std::string object;
   std::string other;                 ///< another object's name, or "workbench"
   Vector3d p_W = Vector3d::Zero();   ///< [m]
-  Vector3d n_W = Vector3d::UnitZ();  ///< towards `object`
+  Vector3d n_W = Vector3d::UnitZ();  ///< unit normal, towards `object`
   double depth = 0.0;                ///< penetration [m]
   double impulse = 0.0;              ///< normal impulse in the last step [N·s]
-  double force = 0.0;                ///< the same as a mean force over that step [N]
+  double force = 0.0;                ///< mean normal force over that step [N]
   double slip_speed = 0.0;           ///< [m/s]
   ContactPhase phase = ContactPhase::started;
 

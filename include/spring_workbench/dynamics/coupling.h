@@ -18,10 +18,10 @@ struct RelativeMotion {
   math::Three<S> w_AB;  ///< [rad/s]
 };
 
-/// Returns pose and velocity of the object, seen from a frame A.
+/// Returns pose and velocity of the object relative to a frame A.
 RelativeMotion<double> seen_from(const motion::OwnAxesMotion& A, const motion::MotionState& O);
 
-/// Force [N] and moment about O [N·m].
+/// Force [N] and moment about O [N·m] on the object.
 template <typename S>
 struct Pull {
   math::Three<S> force, moment;

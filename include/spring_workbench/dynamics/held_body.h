@@ -20,7 +20,7 @@ struct BodyInertia {
   RigidTransform X_OE = RigidTransform::Identity();  ///< the grasp G
 };
 
-/// The moving handle in the equations at one moment, in the axes of the handle frame H.
+/// Motion of the handle at one moment, in the axes of the handle frame H.
 struct HandleForcing {
   double t = 0.0;  ///< [s]
   RigidTransform X_WH = RigidTransform::Identity();
@@ -31,7 +31,7 @@ struct HandleForcing {
   Couplings::Seen<double> seen;                           ///< as many as there are couplings
 };
 
-/// Forcing by the handle without its pose, at one moment or several.
+/// Motion of the handle without its pose, at one moment (`S` double) or several.
 template <typename S>
 struct ForcingOf {
   S t;
@@ -39,17 +39,17 @@ struct ForcingOf {
   Couplings::Seen<S> seen;
 };
 
-/// Forcing by the handle at several moments, for integrators.
+/// Motion of the handle at several moments, for integrators.
 struct HandleForcings : ForcingOf<math::Pack> {
   HandleForcing at(int i) const;
 };
 
 /// Energy of held body and springs at several moments, with the power that should change it.
 struct EnergyBalance {
-  /// That which a handle at rest leaves as it is [J]: elastic, kinetic, of the weight above the handle's origin, less
-  /// what the body's momentum and angular momentum about that origin do at the handle's velocities.
+  /// The energy in the frame of the handle, which is conserved if the handle is at rest [J]: elastic, kinetic and
+  /// potential, less the products of the body's momenta about the handle's origin with the handle's velocities.
   math::Pack energy;
-  math::Pack power;  ///< of the handle's accelerations, of contact and dampers in the frame of the handle [W]
+  math::Pack power;  ///< power of the handle's acceleration, of contact and of the dampers in that frame [W]
 };
 
 /// The equation of motion of doc/model.md for a rigid body on a rod on a moving handle, in the active coordinates:

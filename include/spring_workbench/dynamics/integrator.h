@@ -18,20 +18,20 @@ struct StepEstimate {
   bool converged = true;  ///< whether an implicit method solved its equation; if false, the state must not be used
 };
 
-/// What is known of the error of a run, the state less the exact solution of the equation of motion.
+/// Estimate and bound of the error of a run: the state minus the exact solution of the equation of motion.
 struct RunError {
   using Moments = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 2 * rod::max_strain_coordinates,
                                 2 * rod::max_strain_coordinates>;
   StrainState estimate;
-  /// The ellipsoid about the estimate that holds it: of (strain, rate) the error e less the estimate has
+  /// Ellipsoid about the estimate that contains the error: e = (strain, rate) of the error minus the estimate fulfils
   /// eᵀ spread⁻¹ e ≤ 1. Positive semi-definite.
   Moments spread;
-  double unsure = 0.0;  ///< how much the last step's own error may differ from its estimate, as an amplitude [m √kg]
+  double unsure = 0.0;  ///< largest difference of the last step's error from its estimate, as an amplitude [m √kg]
 };
 
-/// One way to carry the held body's state over a step (doc/model.md, "Integrators"). An integrator may keep what it has
-/// derived from the equations and the last step; HeldBody::version() tells when that is out of date.
-/// No allocation in a step.
+/// Integrates the held body's equation of motion over a step (doc/model.md, "Integrators"). An integrator may keep what
+/// it has derived from the equations and the last step while HeldBody::version() stays the same. It allocates no memory
+/// in a step.
 class Integrator {
  public:
   virtual ~Integrator() = default;
@@ -40,10 +40,10 @@ class Integrator {
   virtual int order() const = 0;
   /// Whether the step is stable at any stiffness.
   virtual bool stiffly_stable() const { return false; }
-  /// What the method does to the energy of a motion. It keeps it up to its error; or dissipates some (implicit methods
-  /// of low order); or changes it without a bound (explicit ones); or has an energy of its own, because it does not
-  /// solve the equation of motion (HeldBody) but relaxes to a target. StepControl bounds the first by its error and the
-  /// second by its balance. The estimates of the last are of the distance from the method's own limit.
+  /// Effect of the method on the energy of a motion: kept up to its error; partly dissipated (implicit methods of low
+  /// order); unbounded (explicit methods); or of its own, if the method relaxes to a target instead of solving the
+  /// equation of motion. StepControl bounds the first by its error and the second by its balance; the error estimates
+  /// of the last are of the distance from the method's own limit.
   enum class Energy { kept, dissipated, unbounded, of_its_own };
   virtual Energy energy() const { return Energy::unbounded; }
   /// Whether short steps lead to the equation of motion.
@@ -60,7 +60,7 @@ class Integrator {
 
   /// Whether the method has an interpolant whose defect it samples, so that it can follow the error of a run.
   virtual bool follows_errors() const { return false; }
-  /// Carries what is known of the run's error over the step that was done last, and adds what that one errs by.
+  /// Propagates the run's error over the last step, and adds that step's own error.
   virtual void follow(const HeldBody&, RunError&) {}
 
   /// How the state at the end of the step depends on a constant generalised force Q over the step, to first order:
@@ -71,7 +71,7 @@ class Integrator {
   /// By default that of the implicit Euler rule.
   virtual Response response(const HeldBody& body, const HandleForcing& handle, double h, const StrainState& state);
 
-  /// The history: what it keeps of the equations and the last step, to be restored into an integrator of the same name.
+  /// Saves or restores the history: all that it keeps of the equations and the last step.
   virtual void exchange(math::StateArchive&) {}
 };
 

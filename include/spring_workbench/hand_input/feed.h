@@ -22,8 +22,8 @@ struct Accepted {
     button_down,  ///< the grasp button went down at time `t`
     button_up,
     next_tool,  ///< the second button went down at time `t`
-    lost,       ///< the hand releases its object because it was lost until `t`
-    rest,       ///< no input: all hands rested until `t`
+    lost,       ///< the hand was lost and releases its object at time `t`
+    rest,       ///< no input: all hands are at rest until time `t`
     clutch_on,  ///< at time `t`
     clutch_off,
     external_wrench,
@@ -37,8 +37,8 @@ struct Accepted {
   double t = 0.0;                                               ///< [s]
   RigidTransform X_WH = RigidTransform::Identity();             ///< of a pose
   motion::ExternalWrench wrench;                                ///< of an external wrench, which is of the time `t`
-  double committed = -std::numeric_limits<double>::infinity();  ///< simulated time reached before it [s];
-                                                                ///< −infinity before the simulation began
+  double committed = -std::numeric_limits<double>::infinity();  ///< simulated time when it was given [s];
+                                                                ///< −infinity before the first advance
 };
 
 /// Input of all hands to a simulation, live and offline. Each hand passes gate, smoothing and re-acquisition. For

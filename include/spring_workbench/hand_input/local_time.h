@@ -2,7 +2,7 @@
 
 namespace spring_workbench::hand_input {
 
-/// One moment by two clocks [s].
+/// One moment on two clocks [s].
 struct LocalTime {
   double loop = 0.0;      ///< of the loop: steady, or simulated
   double attended = 0.0;  ///< of the steady clock, the time in which this process ran: it grows by at most 10 ms from

@@ -18,8 +18,8 @@
 
 namespace spring_workbench::math {
 
-/// Visits the numbers of a state, always in the same order, either to read or to set them. So a class lists only once,
-/// in `exchange(StateArchive&)`, its members that a step changes, for saving, restoring, comparing and hashing. It
+/// Visits the numbers of a state, always in the same order, either to read or to set them: a class lists the members
+/// that a step changes once, in `exchange(StateArchive&)`, for saving, restoring, comparing and hashing. An archive
 /// contains only numbers: no pointer, no padding, no capacity.
 class StateArchive {
  public:

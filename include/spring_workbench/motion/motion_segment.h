@@ -15,7 +15,7 @@ struct MotionState {
   Twist acceleration;
 };
 
-/// The same with the angular parts as body rates, in the frame's own axes.
+/// The same with angular velocity and acceleration in the axes of the frame itself.
 struct OwnAxesMotion {
   RigidTransform X = RigidTransform::Identity();  ///< X_WB
   Vector3d v_W = Vector3d::Zero();                ///< [m/s]
@@ -107,7 +107,7 @@ class MotionSegment final : public FrameMotion {
   };
   template <typename S>
   Turn<S> turn(const S& u, double per_second) const;
-  /// What C feels where B feels `f`.
+  /// The forcing of C, given that of B.
   FrameForcing<math::Pack> at_frame(const FrameForcing<math::Pack>& f) const;
   OwnAxesMotion of_samples(double t) const;
   FrameForcing<math::Pack> of_samples(const math::Pack& t, double gravity) const;

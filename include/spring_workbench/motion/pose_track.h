@@ -28,9 +28,9 @@ class PoseTrack {
   /// The reference is valid until the next call of a non-const function.
   /// Throws std::logic_error when the track is empty or `t` lies before begin().
   const MotionSegment& segment(double t);
-  /// The same, but fixes no velocity: the motion as known so far, before any step has used it.
+  /// The same without fixing a velocity: the motion as known so far.
   MotionSegment provisional(double t) const;
-  /// The pose at `t`, as of provisional(); at a sample that sample's.
+  /// The pose at `t` as in provisional(); at a sample, exactly that of the sample.
   RigidTransform pose(double t) const;
   /// Stamp of the first sample later than `t` [s]; infinity if there is none.
   double next_after(double t) const;

@@ -20,7 +20,7 @@ enum class Press { grasp, release, next_tool, clutch_on, clutch_off };
 
 /// What the force sensor of a machine measures: a wrench on the held object at the tip E.
 struct ExternalWrench {
-  /// world: fixed in the world; tip: those of E, with which it turns.
+  /// Axes of the wrench: fixed in the world, or those of the tip, which turn with it.
   enum class Axes { world, tip };
   double t = 0.0;  ///< when it was measured [s]
   Wrench wrench;   ///< about the origin of E, each component within ±1e5 [N, N·m]
@@ -30,7 +30,7 @@ struct ExternalWrench {
 };
 inline std::vector<std::string> names_of(ExternalWrench::Axes) { return {"world", "tip"}; }
 
-/// Throws InputError naming `where`, field, value and rule for a wrench that no sensor measures.
+/// Throws InputError naming `where`, field, value and rule if a component is not finite or out of range.
 void validate(const ExternalWrench& sample, const std::string& where);
 
 /// Source of a stylus: a device, a recording or a script. Stamps are passed on as they come, including repeated and

@@ -27,7 +27,7 @@ struct TipKinematics {
   Vector3d linear_bias = Vector3d::Zero();   ///< acceleration = linear · q̈ + linear_bias [m/s²]
 };
 
-/// The same for one strain (`S` double) or several.
+/// TipKinematics for one strain (`S` double) or several.
 template <typename S>
 struct TipOf {
   math::ThreeByThree<S> R_HE;
@@ -81,9 +81,9 @@ class ShapeModel {
   /// rotation vector beyond half a turn becomes that of the shorter turn). Returns whether it did.
   virtual bool rechart(StrainVector& q, StrainVector& q_dot) const;
 
-  /// Whether a rod can have this strain: finite, not inverted, not wound up beyond `max_turns`.
+  /// Whether a rod can have this strain: finite, not inverted, twisted by less than `max_turns`.
   bool admissible(const StrainVector& q) const { return q.allFinite() && range_used(q) < 1.0; }
-  /// How much of its range a rod with this strain has used: 0 at rest, 1 at the end; a convex function.
+  /// Fraction of the rod's range that this strain uses: 0 at rest, 1 at its end; a convex function.
   virtual double range_used(const StrainVector& q) const = 0;
 
   double length() const { return length_; }

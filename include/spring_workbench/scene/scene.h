@@ -27,7 +27,7 @@ struct Material {
   double stiffness = std::numeric_limits<double>::infinity();  ///< [N/m], read by the spring-probe; > 0
 };
 
-/// One rigid body of the scene: a URDF link with everything that hangs on it by fixed joints.
+/// One rigid body of the scene: a URDF link with all links that fixed joints attach to it.
 struct Body {
   std::string name;  ///< the URDF link's name; unique in the scene
   bool movable = false;
@@ -62,7 +62,7 @@ struct Scene {
   double force_scale = 1.0;                                ///< ratio of virtual to real force, > 0
   RigidTransform X_WH_start = RigidTransform::Identity();  ///< start of the fork's handle
   std::map<std::string, Target> targets;
-  std::vector<std::string> warnings;  ///< what was repaired on loading; each names the link
+  std::vector<std::string> warnings;  ///< one line for each repair on loading, naming the link
 };
 
 /// The folder of a package in the colon-separated folders of ROS_PACKAGE_PATH, or an empty string: no ROS needed.

@@ -17,8 +17,8 @@ class Node;
 
 namespace spring_workbench::simulation {
 
-/// Everything that can be set from outside about a simulation. One field per key; the keys with unit, range and meaning
-/// are in `setting_descriptions()`, which the parameter server, `replay` and the reference in doc/ are all made from.
+/// Settings of a simulation, one field per key. `setting_descriptions()` has type, unit, range and meaning of each key;
+/// parameters, the options of `replay` and doc/reference.md come from it.
 struct SimulationSettings {
   std::optional<tools::Tool> tool;            ///< key `tool`; default: as in the scene; likewise the next three
   std::optional<scene::ContactMode> contact;  ///< key `contact`
@@ -55,10 +55,10 @@ struct ForkChange {
   rod::ForkSettings applied_to(rod::ForkSettings fork) const;
 };
 
-/// The change that makes a fork like this one, except for its shape and length.
+/// The change that gives another fork the springs, dampers and DOFs of `fork`; shape and length are not changed.
 ForkChange change_to(const rod::ForkSettings& fork);
 
-/// A change of how time is stepped.
+/// A change of integrator, step or tolerance; absent fields stay as they are.
 struct DynamicsChange {
   std::optional<dynamics::IntegratorKind> integrator;
   std::optional<double> step;       ///< [s]
@@ -73,21 +73,21 @@ struct ObjectEdit {
   enum class Action { add, move, remove, mass, friction };
   Action action = Action::move;
   std::string object;                  ///< its name
-  std::string urdf;                    ///< add: the object's own, a path or package:// URI
-  std::optional<RigidTransform> X_WL;  ///< pose of its URDF link's frame in world; move: needed; add without: on the
-                                       ///< bench at x = y = 0
-  double mass = 0.0;                   ///< mass: the new one [kg], 0 … 1e12; 0: follows the tip as a massless one
-  double friction = 0.0;               ///< friction: the new Coulomb coefficient, ≥ 0
+  std::string urdf;                    ///< for `add`: path or package:// URI of the object's URDF
+  std::optional<RigidTransform> X_WL;  ///< pose of its URDF link's frame in world; `move` needs it; an added
+                                       ///< object without it stands on the bench at x = y = 0
+  double mass = 0.0;                   ///< for `mass`: the new mass [kg], 0 … 1e12; with 0 the object is massless
+  double friction = 0.0;               ///< for `friction`: the new Coulomb coefficient, ≥ 0
 
   bool operator==(const ObjectEdit& other) const;
   void exchange(math::StateArchive& state) { state(action, object, urdf, X_WL, mass, friction); }
 };
 inline std::vector<std::string> names_of(ObjectEdit::Action) { return {"add", "move", "remove", "mass", "friction"}; }
 
-/// Throws InputError naming `edit_object`, field, value and rule for a value that no object can have.
+/// Throws InputError naming `edit_object`, field, value and rule if a value is invalid.
 void validate(const ObjectEdit& edit);
 
-/// What one key means.
+/// Description of one key.
 struct SettingDescription {
   std::string key;      ///< e.g. "fork.stiffness.bend"
   std::string type;     ///< bool, int, double, string, double list

@@ -53,15 +53,15 @@ struct AdvanceReport {
   int steps = 0;                   ///< integrator steps taken
   double simulated_time = 0.0;     ///< [s]
   double position_error = 0.0;     ///< largest estimate of a step's local error [m]
-  double angle_error = 0.0;        ///< [rad]
-  double local_error_bound = 0.0;  ///< of a step's local error in position, the largest [m]; infinite: none
-  double error_bound = 0.0;        ///< of the run's error in position, the largest [m] (doc/model.md, "Error bound")
-  double angle_error_bound = 0.0;  ///< of its error in attitude [rad]
-  int steps_unbounded = 0;         ///< steps for which there is none
+  double angle_error = 0.0;        ///< largest estimate of a step's local error in angle [rad]
+  double local_error_bound = 0.0;  ///< largest bound of a step's local error in position [m]; infinity: no bound
+  double error_bound = 0.0;        ///< largest bound of the run's error in position [m] (doc/model.md, "Error bound")
+  double angle_error_bound = 0.0;  ///< largest bound of the run's error in angle [rad]
+  int steps_unbounded = 0;         ///< steps without an error bound
   double energy_added = 0.0;       ///< energy of the held object and the fork beyond the work of hand, gravity, damping
                                    ///< and contact [J]; meaningful if stiffest_omega_dt is below about 1
   double stiffest_omega_dt = 0.0;  ///< ω·dt of the stiffest mode
-  int steps_among_movable = 0;     ///< those of `steps` with other movable objects (contact mode `dynamic`)
+  int steps_among_movable = 0;     ///< steps near other movable objects (contact mode `dynamic`)
   int collision_queries = 0;
   int substeps = 0;  ///< discarded attempts, repeated with a shorter step (equation not solved, or error too large)
   int stops = 0;     ///< steps that met the end of the fork's range
@@ -98,14 +98,14 @@ class Simulation {
   Simulation(Simulation&&) noexcept;
   Simulation& operator=(Simulation&&) noexcept;
 
-  /// As edited; objects at their start.
+  /// The scene with all edits; objects are at their start poses.
   const scene::Scene& scene() const;
   /// The settings as given, with `dynamics` as changed since and `fork` as calibrated to the world.
   const SimulationSettings& settings() const;
   /// The fork in a hand: as given, changed and calibrated since.
   const rod::ForkSettings& fork_settings(std::size_t hand = 0) const;
 
-  /// Simulated time [s]: the first sample's stamp at first.
+  /// Simulated time [s]; the stamp of the first sample until `advance` is called.
   double time() const;
 
   /// Adds a pose of the stylus; its position is scaled by `settings().hand_scale`. Returns false, and ignores the pose,
@@ -118,28 +118,28 @@ class Simulation {
   void push_button(double t, bool pressed, std::size_t hand = 0) {
     push_press(t, pressed ? motion::Press::grasp : motion::Press::release, hand);
   }
-  /// The second button: the next of the tools, or, while something is held, the next that can hold it.
+  /// The second button: selects the next tool or, while something is held, the next tool that can hold it.
   void push_next_tool(double t, std::size_t hand = 0) { push_press(t, motion::Press::next_tool, hand); }
-  /// The clutch. On: the tool and what it holds stay where they are while the hand is moved; off: they go on from
-  /// there, as the hand moves and turns in world.
+  /// The clutch. While it is on, the tool and what it holds stay where they are; when it goes off, they follow the
+  /// hand's further motion from there.
   void push_clutch(double t, bool on, std::size_t hand = 0) {
     push_press(t, on ? motion::Press::clutch_on : motion::Press::clutch_off, hand);
   }
-  /// What a machine's force sensor measures on what the hand holds, in real units (times the scene's `force_scale` it
-  /// is virtual). It acts from its time on, plus contact, until the next one or for `settings().wrench_timeout`; one
-  /// that comes later than its time acts at once. Throws InputError, and changes nothing, for an invalid one.
+  /// Adds a wrench on the held object that a machine's force sensor has measured, in real units: it is multiplied by
+  /// the scene's `force_scale`. It acts from its time on, or at once if it is late, until the next one or for
+  /// `settings().wrench_timeout`. Throws InputError, and changes nothing, if it is invalid.
   void push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand = 0);
   /// Time of the newest sample of any hand, or time() if there is none.
   double newest_sample() const;
-  /// The next time after time() at which a hand has a sample, a button an edge or an external wrench a change, or of
-  /// the first sample; infinity if there is none. If every call of `advance` ends at one of these, the number of calls
-  /// has no effect.
+  /// The next time [s] at which a hand has a sample, a button changes or an external wrench begins or ends; infinity
+  /// if there is none. A simulation that is advanced from edge to edge gives the same result as one that is advanced
+  /// over several edges in one call.
   double next_edge() const;
 
   /// Simulates from time() to `t_end` in steps of at most `settings().dynamics.step` that end at the samples.
   AdvanceReport advance(double t_end);
 
-  /// Puts objects back to their start, with nothing held and no sample known: for a time jump, or on request.
+  /// Puts all objects back to their start poses, releases them and forgets all samples.
   void reset();
   /// Places these objects at rest at the given poses; all hands release first. Names that are not in the scene are
   /// ignored. Throws InputError if a pose is not finite.
@@ -172,9 +172,9 @@ class Simulation {
   /// stiffness. The damping ratios stay. Throws InputError if no object is held by a fork or a spring.
   ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
 
-  const std::vector<bodies::BodyState>& objects() const;
-  tools::ToolState fork(std::size_t hand = 0) const;
-  const std::vector<contact::ContactState>& contacts() const;
+  const std::vector<bodies::BodyState>& objects() const;       ///< the movable objects, in the scene's order
+  tools::ToolState fork(std::size_t hand = 0) const;           ///< the tool in a hand, whichever it is
+  const std::vector<contact::ContactState>& contacts() const;  ///< those present, and those ended since the last call
 
   /// The whole state: time, hands with their samples, buttons, tools and holds, objects, contacts and their warm
   /// starts, histories of integrators, the settings that can be changed while running, and what was edited. Two saves

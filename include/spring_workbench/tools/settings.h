@@ -9,18 +9,18 @@
 
 namespace spring_workbench::tools {
 
-/// At its limit a tool lets go of the object, or slips in the hand and goes on pulling with what it can.
+/// What a tool does at its limit: it lets go of the object, or slips in the hand and keeps pulling at the limit.
 enum class LimitAction { let_go, slip };
 inline std::vector<std::string> names_of(LimitAction) { return {"let_go", "slip"}; }
 
-/// What a tool can do at its tip.
+/// Largest force and moment of a tool at its tip.
 struct LimitSettings {
   double force = std::numeric_limits<double>::infinity();   ///< key `limit.force` [N], > 0
   double moment = std::numeric_limits<double>::infinity();  ///< key `limit.moment` [N·m], > 0
   LimitAction action = LimitAction::let_go;                 ///< key `limit.action`
 };
 
-/// What a tool is calibrated to: nothing, each object at its grasp, or once all objects of the scene.
+/// What a tool is calibrated to: nothing, each object when it is grasped, or all objects of the scene at once.
 enum class Calibration { none, object, world };
 inline std::vector<std::string> names_of(Calibration) { return {"none", "object", "world"}; }
 

@@ -9,7 +9,7 @@
 
 namespace spring_workbench::tools {
 
-/// What an instrument reads, on the average over a window of time.
+/// Average reading of an instrument over a window of time.
 struct Reading {
   double mean = 0.0;
   double uncertainty = std::numeric_limits<double>::infinity();  ///< one standard deviation of the mean
@@ -17,7 +17,7 @@ struct Reading {
 
 /// State of the tool in a hand.
 struct ToolState {
-  bool present = false;  ///< a sample of this hand is known
+  bool present = false;  ///< whether a sample of this hand has arrived
   Tool tool = Tool::spring_fork;
   std::string held_object;  ///< empty when nothing is held
   std::string touched;      ///< the body that the probe touches, "workbench" for the bench; otherwise empty
@@ -41,18 +41,18 @@ struct ToolState {
   Wrench handle_wrench_H;                                  ///< wrench on the hand, at and in the handle frame
   double elastic_energy = 0.0;                             ///< [J]
   double kinetic_energy = 0.0;                             ///< of the held object, in world [J]
-  double error_bound = 0.0;                                ///< of the run's error in position [m]
-  bool error_bounded = false;                              ///< whether it is a bound (doc/model.md, "Error bound")
+  double error_bound = 0.0;                                ///< bound of the run's error in position [m]
+  bool error_bounded = false;                              ///< whether it holds (doc/model.md, "Error bound")
   double force_scale = 1.0;                                ///< ratio of virtual to real force
-  double weight = 0.0;            ///< the tool as a scale: upward force on the object over g [vkg]
-  double torque = 0.0;            ///< the tool as a torque wrench: moment about its axis at the tip [N·m]
+  double weight = 0.0;                                     ///< reading as a scale: upward force on the object / g [vkg]
+  double torque = 0.0;            ///< reading as a torque wrench: moment about the axis at the tip [N·m]
   Reading weight_average;         ///< [vkg]; filled in by ReadingAverage
   Reading torque_average;         ///< [N·m]; likewise
   double stretching_force = 0.0;  ///< along the tool's axis at the handle, > 0: it is pulled out [N] (paper, section 4)
   double bending_force = 0.0;     ///< across that axis [N]
   double force_angle = 0.0;       ///< Φ of the force on the tool from that axis, 0 … π [rad]
-  double load = 0.0;              ///< position of the load in the scene's range of loads, 0 … 1 (LoadRange)
-  bool clutch = false;            ///< on: the hand moves without the tool
+  double load = 0.0;              ///< load as a fraction of the scene's range of loads, 0 … 1 (LoadRange)
+  bool clutch = false;            ///< whether it is on: the hand moves without the tool
   double material_stiffness = 0.0;              ///< reading of the probe [N/m]; infinite: rigid; 0: no reading
   double material_stiffness_uncertainty = 0.0;  ///< one standard deviation [N/m]
 };
