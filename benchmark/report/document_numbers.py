@@ -4,11 +4,11 @@ document is shown:
 
     in 12 µm<!-- max penetration_um of contact_extremes.csv where extreme=stack of ten --> at most
 
-`the`, `max`, `min` or `mean` of a column, over the rows where all the cells named are as said (numbers as numbers);
-`the` wants one row alone; `count` is how many rows have anything in that column. `times X` at the end gives another
-unit. The number is the last one before the marker, and must be what the table says, rounded to as many digits as it
-has. `run` is no number but `quick` or `full`: how the report was run that wrote the table, by the command in its
-header.
+`the`, `max`, `min` or `mean` of a column, over the rows where all the cells named are as said (numbers as numbers), or
+match a pattern (`claim~^Rod .* samples`); `the` wants one row alone; `count` is how many rows have anything in that
+column. `times X` at the end gives another unit. The number is the last one before the marker, and must be what the
+table says, rounded to as many digits as it has. `run` is no number but `quick` or `full`: how the report was run that
+wrote the table, by the command in its header.
 
     of a quick<!-- run of verdicts.csv --> run
 
@@ -17,6 +17,12 @@ Whole rows stand between two markers, each on a line of its own:
     <!-- rows claim, measured of verdicts.csv where verdict=FAIL -->
     (the table, which --write makes)
     <!-- end of rows -->
+
+Sentences that compare have a marker, too, which says what must hold for them to be true, of all chosen rows or of two
+values:
+
+    is the fastest<!-- all verdict=PASS of verdicts.csv where claim~^Rod stiff.*every peer -->
+    is cheaper<!-- less max us of t.csv where method=ode than min us of t.csv where method=stop -->
 
 Usage: document_numbers.py            tells stale numbers and markers that say nothing; status 1 if there are any
        document_numbers.py --write    puts the tables' numbers in"""
@@ -29,9 +35,10 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 RESULTS = "benchmark/results"
 DOCUMENTS = ["README.md", "benchmark/README.md", "benchmark/contact/README.md", "doc/*.md"]
-MARKER = re.compile(
-    r"<!--\s*(the|max|min|mean|count)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?(?:\s+times\s+([-+.\deE]+))?\s*-->"
-)
+VALUE = r"(the|max|min|mean|count)\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?"
+MARKER = re.compile(rf"<!--\s*{VALUE}(?:\s+times\s+([-+.\deE]+))?\s*-->")
+ALL = re.compile(r"<!--\s*all\s+(.+?)\s+of\s+(\S+\.csv)(?:\s+where\s+(.+?))?\s*-->")
+LESS = re.compile(rf"<!--\s*less\s+{VALUE}\s+than\s+{VALUE}\s*-->")
 RUN = re.compile(r"<!--\s*run\s+of\s+(\S+\.csv)\s*-->")
 ROWS = re.compile(r"(<!-- rows (.+?) of (\S+\.csv)(?: where (.+?))? -->\n)(.*?)(<!-- end of rows -->)", re.S)
 NUMBER = re.compile(r"\d[\d,]*(?:\.\d+)?(?:e[-+]?\d+)?")
@@ -66,14 +73,19 @@ def same(cell, wanted):
         return cell == wanted
 
 
+def condition_of(text, rows, table):
+    """What a row must be, by `column=value` or `column~pattern`."""
+    key, sign, wanted = re.fullmatch(r"([^=~]*)([=~]?)(.*)", text.strip()).groups()
+    if rows and key not in rows[0]:
+        raise Stale(f"{table} has no column {key}")
+    return lambda row: re.search(wanted, row[key]) is not None if sign == "~" else same(row[key], wanted)
+
+
 def chosen(table, where, results):
     """The rows of a table where all cells are as said."""
     rows = rows_of(results / table)
-    for condition in filter(None, (part.strip() for part in (where or "").split(","))):
-        key, _, wanted = condition.partition("=")
-        if rows and key not in rows[0]:
-            raise Stale(f"{table} has no column {key}")
-        rows = [row for row in rows if same(row[key], wanted)]
+    for text in filter(None, (part.strip() for part in (where or "").split(","))):
+        rows = list(filter(condition_of(text, rows, table), rows))
     if not rows:
         raise Stale(f"no such row in {table}")
     return rows
@@ -91,9 +103,8 @@ def table_of(marker, results):
     return "".join("| " + " | ".join(row) + " |\n" for row in cells)
 
 
-def value_of(marker, results):
-    """The number that a marker (a match of MARKER) stands for."""
-    kind, column, table, where, times = marker.groups()
+def value_of(kind, column, table, where, times, results):
+    """The number that a marker stands for: the groups of MARKER."""
     rows = chosen(table, where, results)
     if column not in rows[0]:
         raise Stale(f"{table} has no column {column}")
@@ -107,6 +118,27 @@ def value_of(marker, results):
         raise Stale(f"{column} of {table} is no number") from error
     of_kind = {"the": max, "max": max, "min": min, "mean": lambda v: sum(v) / len(v)}
     return of_kind[kind](values) * float(times or 1.0)
+
+
+def false_sentences(line, results):
+    """What the markers of a line that compare find untrue."""
+    for marker in ALL.finditer(line):
+        try:
+            rows = chosen(*marker.groups()[1:], results)
+            holds = condition_of(marker.group(1), rows, marker.group(2))
+            others = [row for row in rows if not holds(row)]
+            if others:
+                first = " | ".join(others[0].values())
+                yield f"untrue for {len(others)} of {len(rows)}, first {first}: {marker.group()}"
+        except Stale as what:
+            yield f"{what}: {marker.group()}"
+    for marker in LESS.finditer(line):
+        try:
+            low, high = (value_of(*marker.groups()[at : at + 4], None, results) for at in (0, 4))
+            if not low < high:
+                yield f"untrue, {low:g} is no less than {high:g}: {marker.group()}"
+        except Stale as what:
+            yield f"{what}: {marker.group()}"
 
 
 def written_like(text, value):
@@ -160,6 +192,7 @@ def checked(text, results):
 
     for number, line in enumerate(ROWS.sub(made, text).split("\n"), 1):
         line = with_runs(line, number, results, wrong)
+        wrong += [f"{number}: {what}" for what in false_sentences(line, results)]
         done, at = "", 0
         for marker in MARKER.finditer(line):
             before = line[at : marker.start()]
@@ -168,7 +201,7 @@ def checked(text, results):
             try:
                 if not found:
                     raise Stale("no number before the marker")
-                now = written_like(found[-1].group(), value_of(marker, results))
+                now = written_like(found[-1].group(), value_of(*marker.groups(), results))
                 if now != found[-1].group():
                     wrong.append(f"{number}: {found[-1].group()} is stale: {now} by {marker.group()}")
                     before = before[: found[-1].start()] + now + before[found[-1].end() :]
@@ -176,7 +209,7 @@ def checked(text, results):
                 wrong.append(f"{number}: {what}: {marker.group()}")
             done += before + marker.group()
         lines.append(done + line[at:])
-        rest = RUN.sub("", MARKER.sub("", line))
+        rest = LESS.sub("", ALL.sub("", RUN.sub("", MARKER.sub("", line))))
         if "<!-- rows" not in line and ".csv" in rest.partition("<!--")[2]:
             wrong.append(f"{number}: a marker that is not understood: {line.strip()}")
     return "\n".join(lines), wrong

@@ -149,61 +149,78 @@ def scene(table, picture, name, hand):
 SOLVERS = "solver_"  # how general methods on our equation of motion are called
 
 
+def power_of_ten(value):
+    return "$10^{%d}$" % round(math.log10(value)) if value >= 1e4 else f"{value:g}"
+
+
+def load_name(mass):
+    return f"{1e3 * mass:g} g" if mass < 1.0 else f"{mass:g} kg"
+
+
 def rod_panel(axes, rows, name):
     """The default method and the general ones on a rod under a tracked hand."""
     here = [row for row in rows if row["scene"] == name and row["shape"] == "linear"]
-    methods = sorted({row["method"] for row in rows if row["method"].startswith(SOLVERS)})
-    for i, method in enumerate(methods):
-        line = points([row for row in here if row["method"] == method], "error_over_largest_deflection")
-        look = dict(color=PEERS[i % len(PEERS)], marker=MARKERS[i], linewidth=1.1, markersize=4, zorder=2)
-        draw_line(axes, line, label=method[len(SOLVERS) :].replace("_", " "), **look)
     line = points([row for row in here if row["method"] == DEFAULT], "error_over_largest_deflection")
-    draw_line(axes, line, color=OURS[0], marker="o", linewidth=3, markersize=5, zorder=3, label=f"{DEFAULT} (ours)")
-    one = here[0]
-    log_axes(
-        axes,
-        title=f"rod, stiffness × {float(one['stiffness_factor']):g}, {float(one['mass']):g} kg",
-        ylim=(1e-11, 10.0),
-    )
-    axes.set_xlabel(TIME_LABEL)
-    axes.set_ylabel("largest error / largest deflection")
+    draw_line(axes, line, color=OURS[0], marker="o", linewidth=3, markersize=5, zorder=3, label=f"ours ({DEFAULT})")
+    for i, method in enumerate(sorted({row["method"] for row in rows if row["method"].startswith(SOLVERS)})):
+        line = points([row for row in here if row["method"] == method], "error_over_largest_deflection")
+        look = dict(color=PEERS[i % len(PEERS)], marker=MARKERS[i], linewidth=1.2, markersize=5, zorder=2)
+        draw_line(axes, line, label=method[len(SOLVERS) :].replace("_", " "), **look)
+    factor, mass = float(here[0]["stiffness_factor"]), float(here[0]["mass"])
+    fork = "default fork" if factor == 1.0 else f"{power_of_ten(factor)} times as stiff"
+    log_axes(axes, title=f"{fork}, {load_name(mass)}", ylim=(1e-11, 10.0))
 
 
 def drag_panel(axes, rows, factor):
-    """Ours, bold, and the engines on a box that is pressed on a plane and dragged."""
-    here = [r for r in rows if r["finite"] == "1" and float(r["stiffness_factor"]) == factor and r["box"] == "turns"]
+    """Ours, bold, and the engines on a box that is pressed on a plane and dragged; dotted where it cannot turn."""
+    here = [r for r in rows if r["finite"] == "1" and float(r["stiffness_factor"]) == factor]
     ours = ("stop", "dynamic")
     for i, method in enumerate(in_order(row["method"] for row in rows)):
-        line = [
-            (float(r["cpu_us_per_simulated_second"]), max(1e-2 * float(r["lag_error_percent"]), LEAST_ERROR))
-            for r in here
-            if r["method"] == method
-        ]
         if method in ours:
-            look = dict(color=OURS[0], linewidth=3, markersize=5, marker="o")
-            look["linestyle"] = "-" if method == "stop" else "--"
-            label = f"contact: {method} (ours)"
+            look = dict(color=OURS[0], linewidth=3, markersize=5, marker="o", zorder=3)
         else:
-            colour = pyplot.get_cmap("tab20").colors[2 * i % 20 + 1]
-            look = dict(color=colour, linewidth=1.1, markersize=4, marker=MARKERS[i % len(MARKERS)])
-            label = "contact: " + method.replace("_", " ")
-        draw_line(axes, line, label=label, **look)
-    log_axes(axes, title=f"dragged with friction, stiffness × {factor:g}")
-    axes.set_xlabel("processor time [µs per simulated second]")
-    axes.set_ylabel("error of the lag / lag")
+            colour = PEERS[(i - len(ours)) % len(PEERS)]
+            look = dict(color=colour, linewidth=1.2, markersize=5, marker=MARKERS[i % len(MARKERS)], zorder=2)
+        for box in ("turns", "cannot turn"):
+            line = [
+                (float(r["cpu_us_per_simulated_second"]), max(1e-2 * float(r["lag_error_percent"]), LEAST_ERROR))
+                for r in here
+                if r["method"] == method and r["box"] == box
+            ]
+            if box == "turns":
+                look["linestyle"] = "--" if method == "dynamic" else "-"
+                look["label"] = f"ours ({method})" if method in ours else method.replace("_", " ")
+            else:
+                look.update(linestyle=":", label=None)
+            draw_line(axes, line, **look)
+    fork = "bushing" if factor == 1.0 else f"{power_of_ten(factor)} times as stiff"
+    log_axes(axes, title=f"{fork}, 5 kg", ylim=(0.5 * LEAST_ERROR, 10.0))
 
 
 def overview(table, picture, drags):
+    """As wide as a page of text, in letters that can be read there."""
     rows, contact_rows = by_step(read(table)), read(drags)
-    figure, panels = pyplot.subplots(2, 3, figsize=(16.5, 8.6))
+    figure, panels = pyplot.subplots(2, 3, figsize=(11.0, 8.6))
     names = (("soft_light", "stiff_light"), ("soft_heavy", "stiff_heavy"))
     factors = sorted({float(row["stiffness_factor"]) for row in contact_rows})
     for line, of_line, factor in zip(panels, names, (factors[0], factors[-1])):
         for axes, name in zip(line, of_line):
             rod_panel(axes, rows, name)
         drag_panel(line[2], contact_rows, factor)
+        line[0].set_ylabel("largest error / largest deflection")
+        line[2].set_ylabel("error of the lag / lag")
     panels[1][2].set_visible(len(factors) > 1)
-    save(figure, picture, [axes for line in panels for axes in line], right=True)
+    for axes in panels[1]:
+        axes.set_xlabel("µs per simulated second")
+    figure.tight_layout(rect=(0, 0.135, 1, 0.955))
+    for x, text in ((0.36, "carried by a hand that is tracked at 50 Hz"), (0.85, "pressed on a plane and dragged")):
+        figure.text(x, 0.97, text, ha="center", fontsize=12, fontweight="bold")
+    for axes, x, columns in ((panels[0][0], 0.34, 4), (panels[0][2], 0.83, 2)):
+        place = dict(loc="upper center", bbox_to_anchor=(x, 0.135), ncol=columns, frameon=False, columnspacing=1.2)
+        figure.legend(*axes.get_legend_handles_labels(), fontsize=9.5, **place)
+    figure.text(0.34, 0.055, "run time; steps or tolerances become finer along a line", ha="center", fontsize=9.5)
+    figure.text(0.83, 0.015, "processor time; dotted: a box that cannot turn", ha="center", fontsize=9.5)
+    figure.savefig(picture, dpi=140)
 
 
 def recording(table, picture):
@@ -331,6 +348,12 @@ def shares(rows, line_of, column_of):
     }, f"{sum(held.values())} of {sum(cells.values())} cells hold"
 
 
+def amount(value):
+    if value >= 1e6:
+        return f"{value / 1e6:.1f} million"
+    return f"{value / 1e3:.0f} thousand" if value >= 1e4 else f"{value:.0f}"
+
+
 def layer_of_counters(axes, rows, stiffnesses, masses, mass_names):
     """Steps that met a stop or were done by the fallback, by mass and stiffness, in per cent."""
     counted, steps = defaultdict(float), defaultdict(float)
@@ -339,7 +362,7 @@ def layer_of_counters(axes, rows, stiffnesses, masses, mass_names):
         counted[place] += float(row["stops"]) + float(row["steps_fallback"])
         steps[place] += float(row["steps"])
     share = [[counted[m, k] / steps[m, k] if steps[m, k] else math.nan for k in stiffnesses] for m in masses]
-    axes.imshow(share, origin="lower", aspect="auto", cmap="Reds", vmin=0.0, vmax=0.1)
+    image = axes.imshow(share, origin="lower", aspect="auto", cmap="Reds", vmin=0.0, vmax=0.1)
     for y, line in enumerate(share):
         for x, value in enumerate(line):
             if value > 0.0:
@@ -349,14 +372,16 @@ def layer_of_counters(axes, rows, stiffnesses, masses, mass_names):
     axes.set_xticks(range(len(stiffnesses)), [f"{math.log10(k):.0f}" for k in stiffnesses])
     axes.set_yticks(range(len(masses)), mass_names)
     total = {name: sum(float(row[name]) for row in rows) for name in ("steps", "stops", "steps_fallback")}
-    axes.set(
-        title=f"{total['stops']:.0f} stops, {total['steps_fallback']:.0f} fallback\nof {total['steps']:.0f} steps",
-        xlabel="stiffness factor, power of ten",
-        ylabel="mass [kg]",
+    axes.set_title(
+        f"{rows[0]['integrator']}: {amount(total['stops'])} stops,\n"
+        f"{amount(total['steps_fallback'])} by fallback, of {amount(total['steps'])}",
+        fontsize=10,
     )
+    return image
 
 
 def stability(table, picture, extremes=None):
+    """First the cells that hold, then what steps met, each a panel per integrator; contact is last."""
     rows = read(table)
     shape = rows[0]["shape"]
     rows = [row for row in rows if row["shape"] == shape]
@@ -365,9 +390,24 @@ def stability(table, picture, extremes=None):
     masses = sorted({float(row["mass"]) for row in rows})
     contact_rows = read(extremes) if extremes else []
     modes = in_order(row["contact"] for row in contact_rows)
-    figure, panels = grid(2 * len(names) + len(modes))
+    columns = 3
+    lines = -(-len(names) // columns)
+    figure = pyplot.figure(figsize=(12.0, 3.4 * (2 * lines + bool(modes))), layout="constrained")
+    heights = [lines, lines] + [1] * bool(modes)
+    layers = figure.subfigures(len(heights), 1, height_ratios=heights, squeeze=False)[:, 0]
     mass_names = ["0" if m == 0.0 else f"1e{math.log10(m):.0f}" for m in masses]
-    for axes, name in zip(panels, names):
+
+    def panels_of(layer, title, lines_of_layer):
+        layer.suptitle(title, fontweight="bold")
+        return [axes for line in layer.subplots(lines_of_layer, columns, squeeze=False) for axes in line]
+
+    def finish(layer, panels, used, image, label):
+        for axes in panels[used:]:
+            axes.set_visible(False)
+        layer.colorbar(image, ax=panels, label=label, fraction=0.03)
+
+    held = panels_of(layers[0], "cells that hold", lines)
+    for axes, name in zip(held, names):
         share, total = shares(
             [row for row in rows if row["integrator"] == name],
             lambda row: float(row["mass"]),
@@ -376,21 +416,32 @@ def stability(table, picture, extremes=None):
         image = share_panel(
             axes, [[share.get((m, k), math.nan) for k in stiffnesses] for m in masses], stiffnesses, mass_names
         )
-        axes.set(title=f"{name}\n{total}", xlabel="stiffness factor, power of ten", ylabel="mass [kg]")
-    for axes, name in zip(panels[len(names) :], names):
-        layer_of_counters(axes, [row for row in rows if row["integrator"] == name], stiffnesses, masses, mass_names)
-        axes.set_title(f"{name}\n{axes.get_title()}")
-    for axes, mode in zip(panels[2 * len(names) :], modes):
-        here = [row for row in contact_rows if row["contact"] == mode]
-        forks, lines = sorted({float(row["stiffness"]) for row in here}), in_order(row["extreme"] for row in here)
-        share, total = shares(here, lambda row: row["extreme"], lambda row: float(row["stiffness"]))
-        share_panel(axes, [[share.get((line, k), math.nan) for k in forks] for line in lines], forks, lines)
-        axes.tick_params(axis="y", labelsize=7)
-        axes.set(title=f"contact: {mode}\n{total}", xlabel="stiffness [N/m], power of ten")
-    share = 1.0 - 1.3 / figure.get_figwidth()
-    figure.tight_layout(rect=(0, 0, share, 1))
-    bar = figure.colorbar(image, cax=figure.add_axes((share, 0.12, 0.2 / figure.get_figwidth(), 0.72)))
-    bar.set_label("share of cells that hold\n(numbers: per cent, below 100)")
+        axes.set_title(f"{name}: {total}", fontsize=10)
+    finish(layers[0], held, len(names), image, "share that holds (numbers: per cent)")
+    counters = panels_of(layers[1], "steps that met the end of the rod's range or were done by the fallback", lines)
+    for axes, name in zip(counters, names):
+        of_it = [row for row in rows if row["integrator"] == name]
+        image = layer_of_counters(axes, of_it, stiffnesses, masses, mass_names)
+    finish(layers[1], counters, len(names), image, "share of steps (numbers: per cent)")
+    for panels in (held, counters):
+        for axes in panels[::columns]:
+            axes.set_ylabel("mass [kg]")
+        for axes in panels[-columns:]:
+            axes.set_xlabel("stiffness factor, power of ten")
+    if modes:
+        contact_panels = panels_of(layers[2], "contact at its extremes", 1)
+        for axes, mode in zip(contact_panels, modes):
+            here = [row for row in contact_rows if row["contact"] == mode]
+            forks = sorted({float(row["stiffness"]) for row in here})
+            extremes_met = in_order(row["extreme"] for row in here)
+            share, total = shares(here, lambda row: row["extreme"], lambda row: float(row["stiffness"]))
+            image = share_panel(
+                axes, [[share.get((line, k), math.nan) for k in forks] for line in extremes_met], forks, extremes_met
+            )
+            axes.tick_params(axis="y", labelsize=8)
+            axes.set_title(f"{mode}: {total}", fontsize=10)
+            axes.set_xlabel("stiffness [N/m], power of ten")
+        finish(layers[2], contact_panels, len(modes), image, "share that holds")
     figure.savefig(picture, dpi=110)
 
 

@@ -64,6 +64,28 @@ class Markers(unittest.TestCase):
             same, wrong = self.check(bad % table)
             self.assertEqual((same, len(wrong)), (bad % table, 1))
 
+    def test_sentences_that_compare_are_told_where_they_are_untrue(self):
+        for text in (
+            "all<!-- all n=3 of t.csv where kind=stack --> and<!-- all kind~^(stack|wall)$ of t.csv -->",
+            "but<!-- all n~^1 of t.csv where kind~^w, depth [um]=21 --> this",
+            "less<!-- less max depth [um] of t.csv where kind=stack than min depth [um] of t.csv where kind=wall -->",
+            "fewer<!-- less count n of t.csv where kind=wall than count n of t.csv -->",
+        ):
+            self.assertEqual(self.check(text), (text, []))
+        for text, word in (
+            ("all<!-- all n=3 of t.csv -->", "untrue for 1 of 3, first wall | 21 | 12345.6"),
+            ("none<!-- all n=3 of t.csv where kind~pile -->", "no such row"),
+            ("<!-- all colour=red of t.csv -->", "no column colour"),
+            ("<!-- all n=3 of none.csv -->", "no table"),
+            ("<!-- less max n of t.csv than min n of t.csv -->", "untrue, 12345.6 is no less than 3"),
+            ("<!-- less max n of t.csv than min width of t.csv -->", "no column width"),
+            ("<!-- more max n of t.csv than min n of t.csv -->", "not understood"),
+        ):
+            same, wrong = self.check(text)
+            self.assertEqual(same, text)
+            self.assertEqual(len(wrong), 1, wrong)
+            self.assertIn(word, wrong[0])
+
     def test_how_a_table_was_made_is_told_by_its_header(self):
         for command, word, other in (("report --quick", "quick", "full"), ("report --shard 1/2", "full", "quick")):
             (self.results / "t.csv").write_text(f"# command: {command}\n" + TABLE, encoding="utf-8")
