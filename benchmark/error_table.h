@@ -76,6 +76,9 @@ std::string title_of(const ErrorRow& row);
 /// not finite, all three are made with smaller steps, down to an eighth; empty outputs when that is not enough.
 ReferenceSolution own_solution(const Method& method, const Scenario& scene, int steps, double time_limit);
 
+/// Whether its run time stands in a comparison: that of every peer, and of our default integrator.
+bool is_compared(const ErrorRow& row);
+
 /// Whether a line that gave `rows` so far, finest last, is worth no finer setting: its last run took longer than
 /// `longest_run` [s per simulated second], it is down at the uncertainty of its reference, or three settings in a row
 /// have not lowered its error.
@@ -91,9 +94,9 @@ std::vector<std::size_t> in_turns(const std::vector<ErrorRow>& rows);
 void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out);
 
 /// The rows of all lines, a line for each method on each scene, coarsest first, until line_is_over(). A scene is two
-/// units of work, both of one shard: its rows, and, when all scenes have been through, their run times once more, of
-/// which the lesser ones count. In both the methods take turns, setting by setting, so that whatever the machine does
-/// meets all of them.
+/// units of work, both of one shard: its rows, and, when all scenes have been through, the run times that are compared
+/// once more, of which the lesser ones count. In both the methods take turns, setting by setting, so that whatever the
+/// machine does meets all of them.
 std::size_t unit_count(const ErrorTablePlan& plan);
 std::vector<ErrorRow> error_table(const std::vector<const Method*>& methods, const ErrorTablePlan& plan, Units& units);
 

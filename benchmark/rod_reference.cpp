@@ -78,16 +78,17 @@ PoseDistance largest_distance(const std::vector<RigidTransform>& a, const std::v
 }
 
 RodReference rod_reference(const RodCase& one, const std::string& shape) {
+  const RodCase halfway = with_halfway_outputs(one);
   RodReference reference;
+  reference.halfway = fine_poses(halfway, shape, kFineTolerance);
+  reference.X_WO = every_other(reference.halfway);
   if (one.recorded.empty()) {
-    const RodCase halfway = with_halfway_outputs(one);
-    reference.halfway = fine_poses(halfway, shape, kFineTolerance);
-    reference.X_WO = every_other(reference.halfway);
     reference.uncertainty =
         largest_distance(reference.halfway, fine_poses(halfway, shape, 10.0 * kFineTolerance)).position;
   } else {
-    reference.X_WO = recorded_poses(one);
-    reference.uncertainty = kRecordedUncertainty;
+    const std::vector<RigidTransform> recorded = recorded_poses(one);
+    reference.uncertainty = std::max(kRecordedUncertainty, largest_distance(recorded, reference.X_WO).position);
+    reference.X_WO = recorded;
   }
   reference.largest_deflection = largest_deflection(one, reference.X_WO);
   return reference;

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "benchmark/our_methods.h"
-#include "benchmark/parallel.h"
 #include "benchmark/rod_reference.h"
 #include "benchmark/solver_run.h"
 #include "spring_workbench/dynamics/settings.h"
@@ -48,7 +47,7 @@ RodTablePlan rod_table_plan(bool quick, const std::string& recorded_folder) {
   for (int digits = 0; digits <= 12; digits += quick ? 4 : 1) plan.peer_tolerances.push_back(std::pow(10.0, -digits));
   plan.longest_run = quick ? 0.005 : 0.01;
   plan.tolerance_time_limit = quick ? 0.1 : 1.0;
-  plan.repetition = quick ? Repetition{1, 0.0025} : Repetition{2, 0.01};
+  plan.repetition = {1, quick ? 0.0025 : 0.005};
   return plan;
 }
 
@@ -113,17 +112,6 @@ std::vector<std::pair<const RodCase*, std::string>> pairs_of(const std::vector<R
   return pairs;
 }
 
-/// Of every case and shape that is measured here, in their order; on all processors, since nothing is timed.
-std::vector<RodReference> rod_references(const std::vector<std::pair<const RodCase*, std::string>>& pairs,
-                                         Units& units) {
-  std::vector<RodReference> references(pairs.size());
-  parallel_for(pairs.size(), [&](std::size_t i) {
-    units.progress().next("reference: " + pairs[i].first->name + ' ' + pairs[i].second);
-    if (units.measured_here(i)) references[i] = rod_reference(*pairs[i].first, pairs[i].second);
-  });
-  return references;
-}
-
 /// Where a method of order one goes with its step, from two runs, the second with half the step.
 std::vector<RigidTransform> extrapolated(const RodRun& coarse, const RodRun& fine) {
   std::vector<RigidTransform> limit = fine.X_WO;
@@ -139,7 +127,7 @@ std::vector<RigidTransform> extrapolated(const RodRun& coarse, const RodRun& fin
 /// halving has changed.
 RodReference own_limit(const RodCase& one, const std::string& shape, const std::string& integrator,
                        const RodReference& exact) {
-  constexpr int kStepsPerOutput = 64;
+  constexpr int kStepsPerOutput = 32;
   const RodCase halfway = with_halfway_outputs(one);
   RodRun runs[3];
   for (int i = 0; i < 3; ++i)
@@ -149,6 +137,11 @@ RodReference own_limit(const RodCase& one, const std::string& shape, const std::
   limit.X_WO = every_other(limit.halfway);
   limit.uncertainty = largest_distance(limit.halfway, extrapolated(runs[0], runs[1])).position;
   return limit;
+}
+
+/// Whether general methods run a pair, too: the default shape, or that of a recording.
+bool has_peers(const RodCase& one, const std::string& shape) {
+  return shape == validation::name_of(rod::ForkSettings().shape) || !one.recorded.empty();
 }
 
 /// One of ours on a case, first by step and then by tolerance, or a general method, setting by setting.
@@ -181,10 +174,9 @@ class Line {
   }
   const std::vector<ErrorRow>& rows() const { return rows_; }
 
-  /// The run time of a row once more, where that is less. Ours to a tolerance take too long; no verdict has their run
-  /// time.
+  /// The run time of a row that is compared once more, where that is less. Ours to a tolerance are not.
   void time_again(ErrorRow& row) const {
-    if (!row.finite || row.error_over_tolerance > 0.0) return;
+    if (!row.finite || row.error_over_tolerance > 0.0 || !is_compared(row) || !has_peers(case_, shape_)) return;
     const RodRun again = timed({row.step, row.tolerance});
     double& time = row.wall_us_per_simulated_second;
     if (again.finite) time = std::min(time, 1e6 * again.wall_seconds / case_.duration);
@@ -251,9 +243,9 @@ class Line {
   }
 
   /// Of another run, of which nothing is timed: its steps end half-way between the outputs, too. None of ours to a
-  /// tolerance, where the error at the outputs is what was asked for, and none of a recorded case.
+  /// tolerance, where the error at the outputs is what was asked for.
   PoseDistance distance_between(const Setting& setting) const {
-    if (reference_.halfway.empty() || is_ours_to_tolerance(setting)) return {};
+    if (is_ours_to_tolerance(setting)) return {};
     const RodRun between = setting.step > 0.0
                                ? run(halfway_, setting)
                                : run_in_time(plan_.tolerance_time_limit, [&] { return run(halfway_, setting); });
@@ -275,20 +267,15 @@ class Line {
   std::vector<ErrorRow> rows_;
 };
 
-/// Whether general methods run a pair, too: the default shape, or that of a recording.
-bool has_peers(const RodCase& one, const std::string& shape) {
-  return shape == validation::name_of(rod::ForkSettings().shape) || !one.recorded.empty();
-}
-
 }  // namespace
 
-std::size_t unit_count(const RodTablePlan& plan) { return 3 * pairs_of(plan.cases).size(); }
+std::size_t unit_count(const RodTablePlan& plan) { return 2 * pairs_of(plan.cases).size(); }
 
 namespace {
 
 /// All methods on a case and shape.
-std::vector<Line> lines_of(const RodTablePlan& plan, const RodCase& one, const std::string& shape,
-                           const RodReference& reference) {
+std::vector<Line> lines_of(const RodTablePlan& plan, const RodCase& one, const std::string& shape) {
+  const RodReference reference = rod_reference(one, shape);
   std::vector<Line> lines;
   for (const std::string& integrator : validation::names<dynamics::IntegratorKind>())
     lines.emplace_back(plan, one, shape, reference, integrator, true);
@@ -316,14 +303,14 @@ std::vector<ErrorRow> timed_again(const std::vector<Line>& lines, std::vector<Er
 }  // namespace
 
 std::vector<ErrorRow> rod_table(const RodTablePlan& plan, Units& units) {
+  units.begin("rods");
   const auto pairs = pairs_of(plan.cases);
-  const std::vector<RodReference> references = rod_references(pairs, units);
   std::vector<std::vector<Line>> lines(pairs.size());
   std::vector<std::vector<ErrorRow>> first(pairs.size());
   const auto name = [&](std::size_t i) { return pairs[i].first->name + ' ' + pairs[i].second; };
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     first[i] = units.rows<ErrorRow>(i, name(i), [&, i] {
-      lines[i] = lines_of(plan, *pairs[i].first, pairs[i].second, references[i]);
+      lines[i] = lines_of(plan, *pairs[i].first, pairs[i].second);
       return rows_of(lines[i]);
     });
   }

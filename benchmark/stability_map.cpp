@@ -290,6 +290,7 @@ std::size_t unit_count(const StabilityPlan& plan) {
 }
 
 StabilityMap stability_map(const StabilityPlan& plan, Units& units) {
+  units.begin("stability map");
   StabilityMap map;
   std::size_t number = 0;
   for (const std::string& integrator : plan.integrators) {

@@ -29,6 +29,7 @@ StabilityCount count_stable(const Method& method, SceneKind kind) {
 bool has_stability_counts(const Method& method) { return method.knob() == Method::Knob::step; }
 
 std::vector<StabilityCount> stability_table(const std::vector<const Method*>& methods, Units& units) {
+  units.begin("stability counts");
   std::vector<StabilityCount> counts;
   std::size_t number = 0;
   for (const Method* method : methods) {

@@ -84,13 +84,20 @@ Verdict against(const SceneRows& scene, const ErrorTarget& target, const std::st
 }
 
 /// Ours against every peer at errors from a tenth of the largest deflection to what the samples leave unknown, or,
-/// where that was not found, to a thousandth; two in a decade.
+/// where that was not found, to a thousandth; two in a decade. Not judged where the samples leave more unknown.
 Verdict at_every_error(const SceneRows& scene) {
   const ErrorRow& first = scene.rows[0];
   const double unknown = first.hand_error > 0.0 ? first.hand_error / first.largest_deflection : 1e-3;
   Verdict verdict{named(scene) + ", at every error from a tenth of the largest deflection to the " + text(unknown) +
                       (first.hand_error > 0.0 ? " that nobody knows" : " of it") + ": run time of every peer over ours",
                   "> 1", ""};
+  if (unknown > kLargestShare) {
+    const ErrorTarget target{unknown, kOfDeflection};
+    const std::vector<Pair> pairs = scene.pairs(target, is_any);
+    verdict.measured = "not judged: the samples leave more than a tenth of the largest deflection unknown";
+    if (!pairs.empty()) verdict.measured += "; there " + text_of(pairs[0], target);
+    return verdict;
+  }
   std::vector<double> errors;
   for (double decade = 0.1; decade > 1e-12; decade *= 0.1) errors.insert(errors.end(), {decade, 0.3 * decade});
   errors.erase(std::remove_if(errors.begin(), errors.end(), [&](double e) { return e <= 1.001 * unknown; }),

@@ -25,8 +25,9 @@ struct Measurements {
   std::vector<ForkCurveRow> fork_curves;
   ContactTable contact;
   std::vector<ExtremeRow> extremes;  ///< of contact
-  double seconds = 0.0;              ///< that the report took, from its begin to its last picture
-  double processor_seconds = 0.0;    ///< of all its processes
+  std::vector<UnitTime> unit_times;
+  double seconds = 0.0;            ///< that the report took, from its begin to its last picture
+  double processor_seconds = 0.0;  ///< of all its processes
   bool quick = false;
 };
 

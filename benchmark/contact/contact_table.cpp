@@ -72,6 +72,7 @@ std::size_t contact_unit_count(const std::vector<DragMethod>& peers, bool quick)
 }
 
 ContactTable measure_contact(const std::vector<DragMethod>& peers, bool quick, Units& units) {
+  units.begin("contact");
   ContactTable table;
   const std::vector<DragMethod> methods = all_drags(peers);
   std::size_t number = 0;

@@ -48,6 +48,7 @@ std::vector<ExtremeRow> rows_of(ContactExtreme extreme, scene::ContactMode mode,
 std::size_t extreme_unit_count() { return contact_extremes().size() * std::size(modes); }
 
 std::vector<ExtremeRow> extremes_table(bool quick, Units& units) {
+  units.begin("contact's extremes");
   std::vector<ExtremeRow> table;
   std::size_t number = 0;
   for (const scene::ContactMode mode : modes) {

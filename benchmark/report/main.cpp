@@ -1,5 +1,5 @@
 // report [--quick] [--out DIR]
-// report [--quick] --shard I/N > PART
+// report [--quick] --shard I/N [--queue DIR] > PART
 // report [--out DIR] --merge PART...
 // report [--quick] [--out DIR] --scene SCENE (--bag FILE | --motion FILE...) [--settings FILE]
 // Error against run time of our integrators, shape models and the peers that were found,

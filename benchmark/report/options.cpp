@@ -63,19 +63,24 @@ ReportOptions parse_report_options(int argc, char** argv) {
       *field = argv[++i];
     } else if (argument == "--shard") {
       options.shard = shard_of(has_value ? argv[++i] : "");
+    } else if (argument == "--queue") {
+      if (!has_value) validation::refuse(kWhere, "--queue", "", "a folder that all shards share, empty at first");
+      options.queue = argv[++i];
     } else if (argument == "--merge") {
       if (!has_value) validation::refuse(kWhere, "--merge", "", "the files of all shards");
       while (i + 1 < argc && std::string(argv[i + 1]).rfind("--", 0) != 0) options.parts.emplace_back(argv[++i]);
     } else {
-      validation::refuse(
-          kWhere, "argument", argument,
-          "one of --quick, --out DIR, --shard I/N, --merge PART..., --scene FILE, --bag FILE, --motion FILE, "
-          "--settings FILE");
+      validation::refuse(kWhere, "argument", argument,
+                         "one of --quick, --out DIR, --shard I/N, --queue DIR, --merge PART..., --scene FILE, --bag "
+                         "FILE, --motion FILE, "
+                         "--settings FILE");
     }
   }
   check_recording(options);
   if (options.shard && has_out)
     validation::refuse(kWhere, "--shard, --out", "both", "one of the two, since a shard goes to the standard output");
+  if (!options.queue.empty() && !options.shard)
+    validation::refuse(kWhere, "--queue", options.queue, "given together with --shard");
   if (!options.parts.empty() && (options.shard || options.quick)) {
     validation::refuse(kWhere, "--merge", "both", "given without --shard and --quick, which the files name");
   }

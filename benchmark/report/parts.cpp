@@ -1,6 +1,5 @@
 #include "benchmark/report/parts.h"
 
-#include <sys/resource.h>
 #include <sys/time.h>
 
 #include <algorithm>
@@ -29,11 +28,12 @@ void each_field(Head& h, Fields& fields) {
 /// What stands before the rows of a unit.
 struct UnitHead {
   std::string name;
+  double processor = 0.0;
   std::size_t rows = 0;
 };
 template <typename Fields>
 void each_field(UnitHead& h, Fields& fields) {
-  fields(h.name, h.rows);
+  fields(h.name, h.processor, h.rows);
 }
 
 class PartFile {
@@ -73,6 +73,7 @@ ReportPart read_part(const std::string& path) {
   for (std::size_t i = 0; i < head.units; ++i) {
     const UnitHead unit = file.row<UnitHead>();
     UnitRows& rows = part.rows[unit.name];
+    rows.processor = unit.processor;
     rows.where = file.where();
     for (std::size_t k = 0; k < unit.rows; ++k) rows.lines.push_back(file.line());
   }
@@ -88,18 +89,11 @@ void join(const std::string& text, std::string& all) {
 }  // namespace
 
 RunTime run_time_now() {
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
   RunTime time;
   timeval clock{};
   gettimeofday(&clock, nullptr);
-  time.ended = seconds(clock);
-  for (const int whose : {RUSAGE_SELF, RUSAGE_CHILDREN}) {
-    rusage used{};
-    getrusage(whose, &used);
-    time.processor += seconds(used.ru_utime) + seconds(used.ru_stime);
-  }
+  time.ended = static_cast<double>(clock.tv_sec) + 1e-6 * static_cast<double>(clock.tv_usec);
+  time.processor = processor_time_of_all();
   return time;
 }
 
@@ -108,7 +102,7 @@ void write_part(const ReportPart& part, std::ostream& out) {
   out << row_text(head) << '\n';
   for (const RunFact& fact : part.facts) out << row_text(fact) << '\n';
   for (const auto& [name, rows] : part.rows) {
-    out << row_text(UnitHead{name, rows.lines.size()}) << '\n';
+    out << row_text(UnitHead{name, rows.processor, rows.lines.size()}) << '\n';
     for (const std::string& line : rows.lines) out << line << '\n';
   }
   out << std::flush;

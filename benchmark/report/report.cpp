@@ -73,9 +73,11 @@ Measurements measure(const Plan& plan, const std::vector<const Method*>& methods
   if (!quick) measured.stability_counts = stability_table(methods, units);
   measured.map = stability_map(plan.map, units);
   measured.extremes = extremes_table(quick, units);
+  units.begin("shapes and steps");
   measured.elastica = units.rows<ElasticaRow>(0, "elastica", [] { return elastica_table(); });
   measured.step_costs = units.rows<StepCost>(1, "parts of a step", [] { return step_costs(); });
   measured.fork_curves = units.rows<ForkCurveRow>(2, "curves of the fork", [] { return measure_fork_curves(); });
+  measured.unit_times = units.times();
   return measured;
 }
 
@@ -101,6 +103,7 @@ void write_report(Measurements measured, const RunTime& measuring, const RunTime
   tables.impacts = keep("contact_impact.csv", impacts_csv(measured.contact.impacts));
   tables.world_steps = keep("contact_steps.csv", world_steps_csv(measured.contact.world_steps));
   keep("contact_costs.csv", contact_costs_csv(measured.contact.costs));
+  keep("report_times.csv", unit_times_csv(measured.unit_times));
   page.sections = page_sections(measured, elastica_check(SPRING_WORKBENCH_REFERENCE_FOLDER), tables, folder);
   const RunTime now = run_time_now();
   measured.seconds = measuring.ended - measuring.begun + now.ended - begun.ended;
@@ -139,7 +142,7 @@ void make_report(const ReportOptions& options, const std::string& command, std::
   if (!part.warning.empty()) log << "report: " << part.warning << '\n';
 
   Progress progress(log, isatty(STDERR_FILENO) != 0, units_of(plan, methods, peers.drags, quick));
-  Units units = merging ? Units(progress, std::move(part.rows)) : Units(progress, shard);
+  Units units = merging ? Units(progress, std::move(part.rows)) : Units(progress, shard, options.queue);
   Measurements measured = measure(plan, methods, peers.drags, quick, units);
   progress.finish();
   if (merging && !units.kept().empty()) {

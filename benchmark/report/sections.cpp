@@ -198,6 +198,15 @@ PageSection contact_section(const ContactTable& contact, const Tables& tables, c
   return section;
 }
 
+PageSection times_section(const std::vector<UnitTime>& times) {
+  PageSection section;
+  section.title = "What this report took";
+  section.text = "Processor time of its units, those of their child processes included.";
+  section.tables.push_back({"By part", times_by_part_csv(times), false});
+  section.tables.push_back({"By unit", unit_times_csv(times), true});
+  return section;
+}
+
 }  // namespace
 
 PageSection verdicts_section(const std::vector<Verdict>& judged) {
@@ -222,7 +231,8 @@ std::vector<PageSection> page_sections(const Measurements& measured, double elas
       [&] { return shapes_section(measured, elastica_difference, tables, folder); },
       [&] { return contact_section(measured.contact, tables, folder); },
       [&] { return stability_section(measured, tables, folder); },
-      [&] { return costs; }};
+      [&] { return costs; },
+      [&] { return times_section(measured.unit_times); }};
   std::vector<PageSection> made(sections.size());
   parallel_for(sections.size(), [&](std::size_t i) { made[i] = sections[i](); });  // pictures take their time
   return made;

@@ -163,4 +163,30 @@ std::string map_summary_csv(const StabilityMap& map) {
   return csv.str();
 }
 
+std::string unit_times_csv(const std::vector<UnitTime>& times) {
+  std::ostringstream csv;
+  csv << "part,unit,processor_s\n";
+  for (const UnitTime& time : times) csv << time.part << ",\"" << time.unit << "\"," << text(time.processor) << '\n';
+  return csv.str();
+}
+
+std::string times_by_part_csv(const std::vector<UnitTime>& times) {
+  std::vector<std::string> parts;
+  for (const UnitTime& time : times) add_new(time.part, parts);
+  std::ostringstream csv;
+  csv << "part,units,processor time [s],of the longest unit [s]\n";
+  for (const std::string& part : parts) {
+    int units = 0;
+    double sum = 0.0, longest = 0.0;
+    for (const UnitTime& time : times) {
+      if (time.part != part) continue;
+      ++units;
+      sum += time.processor;
+      longest = std::max(longest, time.processor);
+    }
+    csv << part << ',' << units << ',' << text(sum) << ',' << text(longest) << '\n';
+  }
+  return csv.str();
+}
+
 }  // namespace spring_workbench::benchmark

@@ -28,4 +28,8 @@ std::string step_cost_csv(const std::vector<StepCost>& costs);
 /// Cells of the map by integrator and shape.
 std::string map_summary_csv(const StabilityMap& map);
 
+/// What each unit of the report took, and each of its parts in sum [s of processor time].
+std::string unit_times_csv(const std::vector<UnitTime>& times);
+std::string times_by_part_csv(const std::vector<UnitTime>& times);
+
 }  // namespace spring_workbench::benchmark

@@ -85,6 +85,8 @@ TEST(Report, RefusesBadArgumentsInOneLineThatNamesArgumentValueAndRule) {
       {"--shard 4/3", {"--shard", "4/3", "I/N"}},
       {"--shard 1/2/3", {"--shard", "1/2/3", "I/N"}},
       {"--shard 1/2 --out /tmp", {"--shard, --out", "both", "one of the two"}},
+      {"--shard 1/2 --queue", {"--queue", "missing", "folder"}},
+      {"--queue .", {"--queue", ".", "together with --shard"}},
       {"--merge", {"--merge", "missing", "files"}},
       {"--quick --merge /dev/null", {"--merge", "--quick", "the files"}},
       {"--out ''", {"--out", "missing", "folder"}},

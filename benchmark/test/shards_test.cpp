@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 #include <sstream>
+#include <thread>
 
 #include "benchmark/error_table.h"
 #include "benchmark/our_methods.h"
@@ -115,6 +116,45 @@ TEST(Shards, MergedTheyAreTheWholeHoweverManyThereAre) {
   }
 }
 
+TEST(Shards, WithAQueueEachUnitIsMeasuredOnceByWhoeverIsFree) {
+  const Work work;
+  std::ostringstream log;
+  Progress progress(log, false, 1000);
+  const auto of_map = [&](Units& units) {
+    std::string text;
+    for (StabilityRow row : stability_map(work.map, units).rows) {
+      row.real_time = row.three_times = 0;
+      text += row_text(row) + '\n';
+    }
+    return text;
+  };
+  Units all(progress, Shard{});
+  const std::string whole = of_map(all);
+  const TemporaryFolder queue, folder;
+  std::vector<Units> shards;
+  for (std::size_t i = 1; i <= 3; ++i) shards.emplace_back(progress, Shard{i, 3}, queue.path("."));
+  std::vector<std::thread> threads;
+  for (Units& units : shards) threads.emplace_back([&] { of_map(units); });
+  for (std::thread& thread : threads) thread.join();
+  std::vector<std::string> paths;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    kept += shards[i].kept().size();
+    EXPECT_EQ(shards[i].times().size(), shards[i].kept().size());
+    paths.push_back(written(folder, std::to_string(i), text_of({{i + 1, 3}, true, {}, "", {}, shards[i].kept()})));
+  }
+  EXPECT_EQ(kept, all.kept().size());
+  Units merging(progress, read_parts(paths).rows);
+  EXPECT_EQ(of_map(merging), whole);
+  double processor = 0.0;
+  for (const UnitTime& time : merging.times()) processor += time.processor;
+  EXPECT_GT(processor, 0.0);
+  EXPECT_EQ(merging.times().size(), all.times().size());
+  Units late(progress, Shard{1, 1}, queue.path("."));
+  of_map(late);
+  EXPECT_TRUE(late.kept().empty());  // all is taken
+}
+
 TEST(Shards, EveryBitOfARowComesBack) {
   std::mt19937_64 random(8);
   for (int i = 0; i < 1000; ++i) {
@@ -138,7 +178,7 @@ TEST(Shards, EveryBitOfARowComesBack) {
 }
 
 TEST(Shards, WhatIsNotAllShardsOfOneReportIsRefused) {
-  const RowsByUnit rows = {{"a unit", UnitRows{{row_text(StabilityCount{"rk4", "A", 1, 2, 3, 4})}, ""}}};
+  const RowsByUnit rows = {{"a unit", UnitRows{{row_text(StabilityCount{"rk4", "A", 1, 2, 3, 4})}, 0.5, ""}}};
   const auto part = [&](std::size_t i, std::size_t count, bool quick) {
     return text_of({{i, count}, quick, {}, "", {{"machine", "this"}}, rows});
   };

@@ -220,6 +220,21 @@ TEST(Verdicts, BySamplesEveryErrorThatTheyAllowIsJudged) {
   }
 }
 
+TEST(Verdicts, WhereTheSamplesLeaveMoreThanATenthOfTheDeflectionUnknownNoErrorIsJudged) {
+  for (const auto& [unknown, judged] : {std::pair{0.09, true}, std::pair{0.11, false}, std::pair{144.0, false}}) {
+    Measurements measured;
+    add_line("exponential", 1.0, 10.0, measured.scenes);
+    add_line("hand_rk4", 1.0, 1.0, measured.scenes);
+    for (ErrorRow& row : measured.scenes) {
+      row.hand = "samples";
+      row.hand_error = unknown * kDeflection;
+    }
+    const Verdict verdict = verdict_on(measured, "at every error");
+    EXPECT_EQ(verdict.result, judged ? kFail : kNone) << verdict.measured;
+    EXPECT_NE(verdict.measured.find("hand_rk4"), std::string::npos);  // whom it would be lost to is told
+  }
+}
+
 TEST(Verdicts, ToleranceIsKeptWhereEveryErrorIsWithinThreeBothWaysAndNoneWasGivenUp) {
   for (const auto& [share, given_up, held] :
        {std::tuple{1.0, false, true}, std::tuple{0.34, false, true}, std::tuple{2.9, false, true},
