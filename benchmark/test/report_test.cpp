@@ -16,6 +16,7 @@
 #include "spring_workbench/dynamics/integrator.h"
 #include "spring_workbench/validation/names.h"
 #include "support/paths.h"
+#include "test/support/temporary_folder.h"
 
 namespace spring_workbench::benchmark {
 namespace {
@@ -103,6 +104,42 @@ TEST(Report, RefusesBadArgumentsInOneLineThatNamesArgumentValueAndRule) {
     EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << outcome.output;
     for (const std::string& word : words) EXPECT_NE(outcome.output.find(word), std::string::npos) << outcome.output;
   }
+}
+
+/// The tables and pages that the document on the report names.
+std::vector<std::string> promised_files() {
+  std::ifstream readme(test_support::checkout("benchmark/README.md"));
+  std::vector<std::string> names;
+  for (std::string line; std::getline(readme, line);) {
+    const std::size_t end = line.find('`', 3);
+    if (line.rfind("| `", 0) != 0 || end == std::string::npos) continue;
+    const std::string name = line.substr(3, end - 3), kind = std::filesystem::path(name).extension();
+    if (name[0] != '*' && (kind == ".csv" || kind == ".html")) names.push_back(name);
+  }
+  return names;
+}
+
+TEST(Report, QuickByTwoShardsOfAQueueWritesAllThatIsPromised) {
+  const test_support::TemporaryFolder folder;
+  const std::string queue = folder.path("queue"), one = folder.path("1"), two = folder.path("2");
+  std::filesystem::create_directory(queue);
+  const std::string program = "'" + test_support::program("report") + "'", quick = " --quick --queue '" + queue + "'";
+  const Outcome shards = report(quick + " --shard 1/2 2>&1 >'" + one + "' & " + program + quick + " --shard 2/2 >'" +
+                                two + "' 2>/dev/null; wait $! #");
+  ASSERT_EQ(shards.code, 0) << shards.output;
+  const Outcome merged = report("--out '" + folder.path("out") + "' --merge '" + one + "' '" + two + "'");
+  ASSERT_EQ(merged.code, 0) << merged.output;
+  const std::vector<std::string> names = promised_files();
+  EXPECT_GE(names.size(), 15U);
+  for (const std::string& name : names) {
+    std::ifstream file(folder.path("out/" + name));
+    EXPECT_EQ(file.good(), name != "stability_counts.csv") << name;  // which a quick report leaves out
+    int lines = 0;
+    for (std::string line; std::getline(file, line);) lines += line[0] != '#';
+    EXPECT_TRUE(lines > 1 || name == "stability_counts.csv" || name == "stability_failures.csv") << name;
+  }
+  for (const char* word : {"PASS", "FAIL", "report --quick", "Stability map, exponential"})
+    EXPECT_NE(merged.output.find(word), std::string::npos) << word;
 }
 
 TEST(Report, ARecordingHasALineForEachIntegratorAndStepWhoseErrorFallsWithIt) {
