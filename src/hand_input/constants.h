@@ -7,9 +7,12 @@ namespace spring_workbench::hand_input {
 /// [s] from rest to the full speed of catching up. Longer: gentler. Test:
 /// Reacquisition.ComesInOverItsRampAndArrivesWithItsTimeConstant.
 constexpr double ramp_time = 0.2;
-/// [s] time constant of the arrival. Longer: gentler. Test:
+/// [s] time constant of the arrival, and of a hand that leaves its dead band. Longer: gentler. Test:
 /// Reacquisition.ComesInOverItsRampAndArrivesWithItsTimeConstant.
 constexpr double tail_time = 0.1;
+/// [s] for which a hand stays within the dead band until it rests. Shorter: a slow hand stops and goes. Test:
+/// DeadBand.WhatATremblingHandHoldsSleepsWhileTheHandRests at 2.
+constexpr double still_time = 0.3;
 /// [m] where the rest of the way is made in one step. More: the arrival jumps. Test:
 /// Reacquisition.ComesInOverItsRampAndArrivesWithItsTimeConstant.
 constexpr double near = 1e-5;

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "spring_workbench/hand_input/dead_band.h"
 #include "spring_workbench/hand_input/playout_clock.h"
 #include "spring_workbench/hand_input/pose_filter.h"
 #include "spring_workbench/motion/pose_predictor.h"
@@ -39,6 +40,7 @@ std::optional<Press> Accepted::press_of(Kind kind) {
 struct Feed::Hand {
   SampleGate gate;
   PoseFilter smoothing;
+  DeadBand dead_band;
   Reacquisition reacquisition;
   PlayoutClock playout;
   motion::PosePredictor ahead;
@@ -51,6 +53,7 @@ Feed::Feed(simulation::Simulation& simulation, const InputSettings& settings) : 
   const double dropout_after = simulation.settings().dropout_after;
   const Hand hand{SampleGate(settings, dropout_after),
                   PoseFilter(settings),
+                  DeadBand(settings),
                   Reacquisition(settings),
                   PlayoutClock(dropout_after),
                   motion::PosePredictor(),
@@ -91,8 +94,11 @@ void Feed::follow(const motion::PoseSample& sample, GateResult result, const Rig
   if (X_WP != nullptr) input.X_WP = *X_WP;
   input.tracker_moves += tracker_moved ? 1 : 0;
   const bool relocation = result == GateResult::relocation || tracker_moved;
-  if (relocation) input.smoothing.restart();
-  motion::PoseSample smoothed = input.smoothing.filter(sample);
+  if (relocation) {
+    input.smoothing.restart();
+    input.dead_band.restart();
+  }
+  motion::PoseSample smoothed = input.dead_band.filter(input.smoothing.filter(sample));
   if (X_WP != nullptr) smoothed.X = *X_WP * smoothed.X;
   const double simulated_until = has_sample_ ? simulation_.time() : kNever;
   if (relocation) input.ahead.restart();
@@ -111,6 +117,7 @@ void Feed::heard(const LocalTime& arrival, std::size_t hand) { hands_.at(hand).p
 void Feed::restart_gate(std::size_t hand) {
   hands_.at(hand).gate.restart();
   hands_.at(hand).smoothing.restart();
+  hands_.at(hand).dead_band.restart();
 }
 
 void Feed::buttons_known(double t, const LocalTime& arrival, std::size_t hand) {

@@ -112,6 +112,22 @@ class Recordings(unittest.TestCase):
                 self.assertEqual(summary["reacquisitions"], DROPOUTS.get(name, 0))
 
     @recorded
+    def test_a_stylus_that_rests_lets_what_it_holds_sleep(self):
+        """The stylus on eight landmarks lies still in its first 2.2 s, trembling by 0.1 mm; then it pivots about its tip
+        and moves on, without a rest."""
+        path = RECORDED + "/data/motions/plus_stylus_8landmarks_60s.tum"
+        band = ["--set", "input.dead_band.distance=5e-4", "--set", "input.dead_band.angle=2e-3"]
+        for arguments, sleeps in ((band, True), ([], False)):
+            done, out = self.run_replay("--motion", path, *arguments)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            with open(out) as file:
+                poses = [list(row.values())[2:9] for row in csv.DictReader(file)]
+            rate = 200
+            self.assertEqual(all(pose == poses[2 * rate] for pose in poses[3 * rate // 2 : 2 * rate]), sleeps)
+            moving = poses[3 * rate :: rate // 2]
+            self.assertTrue(all(a != b for a, b in zip(moving, moving[1:])))
+
+    @recorded
     def test_every_motion_whatever_the_damping(self):
         """On a fork that takes the box where it is, metres away with some hands: a stiff lever."""
         for path in sorted(glob.glob(RECORDED + "/data/motions/*.tum")):
