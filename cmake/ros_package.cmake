@@ -18,7 +18,7 @@ find_package(catkin REQUIRED COMPONENTS
 
 add_message_files(FILES Accepted.msg BodyDescription.msg Change.msg Contact.msg Contacts.msg ForkState.msg
   MeshDescription.msg ObjectState.msg ObjectStates.msg PlacementState.msg SceneDescription.msg ShapeDescription.msg
-  StepReport.msg
+  ProbeReading.msg StepReport.msg
   TaskState.msg)
 add_service_files(FILES Calibrate.srv EditObject.srv LoadScene.srv Release.srv SaveScene.srv SelectTool.srv
   SetClutch.srv SetForkDamping.srv SetForkDofs.srv SetForkStiffness.srv SetIntegrator.srv)

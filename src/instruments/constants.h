@@ -30,4 +30,22 @@ constexpr double vibration_time = 0.05;
 /// Vibration.AStrikeIsFeltInProportionInRealUnitsAndDiesAway at 0.
 constexpr double least_vibration = 0.02;
 
+/// Samples of a touch that the material is identified from: ten seconds of a tracker at 50 Hz. Fewer: wider intervals.
+/// Test: MaterialEstimate.ForgetsTheOldestSamples.
+constexpr std::size_t touch_samples = 500;
+/// Samples beyond the unknowns, at least. Fewer: no noise is seen. Test: MaterialEstimate.SaysNothingBeforeItCan.
+constexpr int fewest_to_spare = 2;
+/// Of the intervals. Test: MaterialEstimate.CoversTheTruthAsOftenAsItSays.
+constexpr double confidence = 0.95;
+/// Fits of a time constant, each beside the one before; two or three are usual. Fewer: no reading of a strongly damped
+/// touch. Test: MaterialEstimate.FindsTheDampingThatIsThere at 1.
+constexpr int most_refits = 30;
+/// Of the compliance of a touch: a material that gives way less is rigid. Test:
+/// Probe.WhatIsRigidReadsAsInfinite at 0.
+constexpr double no_give = 1e-9;
+/// Of its standard deviation: a change of the time constant that is none. Test: none: means nothing.
+constexpr double settled = 1e-3;
+/// [s] likewise, where there is no noise. Test: none: means nothing.
+constexpr double no_lag = 1e-9;
+
 }  // namespace spring_workbench::instruments

@@ -9,7 +9,11 @@ namespace spring_workbench::instruments {
 
 void ReadingAverage::take_down(double t, const tools::ToolState& tool) {
   const std::string& carried = tool.held_object.empty() ? tool.touched : tool.held_object;
-  if (carried.empty() || (last_ && (t < last_->t || last_->carried != carried))) *this = ReadingAverage();
+  if (carried.empty() || (last_ && (t < last_->t || last_->carried != carried))) {
+    last_.reset();
+    present_ = Part();
+    parts_.clear();
+  }
   if (carried.empty()) return;
   if (last_) {
     const double half = 0.5 * (t - last_->t);
@@ -38,8 +42,28 @@ tools::Reading ReadingAverage::average(double Part::*integral, double present) c
   return reading;
 }
 
-void ReadingAverage::take(double t, tools::ToolState& tool) {
+/// The path along the axis is that of the tip that an undeformed probe would have, seen from what it touches.
+void ReadingAverage::touch(double t, const tools::ToolState& tool, const RigidTransform& X_WT) {
+  const double stiffness = tool.stiffness.stretch, force = -tool.handle_wrench_H.force.z();
+  const bool goes_on =
+      touch_ && touch_->touched == tool.touched && touch_->probe_stiffness == stiffness && t >= touch_->t;
+  if (!goes_on) {
+    touch_.reset();
+    material_.reset();
+  }
+  if (tool.touched.empty() || !(force > 0.0) || (touch_ && t == touch_->t)) return;
+  const RigidTransform X_TS = X_WT.inverse() * tool.X_WS;
+  if (!touch_) touch_ = Touch{t, tool.touched, stiffness, X_TS.linear().col(2), MaterialEstimate(stiffness)};
+  touch_->t = t;
+  touch_->estimate.add(t, touch_->axis_T.dot(X_TS * Vector3d(0.0, 0.0, tool.length)), force);
+  material_ = touch_->estimate.reading();
+}
+
+void ReadingAverage::take(double t, tools::ToolState& tool, const RigidTransform& X_WT) {
   take_down(t, tool);
+  touch(t, tool, X_WT);
+  tool.material_stiffness = material_ ? material_->material.value : 0.0;
+  tool.material_stiffness_uncertainty = material_ ? material_->material_deviation : 0.0;
   tool.weight_average = average(&Part::weight, tool.weight);
   tool.torque_average = average(&Part::torque, tool.torque);
 }

@@ -38,11 +38,6 @@ constexpr double exact_pull = 1e-12;
 constexpr double rigid_rate = 1e3;
 /// [m] from the frame at rest to an object that nothing holds. Test: none: means nothing.
 constexpr double frame_distance = 1.0;
-/// Of the probe's depth; a material that gives way less is rigid. Test: none: no value tried makes one fail.
-constexpr double no_give = 1e-9;
-/// [m], one standard deviation: how well a tracker knows where the probe's tip is. The uncertainty that it tells is in
-/// proportion. Test: Probe.ReadsTheMaterialStiffnessInSeriesWithItsOwn.
-constexpr double position_uncertainty = 1e-4;
 /// [kg/m³]: objects of another density have a larger or smaller tool than their size asks. Larger: smaller tools. Test:
 /// Calibration.LengthGrowsWithTheObjectAndWithItsWeight.
 constexpr double density_of_water = 1000.0;

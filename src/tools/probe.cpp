@@ -1,9 +1,6 @@
 #include "spring_workbench/tools/probe.h"
 
 #include <algorithm>
-#include <limits>
-
-#include "constants.h"
 
 namespace spring_workbench::tools {
 Probe::Probe(double length, const rod::ForkSettings& fork, const InFront& touched, double now)
@@ -98,13 +95,6 @@ void Probe::describe(const RigidTransform& X_WH, ToolState& state) const {
   state.tip_wrench_W.force = push;
   state.handle_wrench_H.force = -(X_WH.linear().transpose() * push);
   state.elastic_energy = elastic_energy();
-  if (!(force_ > 0.0)) return;
-  // What the user can know: the springs' force, how far the tip has gone, and the probe's own stiffness.
-  const double springs = series_ * depth_, gave = depth_ - springs / k_;
-  constexpr double rigid = std::numeric_limits<double>::infinity();
-  state.material_stiffness = gave > no_give * depth_ ? springs / gave : rigid;
-  state.material_stiffness_uncertainty =
-      state.material_stiffness * state.material_stiffness * position_uncertainty / force_;
 }
 
 }  // namespace spring_workbench::tools

@@ -9,7 +9,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
 from sensor_msgs.msg import Joy
-from spring_workbench.msg import ForkState, ObjectStates
+from spring_workbench.msg import ForkState, ObjectStates, ProbeReading
 from spring_workbench.srv import Calibrate, Release, SelectTool, SetClutch, SetForkStiffness
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
@@ -69,6 +69,7 @@ class Tools(unittest.TestCase):
         )
         cls.objects = Listener("manipulation/objects", ObjectStates)
         cls.fork = Listener("manipulation/fork", ForkState)
+        cls.probe = Listener("manipulation/probe", ProbeReading)
         cls.fork_2 = Listener("manipulation/fork_2", ForkState)
         cls.wrench_2 = Listener("manipulation/wrench_2", WrenchStamped)
         cls.wrench = Listener("manipulation/wrench", WrenchStamped)
@@ -192,8 +193,16 @@ class Tools(unittest.TestCase):
         fork = self.fork.next()
         self.assertEqual((fork.touched, fork.held_object), ("box", ""))
         self.assertAlmostEqual(fork.stretch, -0.02, delta=1e-3)  # the box is rigid
-        self.assertEqual(fork.material_stiffness, math.inf)
         self.assertFalse(self.box().held)
+        reading = self.probe.next()  # of the touch that went 20 mm deep
+        self.assertEqual(reading.touched, "box")
+        self.assertAlmostEqual(reading.force, 0.02 * fork.stretch_stiffness, delta=0.05 * 0.02 * fork.stretch_stiffness)
+        self.assertTrue(reading.identified)
+        self.assertEqual((reading.stiffness, reading.stiffness_high), (math.inf, math.inf))
+        self.assertEqual(fork.material_stiffness, math.inf)
+        self.assertEqual(len(reading.depths), len(reading.forces))
+        for depth, force in zip(reading.depths, reading.forces):
+            self.assertAlmostEqual(force, fork.stretch_stiffness * depth, delta=1e-3)
 
     def test_second_stylus_takes_the_object_over(self):
         self.lift()

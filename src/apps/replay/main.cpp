@@ -35,6 +35,14 @@ std::string fork_path(const std::string& path) {
   return (has_ending ? path.substr(0, path.size() - ending.size()) : path) + ".fork.csv";
 }
 
+/// Of the object that the probe touches.
+RigidTransform touched_pose(const simulation::Simulation& simulation, const tools::ToolState& tool) {
+  for (const bodies::BodyState& object : simulation.objects()) {
+    if (object.name == tool.touched) return object.X_WO;
+  }
+  return RigidTransform::Identity();
+}
+
 /// A row for each hand: the first, and those that are present or of `hands`.
 class ForkRows {
  public:
@@ -42,7 +50,7 @@ class ForkRows {
     std::string rows;
     for (std::size_t hand = 0; hand < averages_.size(); ++hand) {
       tools::ToolState tool = simulation.fork(hand);
-      averages_[hand].take(t, tool);
+      averages_[hand].take(t, tool, touched_pose(simulation, tool));
       if (hand < hands || tool.present) rows += fork_row(t, tool, hand);
     }
     return rows;

@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "spring_workbench/ProbeReading.h"
 #include "spring_workbench/ros/common/conversions.h"
 
 namespace spring_workbench::machine_link {
@@ -15,11 +16,21 @@ ToolOutput::ToolOutput(ros::NodeHandle private_node, const std::string& frame_pr
     : handle_frame_(frame_prefix + "fork_handle" + number),
       wrench_(private_node.advertise<geometry_msgs::WrenchStamped>("wrench" + number, queue)),
       tip_twist_(private_node.advertise<geometry_msgs::TwistStamped>("tip_twist" + number, queue)),
-      joy_feedback_(private_node.advertise<sensor_msgs::JoyFeedbackArray>("joy_feedback" + number, queue)) {}
+      joy_feedback_(private_node.advertise<sensor_msgs::JoyFeedbackArray>("joy_feedback" + number, queue)),
+      probe_(private_node.advertise<ProbeReading>("probe" + number, queue)) {}
+
+void ToolOutput::read(const simulation::Simulation& simulation, tools::ToolState& tool) {
+  RigidTransform X_WT = RigidTransform::Identity();
+  for (const bodies::BodyState& object : simulation.objects()) {
+    if (object.name == tool.touched) X_WT = object.X_WO;
+  }
+  average_.take(simulation.time(), tool, X_WT);
+}
 
 void ToolOutput::publish(const simulation::Simulation& simulation, const tools::ToolState& tool,
                          const std_msgs::Header& header) {
   vibrate(simulation, tool);
+  publish_reading(tool, header);
   if (wrench_.getNumSubscribers() > 0) {
     geometry_msgs::WrenchStamped message;
     message.header = header;
@@ -35,6 +46,28 @@ void ToolOutput::publish(const simulation::Simulation& simulation, const tools::
     message.twist.angular = ros_common::to_vector(tool.V_WE_W.angular);
     tip_twist_.publish(message);
   }
+}
+
+void ToolOutput::publish_reading(const tools::ToolState& tool, const std_msgs::Header& header) {
+  if (tool.touched.empty() || probe_.getNumSubscribers() == 0) return;
+  ProbeReading message;
+  message.header = header;
+  message.touched = tool.touched;
+  message.force = tool.handle_wrench_H.force.norm();
+  if (const auto& reading = average_.material()) {
+    message.identified = 1;
+    message.stiffness = reading->material.value;
+    message.stiffness_low = reading->material.low;
+    message.stiffness_high = reading->material.high;
+    message.damping = reading->damping.value;
+    message.damping_low = reading->damping.low;
+    message.damping_high = reading->damping.high;
+    for (const auto& [depth, force] : average_.force_over_depth()) {
+      message.depths.push_back(depth);
+      message.forces.push_back(force);
+    }
+  }
+  probe_.publish(message);
 }
 
 /// Sent while it vibrates, and once more when that ends.

@@ -28,6 +28,9 @@ void publish_made(const ros::Publisher& publisher, const std_msgs::Header& heade
   publisher.publish(message);
 }
 
+/// What the topics and frames of a hand end in.
+std::string number_of(std::size_t hand) { return hand > 0 ? "_" + std::to_string(hand + 1) : ""; }
+
 }  // namespace
 
 StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters)
@@ -35,18 +38,19 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
       frame_prefix_(parameters.frame_prefix),
       markers_(private_node, parameters.fork_curve, parameters.markers_rate),
       objects_publisher_(private_node.advertise<ObjectStates>("objects", state_queue)),
-      fork_publisher_(private_node.advertise<ForkState>("fork", state_queue)),
-      second_fork_publisher_(private_node.advertise<ForkState>("fork_2", state_queue)),
       contacts_publisher_(private_node.advertise<Contacts>("contacts", state_queue)),
       steps_publisher_(private_node.advertise<StepReport>("steps", state_queue)),
       task_publisher_(private_node.advertise<TaskState>("task", state_queue)),
       shown_objects_publisher_(private_node.advertise<ObjectStates>("display/objects", 5)),
-      shown_fork_publisher_(private_node.advertise<ForkState>("display/fork", 5)),
-      shown_second_fork_publisher_(private_node.advertise<ForkState>("display/fork_2", 5)),
       accepted_publisher_(private_node.advertise<Accepted>("accepted", state_queue)),
-      changes_publisher_(private_node.advertise<Change>("changes", state_queue)),
-      output_(private_node, parameters.frame_prefix, "", state_queue),
-      second_output_(private_node, parameters.frame_prefix, "_2", state_queue) {}
+      changes_publisher_(private_node.advertise<Change>("changes", state_queue)) {
+  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+    const std::string number = number_of(hand);
+    hands_.push_back({private_node.advertise<ForkState>("fork" + number, state_queue),
+                      private_node.advertise<ForkState>("display/fork" + number, 5),
+                      machine_link::ToolOutput(private_node, parameters.frame_prefix, number, state_queue)});
+  }
+}
 
 void StatePublisher::publish_journal(live::SimulationRunner& runner) {
   const std::uint32_t listeners =
@@ -87,16 +91,8 @@ void StatePublisher::publish_committed(const live::SimulationRunner& runner, con
   if (!committed_.due(runner.has_sample() ? stamp : ros::Time(), runner.revision())) return;
   const std_msgs::Header header = header_at(stamp);
   runner.locked([&](const simulation::Simulation& simulation) {
-    tools::ToolState tool = simulation.fork(), second = simulation.fork(1);
-    averages_[0].take(simulation.time(), tool);
-    averages_[1].take(simulation.time(), second);
     publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
-    publish_made(fork_publisher_, header, [&] { return to_message(tool); });
-    output_.publish(simulation, tool, header);
-    if (second.present) {
-      publish_made(second_fork_publisher_, header, [&] { return to_message(second); });
-      second_output_.publish(simulation, second, header);
-    }
+    for (std::size_t hand = 0; hand < hands_.size(); ++hand) publish_hand(hand, simulation, header);
     publish_contacts(simulation, header);
   });
   publish_made(task_publisher_, header, [&] {
@@ -128,20 +124,30 @@ void StatePublisher::publish_shown(const live::SimulationRunner& runner, double 
   const std_msgs::Header header = header_at(stamp);
   publish_transforms(simulation, stamp);
   publish_made(shown_objects_publisher_, header, [&] { return to_message(simulation.objects()); });
-  publish_made(shown_fork_publisher_, header, [&] { return to_message(simulation.fork()); });
-  if (const tools::ToolState second = simulation.fork(1); second.present)
-    publish_made(shown_second_fork_publisher_, header, [&] { return to_message(second); });
+  for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
+    const tools::ToolState tool = simulation.fork(hand);
+    if (hand == 0 || tool.present) publish_made(hands_[hand].shown_fork, header, [&] { return to_message(tool); });
+  }
   markers_were_built_ = markers_.publish(simulation, header, local_time);
+}
+
+void StatePublisher::publish_hand(std::size_t hand, const simulation::Simulation& simulation,
+                                  const std_msgs::Header& header) {
+  tools::ToolState tool = simulation.fork(hand);
+  hands_[hand].output.read(simulation, tool);
+  if (hand > 0 && !tool.present) return;
+  publish_made(hands_[hand].fork, header, [&] { return to_message(tool); });
+  hands_[hand].output.publish(simulation, tool, header);
 }
 
 void StatePublisher::publish_transforms(const simulation::Simulation& simulation, const ros::Time& stamp) {
   if (stamp.isZero() || stamp == last_transforms_) return;
   last_transforms_ = stamp;
   std::vector<geometry_msgs::TransformStamped> transforms;
-  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+  for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
     const tools::ToolState tool = simulation.fork(hand);
     if (hand > 0 && !tool.present) continue;
-    const std::string number = hand > 0 ? "_" + std::to_string(hand + 1) : "";
+    const std::string number = number_of(hand);
     transforms.push_back(
         ros_common::to_transform(tool.X_WH, world_frame_, frame_prefix_ + "fork_handle" + number, stamp));
     transforms.push_back(ros_common::to_transform(tool.X_WE, world_frame_, frame_prefix_ + "fork_tip" + number, stamp));

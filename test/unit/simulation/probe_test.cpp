@@ -3,7 +3,11 @@
 
 #include <cmath>
 #include <limits>
+#include <random>
+#include <utility>
+#include <vector>
 
+#include "spring_workbench/instruments/reading_average.h"
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
@@ -20,52 +24,124 @@ SimulationSettings with_probe(double stiffness) {
   return set;
 }
 
-/// A fixed block whose top is at 0.1 m, pressed from above by `depth`.
-tools::ToolState pressed(double material, double probe, double depth) {
+/// A fixed block whose top is at 0.1 m.
+scene::Scene block_of(double material) {
   scene::Scene scene = scene_of({box("block", {0.2, 0.2, 0.1}, 0.0, Vector3d(0, 0, 0.05))}, scene::ContactMode::stop);
   scene.bodies[0].material.stiffness = material;
-  Simulation simulation(scene, with_probe(probe));
-  push_move(simulation, 0.0, 1.0, Vector3d(0, 0, 0.35), Vector3d(0, 0, 0.3 - depth));
-  simulation.advance(2.0);
-  return simulation.fork();
+  return scene;
 }
 
-TEST(Probe, ReadsTheMaterialStiffnessInSeriesWithItsOwn) {
+/// A hand that presses the block from above by `depth` once or twice, up to `duration`; every 20 ms what it does and
+/// what its tool tells as an instrument, whose tracker adds `noise` [m] to the hand's place. Returns the last touch at
+/// its end.
+struct Press {
+  double material, probe, depth, duration = 2.0, noise = 0.0;
+
+  template <typename Tell>
+  instruments::ReadingAverage run(unsigned seed, Tell&& tell) const {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal(0.0, noise);
+    Simulation simulation(block_of(material), with_probe(probe));
+    instruments::ReadingAverage readings, of_touch;
+    const int samples = static_cast<int>(duration / 0.02);
+    const auto height = [&](double t) {
+      return 0.3 + 0.02 -
+             (0.02 + depth) * 0.5 * (1.0 - std::cos(2.0 * M_PI * std::round(0.5 * duration) / duration * t));
+    };
+    for (int k = 0; k <= samples; ++k) simulation.push_stylus({0.02 * k, pointing_down({0.0, 0.0, height(0.02 * k)})});
+    for (int k = 0; k < samples; ++k) {
+      simulation.advance(0.02 * k);
+      tools::ToolState tool = simulation.fork();
+      tool.X_WS.translation() += Vector3d(normal(random), normal(random), normal(random));
+      readings.take(0.02 * k, tool);
+      if (!tool.touched.empty()) of_touch = readings;
+      tell(tool);
+    }
+    return of_touch;
+  }
+};
+
+TEST(Probe, PressesByTheMaterialInSeriesWithItsOwnSpring) {
   for (const double material : {1e2, 1e3, 1e4, 1e5, 1e6}) {
     for (const double probe : {100.0, 2000.0}) {
-      const double depth = 0.03;
-      const tools::ToolState tool = pressed(material, probe, depth);
-      EXPECT_EQ(tool.touched, "block");
-      EXPECT_EQ(tool.held_object, "");
-      EXPECT_NEAR(tool.material_stiffness, material, 0.01 * material) << probe;
-      const double force = depth / (1.0 / material + 1.0 / probe);
-      EXPECT_NEAR(tool.handle_wrench_H.force.z(), -force, 1e-6 * force);
-      EXPECT_NEAR(tool.stretch, -force / probe, 1e-6 * depth);
-      // A given error of the tip's position means as much more as the material is stiffer than the pressing force
-      // shows.
-      EXPECT_NEAR(tool.material_stiffness_uncertainty, 1e-4 * material * material / force,
-                  0.03 * 1e-4 * material * material / force);
+      double deepest = 0.0;
+      Press{material, probe, 0.03}.run(1, [&](const tools::ToolState& tool) {
+        const double depth = 0.1 + 0.2 - tool.X_WS.translation().z();
+        EXPECT_EQ(tool.touched, depth > 1e-12 ? "block" : "");
+        EXPECT_EQ(tool.held_object, "");
+        const double force = std::max(depth, 0.0) / (1.0 / material + 1.0 / probe);
+        EXPECT_NEAR(tool.handle_wrench_H.force.z(), -force, 1e-6 * force + 1e-9);
+        EXPECT_NEAR(tool.stretch, -force / probe, 1e-6 * 0.03);
+        if (depth > deepest && deepest > 0.01) {
+          EXPECT_NEAR(tool.material_stiffness, material, 1e-4 * material);
+        }
+        deepest = std::max(deepest, depth);
+      });
+      EXPECT_NEAR(deepest, 0.03, 1e-3);
     }
   }
 }
 
-TEST(Probe, ReadsRigidAsInfiniteAndTheAirAsNothing) {
-  EXPECT_EQ(pressed(std::numeric_limits<double>::infinity(), 2000.0, 0.03).material_stiffness,
-            std::numeric_limits<double>::infinity());
-  const tools::ToolState air = pressed(1e4, 2000.0, -0.02);
-  EXPECT_EQ(air.touched, "");
-  EXPECT_EQ(air.material_stiffness, 0.0);
-  EXPECT_EQ(air.handle_wrench_H.force.norm(), 0.0);
+/// An estimator that sees a tracker's noise and the probe's force alone: as sure as it says, and sure to 5 % where the
+/// material gives way by enough.
+TEST(Probe, MeasuresTheMaterialThroughATrackersNoise) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  int covered = 0, sure = 0;
+  constexpr unsigned touches = 1000;
+  constexpr double noise = 5e-4;
+  for (unsigned i = 0; i < touches; ++i) {
+    const double material = std::pow(10.0, 2.0 + 4.0 * uniform(random));
+    const double probe = std::pow(10.0, 3.0 + 3.0 * uniform(random));
+    const Press press{material, probe, 0.01 + 0.04 * uniform(random), 2.0 + 2.0 * uniform(random), noise};
+    std::vector<double> give;  // what the material gives way, in the last touch
+    bool between = true;
+    const auto readings = press.run(i, [&](const tools::ToolState& tool) {
+      const double force = tool.handle_wrench_H.force.norm();
+      if (force == 0.0) between = true;
+      if (force > 0.0 && std::exchange(between, false)) give.clear();
+      if (force > 0.0) give.push_back(force / material);
+    });
+    const auto reading = readings.material();
+    ASSERT_TRUE(reading) << i;
+    covered += reading->material.low <= material && material <= reading->material.high ? 1 : 0;
+    double mean = 0.0, squares = 0.0;
+    for (const double x : give) mean += x / static_cast<double>(give.size());
+    for (const double x : give) squares += (x - mean) * (x - mean);
+    // By the law of least squares: half an interval is 2 σ / √Σ(x − x̄)² of the value.
+    if (2.0 * noise / std::sqrt(squares) > 0.02) continue;
+    ++sure;
+    EXPECT_LT(reading->material.high - reading->material.low, 0.05 * material) << material << " " << probe;
+  }
+  EXPECT_NEAR(static_cast<double>(covered) / touches, 0.95, 0.02);
+  EXPECT_GT(sure, 200);
 }
 
-TEST(Probe, ReadsTheBench) {
+TEST(Probe, WhatIsRigidReadsAsInfinite) {
+  const auto readings = Press{std::numeric_limits<double>::infinity(), 2000.0, 0.03}.run(1, [](const auto&) {});
+  ASSERT_TRUE(readings.material());
+  EXPECT_EQ(readings.material()->material.value, std::numeric_limits<double>::infinity());
+  EXPECT_EQ(readings.material()->material.high, std::numeric_limits<double>::infinity());
+}
+
+TEST(Probe, TheAirIsNoReading) {
+  const auto readings = Press{1e4, 2000.0, -0.01}.run(1, [](const tools::ToolState& tool) {
+    EXPECT_EQ(tool.touched, "");
+    EXPECT_EQ(tool.material_stiffness, 0.0);
+    EXPECT_EQ(tool.handle_wrench_H.force.norm(), 0.0);
+  });
+  EXPECT_FALSE(readings.material());
+  EXPECT_TRUE(readings.force_over_depth().empty());
+}
+
+TEST(Probe, PressesTheBench) {
   scene::Scene scene = scene_of({}, scene::ContactMode::none);
   scene.bench_material.stiffness = 5e3;
   Simulation simulation(scene, with_probe(1000.0));
   simulation.push_stylus({0.0, pointing_down({0.3, 0.0, 0.18})});
   simulation.advance(0.1);
   EXPECT_EQ(simulation.fork().touched, "workbench");
-  EXPECT_NEAR(simulation.fork().material_stiffness, 5e3, 5.0);
+  EXPECT_NEAR(simulation.fork().handle_wrench_H.force.z(), -0.02 / (1.0 / 5e3 + 1.0 / 1e3), 1e-6);
 }
 
 /// The probe level, pointing along x.

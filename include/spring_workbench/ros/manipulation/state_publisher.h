@@ -3,10 +3,9 @@
 #include <ros/ros.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include <array>
 #include <string>
+#include <vector>
 
-#include "spring_workbench/instruments/reading_average.h"
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/ros/machine_link/tool_output.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
@@ -14,9 +13,9 @@
 
 namespace spring_workbench::manipulation {
 
-/// Sends the committed simulation, to be recorded (~objects, ~fork, ~wrench, ~tip_twist, ~joy_feedback, those of the
-/// second stylus, ~contacts, ~steps and ~task), the journal (~accepted, ~changes), and what is shown, to be looked at
-/// (/tf, ~display/objects, ~display/fork, ~display/fork_2, ~markers, ~display/markers). Messages are made only while
+/// Sends the committed simulation, to be recorded (~objects, ~contacts, ~steps, ~task, and of each stylus ~fork,
+/// ~wrench, ~tip_twist, ~joy_feedback and ~probe), the journal (~accepted, ~changes), and what is shown, to be looked
+/// at (/tf, ~display/objects, ~display/fork of each stylus, ~markers, ~display/markers). Messages are made only while
 /// there is a subscriber. What has not changed is sent again ten times a second.
 class StatePublisher {
  public:
@@ -37,6 +36,12 @@ class StatePublisher {
     double sent = -1.0;  ///< [s], by the steady clock
     bool due(const ros::Time& stamp, std::size_t revision);
   };
+  /// What is sent of one stylus; the topics and frames of the second end in _2, and so on.
+  struct HandTopics {
+    ros::Publisher fork, shown_fork;
+    machine_link::ToolOutput output;
+  };
+  void publish_hand(std::size_t hand, const simulation::Simulation& simulation, const std_msgs::Header& header);
   void publish_transforms(const simulation::Simulation& simulation, const ros::Time& stamp);
   void publish_contacts(const simulation::Simulation& simulation, const std_msgs::Header& header);
   std_msgs::Header header_at(const ros::Time& stamp) const;
@@ -50,12 +55,10 @@ class StatePublisher {
   bool had_contacts_ = false;
   bool markers_were_built_ = false;  ///< in this cycle
   markers::MarkerPublisher markers_;
-  std::array<instruments::ReadingAverage, simulation::Simulation::most_hands> averages_;  ///< of each hand's readings
   tf2_ros::TransformBroadcaster transforms_;
-  ros::Publisher objects_publisher_, fork_publisher_, second_fork_publisher_, contacts_publisher_, steps_publisher_,
-      task_publisher_, shown_objects_publisher_, shown_fork_publisher_, shown_second_fork_publisher_,
+  ros::Publisher objects_publisher_, contacts_publisher_, steps_publisher_, task_publisher_, shown_objects_publisher_,
       accepted_publisher_, changes_publisher_;
-  machine_link::ToolOutput output_, second_output_;
+  std::vector<HandTopics> hands_;
   std::uint32_t journal_listeners_ = 0;
 };
 
