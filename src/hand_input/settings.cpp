@@ -63,11 +63,10 @@ const std::vector<Entry>& entries() {
              &T::beta),
       number("smoothing.beta_angle", "Hz/(rad/s)", between(0.0, 1e6),
              "increase of the cut-off of the rotation with angular speed", &T::beta_angle),
-      number(
-          "dead_band.distance", "m", between(0.0, 0.1),
-          "a hand that stays within this distance for 0.3 s rests, bit-identically, until it is farther away, so that "
-             "what it holds can sleep; above the tracker's noise; 0: off",
-&T::dead_band_distance),
+      number("dead_band.distance", "m", between(0.0, 0.1),
+             "a hand that stays this close for 0.3 s rests, bit-identically, until it is farther away, so that what it "
+             "holds can sleep; above the tracker's noise; 0: off",
+             &T::dead_band_distance),
       number("dead_band.angle", "rad", between(0.0, 0.5), "the same for its rotation; 0: off", &T::dead_band_angle),
       {{"on_loss", "–", "one of " + validation::join(names_of(OnLoss())), validation::name_of(T().on_loss),
         "after `input.loss_timeout`: freeze: the object stays where the hand was last; release: the object is "

@@ -45,7 +45,8 @@ constexpr int most_refits = 30;
 constexpr double no_give = 1e-9;
 /// Of its standard deviation: a change of the time constant that is none. Test: none: means nothing.
 constexpr double settled = 1e-3;
-/// [s] likewise, where there is no noise. Test: none: means nothing.
+/// [s] likewise, where there is no noise. More: a fit stops too early. Test:
+/// MaterialEstimate.FindsTheDampingThatIsThere at 1.
 constexpr double no_lag = 1e-9;
 
 }  // namespace spring_workbench::instruments

@@ -10,20 +10,45 @@ namespace spring_workbench::sound {
 
 ContactSynthesizer::ContactSynthesizer(double volume) : volume_(volume) {
   validation::check_number("contact sound", "volume", volume, validation::between(0.0, 1.0));
-  // A small wooden block: frequency [Hz], time to 1/e [s], share.
-  constexpr double ringing[4][3] = {
-      {420.0, 0.060, 0.45}, {960.0, 0.035, 0.3}, {1730.0, 0.02, 0.15}, {3100.0, 0.01, 0.1}};
-  for (std::size_t i = 0; i < modes_.size(); ++i) {
-    const double turn = 2.0 * M_PI * ringing[i][0] / sample_rate;
-    const double decay = std::exp(-1.0 / (ringing[i][1] * sample_rate));
-    modes_[i] = {decay, std::cos(turn), std::sin(turn), ringing[i][2]};
-  }
 }
 
-void ContactSynthesizer::strike(double impulse) {
+ContactSynthesizer::Voice ContactSynthesizer::voice_of(const SoundingBody& body) {
+  // Of a small wooden block: frequency [Hz], time to 1/e [s], share.
+  constexpr double ringing[4][3] = {
+      {420.0, 0.060, 0.45}, {960.0, 0.035, 0.3}, {1730.0, 0.02, 0.15}, {3100.0, 0.01, 0.1}};
+  const SoundingBody block;
+  const double density = body.mass / std::pow(body.size, 3), of_block = block.mass / std::pow(block.size, 3);
+  const double touch = M_PI * std::sqrt(body.mass / struck_stiffness);  // half a period of the body on its contact
+  Voice voice{body, {}};
+  for (std::size_t i = 0; i < voice.modes.size(); ++i) {
+    const double frequency = std::clamp(ringing[i][0] * block.size / body.size, lowest_pitch, highest_pitch);
+    const double turn = 2.0 * M_PI * frequency / sample_rate;
+    const double decay = std::exp(-1.0 / (ringing[i][1] * std::sqrt(density / of_block) * sample_rate));
+    const double dull = 1.0 + std::pow(2.0 * frequency * touch, 2);
+    voice.modes[i] = {decay, std::cos(turn), std::sin(turn), ringing[i][2] / dull};
+  }
+  return voice;
+}
+
+double ContactSynthesizer::Voice::loudness() const {
+  double sum = 0.0;
+  for (const Mode& mode : modes) sum += std::hypot(mode.x, mode.y);
+  return sum;
+}
+
+ContactSynthesizer::Voice& ContactSynthesizer::find_voice(const SoundingBody& body) {
+  const auto of_body = [&](const Voice& voice) { return voice.body == body; };
+  const auto found = std::find_if(voices_.begin(), voices_.end(), of_body);
+  if (found != voices_.end()) return *found;
+  if (voices_.size() < most_voices) return voices_.emplace_back(voice_of(body));
+  const auto softer = [](const Voice& a, const Voice& b) { return a.loudness() < b.loudness(); };
+  return *std::min_element(voices_.begin(), voices_.end(), softer) = voice_of(body);
+}
+
+void ContactSynthesizer::strike(double impulse, const SoundingBody& body) {
   if (!(impulse > 0.0)) return;
   const double loudness = std::isfinite(impulse) ? impulse / (impulse + half_impulse) : 1.0;
-  for (Mode& mode : modes_) mode.x = std::max(mode.x, mode.gain * loudness);
+  for (Mode& mode : find_voice(body).modes) mode.x = std::max(mode.x, mode.gain * loudness);
 }
 
 void ContactSynthesizer::scrape(double speed) { speed_ = std::isfinite(speed) ? std::max(speed, 0.0) : 0.0; }
@@ -35,16 +60,20 @@ std::vector<float> ContactSynthesizer::render(std::size_t count) {
     const double sum = volume_ * (ringing() + scraping());
     samples.push_back(static_cast<float>(std::clamp(sum, -1.0, 1.0)));
   }
+  const auto silent = [](const Voice& voice) { return voice.loudness() < inaudible; };
+  voices_.erase(std::remove_if(voices_.begin(), voices_.end(), silent), voices_.end());
   return samples;
 }
 
 double ContactSynthesizer::ringing() {
   double sum = 0.0;
-  for (Mode& mode : modes_) {
-    const double x = mode.decay * (mode.cosine * mode.x - mode.sine * mode.y);
-    mode.y = mode.decay * (mode.sine * mode.x + mode.cosine * mode.y);
-    mode.x = std::abs(x) + std::abs(mode.y) > 1e-9 ? x : 0.0;  // no denormal numbers
-    sum += mode.y;
+  for (Voice& voice : voices_) {
+    for (Mode& mode : voice.modes) {
+      const double x = mode.decay * (mode.cosine * mode.x - mode.sine * mode.y);
+      mode.y = mode.decay * (mode.sine * mode.x + mode.cosine * mode.y);
+      mode.x = x;
+      sum += mode.y;
+    }
   }
   return sum;
 }

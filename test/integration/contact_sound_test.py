@@ -12,7 +12,7 @@ import wave
 import roslib.packages
 import rospy
 import rostest
-from spring_workbench.msg import Contact, Contacts
+from spring_workbench.msg import BodyDescription, Contact, Contacts, SceneDescription
 
 from stack import DEADLINE, wait_for
 
@@ -69,6 +69,31 @@ class ContactSound(unittest.TestCase):
         loudness = lambda part: sum(s * s for s in part) / len(part)
         self.assertGreater(loudness(ringing), 100 * loudness(later) + 1)
         self.assertGreater(loudness(scrape), 100 * loudness(later) + 1)
+
+    def pitch_of(self, size, mass):
+        """Crossings of zero in the first tenth of a second after a cube was struck."""
+        moment = mass * size**2 / 6.0
+        box = BodyDescription(name="box", movable=True, mass=mass, inertia=[moment, 0, 0, 0, moment, 0, 0, 0, moment])
+        scene = rospy.Publisher("scene_description", SceneDescription, queue_size=1, latch=True)
+        scene.publish(SceneDescription(bodies=[box]))
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "sound.wav")
+            player = Player("_file:=" + path)
+            for publisher in (self.publisher, scene):
+                wait_for(lambda: publisher.get_num_connections() > 0, "the player to listen")
+            self.record(path, 0.5)  # it has the description
+            self.publisher.publish(contact(Contact.STARTED, impulse=0.5))
+            self.record(path, 0.7)
+            player.end()
+            with wave.open(path) as file:
+                samples = array.array("h", file.readframes(file.getnframes()))
+        scene.unregister()
+        first = next(i for i, s in enumerate(samples) if abs(s) > 200)
+        ringing = samples[first : first + 4410]
+        return sum((a < 0) != (b < 0) for a, b in zip(ringing, ringing[1:]))
+
+    def test_a_large_box_sounds_lower_than_a_small_one(self):
+        self.assertLess(2 * self.pitch_of(0.2, 5.0), self.pitch_of(0.05, 0.08))
 
     def test_plays_on_a_device(self):
         player = Player(SDL_AUDIODRIVER="dummy")

@@ -113,8 +113,8 @@ class Recordings(unittest.TestCase):
 
     @recorded
     def test_a_stylus_that_rests_lets_what_it_holds_sleep(self):
-        """The stylus on eight landmarks lies still in its first 2.2 s, trembling by 0.1 mm; then it pivots about its tip
-        and moves on, without a rest."""
+        """The stylus on eight landmarks lies still in its first 2.2 s, trembling by 0.1 mm; then it pivots about its
+        tip and moves on, without a rest."""
         path = RECORDED + "/data/motions/plus_stylus_8landmarks_60s.tum"
         band = ["--set", "input.dead_band.distance=5e-4", "--set", "input.dead_band.angle=2e-3"]
         for arguments, sleeps in ((band, True), ([], False)):

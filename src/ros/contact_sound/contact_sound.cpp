@@ -3,10 +3,14 @@
 #include <ros/ros.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <memory>
+#include <string>
 
 #include "constants.h"
 #include "spring_workbench/Contacts.h"
+#include "spring_workbench/SceneDescription.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/parameters.h"
@@ -27,14 +31,36 @@ class ContactSound {
         volume ? config::read_number(volume, where, "volume", validation::between(0.0, 1.0)) : 0.8);
     output_ = file ? sound::open_wav_file(config::read_string(file, where, "file")) : sound::open_audio_device();
     subscriber_ = node.subscribe("contacts", 100, &ContactSound::on_contacts, this);
+    scene_subscriber_ = node.subscribe("scene_description", 1, &ContactSound::on_scene, this);
     timer_ = node.createSteadyTimer(ros::WallDuration(render_period), &ContactSound::play, this);
   }
 
  private:
+  /// A body rings as a cube with its mass and radius of gyration.
+  void on_scene(const SceneDescription::ConstPtr& message) {
+    bodies_.clear();
+    for (const BodyDescription& body : message->bodies) {
+      const double trace = body.inertia[0] + body.inertia[4] + body.inertia[8];
+      if (body.mass > 0.0 && trace > 0.0) bodies_[body.name] = {body.mass, std::sqrt(2.0 * trace / body.mass)};
+    }
+  }
+
+  /// Both bodies of an impact ring, as far as they can move; without a description, a small wooden block does.
+  void strike(const Contact& contact) {
+    bool rings = false;
+    for (const std::string& name : {contact.object, contact.other}) {
+      const auto body = bodies_.find(name);
+      if (body == bodies_.end()) continue;
+      synthesizer_->strike(contact.impulse, body->second);
+      rings = true;
+    }
+    if (!rings) synthesizer_->strike(contact.impulse);
+  }
+
   void on_contacts(const Contacts::ConstPtr& message) {
     double speed = 0.0;
     for (const Contact& contact : message->contacts) {
-      if (contact.phase == Contact::STARTED) synthesizer_->strike(contact.impulse);
+      if (contact.phase == Contact::STARTED) strike(contact);
       if (contact.phase == Contact::PERSISTING) speed = std::max(speed, contact.slip_speed);
     }
     synthesizer_->scrape(speed);
@@ -53,8 +79,9 @@ class ContactSound {
 
   std::unique_ptr<sound::ContactSynthesizer> synthesizer_;
   std::unique_ptr<sound::AudioOutput> output_;
+  std::map<std::string, sound::SoundingBody> bodies_;
   double played_until_, last_contacts_ = 0.0;  ///< [s], by the steady clock
-  ros::Subscriber subscriber_;
+  ros::Subscriber subscriber_, scene_subscriber_;
   ros::SteadyTimer timer_;
 };
 

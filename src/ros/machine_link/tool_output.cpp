@@ -6,8 +6,8 @@
 
 #include <utility>
 
-#include "spring_workbench/ProbeReading.h"
 #include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/ros/common/publishing.h"
 
 namespace spring_workbench::machine_link {
 
@@ -30,28 +30,25 @@ void ToolOutput::read(const simulation::Simulation& simulation, tools::ToolState
 void ToolOutput::publish(const simulation::Simulation& simulation, const tools::ToolState& tool,
                          const std_msgs::Header& header) {
   vibrate(simulation, tool);
-  publish_reading(tool, header);
-  if (wrench_.getNumSubscribers() > 0) {
+  if (!tool.touched.empty()) ros_common::publish_made(probe_, header, [&] { return reading_of(tool); });
+  std_msgs::Header of_handle = header;
+  of_handle.frame_id = handle_frame_;
+  ros_common::publish_made(wrench_, of_handle, [&] {
     geometry_msgs::WrenchStamped message;
-    message.header = header;
-    message.header.frame_id = handle_frame_;
     const Wrench& felt = tool.handle_wrench_H;
     message.wrench = ros_common::to_wrench({felt.force / tool.force_scale, felt.moment / tool.force_scale});
-    wrench_.publish(message);
-  }
-  if (tip_twist_.getNumSubscribers() > 0) {
+    return message;
+  });
+  ros_common::publish_made(tip_twist_, header, [&] {
     geometry_msgs::TwistStamped message;
-    message.header = header;
     message.twist.linear = ros_common::to_vector(tool.V_WE_W.linear);
     message.twist.angular = ros_common::to_vector(tool.V_WE_W.angular);
-    tip_twist_.publish(message);
-  }
+    return message;
+  });
 }
 
-void ToolOutput::publish_reading(const tools::ToolState& tool, const std_msgs::Header& header) {
-  if (tool.touched.empty() || probe_.getNumSubscribers() == 0) return;
+ProbeReading ToolOutput::reading_of(const tools::ToolState& tool) const {
   ProbeReading message;
-  message.header = header;
   message.touched = tool.touched;
   message.force = tool.handle_wrench_H.force.norm();
   if (const auto& reading = average_.material()) {
@@ -67,7 +64,7 @@ void ToolOutput::publish_reading(const tools::ToolState& tool, const std_msgs::H
       message.forces.push_back(force);
     }
   }
-  probe_.publish(message);
+  return message;
 }
 
 /// Sent while it vibrates, and once more when that ends.

@@ -6,10 +6,14 @@
 #include "messages.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/ros/common/publishing.h"
 #include "spring_workbench/ros/markers/for_each_object.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::manipulation {
+
+using ros_common::publish_made;
+
 namespace {
 
 /// Now, as stamps of the simulation are [ns].
@@ -18,18 +22,6 @@ std::int64_t now() { return ros_common::wall_moment().now; }
 ros::Time at(std::int64_t stamp) {
   return ros::Time().fromNSec(static_cast<std::uint64_t>(stamp + ros_common::wall_moment().steps));
 }
-
-/// What `make` makes, only where somebody listens.
-template <typename Make>
-void publish_made(const ros::Publisher& publisher, const std_msgs::Header& header, Make&& make) {
-  if (publisher.getNumSubscribers() == 0) return;
-  auto message = make();
-  message.header = header;
-  publisher.publish(message);
-}
-
-/// What the topics and frames of a hand end in.
-std::string number_of(std::size_t hand) { return hand > 0 ? "_" + std::to_string(hand + 1) : ""; }
 
 }  // namespace
 
@@ -45,7 +37,7 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
       accepted_publisher_(private_node.advertise<Accepted>("accepted", state_queue)),
       changes_publisher_(private_node.advertise<Change>("changes", state_queue)) {
   for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-    const std::string number = number_of(hand);
+    const std::string number = ros_common::hand_suffix(hand);
     hands_.push_back({private_node.advertise<ForkState>("fork" + number, state_queue),
                       private_node.advertise<ForkState>("display/fork" + number, 5),
                       machine_link::ToolOutput(private_node, parameters.frame_prefix, number, state_queue)});
@@ -147,7 +139,7 @@ void StatePublisher::publish_transforms(const simulation::Simulation& simulation
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
     const tools::ToolState tool = simulation.fork(hand);
     if (hand > 0 && !tool.present) continue;
-    const std::string number = number_of(hand);
+    const std::string number = ros_common::hand_suffix(hand);
     transforms.push_back(
         ros_common::to_transform(tool.X_WH, world_frame_, frame_prefix_ + "fork_handle" + number, stamp));
     transforms.push_back(ros_common::to_transform(tool.X_WE, world_frame_, frame_prefix_ + "fork_tip" + number, stamp));

@@ -100,6 +100,67 @@ TEST(ContactSynthesizer, SamplesAreBoundedWhateverComes) {
   }
 }
 
+std::vector<float> struck(const SoundingBody& body) {
+  ContactSynthesizer synthesizer(1.0);
+  synthesizer.strike(0.3, body);
+  return synthesizer.render(second);
+}
+
+/// Similar bodies of one material: frequencies go with one over the size, so that a sound is drawn out by it.
+TEST(ContactSynthesizer, TheLargerRingsTheLower) {
+  const auto first_crossing = [](const std::vector<float>& samples) {
+    std::size_t i = 1;
+    while ((samples[i - 1] < 0.0f) == (samples[i] < 0.0f)) ++i;
+    return static_cast<double>(i);
+  };
+  int last = 1 << 30;
+  for (const double size : {0.02, 0.06, 0.2, 0.6}) {
+    const int now = crossings(struck({600.0 * std::pow(size, 3), size}));
+    EXPECT_LT(now, last) << size;
+    last = now;
+  }
+  // One mode decides in the end: 420 Hz of the block, 210 Hz of twice the size and the same weight.
+  EXPECT_NEAR(first_crossing(struck({1e3, 0.12})) / first_crossing(struck({1e3, 0.06})), 2.0, 0.1);
+}
+
+/// Share of the sound's energy in its differences: of high pitches.
+double brightness(const std::vector<float>& samples) {
+  std::vector<float> differences;
+  for (std::size_t i = 1; i < samples.size(); ++i) differences.push_back(samples[i] - samples[i - 1]);
+  return energy(differences) / energy(samples);
+}
+
+TEST(ContactSynthesizer, TheHeavierOfOneSizeIsTheDuller) {
+  double last = 1e9;
+  for (const double mass : {0.01, 0.1, 1.0, 10.0}) {
+    const double now = brightness(struck({mass, 0.06}));
+    EXPECT_LT(now, last) << mass;
+    last = now;
+  }
+}
+
+/// Sixteen times the density: four times as long.
+TEST(ContactSynthesizer, TheDenserMaterialRingsTheLonger) {
+  /// [samples] in which it goes down to 1/e; begins late, when the lowest mode alone is heard.
+  const auto time_constant = [](const std::vector<float>& samples, std::ptrdiff_t begin, std::ptrdiff_t length) {
+    const auto at = samples.begin() + begin;
+    const double before = energy({at, at + length}), after = energy({at + length, at + 2 * length});
+    return static_cast<double>(length) / (0.5 * std::log(before / after));
+  };
+  const double wood = time_constant(struck({0.13, 0.06}), 8820, 2205),
+               metal = time_constant(struck({2.08, 0.06}), 26460, 8820);
+  EXPECT_NEAR(metal / wood, 4.0, 0.05);
+}
+
+TEST(ContactSynthesizer, AThousandBodiesAreBoundedAndTheLoudestStay) {
+  ContactSynthesizer synthesizer(0.01), alone(0.01);
+  synthesizer.strike(100.0, {1.0, 0.1});
+  alone.strike(100.0, {1.0, 0.1});
+  for (int i = 0; i < 1000; ++i) synthesizer.strike(1e-7, {0.1 + 1e-3 * i, 0.05});
+  const std::vector<float> all = synthesizer.render(second), loudest = alone.render(second);
+  for (std::size_t i = 0; i < all.size(); ++i) ASSERT_NEAR(all[i], loudest[i], 1e-6f);
+}
+
 TEST(ContactSynthesizer, VolumeScales) {
   ContactSynthesizer loud(0.8), soft(0.4), mute(0.0);
   for (ContactSynthesizer* s : {&loud, &soft, &mute}) {

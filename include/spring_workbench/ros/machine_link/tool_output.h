@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "spring_workbench/ProbeReading.h"
 #include "spring_workbench/instruments/reading_average.h"
 #include "spring_workbench/instruments/vibration.h"
 #include "spring_workbench/simulation/simulation.h"
@@ -30,7 +31,7 @@ class ToolOutput {
  private:
   void vibrate(const simulation::Simulation& simulation, const tools::ToolState& tool);
 
-  void publish_reading(const tools::ToolState& tool, const std_msgs::Header& header);
+  ProbeReading reading_of(const tools::ToolState& tool) const;
 
   std::string handle_frame_;
   ros::Publisher wrench_, tip_twist_, joy_feedback_, probe_;
