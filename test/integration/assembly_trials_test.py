@@ -72,6 +72,19 @@ class AssemblyTrials(unittest.TestCase):
                 self.assertTrue(0.13 < float(last[name]["x"]) < 0.42, name)
                 self.assertTrue(-0.1 < float(last[name]["y"]) < 0.1, name)
 
+    def test_the_hand_is_as_it_is_set(self):
+        """A quick, steady hand is done sooner than a slow one; what is set to its default changes nothing."""
+        arguments = ["--scene", SOURCE + "/scenes/far_and_heavy.urdf", "--settings", SETTINGS, "--tool", "direct"]
+        arguments += ["--trials", "1"]
+        usual = run(*arguments).stdout
+        self.assertEqual(run(*arguments, "--delay", "0.2", "--rate", "50", "--noise", "1e-4").stdout, usual)
+        time = lambda text: float(list(csv.DictReader(text.splitlines()))[0]["time_s"])
+        self.assertLess(time(run(*arguments, "--delay", "0.05").stdout), time(usual))
+        self.assertGreater(time(run(*arguments, "--delay", "0.8").stdout), time(usual))
+        self.assertNotEqual(run(*arguments, "--noise", "2e-3", "--angle-noise", "5e-3").stdout, usual)
+        given_up = list(csv.DictReader(run(*arguments, "--time-limit", "10").stdout.splitlines()))[0]
+        self.assertLess(int(given_up["placed"]), 3)
+
     def test_bad_input_is_refused_in_one_line(self):
         for arguments, word in [
             ([], "--scene"),

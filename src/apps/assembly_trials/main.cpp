@@ -51,9 +51,9 @@ void run(const Options& options) {
     all.push_back({label, {}});
     const simulation::SimulationSettings settings = with_tool(label, options.settings);
     for (int k = 0; k < options.trials; ++k) {
-      assembly::OperatorSettings hand;
+      assembly::OperatorSettings hand = options.hand;
       hand.seed = static_cast<unsigned>(options.seed + k);
-      const assembly::Trial trial = assembly::run_trial(scene, settings, hand);
+      const assembly::Trial trial = assembly::run_trial(scene, settings, hand, options.time_limit);
       all.back().scores.push_back(trial.score);
       csv += std::to_string(hand.seed) + "," + std::to_string(all.size()) + "," + label + ",1,0," +
              assembly::score_csv(trial.score) + "\n";

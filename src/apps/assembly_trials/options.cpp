@@ -15,15 +15,22 @@ std::optional<Options> parse_options(int argc, char** argv) {
   const auto tool = [&](const std::string& label) {
     options.tool = config::read_choice(YAML::Node(label), command_line, "--tool", tool_labels());
   };
-  if (!config::read_command_line(argc, argv,
-                                 {config::text_option("scene", options.scene),
-                                  {"settings", settings},
-                                  {"tool", tool},
-                                  config::integer_option("trials", 1, 10000, options.trials),
-                                  config::integer_option("seed", 0, 1000000000, options.seed),
-                                  config::text_option("out", options.out),
-                                  config::text_option("table", options.table),
-                                  config::text_option("record", options.record)})) {
+  if (!config::read_command_line(
+          argc, argv,
+          {config::text_option("scene", options.scene),
+           {"settings", settings},
+           {"tool", tool},
+           config::integer_option("trials", 1, 10000, options.trials),
+           config::integer_option("seed", 0, 1000000000, options.seed),
+           config::number_option("rate", validation::between(1.0, 1000.0), options.hand.rate),
+           config::number_option("delay", validation::between(0.0, 2.0), options.hand.reaction),
+           config::number_option("noise", validation::between(0.0, 0.1), options.hand.position_noise),
+           config::number_option("angle-noise", validation::between(0.0, 1.0), options.hand.angle_noise),
+           config::number_option("scatter", validation::between(0.0, 0.5), options.hand.aim_scatter),
+           config::number_option("time-limit", validation::between(1.0, 1e5), options.time_limit),
+           config::text_option("out", options.out),
+           config::text_option("table", options.table),
+           config::text_option("record", options.record)})) {
     return std::nullopt;
   }
   if (options.scene.empty()) validation::refuse(command_line, "--scene", "", "a URDF of a scene with targets");
@@ -37,6 +44,7 @@ std::string help_text() {
 The same arguments give bit-identical output.
 
 assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--trials N] [--seed S] [--out TRIALS.csv]
+                [--rate HZ] [--delay S] [--noise M] [--angle-noise RAD] [--scatter SHARE] [--time-limit S]
                 [--table TABLE.md] [--record HAND.tum]
 
   --scene     a scene whose YAML file has targets: path or package:// URI of the URDF
@@ -45,6 +53,11 @@ assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--tria
          validation::join(tool_labels()) + R"(; default: each of them
   --trials    number of trials per tool; default 20
   --seed      seed of the first trial, which increases by 1 per trial; default 1
+  --rate      samples of the tracked hand per second [Hz]; default 50
+  --delay     the operator sees everything this late [s]; default 0.2
+  --noise, --angle-noise  of the tracker, per axis and sample: standard deviations [m], [rad]; default 1e-4, 5e-4
+  --scatter   a reach ends off its goal by this share of its length, per axis; default 0.02
+  --time-limit  of a trial [s]; default 300
   --out       a line of CSV per trial:
               )" +
          csv_header() + R"(

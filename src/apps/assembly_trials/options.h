@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "spring_workbench/assembly/simulated_operator.h"
 #include "spring_workbench/simulation/settings.h"
 
 namespace spring_workbench::assembly_trials {
@@ -14,6 +15,8 @@ struct Options {
   std::string tool;                         ///< label of one tool; empty: all
   int trials = 20;                          ///< of each tool
   int seed = 1;                             ///< of the first trial; the others count up
+  assembly::OperatorSettings hand;          ///< how the operator moves, apart from the seed
+  double time_limit = 300.0;                ///< of a trial [s]
   std::string out;                          ///< path of the CSV file; empty: none
   std::string table;                        ///< path of the Markdown table; empty: none
   std::string record;                       ///< path of the motion file of the first trial; empty: none
