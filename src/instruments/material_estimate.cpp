@@ -10,7 +10,7 @@
 namespace spring_workbench::instruments {
 namespace {
 
-/// The low-pass of a time constant [s] behind a force, which goes evenly from sample to sample and was steady before.
+/// The low-pass of a time constant [s] behind a force, which goes evenly from sample to sample.
 /// With it, its derivative by the time constant.
 class LowPass {
  public:
@@ -50,32 +50,34 @@ void MaterialEstimate::add(double t, double path, double force) {
   if (samples_.size() > touch_samples) samples_.pop_front();
 }
 
-/// Least squares of path = surface + compliance · (y + (T − lag) dy/dT), which is linear in surface, compliance and
-/// their product with T.
+/// Least squares of path = surface + compliance · (y + (T − lag) dy/dT) + start · exp(−(t − t₀) / lag), which is linear
+/// in surface, compliance, its product with T, and in what the touch had before the first sample (an impact, or what is
+/// forgotten), which dies away.
 std::optional<MaterialEstimate::Fit> MaterialEstimate::fit_beside(double lag) const {
   const auto count = static_cast<Eigen::Index>(samples_.size());
-  constexpr Eigen::Index unknowns = 3;
+  constexpr Eigen::Index unknowns = 4;
   if (count < unknowns + fewest_to_spare) return std::nullopt;
-  Eigen::MatrixX3d of(count, unknowns);
+  Eigen::MatrixX4d of(count, unknowns);
   Eigen::VectorXd path(count);
   LowPass low_pass(lag, samples_.front().force);
   for (Eigen::Index i = 0; i < count; ++i) {
     const Sample& sample = samples_[static_cast<std::size_t>(i)];
     if (i > 0) low_pass.step(sample.t - samples_[static_cast<std::size_t>(i - 1)].t, sample.force);
-    of.row(i) << 1.0, low_pass.value(), low_pass.slope();
+    const double since = sample.t - samples_.front().t, start = i > 0 ? std::exp(-since / lag) : 1.0;
+    of.row(i) << 1.0, low_pass.value(), low_pass.slope(), start;
     path[i] = sample.path - samples_.front().path;
   }
-  const Eigen::RowVector3d scale = of.colwise().norm();
+  const Eigen::RowVector4d scale = of.colwise().norm();
   if (!(scale.minCoeff() > 0.0)) return std::nullopt;
-  const Eigen::ColPivHouseholderQR<Eigen::MatrixX3d> qr(of * scale.cwiseInverse().asDiagonal());
+  const Eigen::ColPivHouseholderQR<Eigen::MatrixX4d> qr(of * scale.cwiseInverse().asDiagonal());
   if (qr.rank() < unknowns) return std::nullopt;
-  const Eigen::Vector3d scaled = qr.solve(path);
-  const Eigen::Vector3d x = scaled.cwiseQuotient(scale.transpose());
+  const Eigen::Vector4d scaled = qr.solve(path);
+  const Eigen::Vector4d x = scaled.cwiseQuotient(scale.transpose());
   const double spare = static_cast<double>(count - unknowns);
   const double variance = (path - of * x).squaredNorm() / spare;
-  const Eigen::Matrix3d R = qr.matrixR().topRows<unknowns>().triangularView<Eigen::Upper>();
-  const Eigen::Matrix3d half = qr.colsPermutation() * Eigen::Matrix3d(R.inverse());
-  const Eigen::Vector3d deviation = (std::sqrt(variance) * half.rowwise().norm()).cwiseQuotient(scale.transpose());
+  const Eigen::Matrix4d R = qr.matrixR().topRows<unknowns>().triangularView<Eigen::Upper>();
+  const Eigen::Matrix4d half = qr.colsPermutation() * Eigen::Matrix4d(R.inverse());
+  const Eigen::Vector4d deviation = (std::sqrt(variance) * half.rowwise().norm()).cwiseQuotient(scale.transpose());
   Fit fit;
   fit.surface = x[0] + samples_.front().path;
   fit.compliance = x[1];

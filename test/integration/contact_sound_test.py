@@ -40,8 +40,12 @@ class ContactSound(unittest.TestCase):
     def setUp(self):
         self.publisher = rospy.Publisher("contacts", Contacts, queue_size=10)
 
+    def tearDown(self):
+        wait_for(lambda: self.publisher.get_num_connections() == 0, "the player to be gone")
+
     def record(self, path, seconds):
         """Until so much more sound is in the file."""
+        wait_for(lambda: os.path.exists(path), "the file")
         enough = os.path.getsize(path) + 2 * 44100 * seconds
         wait_for(lambda: os.path.getsize(path) >= enough, "%g s of sound" % seconds)
 
@@ -88,6 +92,7 @@ class ContactSound(unittest.TestCase):
             with wave.open(path) as file:
                 samples = array.array("h", file.readframes(file.getnframes()))
         scene.unregister()
+        self.tearDown()
         first = next(i for i, s in enumerate(samples) if abs(s) > 200)
         ringing = samples[first : first + 4410]
         return sum((a < 0) != (b < 0) for a, b in zip(ringing, ringing[1:]))

@@ -75,6 +75,19 @@ TEST(MaterialEstimate, FindsTheDampingThatIsThere) {
   EXPECT_GT(reading->damping.low, 0.0);
 }
 
+/// A touch that begins with an impact on a damper: the force is there before the spring is pressed.
+TEST(MaterialEstimate, AnImpactAtTheBeginningDoesNotBiasIt) {
+  const double stiffness = 2e3, damping = 90.0;
+  MaterialEstimate estimate(2e3);
+  for (int i = 0; i < 30; ++i) {
+    const double t = 0.01 + kInterval * i, d = 0.03 * std::sin(2.5 * t), d_dot = 0.075 * std::cos(2.5 * t);
+    estimate.add(t, 0.1 + d, stiffness * d + damping * d_dot);
+  }
+  ASSERT_TRUE(estimate.reading());
+  EXPECT_NEAR(estimate.reading()->touch.value, stiffness, 1e-3 * stiffness);
+  EXPECT_NEAR(estimate.reading()->damping.value, damping, 0.03 * damping);
+}
+
 TEST(MaterialEstimate, SaysNothingBeforeItCan) {
   MaterialEstimate estimate(1e3);
   EXPECT_FALSE(estimate.reading());
@@ -84,8 +97,8 @@ TEST(MaterialEstimate, SaysNothingBeforeItCan) {
     EXPECT_TRUE(estimate.curve().empty());
   }
   MaterialEstimate other(1e3);
-  for (int i = 0; i < 6; ++i) {
-    EXPECT_EQ(other.reading().has_value(), i >= 5) << i;
+  for (int i = 0; i < 8; ++i) {
+    EXPECT_EQ(other.reading().has_value(), i >= 6) << i;
     other.add(kInterval * i, 1e-3 * i * i, 1.0 * i * i);
   }
 }
