@@ -188,7 +188,9 @@ class Tools(unittest.TestCase):
         self.call("select_tool", "spring_probe", 1)
         self.hand.position = (0.02, 0.0, 0.4)
         self.hand.run(0.2)
-        self.hand.move((0.02, 0.0, 0.04 + LENGTH - 0.02), DOWN, 0.5)
+        self.hand.move((0.02, 0.0, 0.04 + LENGTH + 0.005), DOWN, 0.5)
+        self.hand.run(0.5)
+        self.hand.move((0.02, 0.0, 0.04 + LENGTH - 0.02), DOWN, 2.0)
         self.hand.run(1.0)
         fork = self.fork.next()
         self.assertEqual((fork.touched, fork.held_object), ("box", ""))
@@ -198,11 +200,11 @@ class Tools(unittest.TestCase):
         self.assertEqual(reading.touched, "box")
         self.assertAlmostEqual(reading.force, 0.02 * fork.stretch_stiffness, delta=0.05 * 0.02 * fork.stretch_stiffness)
         self.assertTrue(reading.identified)
-        self.assertEqual((reading.stiffness, reading.stiffness_high), (math.inf, math.inf))
-        self.assertEqual(fork.material_stiffness, math.inf)
+        self.assertGreater(reading.stiffness, 50 * fork.stretch_stiffness)  # the box is rigid
+        self.assertGreater(fork.material_stiffness, 50 * fork.stretch_stiffness)
         self.assertEqual(len(reading.depths), len(reading.forces))
-        for depth, force in zip(reading.depths, reading.forces):
-            self.assertAlmostEqual(force, fork.stretch_stiffness * depth, delta=1e-3)
+        self.assertAlmostEqual(reading.forces[-1], reading.force, delta=0.05 * reading.force)
+        self.assertAlmostEqual(reading.depths[-1], 0.02, delta=1e-3)
 
     def test_second_stylus_takes_the_object_over(self):
         self.lift()
