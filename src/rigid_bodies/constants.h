@@ -43,17 +43,9 @@ constexpr double deepest_way = 5e-5;
 constexpr double closed_gap = 1e-5;
 /// [m]; a step in which no contact misses its law by more is solved. Test: none: no value tried makes one fail.
 constexpr double small_miss = 1e-6;
-/// Sweeps of the solver. Test: RigidWorld.PressedAndDraggedLagsByFrictionOverStiffness at 0.
-constexpr int most_iterations = 1000;
-/// Contacts whose equations are solved at once, where the sweeps are not done. More: steps of seconds. Test: none: none
-/// that was tried fails.
-constexpr std::size_t most_at_once = 150;
-/// Of the largest impulse; the sweeps end where none changes by more. Test: none: no value tried makes one fail.
-constexpr double small_change = 1e-8;
-/// After which they also end where `small_displacement` says so. Test: none: no value tried makes one fail.
-constexpr int enough_sweeps = 30;
-/// [m]; no way changes, and no contact is off, by more. Test: RigidWorld.StackOfTenStandsAndSleeps at 1e-06.
-constexpr double small_displacement = 1e-8;
+/// Of the largest motion without loads, to which contacts are solved if that takes few iterations. Test:
+/// RigidWorld.StackOfTenStandsAndSleeps at 0.1.
+constexpr double small_share = 1e-4;
 /// [m]; a contact with a smaller gap is stopped by an impulse. Test: none: no value tried makes one fail.
 constexpr double closed = 5e-5;
 /// [s] in which a penetration by a driven body is undone. Shorter: it becomes a speed. With contact mode `stop` 5 ms:

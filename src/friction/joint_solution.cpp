@@ -1,0 +1,269 @@
+#include "joint_solution.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "constants.h"
+
+namespace spring_workbench::friction {
+namespace {
+
+using Eigen::Index;
+using Eigen::Matrix3d;
+using Eigen::MatrixXd;
+using Eigen::Vector3d;
+using Eigen::VectorXd;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Anderson's acceleration of a fixed-point iteration: goes where the last steps together would come to rest [WN11].
+class Acceleration {
+ public:
+  void forget() {
+    count_ = 0;
+    any_ = false;
+  }
+  /// The next point after `point`, from which the iteration itself would go by `step`.
+  VectorXd next(const VectorXd& point, const VectorXd& step) {
+    if (any_) {
+      if (count_ == 0) {
+        points_.resize(point.size(), remembered);
+        steps_.resize(point.size(), remembered);
+      }
+      points_.col(count_ % remembered) = point - point_;
+      steps_.col(count_ % remembered) = step - step_;
+      ++count_;
+    }
+    any_ = true;
+    point_ = point;
+    step_ = step;
+    if (count_ == 0) return point + step;
+    const auto known = std::min<Index>(count_, remembered);
+    const auto S = steps_.leftCols(known);
+    MatrixXd gram = S.transpose() * S;
+    gram.diagonal().array() += 1e-12 * gram.trace();
+    const VectorXd share = gram.ldlt().solve(S.transpose() * step);
+    return point + step - (points_.leftCols(known) + S) * share;
+  }
+
+ private:
+  MatrixXd points_, steps_;  ///< differences
+  VectorXd point_, step_;
+  int count_ = 0;
+  bool any_ = false;
+};
+
+/// The load of a contact by Coulomb's law: presses only, and across at most friction times the normal load. `slope`:
+/// its derivative by x, which is not symmetric.
+Vector3d by_coulomb(const Vector3d& x, double friction, Matrix3d* slope) {
+  if (slope != nullptr) slope->setZero();
+  if (!(x[0] > 0.0)) return Vector3d::Zero();
+  const double across = std::hypot(x[1], x[2]);
+  if (across <= friction * x[0]) {
+    if (slope != nullptr) slope->setIdentity();
+    return x;
+  }
+  const Eigen::Vector2d towards = x.tail<2>() / across;
+  if (slope != nullptr) {
+    (*slope)(0, 0) = 1.0;
+    slope->bottomLeftCorner<2, 1>() = friction * towards;
+    slope->bottomRightCorner<2, 2>() =
+        friction * x[0] / across * (Eigen::Matrix2d::Identity() - towards * towards.transpose());
+  }
+  return {x[0], friction * x[0] * towards[0], friction * x[0] * towards[1]};
+}
+
+}  // namespace
+
+template <typename Function>
+void JointSolution::each(const Function& function) const {
+  const auto& all = contacts_->contacts();
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].scale > 0.0) function(all[i], static_cast<Index>(3 * i));
+  }
+}
+
+double JointSolution::offer(const VectorXd& loads) {
+  contacts_->set_loads(loads);
+  const double residual = contacts_->residual();
+  if (residual < result_->residual) {
+    result_->residual = residual;
+    best_ = loads;
+  }
+  return residual;
+}
+
+void JointSolution::improve(ReducedContacts& contacts, double wanted, double enough, ContactProblem::Result& result) {
+  contacts_ = &contacts;
+  result_ = &result;
+  wanted_ = wanted;
+  enough_ = enough;
+  best_ = contacts.loads();
+  factor_.set_pattern(contacts);
+  alternate();
+  if (result.residual > enough) linearise();
+  contacts.set_loads(best_);
+}
+
+bool JointSolution::factorize(double penalty) {
+  ++result_->factors;
+  return factor_.factorize(*contacts_,
+                           std::vector<Matrix3d>(contacts_->contacts().size(), penalty * Matrix3d::Identity()));
+}
+
+// --- Alternating directions: motions z in the dual cones on one side, u by the bodies on the other. The iteration is
+// on w = z − λ / penalty, of which z and λ are the parts in the dual cone and in the cone.
+
+struct JointSolution::Alternation {
+  double penalty = 1.0;
+  VectorXd w, z;
+};
+
+VectorXd JointSolution::direction(const Alternation& at, VectorXd& reduced) const {
+  VectorXd right_side = VectorXd::Zero(contacts_->size());
+  each([&](const auto& c, Index i) {
+    const Vector3d load = into_cone(-at.w.segment<3>(i), c.friction);  // by the penalty
+    Vector3d target = at.z.template segment<3>(i) + load - c.motion;
+    target[0] -= shift(at.z.template segment<3>(i), c.friction);
+    contacts_->apply(c, at.penalty * target, right_side);
+  });
+  reduced = factor_.solve(right_side);
+  VectorXd step = VectorXd::Zero(at.w.size());
+  each([&](const auto& c, Index i) {
+    Vector3d u = contacts_->motion(c, reduced);
+    u[0] += shift(u, c.friction);
+    step.segment<3>(i) = u - at.z.template segment<3>(i);
+  });
+  return step;
+}
+
+bool JointSolution::reweigh(Alternation& at, const VectorXd& last_motion, const VectorXd& lacking) {
+  VectorXd moved = VectorXd::Zero(contacts_->size());
+  each([&](const auto& c, Index i) {
+    contacts_->apply(c, at.penalty * Vector3d(at.z.template segment<3>(i) - last_motion.segment<3>(i)), moved);
+  });
+  const double ratio = std::sqrt(lacking.norm() / std::max(moved.norm(), std::numeric_limits<double>::min()));
+  if (ratio < out_of_balance && ratio > 1.0 / out_of_balance) return false;
+  const double factor = std::clamp(ratio, 0.01, 100.0);
+  each([&](const auto& c, Index i) {
+    const Vector3d w = at.w.segment<3>(i), load = into_cone(-w, c.friction);
+    at.w.segment<3>(i) = w + load - load / factor;
+  });
+  at.penalty *= factor;
+  return true;
+}
+
+double JointSolution::most_wanted(int alternation) const { return alternation < most_alternations ? wanted_ : enough_; }
+
+void JointSolution::alternate() {
+  Alternation at;
+  at.w.setZero(best_.size());
+  at.z = at.w;
+  each([&](const auto& c, Index i) {
+    Vector3d u = contacts_->motion(c, contacts_->reduced());
+    u[0] += shift(u, c.friction);
+    at.w.segment<3>(i) = u + into_cone(-u, c.friction) - c.load / at.penalty;
+  });
+  if (!factorize(at.penalty)) return;
+  Acceleration acceleration;
+  VectorXd plain, last_motion = at.z, reduced;
+  double last = infinity;
+  for (int k = 0; k < most_alternations_in_need && result_->residual > most_wanted(k); ++k) {
+    ++result_->iterations;
+    each([&](const auto& c, Index i) {
+      at.z.segment<3>(i) = at.w.segment<3>(i) + into_cone(-at.w.segment<3>(i), c.friction);
+    });
+    const VectorXd step = direction(at, reduced);
+    const double size = step.norm();
+    if (!(size < infinity)) return;
+    if (size > astray * last) {
+      at.w = plain;
+      acceleration.forget();
+      last = infinity;
+      continue;
+    }
+    last = size;
+    plain = at.w + step;
+    if (k % look_every == look_every - 1) {
+      VectorXd loads = VectorXd::Zero(plain.size());
+      each([&](const auto& c, Index i) {
+        loads.segment<3>(i) = at.penalty * into_cone(-plain.segment<3>(i), c.friction);
+      });
+      offer(loads);
+    }
+    at.w.swap(plain);
+    const bool weigh = k % weigh_every == weigh_every - 1;
+    if (weigh && reweigh(at, last_motion, step)) {
+      if (!factorize(at.penalty)) return;
+      acceleration.forget();
+      last = infinity;
+    } else {
+      at.w.swap(plain);
+      at.w = acceleration.next(at.w, step);
+    }
+    last_motion = at.z;
+  }
+}
+
+// --- Newton's method on v = Jᵀ λ(v), where λ is by Coulomb's law of loads_ − penalty · u(v) [AC91].
+
+VectorXd JointSolution::missing(const VectorXd& reduced, VectorXd& loads, std::vector<Matrix3d>* slopes) const {
+  VectorXd missing = reduced;
+  each([&](const auto& c, Index i) {
+    const Vector3d x = loads_.segment<3>(i) - penalty_ * contacts_->motion(c, reduced);
+    Matrix3d* slope = slopes == nullptr ? nullptr : &(*slopes)[static_cast<std::size_t>(i / 3)];
+    loads.segment<3>(i) = by_coulomb(x, c.friction, slope);
+    contacts_->apply(c, -loads.segment<3>(i), missing);
+    if (slope != nullptr) *slope *= penalty_;
+  });
+  return missing;
+}
+
+bool JointSolution::follow_newton(VectorXd& reduced, VectorXd& loads) {
+  std::vector<Matrix3d> slopes(contacts_->contacts().size(), Matrix3d::Zero());
+  for (int k = 0; k < most_newton_iterations; ++k) {
+    const VectorXd rest = missing(reduced, loads, &slopes);
+    const double size = rest.norm();
+    if (!(size < infinity)) return false;
+    if (size <= 1e-13 * reduced.norm()) return true;
+    ++result_->factors;
+    if (!factor_.factorize_nonsymmetric(*contacts_, slopes)) return false;
+    const VectorXd step = factor_.solve_nonsymmetric(rest);
+    VectorXd nearest = reduced - step;
+    double least = missing(nearest, loads, nullptr).norm(), share = 1.0;
+    for (int half = 0; half < most_halvings && !(least <= (1.0 - 0.1 * share) * size); ++half) {
+      share *= 0.5;
+      const VectorXd tried = reduced - share * step;
+      const double size_tried = missing(tried, loads, nullptr).norm();
+      if (!(size_tried < least)) continue;
+      least = size_tried;
+      nearest = tried;
+    }
+    reduced = nearest;
+  }
+  missing(reduced, loads, nullptr);
+  return true;
+}
+
+void JointSolution::linearise() {
+  loads_ = best_;
+  penalty_ = first_penalty;
+  int vain = 0;
+  for (int k = 0; k < most_rounds && vain < most_vain_rounds && result_->residual > enough_; ++k) {
+    const double before = result_->residual;
+    contacts_->set_loads(loads_);
+    VectorXd reduced = contacts_->reduced(), loads = VectorXd::Zero(loads_.size());
+    if (!follow_newton(reduced, loads)) return;
+    if (offer(loads) <= 2.0 * result_->residual) {
+      loads_ = loads;
+      penalty_ = std::min(penalty_growth * penalty_, largest_penalty);
+    } else {
+      penalty_ /= penalty_growth;
+    }
+    vain = result_->residual > no_progress * before ? vain + 1 : 0;
+  }
+}
+
+}  // namespace spring_workbench::friction

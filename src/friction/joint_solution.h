@@ -1,0 +1,44 @@
+#pragma once
+
+#include "contact_factor.h"
+#include "reduced_contacts.h"
+#include "spring_workbench/friction/contact_problem.h"
+
+namespace spring_workbench::friction {
+
+/// All contacts of a problem solved together, for which iterations over them are too few.
+class JointSolution {
+ public:
+  /// Improves the loads of `contacts`, whose residual is `result.residual`, until that is at most `enough`; down to
+  /// `wanted` if it takes few alternations.
+  void improve(ReducedContacts& contacts, double wanted, double enough, ContactProblem::Result& result);
+
+ private:
+  struct Alternation;
+  /// Takes the loads if they are better than the best so far; returns their residual.
+  double offer(const Eigen::VectorXd& loads);
+  double most_wanted(int alternation) const;
+  bool factorize(double penalty);
+  void alternate();
+  Eigen::VectorXd direction(const Alternation& at, Eigen::VectorXd& reduced) const;
+  bool reweigh(Alternation& at, const Eigen::VectorXd& last_motion, const Eigen::VectorXd& reduced);
+
+  /// Coulomb's law by Newton's method; the loads are what the penalty makes of what is missing, added to `loads_`.
+  void linearise();
+  Eigen::VectorXd missing(const Eigen::VectorXd& reduced, Eigen::VectorXd& loads,
+                          std::vector<Eigen::Matrix3d>* slopes) const;
+  bool follow_newton(Eigen::VectorXd& reduced, Eigen::VectorXd& loads);
+
+  template <typename Function>
+  void each(const Function& function) const;
+
+  ReducedContacts* contacts_ = nullptr;
+  ContactProblem::Result* result_ = nullptr;
+  double wanted_ = 0.0, enough_ = 0.0;
+  Eigen::VectorXd best_;
+  ContactFactor factor_;
+  Eigen::VectorXd loads_;
+  double penalty_ = 1.0;
+};
+
+}  // namespace spring_workbench::friction
