@@ -13,6 +13,10 @@ void append(std::vector<MethodPtr> more, std::vector<MethodPtr>& methods) {
   drags.insert(drags.end(), more.begin(), more.end());
 }
 
+[[maybe_unused]] void append(const std::vector<BoxEngine>& more, std::vector<BoxEngine>& boxes) {
+  boxes.insert(boxes.end(), more.begin(), more.end());
+}
+
 }  // namespace
 
 Peers all_peers() {
@@ -24,6 +28,7 @@ Peers all_peers() {
 #ifdef SPRING_WORKBENCH_BULLET_VERSION
   append(bullet_peers(), peers.methods);
   append(bullet_drags(), peers.drags);
+  append(bullet_boxes(), peers.boxes);
   peers.found.push_back("Bullet " SPRING_WORKBENCH_BULLET_VERSION);
 #else
   peers.not_found.push_back("Bullet in double precision (libbullet-dev)");
@@ -31,6 +36,7 @@ Peers all_peers() {
 #ifdef SPRING_WORKBENCH_MUJOCO_VERSION
   append(mujoco_peers(), peers.methods);
   append(mujoco_drags(), peers.drags);
+  append(mujoco_boxes(), peers.boxes);
   peers.found.push_back("MuJoCo " SPRING_WORKBENCH_MUJOCO_VERSION);
 #else
   peers.not_found.push_back("MuJoCo (libmujoco-dev)");
@@ -38,6 +44,7 @@ Peers all_peers() {
 #ifdef SPRING_WORKBENCH_ODE_VERSION
   append(ode_peers(), peers.methods);
   append(ode_drags(), peers.drags);
+  append(ode_boxes(), peers.boxes);
   peers.found.push_back("ODE " SPRING_WORKBENCH_ODE_VERSION);
 #else
   peers.not_found.push_back("ODE (libode-dev)");

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "benchmark/contact/box_engines.h"
 #include "benchmark/contact/drag.h"
 #include "benchmark/method.h"
 
@@ -37,6 +38,7 @@ std::vector<MethodPtr> dart_peers();
 struct Peers {
   std::vector<MethodPtr> methods;
   std::vector<DragMethod> drags;       ///< the engines on the drag scene
+  std::vector<BoxEngine> boxes;        ///< the engines on piles and stacks of boxes
   std::vector<std::string> found;      ///< engine and version
   std::vector<std::string> not_found;  ///< engine and the Debian package that brings it
 };

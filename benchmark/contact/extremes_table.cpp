@@ -61,8 +61,8 @@ std::vector<ExtremeRow> extremes_table(bool quick, Units& units) {
 
 std::string extremes_csv(const std::vector<ExtremeRow>& rows) {
   std::ostringstream out;
-  out << "extreme,contact,stiffness,step,seed,finite,bounded,penetration_um,energy_gained_um,steps_refused,steps_held_"
-         "back,held\n";
+  out << "extreme,contact,stiffness,step,seed,finite,bounded,penetration_um,energy_gained_um,steps_refused,"
+         "steps_blocked,held\n";
   for (const ExtremeRow& row : rows) {
     const ExtremeOutcome& o = row.outcome;
     out << row.extreme << ',' << row.contact << ',' << row.stiffness << ',' << row.step << ',' << row.seed << ','

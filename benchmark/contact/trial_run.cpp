@@ -189,6 +189,7 @@ const TrialRow& TrialSum::add(const TrialRow& row) {
 
 TrialRow TrialSum::row(const std::string& name, std::vector<Bar> bars) const {
   TrialRow row = sum_;
+  row.trial += " in all";
   row.name = std::to_string(count_) + ' ' + name;
   row.bars = std::move(bars);
   for (const Bar& bar : {depth_bar(row.measured), blocked_bar(row.measured), rejected_bar(row.measured)}) {

@@ -105,7 +105,7 @@ class TrialSum {
   const TrialRow& add(const TrialRow& row);
   const Measured& measured() const { return sum_.measured; }
   int count() const { return count_; }
-  /// Of all: "N NAME", with these bars and those of depth, blocked and rejected steps.
+  /// Of the trial "… in all", "N NAME", with these bars and those of depth, blocked and rejected steps.
   TrialRow row(const std::string& name, std::vector<Bar> bars) const;
 
  private:

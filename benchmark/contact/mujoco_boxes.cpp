@@ -1,0 +1,109 @@
+#include <mujoco/mujoco.h>
+
+#include <array>
+#include <cstring>
+#include <iomanip>
+#include <sstream>
+#include <stdexcept>
+
+#include "benchmark/contact/box_engines.h"
+
+namespace spring_workbench::benchmark {
+namespace {
+
+/// `stiff`: contacts with a time constant of two steps, the least that MuJoCo allows, in place of 20 ms.
+std::string model_of(const BoxScene& s, double step, bool stiff) {
+  std::ostringstream out;
+  out << std::setprecision(17);
+  const auto numbers = [&](const char* name, const std::vector<double>& values) {
+    out << ' ' << name << "=\"";
+    for (const double value : values) out << value << ' ';
+    out << '"';
+  };
+  out << "<mujoco><size njmax=\"" << 60 * s.scene.bodies.size() << "\" nconmax=\"" << 20 * s.scene.bodies.size()
+      << "\"/><option cone=\"elliptic\" gravity=\"0 0 " << -s.scene.gravity << "\" timestep=\"" << step
+      << "\"/><default><geom friction=\"" << s.friction() << "\"";
+  if (stiff) numbers("solref", {2.0 * step, 1.0});
+  out << "/></default><worldbody><geom type=\"plane\" size=\"5 5 1\"/>";
+  for (const scene::Body& body : s.scene.bodies) {
+    const Vector3d p = body.X_WO.translation(), half = 0.5 * BoxScene::size(body),
+                   I = body.mass_properties.inertia_O.diagonal();
+    const Quaterniond q(body.X_WO.linear());
+    out << "<body";
+    numbers("pos", {p.x(), p.y(), p.z()});
+    numbers("quat", {q.w(), q.x(), q.y(), q.z()});
+    out << (s.holds(body) ? " mocap=\"true\">" : "><freejoint/><inertial pos=\"0 0 0\"");
+    if (!s.holds(body)) {
+      numbers("mass", {body.mass_properties.mass});
+      numbers("diaginertia", {I.x(), I.y(), I.z()});
+      out << "/>";
+    }
+    out << "<geom type=\"box\"";
+    numbers("size", {half.x(), half.y(), half.z()});
+    out << "/></body>";
+  }
+  out << "</worldbody></mujoco>";
+  return out.str();
+}
+
+class MujocoBoxWorld final : public BoxWorld {
+ public:
+  MujocoBoxWorld(const BoxScene& scene, double step, bool stiff) : scene_(scene) {
+    mju_user_warning = [](const char*) {};  // else MuJoCo writes a log file into the working directory
+    const std::string xml = model_of(scene, step, stiff);
+    auto files = std::make_unique<mjVFS>();
+    mj_defaultVFS(files.get());
+    mj_makeEmptyFileVFS(files.get(), "boxes.xml", static_cast<int>(xml.size()));
+    std::memcpy(files->filedata[0], xml.data(), xml.size());
+    std::array<char, 500> error{};
+    model_ = mj_loadXML("boxes.xml", files.get(), error.data(), static_cast<int>(error.size()));
+    mj_deleteVFS(files.get());
+    if (model_ == nullptr) throw std::runtime_error(std::string("MuJoCo: ") + error.data());
+    data_ = mj_makeData(model_);
+    mj_forward(model_, data_);
+  }
+  ~MujocoBoxWorld() override {
+    mj_deleteData(data_);
+    mj_deleteModel(model_);
+  }
+  MujocoBoxWorld(const MujocoBoxWorld&) = delete;
+  MujocoBoxWorld& operator=(const MujocoBoxWorld&) = delete;
+
+  void step(double t, double h) override {
+    if (!scene_.held.empty()) {
+      const RigidTransform X = scene_.X_WO(t + h);
+      const Quaterniond q(X.linear());
+      for (int i = 0; i < 3; ++i) data_->mocap_pos[i] = X.translation()[i];
+      data_->mocap_quat[0] = q.w();
+      for (int i = 0; i < 3; ++i) data_->mocap_quat[i + 1] = q.vec()[i];
+    }
+    mj_step(model_, data_);
+  }
+  std::vector<RigidTransform> poses() const override {
+    mj_kinematics(model_, data_);  // else those of the step's begin
+    std::vector<RigidTransform> poses;
+    for (std::size_t i = 1; i <= scene_.scene.bodies.size(); ++i) {
+      const mjtNum *p = data_->xpos + 3 * i, *q = data_->xquat + 4 * i;
+      poses.push_back(make_transform(Quaterniond(q[0], q[1], q[2], q[3]), Vector3d(p[0], p[1], p[2])));
+    }
+    return poses;
+  }
+
+ private:
+  BoxScene scene_;
+  mjModel* model_ = nullptr;
+  mjData* data_ = nullptr;
+};
+
+}  // namespace
+
+std::vector<BoxEngine> mujoco_boxes() {
+  const auto with = [](bool stiff) {
+    return [stiff](const BoxScene& scene, double step) -> std::unique_ptr<BoxWorld> {
+      return std::make_unique<MujocoBoxWorld>(scene, step, stiff);
+    };
+  };
+  return {{"mujoco", with(false)}, {"mujoco, stiff", with(true)}};
+}
+
+}  // namespace spring_workbench::benchmark
