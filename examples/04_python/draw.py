@@ -77,13 +77,13 @@ def work_precision(scene):
 
 
 def draw_work_precision(table, path):
-    figure, axes = plt.subplots()
+    figure, axes = plt.subplots(figsize=(8.0, 4.8), layout="constrained")
     for integrator, rows in table.items():
         usable = rows[:, 2] < 0.1
         axes.loglog(rows[usable, 1], rows[usable, 2], "o-", label=integrator)
     axes.set_xlabel("run time per simulated second [s]")
     axes.set_ylabel("error of the box's position [m]")
-    axes.legend()
+    axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))  # beside the lines
     figure.savefig(path)
 
 
