@@ -13,7 +13,7 @@ TEST_P(Throws, AThinFixedWallStopsWhatIsThrownAtIt) {
     const ThrowResult result = run({GetParam(), seed});
     EXPECT_FALSE(result.passed_through) << seed;
     EXPECT_LT(result.depth, 1e-4) << seed;
-    EXPECT_LT(result.energy_gained, 2e-3) << seed;  // of a free rotation over steps of 20 ms
+    EXPECT_LT(result.energy_gained, 1e-5) << seed;
     EXPECT_EQ(result.steps_blocked, 0) << seed;
   }
 }

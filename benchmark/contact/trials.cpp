@@ -39,15 +39,15 @@ int count_at(const std::vector<std::string>& arguments, std::size_t index, int o
 }
 
 void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes,
-              const std::vector<scene::ContactMode>& modes, std::ostream& out) {
-  out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,steps_blocked,time_lost_s,"
-         "refused,cpu_s_per_motion\n";
+              const std::vector<scene::ContactMode>& modes, double damping_ratio, std::ostream& out) {
+  out << "contact,scene,damping_ratio,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,steps_blocked,"
+         "time_lost_s,refused,cpu_s_per_motion\n";
   for (const scene::ContactMode mode : modes) {
     for (const WildScene scene : scenes) {
       WildResult sum;
       int passed = 0, over = 0, worst_seed = first_seed;
       for (int seed = first_seed; seed < first_seed + motions; ++seed) {
-        const WildResult r = run({scene, mode, static_cast<unsigned>(seed)});
+        const WildResult r = run({scene, mode, static_cast<unsigned>(seed), damping_ratio});
         if (r.penetration > sum.penetration) worst_seed = seed;
         sum.penetration = std::max(sum.penetration, r.penetration);
         passed += r.passed_through ? 1 : 0;
@@ -57,9 +57,9 @@ void run_wild(int motions, int first_seed, const std::vector<WildScene>& scenes,
         sum.refused += r.refused;
         sum.seconds += r.seconds;
       }
-      out << name_of(mode) << ',' << name_of(scene) << ',' << motions << ',' << passed << ',' << over << ','
-          << 1e3 * sum.penetration << ',' << worst_seed << ',' << sum.steps_blocked << ',' << sum.time_lost << ','
-          << sum.refused << ',' << sum.seconds / std::max(motions, 1) << std::endl;
+      out << name_of(mode) << ',' << name_of(scene) << ',' << damping_ratio << ',' << motions << ',' << passed << ','
+          << over << ',' << 1e3 * sum.penetration << ',' << worst_seed << ',' << sum.steps_blocked << ','
+          << sum.time_lost << ',' << sum.refused << ',' << sum.seconds / std::max(motions, 1) << std::endl;
     }
   }
 }
@@ -75,8 +75,10 @@ std::map<int, std::string> recorded(const std::string& path, const std::string& 
 }
 
 /// Runs those of the seeds that are not in the file yet, and adds a line for each as it is done.
-void record(const std::string& path, WildScene scene, scene::ContactMode mode, int first, int last, std::ostream& out) {
-  const std::string run_name = std::string(name_of(mode)) + ',' + name_of(scene) + ',';
+void record(const std::string& path, const WildMotion& motion, int first, int last, std::ostream& out) {
+  std::ostringstream name;
+  name << name_of(motion.contact) << ',' << name_of(motion.scene) << ',' << motion.damping_ratio << ',';
+  const std::string run_name = name.str();
   const std::map<int, std::string> done = recorded(path, run_name);
   std::ofstream file(path, std::ios::app);
   if (!file)
@@ -85,16 +87,16 @@ void record(const std::string& path, WildScene scene, scene::ContactMode mode, i
   file << '\n';  // after a line that was cut off
   for (int seed = first; seed <= last; ++seed) {
     if (done.count(seed) > 0) continue;
-    const WildResult r = run({scene, mode, static_cast<unsigned>(seed)});
+    const WildResult r = run({motion.scene, motion.contact, static_cast<unsigned>(seed), motion.damping_ratio});
     file << run_name << seed << ',' << 1e3 * r.penetration << ',' << r.passed_through << ',' << r.steps_blocked << ','
-         << r.refused << ',' << r.seconds << std::endl;
+         << r.time_lost << ',' << r.refused << ',' << r.seconds << std::endl;
   }
-  int count = 0, passed = 0, over = 0, worst_seed = first;
-  double worst = 0.0, seconds = 0.0;
+  int count = 0, passed = 0, over = 0, blocked = 0, refused = 0, worst_seed = first;
+  double worst = 0.0, lost = 0.0, seconds = 0.0, most_seconds = 0.0;
   for (const auto& [seed, line] : recorded(path, run_name)) {
     if (seed < first || seed > last) continue;
     std::istringstream fields(line.substr(run_name.size()));
-    double values[6] = {};
+    double values[7] = {};
     for (double& value : values) {
       fields >> value;
       fields.ignore();
@@ -102,12 +104,17 @@ void record(const std::string& path, WildScene scene, scene::ContactMode mode, i
     ++count;
     passed += values[2] > 0.0;
     over += values[1] > 0.1;
-    seconds += values[5];
+    blocked += static_cast<int>(values[3]);
+    lost += values[4];
+    refused += static_cast<int>(values[5]);
+    seconds += values[6];
+    most_seconds = std::max(most_seconds, values[6]);
     if (values[1] > worst) worst = values[1], worst_seed = seed;
   }
-  out << "contact,scene,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,cpu_s_per_motion\n"
-      << run_name << count << ',' << passed << ',' << over << ',' << worst << ',' << worst_seed << ','
-      << seconds / std::max(count, 1) << std::endl;
+  out << "contact,scene,damping_ratio,motions,passed_through,over_0.1mm,penetration_mm,worst_seed,steps_blocked,"
+         "time_lost_s,refused,cpu_s_per_motion,most_cpu_s\n"
+      << run_name << count << ',' << passed << ',' << over << ',' << worst << ',' << worst_seed << ',' << blocked << ','
+      << lost << ',' << refused << ',' << seconds / std::max(count, 1) << ',' << most_seconds << std::endl;
 }
 
 std::vector<WildScene> scenes_at(const std::vector<std::string>& arguments, std::size_t index) {
@@ -125,6 +132,15 @@ std::vector<scene::ContactMode> modes_at(const std::vector<std::string>& argumen
     if (name_of(mode) == arguments[index]) return {mode};
   }
   validation::refuse(where, "contact", arguments[index], "stop or dynamic");
+}
+
+double damping_ratio_at(const std::vector<std::string>& arguments, std::size_t index) {
+  if (index >= arguments.size()) return 1.0;
+  std::istringstream text(arguments[index]);
+  double value = -1.0;
+  if (!(text >> value) || !text.eof() || value < 0.0 || value > 10.0)
+    validation::refuse(where, "damping ratio", arguments[index], "a number from 0 to 10");
+  return value;
 }
 
 void run_scale(int most, std::ostream& out) {
@@ -189,12 +205,13 @@ void run_contact_trials(const std::vector<std::string>& arguments, std::ostream&
     print_trial_header(out);
     return seeded_trials().at(what)(count_at(arguments, 1, 100), count_at(arguments, 2, 0), to_out);
   }
-  if (what == "wild" && arguments.size() <= 5) {
+  if (what == "wild" && arguments.size() <= 6) {
     run_wild(count_at(arguments, 1, 100), count_at(arguments, 2, 0), scenes_at(arguments, 3), modes_at(arguments, 4),
-             out);
-  } else if (what == "record" && arguments.size() == 6) {
-    record(arguments[1], scenes_at(arguments, 2).front(), modes_at(arguments, 3).front(), count_at(arguments, 4, 0),
-           count_at(arguments, 5, 0), out);
+             damping_ratio_at(arguments, 5), out);
+  } else if (what == "record" && (arguments.size() == 6 || arguments.size() == 7)) {
+    record(arguments[1],
+           {scenes_at(arguments, 2).front(), modes_at(arguments, 3).front(), 0, damping_ratio_at(arguments, 6)},
+           count_at(arguments, 4, 0), count_at(arguments, 5, 0), out);
   } else if (what == "drops" && arguments.size() <= 3) {
     run_drops(count_at(arguments, 1, 100), count_at(arguments, 2, 0), out);
   } else if (what == "throws" && arguments.size() <= 3) {
@@ -204,10 +221,10 @@ void run_contact_trials(const std::vector<std::string>& arguments, std::ostream&
   } else {
     validation::refuse(
         where, "arguments", what,
-        "wild [N [FIRST_SEED [SCENE [CONTACT]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED, drops [N "
-        "[FIRST_SEED]], throws [N [FIRST_SEED]], scale [MOST], pile|stack|cards|marbles|peg|wedge|motion|incline|bits "
-        "[quick], rings|chain|map [N "
-        "[FIRST_SEED]], or show TRIAL MILLISECONDS");
+        "wild [N [FIRST_SEED [SCENE [CONTACT [DAMPING]]]]], record FILE SCENE CONTACT FIRST_SEED LAST_SEED [DAMPING], "
+        "drops [N [FIRST_SEED]], throws [N [FIRST_SEED]], scale [MOST], "
+        "pile|stack|cards|marbles|peg|wedge|motion|incline|bits [quick], rings|chain|map [N [FIRST_SEED]], or show "
+        "TRIAL MILLISECONDS");
   }
 }
 

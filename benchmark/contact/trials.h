@@ -7,8 +7,11 @@
 namespace spring_workbench::benchmark {
 
 /// The program `contact_trials`; a CSV on `out`.
-/// - `contact_trials wild [N [FIRST_SEED [SCENE [CONTACT]]]]`: N (default 100) seeded motions, in both modes by default
-/// - `contact_trials record FILE SCENE CONTACT FIRST LAST`: each seed's result is added to FILE; those there stay
+/// - `contact_trials wild [N [FIRST_SEED [SCENE [CONTACT [DAMPING]]]]]`: N (default 100) seeded motions, in both modes
+/// by
+///   default, with a fork of the damping ratio DAMPING (default 1)
+/// - `contact_trials record FILE SCENE CONTACT FIRST LAST [DAMPING]`: each seed's result is added to FILE; those there
+///   stay
 /// - `contact_trials drops [N [FIRST_SEED]]`: N (default 100) seeded things let go above the bench, in both modes
 /// - `contact_trials throws [N [FIRST_SEED]]`: N (default 100) seeded things thrown at a thin wall, fixed and loose
 /// - `contact_trials scale [MOST]`: 10, 100, … MOST (default 10,000) resting objects in every contact mode

@@ -144,6 +144,7 @@ WildResult run(const WildMotion& motion) {
   set.fork.length = 0.05;
   const double k = 2000.0 * std::pow(10.0, unit(random));
   set.fork.stiffness = {k, k, 1e-3 * k};
+  set.fork.damping_ratio = {motion.damping_ratio, motion.damping_ratio, motion.damping_ratio};
   simulation::Simulation simulation(setting.scene, set);
 
   RigidTransform X_WH = at_middle(R_held);

@@ -20,6 +20,7 @@ struct WildMotion {
   WildScene scene = WildScene::rod_in_room;
   scene::ContactMode contact = scene::ContactMode::dynamic;
   unsigned seed = 0;  ///< of the motion, of the pose at the start and of the fork's stiffness (200 … 20 000 N/m)
+  double damping_ratio = 1.0;  ///< of the fork
 };
 
 struct WildResult {

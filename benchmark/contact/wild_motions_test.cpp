@@ -19,6 +19,22 @@ TEST_P(RodInRoom, GoesThroughNoWall) {
   }
 }
 
+// Where a fork bent far folds, it takes substeps of microseconds. The damping ratio does not matter to that.
+TEST(RodInRoom, IsNeverBlockedHoweverTheForkIsDampedOrFolds) {
+  const auto check = [](unsigned seed, double damping_ratio) {
+    const WildResult result = run({WildScene::rod_in_room, scene::ContactMode::stop, seed, damping_ratio});
+    EXPECT_FALSE(result.passed_through) << seed << ' ' << damping_ratio;
+    EXPECT_LE(result.penetration, 5e-5) << seed << ' ' << damping_ratio;
+    EXPECT_EQ(result.steps_blocked, 0) << seed << ' ' << damping_ratio;
+    EXPECT_EQ(result.time_lost, 0.0) << seed << ' ' << damping_ratio;
+    EXPECT_EQ(result.refused, 0) << seed << ' ' << damping_ratio;
+  };
+  for (const unsigned seed : {95u, 125u, 309u}) check(seed, 1.0);
+  for (const double damping_ratio : {0.0, 0.1, 10.0}) {
+    for (unsigned seed = 0; seed < 5; ++seed) check(seed, damping_ratio);
+  }
+}
+
 TEST(RingOnRod, StaysOnTheRod) {
   for (const unsigned seed : {0u, 3u, 10u}) {
     const WildResult result = run({WildScene::ring_on_rod, scene::ContactMode::stop, seed});

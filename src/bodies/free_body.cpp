@@ -36,17 +36,21 @@ bool FreeBody::advance(double h, const Wrench& contact_W) {
   const Vector3d acceleration = contact_W.force / mass_ - gravity_ * Vector3d::UnitZ();
   next.X_WO.translation() += h * state_.velocity + 0.5 * h * h * acceleration;
   next.velocity += h * acceleration;
-  // Midpoint rule on the rotation, in pieces; the momentum itself is exact.
+  // The momentum is exact; the attitude follows by a Runge–Kutta method of rotations of order four [CMO03].
   const double turn = h * angular_velocity(state_.X_WO.linear(), state_.angular_momentum).norm();
   const int pieces = 1 + static_cast<int>(std::min(turn / most_turn_per_piece, static_cast<double>(most_substeps)));
   const double dt = h / pieces;
   Matrix3d R = state_.X_WO.linear();
   for (int i = 0; i < pieces; ++i) {
     const Vector3d L0 = state_.angular_momentum + i * dt * contact_W.moment;
-    const Vector3d L1 = L0 + 0.5 * dt * contact_W.moment;
+    const Vector3d L1 = L0 + 0.5 * dt * contact_W.moment, L2 = L0 + dt * contact_W.moment;
+    const auto turned = [&](const Vector3d& w, const Matrix3d& from) { return Matrix3d(math::exp_so3(dt * w) * from); };
     const Vector3d w0 = angular_velocity(R, L0);
-    const Vector3d w1 = angular_velocity(math::exp_so3(0.5 * dt * w0) * R, L1);
-    R = math::exp_so3(dt * w1) * R;
+    const Matrix3d half = turned(0.5 * w0, R);
+    const Vector3d w1 = angular_velocity(half, L1);
+    const Vector3d w2 = angular_velocity(turned(0.5 * w1, R), L1);
+    const Vector3d w3 = angular_velocity(turned(w2 - 0.5 * w0, half), L2);
+    R = turned((2.0 * (w1 + w2) + 3.0 * w3 - w0) / 12.0, turned((3.0 * w0 + 2.0 * (w1 + w2) - w3) / 12.0, R));
   }
   next.X_WO.linear() = Quaterniond(R).normalized().toRotationMatrix();
   next.angular_momentum += h * contact_W.moment;

@@ -3,33 +3,27 @@
 #include <cmath>
 
 #include "constants.h"
+#include "impact.h"
 #include "spring_workbench/contact/contact_stepper.h"
 #include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::contact {
 void ContactStepper::collide(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce,
                              double h) const {
-  if (rows.empty()) return;
   const motion::MotionState s = body.object();
-  std::vector<ContactRow> impulses;
-  for (const ContactRow& row : rows) {
-    ContactRow impulse = row;
-    impulse.lever_W = row.point.p_W - s.X.translation();
-    impulse.load_W.setZero();
-    const Vector3d v = s.velocity.linear + s.velocity.angular.cross(impulse.lever_W);
-    const double approach = v.dot(row.point.n_W);
-    const double may_approach = std::max(0.0, row.gap) / h;
-    const bool hits = approach < -std::max(scene::rest_speed, may_approach);
-    const double restitution =
-        bounce == Bounce::of_materials && hits
-            ? std::sqrt(material(body.index()).restitution * material(row.point.other).restitution)
-            : 0.0;
-    impulse.gap = restitution > 0.0 ? (1.0 + restitution) * approach : approach + may_approach;
-    impulse.slip_W = v - approach * row.point.n_W;
-    impulses.push_back(impulse);
+  std::vector<ContactRow> contacts = rows;
+  std::vector<double> restitution;
+  bool approach = false;
+  for (ContactRow& row : contacts) {
+    row.lever_W = row.point.p_W - s.X.translation();
+    const Vector3d v = s.velocity.linear + s.velocity.angular.cross(row.lever_W);
+    const double speed = -v.dot(row.point.n_W), may_approach = std::max(0.0, row.gap) / h;
+    const bool bounces = bounce == Bounce::of_materials && speed > std::max(scene::rest_speed, may_approach);
+    const double of_both = material(body.index()).restitution * material(row.point.other).restitution;
+    restitution.push_back(bounces ? std::sqrt(of_both) : 0.0);
+    approach = approach || speed > may_approach;
   }
-  solve_contacts(body.mobility(), impulses);
-  body.add_impulse(total_load(impulses));
+  if (approach) body.add_impulse(impact(body.mobility(), to_vector(s.velocity), contacts, restitution, h));
 }
 
 void ContactStepper::settle(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, double h) const {

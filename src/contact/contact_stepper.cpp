@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "constants.h"
 #include "spring_workbench/geometry/shape_queries.h"
@@ -23,12 +24,6 @@ double extent(const RigidTransform& X0, const RigidTransform& X1, double radius)
 
 bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b, double within = same_point) {
   return a.other == b.other && a.n_W.dot(b.n_W) > 0.99 && (a.p_W - b.p_W).norm() < within;
-}
-
-double deepest(const std::vector<ContactRow>& rows) {
-  double depth = 0.0;
-  for (const ContactRow& row : rows) depth = std::max(depth, -row.gap);
-  return depth;
 }
 
 }  // namespace
@@ -113,20 +108,23 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
     }
     solve_contacts(C, work);
     // Done when solving again would not move the body, however the contacts share what they carry.
-    const Wrench corrects = total_load(work) - total_load(assumed);
-    const Vector6d moves = C * to_vector(corrects);
-    const double change = moves.head<3>().norm() + radius_[body.index()] * moves.tail<3>().norm();
+    const Wrench load = total_load(work), corrects = load - total_load(assumed);
+    const auto moves = [&](const Wrench& by) {
+      const Vector6d motion = C * to_vector(by);
+      return motion.head<3>().norm() + radius_[body.index()] * motion.tail<3>().norm();
+    };
+    const double change = moves(corrects);
     const double path = extent(X0, body.object().X, radius_[body.index()]);
-    const bool solved = worst < std::clamp(solved_share * path, slack, 3.0 * touching) &&
-                        change < std::clamp(solved_share * path, 1e-3 * touching, 10.0 * touching);
-    if (solved ||
-        (solution == most_solutions && worst < 0.5 * closed && change < std::max(closed, solved_share * path))) {
+    const double by_load = moves(load);
+    const double known = std::clamp(small_change * by_load, 1e-3 * touching, 0.1 * touching);
+    if (worst < std::clamp(solved_share * path, slack, 3.0 * touching) &&
+        change < std::max(known, std::min(solved_share * std::min(path, by_load), 10.0 * touching))) {
       rows = std::move(assumed);
       return true;
     }
     if (advances < most_advances && change * change > touching * radius_[body.index()]) {
       body.restore(start_);
-      if (!body.advance(h, total_load(work))) return false;
+      if (!body.advance(h, load)) return false;
       ++advances;
     } else {
       body.correct(h, corrects);
@@ -149,6 +147,7 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
     const Vector3d slip = rolls ? Vector3d(moved_on + turned.cross(row.lever_W)) : path;
     row.slip_W = slip - row.point.n_W * slip.dot(row.point.n_W);
   };
+  std::vector<ContactRow> seen;  // at first what has rolled off: another point touches there, though it is not deep
   for (std::size_t i = 0; i < work.size(); ++i) {
     ContactRow& row = work[i];
     const Vector3d start = X0.translation() + starts[i].lever_W;
@@ -156,8 +155,9 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
     row.gap = starts[i].gap + path.dot(row.point.n_W);
     row.point.p_W = start + path;
     set_slip(row, path);
+    if (path.dot(row.point.n_W) > touching) seen.push_back(row);
   }
-  std::vector<ContactRow> seen;
+  refresh(body, seen, probe_depth, outcome);
   add_contacts(body.index(), X1, touching, seen, outcome);
   for (const ContactRow& row : seen) {
     std::size_t at = work.size();
@@ -204,6 +204,9 @@ ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const motion
   const motion::MotionSegment path({0.0, begin.X}, begin.velocity.linear, rates(begin), {h, end.X}, end.velocity.linear,
                                    rates(end));
   const int count = static_cast<int>(std::ceil(std::sqrt(chord_deviation(body, begin, end, h) / most_chord_deviation)));
+  std::vector<collision::ContactPoint> inside;  // what it is in already, it may not go deeper into
+  collision_.find_contacts(body, begin.X, tolerance, inside);
+  for (const collision::ContactPoint& point : inside) tolerance = std::max(tolerance, point.depth + 1e-3 * touching);
   RigidTransform from = begin.X;
   for (int i = 0; i < std::max(count, 1); ++i) {
     const RigidTransform to = i + 1 < count ? path.at(h * (i + 1) / count).X : end.X;
@@ -247,9 +250,7 @@ ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, dou
       body.restore(start_);
       return {false, straight, {}};
     }
-    // A start that is in something already may not go deeper.
-    const double tolerance = in_contact ? std::max(closed, deepest(rows) + touching) : touching;
-    const Obstruction found = sweep(index, begin, end, h, tolerance);
+    const Obstruction found = sweep(index, begin, end, h, in_contact ? closed : touching);
     ++outcome.queries;
     if (found.hit) {
       Piece substep{false, found.free, {}};
@@ -279,39 +280,34 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
   const MayGo on_the_way = [](const RigidTransform&, const RigidTransform&) { return true; };
   if (const RigidTransform here = body.object().X; !may_go(here, here)) return false;
   double left = h, substep = h;
-  const auto block = [&](double duration) {
-    body.block(duration);
-    outcome.time_lost += duration;
-    for (ContactRow& row : rows) row.load_W.setZero();  // a search from these loads has failed
-    left -= duration;
-    substep = left;
-  };
+  bool met = false;  // since the last substep that was done
   refresh(body, rows, probe_depth, outcome);
   collide(body, rows, Bounce::of_materials, h);
-  for (int i = 0; i < most_tries && left > 1e-9 * h; ++i) {
+  for (int i = 0; i < most_tries && left > shortest_share * h; ++i) {
     substep = std::min(substep, left);
     Piece tried = try_substep(body, substep, left == h ? may_go : on_the_way, rows, outcome);
     if (!tried.allowed) return false;
     if (tried.done) {
       left -= substep;
       substep *= tried.next;
-      if (left > 1e-9 * h) {
+      met = false;
+      if (left > shortest_share * h) {
         refresh(body, rows, probe_depth, outcome);
         collide(body, rows, Bounce::none, h);
       }
       continue;
     }
-    const double next = tried.next * substep;
-    if (next > shortest_share * h) {
-      substep = next;
-    } else if (tried.touched.empty() || !meet(body, tried.touched, h, rows, outcome) ||
-               (rows.empty() && next < 1e-9 * h)) {
-      block(std::min(left, std::max(substep, blocked_share * h)));
-    } else if (rows.empty()) {
-      substep = next;  // too fast to be near yet
-    }
+    double next = tried.next * substep;
+    const bool meets = next < near_share * h && !tried.touched.empty() && meet(body, tried.touched, h, rows, outcome);
+    if (meets && !rows.empty()) next = std::exchange(met, true) ? shorter * substep : substep;
+    if (next <= shortest_share * h) break;
+    substep = next;
   }
-  if (left > 1e-9 * h) block(left);
+  if (left > shortest_share * h) {
+    body.block(left);
+    outcome.time_lost += left;
+    for (ContactRow& row : rows) row.load_W.setZero();  // a search from these loads has failed
+  }
   rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap > probe_depth; }),
              rows.end());
   outcome.rows = rows;
@@ -338,7 +334,7 @@ bool ContactStepper::meet(bodies::SteppedBody& body, const std::vector<ContactRo
   }
   if (!met) return false;
   refresh(body, rows, landing_depth, outcome);
-  collide(body, rows, Bounce::of_materials, h);
+  collide(body, rows, Bounce::of_materials, std::max(h, landing_time));
   return true;
 }
 

@@ -37,7 +37,7 @@ ForkBody::ForkBody(std::size_t index, dynamics::HeldBody held, stepping::StepCon
 
 void ForkBody::set_hand(const motion::MotionSegment& hand, double t) {
   const bool as_stylus = X_SH_.matrix() == RigidTransform::Identity().matrix();
-  hand_ = as_stylus ? hand : hand.of_frame(X_SH_);
+  take_hand(as_stylus ? hand : hand.of_frame(X_SH_));
   state_.t = t;
 }
 
@@ -63,7 +63,18 @@ void ForkBody::place_proxy(const RigidTransform& offset) {
   state_.offset = state_.behind ? offset : RigidTransform::Identity();
 }
 
-motion::MotionState ForkBody::object() const { return held_.object(handle(), state_.strain); }
+motion::MotionState ForkBody::object() const {
+  const auto is_known = [this](const Known& k) {
+    return k.t == state_.t && k.version == held_.version() && k.strain.q == state_.strain.q &&
+           k.strain.q_dot == state_.strain.q_dot && k.behind == state_.behind &&
+           (!k.behind || k.offset.matrix() == state_.offset.matrix());
+  };
+  if (!known_ || !is_known(*known_)) {
+    known_ = {state_.t,      held_.version(), state_.strain,
+              state_.behind, state_.offset,   held_.object(handle(), state_.strain)};
+  }
+  return known_->object;
+}
 
 motion::MotionState ForkBody::object_with_acceleration() const {
   const dynamics::HandleForcing h = handle();
@@ -160,6 +171,7 @@ void ForkBody::restore(const bodies::TrialStart& start) {
 void ForkBody::exchange(math::StateArchive& state) {
   state(held_, coupling_, control_, X_SH_, hand_, state_, estimates_, sleep_, load_W_);
   if (!state.sets()) return;
+  known_.reset();
   added_ = 0.0;
   trial_ = {};
   load_response_.begin_step(held_.size());

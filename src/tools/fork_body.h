@@ -97,6 +97,10 @@ class ForkBody : public ToolHold {
 
     void exchange(math::StateArchive& state) { state(t, strain, behind, offset, energy_added, stepping, pull_W); }
   };
+  void take_hand(const motion::MotionSegment& hand) {
+    hand_ = hand;
+    known_.reset();
+  }
   /// Whether the strain can move the object in every direction.
   bool yields_everywhere() const {
     return held_.size() == rod::max_strain_coordinates && load_response_.stops().cols() == 0;
@@ -133,6 +137,16 @@ class ForkBody : public ToolHold {
   RigidTransform X_SH_;         ///< from one grip to the next
   motion::MotionSegment hand_;  ///< of the handle as the hand has it
   State state_;
+  /// The object as object() found it last, of this hand, and where that was.
+  struct Known {
+    double t;
+    long version;  ///< of the equations
+    dynamics::StrainState strain;
+    bool behind;
+    RigidTransform offset;
+    motion::MotionState object;
+  };
+  mutable std::optional<Known> known_;
   stepping::LoadResponse load_response_;
   double added_ = 0.0;  ///< energy by the last advance(), which may turn out to have been a trial [J]
   stepping::StepEstimates trial_,

@@ -46,7 +46,7 @@ void ForkBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {
   const dynamics::HandleForcing at_origin = held_.forcing(motion::MotionSegment(RigidTransform::Identity()), state_.t);
   const RigidTransform X_HO = held_.object(at_origin, state_.strain).X;
   const RigidTransform X_HH = hand_pose().inverse() * X_WO * X_HO.inverse();
-  hand_ = hand_.of_frame(normalised(X_HH));
+  take_hand(hand_.of_frame(normalised(X_HH)));
   X_SH_ = normalised(X_SH_ * X_HH);
   state_.behind = false;
   state_.offset = RigidTransform::Identity();
@@ -69,7 +69,7 @@ RigidTransform ForkBody::slip(double h, const motion::MotionState& object, const
   state_.stepping = stepping::StepControl::Memory();
   sleep_ = Sleep();
   const RigidTransform X_WH = normalised(object.X * X_HO.inverse());
-  hand_ = motion::MotionSegment(X_WH);
+  take_hand(motion::MotionSegment(X_WH));
   take_twist(object.velocity);
   return normalised(X_WH * X_SH_.inverse());
 }

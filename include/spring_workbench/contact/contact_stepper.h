@@ -38,9 +38,8 @@ class ContactStepper {
   /// Adds contacts found with the body at `X_WO`; gaps as they are there.
   void add_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance, std::vector<ContactRow>& rows,
                     ContactOutcome& outcome) const;
-  /// Removes the approach speed of the contacts, perfectly inelastically or with the restitution of the materials. An
-  /// open contact may approach so fast that it closes within `h` [s], so that a body that lands on several points lands
-  /// on all of them at once.
+  /// Removes the approach speed of the contacts, with the restitution of the materials or none. An open contact may
+  /// approach so fast that it closes within `h` [s]: what lands on several points lands on all of them at once.
   enum class Bounce { none, of_materials };
   void collide(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce, double h) const;
   /// Advances the body by `h` from the start of the present trial, under loads that leave the gaps of the rows closed
@@ -52,9 +51,8 @@ class ContactStepper {
     double gap = 0.0;                     ///< [m]
     Vector3d lever_W = Vector3d::Zero();  ///< from the object's centre [m]
   };
-  /// Computes gaps and slips of the contacts `work` with the body at the end of a substep that began at `X0`. Contacts
-  /// that have begun on the path are added; a contact that is deeper than the motion of its points predicts is replaced
-  /// by the one that is found.
+  /// Computes gaps and slips of the contacts `work` at the end of a substep that began at `X0`. Contacts that have
+  /// begun on the path are added; one that is deeper than the motion of its points predicts, or rolled, is replaced.
   void look_at_end(const bodies::SteppedBody& body, const RigidTransform& X0, std::vector<ContactRow>& work,
                    std::vector<Start>& starts, ContactOutcome& outcome) const;
   /// Result of a substep.
@@ -67,9 +65,8 @@ class ContactStepper {
   /// Tries to advance by `h`, under the loads of the rows if there are any. If it fails, the body is where it was.
   Piece try_substep(bodies::SteppedBody& body, double h, const MayGo& may_go, std::vector<ContactRow>& rows,
                     ContactOutcome& outcome) const;
-  /// Corrects the impulses that the rows' loads have given over a substep of `h` [s] so that no contact approaches at
-  /// its end, and none slips where friction, which is constant over the substep, has reversed its slip or could have
-  /// held it.
+  /// Corrects the impulses of the rows' loads over a substep of `h` [s] so that no contact approaches at its end, and
+  /// none slips where friction, which is constant over it, has reversed its slip or could have held it.
   void settle(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, double h) const;
   /// Adds the contacts that are new and removes their approach speed. Returns false if none is new.
   bool meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, double h, std::vector<ContactRow>& rows,
@@ -83,8 +80,7 @@ class ContactStepper {
     double free = 1.0;                                 ///< collision-free fraction of the path, 0 … 1
     RigidTransform X_WO = RigidTransform::Identity();  ///< pose in which the body touches
   };
-  /// Sweeps the Hermite interpolant between two states as a sequence of straight segments, as many as its chord
-  /// deviation requires.
+  /// Sweeps the Hermite interpolant between two states as straight segments, as many as its chord deviation requires.
   Obstruction sweep(std::size_t body, const motion::MotionState& begin, const motion::MotionState& end, double h,
                     double tolerance) const;
 

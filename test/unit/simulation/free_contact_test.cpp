@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spring_workbench/bodies/free_body.h"
+#include "spring_workbench/math/so3.h"
 #include "support/bench_scenes.h"
 
 namespace spring_workbench::simulation {
@@ -24,9 +26,10 @@ scene::Body ball(double radius, const Vector3d& p_WO, double friction, double re
 }
 
 /// Held by a rigid fork by the middle of "held", moved along x at `speed` for 0.2 s, and let go there.
-Simulation let_go(const scene::Scene& scene, double speed, double until) {
+Simulation let_go(const scene::Scene& scene, double speed, double until, double step = 0.02) {
   SimulationSettings set;
   set.fork.dofs = {false, false, false};
+  set.dynamics.step = step;
   Simulation s(scene, set);
   const RigidTransform& X_WO = s.objects()[s.objects().size() - 1].X_WO;
   const Vector3d start = X_WO.translation() + set.fork.length * Vector3d::UnitZ();
@@ -73,6 +76,19 @@ TEST_P(LetGo, ASphereSlipsAndThenRolls) {
   EXPECT_NEAR(end.X_WO.translation().z(), radius, 2e-5);
 }
 
+TEST_P(LetGo, ASphereSlipsAndRollsAsFarInShortStepsAsInLongOnes) {
+  const double radius = 0.05, mu = 0.3;
+  for (const double step : {0.02, 5e-3, 1.25e-3, 6.25e-4}) {
+    Simulation s = let_go(scene_of({ball(radius, Vector3d(0, 0, radius + 1e-6), mu)}, GetParam(), mu), 1.5, 0.56, step);
+    const bodies::BodyState start = s.objects()[0];
+    const double v = start.V_WO_W.linear.x(), grip = 2.0 * v / (7.0 * mu * g), rolling = 5.0 / 7.0 * v;
+    s.advance(0.54);
+    const double path = v * grip - 0.5 * mu * g * grip * grip + rolling * (s.time() - 0.18 - grip);
+    EXPECT_NEAR((s.objects()[0].X_WO.translation() - start.X_WO.translation()).x(), path, 2e-5) << step;
+    EXPECT_NEAR(s.objects()[0].V_WO_W.linear.x(), rolling, 5e-5) << step;
+  }
+}
+
 TEST_P(LetGo, ABallBouncesToTheSquareOfItsRestitution) {
   const double radius = 0.05, drop = 0.5, e = 0.7;
   scene::Scene scene = scene_of({ball(radius, Vector3d(0, 0, radius + drop), 0.3, e)}, GetParam(), 0.3);
@@ -87,6 +103,26 @@ TEST_P(LetGo, ABallBouncesToTheSquareOfItsRestitution) {
     top = s.objects()[0].X_WO.translation().z() - radius;
     EXPECT_NEAR(top, height, 0.02 * height) << bounce;
     t += 2.0 * half;
+  }
+}
+
+/// Exact for a ball: the normal velocity comes back as e, and friction stops its slip, or as much of it as it can.
+TEST_P(LetGo, ABallThatSlidesAsItBouncesComesOffByPoissonsLaw) {
+  const double radius = 0.05, drop = 0.3, vx = 1.5;
+  for (const double e : {0.3, 0.6, 1.0}) {
+    for (const double mu : {0.05, 0.5}) {
+      scene::Scene scene = scene_of({ball(radius, Vector3d(0, 0, radius + drop), mu, e)}, GetParam(), mu);
+      scene.bench_material.restitution = e;
+      Simulation s = let_go(scene, vx, 1.0);
+      const double start = s.objects()[0].V_WO_W.linear.x(), vn = std::sqrt(2.0 * g * drop);
+      const double impact = 0.18 + vn / g, after = impact + 0.5 * e * vn / g;
+      s.advance(after);
+      const Twist& V = s.objects()[0].V_WO_W;
+      const double braked = std::min(2.0 / 7.0 * start, mu * (1.0 + e) * vn);
+      EXPECT_NEAR(V.linear.z(), e * vn - g * (s.time() - impact), 0.02 * e * vn) << e << ' ' << mu;
+      EXPECT_NEAR(V.linear.x(), start - braked, 0.01 * start) << e << ' ' << mu;
+      EXPECT_NEAR(V.angular.y() * radius, 2.5 * braked, 0.02 * start) << e << ' ' << mu;
+    }
   }
 }
 
@@ -133,6 +169,28 @@ TEST_P(LetGo, OnAnInclineItStaysBelowTheAngleOfFrictionAndSlidesAbove) {
       EXPECT_NEAR(slid, 0.5 * a * duration * duration, 0.05 * 0.5 * a * duration * duration);
     }
   }
+}
+
+/// A body that tumbles freely, after `steps` steps of `h` [s].
+motion::MotionState tumbled(const scene::Body& body, const Vector3d& w, double h, int steps) {
+  bodies::FreeBody free(0, body, 0.0, RigidTransform::Identity(), {Vector3d::Zero(), w});
+  for (int i = 0; i < steps; ++i) EXPECT_TRUE(free.advance(h, Wrench()));
+  return free.object();
+}
+
+TEST(FreeRotation, KeepsItsEnergyAndIsOfOrderFour) {
+  scene::Body body = box("body", Vector3d::Ones(), 1.0, Vector3d::Zero(), 0.0);
+  body.mass_properties.inertia_O = Vector3d(1e-3, 2e-3, 2.5e-3).asDiagonal();
+  const Matrix3d& I = body.mass_properties.inertia_O;
+  const Vector3d fast(20.0, 1.0, 15.0), slow = 0.1 * fast;
+  const motion::MotionState end = tumbled(body, fast, 0.02, 500);
+  const Vector3d w_O = end.X.linear().transpose() * end.velocity.angular;
+  EXPECT_NEAR(w_O.dot(I * w_O), fast.dot(I * fast), 1e-6 * fast.dot(I * fast));
+  EXPECT_LT((end.X.linear() * I * w_O - I * fast).norm(), 1e-12 * (I * fast).norm());
+  const RigidTransform exact = tumbled(body, slow, 1.25e-3, 800).X;
+  const double coarse = math::turn_between(tumbled(body, slow, 0.02, 50).X, exact).norm();
+  const double fine = math::turn_between(tumbled(body, slow, 0.01, 100).X, exact).norm();
+  EXPECT_GT(std::log2(coarse / fine), 3.7);
 }
 
 }  // namespace

@@ -25,7 +25,12 @@ double energy(const Simulation& s, const scene::Scene& scene) {
          scene.bodies[0].mass_properties.mass * scene.gravity * s.objects()[0].X_WO.translation().z();
 }
 
-TEST(StopExtremes, LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded) {
+class PressedAndShifted : public ::testing::TestWithParam<double> {};  // by damping ratio
+INSTANTIATE_TEST_SUITE_P(StopExtremes, PressedAndShifted, ::testing::Values(0.1, 1.0, 10.0), [](const auto& tested) {
+  return tested.param < 1.0 ? "underdamped" : tested.param > 1.0 ? "overdamped" : "critical";
+});
+
+TEST_P(PressedAndShifted, Follow) {
   constexpr double wall_x = 0.25;
   unsigned seed = 0;
   for (const double mass : {1e-6, 1e-3, 1.0, 1e3, 1e6}) {
@@ -40,6 +45,7 @@ TEST(StopExtremes, LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded) {
       scene.gravity = on_bench ? 9.81 : 0.0;
       SimulationSettings set;
       set.fork.stiffness = {k, k, 0.01 * k};
+      set.fork.damping_ratio = {GetParam(), GetParam(), GetParam()};
       set.grasp.object = "box";
       Simulation s(scene, set);
       const Vector3d start(0, 0, height + set.fork.length);
@@ -50,7 +56,9 @@ TEST(StopExtremes, LightAndHeavyStiffAndSoftPressedAndShiftedStayBounded) {
       push_move(s, 1.02, 3.0, along, along);
       double hardest = mass * scene.gravity, least = 0.0;
       for (int i = 1; i <= 150; ++i) {
-        EXPECT_EQ(s.advance(0.02 * i).steps_rejected, 0);
+        const AdvanceReport report = s.advance(0.02 * i);
+        EXPECT_EQ(report.steps_rejected, 0);
+        EXPECT_EQ(report.steps_blocked, 0) << mass << " " << k << " " << i;
         const bodies::BodyState& o = s.objects()[0];
         ASSERT_TRUE(o.X_WO.matrix().allFinite() && o.V_WO_W.linear.allFinite()) << mass << " " << k;
         EXPECT_LT(depth_of(o.X_WO, wall_x), 2.1e-5) << mass << " " << k << " " << i;
