@@ -130,7 +130,6 @@ class Day {
   /// The node ends with the old master, and its successor goes on from the checkpoint.
   void new_master() {
     end_life();
-    sender_set_ = host_set_;  // by more than max_age apart, no stream begins
     std::string text;
     checkpoint_->forget();
     checkpoint_->keep([&](const std::string& kept) { text = kept; });
