@@ -100,26 +100,23 @@ bool ManipulationNode::run_step(double begin) {
   second_input_.count_rejected(report.rejected[1]);
   // In simulated time the clock may have gone on by itself.
   const double deadline = (ros::Time::isSimTime() ? std::max(begin, local.loop) : begin) + 1.0 / parameters_.rate;
-  std::optional<live::Shown> shown;
   if (!report.more || local.loop >= show_at_latest_) {
     show_at_latest_ = local.loop + 1.0 / parameters_.rate;
-    shown = runner_.show(parameters_.display_latency, local);
+    const double horizon = runner_.show(parameters_.display_latency, local);
+    publisher_.publish_shown(runner_, horizon, local.loop);
   }
-  const double simulated = ros_common::steady_time();
-  if (shown) publisher_.publish_shown(*shown, local.loop);
-  publisher_.publish_committed(runner_, report, publish_time_, deadline_missed_);
+  const bool deadline_missed = ros_common::loop_time() > deadline;
+  publisher_.publish_committed(runner_, report, deadline_missed);
   publisher_.publish_journal(runner_);
-  publish_time_ = ros_common::steady_time() - simulated;
-  deadline_missed_ = ros_common::loop_time() > deadline;
-  count(report);
+  count(report, deadline_missed);
   return report.more;
 }
 
-void ManipulationNode::count(const live::CycleReport& report) {
+void ManipulationNode::count(const live::CycleReport& report, bool deadline_missed) {
   if (report.left_out > 0.0) ROS_WARN("skipped %.3g s without input", report.left_out);
   const std::lock_guard<std::mutex> lock(loop_mutex_);
   ++loop_.cycles;
-  loop_.deadlines_missed += deadline_missed_ ? 1 : 0;
+  loop_.deadlines_missed += deadline_missed ? 1 : 0;
   loop_.advance.add(report.advance);
   loop_.left_out += report.left_out;
   loop_.cycles_behind += report.behind ? 1 : 0;
