@@ -13,7 +13,7 @@ diagnostic_msgs::DiagnosticStatus LostMessages::report(const std::string& name) 
   XmlRpc::XmlRpcValue caller, answer;
   caller[0] = name;
   XmlRpc::XmlRpcClient own_api("localhost", static_cast<int>(ros::XMLRPCManager::instance()->getServerPort()), "/");
-  const bool answered = own_api.execute("getBusStats", caller, answer) && answer.size() >= 2;
+  const bool answered = own_api.execute("getBusStats", caller, answer) && !own_api.isFault() && answer.size() >= 2;
   XmlRpc::XmlRpcValue none;
   none.setSize(0);
   XmlRpc::XmlRpcValue& subscribers = answered ? answer[1] : none;

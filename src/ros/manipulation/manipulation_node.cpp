@@ -74,6 +74,8 @@ ManipulationNode::~ManipulationNode() {
   stop_ = true;
   alarm_.ring();
   physics_.join();
+  // What their callbacks use is destroyed next.
+  for (CallbackThread* thread : {&input_thread_, &master_thread_, &disk_thread_}) thread->stop();
 }
 
 void ManipulationNode::run_physics() {

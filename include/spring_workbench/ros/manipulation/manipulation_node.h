@@ -34,6 +34,8 @@ class CallbackThread {
     node.setCallbackQueue(&queue_);
     return node;
   }
+  /// Waits for the callback that runs; none runs after that.
+  void stop() { spinner_.stop(); }
 
  private:
   ros::CallbackQueue queue_;
