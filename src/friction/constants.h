@@ -23,7 +23,7 @@ constexpr std::size_t many_bodies = 200;
 /// ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 0.
 constexpr int most_alternations = 60, most_alternations_in_need = 120, look_every = 5, weigh_every = 20, remembered = 5;
 /// Ratio of what both directions still lack that the penalty may leave; growth of an accelerated step that is taken
-/// back. Larger: slower. Test: ContactProblem.StacksOfUnlikeMassesTakeFewFactors at 1e9.
+/// back. Larger: slower. Test: ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 1e9.
 constexpr double out_of_balance = 5.0, astray = 1.5;
 /// Penalty of Newton's method for contacts whose mean response is scaled to 1: the first, its growth from one set of
 /// loads to the next, and the largest; share of the residual that counts as no progress. Test:

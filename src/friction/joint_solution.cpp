@@ -60,7 +60,7 @@ class Acceleration {
 Vector3d by_coulomb(const Vector3d& x, double friction, Matrix3d* slope) {
   if (slope != nullptr) slope->setZero();
   if (!(x[0] > 0.0)) return Vector3d::Zero();
-  const double across = std::hypot(x[1], x[2]);
+  const double across = x.tail<2>().norm();
   if (across <= friction * x[0]) {
     if (slope != nullptr) slope->setIdentity();
     return x;

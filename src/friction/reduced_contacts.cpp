@@ -16,7 +16,7 @@ using Eigen::Vector3d;
 using Eigen::VectorXd;
 
 Vector3d into_cone(const Vector3d& x, double friction) {
-  const double across = std::hypot(x[1], x[2]);
+  const double across = x.tail<2>().norm();
   if (across <= friction * x[0]) return x;
   if (friction * across <= -x[0]) return Vector3d::Zero();
   const double normal = (x[0] + friction * across) / (1.0 + friction * friction);
@@ -123,7 +123,7 @@ double ReducedContacts::relax(Contact& c) {
   shifted[0] += shift(u, c.friction);
   const double off = (c.load - into_cone(c.load - shifted, c.friction)).norm() / c.scale;
   Vector3d load = c.load - c.inverse * u;
-  const bool sticks = c.inverse(0, 0) > 0.0 && std::hypot(load[1], load[2]) <= c.friction * load[0];
+  const bool sticks = c.inverse(0, 0) > 0.0 && load.tail<2>().norm() <= c.friction * load[0];
   if (!sticks) {
     load = c.load;
     load[0] = std::max(0.0, load[0] - u[0] / c.response(0, 0));
@@ -133,7 +133,7 @@ double ReducedContacts::relax(Contact& c) {
     } else {
       load.tail<2>().setZero();
     }
-    const double most = c.friction * load[0], across = std::hypot(load[1], load[2]);
+    const double most = c.friction * load[0], across = load.tail<2>().norm();
     if (across > most) load.tail<2>() *= most / across;
   }
   apply(c, load - c.load, reduced_);

@@ -12,7 +12,7 @@ Eigen::Vector3d into_cone(const Eigen::Vector3d& x, double friction);
 
 /// De Saxcé's shift of a motion: with it, what the law of sliding says is that the motion is in the dual cone.
 inline double shift(const Eigen::Vector3d& motion, double friction) {
-  return friction == 0.0 ? 0.0 : friction * std::hypot(motion[1], motion[2]);
+  return friction == 0.0 ? 0.0 : friction * motion.tail<2>().norm();
 }
 
 /// The contacts of a problem in coordinates in which every body's response is the identity, and every contact's has the
