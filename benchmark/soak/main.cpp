@@ -1,6 +1,7 @@
 #include <iomanip>
 #include <iostream>
 
+#include "benchmark/soak/judge.h"
 #include "benchmark/soak/soak.h"
 #include "spring_workbench/config/yaml_fields.h"
 
@@ -11,16 +12,12 @@ constexpr double kMemoryGrowth = 1.01;
 constexpr double kEnergyGrowth = 2.0;
 constexpr double kDrift = 1e-4;  // m
 
-int judge(bool law, const char* text) {
-  std::cout << (law ? "PASS  " : "FAIL  ") << text << '\n';
-  return law ? 0 : 1;
-}
-
 }  // namespace
 
 /// soak: memory, energy and rest over many steps of an assembly that begins again and again (doc/limits.md).
 int main(int argc, char** argv) {
   using namespace spring_workbench;
+  using benchmark::judge;
   try {
     benchmark::SoakOptions options;
     if (argc < 2 || argc > 4)

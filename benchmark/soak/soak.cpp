@@ -1,12 +1,10 @@
 #include "benchmark/soak/soak.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
 
+#include "benchmark/soak/resident.h"
 #include "spring_workbench/assembly/trial.h"
 
 namespace spring_workbench::benchmark {
@@ -15,13 +13,6 @@ namespace {
 constexpr double kRest = 10.0, kSettle = 2.0, kRestInterval = 0.1;  // s
 constexpr double kTimeLimit = 300.0;                                // s, of an assembly
 constexpr int kLines = 20;
-
-double resident_bytes() {
-  std::ifstream file("/proc/self/statm");
-  double total = 0.0, resident = 0.0;
-  file >> total >> resident;
-  return resident * static_cast<double>(sysconf(_SC_PAGESIZE));
-}
 
 /// FNV-1a over the bits of numbers.
 class Hash {

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "benchmark/soak/day.h"
 #include "spring_workbench/config/yaml_fields.h"
 #include "support/paths.h"
 
@@ -29,6 +30,26 @@ TEST(Soak, TheSameSeedGivesTheSameBitsAndAnotherOneDoesNot) {
   EXPECT_TRUE(one.finite);
   EXPECT_EQ(one.refused, 0);
   EXPECT_GT(one.largest_energy, 0.0);
+}
+
+/// Six minutes of a live run with faults, in which nothing is lost, and its replay.
+TEST(Day, WithFaultsOfEachKindNothingIsLostAndTheHashIsTheReplays) {
+  DayOptions options;
+  options.scene = test_support::checkout("scenes/mini_world.urdf");
+  options.motions = {test_support::checkout("config/mini_world_demo.yaml")};
+  options.hours = 0.1;
+  std::ostringstream lines;
+  const DayResult day = run_day(options, lines);
+  EXPECT_TRUE(day.finite);
+  EXPECT_EQ(day.hash, day.replay_hash);
+  EXPECT_EQ(day.mismatches, 0u);
+  EXPECT_EQ(day.lost_states, 0u);
+  EXPECT_LE(day.restarts, day.lives);
+  EXPECT_GE(day.lives, 2u);
+  EXPECT_GE(day.faults.size(), 6u);
+  EXPECT_GT(day.changes, 20u);
+  EXPECT_GT(day.comparisons, 200u);
+  EXPECT_GT(day.held_ticks, day.ticks / 10);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include "cadence_table.h"
 #include "filter_table.h"
+#include "prediction_table.h"
 #include "spring_workbench/validation/input_error.h"
 
 /// Tables of doc/tracker.md as CSV on standard output.
@@ -16,8 +17,14 @@ int main(int argc, char** argv) {
       write_filter_table({words.begin() + 1, words.end()}, std::cout);
     } else if (words.size() >= 2 && table == "cadence") {
       write_cadence_table({words.begin() + 1, words.end()}, std::cout);
+    } else if (words.size() >= 3 && table == "prediction") {
+      constexpr double seconds = 20.0;
+      write_prediction_table(words[1], {words.begin() + 2, words.end()}, seconds, std::cout);
     } else {
-      throw validation::InputError("tracker_report: arguments: must be filter or cadence, and one motion or more");
+      throw validation::InputError(
+          "tracker_report: arguments: must be filter or cadence, and one motion or more, or prediction, a scene and "
+          "one "
+          "motion or more");
     }
     return 0;
   } catch (const validation::InputError& e) {

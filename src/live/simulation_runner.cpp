@@ -13,17 +13,18 @@ SimulationRunner::Noted::Noted(SimulationRunner& runner, std::string what, Comma
 
 SimulationRunner::Noted::~Noted() {
   ++runner_.revision_;
-  runner_.ahead_.restart();
+  runner_.ahead_->restart();
   if (!runner_.keeps_journal_) return;
   const std::string& scene = runner_.simulation_.scene().path;
-  runner_.journal_.note(committed_, Change{what_, command_, scene, hash_before_, runner_.simulation_.save()});
+  runner_.journal_.note(committed_, runner_.stamp(),
+                        Change{what_, command_, scene, hash_before_, runner_.simulation_.save()});
 }
 
 SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::SimulationSettings& settings,
                                    const hand_input::InputSettings& input, bool simulated_time)
     : simulation_(scene, settings),
       feed_(simulation_, input),
-      ahead_(scene, settings),
+      ahead_(std::make_shared<LookAhead>(scene, settings)),
       task_(scene),
       simulated_time_(simulated_time),
       times_(simulated_time) {
@@ -91,15 +92,16 @@ void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
 
 void SimulationRunner::commit(double stop, CycleReport& report) {
   report.advance = feed_.advance_to(stop);
-  report.prediction = ahead_.compare(simulation_);
+  report.prediction = ahead_->compare(simulation_);
   task_.observe(simulation_);
   ++revision_;
 }
 
-double SimulationRunner::show(double latency, const hand_input::LocalTime& now) {
+Shown SimulationRunner::show(double latency, const hand_input::LocalTime& now) {
   const Lock lock(mutex_);
   const double horizon = latency > 0.0 ? std::min(latency + feed_.waited(now), motion::PosePredictor::farthest) : 0.0;
-  return ahead_.show_newest(simulation_, feed_, horizon, pace_);
+  const double beyond = ahead_->show_newest(simulation_, feed_, horizon, pace_);
+  return {{ahead_, &ahead_->shown()}, moment_at(ahead_->shown().time(), feed_.has_sample()), beyond};
 }
 
 bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
@@ -123,7 +125,7 @@ double SimulationRunner::time_of(const HandInput& input, double t) {
   const double ahead = times_.time_of(input.hand, t) - std::max(simulation_.time(), simulation_.newest_sample());
   if (feed_.has_sample() && ahead > (was_behind_ ? 0.0 : longest_catch_up)) {
     was_behind_ = false;
-    times_.leave_out(ahead - simulation_.settings().dynamics.step);
+    times_.leave_out(std::max(ahead - simulation_.settings().dynamics.step, 0.0));
     for (const HandInput& other : inputs_) feed_.restart_gate(other.hand);
   }
   return times_.time_of(input.hand, t);
@@ -158,7 +160,7 @@ void SimulationRunner::start_anew(const std::string& what, Command::Kind kind) {
   undo_.perform(command, simulation_);
   task_.reset();
   feed_.restart();
-  ahead_.begin_anew();
+  ahead_->begin_anew();
 }
 
 void SimulationRunner::restart() {
@@ -188,7 +190,8 @@ void SimulationRunner::load(const scene::Scene& scene) {
   const auto [settings, forks] = locked([](const auto& s) { return std::make_pair(s.settings(), forks_of(s)); });
   Command command;
   command.kind = Command::Kind::load_scene;
-  begin_with("load_scene", command, make_simulation(scene, settings, forks), LookAhead(scene, settings), {});
+  begin_with("load_scene", command, make_simulation(scene, settings, forks),
+             std::make_shared<LookAhead>(scene, settings), {});
 }
 
 void SimulationRunner::resume(const scene::Scene& scene, const simulation::SimulationState& state) {
@@ -196,11 +199,11 @@ void SimulationRunner::resume(const scene::Scene& scene, const simulation::Simul
   simulation::Simulation simulation(scene, settings);
   simulation.restore(state);
   std::map<std::string, RigidTransform> places = put_to_rest(simulation, simulation.time());
-  begin_with("resume", {}, std::move(simulation), LookAhead(scene, settings), std::move(places));
+  begin_with("resume", {}, std::move(simulation), std::make_shared<LookAhead>(scene, settings), std::move(places));
 }
 
 void SimulationRunner::begin_with(const std::string& what, const Command& command, simulation::Simulation simulation,
-                                  LookAhead ahead, std::map<std::string, RigidTransform> places) {
+                                  std::shared_ptr<LookAhead> ahead, std::map<std::string, RigidTransform> places) {
   const Lock lock(mutex_);
   const Noted noted(*this, what, command);
   places_ = std::move(places);
@@ -215,26 +218,20 @@ void SimulationRunner::keep_journal(bool keep) {
   const Lock lock(mutex_);
   keeps_journal_ = keep;
   if (!keep) return feed_.record(nullptr);
-  feed_.record([this](const hand_input::Accepted& accepted) { journal_.note(accepted.committed, accepted); });
+  feed_.record([this](const hand_input::Accepted& accepted) {
+    journal_.note(accepted.committed, times_.stamp_of(accepted.t), accepted);
+  });
   const Noted noted(*this, "the journal begins", {});
 }
 
 void SimulationRunner::note_state() {
   const Lock lock(mutex_);
   if (!keeps_journal_) return;
-  journal_.note(feed_.committed(), comparison_of(simulation_));
+  journal_.note(feed_.committed(), stamp(), comparison_of(simulation_));
 }
 
-std::int64_t SimulationRunner::stamp_of(double t) const {
-  return locked([&](const auto&) { return times_.stamp_of(t); });
-}
-
-std::int64_t SimulationRunner::stamp(std::int64_t now) const {
-  return has_sample() ? stamp_of(locked([](const auto& simulation) { return simulation.time(); })) : now;
-}
-
-std::int64_t SimulationRunner::shown_stamp(std::int64_t now) const {
-  return has_sample() ? stamp_of(ahead_.shown().time()) : now;
+std::optional<std::int64_t> SimulationRunner::stamp() const {
+  return feed_.has_sample() ? std::make_optional(times_.stamp_of(simulation_.time())) : std::nullopt;
 }
 
 HandStatistics SimulationRunner::hand_statistics(std::size_t hand) const {

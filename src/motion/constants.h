@@ -26,15 +26,11 @@ constexpr std::size_t monitored_samples = 50;
 /// [m, rad]; a follower so near to its goal is there. Test:
 /// PoseFollower.ComesToEveryGoalNeverFasterThanAHandAndNeverAway at 0.1.
 constexpr double arrived = 1e-9;
-/// [s] before the newest sample from which a line is fitted. Longer: less noise, more lag. Test:
-/// PosePredictor.FollowsAParabolaExactlyAndALineThroughNoise.
-constexpr double line_window = 0.03;
-/// [s] ahead up to which a line predicts. Test: PosePredictor.FollowsAParabolaExactlyAndALineThroughNoise.
-constexpr double line_horizon = 0.02;
-/// [s] before the newest sample from which a parabola is fitted. Test: PosePredictor.TakesAParabolaFromItsWindowAlone.
-constexpr double parabola_window = 0.12;
+/// [s] before the newest sample from which a parabola is fitted. Longer: less noise, more lag; of 0.1 to 0.2 the best
+/// for recorded hands. Test: PosePredictor.ForgetsWhatIsOlderThanItsWindow at 0.2.
+constexpr double parabola_window = 0.14;
 /// Of the determinant of a fit to the product of its diagonal; samples closer together than that say no parabola. Test:
-/// PosePredictor.FollowsAParabolaExactlyAndALineThroughNoise at 1.
+/// PosePredictor.FollowsLineAndParabolaExactly at 1.
 constexpr double least_spread = 1e-6;
 /// [s] by which clocks may move against each other from look to look, and a message be out of order. Less: late
 /// messages count as a clock that was set. Test: StreamClock.AMessageAloneMovesNothing at 2.

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """The clocks of tracker_driver and manipulation are set, together and alone, and the processes stand still, while an
 object is held: it stays where it is, and the hand is followed again within half a second. Then a second node sends the
-same stylus, and the tracker turns out to be elsewhere."""
+same stylus, and the tracker turns out to be elsewhere. STANDSTILL: how long the processes stand [s]."""
 import math
 import os
 import signal
@@ -24,6 +24,7 @@ from tf2_msgs.msg import TFMessage
 from stack import DOWN, Listener, diagnostic_values, diagnostics_listener, stylus_transform, wait_for
 
 SCENE = os.path.join(rospkg.RosPack().get_path("spring_workbench"), "scenes", "single_box.urdf")
+STANDSTILL = float(os.environ.get("STANDSTILL", "7"))  # [s]
 STEPS = [0.3, -0.3, 3.0, -3.0, 3600.0, -3600.0]
 
 
@@ -48,11 +49,6 @@ class Shifted:
 
     def now(self):
         return time.time() + self.shift
-
-    def stand(self, seconds):
-        self.process.send_signal(signal.SIGSTOP)
-        time.sleep(seconds)
-        self.process.send_signal(signal.SIGCONT)
 
     def end(self):
         self.process.kill()
@@ -142,7 +138,7 @@ class Clocks(unittest.TestCase):
             def stand():
                 for node in nodes:
                     node.process.send_signal(signal.SIGSTOP)
-                time.sleep(7.0)
+                time.sleep(STANDSTILL)
                 for node in nodes:
                     node.process.send_signal(signal.SIGCONT)
 

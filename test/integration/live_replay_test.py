@@ -1,16 +1,24 @@
 #!/usr/bin/python3
 """A live run is its replay: two hands, what two machines measure, services and live settings changed at random,
 recorded with rosbag; what was committed equals what `replay` makes of the bag, bit by bit, and the state's hash at
-every comparison. `replay` makes each change again at its time, and it leads to the recorded state. LIVE_SEEDS: how
-many."""
+every comparison. `replay` makes each change again at its time, and it leads to the recorded state. Several sessions run
+at the same time, each with a master of its own, and beside them a busy process for each processor.
+
+LIVE_SEEDS: how many sessions; LIVE_FIRST: the first seed; LIVE_LENGTH: of each [s]; LIVE_AT_ONCE: how many at the same
+time."""
+import contextlib
 import csv
 import json
+import math
 import os
 import random
+import shutil
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
+import threading
 import time
 import unittest
 
@@ -42,13 +50,16 @@ from tf2_msgs.msg import TFMessage
 from stack import DEADLINE, DOWN, Listener, services_of_manipulation, stylus_transform, wait_for
 
 SEEDS = int(os.environ.get("LIVE_SEEDS", "3"))
-DURATION = 6.0  # [s] of a run
+FIRST = int(os.environ.get("LIVE_FIRST", "0"))
+LENGTH = float(os.environ.get("LIVE_LENGTH", "60"))  # [s]
+AT_ONCE = int(os.environ.get("LIVE_AT_ONCE", "3"))
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
 BRICK = "package://spring_workbench/test/integration/data/brick.urdf"
 SCENE = os.path.join(PACKAGE, "scenes", "single_box.urdf")
 MANIPULATION = roslib.packages.find_node("spring_workbench", "manipulation")
 REPLAY = roslib.packages.find_node("spring_workbench", "replay")
 TOPICS = ["/manipulation/" + name for name in ("accepted", "changes", "objects")]
+VIEWED = ["/tf", *("/manipulation/" + name for name in ("markers", "display/objects", "display/fork"))]
 
 
 class TwoHands:
@@ -178,114 +189,210 @@ class Services:
         )()
 
 
+def options_of(seed):
+    """Eight seeds in a row have each combination of rate, subscribers beside the recorder, and prediction once."""
+    rate, viewed, latency = [50, 1000][seed % 2], [[], VIEWED][seed // 2 % 2], [0.0, 0.03][seed // 4 % 2]
+    return ["rate:=%d" % rate, "display_latency:=%g" % latency], viewed
+
+
 def end(process):
     process.send_signal(signal.SIGINT)
     process.wait(DEADLINE)
 
 
-class LiveReplay(unittest.TestCase):
-    def record(self, seed, folder):
-        """Path of the bag of a run."""
-        r = random.Random(seed)
-        options = [
-            "scene:=" + SCENE,
-            "contact:=" + ("dynamic" if seed % 2 else "stop"),
-            "rate:=%d" % r.choice([50, 1000]),
-            "display_latency:=%g" % r.choice([0.0, 0.03]),
-        ]
-        print("seed %d: %s" % (seed, " ".join(options[1:])))
-        bag = os.path.join(folder, "run.bag")
-        node = subprocess.Popen([*MANIPULATION, *("_" + option for option in options)])
-        services = Services(seed)
-        recorder = subprocess.Popen(["rosbag", "record", "-O", bag, "--buffsize=0", *TOPICS])
-        changes = Listener("manipulation/changes", Change)
-        listener = rospy.Subscriber("manipulation/accepted", Accepted, lambda _: None)
-        hands = TwoHands(seed)
-        wait_for(lambda: hands.tf.get_num_connections() > 0 and changes.last, "the journal to begin")
-        wait_for(lambda: os.path.exists(bag + ".active"), "rosbag to record")
-        begin, next_call = time.time(), time.time() + 1.0
-        while time.time() < begin + DURATION:
-            hands.step()
-            if time.time() > next_call:
-                services.one()
-                next_call = time.time() + r.uniform(0.1, 0.8)
-            time.sleep(0.002)
-        seen = len(changes.messages)
-        wait_for(lambda: any(not m.state for m in changes.messages[seen:]), "a comparison after the end")
-        listener.unregister()
-        changes.subscriber.unregister()
-        end(recorder)
-        end(node)
-        return bag, options[1]
+def record(seed, bag):
+    """A session of one node, which the master knows by its usual name."""
+    options, viewed = options_of(seed)
+    options += ["scene:=" + SCENE, "contact:=dynamic"]
+    node = subprocess.Popen([*MANIPULATION, *("_" + option for option in options)])
+    services = Services(seed)
+    recorder = subprocess.Popen([sys.executable, __file__, "--record", bag])
+    changes = Listener("manipulation/changes", Change)
+    listener = rospy.Subscriber("manipulation/accepted", Accepted, lambda _: None)
+    viewers = [rospy.Subscriber(topic, rospy.AnyMsg, lambda _: None) for topic in viewed]
+    hands = TwoHands(seed)
+    wait_for(lambda: hands.tf.get_num_connections() > 0 and changes.last, "the journal to begin")
+    wait_for(lambda: os.path.exists(bag), "the recorder")
+    wait_for(lambda: all(viewer.get_num_connections() > 0 for viewer in viewers), "the viewers")
+    r = random.Random(seed)
+    begin, next_call = time.time(), time.time() + 1.0
+    while time.time() < begin + LENGTH:
+        hands.step()
+        if time.time() > next_call:
+            services.one()
+            next_call = time.time() + r.uniform(0.1, 0.8)
+        time.sleep(0.002)
+    seen = len(changes.messages)
+    wait_for(lambda: any(not m.state for m in changes.messages[seen:]), "a comparison after the end")
+    listener.unregister()
+    changes.subscriber.unregister()
+    end(recorder)
+    end(node)
 
-    def replay(self, bag, contact, folder):
-        """Time [s] and object -> poses and twists, several at a change; the summary."""
-        out = os.path.join(folder, "run.csv")
-        command = [*REPLAY, "--scene", SCENE, "--bag", bag, "--out", out]
-        done = subprocess.run([*command, "--set", contact.replace(":=", "=")], capture_output=True, text=True)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        rows = {}
-        with open(out) as file:
-            for row in csv.DictReader(file):
-                numbers = [float(row[key]) for key in "x y z qx qy qz qw vx vy vz wx wy wz".split()]
-                rows.setdefault((float(row["t"]), row["object"]), []).append(numbers)
-        return rows, json.loads(done.stdout.splitlines()[-1])
 
-    def check(self, seed):
-        with tempfile.TemporaryDirectory() as folder:
-            bag, contact = self.record(seed, folder)
-            rows, summary = self.replay(bag, contact, folder)
-            with rosbag.Bag(bag) as recorded:
-                messages = {topic: [m.message for m in recorded.read_messages(topic)] for topic in TOPICS}
-        zeros = {m.header.stamp.to_nsec() - round(m.time * 1e9) for m in messages[TOPICS[0]] if m.kind == Accepted.POSE}
-        # Several where time was left out, and by rounding of one nanosecond.
-        by_stamp = {}
-        for (t, name), states in rows.items():
-            for zero in zeros:
-                by_stamp.setdefault((zero + round(t * 1e9), name), []).extend(states)
-        stamps = [m.header.stamp.to_nsec() for m in messages[TOPICS[1]]]
-        replayed = {}  # where no hand is known, the stamp is the clock's: the state is that after a change
-        for (_, name), states in rows.items():
-            replayed.setdefault(name, set()).update(tuple(state) for state in states)
-        same = outside = waiting = 0
-        for message in messages[TOPICS[2]]:
-            for state in message.objects:
-                stamp = message.header.stamp.to_nsec()
-                found = by_stamp.get((stamp, state.name))
-                if found is None and not stamps[0] < stamp < stamps[-1]:
-                    outside += 1  # before the journal, or after it
-                    continue
-                p, q, v, w = state.pose.position, state.pose.orientation, state.twist.linear, state.twist.angular
-                sign = -1.0 if q.w < 0.0 else 1.0
-                numbers = [p.x, p.y, p.z, sign * q.x, sign * q.y, sign * q.z, sign * q.w, v.x, v.y, v.z, w.x, w.y, w.z]
-                if found is None:
-                    self.assertIn(tuple(numbers), replayed[state.name], "seed %d at %d" % (seed, stamp))
-                    self.assertFalse(any(numbers[7:]), "seed %d at %d: moves with no hand" % (seed, stamp))
-                    waiting += 1
-                    continue
-                self.assertIn(numbers, found, "seed %d at %d" % (seed, stamp))
+def record_topics():
+    """Writes a bag until it is interrupted. The queue of `rosbag record` holds 100 messages, which a busy machine
+    overruns; the ones here have no end."""
+    rospy.init_node("record", disable_rostime=True)
+    with rosbag.Bag(sys.argv[2], "w") as bag:
+        lock = threading.Lock()
+
+        def write(message, topic):
+            kind = message._connection_header
+            with lock:
+                bag.write(topic, (kind["type"], message._buff, kind["md5sum"], None), raw=True)
+
+        subscribers = [rospy.Subscriber(topic, rospy.AnyMsg, write, topic) for topic in TOPICS]
+        rospy.spin()
+        for subscriber in subscribers:
+            subscriber.unregister()
+
+
+def replay(bag, out):
+    """Nanoseconds and object -> poses and twists, several at a change; the summary."""
+    command = [*REPLAY, "--scene", SCENE, "--bag", bag, "--out", out, "--set", "contact=dynamic"]
+    done = subprocess.run(command, capture_output=True, text=True, check=False)
+    assert done.returncode == 0, done.stderr
+    rows = {}
+    with open(out) as file:
+        for row in csv.DictReader(file):
+            numbers = tuple(float(row[key]) for key in "x y z qx qy qz qw vx vy vz wx wy wz".split())
+            rows.setdefault((round(float(row["t"]) * 1e9), row["object"]), []).append(numbers)
+    return rows, json.loads(done.stdout.splitlines()[-1])
+
+
+def numbers_of(state):
+    p, q, v, w = state.pose.position, state.pose.orientation, state.twist.linear, state.twist.angular
+    sign = -1.0 if q.w < 0.0 else 1.0
+    return (p.x, p.y, p.z, sign * q.x, sign * q.y, sign * q.z, sign * q.w, v.x, v.y, v.z, w.x, w.y, w.z)
+
+
+def compare(messages, rows):
+    """How many states were equal, outside the journal, and with no hand; an AssertionError where one is not equal."""
+    # Several where time was left out, and by rounding of one nanosecond.
+    zeros = {m.header.stamp.to_nsec() - round(m.time * 1e9) for m in messages[TOPICS[0]]}
+    for change in messages[TOPICS[1]]:
+        if not change.state and math.isfinite(change.committed):
+            zeros.add(change.header.stamp.to_nsec() - round(change.committed * 1e9))
+    stamps = [m.header.stamp.to_nsec() for m in messages[TOPICS[1]]]
+    replayed = {}  # where no hand is known, the stamp is the clock's: the state is that after a change
+    for (_, name), states in rows.items():
+        replayed.setdefault(name, set()).update(states)
+    same = outside = waiting = 0
+    for message in messages[TOPICS[2]]:
+        stamp = message.header.stamp.to_nsec()
+        for state in message.objects:
+            found = [n for zero in zeros for n in rows.get((stamp - zero, state.name), [])]
+            if stamp < stamps[0] or (not found and stamp > stamps[-1]):
+                outside += 1  # before the journal, or after it
+                continue
+            numbers = numbers_of(state)
+            if found:
+                assert numbers in found, "%s differs at %d" % (state.name, stamp)
                 same += 1
-        comparisons = sum(not m.state for m in messages[TOPICS[1]])
-        held = sum(m.objects[0].held for m in messages[TOPICS[2]])
-        wrenches = sum(m.kind == Accepted.EXTERNAL_WRENCH for m in messages[TOPICS[0]])
-        print(
-            "seed %d: %d states equal, %d outside the journal, %d with no hand, %d changes made again, %d hashes, "
-            "%d wrenches, held in %d"
-            % (seed, same, outside, waiting, summary["changes_made_again"], comparisons, wrenches, held)
+                continue
+            assert numbers in replayed[state.name], "%s differs at %d" % (state.name, stamp)
+            assert not any(numbers[7:]), "%s moves at %d with no hand" % (state.name, stamp)
+            waiting += 1
+    return same, outside, waiting
+
+
+def session():
+    """In a process of its own, since it has a master of its own; prints what came of it as JSON."""
+    seed = int(sys.argv[2])
+    rospy.init_node("session", disable_rostime=True)
+    folder = tempfile.mkdtemp(prefix="live_replay_%d_" % seed)  # stays where something differs
+    bag = os.path.join(folder, "run.bag")
+    record(seed, bag)
+    rows, summary = replay(bag, os.path.join(folder, "run.csv"))
+    with rosbag.Bag(bag) as recorded:
+        messages = {topic: [m.message for m in recorded.read_messages(topic)] for topic in TOPICS}
+    same, outside, waiting = compare(messages, rows)
+    shutil.rmtree(folder)
+    accepted, changes, objects = (messages[topic] for topic in TOPICS)
+    result = {
+        "states equal": same,
+        "outside the journal": outside,
+        "with no hand": waiting,
+        "changes": summary["changes"],
+        "made again": summary["changes_made_again"],
+        "mismatched": summary["changes_mismatched"],
+        "hashes": sum(not m.state for m in changes),
+        "wrenches": sum(m.kind == Accepted.EXTERNAL_WRENCH for m in accepted),
+        "held in": sum(any(o.held for o in m.objects) for m in objects),
+        "hash": summary["state_hash"],
+    }
+    print(json.dumps(result), flush=True)
+
+
+class Session:
+    """One that runs: a master, and this file as a process."""
+
+    def __init__(self, seed):
+        with socket.socket() as s:
+            s.bind(("", 0))
+            port = s.getsockname()[1]
+        environment = dict(os.environ, ROS_MASTER_URI="http://localhost:%d" % port)
+        self.seed = seed
+        self.master = subprocess.Popen(["rosmaster", "--core", "-p", str(port)], env=environment)
+        wait_for(lambda: not socket.socket().connect_ex(("localhost", port)), "the master")
+        self.process = subprocess.Popen(
+            [sys.executable, __file__, "--session", str(seed)],
+            env=environment,
+            stdout=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
         )
-        self.assertGreater(same, 100)
-        self.assertLess(outside + waiting, 0.2 * same)
-        self.assertGreater(summary["changes_made_again"], 3)
-        self.assertEqual(summary["changes_made_again"], summary["changes"])
-        self.assertEqual(summary["changes_mismatched"], 0)
-        self.assertGreater(comparisons, 3)
-        self.assertGreater(wrenches, 100)
-        return held
+
+    def end(self):
+        """What came of it; None where it failed."""
+        said = self.process.communicate()[0].splitlines()
+        with contextlib.suppress(ProcessLookupError):
+            os.killpg(self.process.pid, signal.SIGKILL)  # nodes that a failure left behind
+        self.master.kill()
+        self.master.wait()
+        result = json.loads(said[-1]) if self.process.returncode == 0 else None
+        print("seed %d, %s: %s" % (self.seed, " ".join(options_of(self.seed)[0]), result or "FAILED"), flush=True)
+        return result
+
+
+class LiveReplay(unittest.TestCase):
+    def run_all(self):
+        waiting, running, results = list(range(FIRST, FIRST + SEEDS)), [], {}
+        while waiting or running:
+            while waiting and len(running) < AT_ONCE:
+                running.append(Session(waiting.pop(0)))
+            for done in [one for one in running if one.process.poll() is not None or not waiting]:
+                running.remove(done)
+                results[done.seed] = done.end()
+            time.sleep(0.1)
+        return results
 
     def test_live_is_its_replay(self):
-        self.assertGreater(sum(self.check(seed) for seed in range(SEEDS)), 20)
+        busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(os.cpu_count())]
+        try:
+            results = self.run_all()
+        finally:
+            for process in busy:
+                process.kill()
+                process.wait()
+        self.assertEqual([seed for seed, result in results.items() if result is None], [])
+        for seed, result in results.items():
+            with self.subTest(seed=seed):
+                self.assertGreater(result["states equal"], 100)
+                self.assertLess(result["outside the journal"] + result["with no hand"], 0.2 * result["states equal"])
+                self.assertGreater(result["made again"], 3)
+                self.assertEqual(result["made again"], result["changes"])
+                self.assertEqual(result["mismatched"], 0)
+                self.assertGreater(result["hashes"], 3)
+                self.assertGreater(result["wrenches"], 100)
+        self.assertGreater(sum(result["held in"] for result in results.values()), 20)
 
 
 if __name__ == "__main__":
-    rospy.init_node("live_replay_test", disable_rostime=True)
-    rostest.rosrun("spring_workbench", "live_replay_test", LiveReplay, sys.argv)
+    if "--session" in sys.argv:
+        session()
+    elif "--record" in sys.argv:
+        record_topics()
+    else:
+        rostest.rosrun("spring_workbench", "live_replay_test", LiveReplay, sys.argv)

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -27,7 +28,8 @@ Change comparison_of(const simulation::Simulation& simulation);
 /// Entry of the journal of a live run. Entries are numbered without a gap.
 struct Entry {
   std::uint64_t index = 0;
-  double committed = 0.0;  ///< simulated time reached before it [s]; −infinity before the simulation began
+  double committed = 0.0;             ///< simulated time reached before it [s]; −infinity before the simulation began
+  std::optional<std::int64_t> stamp;  ///< of its time, by the clock of then [ns]; none before the first sample
   std::variant<hand_input::Accepted, Change> what;
 };
 
@@ -42,8 +44,8 @@ struct ReplayedChanges {
 /// Numbers entries, and keeps them until they are taken.
 class Journal {
  public:
-  void note(double committed, std::variant<hand_input::Accepted, Change> what) {
-    entries_.push_back({next_++, committed, std::move(what)});
+  void note(double committed, std::optional<std::int64_t> stamp, std::variant<hand_input::Accepted, Change> what) {
+    entries_.push_back({next_++, committed, stamp, std::move(what)});
   }
   /// The entries since the last call.
   std::vector<Entry> take() { return std::exchange(entries_, {}); }

@@ -5,9 +5,11 @@
 #include <deque>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "spring_workbench/assembly/task_monitor.h"
@@ -23,6 +25,21 @@
 #include "spring_workbench/motion/stream_monitor.h"
 
 namespace spring_workbench::live {
+
+/// Where the committed simulation is.
+struct Moment {
+  bool has_sample = false;   ///< one has arrived since the start
+  bool began = false;        ///< the simulation has come to it
+  std::int64_t stamp = 0;    ///< of the simulated time reached [ns]; means nothing before
+  std::size_t revision = 0;  ///< grows with every change of the committed simulation
+};
+
+/// What is displayed: nothing changes it any more until the next one is asked for.
+struct Shown {
+  std::shared_ptr<const simulation::Simulation> simulation;
+  Moment at;             ///< its stamp is that of the displayed time
+  double horizon = 0.0;  ///< how far it is beyond the newest sample [s]
+};
 
 /// Report of one cycle of the physics loop.
 struct CycleReport {
@@ -81,10 +98,8 @@ class SimulationRunner {
   CycleReport cycle(const HandEvents& events, const hand_input::LocalTime& now);
 
   /// Advances the displayed copy to the newest sample; with `latency` > 0 [s], further by `latency` and by the local
-  /// time since that sample arrived. Returns how far it is beyond the newest sample [s].
-  double show(double latency, const hand_input::LocalTime& now);
-  /// Returns the displayed copy. Only the caller of show() may use it.
-  const simulation::Simulation& shown() const { return ahead_.shown(); }
+  /// time since that sample arrived.
+  Shown show(double latency, const hand_input::LocalTime& now);
 
   /// Puts all objects back to their initial poses with nothing held; the simulation continues with the next sample.
   void restart();
@@ -103,16 +118,14 @@ class SimulationRunner {
     const Lock lock(mutex_);
     return use(simulation_);
   }
+  /// Calls `use(const Simulation&, const TaskMonitor&, const Moment&)` with exclusive access to all of the same moment.
+  template <typename Use>
+  auto committed(Use&& use) const {
+    const Lock lock(mutex_);
+    return use(simulation_, task_, moment_at(simulation_.time(), std::isfinite(feed_.committed())));
+  }
   /// Makes a change of the present scene, which the journal calls `what`. Throws as perform().
   simulation::ChangeReport change(const std::string& what, const Command& command);
-  /// Returns whether a sample of any hand has arrived since the start.
-  bool has_sample() const {
-    return locked([this](const auto&) { return feed_.has_sample(); });
-  }
-  /// Returns a number that grows with every change of the committed simulation.
-  std::size_t revision() const {
-    return locked([this](const auto&) { return revision_; });
-  }
   /// Starts the journal, with the present state as its first entry, or stops it.
   void keep_journal(bool keep);
   /// Records the hash of the present state in the journal, for comparison.
@@ -122,19 +135,10 @@ class SimulationRunner {
     const Lock lock(mutex_);
     return journal_.take();
   }
-  /// Returns the progress of the assembly.
-  assembly::TaskMonitor task() const {
-    return locked([this](const auto&) { return task_; });
-  }
-  /// Returns the stamp of the committed or of the displayed time [ns]; `now` before the first sample.
-  std::int64_t stamp(std::int64_t now) const;
-  std::int64_t shown_stamp(std::int64_t now) const;
-  /// Returns the stamp of a simulation time `t` [s] [ns].
-  std::int64_t stamp_of(double t) const;
   HandStatistics hand_statistics(std::size_t hand) const;
   /// See LookAhead.
   double prediction_error_99() const {
-    return locked([this](const auto&) { return ahead_.position_error_99(); });
+    return locked([this](const auto&) { return ahead_->position_error_99(); });
   }
 
  private:
@@ -158,19 +162,21 @@ class SimulationRunner {
   void apply(HandInput& input, const ButtonsKnown& known);
   void apply(HandInput& input, const StylusWrench& wrench) { push(input, wrench, times_.time_of_stamp(wrench.stamp)); }
   void push(HandInput& input, StylusWrench wrench, double t);
+  Moment moment_at(double t, bool began) const { return {feed_.has_sample(), began, times_.stamp_of(t), revision_}; }
   bool joins(const HandInput& input, const NewEpoch& epoch) const;
   double time_of(const HandInput& input, double t);
   void feed(HandInput& input, const StylusEvent& event);
   void feed(const hand_input::LocalTime& now);
   void commit(double stop, CycleReport& report);
+  std::optional<std::int64_t> stamp() const;
   void start_anew(const std::string& what, Command::Kind kind);
-  void begin_with(const std::string& what, const Command& command, simulation::Simulation simulation, LookAhead ahead,
-                  std::map<std::string, RigidTransform> places);
+  void begin_with(const std::string& what, const Command& command, simulation::Simulation simulation,
+                  std::shared_ptr<LookAhead> ahead, std::map<std::string, RigidTransform> places);
 
   mutable FairMutex mutex_;
   simulation::Simulation simulation_;
   hand_input::Feed feed_;
-  LookAhead ahead_;
+  std::shared_ptr<LookAhead> ahead_;  ///< shared with who looks at what was shown last
   assembly::TaskMonitor task_;
   std::vector<HandInput> inputs_;
   bool simulated_time_;

@@ -7,9 +7,9 @@
 
 namespace spring_workbench::motion {
 
-/// Predicts the pose of a tracked frame from its last samples: position and rotation vector continue along the curve
-/// through the newest sample that fits the others best, in the sense of least squares; a line over the last 30 ms up to
-/// 20 ms ahead, a parabola over the last 120 ms beyond.
+/// Predicts the pose of a tracked frame from its last samples: position and rotation vector continue along the parabola
+/// through the newest sample that fits those of the last 140 ms best, in the sense of least squares; of three samples
+/// or fewer, along the line.
 class PosePredictor {
  public:
   static constexpr double farthest = 0.1;  ///< [s]; it rests beyond

@@ -102,15 +102,17 @@ bool ManipulationNode::run_step(double begin) {
   second_input_.count_rejected(report.rejected[1]);
   // In simulated time the clock may have gone on by itself.
   const double deadline = (ros::Time::isSimTime() ? std::max(begin, local.loop) : begin) + 1.0 / parameters_.rate;
+  std::optional<live::Shown> shown;
   if (!report.more || local.loop >= show_at_latest_) {
     show_at_latest_ = local.loop + 1.0 / parameters_.rate;
-    const double horizon = runner_.show(parameters_.display_latency, local);
-    publisher_.publish_shown(runner_, horizon, local.loop);
+    shown = runner_.show(parameters_.display_latency, local);
   }
-  const bool deadline_missed = ros_common::loop_time() > deadline;
-  publisher_.publish_committed(runner_, report, deadline_missed);
+  const double simulated = ros_common::steady_time();
+  if (shown) publisher_.publish_shown(*shown, local.loop);
+  publisher_.publish_committed(runner_, report, publish_time_, ros_common::loop_time() > deadline);
   publisher_.publish_journal(runner_);
-  count(report, deadline_missed);
+  publish_time_ = ros_common::steady_time() - simulated;
+  count(report, ros_common::loop_time() > deadline);
   return report.more;
 }
 

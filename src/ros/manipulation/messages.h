@@ -21,7 +21,7 @@ TaskState to_message(const std::vector<assembly::Placement>& placements, const a
 Contacts to_message(const std::vector<contact::ContactState>& contacts);
 Accepted to_message(const hand_input::Accepted& accepted);
 Change to_message(const live::Change& change);
-/// Everything but `wall_time`, `integrator` and `deadline_missed`, which the core does not know.
+/// Everything but the times of the cycle, `integrator` and `deadline_missed`, which the core does not know.
 StepReport to_message(const simulation::AdvanceReport& report);
 
 }  // namespace spring_workbench::manipulation

@@ -23,6 +23,8 @@ ros::Time at(std::int64_t stamp) {
   return ros::Time().fromNSec(static_cast<std::uint64_t>(stamp + ros_common::wall_moment().steps));
 }
 
+ros::Time stamp_of(const live::Moment& moment) { return at(moment.began ? moment.stamp : now()); }
+
 }  // namespace
 
 StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters)
@@ -52,67 +54,62 @@ void StatePublisher::publish_journal(live::SimulationRunner& runner) {
   if (listeners == 0 && journal_listeners_ > 0) runner.keep_journal(false);
   journal_listeners_ = listeners;
   for (const live::Entry& entry : runner.take_journal()) {
-    if (const auto* accepted = std::get_if<hand_input::Accepted>(&entry.what)) {
-      Accepted message = to_message(*accepted);
-      message.header = header_at(at(runner.stamp_of(accepted->t)));
-      message.index = entry.index;
-      accepted_publisher_.publish(message);
-    } else {
-      Change message = to_message(std::get<live::Change>(entry.what));
-      message.header = header_at(at(runner.stamp(now())));
+    const std_msgs::Header header = header_at(at(entry.stamp.value_or(now())));
+    const auto send = [&](auto message, const ros::Publisher& publisher) {
+      message.header = header;
       message.index = entry.index;
       message.committed = entry.committed;
-      changes_publisher_.publish(message);
-    }
+      publisher.publish(message);
+    };
+    const auto* accepted = std::get_if<hand_input::Accepted>(&entry.what);
+    if (accepted != nullptr) send(to_message(*accepted), accepted_publisher_);
+    if (accepted == nullptr) send(to_message(std::get<live::Change>(entry.what)), changes_publisher_);
   }
 }
 
-bool StatePublisher::Repeat::due(const ros::Time& new_stamp, std::size_t new_revision) {
+bool StatePublisher::Repeat::due(const live::Moment& moment, const ros::Time& new_stamp) {
   const double steady = ros_common::steady_time();
-  if (new_stamp == stamp && new_revision == revision && steady < sent + repeat_after) return false;
-  stamp = new_stamp;
-  revision = new_revision;
-  sent = steady;
+  // Before the first sample the stamp goes on by itself.
+  const bool same = moment.revision == revision && (new_stamp == stamp || !moment.began);
+  if (same && steady < sent + repeat_after) return false;
+  *this = {new_stamp, moment.revision, steady};
   return true;
 }
 
 void StatePublisher::publish_committed(const live::SimulationRunner& runner, const live::CycleReport& report,
-                                       bool deadline_missed) {
-  const ros::Time stamp = at(runner.stamp(now()));
-  // Before the first sample the stamp goes on by itself.
-  if (!committed_.due(runner.has_sample() ? stamp : ros::Time(), runner.revision())) return;
-  const std_msgs::Header header = header_at(stamp);
-  runner.locked([&](const simulation::Simulation& simulation) {
-    publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
-    for (std::size_t hand = 0; hand < hands_.size(); ++hand) publish_hand(hand, simulation, header);
-    publish_contacts(simulation, header);
-  });
-  publish_made(task_publisher_, header, [&] {
-    const assembly::TaskMonitor task = runner.task();
-    return to_message(task.placements(), task.score());
-  });
-  publish_made(steps_publisher_, header, [&] {
-    StepReport message = to_message(report.advance);
-    (markers_were_built_ ? message.active : message.skipped).push_back("markers");
-    message.wall_time = report.wall_time;
-    message.integrator = runner.locked([](const simulation::Simulation& simulation) {
-      return validation::name_of(simulation.settings().dynamics.integrator);
-    });
-    message.deadline_missed = deadline_missed;
-    message.behind = report.behind;
-    message.input_age = report.input_age;
-    message.horizon = horizon_;
-    message.prediction_error = report.prediction.position;
-    message.prediction_angle_error = report.prediction.angle;
-    return message;
-  });
+                                       double publish_time, bool deadline_missed) {
+  runner.committed(
+      [&](const simulation::Simulation& simulation, const assembly::TaskMonitor& task, const live::Moment& moment) {
+        if (moment.has_sample && !moment.began) return;
+        const ros::Time stamp = stamp_of(moment);
+        if (!committed_.due(moment, stamp)) return;
+        const std_msgs::Header header = header_at(stamp);
+        publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
+        for (std::size_t hand = 0; hand < hands_.size(); ++hand) publish_hand(hand, simulation, header);
+        publish_contacts(simulation, header);
+        publish_made(task_publisher_, header, [&] { return to_message(task.placements(), task.score()); });
+        publish_made(steps_publisher_, header, [&] {
+          StepReport message = to_message(report.advance);
+          (markers_were_built_ ? message.active : message.skipped).push_back("markers");
+          message.wall_time = report.wall_time;
+          message.publish_time = publish_time;
+          message.deadline_missed = deadline_missed;
+          message.integrator = validation::name_of(simulation.settings().dynamics.integrator);
+          message.behind = report.behind;
+          message.input_age = report.input_age;
+          message.horizon = horizon_;
+          message.prediction_error = report.prediction.position;
+          message.prediction_angle_error = report.prediction.angle;
+          return message;
+        });
+      });
 }
 
-void StatePublisher::publish_shown(const live::SimulationRunner& runner, double horizon, double local_time) {
-  horizon_ = horizon;
-  const ros::Time stamp = at(runner.shown_stamp(now()));
-  if (!shown_.due(runner.has_sample() ? stamp : ros::Time(), runner.revision())) return;
-  const simulation::Simulation& simulation = runner.shown();
+void StatePublisher::publish_shown(const live::Shown& shown, double local_time) {
+  horizon_ = shown.horizon;
+  const ros::Time stamp = stamp_of(shown.at);
+  if (!shown_.due(shown.at, stamp)) return;
+  const simulation::Simulation& simulation = *shown.simulation;
   const std_msgs::Header header = header_at(stamp);
   publish_transforms(simulation, stamp);
   publish_made(shown_objects_publisher_, header, [&] { return to_message(simulation.objects()); });

@@ -11,6 +11,10 @@
 namespace spring_workbench::live {
 namespace {
 
+std::int64_t stamp_of(const SimulationRunner& runner) {
+  return runner.committed([](const auto&, const auto&, const Moment& moment) { return moment.stamp; });
+}
+
 constexpr std::int64_t wall_begin = 1'700'000'000'000'000'000;
 constexpr double interval = 0.008;  // [s] between samples
 
@@ -78,7 +82,7 @@ class Session {
   /// Stamp of the committed time less that of the newest sample, by the host's clock [s].
   double stamp_lag() {
     const motion::WallMoment now = host();
-    return 1e-9 * static_cast<double>(now.now - runner_.stamp(0));
+    return 1e-9 * static_cast<double>(now.now - stamp_of(runner_));
   }
   double moves = 0.0;  ///< 1: the hand moves
 

@@ -85,6 +85,7 @@ class ManipulationNode {
   std::mutex master_mutex_;
   std::vector<std::string> senders_of_tf_;  ///< by the master's last answer
   double master_answered_;                  ///< when that came [s], by the steady clock
+  double publish_time_ = 0.0;               ///< of the last cycle's messages [s]
   double show_at_latest_ = 0.0;             ///< even while there is more to commit, in local time [s]
   std::atomic<bool> stop_{false};
   std::thread physics_;

@@ -21,10 +21,12 @@ class StatePublisher {
  public:
   StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters);
 
-  /// After each cycle of the physics loop, with what it did.
-  void publish_committed(const live::SimulationRunner& runner, const live::CycleReport& report, bool deadline_missed);
-  /// After show(), which brought what is shown `horizon` [s] beyond the newest sample. `now` [s]: local time.
-  void publish_shown(const live::SimulationRunner& runner, double horizon, double now);
+  /// After each cycle of the physics loop, with what it did; nothing between the first sample and the simulation's
+  /// first step to it. `publish_time` [s]: of the cycle before.
+  void publish_committed(const live::SimulationRunner& runner, const live::CycleReport& report, double publish_time,
+                         bool deadline_missed);
+  /// `now` [s]: local time.
+  void publish_shown(const live::Shown& shown, double now);
   /// The journal, while both of its topics have a subscriber.
   void publish_journal(live::SimulationRunner& runner);
 
@@ -34,7 +36,7 @@ class StatePublisher {
     ros::Time stamp;
     std::size_t revision = 0;
     double sent = -1.0;  ///< [s], by the steady clock
-    bool due(const ros::Time& stamp, std::size_t revision);
+    bool due(const live::Moment& moment, const ros::Time& stamp);
   };
   /// What is sent of one stylus; the topics and frames of the second end in _2, and so on.
   struct HandTopics {

@@ -66,7 +66,7 @@ live::Entry to_entry(const Accepted& message) {
     accepted.wrench = {message.time, to_wrench(Eigen::Map<const Vector6d>(message.wrench.data())),
                        static_cast<motion::ExternalWrench::Axes>(message.wrench_axes)};
   }
-  return {message.index, message.committed, accepted};
+  return {message.index, message.committed, std::nullopt, accepted};
 }
 
 live::Entry to_entry(const Change& message) {
@@ -76,7 +76,7 @@ live::Entry to_entry(const Change& message) {
   change.scene = message.scene;
   change.hash_before = std::stoull(message.hash_before, nullptr, 16);
   if (!message.state.empty()) change.state = simulation::parse_state(message.state);
-  return {message.index, message.committed, change};
+  return {message.index, message.committed, std::nullopt, change};
 }
 
 /// Collects the hands from the messages of a bag.

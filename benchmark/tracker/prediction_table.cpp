@@ -1,0 +1,157 @@
+#include "prediction_table.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <iomanip>
+
+#include "motions.h"
+#include "spring_workbench/live/look_ahead.h"
+#include "spring_workbench/math/so3.h"
+#include "spring_workbench/validation/names.h"
+
+namespace spring_workbench {
+namespace {
+
+using scene::ContactMode;
+
+constexpr double kFork = 0.2;                                            // [m] from the handle to the tip
+constexpr std::array<double, 5> kAhead = {0.0, 0.01, 0.02, 0.03, 0.05};  // [s]
+constexpr double kInTheAir = 0.03;                                       // [m] of the box above the bench, at first
+
+/// The scene of one box, with the box at the tip of a fork that points down.
+scene::Scene held_at(const Vector3d& handle, scene::Scene scene, ContactMode contact) {
+  scene::Body& box = *std::find_if(scene.bodies.begin(), scene.bodies.end(), [](const auto& b) { return b.movable; });
+  box.X_WO = make_transform(Quaterniond::Identity(), handle - Vector3d(0.0, 0.0, kFork));
+  scene.contact = contact;
+  return scene;
+}
+
+/// The motion from its first sample in the air on, its median height that at which the box touches the bench.
+std::vector<motion::PoseSample> above_the_bench(const std::string& path, double seconds) {
+  std::vector<motion::PoseSample> samples;
+  std::vector<double> heights;
+  for (const motion::StylusSample& sample : read_samples(path)) {
+    if (sample.t > seconds) break;
+    samples.push_back(sample);
+    heights.push_back(sample.X.translation().z());
+  }
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::nth_element(heights.begin(), middle, heights.end());
+  const double touching = *middle;
+  const auto first = std::find_if(samples.begin(), samples.end(), [&](const motion::PoseSample& sample) {
+    return sample.X.translation().z() > touching + kInTheAir;
+  });
+  samples.erase(samples.begin(), first);
+  const Matrix3d down = Quaterniond(0.0, 1.0, 0.0, 0.0).toRotationMatrix();
+  const Matrix3d turn = samples.front().X.linear().transpose() * down;
+  for (motion::PoseSample& sample : samples) {
+    sample.X.linear() = sample.X.linear() * turn;
+    sample.X.translation().z() += kFork + 0.02 - touching;
+  }
+  return samples;
+}
+
+struct Errors {
+  std::vector<double> positions, angles;  ///< [m], [rad]
+};
+
+double quantile(std::vector<double> values, double part) {
+  const auto at =
+      values.begin() + static_cast<std::ptrdiff_t>(std::ceil(part * static_cast<double>(values.size() - 1)));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+double rms(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value * value;
+  return std::sqrt(sum / static_cast<double>(values.size()));
+}
+
+/// A hand that holds the box, the copies that go ahead, and what was displayed and is not committed yet.
+class Run {
+ public:
+  Run(const std::vector<motion::PoseSample>& samples, const scene::Scene& scene, ContactMode contact)
+      : samples_(samples), scene_(held_at(samples.front().X.translation(), scene, contact)), settings_(settings()) {
+    for (std::size_t i = 0; i < kAhead.size(); ++i) ahead_.emplace_back(scene_, settings_);
+  }
+
+  std::array<Errors, kAhead.size()> errors() {
+    for (const motion::PoseSample& sample : samples_) {
+      feed_.push_stylus({sample.t, sample.X.translation(), Quaterniond(sample.X.linear())}, RigidTransform::Identity(),
+                        {sample.t, sample.t});
+      while (const std::optional<double> stop = feed_.next_stop({sample.t, sample.t})) commit(*stop);
+      for (std::size_t i = 0; i < kAhead.size(); ++i) {
+        const double t = simulation_.newest_sample() + kAhead[i];
+        ahead_[i].show(simulation_, feed_, t);
+        const bodies::BodyState& box = ahead_[i].shown().objects()[0];
+        if (box.held) shown_[i].push_back({t, box.X_WO});
+      }
+    }
+    return errors_;
+  }
+
+ private:
+  static simulation::SimulationSettings settings() {
+    simulation::SimulationSettings settings;
+    settings.grasp.object = "box";
+    return settings;
+  }
+
+  /// Compares all that was displayed for the time up to there, along the committed path.
+  void commit(double stop) {
+    const double before = simulation_.time();
+    const bodies::BodyState from = simulation_.objects()[0];
+    feed_.advance_to(stop);
+    const bodies::BodyState& to = simulation_.objects()[0];
+    const auto own = [](const bodies::BodyState& b) {
+      return Vector3d(b.X_WO.linear().transpose() * b.V_WO_W.angular);
+    };
+    const motion::MotionSegment path({before, from.X_WO}, from.V_WO_W.linear, own(from), {stop, to.X_WO},
+                                     to.V_WO_W.linear, own(to));
+    for (std::size_t i = 0; i < kAhead.size(); ++i) {
+      for (; !shown_[i].empty() && shown_[i].front().t <= stop; shown_[i].pop_front()) {
+        const motion::PoseSample& shown = shown_[i].front();
+        if (shown.t < before) continue;
+        const RigidTransform X = shown.t == stop ? to.X_WO : path.at(shown.t).X;
+        errors_[i].positions.push_back((X.translation() - shown.X.translation()).norm());
+        errors_[i].angles.push_back(math::turn_between(X, shown.X).norm());
+      }
+    }
+  }
+
+  const std::vector<motion::PoseSample>& samples_;
+  scene::Scene scene_;
+  simulation::SimulationSettings settings_;
+  simulation::Simulation simulation_{scene_, settings_};
+  hand_input::Feed feed_{simulation_, hand_input::InputSettings()};
+  std::vector<live::LookAhead> ahead_;
+  std::array<std::deque<motion::PoseSample>, kAhead.size()> shown_;
+  std::array<Errors, kAhead.size()> errors_;
+};
+
+}  // namespace
+
+void write_prediction_table(const std::string& scene_path, const std::vector<std::string>& motions, double seconds,
+                            std::ostream& out) {
+  const scene::Scene scene = scene::load_scene(scene_path);
+  constexpr double mm = 1e3, degree = 180.0 / M_PI;
+  out << std::setprecision(3)
+      << "motion,contact,ahead [ms],samples,rms [mm],99 % [mm],largest [mm],rms [deg],99 % [deg]\n";
+  for (const std::string& path : motions) {
+    const std::vector<motion::PoseSample> samples = above_the_bench(path, seconds);
+    for (const ContactMode contact : {ContactMode::none, ContactMode::stop}) {
+      const std::array<Errors, kAhead.size()> all = Run(samples, scene, contact).errors();
+      for (std::size_t i = 0; i < kAhead.size(); ++i) {
+        const auto& [p, a] = all[i];
+        out << file_name(path) << ',' << validation::name_of(contact) << ',' << mm * kAhead[i] << ',' << p.size() << ','
+            << mm * rms(p) << ',' << mm * quantile(p, 0.99) << ',' << mm * quantile(p, 1.0) << ',' << degree * rms(a)
+            << ',' << degree * quantile(a, 0.99) << std::endl;
+      }
+    }
+  }
+}
+
+}  // namespace spring_workbench
