@@ -132,7 +132,7 @@ ForkCurveRow measure(const std::string& name, const Sections& exact, MakeCurve&&
   row.length_error = std::abs(length_of(curve) - 1.0);
   row.curve_us = cost_us(make);
   fork_mesh::ForkMesh mesh;
-  row.deform_us = cost_us([&] { fork.deform(curve, fork_mesh::coil_diameter(1.0), mesh); });
+  row.deform_us = cost_us([&] { fork.deform(curve, fork_mesh::usual_diameter, mesh); });
   row.vertices = fork.vertex_count();
   return row;
 }

@@ -17,4 +17,7 @@ constexpr double coil_radius = 0.5;
 /// DeformedFork.TheCoilIsAsWideAsItsDiameterAndAFifthOfItThickAreTheDiscs.
 constexpr double flange = 0.2;
 
+/// [m] of the tools that are no springs. Larger: clumsier. Test: ForkModel.EachToolHasALookOfItsOwn.
+constexpr double rigid_diameter = 0.03;
+
 }  // namespace spring_workbench::fork_mesh

@@ -20,6 +20,8 @@ void check(const ForkLook& look) {
   validation::check_number(where, "prong_radius", look.prong_radius, validation::positive());
   validation::check_number(where, "prong_gap", look.prong_gap, validation::positive());
   validation::check_number(where, "prong_length", look.prong_length, validation::positive());
+  validation::check_number(where, "needle_length", look.needle_length, validation::positive());
+  validation::check_number(where, "ball_radius", look.ball_radius, validation::positive());
 }
 
 /// Two triangles a, b, c and a, c, d.
@@ -30,11 +32,36 @@ void add_quad(int a, int b, int c, int d, ForkModel::Triangles& triangles) {
 
 }  // namespace
 
+ForkLook look_of(const std::string& tool) {
+  using Spring = ForkLook::Spring;
+  using End = ForkLook::End;
+  ForkLook look;
+  if (tool == "spring") look.end = End::ball;
+  if (tool == "spring_probe") look.end = End::needle;
+  if (tool == "ray") {
+    look.spring = Spring::beam;
+    look.end = End::ball;
+  }
+  if (tool == "direct") {
+    look.spring = Spring::none;
+    look.end = End::diamond;
+    look.shaft = false;
+  }
+  const bool is_known = !(look == ForkLook()) || tool == "spring_fork";
+  if (!is_known) validation::refuse("look", "tool", tool, "spring, spring_fork, spring_probe, direct or ray");
+  return look;
+}
+
+double drawn_diameter(const std::string& tool, double length, double share) {
+  return tool == "direct" || tool == "ray" ? rigid_diameter : share * length;
+}
+
 ForkModel::ForkModel(const ForkLook& look) : look_(look) {
   check(look);
-  make_shaft();
+  if (look.shaft) make_shaft();
   make_end();
-  make_spring();
+  if (look.spring == ForkLook::Spring::coil) make_spring(look.turns, look.points_per_turn, coil_radius);
+  if (look.spring == ForkLook::Spring::beam) make_spring(1, 2, 0.0);
 }
 
 std::size_t ForkModel::vertex_count() const {
@@ -53,11 +80,28 @@ void ForkModel::make_shaft() {
 }
 
 void ForkModel::make_end() {
-  const double rim = coil_radius + look_.wire_radius, tip = look_.prong_length;
-  revolve({{0.0, 0.0}, {rim, 0.0}, {rim, flange}, {0.0, flange}}, 0.0, end_);
-  for (const double centre : {-look_.prong_gap, 0.0, look_.prong_gap}) {
-    revolve({{0.0, 0.5 * flange}, {look_.prong_radius, 0.5 * flange}, {look_.prong_radius, 0.7 * tip}, {0.0, tip}},
-            centre, end_);
+  const double rim = coil_radius + look_.wire_radius, tip = look_.prong_length, ball = look_.ball_radius;
+  switch (look_.end) {
+    case ForkLook::End::prongs:
+      revolve({{0.0, 0.0}, {rim, 0.0}, {rim, flange}, {0.0, flange}}, 0.0, end_);
+      for (const double centre : {-look_.prong_gap, 0.0, look_.prong_gap}) {
+        const double radius = look_.prong_radius;
+        revolve({{0.0, 0.5 * flange}, {radius, 0.5 * flange}, {radius, 0.7 * tip}, {0.0, tip}}, centre, end_);
+      }
+      return;
+    case ForkLook::End::needle:
+      return revolve({{0.0, -look_.needle_length}, {0.6 * coil_radius, -look_.needle_length}, {0.0, 0.0}}, 0.0, end_);
+    case ForkLook::End::diamond:
+      return revolve({{0.0, -2.0 * ball}, {ball, 0.0}, {0.0, 2.0 * ball}}, 0.0, end_);
+    case ForkLook::End::ball: {
+      std::vector<Eigen::Vector2d> half_circle;
+      for (int i = 0; i <= look_.round_sides / 2; ++i) {
+        const double angle = M_PI * i / (look_.round_sides / 2);
+        half_circle.emplace_back(ball * std::sin(angle), -ball * std::cos(angle));
+      }
+      half_circle.front().x() = half_circle.back().x() = 0.0;
+      return revolve(half_circle, 0.0, end_);
+    }
   }
 }
 
@@ -84,11 +128,12 @@ void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double cent
   }
 }
 
-void ForkModel::make_spring() {
-  const int rings = look_.turns * look_.points_per_turn + 1;
+/// A wire of that radius [diameters] about the axis: a coil, or with 0 a beam.
+void ForkModel::make_spring(int turns, int points_per_turn, double radius) {
+  const int rings = turns * points_per_turn + 1;
   const auto ring = [&](int k, double cap) {
     const double share = static_cast<double>(k) / (rings - 1);
-    wire_.push_back({coil_radius, 2.0 * M_PI * look_.turns * share, share, cap});
+    wire_.push_back({radius, radius > 0.0 ? 2.0 * M_PI * turns * share : 0.0, share, cap});
   };
   ring(0, -1.0);
   for (int k = 0; k < rings; ++k) ring(k, 0.0);

@@ -35,7 +35,7 @@ Ogre::ColourValue load_color(double place) {
 
 }  // namespace
 
-ForkDisplay::ForkDisplay() : model_(fork_mesh::ForkLook()) {
+ForkDisplay::ForkDisplay() : model_(fork_mesh::look_of(tool_)) {
   topic_ = new rviz::RosTopicProperty(
       "Topic", "manipulation/display/fork", QString::fromStdString(ros::message_traits::datatype<ForkState>()),
       "The fork as it is shown, ~display/fork of manipulation.", this, SLOT(subscribe()), this);
@@ -117,7 +117,12 @@ bool ForkDisplay::deform(const ForkState& fork) {
     const auto& p = fork.proxy_handle.position;
     const auto& r = fork.proxy_handle.orientation;
     const RigidTransform X_WH = make_transform(Quaterniond(r.w, r.x, r.y, r.z), Vector3d(p.x, p.y, p.z));
-    model_.deform(fork_mesh::rod_curve(*shape, q, X_WH), fork_mesh::coil_diameter(fork.length), mesh_);
+    if (fork.tool != tool_) {
+      model_ = fork_mesh::ForkModel(fork_mesh::look_of(fork.tool));
+      tool_ = fork.tool;
+      object_->clear();
+    }
+    model_.deform(fork_mesh::rod_curve(*shape, q, X_WH), fork_mesh::drawn_diameter(tool_, fork.length), mesh_);
     return true;
   } catch (const validation::InputError& error) {
     setStatus(StatusProperty::Error, "Topic", error.what());
@@ -128,8 +133,8 @@ bool ForkDisplay::deform(const ForkState& fork) {
 void ForkDisplay::draw(const ForkState& fork) {
   set_color(load_color(fork.load), spring_material_);
   const bool is_new = object_->getSections().empty();
-  fill(0, model_.spring(), spring_material_, is_new);
-  fill(1, model_.shaft_and_end(), rigid_material_, is_new);
+  fill(0, model_.shaft_and_end(), rigid_material_, is_new);
+  if (!model_.spring().empty()) fill(1, model_.spring(), spring_material_, is_new);
   object_->setVisible(true);
 }
 

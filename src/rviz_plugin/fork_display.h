@@ -54,7 +54,8 @@ class ForkDisplay : public rviz::Display {
   std::shared_ptr<MasterWatch> master_;
   ForkStateConstPtr newest_;  ///< not yet drawn
   double silence_ = 0.0;      ///< since the newest message [s]
-  fork_mesh::ForkModel model_;
+  std::string tool_ = "spring_fork";
+  fork_mesh::ForkModel model_;  ///< of that tool
   fork_mesh::ForkMesh mesh_;
   Ogre::ManualObject* object_ = nullptr;
   Ogre::MaterialPtr spring_material_, rigid_material_;

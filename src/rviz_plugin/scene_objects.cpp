@@ -87,16 +87,19 @@ void SceneObjects::place(const ObjectStates& objects) {
     Body& body = found->second;
     body.named = true;
     set_pose(object.pose, body.node);
-    if (body.highlighted != (object.highlighted != 0)) highlight(body, object.highlighted != 0);
+    const bool lit = object.highlighted != 0, pierced = lit || object.held != 0;
+    if (body.highlighted != lit || body.pierced != pierced) color(body, lit, pierced);
   }
   for (auto& [name, body] : bodies_) body.node->setVisible(body.named);
 }
 
-void SceneObjects::highlight(Body& body, bool on) {
-  body.highlighted = on;
+void SceneObjects::color(Body& body, bool highlighted, bool pierced) {
+  body.highlighted = highlighted;
+  body.pierced = pierced;
   for (const Part& part : body.parts) {
     std_msgs::ColorRGBA color = part.color;
-    if (on) {
+    if (pierced) color.a *= static_cast<float>(fork_mesh::pierced_opacity);
+    if (highlighted) {
       const Eigen::Vector3f lit = fork_mesh::highlighted(Vector3d(color.r, color.g, color.b)).cast<float>();
       color.r = lit[0];
       color.g = lit[1];

@@ -56,7 +56,7 @@ class SceneObjects {
     Ogre::SceneNode* node = nullptr;
     bool movable = false;
     bool named = true;  ///< by the newest message
-    bool highlighted = false;
+    bool highlighted = false, pierced = false;
     std::vector<Part> parts;
   };
 

@@ -1,14 +1,20 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "spring_workbench/fork_mesh/fork_curve.h"
 
 namespace spring_workbench::fork_mesh {
 
-/// How the fork looks at rest. Lengths along the spring are in parts of the spring's length, all others in diameters of
+/// How a tool looks at rest. Lengths along the spring are in parts of the spring's length, all others in diameters of
 /// the coil (the paper's normalised space), so that one model serves forks of every size.
 struct ForkLook {
+  enum class Spring { coil, beam, none };            ///< beam: a straight line
+  enum class End { prongs, needle, ball, diamond };  ///< beyond the tip, but for the needle, whose point is the tip
+  Spring spring = Spring::coil;
+  End end = End::prongs;
+  bool shaft = true;
   int turns = 10;             ///< of the coil, ≥ 1
   int points_per_turn = 12;   ///< ≥ 3
   int wire_sides = 6;         ///< ≥ 3: of the wire's cross section
@@ -19,10 +25,22 @@ struct ForkLook {
   double prong_radius = 0.085;
   double prong_gap = 0.36;    ///< of the outer two of the three prongs from the middle one
   double prong_length = 1.1;  ///< beyond the tip
+  double needle_length = 1.3;
+  double ball_radius = 0.45;  ///< also of the diamond
+
+  bool operator==(const ForkLook& other) const {
+    return spring == other.spring && end == other.end && shaft == other.shaft;
+  }
 };
 
-/// The coil's diameter of a fork of this rest length [m].
-inline double coil_diameter(double length) { return 0.16 * length; }
+/// Each tool's own look: the paper's fork (figure 5), a spring with a ball, a probe with a needle, a cursor without a
+/// shaft for `direct`, a beam for `ray`. Throws InputError for a name that is no tool's.
+ForkLook look_of(const std::string& tool);
+
+/// The coil's diameter of a fork, as a fraction of its rest length, unless it is set (`fork_diameter`).
+constexpr double usual_diameter = 0.16;
+/// The diameter with which a tool of this rest length [m] is drawn [m]: of rigid tools, a fixed one.
+double drawn_diameter(const std::string& tool, double length, double share = usual_diameter);
 
 /// The deformed fork: vertices [m] and outward unit normals, one each; the model's triangles belong to it.
 struct ForkMesh {
@@ -30,9 +48,10 @@ struct ForkMesh {
   std::vector<Vector3d> normals;
 };
 
-/// The fork of the paper's section 4: a rigid shaft in the hand, a coil spring, and a rigid end with three prongs. Made
-/// once, in normalised cylindrical coordinates with normals; deformed along a curve as often as wanted (figures 5 to
-/// 7). Shaft and end are rigid: aligned with the first and the last local frame. Immutable.
+/// The fork of the paper's section 4: a rigid shaft in the hand, a coil spring, and a rigid end with three prongs, or
+/// another tool with other parts. Made once, in normalised cylindrical coordinates with normals; deformed along a curve
+/// as often as wanted (figures 5 to 7). Shaft and end are rigid: aligned with the first and the last local frame.
+/// Immutable.
 class ForkModel {
  public:
   using Triangles = std::vector<Eigen::Vector3i>;  ///< indices of vertices, counter-clockwise from outside
@@ -62,7 +81,7 @@ class ForkModel {
 
   void make_shaft();
   void make_end();
-  void make_spring();
+  void make_spring(int turns, int points_per_turn, double radius);
   void revolve(const std::vector<Eigen::Vector2d>& profile, double centre, Vertices& part);
   void add_ring(const WireRing& ring, const ForkCurve& curve, double diameter, ForkMesh& mesh) const;
 

@@ -5,6 +5,7 @@
 
 #include "constants.h"
 #include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::markers {
 namespace {
@@ -19,6 +20,7 @@ const Color text_color(1.0, 1.0, 1.0, 1.0);
 
 void add_triangles(const std::string& ns, int id, const fork_mesh::ForkModel::Triangles& triangles,
                    const fork_mesh::ForkMesh& mesh, const Color& color, MarkerList& markers) {
+  if (triangles.empty()) return;
   Marker& marker = markers.add(ns, id, Marker::TRIANGLE_LIST, RigidTransform::Identity(), color);
   marker.points.reserve(3 * triangles.size());
   for (const Eigen::Vector3i& t : triangles) {
@@ -39,12 +41,13 @@ void draw_arrow(const std::string& ns, const tools::ToolState& tool, const Vecto
 void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, const std::string& number,
                   MarkerList& markers) {
   const double force = tool.tip_wrench_W.force.norm();
+  const double size =
+      fork_mesh::drawn_diameter(validation::name_of(tool.tool), tool.length) / fork_mesh::usual_diameter;
   char text[100];
   std::snprintf(text, sizeof text, "%.2f vkg   %.2f N   %.3f N m", virtual_kilograms(force, scene),
                 force / scene.force_scale, tool.tip_wrench_W.moment.norm() / scene.force_scale);
-  const Vector3d place =
-      tool.X_WH_proxy * Vector3d(0.0, 0.0, -0.5 * tool.length) + 0.35 * tool.length * Vector3d::UnitZ();
-  markers.add_text("readout" + number, 0, place, 0.13 * tool.length, text, text_color);
+  const Vector3d place = tool.X_WH_proxy * Vector3d(0.0, 0.0, -0.5 * size) + 0.35 * size * Vector3d::UnitZ();
+  markers.add_text("readout" + number, 0, place, 0.13 * size, text, text_color);
 }
 
 }  // namespace
@@ -63,6 +66,7 @@ void draw_gap(const tools::ToolState& tool, const std::string& number, MarkerLis
 
 void draw_load(const scene::Scene& scene, const tools::ToolState& tool, const std::string& number,
                MarkerList& markers) {
+  if (!tool.touched.empty()) draw_readout(scene, tool, number, markers);
   const auto held = scene::find_body(scene, tool.held_object);
   if (!held) return;
   const double weight = scene.bodies[*held].mass_properties.mass * std::max(scene.gravity, 1.0);

@@ -4,6 +4,7 @@
 #include "load_scale.h"
 #include "marker_list.h"
 #include "scene_markers.h"
+#include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::markers {
 
@@ -11,7 +12,7 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
 MarkerBuilder::MarkerBuilder(std::string fork_curve, double lifetime, Drawn drawn)
-    : fork_curve_(std::move(fork_curve)), lifetime_(lifetime), drawn_(drawn), fork_(fork_mesh::ForkLook()) {}
+    : fork_curve_(std::move(fork_curve)), lifetime_(lifetime), drawn_(drawn) {}
 
 MarkerArray MarkerBuilder::build(const simulation::Simulation& simulation, const std_msgs::Header& header) {
   const scene::Scene& scene = simulation.scene();
@@ -35,18 +36,21 @@ void MarkerBuilder::draw_hand(const simulation::Simulation& simulation, const Lo
   const tools::ToolState tool = simulation.fork(hand);
   if (hand > 0 && !tool.present) return;
   const std::string number = hand > 0 ? "_" + std::to_string(hand + 1) : "";
-  deform(tool);
+  const fork_mesh::ForkModel& model = deform(tool);
   forks_W_.push_back(fork_mesh_.vertices);
-  if (drawn_ == Drawn::everything) draw_fork(fork_, fork_mesh_, load_color(tool.load), number, list);
+  if (drawn_ == Drawn::everything) draw_fork(model, fork_mesh_, load_color(tool.load), number, list);
   draw_gap(tool, number, list);
   draw_load(simulation.scene(), tool, number, list);
   if (!tool.held_object.empty()) scale.draw_load(tool, number, list);
 }
 
-void MarkerBuilder::deform(const tools::ToolState& tool) {
+const fork_mesh::ForkModel& MarkerBuilder::deform(const tools::ToolState& tool) {
+  const std::string name = validation::name_of(tool.tool);
+  const auto model = models_.try_emplace(tool.tool, fork_mesh::look_of(name)).first;
   const auto shape = rod::make_shape_model(tool.shape, tool.length);
-  fork_.deform(fork_mesh::make_fork_curve(fork_curve_, *shape, tool.strain, tool.X_WH_proxy),
-               fork_mesh::coil_diameter(tool.length), fork_mesh_);
+  model->second.deform(fork_mesh::make_fork_curve(fork_curve_, *shape, tool.strain, tool.X_WH_proxy),
+                       fork_mesh::drawn_diameter(name, tool.length), fork_mesh_);
+  return model->second;
 }
 
 void MarkerBuilder::delete_what_is_gone(const std_msgs::Header& header, MarkerArray& markers) {

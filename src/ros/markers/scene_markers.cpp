@@ -48,11 +48,13 @@ void draw_shape(const std::string& ns, int id, const geometry::Shape& shape, con
   }
 }
 
-void draw_body(const scene::Body& body, const RigidTransform& X_WO, bool highlighted, MarkerList& markers) {
+void draw_body(const scene::Body& body, const RigidTransform& X_WO, bool highlighted, bool pierced,
+               MarkerList& markers) {
   int id = 0;
   for (const geometry::Shape& shape : body.visual) {
     Color color = shape.color;
     if (highlighted) color.head<3>() = fork_mesh::highlighted(color.head<3>());
+    if (pierced) color[3] *= fork_mesh::pierced_opacity;
     draw_shape(body.name, id++, shape, X_WO, color, markers);
   }
 }
@@ -115,10 +117,10 @@ void draw_shadow(int id, const std::vector<Vector3d>& points_W, double bench_hei
 void draw_bodies(const simulation::Simulation& simulation, MarkerList& markers) {
   const scene::Scene& scene = simulation.scene();
   for (const scene::Body& body : scene.bodies) {
-    if (!body.movable) draw_body(body, body.X_WO, false, markers);
+    if (!body.movable) draw_body(body, body.X_WO, false, false, markers);
   }
   for_each_object(simulation, [&](const bodies::BodyState& object, const scene::Body& body) {
-    draw_body(body, object.X_WO, object.highlighted, markers);
+    draw_body(body, object.X_WO, object.highlighted, object.highlighted || object.held, markers);
   });
 }
 

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "random_strain.h"
 #include "spring_workbench/validation/input_error.h"
@@ -164,6 +166,36 @@ TEST_F(DeformedFork, TheCoilIsAsWideAsItsDiameterAndAFifthOfItThickAreTheDiscs) 
   }
   EXPECT_NEAR(widest, (0.5 + fine().wire_radius) * diameter, 1e-12);
   EXPECT_NEAR(disc_ends, L + 0.2 * diameter, 1e-12);
+}
+
+/// Closed surfaces whose parts are where they belong: the probe's needle ends at the tip, a beam and a cursor are as
+/// thick as rigid tools are.
+TEST(ForkModel, EachToolHasALookOfItsOwn) {
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
+  const rod::StrainVector q = rod::StrainVector::Zero(shape->size());
+  const ForkCurve curve = rod_curve(*shape, q, RigidTransform::Identity());
+  std::map<std::string, Eigen::AlignedBox3d> boxes;
+  for (const std::string tool : {"spring_fork", "spring", "spring_probe", "direct", "ray"}) {
+    const ForkModel model(look_of(tool));
+    ForkMesh mesh;
+    model.deform(curve, drawn_diameter(tool, L), mesh);
+    ASSERT_EQ(mesh.vertices.size(), model.vertex_count());
+    Vector3d sum = Vector3d::Zero();
+    for (const Eigen::Vector3i& t : all_triangles(model)) sum += area_vector(mesh, t);
+    EXPECT_LT(sum.norm(), 1e-12) << tool;
+    EXPECT_GT(volume(mesh, all_triangles(model)), 0.0) << tool;
+    for (const Vector3d& v : mesh.vertices) boxes[tool].extend(v);
+    for (const auto& [other, box] : boxes) {
+      if (other == tool) continue;
+      EXPECT_GT((box.max() - boxes[tool].max()).norm() + (box.min() - boxes[tool].min()).norm(), 1e-3) << other;
+    }
+  }
+  EXPECT_NEAR(boxes["spring_probe"].max().z(), L, 1e-12);
+  EXPECT_NEAR(boxes["direct"].min().z(), L - 0.9 * 0.03, 1e-9);
+  EXPECT_NEAR(boxes["direct"].max().x(), 0.45 * 0.03, 1e-9);
+  EXPECT_NEAR(boxes["ray"].max().z(), L + 0.45 * 0.03, 1e-9);
+  EXPECT_NEAR(drawn_diameter("spring_fork", L, 0.3), 0.3 * L, 1e-15);
+  EXPECT_THROW(look_of("hammer"), validation::InputError);
 }
 
 TEST(ForkModel, RefusesALookThatIsNoSurface) {

@@ -146,7 +146,7 @@ TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
     go_to(t);
     const tools::ToolState tool = simulation_.fork();
     const Vector3d point =
-        tool.X_WE * Vector3d(0.0, 0.0, fork_mesh::ForkLook().prong_length * fork_mesh::coil_diameter(tool.length));
+        tool.X_WE * Vector3d(0.0, 0.0, fork_mesh::ForkLook().prong_length * fork_mesh::usual_diameter * tool.length);
     double nearest = 1.0;
     const MarkerArray markers = build();
     for (const auto& p : find(markers, "fork", 1)->points) {

@@ -67,7 +67,8 @@ TEST(ToolSize, TheDrawnForkIsAsThickAsTheObjectAsks) {
   Simulation a = grasped(small, settings(true), Vector3d::Zero()), b = grasped(large, settings(true), Vector3d::Zero());
   a.advance(0.0);
   b.advance(0.0);
-  EXPECT_NEAR(fork_mesh::coil_diameter(b.fork().length), 2.0 * fork_mesh::coil_diameter(a.fork().length), 1e-12);
+  EXPECT_NEAR(fork_mesh::drawn_diameter("spring_fork", b.fork().length),
+              2.0 * fork_mesh::drawn_diameter("spring_fork", a.fork().length), 1e-12);
 }
 
 TEST(ToolSize, WithoutCalibrationTheForkKeepsItsLength) {

@@ -2,6 +2,7 @@
 
 #include <visualization_msgs/MarkerArray.h>
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -34,13 +35,13 @@ class MarkerBuilder {
 
   /// The tool of a hand and what it carries.
   void draw_hand(const simulation::Simulation& simulation, const LoadScale& scale, std::size_t hand, MarkerList& list);
-  void deform(const tools::ToolState& tool);
+  const fork_mesh::ForkModel& deform(const tools::ToolState& tool);
   void delete_what_is_gone(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers);
 
   std::string fork_curve_;
   double lifetime_;
   Drawn drawn_;
-  fork_mesh::ForkModel fork_;
+  std::map<tools::Tool, fork_mesh::ForkModel> models_;  ///< of the tools that were drawn
   fork_mesh::ForkMesh fork_mesh_;
   std::vector<std::vector<Vector3d>> forks_W_;  ///< corners of each hand's fork
   std::set<MarkerKey> shown_;
