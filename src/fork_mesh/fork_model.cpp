@@ -130,10 +130,12 @@ void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double cent
 
 /// A wire of that radius [diameters] about the axis: a coil, or with 0 a beam.
 void ForkModel::make_spring(int turns, int points_per_turn, double radius) {
+  // The needle begins where the wire ends.
+  const double until = look_.end == ForkLook::End::needle ? 1.0 - look_.needle_length * usual_diameter : 1.0;
   const int rings = turns * points_per_turn + 1;
   const auto ring = [&](int k, double cap) {
     const double share = static_cast<double>(k) / (rings - 1);
-    wire_.push_back({radius, radius > 0.0 ? 2.0 * M_PI * turns * share : 0.0, share, cap});
+    wire_.push_back({radius, radius > 0.0 ? 2.0 * M_PI * turns * share : 0.0, until * share, cap});
   };
   ring(0, -1.0);
   for (int k = 0; k < rings; ++k) ring(k, 0.0);
