@@ -20,6 +20,8 @@ Array to_array(const Eigen::Ref<const Eigen::VectorXd>& vector);
 /// Linear part, then angular part; force, then moment.
 Array to_array(const Twist& V);
 Array to_array(const Wrench& F);
+/// Back; throws InputError naming `what` for another shape.
+Wrench to_wrench(const Array& vector, const std::string& what);
 /// `count` poses as a count × 4 × 4 array.
 template <typename PoseOf>
 Array to_arrays(std::size_t count, PoseOf&& pose_of) {

@@ -51,6 +51,14 @@ Array to_array(const Wrench& F) {
   return to_array(both);
 }
 
+Wrench to_wrench(const Array& vector, const std::string& what) {
+  if (vector.ndim() != 1 || vector.shape(0) != 6) {
+    throw validation::InputError(what +
+                                 ": must be six numbers: force [N] and moment [N m], got an array of another shape");
+  }
+  return {Vector3d(vector.at(0), vector.at(1), vector.at(2)), Vector3d(vector.at(3), vector.at(4), vector.at(5))};
+}
+
 YAML::Node to_yaml(const py::handle& value) {
   if (py::isinstance<py::bool_>(value)) return YAML::Node(value.cast<bool>() ? "true" : "false");
   if (py::isinstance<py::str>(value)) return YAML::Node(value.cast<std::string>());

@@ -233,6 +233,18 @@ void bind_simulation(py::module_& module) {
           "invalid.")
       .def("push_button", &Simulation::push_button, py::arg("t"), py::arg("pressed"), py::arg("hand") = 0,
            "Presses (True) or releases (False) the grasp button at time t [s].")
+      .def(
+          "push_external_wrench",
+          [](Simulation& s, double t, const Array& wrench, const std::string& axes, std::size_t hand) {
+            using motion::ExternalWrench;
+            s.push_external_wrench({t, to_wrench(wrench, "wrench"), value_of<ExternalWrench::Axes>(axes, "axes")},
+                                   hand);
+          },
+          py::arg("t"), py::arg("wrench"), py::arg("axes") = "world", py::arg("hand") = 0,
+          R"(Adds a force [N] and a moment [N m] on the held object at the tip, shape (6,), measured at time t [s].
+
+axes: world, or tip (the axes turn with it). It is in real units: multiplied by the scene's force_scale, it acts until
+the next one, at most for external_wrench_timeout. Raises InputError if a value is not allowed.)")
       .def("push_motion", &push_motion, py::arg("motion"), py::arg("hand") = 0,
            "Adds all samples and button edges of a recorded motion.")
       .def("advance", &Simulation::advance, py::arg("t_end"), py::call_guard<py::gil_scoped_release>(),

@@ -254,6 +254,11 @@ class Simulation:
         invalid."""
     def push_button(self, t: float, pressed: bool, hand: int = 0) -> None:
         """Presses (True) or releases (False) the grasp button at time t [s]."""
+    def push_external_wrench(self, t: float, wrench: npt.ArrayLike, axes: str = "world", hand: int = 0) -> None:
+        """Adds a force [N] and a moment [N m] on the held object at the tip, shape (6,), measured at time t [s].
+
+        axes: world, or tip (the axes turn with it). It is in real units: multiplied by the scene's force_scale, it acts
+        until the next one, at most for external_wrench_timeout. Raises InputError if a value is not allowed."""
     def push_motion(self, motion: Motion, hand: int = 0) -> None:
         """Adds all samples and button edges of a recorded motion."""
     def advance(self, t_end: float) -> Report:

@@ -130,12 +130,10 @@ void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double cent
 
 /// A wire of that radius [diameters] about the axis: a coil, or with 0 a beam.
 void ForkModel::make_spring(int turns, int points_per_turn, double radius) {
-  // The needle begins where the wire ends.
-  const double until = look_.end == ForkLook::End::needle ? 1.0 - look_.needle_length * usual_diameter : 1.0;
   const int rings = turns * points_per_turn + 1;
   const auto ring = [&](int k, double cap) {
     const double share = static_cast<double>(k) / (rings - 1);
-    wire_.push_back({radius, radius > 0.0 ? 2.0 * M_PI * turns * share : 0.0, until * share, cap});
+    wire_.push_back({radius, radius > 0.0 ? 2.0 * M_PI * turns * share : 0.0, share, cap});
   };
   ring(0, -1.0);
   for (int k = 0; k < rings; ++k) ring(k, 0.0);
@@ -156,9 +154,10 @@ void ForkModel::make_spring(int turns, int points_per_turn, double radius) {
 }
 
 /// The ring's centre is where the deformed cylinder takes it; around it, the wire is round in its own cross section.
-void ForkModel::add_ring(const WireRing& ring, const ForkCurve& curve, double diameter, ForkMesh& mesh) const {
-  const CurvePoint at = curve.at(ring.z);
-  const double phi_rate = 2.0 * M_PI * look_.turns;  // along the spring
+void ForkModel::add_ring(const WireRing& ring, const ForkCurve& curve, double wire_end, double diameter,
+                         ForkMesh& mesh) const {
+  const CurvePoint at = curve.at(wire_end * ring.z);
+  const double phi_rate = 2.0 * M_PI * look_.turns / wire_end;  // along the spring
   const Vector3d out(std::cos(ring.phi), std::sin(ring.phi), 0.0), around(-out.y(), out.x(), 0.0);
   const Vector3d from_axis = ring.r * diameter * out;
   const Vector3d centre = at.p + at.R * from_axis;
@@ -187,7 +186,10 @@ void ForkModel::deform(const ForkCurve& curve, double diameter, ForkMesh& mesh) 
   };
   add_rigid(shaft_, curve.begin());
   add_rigid(end_, curve.end());
-  for (const WireRing& ring : wire_) add_ring(ring, curve, diameter, mesh);
+  // The wire ends where the needle begins; a spring that is shorter than the needle is within it.
+  const double needle = look_.end == ForkLook::End::needle ? look_.needle_length * diameter : 0.0;
+  const double wire_end = std::max(1.0 - needle / curve.at(1.0).p_rate.norm(), 1e-3);
+  for (const WireRing& ring : wire_) add_ring(ring, curve, wire_end, diameter, mesh);
 }
 
 }  // namespace spring_workbench::fork_mesh

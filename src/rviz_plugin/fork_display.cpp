@@ -110,6 +110,7 @@ bool ForkDisplay::deform(const ForkState& fork) {
         fork.strain.data(),
         std::min<Eigen::Index>(static_cast<Eigen::Index>(fork.strain.size()), rod::max_strain_coordinates));
     validation::check_number("fork", "load", fork.load, validation::between(0.0, 1.0));
+    validation::check_number("fork", "diameter", fork.diameter, validation::positive());
     if (q.size() != shape->size() || !shape->admissible(q) || !is_pose(fork.proxy_handle)) {
       throw validation::InputError("fork: strain, proxy_handle: must be finite and possible for a rod of shape " +
                                    fork.shape);
@@ -122,7 +123,7 @@ bool ForkDisplay::deform(const ForkState& fork) {
       tool_ = fork.tool;
       object_->clear();
     }
-    model_.deform(fork_mesh::rod_curve(*shape, q, X_WH), fork_mesh::drawn_diameter(tool_, fork.length), mesh_);
+    model_.deform(fork_mesh::rod_curve(*shape, q, X_WH), fork.diameter, mesh_);
     return true;
   } catch (const validation::InputError& error) {
     setStatus(StatusProperty::Error, "Topic", error.what());

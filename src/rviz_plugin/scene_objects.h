@@ -62,7 +62,7 @@ class SceneObjects {
 
   Ogre::Entity* make_entity(const ShapeDescription& shape);
   void add_part(const ShapeDescription& shape, Body& body);
-  static void highlight(Body& body, bool on);
+  static void color(Body& body, bool highlighted, bool pierced);
 
   Ogre::SceneManager* manager_;
   Ogre::SceneNode* parent_;

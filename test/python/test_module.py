@@ -36,6 +36,36 @@ def test_a_fork_at_rest_carries_the_weight():
     np.testing.assert_allclose(fork.tip_wrench[:3], [0.0, 0.0, MASS * GRAVITY], atol=1e-3)
 
 
+def pressed(wrench, axes="world", scale=1.0):
+    """The fork that holds the box under that wrench, at rest."""
+    simulation = holding({"external_wrench_timeout": 10.0, "force_scale": scale})
+    simulation.push_external_wrench(0.0, wrench, axes=axes)
+    simulation.advance(9.5)
+    return simulation.fork()
+
+
+def test_a_machine_s_force_is_carried_like_a_weight():
+    weight = MASS * GRAVITY
+    up = [0.0, 0.0, weight, 0.0, 0.0, 0.0]
+    assert pressed(up).stretch == pytest.approx(0.0, abs=1e-6)
+    # The tip points down, so along its z the same force is a second weight.
+    fork = pressed(up, axes="tip")
+    assert fork.stretch == pytest.approx(2.0 * weight / fork.stiffness[0], rel=1e-3)
+    fork = pressed([0.0, 0.0, 0.0, 0.0, 0.0, 0.1], scale=2.0)
+    np.testing.assert_allclose(fork.tip_wrench[3:], [0.0, 0.0, -0.2], atol=1e-4)
+
+
+def test_what_is_no_wrench_is_refused():
+    simulation = holding()
+    before = simulation.state_hash
+    for wrench in [np.zeros(5), np.zeros((6, 1)), np.full(6, np.nan), np.full(6, 1e6)]:
+        with pytest.raises(sw.InputError, match="must be"):
+            simulation.push_external_wrench(0.0, wrench)
+    with pytest.raises(sw.InputError, match="axes: must be one of world, tip"):
+        simulation.push_external_wrench(0.0, np.zeros(6), axes="hand")
+    assert simulation.state_hash == before
+
+
 def test_states_are_arrays_of_the_shapes_that_are_told():
     simulation = sw.Simulation(sw.load_scene(BOX))
     simulation.push_motion(sw.read_motion(MOTION))

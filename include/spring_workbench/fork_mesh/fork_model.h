@@ -37,9 +37,9 @@ struct ForkLook {
 /// shaft for `direct`, a beam for `ray`. Throws InputError for a name that is no tool's.
 ForkLook look_of(const std::string& tool);
 
-/// The coil's diameter of a fork, as a fraction of its rest length, unless it is set (`fork_diameter`).
+/// The coil's diameter, as a fraction of the rest length, unless it is set (`fork_diameter`).
 constexpr double usual_diameter = 0.16;
-/// The diameter with which a tool of this rest length [m] is drawn [m]: of rigid tools, a fixed one.
+/// The diameter with which a tool of this rest length [m] is drawn [m]: `share` of it, and of rigid tools a fixed one.
 double drawn_diameter(const std::string& tool, double length, double share = usual_diameter);
 
 /// The deformed fork: vertices [m] and outward unit normals, one each; the model's triangles belong to it.
@@ -74,7 +74,7 @@ class ForkModel {
   };
   struct WireRing {
     double r, phi;     ///< the wire's centre [diameters, rad]
-    double z;          ///< share of the spring's length
+    double z;          ///< share of the wire's length along the spring
     double cap = 0.0;  ///< −1, 1: closes the wire at its begin, end, facing out; 0: around it
   };
   using Vertices = std::vector<CylindricalVertex>;
@@ -83,7 +83,7 @@ class ForkModel {
   void make_end();
   void make_spring(int turns, int points_per_turn, double radius);
   void revolve(const std::vector<Eigen::Vector2d>& profile, double centre, Vertices& part);
-  void add_ring(const WireRing& ring, const ForkCurve& curve, double diameter, ForkMesh& mesh) const;
+  void add_ring(const WireRing& ring, const ForkCurve& curve, double wire_end, double diameter, ForkMesh& mesh) const;
 
   ForkLook look_;
   Vertices shaft_, end_;  ///< rigid: their vertices come first, shaft before end

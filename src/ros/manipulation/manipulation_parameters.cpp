@@ -45,6 +45,7 @@ ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters
   if (const YAML::Node curve = ros_common::take(rest, "fork_curve")) {
     result.fork_curve = config::read_choice(curve, where, "fork_curve", fork_mesh::fork_curve_names());
   }
+  take_number(rest, where, "fork_diameter", validation::between(0.01, 0.5), result.fork_diameter);
   take_number(rest, where, "max_age", validation::positive(), result.max_age);
   take_frame(rest, where, "world_frame", result.world_frame);
   take_frame(rest, where, "frame_prefix", result.frame_prefix);

@@ -1,5 +1,6 @@
 #include "messages.h"
 
+#include "spring_workbench/fork_mesh/fork_model.h"
 #include "spring_workbench/math/spatial.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/validation/names.h"
@@ -23,7 +24,7 @@ ObjectStates to_message(const std::vector<bodies::BodyState>& objects) {
   return message;
 }
 
-ForkState to_message(const tools::ToolState& tool) {
+ForkState to_message(const tools::ToolState& tool, double fork_diameter) {
   ForkState message;
   message.tool = validation::name_of(tool.tool);
   message.held_object = tool.held_object;
@@ -34,6 +35,7 @@ ForkState to_message(const tools::ToolState& tool) {
   message.bend_on = tool.dofs.bend;
   message.torsion_on = tool.dofs.torsion;
   message.length = tool.length;
+  message.diameter = fork_mesh::drawn_diameter(message.tool, tool.length, fork_diameter);
   message.stretch_stiffness = tool.stiffness.stretch;
   message.bend_stiffness = tool.stiffness.bend;
   message.torsion_stiffness = tool.stiffness.torsion;

@@ -16,7 +16,8 @@ namespace spring_workbench::manipulation {
 
 // What the core says as messages: same frames, same units.
 ObjectStates to_message(const std::vector<bodies::BodyState>& objects);
-ForkState to_message(const tools::ToolState& tool);
+/// `fork_diameter`: of the coil, as a fraction of the rest length.
+ForkState to_message(const tools::ToolState& tool, double fork_diameter);
 TaskState to_message(const std::vector<assembly::Placement>& placements, const assembly::TaskScore& score);
 Contacts to_message(const std::vector<contact::ContactState>& contacts);
 Accepted to_message(const hand_input::Accepted& accepted);

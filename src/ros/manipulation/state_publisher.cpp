@@ -30,7 +30,8 @@ ros::Time stamp_of(const live::Moment& moment) { return at(moment.began ? moment
 StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters)
     : world_frame_(parameters.world_frame),
       frame_prefix_(parameters.frame_prefix),
-      markers_(private_node, parameters.fork_curve, parameters.markers_rate),
+      fork_diameter_(parameters.fork_diameter),
+      markers_(private_node, parameters.fork_curve, parameters.fork_diameter, parameters.markers_rate),
       objects_publisher_(private_node.advertise<ObjectStates>("objects", state_queue)),
       contacts_publisher_(private_node.advertise<Contacts>("contacts", state_queue)),
       steps_publisher_(private_node.advertise<StepReport>("steps", state_queue)),
@@ -115,7 +116,8 @@ void StatePublisher::publish_shown(const live::Shown& shown, double local_time) 
   publish_made(shown_objects_publisher_, header, [&] { return to_message(simulation.objects()); });
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
     const tools::ToolState tool = simulation.fork(hand);
-    if (hand == 0 || tool.present) publish_made(hands_[hand].shown_fork, header, [&] { return to_message(tool); });
+    if (hand == 0 || tool.present)
+      publish_made(hands_[hand].shown_fork, header, [&] { return to_message(tool, fork_diameter_); });
   }
   markers_were_built_ = markers_.publish(simulation, header, local_time);
 }
@@ -125,7 +127,7 @@ void StatePublisher::publish_hand(std::size_t hand, const simulation::Simulation
   tools::ToolState tool = simulation.fork(hand);
   hands_[hand].output.read(simulation, tool);
   if (hand > 0 && !tool.present) return;
-  publish_made(hands_[hand].fork, header, [&] { return to_message(tool); });
+  publish_made(hands_[hand].fork, header, [&] { return to_message(tool, fork_diameter_); });
   hands_[hand].output.publish(simulation, tool, header);
 }
 

@@ -6,10 +6,12 @@
 
 namespace spring_workbench::markers {
 
-MarkerPublisher::MarkerPublisher(ros::NodeHandle private_node, const std::string& fork_curve, double rate)
+MarkerPublisher::MarkerPublisher(ros::NodeHandle private_node, const std::string& fork_curve, double fork_diameter,
+                                 double rate)
     : period_(1.0 / rate),
-      all_(fork_curve, std::max(shortest_marker_lifetime, 3.0 / rate)),
-      beside_displays_(fork_curve, std::max(shortest_marker_lifetime, 3.0 / rate), Drawn::beside_displays),
+      all_(fork_curve, fork_diameter, std::max(shortest_marker_lifetime, 3.0 / rate)),
+      beside_displays_(fork_curve, fork_diameter, std::max(shortest_marker_lifetime, 3.0 / rate),
+                       Drawn::beside_displays),
       all_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 5)),
       beside_displays_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("display/markers", 5)) {}
 

@@ -11,8 +11,8 @@ namespace spring_workbench::markers {
 using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 
-MarkerBuilder::MarkerBuilder(std::string fork_curve, double lifetime, Drawn drawn)
-    : fork_curve_(std::move(fork_curve)), lifetime_(lifetime), drawn_(drawn) {}
+MarkerBuilder::MarkerBuilder(std::string fork_curve, double fork_diameter, double lifetime, Drawn drawn)
+    : fork_curve_(std::move(fork_curve)), fork_diameter_(fork_diameter), lifetime_(lifetime), drawn_(drawn) {}
 
 MarkerArray MarkerBuilder::build(const simulation::Simulation& simulation, const std_msgs::Header& header) {
   const scene::Scene& scene = simulation.scene();
@@ -49,7 +49,7 @@ const fork_mesh::ForkModel& MarkerBuilder::deform(const tools::ToolState& tool) 
   const auto model = models_.try_emplace(tool.tool, fork_mesh::look_of(name)).first;
   const auto shape = rod::make_shape_model(tool.shape, tool.length);
   model->second.deform(fork_mesh::make_fork_curve(fork_curve_, *shape, tool.strain, tool.X_WH_proxy),
-                       fork_mesh::drawn_diameter(name, tool.length), fork_mesh_);
+                       fork_mesh::drawn_diameter(name, tool.length, fork_diameter_), fork_mesh_);
   return model->second;
 }
 

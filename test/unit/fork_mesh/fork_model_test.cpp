@@ -195,7 +195,27 @@ TEST(ForkModel, EachToolHasALookOfItsOwn) {
   EXPECT_NEAR(boxes["direct"].max().x(), 0.45 * 0.03, 1e-9);
   EXPECT_NEAR(boxes["ray"].max().z(), L + 0.45 * 0.03, 1e-9);
   EXPECT_NEAR(drawn_diameter("spring_fork", L, 0.3), 0.3 * L, 1e-15);
+  EXPECT_EQ(drawn_diameter("ray", L, 0.3), drawn_diameter("ray", 10.0 * L));
   EXPECT_THROW(look_of("hammer"), validation::InputError);
+}
+
+/// The needle is as long as its diameter says and ends at the tip, so of the spring there is what is left behind it,
+/// however far it is compressed.
+TEST(ForkModel, TheProbesSpringEndsWhereItsNeedleBegins) {
+  const auto shape = rod::make_shape_model(rod::ShapeKind::linear, L);
+  const ForkModel model(look_of("spring_probe"));
+  for (const double share : {0.01, 0.16, 0.3}) {
+    for (const double compression : {0.0, 0.2, 0.5}) {
+      rod::StrainVector q = rod::StrainVector::Zero(shape->size());
+      q[shape->stretch().begin] = -compression;
+      ForkMesh mesh;
+      model.deform(rod_curve(*shape, q, RigidTransform::Identity()), share * L, mesh);
+      double wire_end = 0.0;
+      for (const Eigen::Vector3i& t : model.spring()) wire_end = std::max(wire_end, corner(mesh, t, 0).z());
+      const double begin_of_needle = (1.0 - compression) * L - ForkLook().needle_length * share * L;
+      EXPECT_NEAR(wire_end, begin_of_needle, ForkLook().wire_radius * share * L) << share << ' ' << compression;
+    }
+  }
 }
 
 TEST(ForkModel, RefusesALookThatIsNoSurface) {

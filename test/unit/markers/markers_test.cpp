@@ -42,7 +42,7 @@ class MarkersOfALift : public testing::Test {
 
   simulation::Simulation simulation_{scene::load_scene(test_support::checkout("scenes/single_box.urdf")),
                                      simulation::SimulationSettings()};
-  MarkerBuilder builder_{"rod", 2.0};
+  MarkerBuilder builder_{"rod", fork_mesh::usual_diameter, 2.0};
   double t_ = 0.0;
   bool pressed_ = false;
 };
@@ -171,7 +171,8 @@ TEST(LoadScale, EveryWeightOfTheMiniWorldHasItsPlace) {
     const Vector3d hand = body.X_WO.translation() + Vector3d(0, 0, 0.2);
     for (const double t : {0.0, 0.1}) simulation.push_stylus({t, make_transform(Quaterniond(0, 1, 0, 0), hand)});
     simulation.advance(4.0);
-    const MarkerArray markers = MarkerBuilder("rod", 2.0).build(simulation, std_msgs::Header());
+    const MarkerArray markers =
+        MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(simulation, std_msgs::Header());
     const auto color = find(markers, "fork", 0)->color;
     colors[body.mass_properties.mass] = Eigen::Vector3f(color.r, color.g, color.b).cast<double>();
     ASSERT_NE(find(markers, "legend load", 0), nullptr) << body.name;
@@ -198,7 +199,7 @@ TEST(Markers, AMeshIsSentByItsFile) {
   scene::Body& box = scene.bodies[*scene::find_body(scene, "box")];
   box.visual[0].geometry = std::make_shared<const geometry::TriangleMesh>(mesh);
   const MarkerArray markers =
-      MarkerBuilder("rod", 2.0)
+      MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0)
           .build(simulation::Simulation(scene, simulation::SimulationSettings()), std_msgs::Header());
   const Marker* marker = find(markers, "box", 0);
   ASSERT_NE(marker, nullptr);
@@ -247,7 +248,8 @@ TEST(Markers, OfManyObjectsEachIsItsOwnBody) {
   ASSERT_EQ(places.size(), 1000u);
   simulation.place(places);
   std::map<std::string, Marker> drawn;
-  for (const Marker& marker : MarkerBuilder("rod", 2.0).build(simulation, std_msgs::Header()).markers) {
+  for (const Marker& marker :
+       MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(simulation, std_msgs::Header()).markers) {
     if (marker.ns.rfind("body ", 0) == 0) drawn[marker.ns] = marker;
   }
   ASSERT_EQ(drawn.size(), 1500u);

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "spring_workbench/fork_mesh/fork_model.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/tools/calibration.h"
 #include "support/bench_scenes.h"
@@ -60,15 +59,6 @@ TEST(ToolSize, AGraspByButtonFitsTheForkToTheObjectAndMovesNothing) {
       }
     }
   }
-}
-
-TEST(ToolSize, TheDrawnForkIsAsThickAsTheObjectAsks) {
-  const scene::Scene small = one_box({0.05, 0.03, 0.02}, 1.0), large = one_box({0.1, 0.06, 0.04}, 8.0);
-  Simulation a = grasped(small, settings(true), Vector3d::Zero()), b = grasped(large, settings(true), Vector3d::Zero());
-  a.advance(0.0);
-  b.advance(0.0);
-  EXPECT_NEAR(fork_mesh::drawn_diameter("spring_fork", b.fork().length),
-              2.0 * fork_mesh::drawn_diameter("spring_fork", a.fork().length), 1e-12);
 }
 
 TEST(ToolSize, WithoutCalibrationTheForkKeepsItsLength) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "spring_workbench/fork_mesh/fork_model.h"
 #include "spring_workbench/hand_input/settings.h"
 #include "spring_workbench/simulation/settings.h"
 
@@ -20,6 +21,8 @@ struct ManipulationParameters {
   double display_latency = 0.0;    ///< `display_latency` [s], 0 … 0.1: how far what is shown is ahead of the samples
   double markers_rate = 30.0;      ///< `markers_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with
   std::string fork_curve = "rod";  ///< `fork_curve`: one of fork_curve_names(), the curve that `~markers` draws
+  double fork_diameter = fork_mesh::usual_diameter;  ///< `fork_diameter`, 0.01 … 0.5: of the drawn coil, as a fraction
+                                                     ///< of the rest length
   double max_age = 1.0;  ///< `max_age` [s], > 0: older samples are left out; a stream begins no further from now
   std::string world_frame = "world";  ///< `world_frame`: frame of all that is published
   std::string frame_prefix;           ///< `frame_prefix`: of the frames of tools and objects; may be empty

@@ -56,6 +56,7 @@ class StatePublisher {
   double horizon_ = 0.0;
   bool had_contacts_ = false;
   bool markers_were_built_ = false;  ///< in this cycle
+  double fork_diameter_;
   markers::MarkerPublisher markers_;
   tf2_ros::TransformBroadcaster transforms_;
   ros::Publisher objects_publisher_, contacts_publisher_, steps_publisher_, task_publisher_, shown_objects_publisher_,

@@ -12,8 +12,8 @@ namespace spring_workbench::markers {
 /// a subscriber.
 class MarkerPublisher {
  public:
-  /// `fork_curve`: one of fork_curve_names(). `rate` [Hz]: the most of each topic.
-  MarkerPublisher(ros::NodeHandle private_node, const std::string& fork_curve, double rate);
+  /// `fork_curve`, `fork_diameter`: see MarkerBuilder. `rate` [Hz]: the most of each topic.
+  MarkerPublisher(ros::NodeHandle private_node, const std::string& fork_curve, double fork_diameter, double rate);
 
   /// Returns whether markers were due at `now` [s], local time, and made.
   bool publish(const simulation::Simulation& simulation, const std_msgs::Header& header, double now);

@@ -25,8 +25,9 @@ enum class Drawn { everything, beside_displays };
 /// nothing flickers; rviz drops by itself what is no longer sent.
 class MarkerBuilder {
  public:
-  /// `fork_curve`: one of fork_curve_names(). `lifetime` [s] of a marker that is not sent again.
-  MarkerBuilder(std::string fork_curve, double lifetime, Drawn drawn = Drawn::everything);
+  /// `fork_curve`: one of fork_curve_names(); `fork_diameter`: of the coil, as a fraction of the rest length.
+  /// `lifetime` [s] of a marker that is not sent again.
+  MarkerBuilder(std::string fork_curve, double fork_diameter, double lifetime, Drawn drawn = Drawn::everything);
 
   visualization_msgs::MarkerArray build(const simulation::Simulation& simulation, const std_msgs::Header& header);
 
@@ -39,7 +40,7 @@ class MarkerBuilder {
   void delete_what_is_gone(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers);
 
   std::string fork_curve_;
-  double lifetime_;
+  double fork_diameter_, lifetime_;
   Drawn drawn_;
   std::map<tools::Tool, fork_mesh::ForkModel> models_;  ///< of the tools that were drawn
   fork_mesh::ForkMesh fork_mesh_;
