@@ -84,7 +84,7 @@ void LoadScale::draw_legend(MarkerList& markers) const {
     column.colors.push_back(to_color(load_color(static_cast<double>(i) / (legend_steps - 1))));
   }
   char full[80];
-  std::snprintf(full, sizeof full, "%.3g N = %.3g vkg", range_.full(), range_.full() / gravity_);
+  std::snprintf(full, sizeof full, "%.4g N = %.3g vkg", range_.full(), range_.full() / gravity_);
   markers.add_text("legend", 2, foot_ + Vector3d(0.0, 0.0, legend_steps * legend_edge + 1.6 * legend_letters),
                    legend_letters, full, text_color);
   draw_marks(markers);
