@@ -11,6 +11,7 @@
 #include "material.h"
 #include "mesh.h"
 #include "message_checks.h"
+#include "spring_workbench/fork_mesh/constants.h"
 #include "spring_workbench/fork_mesh/load_color.h"
 
 namespace spring_workbench::rviz_plugin {

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "spring_workbench/fork_mesh/constants.h"
 #include "spring_workbench/fork_mesh/fork_curve.h"
 
 namespace spring_workbench::fork_mesh {
@@ -37,8 +38,6 @@ struct ForkLook {
 /// shaft for `direct`, a beam for `ray`. Throws InputError for a name that is no tool's.
 ForkLook look_of(const std::string& tool);
 
-/// The coil's diameter, as a fraction of the rest length, unless it is set (`fork_diameter`).
-constexpr double usual_diameter = 0.16;
 /// The diameter with which a tool of this rest length [m] is drawn [m]: `share` of it, and of rigid tools a fixed one.
 double drawn_diameter(const std::string& tool, double length, double share = usual_diameter);
 

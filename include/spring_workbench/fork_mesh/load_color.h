@@ -15,7 +15,4 @@ inline Vector3d load_color(double place) {
 /// Color of what a press of the button would grasp, from its own: it lights up.
 inline Vector3d highlighted(const Vector3d& color) { return 0.35 * color + 0.65 * Vector3d(1.0, 1.0, 0.55); }
 
-/// Of an object that a tool's tip is in, so that it is seen there (paper, figure 11): held, or to be grasped.
-constexpr double pierced_opacity = 0.5;
-
 }  // namespace spring_workbench::fork_mesh

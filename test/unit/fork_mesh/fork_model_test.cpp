@@ -194,6 +194,7 @@ TEST(ForkModel, EachToolHasALookOfItsOwn) {
   EXPECT_NEAR(boxes["direct"].min().z(), L - 0.9 * 0.03, 1e-9);
   EXPECT_NEAR(boxes["direct"].max().x(), 0.45 * 0.03, 1e-9);
   EXPECT_NEAR(boxes["ray"].max().z(), L + 0.45 * 0.03, 1e-9);
+  EXPECT_NEAR(drawn_diameter("spring_fork", L), 0.16 * L, 1e-15);
   EXPECT_NEAR(drawn_diameter("spring_fork", L, 0.3), 0.3 * L, 1e-15);
   EXPECT_EQ(drawn_diameter("ray", L, 0.3), drawn_diameter("ray", 10.0 * L));
   EXPECT_THROW(look_of("hammer"), validation::InputError);

@@ -141,6 +141,28 @@ TEST_F(MarkersOfALift, LoadIsColouredAndToldInVirtualKilograms) {
   EXPECT_EQ(find(markers, "readout", 0)->text.substr(0, 20), "1.00 vkg   9.81 N   ");
 }
 
+/// Its colour is its own while it is held, and lit while it would be grasped.
+TEST_F(MarkersOfALift, WhatTheTipIsInIsTranslucent) {
+  const auto color = [&] {
+    const MarkerArray markers = build();
+    return find(markers, "box", 0)->color;
+  };
+  go_to(0.5);
+  const auto own = color();
+  EXPECT_EQ(own.a, 1.0f);
+  go_to(1.2);
+  EXPECT_NEAR(color().a, 0.5, 1e-6);
+  EXPECT_GT(color().g, own.g + 0.1f);
+  go_to(4.0);
+  ASSERT_EQ(simulation_.fork().held_object, "box");
+  EXPECT_NEAR(color().a, 0.5, 1e-6);
+  EXPECT_EQ(color().g, own.g);
+  simulation_.release();
+  simulation_.push_stylus({t_ + 0.1, make_transform(Quaterniond(0, 1, 0, 0), Vector3d(0, 0, 0.9))});
+  simulation_.advance(t_ + 0.1);
+  EXPECT_EQ(color().a, 1.0f);
+}
+
 TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
   for (const double t : {0.5, 2.2, 2.6, 4.0}) {
     go_to(t);

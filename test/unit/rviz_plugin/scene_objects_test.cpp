@@ -206,7 +206,12 @@ TEST_F(SceneObjectsTest, WhatWouldBeGraspedLightsUp) {
     EXPECT_NEAR(static_cast<double>(color_of(objects, "box").r), on ? lit.x() : 0.8, 1e-6);
     EXPECT_NEAR(static_cast<double>(color_of(objects, "box").b), on ? lit.z() : 0.0, 1e-6);
     EXPECT_NEAR(static_cast<double>(color_of(objects, "ball").g), 0.0, 1e-6);
+    EXPECT_NEAR(static_cast<double>(color_of(objects, "box").a), on ? fork_mesh::pierced_opacity : 1.0, 1e-6);
   }
+  states.objects[0].held = 1;
+  objects.place(states);
+  EXPECT_NEAR(static_cast<double>(color_of(objects, "box").r), 0.8, 1e-6);
+  EXPECT_NEAR(static_cast<double>(color_of(objects, "box").a), fork_mesh::pierced_opacity, 1e-6);
 }
 
 TEST_F(SceneObjectsTest, WhatCannotBeDrawnIsRefusedAndChangesNothing) {
