@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ogre.h"
+#include "spring_workbench/fork_mesh/constants.h"
 #include "spring_workbench/fork_mesh/load_color.h"
 #include "spring_workbench/validation/input_error.h"
 
