@@ -10,20 +10,10 @@
 #include <utility>
 
 #include "benchmark/ode_solver.h"
+#include "benchmark/sundials_calls.h"
 
 namespace spring_workbench::benchmark {
 namespace {
-
-int right_side(realtype t, N_Vector y, N_Vector rate, void* rates) {
-  const bool fine = (*static_cast<const OdeSolver::Rates*>(rates))(t, N_VGetArrayPointer(y), N_VGetArrayPointer(rate));
-  return fine ? 0 : 1;  // 1: try a smaller step
-}
-
-void require(int status, const char* call) {
-  if (status < 0) throw std::runtime_error(std::string(call) + " failed with status " + std::to_string(status));
-}
-
-void ignore_message(int, const char*, const char*, char*, void*) {}
 
 class Arkode final : public OdeSolver {
  public:

@@ -1,5 +1,6 @@
 #include <iomanip>
 #include <ostream>
+#include <sstream>
 
 #include "benchmark/error_table.h"
 
@@ -38,6 +39,12 @@ void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out) {
     }
     out << ',' << row.finite << ',' << row.steps_fallback << ',' << row.given_up << '\n';
   }
+}
+
+std::string as_csv(const std::vector<ErrorRow>& rows) {
+  std::ostringstream out;
+  write_rows(rows, out);
+  return out.str();
 }
 
 }  // namespace spring_workbench::benchmark

@@ -92,6 +92,7 @@ std::vector<std::size_t> in_turns(const std::vector<ErrorRow>& rows);
 
 /// The rows with a header line, as CSV.
 void write_rows(const std::vector<ErrorRow>& rows, std::ostream& out);
+std::string as_csv(const std::vector<ErrorRow>& rows);
 
 /// The rows of all lines, a line for each method on each scene, coarsest first, until line_is_over(). A scene is two
 /// units of work, both of one shard: its rows, and, when all scenes have been through, the run times that are compared

@@ -22,7 +22,7 @@ using ComplexMatrix = Eigen::Matrix<Complex, Eigen::Dynamic, Eigen::Dynamic, 0, 
 using Stages = Eigen::Matrix<double, Eigen::Dynamic, 3, 0, kMostEquations, 3>;
 
 const double kRoot6 = std::sqrt(6.0), kThird = std::cbrt(3.0);
-const Eigen::Vector3d kC((4.0 - kRoot6) / 10.0, (4.0 + kRoot6) / 10.0, 1.0);
+const Eigen::Vector3d kNodes((4.0 - kRoot6) / 10.0, (4.0 + kRoot6) / 10.0, 1.0);
 const Eigen::Vector3d kError((-13.0 - 7.0 * kRoot6) / 3.0, (-13.0 + 7.0 * kRoot6) / 3.0, -1.0 / 3.0);
 /// Eigenvalues of the inverse of the method's matrix, and what makes it diagonal in blocks.
 const double kReal = 3.0 + kThird * kThird - kThird;
@@ -33,7 +33,7 @@ const Eigen::Matrix3d kT = (Eigen::Matrix3d() << 0.09443876248897524, -0.1412552
                                .finished();
 const Eigen::Matrix3d kInverseT = kT.inverse();
 /// From the stages to the coefficients of the collocation polynomial.
-const Eigen::Matrix3d kDense =
+const Eigen::Matrix3d kRadauDense =
     (Eigen::Matrix3d() << 13.0 / 3.0 + 7.0 * kRoot6 / 3.0, -23.0 / 3.0 - 22.0 * kRoot6 / 3.0, 10.0 / 3.0 + 5.0 * kRoot6,
      13.0 / 3.0 - 7.0 * kRoot6 / 3.0, -23.0 / 3.0 + 22.0 * kRoot6 / 3.0, 10.0 / 3.0 - 5.0 * kRoot6, 1.0 / 3.0,
      -8.0 / 3.0, 10.0 / 3.0)
@@ -87,7 +87,7 @@ class Radau final : public AdaptiveSolver {
     State at;
     for (iterations_ = 1; iterations_ <= kMostIterations; ++iterations_) {
       for (int i = 0; i < 3; ++i) {
-        if (!evaluate(t_ + kC[i] * h, y_ + z.col(i), at)) return false;
+        if (!evaluate(t_ + kNodes[i] * h, y_ + z.col(i), at)) return false;
         f.col(i) = at;
       }
       const Stages g = f * kInverseT.transpose();
@@ -141,7 +141,7 @@ class Radau final : public AdaptiveSolver {
         factor(h);
         z.setZero();
         if (stepped_) {
-          for (int i = 0; i < 3; ++i) z.col(i) = within_last_step((t_ + kC[i] * h - before_) / (t_ - before_)) - y_;
+          for (int i = 0; i < 3; ++i) z.col(i) = within_last_step((t_ + kNodes[i] * h - before_) / (t_ - before_)) - y_;
         }
         converged = solve_stages(h, z);
         if (!converged && fresh) break;
@@ -176,7 +176,7 @@ class Radau final : public AdaptiveSolver {
     t_ += h;
     y_ = y;
     f_ = f;
-    dense_ = z * kDense;
+    dense_ = z * kRadauDense;
     last_h_ = h;
     last_error_ = error;
     stepped_ = true;

@@ -15,7 +15,6 @@ namespace spring_workbench::benchmark {
 namespace {
 
 constexpr double kSampleInterval = 0.02;  // s
-constexpr double kSameTime = 1e-9;        // s
 constexpr double kTwoPi = 6.283185307179586476925286766559;
 
 /// The same numbers from the same seed everywhere.

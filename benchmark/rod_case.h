@@ -8,6 +8,8 @@
 
 namespace spring_workbench::benchmark {
 
+constexpr double kSameTime = 1e-9;  ///< [s]: moments nearer to each other are one
+
 /// A body held by the spring-fork on a hand that is known by samples: what a user of the package has. Zero strain and
 /// zero strain rate at the first sample, at t = 0; the tip frame has the object frame's orientation.
 struct RodCase {

@@ -12,7 +12,6 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kSameTime = 1e-9;             // s
 constexpr double kRecordedUncertainty = 2e-9;  // m: what the recorded trajectories say of themselves
 
 std::vector<RigidTransform> recorded_poses(const RodCase& one) {

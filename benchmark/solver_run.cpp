@@ -11,7 +11,6 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-constexpr double kSameTime = 1e-9;    // s
 constexpr double kFarthest = 1000.0;  // m
 
 bool is_cvode(const std::string& solver) { return solver.find("cvode") != std::string::npos; }

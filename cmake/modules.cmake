@@ -1,5 +1,9 @@
 # One CMake target per module; the link line is the law of who may know whom (doc/architecture.md).
 set(SPRING_WORKBENCH_WARNINGS -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror)
+if(CMAKE_UNITY_BUILD)   # a source is a header there: its types are its own, and a name may shadow the next file's
+  list(REMOVE_ITEM SPRING_WORKBENCH_WARNINGS -Wshadow)
+  list(APPEND SPRING_WORKBENCH_WARNINGS -Wno-subobject-linkage)
+endif()
 
 # For modules that compute: without signals from floating point, errno from <cmath>, or complex products that look for
 # NaN. Results stay those of IEEE arithmetic.
@@ -31,6 +35,12 @@ function(add_module name)
     set(MODULE_FOLDER ${name})
   endif()
   file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/${MODULE_FOLDER}/*.cpp)
+  foreach(source ${sources})   # what is inlined into code for wide processors would round differently
+    file(STRINGS ${source} wide REGEX "^ *SPRING_WORKBENCH_WIDE " LIMIT_COUNT 1)
+    if(wide)
+      set_source_files_properties(${source} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+    endif()
+  endforeach()
   list(TRANSFORM MODULE_DEPENDS PREPEND spring_workbench_)
   set(target spring_workbench_${name})
   if(DEFINED MODULE_OPENED)

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::drops_test {
 namespace {
 
 // Some of the drops that `contact_trials drops 1000` runs.
@@ -27,4 +27,4 @@ INSTANTIATE_TEST_SUITE_P(Modes, Drops, ::testing::Values(scene::ContactMode::sto
                          });
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::drops_test

@@ -5,7 +5,7 @@
 
 #include "benchmark/contact/bodies.h"
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::extremes_test {
 namespace {
 
 class Extremes : public ::testing::TestWithParam<scene::ContactMode> {
@@ -40,4 +40,4 @@ INSTANTIATE_TEST_SUITE_P(Modes, Extremes, ::testing::Values(scene::ContactMode::
                          [](const auto& tested) { return name_of(tested.param); });
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::extremes_test

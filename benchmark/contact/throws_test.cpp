@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::throws_test {
 namespace {
 
 // Some of the throws that `contact_trials throws 1000` runs.
@@ -35,4 +35,4 @@ INSTANTIATE_TEST_SUITE_P(Modes, Throws, ::testing::Values(scene::ContactMode::st
                          });
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::throws_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::wild_motions_test {
 namespace {
 
 // Some of the motions that `contact_trials record` runs.
@@ -51,4 +51,4 @@ INSTANTIATE_TEST_SUITE_P(Modes, RodInRoom, ::testing::Values(scene::ContactMode:
                          });
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::wild_motions_test

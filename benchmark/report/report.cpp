@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -29,12 +28,6 @@ std::string write_file(const std::string& folder, const std::string& name, const
   file.close();
   if (!file) throw std::runtime_error("cannot write " + path);
   return path;
-}
-
-std::string as_csv(const std::vector<ErrorRow>& rows) {
-  std::ostringstream out;
-  write_rows(rows, out);
-  return out.str();
 }
 
 void print(const std::vector<Verdict>& verdicts, std::ostream& out) {

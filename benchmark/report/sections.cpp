@@ -12,12 +12,6 @@
 namespace spring_workbench::benchmark {
 namespace {
 
-std::string as_csv(const std::vector<ErrorRow>& rows) {
-  std::ostringstream out;
-  write_rows(rows, out);
-  return out.str();
-}
-
 PageSection::Figure figure(const Picture& picture, const std::string& folder) {
   return {draw(picture, folder), picture.caption};
 }

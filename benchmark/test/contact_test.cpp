@@ -8,7 +8,7 @@
 #include "benchmark/contact/world_steps.h"
 #include "benchmark/peers.h"
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::contact_test {
 namespace {
 
 TEST(Drag, OursLagAsCoulombsLawSaysWithOneStepASample) {
@@ -64,4 +64,4 @@ TEST(WorldSteps, ErrorsFallWithTheStep) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::contact_test

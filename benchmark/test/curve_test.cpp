@@ -10,7 +10,7 @@
 
 #include "benchmark/report/tables.h"
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::curve_test {
 namespace {
 
 TEST(Curve, APowerLawIsInterpolatedExactlyWhateverItsOrderAndTheOrderOfThePoints) {
@@ -157,4 +157,4 @@ TEST(ErrorTable, CsvHasEachFigureUnderItsName) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::curve_test

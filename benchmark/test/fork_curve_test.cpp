@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::fork_curve_test {
 namespace {
 
 TEST(ForkCurves, ErrorsVanishWithTheLoadAndTheLengthStays) {
@@ -36,4 +36,4 @@ TEST(ForkCurves, TableHasALineForEach) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::fork_curve_test

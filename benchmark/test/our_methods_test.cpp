@@ -13,7 +13,7 @@
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/names.h"
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::our_methods_test {
 namespace {
 
 double error_at(const Method& method, const Scenario& scene, int steps_per_interval) {
@@ -135,4 +135,4 @@ TEST(OurMethods, ASampledHandIsSimulatedToTheReferenceOnItsMotionAndTheRestIsNot
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::our_methods_test

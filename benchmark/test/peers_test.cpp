@@ -14,7 +14,7 @@
 #include "benchmark/reference_solution.h"
 #include "benchmark/stepping_loop.h"
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::peers_test {
 namespace {
 
 const Peers& peers() {
@@ -228,4 +228,4 @@ TEST(Method, StepsDivideTheOutputIntervalAndAreNeverLongerThanAsked) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::peers_test

@@ -18,7 +18,7 @@
 #include "support/paths.h"
 #include "test/support/temporary_folder.h"
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::report_test {
 namespace {
 
 std::string decoded(const std::string& text) {
@@ -187,4 +187,4 @@ TEST(Report, ARecordingThatReplayRefusesIsToldInItsWords) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::report_test

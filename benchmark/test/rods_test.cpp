@@ -26,7 +26,7 @@
 #include "support/paths.h"
 #include "test/support/temporary_folder.h"
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::rods_test {
 namespace {
 
 RodCase case_called(const std::string& name, double duration) {
@@ -500,4 +500,4 @@ TEST(StabilityMap, NothingCanFailWhereNothingIsIntegrated) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::rods_test

@@ -13,7 +13,7 @@
 #include "benchmark/scene_solver.h"
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::scenarios_test {
 namespace {
 
 std::vector<Scenario> all_scenes() {
@@ -267,4 +267,4 @@ TEST(Reference, SceneCAgreesWithRungeKuttaInWorldCoordinates) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::scenarios_test

@@ -19,7 +19,7 @@
 #include "benchmark/stability_table.h"
 #include "test/support/temporary_folder.h"
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::shards_test {
 namespace {
 
 using test_support::TemporaryFolder;
@@ -209,4 +209,4 @@ TEST(Shards, WhatIsNotAllShardsOfOneReportIsRefused) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::shards_test

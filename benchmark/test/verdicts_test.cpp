@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::verdicts_test {
 namespace {
 
 constexpr double kAmplitude = 0.15, kDeflection = 0.03;
@@ -302,4 +302,4 @@ TEST(Verdicts, WhatWasNotMeasuredIsNotHeld) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::verdicts_test

@@ -13,7 +13,7 @@ constexpr double impact_precision = 1e-8;
 /// at 0.
 constexpr int most_advances = 50;
 /// Of a shape on the bench that are kept as they are; of more, those furthest out are. Fewer: a box loses corners.
-/// Test: none: no value tried makes one fail.
+/// Test: Bench.FlushFacesGivePointsThatSpanThem at 1.
 constexpr std::size_t most_bench_points = 8;
 /// [m]; contacts nearer to each other are one. Test: Pairs.MeshesOfBoxesTouchAsTheBoxesDo at 0.
 constexpr double same_place = 1e-7;
@@ -23,7 +23,8 @@ constexpr double flat_edge = 1e-6;
 /// Cosine to how two surfaces meet on the whole; a way out that goes along it less is none. Test:
 /// Pairs.HowFinelyAFloorIsCutDoesNotShow at 5.
 constexpr double least_along = 0.5;
-/// Of that cosine; of ways that differ by less the least deep is taken. Test: none: no value tried makes one fail.
+/// Of that cosine; of ways that differ by less the least deep is taken. Test: Pairs.HowFinelyAFloorIsCutDoesNotShow at
+/// 10.
 constexpr double as_good = 0.1;
 /// That FCL may give of two boxes, of which there are eight. Fewer: faces lose corners. Test:
 /// Pairs.FlushBoxesGivePointsThatSpanTheCommonFace at 1.

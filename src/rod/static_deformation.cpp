@@ -17,7 +17,7 @@ constexpr double first_reach = 1.0;  ///< change of the tip over which the slope
 constexpr double longer = 4.0;       ///< by which the reach grows where it did
 constexpr double overshot = 0.5;     ///< of the force along a change that may be left, the other way, at its end
 constexpr int most_changes = 60;     ///< what is off after so many is told
-constexpr int most_halvings = 40;
+constexpr int most_search_halvings = 40;
 constexpr int halvings_to_stop = 52;
 constexpr double flat = 1e-12;  ///< of the largest stiffness: one that is none
 
@@ -129,7 +129,7 @@ StaticDeformation::Block StaticDeformation::find(Block b, StrainVector& q) const
     if (stop(change, b, q)) continue;
     bool went = false;
     // At its end the force along the change has fallen, and has not grown the other way.
-    for (int halving = 0; halving < most_halvings; ++halving, change *= 0.5) {
+    for (int halving = 0; halving < most_search_halvings; ++halving, change *= 0.5) {
       StrainVector tried = q;
       for (int i = 0; i < b.count; ++i) tried[b.index[i]] += change[i];
       if (!shape_.admissible(tried)) continue;

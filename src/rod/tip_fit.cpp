@@ -10,7 +10,7 @@ namespace {
 
 constexpr int n = max_strain_coordinates;
 constexpr int most_iterations = 60;
-constexpr int most_halvings = 12;
+constexpr int most_fit_halvings = 12;
 /// Of the way that is missing: if the slope leads no further at once, the rod is as near as it comes.
 constexpr double least_progress = 1e-3;
 constexpr double to_the_end = 1e-9;  ///< of a change that the end of the rod's range cuts short
@@ -140,7 +140,7 @@ struct OnTheWay {
 /// The longest part of the change by which a rod stays in its range, with the stretch cut short at its end if it is
 /// that which leads out. Halves `change` until there is one.
 bool stay_in_range(const ShapeModel& shape, const Vector6d& q, Vector6d& change) {
-  for (int halving = 0; halving < most_halvings; ++halving, change *= 0.5) {
+  for (int halving = 0; halving < most_fit_halvings; ++halving, change *= 0.5) {
     if (shape.admissible(q + change)) return true;
     const double whole = change[n - 1];
     double most = 1.0;
@@ -169,7 +169,7 @@ double approach(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE,
     const Slope slope(Columns<double>(at.tip, shape.length()), 0, shape.length());
     Vector6d change = slope.solve(at.away.part() * at.away.vector());
     bool went = false, on = true;
-    for (int halving = 0; halving < most_halvings && !went; ++halving, change *= 0.5) {
+    for (int halving = 0; halving < most_fit_halvings && !went; ++halving, change *= 0.5) {
       if (!stay_in_range(shape, at.q, change)) break;
       const OnTheWay next(shape, R_HE, p_HE, at.q + change);
       const Vector6d moves = slope.times(change);

@@ -16,7 +16,7 @@ const Color rigid_color(0.55, 0.58, 0.63, 1.0);
 const Color force_color(0.10, 0.85, 0.95, 1.0);
 const Color moment_color(0.75, 0.45, 1.0, 1.0);
 const Color gap_color(1.0, 0.3, 0.8, 1.0);
-const Color text_color(1.0, 1.0, 1.0, 1.0);
+const Color readout_color(1.0, 1.0, 1.0, 1.0);
 
 void add_triangles(const std::string& ns, int id, const fork_mesh::ForkModel::Triangles& triangles,
                    const fork_mesh::ForkMesh& mesh, const Color& color, MarkerList& markers) {
@@ -47,7 +47,7 @@ void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, const
   std::snprintf(text, sizeof text, "%.2f vkg   %.2f N   %.3f N m", virtual_kilograms(force, scene),
                 force / scene.force_scale, tool.tip_wrench_W.moment.norm() / scene.force_scale);
   const Vector3d place = tool.X_WH_proxy * Vector3d(0.0, 0.0, -0.5 * size) + 0.35 * size * Vector3d::UnitZ();
-  markers.add_text("readout" + number, 0, place, 0.13 * size, text, text_color);
+  markers.add_text("readout" + number, 0, place, 0.13 * size, text, readout_color);
 }
 
 }  // namespace

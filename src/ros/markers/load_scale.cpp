@@ -13,7 +13,7 @@
 namespace spring_workbench::markers {
 namespace {
 
-const Color text_color(0.9, 0.9, 0.9, 1.0);
+const Color legend_color(0.9, 0.9, 0.9, 1.0);
 
 /// Left, back and bottom of all bodies where they start, but the bench.
 Vector3d legend_corner(const scene::Scene& scene) {
@@ -70,7 +70,7 @@ void LoadScale::draw_marks(MarkerList& markers) const {
     if (std::any_of(taken.begin(), taken.end(), near)) continue;
     taken.push_back(z);
     markers.add_text("legend marks", static_cast<int>(taken.size()), foot_ + Vector3d(6.0 * legend_letters, 0.0, z),
-                     legend_letters, label(weight), text_color);
+                     legend_letters, label(weight), legend_color);
   }
 }
 
@@ -78,7 +78,7 @@ void LoadScale::draw_legend(MarkerList& markers) const {
   std::vector<Vector3d> centres;
   for (int i = 0; i < legend_steps; ++i) centres.push_back(foot_ + Vector3d(0.0, 0.0, (i + 0.5) * legend_edge));
   visualization_msgs::Marker& column =
-      markers.add_points("legend", 0, visualization_msgs::Marker::CUBE_LIST, centres, text_color);
+      markers.add_points("legend", 0, visualization_msgs::Marker::CUBE_LIST, centres, legend_color);
   column.scale = ros_common::to_vector(Vector3d::Constant(legend_edge));
   for (int i = 0; i < legend_steps; ++i) {
     column.colors.push_back(to_color(load_color(static_cast<double>(i) / (legend_steps - 1))));
@@ -86,14 +86,14 @@ void LoadScale::draw_legend(MarkerList& markers) const {
   char full[80];
   std::snprintf(full, sizeof full, "%.4g N = %.3g vkg", range_.full(), range_.full() / gravity_);
   markers.add_text("legend", 2, foot_ + Vector3d(0.0, 0.0, legend_steps * legend_edge + 1.6 * legend_letters),
-                   legend_letters, full, text_color);
+                   legend_letters, full, legend_color);
   draw_marks(markers);
 }
 
 void LoadScale::draw_load(const tools::ToolState& tool, const std::string& number, MarkerList& markers) const {
   const Vector3d at = foot_ + Vector3d(-0.5 * legend_edge, 0.0, height(tool.load));
   markers.add_arrow("legend load" + number, 0, at - Vector3d(4.0 * legend_edge, 0.0, 0.0), at, 0.4 * legend_edge,
-                    text_color);
+                    legend_color);
 }
 
 }  // namespace spring_workbench::markers

@@ -9,7 +9,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/paths.h"
 
-namespace spring_workbench::assembly {
+namespace spring_workbench::assembly::simulated_operator_test {
 namespace {
 
 const std::string mini_world = test_support::checkout("scenes/mini_world.urdf");
@@ -186,4 +186,4 @@ TEST(SimulatedOperator, BadSettingsAreRefused) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::assembly
+}  // namespace spring_workbench::assembly::simulated_operator_test

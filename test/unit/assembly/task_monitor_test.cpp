@@ -8,7 +8,7 @@
 #include "spring_workbench/math/so3.h"
 #include "support/random_poses.h"
 
-namespace spring_workbench::assembly {
+namespace spring_workbench::assembly::task_monitor_test {
 namespace {
 
 constexpr double edge = 0.1;  // [m] of the box
@@ -185,4 +185,4 @@ TEST(TaskScore, OneColumnPerValue) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::assembly
+}  // namespace spring_workbench::assembly::task_monitor_test

@@ -9,7 +9,7 @@
 #include "support/meshes.h"
 #include "support/random_poses.h"
 
-namespace spring_workbench::collision {
+namespace spring_workbench::collision::collision_world_test {
 namespace {
 
 using test_support::box_mesh;
@@ -685,4 +685,4 @@ TEST(Sweep, AFreeWayIsFree) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::collision
+}  // namespace spring_workbench::collision::collision_world_test

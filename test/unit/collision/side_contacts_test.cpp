@@ -10,7 +10,7 @@
 #include "support/meshes.h"
 #include "support/random_poses.h"
 
-namespace spring_workbench::collision {
+namespace spring_workbench::collision::side_contacts_test {
 namespace {
 
 using test_support::box_mesh;
@@ -125,4 +125,4 @@ TEST(BesideCylinder, NothingIsMissedAtItsEndsThroughFacesAndInside) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::collision
+}  // namespace spring_workbench::collision::side_contacts_test

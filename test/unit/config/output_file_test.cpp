@@ -37,7 +37,7 @@ extern "C" int rename(const char* from, const char* to) noexcept {
   return static_cast<int>(syscall(SYS_rename, from, to));
 }
 
-namespace spring_workbench::config {
+namespace spring_workbench::config::output_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -117,4 +117,4 @@ TEST(OutputFile, APipeIsWrittenInPlace) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::config
+}  // namespace spring_workbench::config::output_file_test

@@ -8,7 +8,7 @@
 
 #include "support/temporary_folder.h"
 
-namespace spring_workbench::config {
+namespace spring_workbench::config::yaml_fields_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -226,4 +226,4 @@ TEST(Join, PutsSeparatorsBetween) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::config
+}  // namespace spring_workbench::config::yaml_fields_test

@@ -11,7 +11,7 @@
 #include "spring_workbench/math/so3.h"
 #include "support/named.h"
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::dynamics::held_body_test {
 namespace {
 
 /// A hand that moves on a cubic in position and in rotation vector.
@@ -464,4 +464,4 @@ TEST(Exponential, StaysBoundedAtEveryStiffnessAndStep) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::dynamics::held_body_test

@@ -8,7 +8,7 @@
 #include "support/held_cases.h"
 #include "support/named.h"
 
-namespace spring_workbench::dynamics {
+namespace spring_workbench::dynamics::integrator_laws_test {
 namespace {
 
 StrainState carried(Integrator& integrator, const Case& c, double t, double h, int steps, StrainState state) {
@@ -97,4 +97,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator,
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace spring_workbench::dynamics
+}  // namespace spring_workbench::dynamics::integrator_laws_test

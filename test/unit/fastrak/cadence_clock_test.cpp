@@ -11,7 +11,7 @@
 #include "spring_workbench/hand_input/sample_gate.h"
 #include "spring_workbench/motion/pose_track.h"
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::fastrak::cadence_clock_test {
 namespace {
 
 constexpr double kInterval = 1.0 / 120.0;
@@ -214,4 +214,4 @@ TEST(StationStream, BurstsMakeNoJumpBetweenSamples) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::fastrak::cadence_clock_test

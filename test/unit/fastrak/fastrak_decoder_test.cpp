@@ -9,7 +9,7 @@
 
 #include "support/fastrak_records.h"
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::fastrak::fastrak_decoder_test {
 namespace {
 
 using test_support::FastrakMode;
@@ -197,4 +197,4 @@ TEST(FastrakDecoder, StationsThatNobodyAskedForAreLeftOut) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::fastrak::fastrak_decoder_test

@@ -10,7 +10,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/fastrak_records.h"
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::fastrak::fastrak_protocol_test {
 namespace {
 
 using test_support::Random;
@@ -221,4 +221,4 @@ TEST(FastrakStatus, ReadsTheManualsFlags) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::fastrak::fastrak_protocol_test

@@ -7,7 +7,7 @@
 #include "spring_workbench/fastrak/fastrak_source.h"
 #include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::fastrak::fastrak_settings_test {
 namespace {
 
 TEST(FastrakSettings, AreReadFromAMap) {
@@ -74,4 +74,4 @@ TEST(FastrakSettings, TheSetUpAsksForEverythingThatTheDriverReliesOn) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::fastrak::fastrak_settings_test

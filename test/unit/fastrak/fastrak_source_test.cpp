@@ -18,7 +18,7 @@
 #include "support/played_motions.h"
 #include "support/temporary_folder.h"
 
-namespace spring_workbench::fastrak {
+namespace spring_workbench::fastrak::fastrak_source_test {
 namespace {
 
 using namespace simulated_fastrak;
@@ -359,4 +359,4 @@ TEST(LineFaults, AddEightyBytesOfNoiseAtMost) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::fastrak
+}  // namespace spring_workbench::fastrak::fastrak_source_test

@@ -9,7 +9,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/named.h"
 
-namespace spring_workbench::fork_mesh {
+namespace spring_workbench::fork_mesh::fork_curve_test {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -176,4 +176,4 @@ TEST(ForkCurve, RefusesWhatItDoesNotKnow) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::fork_mesh
+}  // namespace spring_workbench::fork_mesh::fork_curve_test

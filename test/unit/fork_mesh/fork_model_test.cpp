@@ -10,7 +10,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/named.h"
 
-namespace spring_workbench::fork_mesh {
+namespace spring_workbench::fork_mesh::fork_model_test {
 namespace {
 
 constexpr double L = 0.2, diameter = 0.03;
@@ -229,4 +229,4 @@ TEST(ForkModel, RefusesALookThatIsNoSurface) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::fork_mesh
+}  // namespace spring_workbench::fork_mesh::fork_model_test

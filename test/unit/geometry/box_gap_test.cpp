@@ -6,7 +6,7 @@
 
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench::geometry {
+namespace spring_workbench::geometry::box_gap_test {
 namespace {
 
 class Outlines : public ::testing::Test {
@@ -67,4 +67,4 @@ TEST(Outline, IsExactForABoxAlone) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::geometry
+}  // namespace spring_workbench::geometry::box_gap_test

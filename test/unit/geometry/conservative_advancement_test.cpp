@@ -7,7 +7,7 @@
 #include "spring_workbench/math/so3.h"
 #include "support/random_poses.h"
 
-namespace spring_workbench::geometry {
+namespace spring_workbench::geometry::conservative_advancement_test {
 namespace {
 
 using test_support::Random;
@@ -60,4 +60,4 @@ TEST(ClearWay, SlidingAndTurningFlushOnAFaceIsFree) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::geometry
+}  // namespace spring_workbench::geometry::conservative_advancement_test

@@ -8,7 +8,7 @@
 #include "spring_workbench/math/so3.h"
 #include "support/meshes.h"
 
-namespace spring_workbench::geometry {
+namespace spring_workbench::geometry::shape_queries_test {
 namespace {
 
 constexpr double pi = 3.14159265358979323846;
@@ -167,4 +167,4 @@ TEST(Body, ContainsWhatOneOfItsPlacedShapesContains) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::geometry
+}  // namespace spring_workbench::geometry::shape_queries_test

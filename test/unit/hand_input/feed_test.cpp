@@ -8,7 +8,7 @@
 #include "spring_workbench/math/so3.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::hand_input {
+namespace spring_workbench::hand_input::feed_test {
 namespace {
 
 constexpr double kInf = std::numeric_limits<double>::infinity();
@@ -264,4 +264,4 @@ TEST(Feed, NothingThatIsNotFiniteReachesTheSimulationAndTheGateCountsAsAlone) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::hand_input
+}  // namespace spring_workbench::hand_input::feed_test

@@ -6,7 +6,7 @@
 #include "spring_workbench/hand_input/settings.h"
 #include "support/paths.h"
 
-namespace spring_workbench::hand_input {
+namespace spring_workbench::hand_input::input_reference_test {
 namespace {
 
 TEST(InputReference, SettingsAreThoseOfTheCode) {
@@ -23,4 +23,4 @@ TEST(InputReference, SettingsAreThoseOfTheCode) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::hand_input
+}  // namespace spring_workbench::hand_input::input_reference_test

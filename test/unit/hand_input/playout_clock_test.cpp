@@ -6,7 +6,7 @@
 #include <cmath>
 #include <random>
 
-namespace spring_workbench::hand_input {
+namespace spring_workbench::hand_input::playout_clock_test {
 namespace {
 
 constexpr double dropout_after = 0.5;
@@ -86,4 +86,4 @@ TEST(PlayoutClock, ClearForgetsAll) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::hand_input
+}  // namespace spring_workbench::hand_input::playout_clock_test

@@ -7,7 +7,7 @@
 
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench::hand_input {
+namespace spring_workbench::hand_input::reacquisition_test {
 namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
@@ -187,4 +187,4 @@ TEST(Reacquisition, MoreThanOneTurnAwayIsCaughtUpWithoutAJump) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::hand_input
+}  // namespace spring_workbench::hand_input::reacquisition_test

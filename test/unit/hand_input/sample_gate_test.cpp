@@ -9,7 +9,7 @@
 #include "spring_workbench/hand_input/pose_filter.h"
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench::hand_input {
+namespace spring_workbench::hand_input::sample_gate_test {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -270,4 +270,4 @@ TEST(SampleGate, AnyRubbishGivesFiniteRotationsBehindGateAndSmoothing) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::hand_input
+}  // namespace spring_workbench::hand_input::sample_gate_test

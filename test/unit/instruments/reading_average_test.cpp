@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace spring_workbench::instruments {
+namespace spring_workbench::instruments::reading_average_test {
 namespace {
 
 tools::ToolState carrying(double weight, double torque = 0.0, const std::string& object = "box") {
@@ -59,4 +59,4 @@ TEST(ReadingAverage, StartsAnewWithAnotherObjectAndWhenTimeGoesBack) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::instruments
+}  // namespace spring_workbench::instruments::reading_average_test

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace spring_workbench::instruments {
+namespace spring_workbench::instruments::vibration_test {
 namespace {
 
 tools::ToolState holding(double force, double force_scale = 1.0) {
@@ -57,4 +57,4 @@ TEST(Vibration, GraspReleaseAndAnotherTimeStartAnew) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::instruments
+}  // namespace spring_workbench::instruments::vibration_test

@@ -3,7 +3,7 @@
 #include "spring_workbench/live/simulation_runner.h"
 #include "support/paths.h"
 
-namespace spring_workbench::live {
+namespace spring_workbench::live::another_scene_test {
 namespace {
 
 scene::Scene shipped(const std::string& name) {
@@ -27,4 +27,4 @@ TEST(SimulationRunner, AnotherSceneHasAForkOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::live
+}  // namespace spring_workbench::live::another_scene_test

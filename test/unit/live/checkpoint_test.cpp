@@ -17,7 +17,7 @@
 #include "support/bench_scenes.h"
 #include "support/temporary_folder.h"
 
-namespace spring_workbench::live {
+namespace spring_workbench::live::checkpoint_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -167,4 +167,4 @@ TEST(CheckpointFile, OnAFullDiskTheLastOneStays) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::live
+}  // namespace spring_workbench::live::checkpoint_test

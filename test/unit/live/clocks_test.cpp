@@ -8,7 +8,7 @@
 #include "spring_workbench/motion/stream_clock.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::live {
+namespace spring_workbench::live::clocks_test {
 namespace {
 
 std::int64_t stamp_of(const SimulationRunner& runner) {
@@ -269,4 +269,4 @@ TEST(Senders, TheFirstIsFollowedUntilItIsSilent) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::live
+}  // namespace spring_workbench::live::clocks_test

@@ -8,7 +8,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::live {
+namespace spring_workbench::live::live_test {
 namespace {
 
 constexpr double interval = 0.01;
@@ -347,4 +347,4 @@ TEST(Journal, AMissingEntryAndAnotherStateAreRefused) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::live
+}  // namespace spring_workbench::live::live_test

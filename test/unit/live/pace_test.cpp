@@ -14,7 +14,7 @@
 #include "spring_workbench/live/simulation_runner.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::live {
+namespace spring_workbench::live::pace_test {
 namespace {
 
 std::int64_t stamp_of(const SimulationRunner& runner) {
@@ -162,4 +162,4 @@ TEST(Pace, AScenesMakingKeepsNoCycleWaiting) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::live
+}  // namespace spring_workbench::live::pace_test

@@ -5,7 +5,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::live {
+namespace spring_workbench::live::undo_test {
 namespace {
 
 using simulation::ObjectEdit;
@@ -166,4 +166,4 @@ TEST(Undo, AResumedSceneIsTheEditedOne) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::live
+}  // namespace spring_workbench::live::undo_test

@@ -4,7 +4,7 @@
 
 #include "spring_workbench/ros/manipulation/diagnostics.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::manipulation::hint_test {
 namespace {
 
 /// What may be wrong, and the words that the hint must have.
@@ -40,4 +40,4 @@ TEST(HintForSilence, NamesWhatToLookAt) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::manipulation::hint_test

@@ -8,7 +8,7 @@
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
 #include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::manipulation::parameters_test {
 namespace {
 
 using XmlRpc::XmlRpcValue;
@@ -94,4 +94,4 @@ TEST(ManipulationParameters, RefusesWithTheKeyInTheMessage) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::manipulation::parameters_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <random>
 
-namespace spring_workbench::math {
+namespace spring_workbench::math::friction_cones_test {
 namespace {
 
 using Eigen::Index;
@@ -113,4 +113,4 @@ TEST(FrictionCones, WithoutAnAnswerTheyAreLeftAsTheyWere) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::math
+}  // namespace spring_workbench::math::friction_cones_test

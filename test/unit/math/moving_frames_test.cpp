@@ -7,7 +7,7 @@
 
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench::math {
+namespace spring_workbench::math::moving_frames_test {
 namespace {
 
 /// Also far from z and where the frame itself turns; at half a turn there is no shortest way.
@@ -40,4 +40,4 @@ TEST(MovingFrames, ThePowerIsTheSameAtEveryPoint) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::math
+}  // namespace spring_workbench::math::moving_frames_test

@@ -6,7 +6,7 @@
 
 #include "spring_workbench/math/quadrature.h"
 
-namespace spring_workbench::math {
+namespace spring_workbench::math::phi_functions_test {
 namespace {
 
 using Complex = std::complex<double>;
@@ -44,4 +44,4 @@ TEST(PhiFunctions, RealAndComplexAgree) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::math
+}  // namespace spring_workbench::math::phi_functions_test

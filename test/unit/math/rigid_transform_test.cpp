@@ -4,7 +4,7 @@
 
 #include "support/random_poses.h"
 
-namespace spring_workbench::math {
+namespace spring_workbench::math::rigid_transform_test {
 namespace {
 
 TEST(RigidTransform, IsMadeFromAQuaternionOfAnyLength) {
@@ -20,4 +20,4 @@ TEST(RigidTransform, IsMadeFromAQuaternionOfAnyLength) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::math
+}  // namespace spring_workbench::math::rigid_transform_test

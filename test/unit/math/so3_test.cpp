@@ -6,7 +6,7 @@
 
 #include "support/random_poses.h"
 
-namespace spring_workbench::math {
+namespace spring_workbench::math::so3_test {
 namespace {
 
 using test_support::Random;
@@ -181,4 +181,4 @@ TEST(So3, WhatHasNoAxisIsFinite) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::math
+}  // namespace spring_workbench::math::so3_test

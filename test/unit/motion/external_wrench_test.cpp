@@ -7,7 +7,7 @@
 
 #include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench::motion {
+namespace spring_workbench::motion::external_wrench_test {
 namespace {
 
 constexpr double timeout = 0.1, same_time = 1e-9;
@@ -108,4 +108,4 @@ TEST(WrenchTrack, RefusesWhatNoSensorMeasuresAndStaysAsItWas) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::motion
+}  // namespace spring_workbench::motion::external_wrench_test

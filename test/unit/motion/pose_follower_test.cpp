@@ -5,7 +5,7 @@
 #include "spring_workbench/math/so3.h"
 #include "support/random_poses.h"
 
-namespace spring_workbench::motion {
+namespace spring_workbench::motion::pose_follower_test {
 namespace {
 
 double distance(const RigidTransform& a, const RigidTransform& b) { return (a.translation() - b.translation()).norm(); }
@@ -56,4 +56,4 @@ TEST(PoseFollower, NearAGoalTheWayDoesNotDependOnTheSteps) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::motion
+}  // namespace spring_workbench::motion::pose_follower_test

@@ -7,7 +7,7 @@
 
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench::motion {
+namespace spring_workbench::motion::pose_predictor_test {
 namespace {
 
 PoseSample at(double t, const Vector3d& p, double turned) {
@@ -64,4 +64,4 @@ TEST(PosePredictor, RestsBeyondItsReachAndWhereNothingIsKnown) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::motion
+}  // namespace spring_workbench::motion::pose_predictor_test

@@ -10,7 +10,7 @@
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench::motion {
+namespace spring_workbench::motion::pose_track_test {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -435,4 +435,4 @@ TEST(PoseTrack, NothingThatIsTakenGivesNaN) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::motion
+}  // namespace spring_workbench::motion::pose_track_test

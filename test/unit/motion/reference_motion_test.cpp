@@ -10,7 +10,7 @@
 #include "spring_workbench/motion/pose_track.h"
 #include "support/paths.h"
 
-namespace spring_workbench::motion {
+namespace spring_workbench::motion::reference_motion_test {
 namespace {
 
 struct Reference {
@@ -111,4 +111,4 @@ TEST(ReferenceMotion, PassesThroughTheRecordedSamples) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::motion
+}  // namespace spring_workbench::motion::reference_motion_test

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace spring_workbench::motion {
+namespace spring_workbench::motion::stream_clock_test {
 namespace {
 
 constexpr std::int64_t begin = 1'700'000'000'000'000'000;
@@ -153,4 +153,4 @@ TEST(StreamClock, AStreamBeginsNearNow) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::motion
+}  // namespace spring_workbench::motion::stream_clock_test

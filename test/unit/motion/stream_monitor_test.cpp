@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-namespace spring_workbench::motion {
+namespace spring_workbench::motion::stream_monitor_test {
 namespace {
 
 TEST(StreamMonitor, SaysRateJitterGapsAndAge) {
@@ -28,4 +28,4 @@ TEST(StreamMonitor, SaysRateJitterGapsAndAge) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::motion
+}  // namespace spring_workbench::motion::stream_monitor_test

@@ -13,7 +13,7 @@
 #include "support/paths.h"
 #include "support/temporary_folder.h"
 
-namespace spring_workbench::motion_files {
+namespace spring_workbench::motion_files::motion_file_test {
 namespace {
 
 std::vector<motion::StylusSample> read_text(const std::string& text) {
@@ -174,4 +174,4 @@ TEST(RecordedMotions, GiveFiniteMotion) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::motion_files
+}  // namespace spring_workbench::motion_files::motion_file_test

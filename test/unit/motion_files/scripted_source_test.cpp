@@ -11,7 +11,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/temporary_folder.h"
 
-namespace spring_workbench::motion_files {
+namespace spring_workbench::motion_files::scripted_source_test {
 namespace {
 
 std::vector<motion::StylusSample> all_samples(const std::string& yaml) {
@@ -109,4 +109,4 @@ TEST(ScriptedSource, BadScriptsNameFileLineFieldAndRule) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::motion_files
+}  // namespace spring_workbench::motion_files::scripted_source_test

@@ -11,7 +11,7 @@
 #include "spring_workbench/motion_files/motion_file.h"
 #include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench::registration {
+namespace spring_workbench::registration::registration_test {
 namespace {
 
 using namespace std::string_literals;
@@ -152,4 +152,4 @@ TEST(PivotCalibration, TakesTenPosesAndNoFewer) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::registration
+}  // namespace spring_workbench::registration::registration_test

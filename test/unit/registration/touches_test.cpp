@@ -6,7 +6,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/random_poses.h"
 
-namespace spring_workbench::registration {
+namespace spring_workbench::registration::touches_test {
 namespace {
 
 /// A stylus with its tip at rest at the points, one after the other, the button down; between them it is up.
@@ -70,4 +70,4 @@ TEST(Touches, TheTrackerIsFoundWhereverItWasThoughtToBe) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::registration
+}  // namespace spring_workbench::registration::touches_test

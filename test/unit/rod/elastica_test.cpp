@@ -6,7 +6,7 @@
 #include "spring_workbench/rod/shape_model.h"
 #include "support/named.h"
 
-namespace spring_workbench::rod {
+namespace spring_workbench::rod::elastica_test {
 namespace {
 
 /// A cantilever's tip under a transverse dead load: slope [rad], deflection and shortening over the length.
@@ -78,4 +78,4 @@ TEST(Elastica, EveryRodAgreesForSmallLoads) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::rod
+}  // namespace spring_workbench::rod::elastica_test

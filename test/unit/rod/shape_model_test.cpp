@@ -10,7 +10,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/named.h"
 
-namespace spring_workbench::rod {
+namespace spring_workbench::rod::shape_model_test {
 namespace {
 
 constexpr double L = 0.3;
@@ -246,4 +246,4 @@ TEST(StrainRod, WoundUpOrCrushedIsNotAdmissible) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::rod
+}  // namespace spring_workbench::rod::shape_model_test

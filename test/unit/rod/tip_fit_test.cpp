@@ -9,7 +9,7 @@
 
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench::rod {
+namespace spring_workbench::rod::tip_fit_test {
 namespace {
 
 constexpr double L = 0.2;
@@ -225,4 +225,4 @@ TEST_F(Linear, SeveralAtOnceAreEachByItself) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::rod
+}  // namespace spring_workbench::rod::tip_fit_test

@@ -10,7 +10,7 @@
 #include "ogre.h"
 #include "spring_workbench/math/rigid_transform.h"
 
-namespace spring_workbench::rviz_plugin {
+namespace spring_workbench::rviz_plugin::mesh_test {
 namespace {
 
 class Meshes : public Ogre3d {
@@ -69,4 +69,4 @@ TEST_F(Meshes, AreSmoothBelowTheCrease) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::rviz_plugin
+}  // namespace spring_workbench::rviz_plugin::mesh_test

@@ -16,7 +16,7 @@
 #include "spring_workbench/fork_mesh/load_color.h"
 #include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench::rviz_plugin {
+namespace spring_workbench::rviz_plugin::scene_objects_test {
 namespace {
 
 const double nan = std::numeric_limits<double>::quiet_NaN();
@@ -255,4 +255,4 @@ TEST_F(SceneObjectsTest, WhatCannotBeDrawnIsRefusedAndChangesNothing) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::rviz_plugin
+}  // namespace spring_workbench::rviz_plugin::scene_objects_test

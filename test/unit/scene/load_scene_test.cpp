@@ -15,7 +15,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/temporary_folder.h"
 
-namespace spring_workbench::scene {
+namespace spring_workbench::scene::load_scene_test {
 namespace {
 
 using test_support::TemporaryFolder;
@@ -698,4 +698,4 @@ TEST_F(LoadScene, RefusesHostileMeshes) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::scene
+}  // namespace spring_workbench::scene::load_scene_test

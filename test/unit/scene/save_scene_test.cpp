@@ -10,7 +10,7 @@
 #include "support/random_poses.h"
 #include "support/temporary_folder.h"
 
-namespace spring_workbench::scene {
+namespace spring_workbench::scene::save_scene_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -159,4 +159,4 @@ TEST(SavedScenes, WhereTheyMayNotBeTheyAreRefused) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::scene
+}  // namespace spring_workbench::scene::save_scene_test

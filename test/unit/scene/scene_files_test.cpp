@@ -14,7 +14,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/paths.h"
 
-namespace spring_workbench::scene {
+namespace spring_workbench::scene::scene_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -196,4 +196,4 @@ TEST_F(Collection, MalformedMeshesAreRefusedAndOddButValidOnesLoad) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::scene
+}  // namespace spring_workbench::scene::scene_files_test

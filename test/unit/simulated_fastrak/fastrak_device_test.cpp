@@ -9,7 +9,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/played_motions.h"
 
-namespace spring_workbench::simulated_fastrak {
+namespace spring_workbench::simulated_fastrak::fastrak_device_test {
 namespace {
 
 using test_support::circling_hand;
@@ -168,4 +168,4 @@ TEST(PlayedMotion, GoesRoundAndThroughItsSamples) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulated_fastrak
+}  // namespace spring_workbench::simulated_fastrak::fastrak_device_test

@@ -7,7 +7,7 @@
 #include "support/bench_scenes.h"
 #include "support/random_poses.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::breakaway_test {
 namespace {
 
 using test_support::Random;
@@ -107,4 +107,4 @@ TEST(BreakawayForce, NoWrenchIsLargerInAnyMotion) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::breakaway_test

@@ -9,7 +9,7 @@
 #include "support/meshes.h"
 #include "support/random_poses.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::broken_meshes_test {
 namespace {
 
 using test_support::box_mesh;
@@ -147,4 +147,4 @@ TEST(BrokenMeshes, HeldAndPressedTheyStayBoundedAndComeFree) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::broken_meshes_test

@@ -7,7 +7,7 @@
 #include "support/bench_scenes.h"
 #include "support/named.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::clutch_test {
 namespace {
 
 const Vector3d above(0.0, 0.0, 0.7);  // the tip of a 0.2 m fork is in the box
@@ -130,4 +130,4 @@ TEST(HandScale, TheToolGoesSoManyTimesAsFar) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::clutch_test

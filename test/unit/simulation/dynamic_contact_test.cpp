@@ -9,7 +9,7 @@
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::dynamic_contact_test {
 namespace {
 
 using spring_workbench::scene_of;  // beside the one below
@@ -204,4 +204,4 @@ TEST(DynamicContact, LightAndHeavyStiffAndSoftAgainstAWallStayBounded) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::dynamic_contact_test

@@ -10,7 +10,7 @@
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::dynamic_extremes_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -133,4 +133,4 @@ TEST_P(Seeded, GraspedWhileItTouches) {
 INSTANTIATE_TEST_SUITE_P(Extremes, Seeded, ::testing::Range(0u, 2u));
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::dynamic_extremes_test

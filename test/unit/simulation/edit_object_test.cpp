@@ -5,7 +5,7 @@
 #include "support/bench_scenes.h"
 #include "support/temporary_folder.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::edit_object_test {
 namespace {
 
 using Action = ObjectEdit::Action;
@@ -240,4 +240,4 @@ TEST(EditedFriction, DecidesHowFarABoxSlides) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::edit_object_test

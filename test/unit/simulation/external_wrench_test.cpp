@@ -9,7 +9,7 @@
 #include "support/bench_scenes.h"
 #include "support/named.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::external_wrench_test {
 namespace {
 
 using motion::ExternalWrench;
@@ -334,4 +334,4 @@ TEST(TipTwist, IsZeroWhileTheClutchIsOn) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::external_wrench_test

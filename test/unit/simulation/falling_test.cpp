@@ -4,7 +4,7 @@
 #include "spring_workbench/validation/names.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::falling_test {
 namespace {
 
 using scene::ContactMode;
@@ -118,4 +118,4 @@ TEST(Massless, EveryObjectOfTheWorldFollowsTheTipAndStaysWhereItIsReleased) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::falling_test

@@ -8,7 +8,7 @@
 #include "spring_workbench/math/so3.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::free_contact_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -194,4 +194,4 @@ TEST(FreeRotation, KeepsItsEnergyAndIsOfOrderFour) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::free_contact_test

@@ -11,7 +11,7 @@
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::probe_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -202,4 +202,4 @@ TEST(Probe, CannotHold) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::probe_test

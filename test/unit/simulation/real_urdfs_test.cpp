@@ -12,7 +12,7 @@
 #include "support/bench_scenes.h"
 #include "support/paths.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::real_urdfs_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -97,4 +97,4 @@ TEST(RealUrdfs, EveryMovableLinkOfOthersIsGraspedLiftedAndPutDown) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::real_urdfs_test

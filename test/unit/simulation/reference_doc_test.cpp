@@ -7,7 +7,7 @@
 #include "spring_workbench/simulation/settings.h"
 #include "support/paths.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::reference_doc_test {
 namespace {
 
 const std::string begin_marker = "<!-- settings: begin -->\n";
@@ -52,4 +52,4 @@ TEST(ReferenceDoc, SettingsAreThoseOfTheCode) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::reference_doc_test

@@ -3,7 +3,7 @@
 
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::selection_test {
 namespace {
 
 constexpr double side = 0.1, apart = 0.04, reach = 0.2;
@@ -85,4 +85,4 @@ TEST_F(Overlapping, WhatIsLitIsHeldWhereTheTipIsWhileTheButtonIsDown) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::selection_test

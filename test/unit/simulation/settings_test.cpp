@@ -10,7 +10,7 @@
 #include "spring_workbench/validation/names.h"
 #include "spring_workbench/validation/renamed.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::settings_test {
 namespace {
 
 std::string refusal(const std::string& yaml, SimulationSettings& settings) {
@@ -229,4 +229,4 @@ TEST(Settings, ARenamedWordIsToldItsNewOne) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::settings_test

@@ -10,7 +10,7 @@
 #include "support/bench_scenes.h"
 #include "support/named.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::shared_order_test {
 namespace {
 
 constexpr double sample = 0.02, duration = 1.0;
@@ -384,4 +384,4 @@ TEST(SharedLaw, ARigidToolLeadsExactly) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::shared_order_test

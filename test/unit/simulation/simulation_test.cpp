@@ -13,7 +13,7 @@
 #include "support/bench_scenes.h"
 #include "support/named.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::simulation_test {
 namespace {
 
 /// One box, 0.1 × 0.06 × 0.04 m and 1 kg, with its centre at `centre`.
@@ -715,4 +715,4 @@ TEST(Simulation, PointMassOnTheAxisDoesNotTwistAndOffItDoes) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::simulation_test

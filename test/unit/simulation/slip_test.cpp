@@ -8,7 +8,7 @@
 #include "support/bench_scenes.h"
 #include "support/named.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::slip_test {
 namespace {
 
 constexpr double g = 9.81, limit = 30.0;
@@ -136,4 +136,4 @@ INSTANTIATE_TEST_SUITE_P(EveryMode, Slip, testing::Values(scene::ContactMode::st
                          [](const auto& tested) { return validation::name_of(tested.param); });
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::slip_test

@@ -14,7 +14,7 @@
 #include "spring_workbench/validation/names.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::state_test {
 namespace {
 
 using Random = std::mt19937;
@@ -268,4 +268,4 @@ TEST(State, TextThatIsNoneIsRefused) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::state_test

@@ -11,7 +11,7 @@
 #include "support/bench_scenes.h"
 #include "support/named.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::stop_contact_test {
 namespace {
 
 using spring_workbench::scene_of;  // beside the one below
@@ -297,4 +297,4 @@ TEST(StopContact, ShortStepsGoTheWayOfLongOnes) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::stop_contact_test

@@ -8,7 +8,7 @@
 #include "spring_workbench/simulation/simulation.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::stop_extremes_test {
 namespace {
 
 constexpr double edge = 0.1;  // m, of the held box
@@ -147,4 +147,4 @@ TEST(StopExtremes, AMasslessOneFollowsTheHandAndStaysOutOfTheBench) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::stop_extremes_test

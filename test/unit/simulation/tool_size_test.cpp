@@ -8,7 +8,7 @@
 #include "support/bench_scenes.h"
 #include "support/named.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::tool_size_test {
 namespace {
 
 constexpr double g = 9.81, reach = 0.2;
@@ -125,4 +125,4 @@ TEST(ToolSize, CalibratingOnTheWayJumpsNeitherInPoseNorInTwist) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::tool_size_test

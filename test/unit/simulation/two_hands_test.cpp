@@ -9,7 +9,7 @@
 #include "support/bench_scenes.h"
 #include "support/named.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::two_hands_test {
 namespace {
 
 constexpr double g = 9.81;
@@ -392,4 +392,4 @@ TEST(TwoHands, EachHasAForkOfItsOwn) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::two_hands_test

@@ -9,7 +9,7 @@
 #include "support/bench_scenes.h"
 #include "support/paths.h"
 
-namespace spring_workbench::simulation {
+namespace spring_workbench::simulation::world_calibration_test {
 namespace {
 
 const std::string scenes = test_support::checkout("scenes/");
@@ -120,4 +120,4 @@ TEST(WorldCalibration, AGivenRangeTakesThePlaceOfTheScenes) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::simulation
+}  // namespace spring_workbench::simulation::world_calibration_test

@@ -8,7 +8,7 @@
 #include "support/held_cases.h"
 #include "support/named.h"
 
-namespace spring_workbench::stepping {
+namespace spring_workbench::stepping::allocation_test {
 namespace {
 
 using namespace dynamics;
@@ -57,4 +57,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, Stepping, testing::ValuesIn(test_support::
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace spring_workbench::stepping
+}  // namespace spring_workbench::stepping::allocation_test

@@ -12,7 +12,7 @@
 #include "support/held_cases.h"
 #include "support/named.h"
 
-namespace spring_workbench::stepping {
+namespace spring_workbench::stepping::error_bound_test {
 namespace {
 
 using namespace dynamics;
@@ -213,4 +213,4 @@ TEST(ErrorBound, IsNoneInContactAndBeginsAnewAfterItAndAfterAChangeFromOutside) 
 }
 
 }  // namespace
-}  // namespace spring_workbench::stepping
+}  // namespace spring_workbench::stepping::error_bound_test

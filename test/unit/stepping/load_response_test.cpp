@@ -12,7 +12,7 @@
 
 #include "support/named.h"
 
-namespace spring_workbench::stepping {
+namespace spring_workbench::stepping::load_response_test {
 namespace {
 
 using namespace dynamics;
@@ -133,4 +133,4 @@ TEST(LoadResponse, AStopThatIsMetHoldsForTheRestOfTheStep) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::stepping
+}  // namespace spring_workbench::stepping::load_response_test

@@ -9,7 +9,7 @@
 #include "support/held_cases.h"
 #include "support/named.h"
 
-namespace spring_workbench::stepping {
+namespace spring_workbench::stepping::paper_test {
 namespace {
 
 using namespace dynamics;
@@ -313,4 +313,4 @@ TEST(Paper, FollowsAFamilyThatReturnsToZero) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::stepping
+}  // namespace spring_workbench::stepping::paper_test

@@ -8,7 +8,7 @@
 #include "support/held_cases.h"
 #include "support/named.h"
 
-namespace spring_workbench::stepping {
+namespace spring_workbench::stepping::stability_test {
 namespace {
 
 using namespace dynamics;
@@ -224,4 +224,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, StableIntegrator, testing::Values("exponen
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace spring_workbench::stepping
+}  // namespace spring_workbench::stepping::stability_test

@@ -10,7 +10,7 @@
 #include "support/held_cases.h"
 #include "support/named.h"
 
-namespace spring_workbench::stepping {
+namespace spring_workbench::stepping::step_control_test {
 namespace {
 
 using namespace dynamics;
@@ -197,4 +197,4 @@ INSTANTIATE_TEST_SUITE_P(Integrators, SteppedWithATolerance, testing::ValuesIn(t
                          [](const auto& instance) { return instance.param; });
 
 }  // namespace
-}  // namespace spring_workbench::stepping
+}  // namespace spring_workbench::stepping::step_control_test

@@ -8,7 +8,7 @@
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/input_error.h"
 
-namespace spring_workbench::tracker_driver {
+namespace spring_workbench::tracker_driver::joy_motion_test {
 namespace {
 
 const std::vector<float> still(6, 0.0F);
@@ -128,4 +128,4 @@ TEST(JoySettings, BadValuesAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::tracker_driver
+}  // namespace spring_workbench::tracker_driver::joy_motion_test

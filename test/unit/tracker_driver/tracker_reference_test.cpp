@@ -14,7 +14,7 @@
 #include "spring_workbench/validation/input_error.h"
 #include "support/paths.h"
 
-namespace spring_workbench::tracker_driver {
+namespace spring_workbench::tracker_driver::tracker_reference_test {
 namespace {
 
 /// The lines of doc/reference.md under a heading.
@@ -122,4 +122,4 @@ TEST(TrackerParameters, RefusesWithTheKeyInTheMessage) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::tracker_driver
+}  // namespace spring_workbench::tracker_driver::tracker_reference_test
