@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <memory>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -39,6 +40,16 @@ inline scene::Body movable(const std::string& name, geometry::Geometry geometry,
 inline Vector3d box_inertia(double mass, const Vector3d& size) {
   const Vector3d s = size.cwiseAbs2();
   return mass / 12.0 * Vector3d(s.y() + s.z(), s.x() + s.z(), s.x() + s.y());
+}
+
+/// Drawn evenly from a ball about zero.
+inline Vector3d in_ball(double radius, std::mt19937& random) {
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  Vector3d p;
+  do {
+    p = Vector3d(unit(random), unit(random), unit(random));
+  } while (p.norm() > 1.0);
+  return radius * p;
 }
 
 inline RigidTransform at(const Vector3d& p_WO) { return RigidTransform(Eigen::Translation3d(p_WO)); }

@@ -10,7 +10,7 @@ class Drops : public ::testing::TestWithParam<scene::ContactMode> {};
 
 TEST_P(Drops, WithoutRestitutionNothingLeavesTheBench) {
   for (unsigned seed = 0; seed < 48; ++seed) {
-    const DropResult result = run({GetParam(), seed});
+    const DropResult result = run(Drop{GetParam(), seed});
     EXPECT_GT(result.impact_speed, 0.3) << seed;
     // Further from flush its corners land one after the other, and it tumbles.
     EXPECT_LT(result.leaving, result.tilt < 0.03 ? 0.01 : 0.1) << seed;

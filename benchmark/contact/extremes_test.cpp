@@ -11,7 +11,7 @@ namespace {
 class Extremes : public ::testing::TestWithParam<scene::ContactMode> {
  protected:
   void run_and_check(ContactExtreme extreme, double stiffness, unsigned seed) {
-    const ExtremeOutcome o = run({extreme, GetParam(), stiffness, 0.02, seed});
+    const ExtremeOutcome o = run(ExtremeCell{extreme, GetParam(), stiffness, 0.02, seed});
     if (extreme == ContactExtreme::stack_of_ten) {
       EXPECT_LT(o.pushed, 0.02) << stiffness;  // it stands: the hand goes 0.013 m sideways
     }

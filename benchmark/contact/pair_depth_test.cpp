@@ -7,7 +7,7 @@
 #include "benchmark/contact/bodies.h"
 #include "spring_workbench/math/so3.h"
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::pair_depth_test {
 namespace {
 
 using geometry::Box;
@@ -108,4 +108,4 @@ TEST_F(PairDepthLaws, TheBenchIsLikeAnythingElse) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::pair_depth_test

@@ -46,15 +46,8 @@ bool linked(const RigidTransform& X_AB, double radius) {
 ContactTrial rings_on_peg(unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const auto in_ball = [&](double radius) {
-    Vector3d p;
-    do {
-      p = Vector3d(unit(random), unit(random), unit(random));
-    } while (p.norm() > 1.0);
-    return Vector3d(radius * p);
-  };
   RigidTransform X_WP = at(Vector3d(0.0, 0.0, 3.0));
-  X_WP.linear() = math::exp_so3(in_ball(M_PI));
+  X_WP.linear() = math::exp_so3(in_ball(M_PI, random));
   const geometry::MeshPtr ring = torus(ring_radius, tube_radius);
   std::vector<scene::Body> bodies;
   for (int i = 0; i < 5; ++i) {
@@ -74,7 +67,7 @@ ContactTrial rings_on_peg(unsigned seed) {
   std::vector<RigidTransform> samples{X_WP * Eigen::Translation3d(0.0, 0.0, -trial.settings.fork.length)};
   Vector3d v = Vector3d::Zero(), w = v;
   for (int i = 0; i <= static_cast<int>(std::lround(wild_time / sample_time)); ++i) {
-    if (i % 5 == 0) v = in_ball(5.0), w = in_ball(50.0);
+    if (i % 5 == 0) v = in_ball(5.0, random), w = in_ball(50.0, random);
     RigidTransform next = samples.back();
     next.translation() += sample_time * v;
     next.linear() = math::exp_so3(sample_time * w) * next.linear();

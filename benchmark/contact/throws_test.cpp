@@ -10,7 +10,7 @@ class Throws : public ::testing::TestWithParam<scene::ContactMode> {};
 
 TEST_P(Throws, AThinFixedWallStopsWhatIsThrownAtIt) {
   for (unsigned seed = 0; seed < 60; ++seed) {
-    const ThrowResult result = run({GetParam(), seed});
+    const ThrowResult result = run(Throw{GetParam(), seed});
     EXPECT_FALSE(result.passed_through) << seed;
     EXPECT_LT(result.depth, 1e-4) << seed;
     EXPECT_LT(result.energy_gained, 1e-5) << seed;
@@ -22,7 +22,7 @@ TEST_P(Throws, AThinFixedWallStopsWhatIsThrownAtIt) {
 TEST(LooseThrows, ALooseThinWallIsNotGoneThrough) {
   for (unsigned seed = 0; seed < 60; ++seed) {
     if (seed % 4 > 1) continue;
-    const ThrowResult result = run({scene::ContactMode::dynamic, seed, true});
+    const ThrowResult result = run(Throw{scene::ContactMode::dynamic, seed, true});
     EXPECT_FALSE(result.passed_through) << seed;
     EXPECT_LT(result.depth, 1e-4) << seed;
     EXPECT_LT(result.energy_gained, 2e-3) << seed;

@@ -11,7 +11,7 @@
 #include "benchmark/contact/product_map.h"
 #include "benchmark/contact/same_bits.h"
 
-namespace spring_workbench::benchmark {
+namespace spring_workbench::benchmark::trials_test {
 namespace {
 
 /// Of the pose that is furthest from its start [m].
@@ -101,4 +101,4 @@ TEST(ContactTrials, InclinesHoldBelowTheAngleOfFriction) { run_inclines(true, ex
 TEST(ContactTrials, TheSameCallsGiveTheSameBits) { run_same_bits(true, expect_to_hold); }
 
 }  // namespace
-}  // namespace spring_workbench::benchmark
+}  // namespace spring_workbench::benchmark::trials_test

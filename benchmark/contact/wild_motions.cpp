@@ -130,14 +130,7 @@ std::string name_of(WildScene scene) {
 WildResult run(const WildMotion& motion) {
   std::mt19937 random(motion.seed);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
-  const auto in_ball = [&](double radius) {
-    Vector3d p;
-    do {
-      p = Vector3d(unit(random), unit(random), unit(random));
-    } while (p.norm() > 1.0);
-    return Vector3d(radius * p);
-  };
-  const Matrix3d R_scene = math::exp_so3(in_ball(M_PI)), R_held = math::exp_so3(in_ball(M_PI));
+  const Matrix3d R_scene = math::exp_so3(in_ball(M_PI, random)), R_held = math::exp_so3(in_ball(M_PI, random));
   const Setting setting = set_scene(motion, R_scene, R_held);
   simulation::SimulationSettings set;
   set.grasp.object = "held";
@@ -152,7 +145,7 @@ WildResult run(const WildMotion& motion) {
   Vector3d v = Vector3d::Zero(), w = v;
   const int samples = static_cast<int>(std::lround(duration / sample_time));
   for (int i = 0; i <= samples; ++i) {
-    if (i % 5 == 0) v = in_ball(most_speed), w = in_ball(most_turning);
+    if (i % 5 == 0) v = in_ball(most_speed, random), w = in_ball(most_turning, random);
     simulation.push_stylus({sample_time * i, X_WH});
     const Vector3d next = X_WH.translation() + sample_time * v - middle;
     for (int axis = 0; axis < 3; ++axis) {

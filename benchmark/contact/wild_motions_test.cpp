@@ -10,7 +10,7 @@ class RodInRoom : public ::testing::TestWithParam<scene::ContactMode> {};
 
 TEST_P(RodInRoom, GoesThroughNoWall) {
   for (unsigned seed = 0; seed < 12; ++seed) {
-    const WildResult result = run({WildScene::rod_in_room, GetParam(), seed});
+    const WildResult result = run(WildMotion{WildScene::rod_in_room, GetParam(), seed});
     EXPECT_FALSE(result.passed_through) << seed;
     EXPECT_LE(result.penetration, 1e-4) << seed;
     EXPECT_GT(result.steps, 0) << seed;
@@ -22,7 +22,7 @@ TEST_P(RodInRoom, GoesThroughNoWall) {
 // Where a fork bent far folds, it takes substeps of microseconds. The damping ratio does not matter to that.
 TEST(RodInRoom, IsNeverBlockedHoweverTheForkIsDampedOrFolds) {
   const auto check = [](unsigned seed, double damping_ratio) {
-    const WildResult result = run({WildScene::rod_in_room, scene::ContactMode::stop, seed, damping_ratio});
+    const WildResult result = run(WildMotion{WildScene::rod_in_room, scene::ContactMode::stop, seed, damping_ratio});
     EXPECT_FALSE(result.passed_through) << seed << ' ' << damping_ratio;
     EXPECT_LE(result.penetration, 5e-5) << seed << ' ' << damping_ratio;
     EXPECT_EQ(result.steps_blocked, 0) << seed << ' ' << damping_ratio;
@@ -37,7 +37,7 @@ TEST(RodInRoom, IsNeverBlockedHoweverTheForkIsDampedOrFolds) {
 
 TEST(RingOnRod, StaysOnTheRod) {
   for (const unsigned seed : {0u, 3u, 10u}) {
-    const WildResult result = run({WildScene::ring_on_rod, scene::ContactMode::stop, seed});
+    const WildResult result = run(WildMotion{WildScene::ring_on_rod, scene::ContactMode::stop, seed});
     EXPECT_FALSE(result.passed_through) << seed;
     EXPECT_LE(result.penetration, 1e-4) << seed;
     EXPECT_EQ(result.steps_blocked, 0) << seed;

@@ -9,7 +9,7 @@
 #include "spring_workbench/math/so3.h"
 #include "support/bench_scenes.h"
 
-namespace spring_workbench::hand_input {
+namespace spring_workbench::hand_input::dead_band_test {
 namespace {
 
 constexpr double kBand = 5e-4, kAngleBand = 2e-3, kInterval = 0.02;
@@ -122,4 +122,4 @@ TEST(DeadBand, WhatATremblingHandHoldsSleepsWhileTheHandRests) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::hand_input
+}  // namespace spring_workbench::hand_input::dead_band_test

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace spring_workbench::instruments {
+namespace spring_workbench::instruments::material_estimate_test {
 namespace {
 
 constexpr double kInterval = 0.02, kNoise = 5e-4;
@@ -125,4 +125,4 @@ TEST(MaterialEstimate, TheCurveIsForceOverDepth) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::instruments
+}  // namespace spring_workbench::instruments::material_estimate_test
