@@ -122,6 +122,8 @@ void bind_report(py::module_& module) {
                     "Angular frequency of the stiffest mode times the step.")
       .def_readonly("steps_blocked", &AdvanceReport::steps_blocked,
                     "Number of steps in which contact admitted no motion of an object.")
+      .def_readonly("steps_unsolved", &AdvanceReport::steps_unsolved,
+                    "Number of steps near other movable objects that were taken although a contact missed its law.")
       .def_readonly("time_lost", &AdvanceReport::time_lost,
                     "Time during which a body did not follow its equation of motion [s].")
       .def_readonly("steps_rejected", &AdvanceReport::steps_rejected,

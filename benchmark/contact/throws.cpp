@@ -111,7 +111,9 @@ ThrowResult run(const Throw& thrown) {
   double least = start, end = held + 1.2 / t.v.x();
   ThrowResult r;
   for (double time = held + t.step; time < end; time += t.step) {
-    r.steps_blocked += s.advance(time).steps_blocked;
+    const simulation::AdvanceReport report = s.advance(time);
+    r.steps_blocked += report.steps_blocked;
+    r.steps_unsolved += report.steps_unsolved;
     const RigidTransform X_WA = thrown.loose ? s.objects()[1].X_WO : RigidTransform::Identity();
     look_at_wall(t, X_WA.inverse() * s.objects()[0].X_WO, thrown.loose ? loose_width : fixed_width, r);
     r.energy_gained = std::max(r.energy_gained, (both() - least) / start);

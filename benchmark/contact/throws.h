@@ -19,7 +19,7 @@ struct ThrowResult {
   bool passed_through = false;
   double depth = 0.0;  ///< largest beyond the wall's face, at the ends of steps, from the shape's own geometry [m]
   double energy_gained = 0.0;  ///< largest rise of the energy of both, over that of the throw
-  int steps_blocked = 0;
+  int steps_blocked = 0, steps_unsolved = 0;
   double seconds = 0.0;  ///< processor time over simulated time
 };
 

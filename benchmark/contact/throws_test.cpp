@@ -29,6 +29,22 @@ TEST(LooseThrows, ALooseThinWallIsNotGoneThrough) {
   }
 }
 
+// What goes deep among movable bodies is counted, and what does not is not.
+TEST(LooseThrows, WhatGoesDeepIsCounted) {
+  int deep = 0;
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    const ThrowResult result = run({scene::ContactMode::dynamic, seed, true});
+    if (result.depth > 1e-3) {
+      ++deep;
+      EXPECT_GT(result.steps_unsolved, 0) << seed;
+    }
+    if (seed % 4 < 2) {
+      EXPECT_EQ(result.steps_unsolved, 0) << seed;
+    }
+  }
+  EXPECT_GT(deep, 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Modes, Throws, ::testing::Values(scene::ContactMode::stop, scene::ContactMode::dynamic),
                          [](const auto& tested) {
                            return tested.param == scene::ContactMode::stop ? "stop" : "dynamic";

@@ -223,6 +223,9 @@ class Report:
     def steps_blocked(self) -> int:
         """Number of steps in which contact admitted no motion of an object."""
     @property
+    def steps_unsolved(self) -> int:
+        """Number of steps near other movable objects that were taken although a contact missed its law."""
+    @property
     def time_lost(self) -> float:
         """Time during which a body did not follow its equation of motion [s]."""
     @property

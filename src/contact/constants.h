@@ -62,9 +62,6 @@ constexpr double longer = 2.0;
 /// Largest number of substeps tried in a step; then the body is blocked for the rest of it: where an undamped fork
 /// swings a million times in a step, or an open mesh pushes both ways. Goes into `PressedAndShifted.Follow`.
 constexpr int most_tries = 2000;
-/// Largest number of times that a substep is integrated, each time under the loads of the last solution; further
-/// solutions correct its end to first order. Goes into `PressedAndShifted.Follow`.
-constexpr int most_advances = 3;
 /// Largest number of solutions of one substep, each linearised about the last. Goes into `PressedAndShifted.Follow`.
 constexpr int most_solutions = 8;
 /// Largest number of solutions of one substep among movable bodies, each linearised about the loads of the last. Goes

@@ -96,7 +96,7 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
   }
   Matrix6d C = body.response(h).displacement;
   if (!body.advance(h, total_load(work))) return false;
-  for (int solution = 1, advances = 1; solution <= most_solutions; ++solution) {
+  for (int solution = 1; solution <= most_solutions; ++solution) {
     look_at_end(body, X0, work, starts, outcome);
     std::vector<ContactRow> assumed = work;
     double worst = 0.0;
@@ -122,10 +122,9 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
       rows = std::move(assumed);
       return true;
     }
-    if (advances < most_advances && change * change > touching * radius_[body.index()]) {
+    if (change * change > touching * radius_[body.index()]) {
       body.restore(start_);
       if (!body.advance(h, load)) return false;
-      ++advances;
     } else {
       body.correct(h, corrects);
       if (solution > 1) C = body.response(h).displacement;

@@ -84,6 +84,7 @@ DynamicStepper::Outcome DynamicStepper::step(const std::vector<bodies::SteppedBo
     } else {
       const Piece result = go_in_contact(std::move(candidates), substep);
       if (result == Piece::too_long) continue;
+      if (result == Piece::gone_unsolved) ++outcome.unsolved;
       if (result == Piece::stuck) {
         substep = std::min(blocked_substep, left);
         hold_back(held, substep, outcome);
@@ -112,9 +113,8 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(std::vector<Candidate> candi
     return Piece::too_long;
   };
   std::vector<rigid_bodies::DrivenBody> driven = solve(candidates, h);
-  if (const double of_free = world_->admissible_fraction_of_free(); of_free < 1.0 && h > shortest_piece_) {
-    return shorten(of_free);
-  }
+  const double of_free = world_->admissible_fraction_of_free();
+  if (of_free < 1.0 && h > shortest_piece_) return shorten(of_free);
   double sound = admissible_fraction(candidates, driven, h);
   double before = 0.0;
   for (int solution = 1; sound < 1.0 && sound > before && solution < most_dynamic_solutions; ++solution) {
@@ -138,7 +138,7 @@ DynamicStepper::Piece DynamicStepper::go_in_contact(std::vector<Candidate> candi
   }
   for (std::size_t i = 0; i < candidates.size(); ++i) take(*candidates[i].body, driven[i].contact_W);
   add_contacts();
-  return Piece::gone;
+  return of_free < 1.0 || !world_->solved() ? Piece::gone_unsolved : Piece::gone;
 }
 
 std::vector<rigid_bodies::DrivenBody> DynamicStepper::solve(const std::vector<Candidate>& candidates, double h) {

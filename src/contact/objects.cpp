@@ -216,6 +216,7 @@ void Objects::step_together(const std::vector<Carried>& held, const std::vector<
   const DynamicStepper::Outcome outcome = dynamic_stepper_->step(bodies, h);
   counts.steps += outcome.substeps;
   counts.steps_among_movable += outcome.substeps;
+  counts.steps_unsolved += outcome.unsolved;
   counts.collision_queries += outcome.substeps;
   counts.note(outcome.time_lost, outcome.refused);
   for (const Carried& c : held) take_state(c.object, c.body->object());
@@ -285,8 +286,7 @@ void Objects::put_to_sleep_if_slow(std::size_t object, double now) {
   const double speed =
       o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * geometry::bounding_radius(body(object).collision);
   if (!o.in_contact || touches_what_moves(object) || speed > scene::asleep_speed) objects_[object].slow_since = now;
-  const bool away = o.X_WO.translation().norm() > world_limit;
-  if (away || now - objects_[object].slow_since > asleep_after) {
+  if (o.X_WO.translation().norm() > world_limit || now - objects_[object].slow_since > asleep_after) {
     objects_[object].free_body.reset();
     free_.erase(object);
     o.V_WO_W = Twist();

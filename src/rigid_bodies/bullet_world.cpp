@@ -33,8 +33,7 @@ BulletWorld::BulletWorld(const scene::Scene& scene)
     for (const auto& [a, b] : {std::pair<int, int>(GIMPACT_SHAPE_PROXYTYPE, other), {other, GIMPACT_SHAPE_PROXYTYPE}})
       dispatcher_.registerCollisionCreateFunc(a, b, configuration_.getCollisionAlgorithmCreateFunc(a, b));
   }
-  configuration_.setPlaneConvexMultipointIterations(4,
-                                                    4);  // a flush face touches with its corners from the first step on
+  configuration_.setPlaneConvexMultipointIterations(4, 4);  // a flush face touches with its corners at once
   configuration_.setConvexConvexMultipointIterations(4, 4);
   world_.setGravity(btVector3(0.0, 0.0, -scene_.gravity));
   btContactSolverInfo& info = world_.getSolverInfo();

@@ -69,6 +69,7 @@ class BulletWorld final : public RigidWorld {
     return std::min(part_of_way(body, X0_WO, X1_WO, false, blind_way), solver_.residual() > small_miss ? 0.5 : 1.0);
   }
   double admissible_fraction_of_free() const override;
+  bool solved() const override { return solver_.residual() <= small_miss && solver_.deepest() <= blind_way_of_free; }
   const std::vector<WorldContact>& contacts() const override { return contacts_; }
   const std::vector<std::size_t>& bodies_near() const override { return in_world_; }
   void exchange(math::StateArchive& state) override;

@@ -19,7 +19,7 @@ Vector6d both(const btVector3& linear, const btVector3& angular) {
 void DrivenSolver::set_driven(std::vector<Driven> driven, double h) {
   driven_ = std::move(driven);
   impacts_.clear();
-  residual_ = 0.0;
+  residual_ = deepest_ = 0.0;
   h_ = h;
 }
 
@@ -176,6 +176,7 @@ btScalar DrivenSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bod
                                                 constraint_count, info, debug);
   std::vector<Contact> contacts;
   for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) contacts.push_back(make_contact(i, info));
+  for (const Contact& c : contacts) deepest_ = std::max(deepest_, -c.gap);
   std::vector<Vector6d> change = stop_approaches(contacts);
   for (Contact& c : contacts) {
     c.missing -= c.J_a * change[static_cast<std::size_t>(c.a)] + c.J_b * change[static_cast<std::size_t>(c.b)];

@@ -28,6 +28,8 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   const std::vector<Impact>& impacts() const { return impacts_; }
   /// Largest distance of a contact of the last step from its law [m]; see friction::ContactProblem.
   double residual() const { return residual_; }
+  /// Depth of its deepest contact, at its start [m].
+  double deepest() const { return deepest_; }
 
  private:
   btScalar solveGroupCacheFriendlyIterations(btCollisionObject** bodies, int body_count,
@@ -63,7 +65,7 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   std::vector<Driven> driven_;
   std::vector<Impact> impacts_;
   double h_ = 1.0;
-  double residual_ = 0.0;
+  double residual_ = 0.0, deepest_ = 0.0;
   friction::ContactProblem problem_;
 };
 

@@ -35,6 +35,7 @@ void AdvanceReport::add(const AdvanceReport& later) {
   steps_fallback += later.steps_fallback;
   energy_error += later.energy_error;
   steps_blocked += later.steps_blocked;
+  steps_unsolved += later.steps_unsolved;
   time_lost += later.time_lost;
   steps_rejected += later.steps_rejected;
   wrench_timeouts += later.wrench_timeouts;

@@ -290,6 +290,7 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
   report.steps_among_movable += counts.steps_among_movable;
   report.collision_queries += counts.collision_queries;
   report.steps_blocked += counts.steps_blocked;
+  report.steps_unsolved += counts.steps_unsolved;
   report.steps_rejected += counts.steps_rejected;
   report.time_lost += counts.time_lost;
   for (auto& [object, sharing] : shared)

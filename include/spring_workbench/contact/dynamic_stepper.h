@@ -20,6 +20,7 @@ class DynamicStepper {
 
   struct Outcome {
     int substeps = 0;
+    int unsolved = 0;        ///< of them, taken although a contact missed its law or a free body's path was not clear
     double time_lost = 0.0;  ///< time [s] during which a held body was blocked, because contact admitted no motion or
                              ///< because its result was not finite or bounded
     bool refused = false;    ///< the result of a substep without contact was not finite or bounded
@@ -58,7 +59,7 @@ class DynamicStepper {
   static rigid_bodies::DrivenBody driven_body(const Candidate& candidate, double h);
   /// Moves the bodies to where the candidates end.
   void go_freely(const std::vector<Candidate>& candidates, double h, Outcome& outcome);
-  enum class Piece { gone, too_long, stuck };
+  enum class Piece { gone, gone_unsolved, too_long, stuck };
   /// Carries all bodies over one substep with contact. If a body would then penetrate another too deeply or pass
   /// through it, all bodies are restored and `h` is set to a shorter substep to try, unless none is short enough.
   Piece go_in_contact(std::vector<Candidate> candidates, double& h);

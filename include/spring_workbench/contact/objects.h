@@ -25,6 +25,7 @@ struct StepCounts {
   int steps_among_movable = 0;  ///< those of `steps` with other movable objects (contact mode `dynamic`)
   int collision_queries = 0;
   int steps_blocked = 0;   ///< no admissible motion of a body was found, so that it stayed
+  int steps_unsolved = 0;  ///< of `steps_among_movable`: taken although a contact of theirs missed its law
   int steps_rejected = 0;  ///< the result was not finite or bounded
   double time_lost = 0.0;  ///< time during which a body did not follow its equation [s]
 

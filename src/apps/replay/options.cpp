@@ -133,8 +133,8 @@ a step's local error), local_error_bound [m] (null: none), error_bound [m] and a
 largest; null: none), steps_unbounded (for which there was none), energy_balance [J] (added by integration beyond hand,
 gravity, damping and contact), stiffest_omega_dt, contacts (pairs, at the output times), collision_queries, substeps
 (attempts repeated with a shorter step), stops (at the end of the fork's range), steps_fallback (by an L-stable rule),
-steps_blocked (no motion admitted), time_lost [s], steps_rejected, changes (by services and panels), changes_made_again,
-changes_mismatched (made again with another state), state_hash (of the end), active, skipped.
+steps_blocked (no motion admitted), steps_unsolved (contact missed its law), time_lost [s], steps_rejected, changes (by
+services and panels), changes_made_again, changes_mismatched (again with another state), state_hash, active, skipped.
 Exit status: 0 done; 1 failed; 2 bad arguments or input, with one line on standard error.
 
 Keys (unit; allowed; default): meaning

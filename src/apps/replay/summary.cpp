@@ -77,10 +77,11 @@ std::string Summary::json() const {
       << ", \"stiffest_omega_dt\": " << number(advance.stiffest_omega_dt) << ", \"contacts\": " << contacts_
       << ", \"collision_queries\": " << advance.collision_queries << ", \"substeps\": " << advance.substeps
       << ", \"stops\": " << advance.stops << ", \"steps_fallback\": " << advance.steps_fallback
-      << ", \"steps_blocked\": " << advance.steps_blocked << ", \"time_lost\": " << number(advance.time_lost)
-      << ", \"steps_rejected\": " << advance.steps_rejected << ", \"changes\": " << changes.made_again + changes.given
-      << ", \"changes_made_again\": " << changes.made_again << ", \"changes_mismatched\": " << changes.mismatches.size()
-      << ", \"state_hash\": \"" << simulation::to_hex(state_hash) << "\", \"active\": " << list_of(advance.active)
+      << ", \"steps_blocked\": " << advance.steps_blocked << ", \"steps_unsolved\": " << advance.steps_unsolved
+      << ", \"time_lost\": " << number(advance.time_lost) << ", \"steps_rejected\": " << advance.steps_rejected
+      << ", \"changes\": " << changes.made_again + changes.given << ", \"changes_made_again\": " << changes.made_again
+      << ", \"changes_mismatched\": " << changes.mismatches.size() << ", \"state_hash\": \""
+      << simulation::to_hex(state_hash) << "\", \"active\": " << list_of(advance.active)
       << ", \"skipped\": " << list_of(advance.skipped) << "}";
   return out.str();
 }

@@ -99,6 +99,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   status.add("cycles", loop.cycles)
       .add("deadlines missed", loop.deadlines_missed)
       .add("steps rejected", loop.advance.steps_rejected)
+      .add("steps with unsolved contacts", loop.advance.steps_unsolved)
       .add("time lost in steps [s]", loop.advance.time_lost)
       .add("steps by the fallback", loop.advance.steps_fallback)
       .add("largest bound of a run's error [m]", loop.advance.error_bound)

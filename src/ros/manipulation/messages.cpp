@@ -157,6 +157,7 @@ StepReport to_message(const simulation::AdvanceReport& report) {
   message.steps_fallback = static_cast<uint32_t>(report.steps_fallback);
   message.energy_error = report.energy_error;
   message.steps_blocked = static_cast<uint32_t>(report.steps_blocked);
+  message.steps_unsolved = static_cast<uint32_t>(report.steps_unsolved);
   message.time_lost = report.time_lost;
   message.steps_rejected = static_cast<uint32_t>(report.steps_rejected);
   message.active = report.active;
