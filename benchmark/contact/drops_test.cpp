@@ -21,6 +21,18 @@ TEST_P(Drops, WithoutRestitutionNothingLeavesTheBench) {
   }
 }
 
+// In short steps, too, in which one corner touches long before the others.
+TEST(AlmostFlush, LandsWithAllCornersAtOnce) {
+  int almost_flush = 0;
+  for (unsigned seed = 48; seed < 360; ++seed) {
+    const DropResult result = run(Drop{scene::ContactMode::stop, seed});
+    if (result.tilt >= 0.03) continue;
+    EXPECT_LT(result.leaving, 0.01) << seed;
+    ++almost_flush;
+  }
+  EXPECT_GT(almost_flush, 100);
+}
+
 INSTANTIATE_TEST_SUITE_P(Modes, Drops, ::testing::Values(scene::ContactMode::stop, scene::ContactMode::dynamic),
                          [](const auto& tested) {
                            return tested.param == scene::ContactMode::stop ? "stop" : "dynamic";

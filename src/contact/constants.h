@@ -18,9 +18,9 @@ constexpr double slack = 0.5 * touching;
 /// `StopContact.BetweenTwoSurfacesItSlidesAndStaysOutOfBoth`.
 constexpr double probe_depth = 1e-4;
 /// [m] by which a body that hits something is displaced to find the points that land together. Smaller: one that lands
-/// almost flush tumbles. Goes into `Drops.WithoutRestitutionNothingLeavesTheBench`.
+/// almost flush tumbles. Test: AlmostFlush.LandsWithAllCornersAtOnce at 1e-4, 1e-2.
 constexpr double landing_depth = 1e-3;
-/// [s] within which they land; shorter: they tumble. Goes into `Drops.WithoutRestitutionNothingLeavesTheBench`.
+/// [s] within which they land; shorter: they tumble. Test: AlmostFlush.LandsWithAllCornersAtOnce at 1e-4.
 constexpr double landing_time = 0.02;
 /// [m]; contacts that are nearer to each other count as one. Larger: small faces lose corners. Goes into
 /// `StopContact.APegGoesIntoAHoleWithAMillimetreToSpareWithoutRattling`.
