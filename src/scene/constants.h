@@ -11,6 +11,11 @@ namespace spring_workbench::scene {
 constexpr std::uintmax_t most_bytes = 256u << 20;
 /// Of a mesh; more are refused. Test: LoadScene.MoreThanAMillionTrianglesAreRefused.
 constexpr std::size_t most_triangles = 1000000;
+/// Of all meshes of a scene; more are refused. Test: LoadScene.AScenesMeshesHaveABudget.
+constexpr std::size_t most_scene_triangles = 2000000;
+/// [s] of the processor for reading all meshes of a scene; more is refused. Test: LoadScene.AScenesMeshesHaveABudget at
+/// 0.001.
+constexpr double most_scene_time = 60.0;
 /// [s] of the processor for reading a mesh; longer ones are refused. Test: none: no value tried makes one fail.
 constexpr double most_mesh_time = 30.0;
 /// [bytes] for reading a mesh; what needs more is refused. Test: LoadScene.RefusesHostileMeshes at 21474836480.

@@ -34,7 +34,8 @@ bool is_in_a_root(const fs::path& path, const std::vector<std::string>& roots) {
   const fs::path file = fs::weakly_canonical(path, error);
   return !error && std::any_of(roots.begin(), roots.end(), [&](const std::string& root) {
     const fs::path folder = fs::canonical(root, error);
-    return !error && *file.lexically_relative(folder).begin() != "..";
+    const fs::path inside = file.lexically_relative(folder);
+    return !error && !inside.empty() && *inside.begin() != "..";
   });
 }
 
@@ -103,10 +104,10 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
                          const std::string& where, const std::string& key) {
   const std::string path = path_of(name, folder, where, key).string();
   std::error_code error;
+  if (name.empty()) validation::refuse(where, key, name, "an existing file");
+  check_folder(path, roots, name, where, key);  // first: nobody is told what there is elsewhere
   if (!fs::is_regular_file(path, error))
-    validation::refuse(where, key, name,
-                       name.empty() ? "an existing file" : "an existing file (looked for " + path + ")");
-  check_folder(path, roots, name, where, key);
+    validation::refuse(where, key, name, "an existing file (looked for " + path + ")");
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error || bytes > most_bytes) {
     validation::refuse(where, key, name, "a file of at most " + std::to_string(most_bytes >> 20) + " MiB");
@@ -155,6 +156,8 @@ bool is_closed(const geometry::TriangleMesh& mesh) {
   return open.empty();
 }
 
+MeshCache::MeshCache(std::vector<std::string> roots) : roots_(std::move(roots)), time_left_(most_scene_time) {}
+
 geometry::MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale, const std::string& folder,
                                   const std::string& where) {
   if (!scale.allFinite() || scale.prod() == 0.0) validation::refuse(where, "mesh scale", name, "finite and nonzero");
@@ -166,7 +169,12 @@ geometry::MeshPtr MeshCache::load(const std::string& name, const Vector3d& scale
     validation::refuse(where, "mesh", name, "an STL, OBJ or DAE file");
   }
   const std::string mesh_where = where + ": " + name;
-  geometry::TriangleMesh loaded = read_triangles(path, mesh_where);
+  geometry::TriangleMesh loaded = read_triangles(path, mesh_where, time_left_);
+  triangles_ += loaded.triangles.size();
+  if (triangles_ > most_scene_triangles) {
+    validation::refuse(mesh_where, "triangles of the scene", std::to_string(triangles_),
+                       "at most " + std::to_string(most_scene_triangles));
+  }
   for (Vector3d& v : loaded.vertices) v = v.cwiseProduct(scale);
   loaded = clean_mesh(std::move(loaded), mesh_where);
   loaded.uri = starts_with(name, "package://") ? name : "file://" + path;

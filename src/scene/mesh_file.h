@@ -27,11 +27,11 @@ geometry::TriangleMesh clean_mesh(geometry::TriangleMesh mesh, const std::string
 /// Whether every edge has a triangle on both sides, in opposite directions: only then a mesh has a volume.
 bool is_closed(const geometry::TriangleMesh& mesh);
 
-/// Loads STL, OBJ and DAE files, each once.
+/// Loads the STL, OBJ and DAE files of a scene, each once, within the scene's budget of triangles and time.
 class MeshCache {
  public:
   /// `roots`: as of load_scene().
-  explicit MeshCache(std::vector<std::string> roots) : roots_(std::move(roots)) {}
+  explicit MeshCache(std::vector<std::string> roots);
 
   /// The mesh called `name` in a URDF in `folder`, times `scale`. Throws InputError naming `where`.
   geometry::MeshPtr load(const std::string& name, const Vector3d& scale, const std::string& folder,
@@ -39,6 +39,8 @@ class MeshCache {
 
  private:
   std::vector<std::string> roots_;
+  std::size_t triangles_ = 0;  ///< of all so far
+  double time_left_;           ///< of the processor, for reading [s]
   std::map<std::tuple<std::string, double, double, double>, geometry::MeshPtr> meshes_;
 };
 

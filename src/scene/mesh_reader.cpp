@@ -5,6 +5,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cstring>
 
@@ -98,10 +99,13 @@ std::string read_in_child(const std::string& path, const std::string& where) {
 
 }  // namespace
 
-geometry::TriangleMesh read_triangles(const std::string& path, const std::string& where) {
-  const std::optional<std::string> data =
-      validation::run_in_child([&] { return read_in_child(path, where); }, {most_mesh_time, most_mesh_memory});
-  if (!data) validation::refuse(where, "mesh", path, "readable within 30 s and 2 GiB");
+geometry::TriangleMesh read_triangles(const std::string& path, const std::string& where, double& time_left) {
+  double used = 0.0;
+  const std::optional<std::string> data = validation::run_in_child(
+      [&] { return read_in_child(path, where); }, {std::min(most_mesh_time, time_left), most_mesh_memory}, &used);
+  time_left -= used;
+  if (!data || time_left <= 0.0)
+    validation::refuse(where, "mesh", path, "readable within 30 s and 2 GiB, all meshes of a scene within 60 s");
   if (data->front() == bad) throw validation::InputError(data->substr(1));
   geometry::TriangleMesh mesh;
   unpack(unpack(data->data() + 1, mesh.vertices), mesh.triangles);

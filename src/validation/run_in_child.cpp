@@ -14,6 +14,7 @@
 #include <exception>
 #include <fstream>
 
+#include "confine.h"
 #include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::validation {
@@ -67,17 +68,24 @@ std::string read_all(int file) {
 }
 
 [[noreturn]] void child(int pipe, const std::function<std::string()>& work, const ChildLimits& limits) {
-  const int nowhere = open("/dev/null", O_WRONLY);  // libraries print when they fail
+  const int nowhere = open("/dev/null", O_RDWR);  // libraries print when they fail
+  dup2(nowhere, STDIN_FILENO);
   dup2(nowhere, STDOUT_FILENO);
   dup2(nowhere, STDERR_FILENO);
   try {
+    keep_alone(pipe);
     end_after(limits.time, ITIMER_PROF, SIGPROF);
     end_after(10.0 * limits.time, ITIMER_REAL, SIGALRM);  // what waits for ever takes no processor time
     limit_memory(limits.memory);
+    confine();
     _exit(write_all(pipe, work()) ? 0 : 1);
   } catch (const std::exception&) {
     _exit(1);
   }
+}
+
+double seconds(const timeval& time) {
+  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
 [[noreturn]] void refuse_without_child(int reason) {
@@ -87,7 +95,8 @@ std::string read_all(int file) {
 
 }  // namespace
 
-std::optional<std::string> run_in_child(const std::function<std::string()>& work, const ChildLimits& limits) {
+std::optional<std::string> run_in_child(const std::function<std::string()>& work, const ChildLimits& limits,
+                                        double* time_used) {
   int ends[2];
   if (pipe(ends) != 0) refuse_without_child(errno);
   const pid_t process = fork();
@@ -105,8 +114,10 @@ std::optional<std::string> run_in_child(const std::function<std::string()>& work
   std::string data = read_all(ends[0]);
   close(ends[0]);
   int status = 0;
-  while (waitpid(process, &status, 0) < 0 && errno == EINTR) {
+  rusage usage{};
+  while (wait4(process, &status, 0, &usage) < 0 && errno == EINTR) {
   }
+  if (time_used != nullptr) *time_used = seconds(usage.ru_utime) + seconds(usage.ru_stime);
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
   return data;
 }

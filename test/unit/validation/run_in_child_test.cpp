@@ -1,9 +1,19 @@
 #include "spring_workbench/validation/run_in_child.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/prctl.h>
+#include <sys/ptrace.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
+#include <ctime>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <thread>
@@ -50,6 +60,55 @@ TEST(RunInChild, ComesBackWithNothingFromWhatHangs) {
         return std::string();
       },
       {0.2}));
+}
+
+TEST(RunInChild, TellsTheProcessorTimeThatItTook) {
+  const auto work = [](double seconds) {
+    return [seconds] {
+      while (static_cast<double>(std::clock()) < seconds * CLOCKS_PER_SEC) {
+      }
+      return std::string();
+    };
+  };
+  double little = 0.0, more = 0.0;
+  ASSERT_TRUE(run_in_child(work(0.0), ample, &little));
+  ASSERT_TRUE(run_in_child(work(0.3), ample, &more));
+  EXPECT_GE(more, 0.28);
+  EXPECT_LT(little, more);
+}
+
+/// What a file that takes over its reader would try.
+TEST(RunInChild, HasNoFileOfTheCallerAndReachesNothing) {
+  int ends[2];
+  ASSERT_EQ(socketpair(AF_UNIX, SOCK_STREAM, 0, ends), 0);
+  const std::string path = testing::TempDir() + "run_in_child_test";
+  std::ofstream(path) << "kept";
+  const pid_t caller = getpid();
+  const auto told = run_in_child(
+      [&] {
+        const auto refused = [](long result) { return result < 0 && errno == EPERM ? '1' : '0'; };
+        const bool is_open = fcntl(ends[0], F_GETFD) >= 0 || fcntl(ends[1], F_GETFD) >= 0;
+        std::string answers(1, is_open ? '0' : '1');
+        answers += prctl(PR_GET_NO_NEW_PRIVS, 0, 0, 0, 0) == 1 ? '1' : '0';
+        answers += std::ifstream(path).good() ? '1' : '0';  // reading is what it is for
+        answers += refused(socket(AF_INET, SOCK_STREAM, 0));
+        answers += refused(open(path.c_str(), O_WRONLY));
+        answers += refused(open((path + "_new").c_str(), O_CREAT | O_RDONLY, 0600));
+        answers += refused(unlink(path.c_str()));
+        answers += refused(rename(path.c_str(), (path + "_moved").c_str()));
+        answers += refused(truncate(path.c_str(), 0));
+        answers += refused(kill(caller, 0));
+        answers += refused(ptrace(PTRACE_ATTACH, caller, nullptr, nullptr));
+        answers += refused(execl("/bin/true", "true", nullptr));
+        return answers;
+      },
+      ample);
+  EXPECT_EQ(told, "111111111111");
+  std::string left;
+  std::getline(std::ifstream(path), left);
+  EXPECT_EQ(left, "kept");
+  for (const int end : ends) close(end);
+  std::remove(path.c_str());
 }
 
 TEST(RunInChild, ComesBackWithNothingFromWhatEatsMemory) {

@@ -1,0 +1,12 @@
+#pragma once
+
+namespace spring_workbench::validation {
+
+/// Closes all files of this process but the standard ones and `file`. Throws where they cannot be listed.
+void keep_alone(int file);
+
+/// From now on this process opens no socket, writes no file, starts no program and touches no other process: these
+/// calls fail with EPERM. Does nothing where the kernel or the processor's kind offers no such filter.
+void confine();
+
+}  // namespace spring_workbench::validation
