@@ -32,6 +32,9 @@ constexpr double parabola_window = 0.14;
 /// Of the determinant of a fit to the product of its diagonal; samples closer together than that say no parabola. Test:
 /// PosePredictor.FollowsLineAndParabolaExactly at 1.
 constexpr double least_spread = 1e-6;
+/// [s] between two samples of a head after which its motion is another one. Longer: the view flies on after a dropout.
+/// Test: HeadMotion.RestsAfterADropoutAndAJumpOfTime at 10.
+constexpr double head_dropout = 0.5;
 /// [s] by which clocks may move against each other from look to look, and a message be out of order. Less: late
 /// messages count as a clock that was set. Test: StreamClock.AMessageAloneMovesNothing at 2.
 constexpr double clock_slip = 0.1;

@@ -5,32 +5,57 @@
 #include <ros/time.h>
 #include <rviz/display_context.h>
 #include <rviz/frame_manager.h>
+#include <rviz/properties/float_property.h>
 #include <rviz/properties/tf_frame_property.h>
+#include <tf2_ros/buffer.h>
 
 #include <pluginlib/class_list_macros.hpp>
+#include <utility>
+
+#include "spring_workbench/math/rigid_transform.h"
 
 namespace spring_workbench::rviz_plugin {
+namespace {
+
+RigidTransform pose_of(const geometry_msgs::Transform& message) {
+  const auto& p = message.translation;
+  const auto& q = message.rotation;
+  return make_transform(Quaterniond(q.w, q.x, q.y, q.z), Vector3d(p.x, p.y, p.z));
+}
+
+}  // namespace
 
 HeadViewController::HeadViewController() {
   frame_ =
       new rviz::TfFrameProperty("Head Frame", "head", "The camera looks along its x axis; its z axis is up.", this);
+  latency_ =
+      new rviz::FloatProperty("Latency", 0.0F, "Of projector and rviz [s]: the head is predicted that far.", this);
+  latency_->setMin(0.0F);
+  latency_->setMax(static_cast<float>(motion::PosePredictor::farthest));
 }
 
 void HeadViewController::onInitialize() { frame_->setFrameManager(context_->getFrameManager()); }
 
 void HeadViewController::update(float, float) {
-  Ogre::Vector3 position;
-  Ogre::Quaternion rotation;
-  if (!context_->getFrameManager()->getTransform(frame_->getFrameStd(), ros::Time(), position, rotation)) {
+  const std::string frame = frame_->getFrameStd(), fixed = context_->getFrameManager()->getFixedFrame();
+  geometry_msgs::TransformStamped newest;
+  try {
+    newest = context_->getTF2BufferPtr()->lookupTransform(fixed, frame, ros::Time());
+  } catch (const tf2::TransformException&) {
     return setStatus("no frame " + frame_->getFrame() + ": the view stays");
   }
   setStatus("following " + frame_->getFrame());
+  if (std::exchange(followed_, fixed + " " + frame) != followed_) motion_ = motion::HeadMotion();
+  const RigidTransform X_FH = motion_.follow(newest.header.stamp.toSec(), pose_of(newest.transform),
+                                             ros::SteadyTime::now().toSec(), static_cast<double>(latency_->getFloat()));
+  const Eigen::Vector3f p = X_FH.translation().cast<float>();
+  const Eigen::Quaternionf q(X_FH.linear().cast<float>());
   // Ogre's cameras look along -z, y up.
   const Ogre::Quaternion camera_in_head(Ogre::Vector3(0, -1, 0), Ogre::Vector3(0, 0, 1), Ogre::Vector3(-1, 0, 0));
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wdeprecated-declarations"  // rviz hangs its cameras into the scene's root
-  camera_->setPosition(position);
-  camera_->setOrientation(rotation * camera_in_head);
+  camera_->setPosition(p.x(), p.y(), p.z());
+  camera_->setOrientation(Ogre::Quaternion(q.w(), q.x(), q.y(), q.z()) * camera_in_head);
 #pragma GCC diagnostic pop
 }
 

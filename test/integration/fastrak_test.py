@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""tracker_driver on a simulated FASTRAK: three stations that slide along x, the third on the head, and a plug that is
+"""tracker_driver on a simulated FASTRAK: four stations that slide along x, two of them on heads, and a plug that is
 pulled after 8 s."""
 import sys
 import unittest
@@ -11,19 +11,19 @@ from tf2_msgs.msg import TFMessage
 
 from stack import Listener, diagnostic_values, diagnostics_listener, wait_for
 
-RATE = 40.0  # [Hz] of each of three stations
+RATE = 30.0  # [Hz] of each of four stations
 COUNT = 150
 
 
 class Fastrak(unittest.TestCase):
     def test_passes_the_device_on_and_survives_a_pulled_plug(self):
         tf, joy, diagnostics = Listener("/tf", TFMessage), Listener("stylus/joy", Joy), diagnostics_listener()
-        second_joy = Listener("stylus_2/joy", Joy)
+        second_joy, statics = Listener("stylus_2/joy", Joy), Listener("/tf_static", TFMessage)
 
         def of(frame):
             return [t for m in tf.messages for t in m.transforms if t.child_frame_id == frame]
 
-        frames = ["stylus", "stylus_2", "head"]
+        frames = ["stylus", "stylus_2", "head", "head_2"]
         wait_for(lambda: min(len(of(frame)) for frame in frames) >= COUNT, "the device's poses")
         for frame in frames:
             transforms = of(frame)[:COUNT]
@@ -37,6 +37,10 @@ class Fastrak(unittest.TestCase):
                 self.assertAlmostEqual(p.x, -2.0, delta=1e-6)
                 self.assertAlmostEqual(p.z, 3.5, delta=1e-6)
                 self.assertTrue(0.999 < p.y < 1.491, p.y)
+        eyes = {t.child_frame_id: t.header.frame_id for m in statics.messages for t in m.transforms}
+        self.assertEqual(
+            eyes, {"eye_left": "head", "eye_right": "head", "eye_left_2": "head_2", "eye_right_2": "head_2"}
+        )
         self.assertGreater(len(joy.messages), COUNT / 2)
         self.assertEqual({m.buttons[0] for m in joy.messages}, {0})
         wait_for(

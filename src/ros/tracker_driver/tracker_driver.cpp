@@ -11,7 +11,9 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "constants.h"
@@ -25,6 +27,7 @@
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/lost_messages.h"
 #include "spring_workbench/ros/common/parameters.h"
+#include "spring_workbench/ros/common/publishing.h"
 #include "spring_workbench/ros/tracker_driver/tracker_parameters.h"
 #include "spring_workbench/scene/scene.h"
 #include "spring_workbench/validation/number_rule.h"
@@ -115,12 +118,15 @@ class TrackerDriver {
 
   /// Eyes beside each other in the head's axes: x forward, y left (REP 103).
   void send_eyes() {
-    const auto eye = [&](const std::string& name, double side) {
-      const Vector3d p(0.0, 0.5 * side * parameters_.interpupillary_distance, 0.0);
-      return ros_common::to_transform(make_transform(Quaterniond::Identity(), p), parameters_.head_frame, name,
-                                      ros::Time::now());
-    };
-    static_transforms_.sendTransform({eye("eye_left", 1.0), eye("eye_right", -1.0)});
+    std::vector<geometry_msgs::TransformStamped> eyes;
+    for (std::size_t head = 0; head < std::max<std::size_t>(parameters_.head_stations.size(), 1); ++head) {
+      for (const auto& [name, side] : {std::pair("eye_left", 0.5), std::pair("eye_right", -0.5)}) {
+        const Vector3d p(0.0, side * parameters_.interpupillary_distance, 0.0);
+        eyes.push_back(ros_common::to_transform(make_transform(Quaterniond::Identity(), p), head_frame(head),
+                                                name + ros_common::hand_suffix(head), ros::Time::now()));
+      }
+    }
+    static_transforms_.sendTransform(eyes);
   }
 
   void play() {
@@ -197,7 +203,7 @@ class TrackerDriver {
     std::vector<geometry_msgs::TransformStamped> transforms{
         transform_of(sample.station, make_transform(sample.q_TS, sample.p_TS), stamp)};
     if (sample.station == parameters_.fastrak.stations.front()) {
-      if (parameters_.head_station == 0) {
+      if (parameters_.head_stations.empty()) {
         transforms.push_back(
             ros_common::to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp));
       }
@@ -208,9 +214,19 @@ class TrackerDriver {
     ++sent_;
   }
 
+  std::string head_frame(std::size_t head) const { return parameters_.head_frame + ros_common::hand_suffix(head); }
+
+  /// Number of the head that the station is on, from 0.
+  std::optional<std::size_t> head_of(int station) const {
+    const auto& heads = parameters_.head_stations;
+    const auto found = std::find(heads.begin(), heads.end(), station);
+    if (found == heads.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - heads.begin());
+  }
+
   std::string frame_of(int station) const {
     if (station == 1) return parameters_.stylus_frame;
-    if (station == parameters_.head_station) return parameters_.head_frame;
+    if (const std::optional<std::size_t> head = head_of(station)) return head_frame(*head);
     return parameters_.stylus_frame + "_" + std::to_string(station);
   }
 
@@ -218,7 +234,7 @@ class TrackerDriver {
     RigidTransform X_BF = X_BT_ * X_TS;
     if (station == 1) {
       X_BF = X_BF * Eigen::Translation3d(parameters_.p_ST);
-    } else if (station == parameters_.head_station) {
+    } else if (head_of(station)) {
       X_BF = X_BF * parameters_.X_BHead;
     }
     return ros_common::to_transform(X_BF, parameters_.workbench_frame, frame_of(station), stamp);

@@ -14,7 +14,7 @@ std::vector<std::string> keys_of(const std::string& source) {
                                 "head_frame", "head", "interpupillary_distance", "dropout_after"};
   const auto add = [&](const std::vector<std::string>& more) { keys.insert(keys.end(), more.begin(), more.end()); };
   if (source == "fastrak") {
-    add({"offset", "tip", "even_stamps", "head_station"});
+    add({"offset", "tip", "even_stamps", "head_stations"});
     add(fastrak::fastrak_keys());
   } else if (source == "interactive_marker" || source == "joy") {
     add({"start"});
@@ -27,13 +27,20 @@ std::vector<std::string> keys_of(const std::string& source) {
   return keys;
 }
 
-int read_head_station(const YAML::Node& value, const std::string& where, const std::vector<int>& stations) {
-  const int station = config::read_integer(value, where, "head_station", 0, fastrak::kFastrakStations);
-  if (station == 1 || (station > 0 && std::count(stations.begin(), stations.end(), station) == 0)) {
-    validation::refuse(where, "head_station", std::to_string(station),
-                       "0, or one of stations other than 1, which is the stylus");
+std::vector<int> read_head_stations(const YAML::Node& value, const std::string& where,
+                                    const std::vector<int>& stations) {
+  std::vector<int> heads;
+  for (const YAML::Node& entry : value) {
+    const int station = config::read_integer(entry, where, "head_stations", 1, fastrak::kFastrakStations);
+    if (station == 1 || std::count(stations.begin(), stations.end(), station) == 0 ||
+        std::count(heads.begin(), heads.end(), station) > 0) {
+      validation::refuse(where, "head_stations", std::to_string(station),
+                         "different ones of stations other than 1, which is the stylus");
+    }
+    heads.push_back(station);
   }
-  return station;
+  if (!value.IsSequence()) validation::refuse(where, "head_stations", value.Scalar(), "a list");
+  return heads;
 }
 
 }  // namespace
@@ -53,9 +60,9 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
   const bool is_motion = result.source == "motion_file" || result.source == "scripted";
   result.even_stamps = result.source == "fastrak";
   if (result.source == "fastrak") result.fastrak = fastrak::read_fastrak_settings(parameters, where);
-  if (parameters["head_station"]) {
-    result.head_station = read_head_station(parameters["head_station"], where, result.fastrak.stations);
-    if (result.head_station > 0) result.X_BHead = RigidTransform::Identity();
+  if (parameters["head_stations"]) {
+    result.head_stations = read_head_stations(parameters["head_stations"], where, result.fastrak.stations);
+    if (!result.head_stations.empty()) result.X_BHead = RigidTransform::Identity();
   }
   if (result.source == "joy") result.joy = read_joy_settings(parameters, where);
   constexpr double unbounded = std::numeric_limits<double>::max();

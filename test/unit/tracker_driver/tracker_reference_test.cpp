@@ -112,9 +112,11 @@ TEST(TrackerParameters, RefusesWithTheKeyInTheMessage) {
       {"{file: a, port: /dev/x}", "port"},
       {"{source: fastrak, file: a}", "file"},
       {"{source: fastrak, baud: 1}", "baud"},
-      {"{source: fastrak, head_station: 1}", "head_station"},
-      {"{source: fastrak, stations: [1, 2], head_station: 3}", "head_station"},
-      {"{source: joy, head_station: 2}", "head_station"}};
+      {"{source: fastrak, head_stations: [1]}", "head_stations"},
+      {"{source: fastrak, stations: [1, 2], head_stations: 2}", "head_stations"},
+      {"{source: fastrak, stations: [1, 2], head_stations: [2, 2]}", "head_stations"},
+      {"{source: fastrak, stations: [1, 2], head_stations: [3]}", "head_stations"},
+      {"{source: joy, head_stations: [2]}", "head_stations"}};
   for (const auto& [yaml, key] : cases) {
     const std::string message = refusal_of(yaml);
     EXPECT_NE(message.find(" " + key + ":"), std::string::npos) << yaml << ": " << message;

@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "spring_workbench/fastrak/fastrak_source.h"
 #include "spring_workbench/math/rigid_transform.h"
@@ -33,13 +34,14 @@ struct TrackerParameters {
   double pause = 1.0;                         ///< `pause` [s], >= 0: before each pass
   std::string workbench_frame = "workbench";  ///< `workbench_frame`: parent of the frames
   std::string stylus_frame = "stylus";        ///< `stylus_frame`
-  std::string head_frame = "head";            ///< `head_frame`
+  std::string head_frame = "head";            ///< `head_frame`; those of further heads end in _2, _3
   RigidTransform X_BT =
       RigidTransform::Identity();  ///< `offset` (x y z qx qy qz qw): the recording's base frame in the workbench
   std::optional<RigidTransform>
-      X_BS_first;        ///< `start` (x y z qx qy qz qw): where the first sample lies; of a motion, instead of `offset`
-  int head_station = 0;  ///< `head_station` of a FASTRAK: the one on the head, 2 … 4; 0: none
-  RigidTransform X_BHead = head_before_the_bench();  ///< `head` (pose); with head_station in the frame of its receiver
+      X_BS_first;  ///< `start` (x y z qx qy qz qw): where the first sample lies; of a motion, instead of `offset`
+  std::vector<int> head_stations;  ///< `head_stations` of a FASTRAK: those on heads, of 2 … 4; none: the head rests
+  RigidTransform X_BHead =
+      head_before_the_bench();  ///< `head` (pose); with head_stations in the frame of each receiver
   double grasp_from = std::numeric_limits<double>::infinity();  ///< `grasp_from` [s]: the button goes down …
   double grasp_until = std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up, beside the file's own
   Vector3d p_ST = Vector3d::Zero();  ///< `tip` (x y z) [m]: the handle's origin in the tracked frame of the stylus

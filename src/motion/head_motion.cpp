@@ -1,0 +1,19 @@
+#include "spring_workbench/motion/head_motion.h"
+
+#include "constants.h"
+
+namespace spring_workbench::motion {
+
+RigidTransform HeadMotion::follow(double stamp, const RigidTransform& X_FH, double now, double latency) {
+  if (stamp != stamp_) {
+    // A head that was lost, or whose clock was set, has another motion.
+    if (stamp < stamp_ || stamp > stamp_ + head_dropout) predictor_.restart();
+    predictor_.push({stamp, X_FH});
+    stamp_ = stamp;
+    came_ = now;
+  }
+  const auto predicted = latency > 0.0 ? predictor_.predict(stamp + latency + (now - came_)) : std::nullopt;
+  return predicted ? predicted->X : X_FH;
+}
+
+}  // namespace spring_workbench::motion
