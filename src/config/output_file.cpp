@@ -46,6 +46,12 @@ void OutputFile::write(const std::string& text) {
   check(std::fwrite(text.data(), 1, text.size(), file_) == text.size());
 }
 
+void OutputFile::write_begin(const std::string& bytes) {
+  check(std::fseek(file_, 0, SEEK_SET) == 0);
+  write(bytes);
+  check(std::fseek(file_, 0, SEEK_END) == 0);
+}
+
 void OutputFile::commit() {
   check(std::fflush(file_) == 0);
   if (in_place_) return;

@@ -1,52 +1,51 @@
 #include <cmath>
 #include <cstdint>
-#include <fstream>
+#include <iostream>
+#include <string>
 
+#include "spring_workbench/config/output_file.h"
 #include "spring_workbench/sound/audio_output.h"
 #include "spring_workbench/sound/contact_synthesizer.h"
-#include "spring_workbench/validation/number_rule.h"
+#include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::sound {
 namespace {
 
-/// RIFF WAVE with one channel of 16 bit, little endian.
+std::string bytes_of(std::uint32_t value, int bytes) {
+  std::string text;
+  for (int i = 0; i < bytes; ++i) text += static_cast<char>((value >> (8 * i)) & 0xff);
+  return text;
+}
+
+/// RIFF WAVE with one channel of 16 bit, little endian, which has its name once it is whole.
 class WavFile final : public AudioOutput {
  public:
-  explicit WavFile(const std::string& path) : file_(path, std::ios::binary) {
-    if (!file_) validation::refuse("contact sound", "file", path, "a file that can be written");
-    write_header();
-  }
+  explicit WavFile(const std::string& path) : file_(path) { file_.write(header()); }
   ~WavFile() override {
-    file_.seekp(0);
-    write_header();
+    try {
+      file_.write_begin(header());
+      file_.commit();
+    } catch (const validation::InputError& error) {
+      std::cerr << error.what() << std::endl;
+    }
   }
 
   void write(const std::vector<float>& samples) override {
-    for (const float sample : samples) put(static_cast<std::uint32_t>(std::lround(32767.0f * sample)), 2);
-    data_bytes_ += static_cast<std::uint32_t>(2 * samples.size());
+    std::string data;
+    for (const float sample : samples) data += bytes_of(static_cast<std::uint32_t>(std::lround(32767.0f * sample)), 2);
+    file_.write(data);
+    data_bytes_ += static_cast<std::uint32_t>(data.size());
   }
 
  private:
-  void put(std::uint32_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) file_.put(static_cast<char>((value >> (8 * i)) & 0xff));
-  }
-  void write_header() {
-    constexpr std::uint32_t rate = ContactSynthesizer::sample_rate;
-    file_ << "RIFF";
-    put(36 + data_bytes_, 4);
-    file_ << "WAVEfmt ";
-    put(16, 4);  // bytes that follow
-    put(1, 2);   // PCM
-    put(1, 2);   // channels
-    put(rate, 4);
-    put(2 * rate, 4);  // bytes a second
-    put(2, 2);         // bytes a frame
-    put(16, 2);        // bits a sample
-    file_ << "data";
-    put(data_bytes_, 4);
+  std::string header() const {
+    constexpr std::uint32_t rate = ContactSynthesizer::sample_rate, pcm = 1, channels = 1, frame_bytes = 2, bits = 16;
+    return "RIFF" + bytes_of(36 + data_bytes_, 4) + "WAVEfmt " + bytes_of(16, 4) + bytes_of(pcm, 2) +
+           bytes_of(channels, 2) + bytes_of(rate, 4) + bytes_of(frame_bytes * rate, 4) + bytes_of(frame_bytes, 2) +
+           bytes_of(bits, 2) + "data" + bytes_of(data_bytes_, 4);
   }
 
-  std::ofstream file_;
+  config::OutputFile file_;
   std::uint32_t data_bytes_ = 0;
 };
 

@@ -20,10 +20,12 @@ NODE = roslib.packages.find_node("spring_workbench", "contact_sound")[0]
 
 
 class Player:
-    def __init__(self, *parameters, **environment):
+    def __init__(self, path=None, **environment):
+        command = [NODE, *(["_file:=" + path] if path else [])]
         self.process = subprocess.Popen(
-            [NODE, *parameters], env={**os.environ, **environment}, stderr=subprocess.PIPE, text=True
+            command, env={**os.environ, **environment}, stderr=subprocess.PIPE, text=True
         )
+        self.part = "%s.part%d" % (path, self.process.pid)
 
     def end(self):
         self.process.send_signal(signal.SIGINT)
@@ -43,25 +45,27 @@ class ContactSound(unittest.TestCase):
     def tearDown(self):
         wait_for(lambda: self.publisher.get_num_connections() == 0, "the player to be gone")
 
-    def record(self, path, seconds):
-        """Until so much more sound is in the file."""
-        wait_for(lambda: os.path.exists(path), "the file")
-        enough = os.path.getsize(path) + 2 * 44100 * seconds
-        wait_for(lambda: os.path.getsize(path) >= enough, "%g s of sound" % seconds)
+    def record(self, player, seconds):
+        """Until so much more sound is in the file, which has another name while it grows."""
+        wait_for(lambda: os.path.exists(player.part), "the file")
+        enough = os.path.getsize(player.part) + 2 * 44100 * seconds
+        wait_for(lambda: os.path.getsize(player.part) >= enough, "%g s of sound" % seconds)
 
     def test_an_impact_and_a_scrape_are_in_the_file(self):
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "sound.wav")
-            player = Player("_file:=" + path)
+            player = Player(path)
             wait_for(lambda: self.publisher.get_num_connections() > 0, "the player to listen")
-            self.record(path, 0.25)
+            self.record(player, 0.25)
             self.publisher.publish(contact(Contact.STARTED, impulse=0.5))
-            self.record(path, 0.7)  # it rings out
-            begin = os.path.getsize(path)
-            while os.path.getsize(path) < begin + 2 * 44100:
+            self.record(player, 0.7)  # it rings out
+            begin = os.path.getsize(player.part)
+            while os.path.getsize(player.part) < begin + 2 * 44100:
                 self.publisher.publish(contact(Contact.PERSISTING, slip_speed=0.5))
-                self.record(path, 0.02)
+                self.record(player, 0.02)
+            self.assertFalse(os.path.exists(path))
             player.end()
+            self.assertEqual(os.listdir(folder), ["sound.wav"])
             with wave.open(path) as file:
                 self.assertEqual((file.getnchannels(), file.getsampwidth(), file.getframerate()), (1, 2, 44100))
                 samples = array.array("h", file.readframes(file.getnframes()))
@@ -82,12 +86,12 @@ class ContactSound(unittest.TestCase):
         scene.publish(SceneDescription(bodies=[box]))
         with tempfile.TemporaryDirectory() as folder:
             path = os.path.join(folder, "sound.wav")
-            player = Player("_file:=" + path)
+            player = Player(path)
             for publisher in (self.publisher, scene):
                 wait_for(lambda: publisher.get_num_connections() > 0, "the player to listen")
-            self.record(path, 0.5)  # it has the description
+            self.record(player, 0.5)  # it has the description
             self.publisher.publish(contact(Contact.STARTED, impulse=0.5))
-            self.record(path, 0.7)
+            self.record(player, 0.7)
             player.end()
             with wave.open(path) as file:
                 samples = array.array("h", file.readframes(file.getnframes()))

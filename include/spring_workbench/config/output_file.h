@@ -5,7 +5,7 @@
 
 namespace spring_workbench::config {
 
-/// A text file that appears whole or not at all, even if the program or the machine ends meanwhile: it is written
+/// A file that appears whole or not at all, even if the program or the machine ends meanwhile: it is written
 /// beside its path (`PATH.part<process>`), brought to the disk, and renamed by commit(). What is no regular file (a
 /// pipe, /dev/null) is written in place.
 class OutputFile {
@@ -18,6 +18,8 @@ class OutputFile {
 
   /// Throws InputError if not everything can be written.
   void write(const std::string& text);
+  /// Replaces the first bytes; what is written next goes behind the last. Throws InputError likewise.
+  void write_begin(const std::string& bytes);
   /// Throws InputError if not everything is on the disk under its name. What was there before stays in that case,
   /// except if only the folder's entry could not be brought to the disk.
   void commit();

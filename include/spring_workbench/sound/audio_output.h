@@ -13,7 +13,7 @@ class AudioOutput {
   virtual void write(const std::vector<float>& samples) = 0;
 };
 
-/// A WAV file (16 bit); complete when the output is destroyed. Throws InputError when it cannot be written.
+/// A WAV file (16 bit), which appears whole when the output is destroyed. Throws InputError when it cannot be written.
 std::unique_ptr<AudioOutput> open_wav_file(const std::string& path);
 
 /// The default sound device, through SDL 2. Throws InputError when there is none, or where the package was built

@@ -85,6 +85,18 @@ TEST(OutputFile, WithoutCommitNothingIsThere) {
   EXPECT_EQ(files_in(folder.path("")), 0u);
 }
 
+/// As a header that tells the length of what follows.
+TEST(OutputFile, TheBeginCanBeReplacedWhileMoreFollows) {
+  const test_support::TemporaryFolder folder;
+  const std::string path = folder.path("a.txt");
+  OutputFile file(path);
+  file.write("0000 of");
+  file.write_begin("1234");
+  file.write(" bytes");
+  file.commit();
+  EXPECT_EQ(text_of(path), "1234 of bytes");
+}
+
 TEST(OutputFile, OnAFullDiskTheOldFileStays) {
   const test_support::TemporaryFolder folder;
   const std::string path = folder.path("a.txt");
