@@ -21,5 +21,8 @@ constexpr std::int64_t clocks_apart = 50'000;
 /// [s] of attended time in which the other stream may follow a jump back. Less: what a busy player sends late is lost.
 /// Test: tools_test.py::test_both_start_anew_when_time_jumps_back.
 constexpr double jump_patience = 1.0;
+/// [s] between two log lines of one reason to leave input out. Less: the log is flooded. Test:
+/// machine_link_test.py::test_what_cannot_be_used_is_told_and_changes_nothing at 0.
+constexpr double told_again_after = 5.0;
 
 }  // namespace spring_workbench::ros_common

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace spring_workbench::machine_link {
@@ -9,8 +10,8 @@ namespace spring_workbench::machine_link {
 /// messages of a sensor that wait while the machine is busy. Fewer: a force between two of them is lost. Test:
 /// machine_link_test.py::test_every_measurement_is_taken at 1.
 constexpr std::uint32_t input_queue = 2000;
-/// [s] between two log lines of one reason to leave wrenches out. Less: the log is flooded. Test:
-/// machine_link_test.py::test_what_cannot_be_used_is_told_and_changes_nothing at 0.
-constexpr double told_again_after = 5.0;
+/// measurements of one sensor that wait while the loop stands; what comes then is rejected. Fewer: some are lost where
+/// it stands for a moment. Test: Inbox.HoldsNoMoreThanItMay.
+constexpr std::size_t most_waiting = 20000;
 
 }  // namespace spring_workbench::machine_link

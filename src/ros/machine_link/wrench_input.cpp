@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "constants.h"
+#include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/diagnostic_status.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/validation/input_error.h"
@@ -13,8 +14,6 @@ namespace spring_workbench::machine_link {
 namespace {
 
 std::string ending(std::size_t hand) { return hand == 0 ? "" : "_" + std::to_string(hand + 1); }
-
-std::int64_t nanoseconds(const ros::Time& stamp) { return static_cast<std::int64_t>(stamp.toNSec()); }
 
 Vector3d vector_of(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
 
@@ -26,7 +25,8 @@ WrenchInput::WrenchInput(ros::NodeHandle private_node, const std::string& world_
       world_frame_(world_frame),
       max_age_(max_age),
       wake_(std::move(wake)),
-      sensors_{{{"", "", motion::StreamClock(max_age), {}, {}}, {"", "", motion::StreamClock(max_age), {}, {}}}} {
+      sensors_{{{"", "", motion::StreamClock(max_age), live::Inbox<live::StylusWrench>(most_waiting), {}},
+                {"", "", motion::StreamClock(max_age), live::Inbox<live::StylusWrench>(most_waiting), {}}}} {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   for (std::size_t hand = 0; hand < sensors_.size(); ++hand) {
     Sensor& sensor = sensors_[hand];
@@ -42,21 +42,22 @@ WrenchInput::WrenchInput(ros::NodeHandle private_node, const std::string& world_
 void WrenchInput::add_to(live::HandEvents& events) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (std::size_t hand = 0; hand < sensors_.size(); ++hand) {
-    for (const live::StylusWrench& wrench : std::exchange(sensors_[hand].came, {})) events[hand].emplace_back(wrench);
+    for (const live::StylusWrench& wrench : sensors_[hand].came.take()) events[hand].emplace_back(wrench);
   }
 }
 
 /// By the stamp if it fits the present time, otherwise now [ns].
 std::int64_t WrenchInput::local_stamp(Sensor& sensor, const ros::Time& stamp) const {
-  if (!ros::Time::isSimTime()) return sensor.clock.local_or_now(nanoseconds(stamp), ros_common::wall_moment());
+  if (!ros::Time::isSimTime())
+    return sensor.clock.local_or_now(ros_common::nanoseconds_of(stamp), ros_common::wall_moment());
   const ros::Time now = ros::Time::now();
-  return nanoseconds(std::abs((now - stamp).toSec()) <= max_age_ ? stamp : now);
+  return ros_common::nanoseconds_of(std::abs((now - stamp).toSec()) <= max_age_ ? stamp : now);
 }
 
 void WrenchInput::on_wrench(Sensor& sensor, const geometry_msgs::WrenchStamped& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   ++messages_;
-  if (ros::Time::now().isZero()) return reject("no clock", sensor.topic + ": no time on /clock yet");
+  if (ros::Time::now().isZero()) return rejections_.add("no clock", sensor.topic + ": no time on /clock yet");
   const std::string& frame = message.header.frame_id;
   live::StylusWrench event;
   event.sample.wrench = {vector_of(message.wrench.force), vector_of(message.wrench.torque)};
@@ -68,25 +69,19 @@ void WrenchInput::on_wrench(Sensor& sensor, const geometry_msgs::WrenchStamped& 
                          world_frame_ + " or " + sensor.tip_frame);
     }
   } catch (const validation::InputError& error) {
-    return reject("unknown frame", error.what());
+    return rejections_.add("unknown frame", error.what());
   }
   try {
     motion::validate(event.sample, sensor.topic);
   } catch (const validation::InputError& error) {
-    return reject("invalid value", error.what());
+    return rejections_.add("invalid value", error.what());
+  }
+  if (sensor.came.is_full()) {
+    return rejections_.add("the loop stands", sensor.topic + ": the loop stands for too long to take more");
   }
   event.stamp = local_stamp(sensor, message.header.stamp);
-  sensor.came.push_back(event);
+  sensor.came.put(event);
   wake_();
-}
-
-void WrenchInput::reject(const std::string& reason, const std::string& line) {
-  ++rejected_[reason];
-  const double now = ros_common::steady_time();
-  const auto told = told_.find(reason);
-  if (told != told_.end() && now - told->second < told_again_after) return;
-  told_[reason] = now;
-  ROS_WARN_STREAM(line << "; rejected");
 }
 
 void WrenchInput::report(int timeouts, std::vector<diagnostic_msgs::DiagnosticStatus>& statuses) {
@@ -96,7 +91,7 @@ void WrenchInput::report(int timeouts, std::vector<diagnostic_msgs::DiagnosticSt
   ros_common::DiagnosticStatusBuilder status(name_ + ": external wrench", "force sensor");
   status.add("messages", messages_).add("timeouts", timeouts);
   std::size_t rejected = 0;
-  for (const auto& [reason, count] : rejected_) {
+  for (const auto& [reason, count] : rejections_.counts()) {
     status.add("rejected: " + reason, count);
     rejected += count;
   }

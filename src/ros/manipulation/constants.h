@@ -18,8 +18,9 @@ constexpr std::uint32_t input_queue = 2000;
 constexpr std::size_t most_early = 2000;
 /// child frames that a hint can name. More: longer hints. Test: none: a line for people.
 constexpr std::size_t most_named_frames = 20;
-/// [s] between two log lines of one reason to leave samples out. Test: none: a line for people.
-constexpr double told_again_after = 5.0;
+/// events of one stylus that wait while the loop stands; what comes then is rejected. Fewer: samples are lost where a
+/// scene is loaded. Test: Inbox.HoldsNoMoreThanItMay.
+constexpr std::size_t most_waiting = 20000;
 /// [s] between two hints why no sample of the stylus is used. Test: none: a line for people.
 constexpr double hint_patience = 10.0;
 /// [s] without an answer after which the master counts as gone. Shorter: a busy one counts, too. Test:

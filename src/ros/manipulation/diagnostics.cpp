@@ -108,7 +108,8 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("time skipped [s]", loop.left_out)
       .add("cycles behind the hands", loop.cycles_behind)
       .add("longest cycle [s]", loop.longest_cycle)
-      .add("prediction error, 99 % [m]", loop.prediction_error);
+      .add("prediction error, 99 % [m]", loop.prediction_error)
+      .add("real-time priority", loop.realtime_priority);
   status.add("since the master answered [s]", loop.master_silence);
   if (loop.master_silence > master_patience) {
     status.raise(DiagnosticStatus::WARN,

@@ -8,6 +8,7 @@
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/parameters.h"
+#include "spring_workbench/ros/common/realtime.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::manipulation {
@@ -79,15 +80,15 @@ ManipulationNode::~ManipulationNode() {
 }
 
 void ManipulationNode::run_physics() {
+  realtime_priority_ = ros_common::take_realtime_priority(parameters_.realtime_priority);
   const double period = 1.0 / parameters_.rate;
   double due = ros_common::loop_time();
   while (!stop_ && ros::ok()) {
     const double begin = ros_common::loop_time();
     while (!stop_ && run_step(std::min(begin, due))) continue;
     const double now = ros_common::loop_time();
-    const bool clock_went_back = due > now + period;
     if (now >= due) due = due + period > now ? due + period : now + period;
-    if (clock_went_back) due = now + period;
+    due = std::min(due, now + period);  // the clock may have gone back
     alarm_.sleep_until(due);
   }
 }
@@ -130,13 +131,12 @@ void ManipulationNode::count(const live::CycleReport& report, bool deadline_miss
 void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
   place_workbench();
   runner_.note_state();
-  LoopStatistics loop;
-  {
-    const std::lock_guard<std::mutex> lock(loop_mutex_);
-    loop = loop_;
-  }
+  std::unique_lock<std::mutex> loop_lock(loop_mutex_);
+  LoopStatistics loop = loop_;
+  loop_lock.unlock();
   loop.prediction_error = runner_.prediction_error_99();
   loop.checkpoint_error = checkpoint_.file_error();
+  loop.realtime_priority = realtime_priority_;
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
   TrackerInput first{input_.statistics(), runner_.hand_statistics(0), ""};

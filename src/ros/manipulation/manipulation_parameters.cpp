@@ -39,6 +39,8 @@ ManipulationParameters read_manipulation_parameters(const YAML::Node& parameters
   if (const YAML::Node file = ros_common::take(rest, "checkpoint_file"))
     result.checkpoint_file = config::read_string(file, where, "checkpoint_file");
   take_number(rest, where, "rate", validation::between(1.0, 2000.0), result.rate);
+  if (const YAML::Node priority = ros_common::take(rest, "realtime_priority"))
+    result.realtime_priority = config::read_integer(priority, where, "realtime_priority", 0, 99);
   take_number(rest, where, "display_latency", validation::between(0.0, motion::PosePredictor::farthest),
               result.display_latency);
   take_number(rest, where, "markers_rate", validation::between(0.1, 200.0), result.markers_rate);

@@ -17,14 +17,6 @@ std::string place_of(const geometry_msgs::TransformStamped& transform) {
   return place(transform.header.frame_id, transform.child_frame_id);
 }
 
-std::int64_t nanoseconds(const ros::Time& stamp) { return static_cast<std::int64_t>(stamp.toNSec()); }
-
-std::string number(double value) {
-  std::ostringstream out;
-  out << value;
-  return out.str();
-}
-
 }  // namespace
 
 StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame,
@@ -37,6 +29,7 @@ StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& par
       sender_(parameters.simulation.dropout_after),
       wall_poses_(parameters.max_age),
       wall_buttons_(parameters.max_age),
+      events_(most_waiting),
       early_poses_(most_early),
       early_buttons_(most_early) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
@@ -47,12 +40,14 @@ StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& par
 
 std::vector<live::StylusEvent> StylusInput::take_events() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return std::exchange(events_, {});
+  return events_.take();
 }
 
 InputStatistics StylusInput::statistics() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return statistics_;
+  InputStatistics statistics = statistics_;
+  statistics.rejected = rejections_.counts();
+  return statistics;
 }
 
 bool StylusInput::workbench_known() const {
@@ -63,7 +58,8 @@ bool StylusInput::workbench_known() const {
 void StylusInput::on_static_transforms(const tf2_msgs::TFMessageConstPtr& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const geometry_msgs::TransformStamped& transform : message->transforms) {
-    if (const auto wrong = static_frames_.take(transform, parameters_.input)) reject(wrong->first, wrong->second);
+    if (const auto wrong = static_frames_.take(transform, parameters_.input))
+      rejections_.add(wrong->first, wrong->second);
   }
 }
 
@@ -90,7 +86,8 @@ bool StylusInput::is_followed(const std::string& sender) {
   const bool another = sender != sender_.name();
   if (!sender_.offers(sender, ros_common::local_time().attended)) {
     statistics_.other_sender = sender;
-    reject(another_sender, "tf: " + frame_ + ": must have one sender, " + sender_.name() + ", got also " + sender);
+    rejections_.add(another_sender,
+                    "tf: " + frame_ + ": must have one sender, " + sender_.name() + ", got also " + sender);
     return false;
   }
   if (another) wall_poses_.restart();
@@ -101,7 +98,7 @@ bool StylusInput::is_followed(const std::string& sender) {
 void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform) {
   const std::size_t steps = wall_poses_.clock().steps();
   wall_poses_.offer(
-      transform, nanoseconds(transform.header.stamp), ros_common::wall_moment(),
+      transform, ros_common::nanoseconds_of(transform.header.stamp), ros_common::wall_moment(),
       [&](const geometry_msgs::TransformStamped& one, std::int64_t stamp, double age) { use(one, stamp, age); },
       [&](const geometry_msgs::TransformStamped& one, motion::StampVerdict verdict, double age) {
         reject_stamp(one, motion::to_string(verdict), age);
@@ -116,7 +113,7 @@ void StylusInput::on_simulated_time(const geometry_msgs::TransformStamped& trans
   if ((poses_.newest - transform.header.stamp).toSec() > SimulatedClock::slip) early_poses_.keep(transform);
   if (std::abs(age) > parameters_.max_age)
     return reject_stamp(transform, age > 0.0 ? "too old" : "from the future", age);
-  if (use(transform, nanoseconds(transform.header.stamp), age)) {
+  if (use(transform, ros_common::nanoseconds_of(transform.header.stamp), age)) {
     go_on_to(transform.header.stamp, poses_, early_poses_);
   }
 }
@@ -127,12 +124,16 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
   const std::string& parent = transform.header.frame_id;
   const std::optional<RigidTransform> X_WP = static_frames_.in_world(parent);
   if (!X_WP) {
-    reject("unknown frame", place_of(transform) + "frame_id: must be " + parameters_.workbench_frame +
-                                " or tied to it on /tf_static, got " + frame(parent));
+    rejections_.add("unknown frame", place_of(transform) + "frame_id: must be " + parameters_.workbench_frame +
+                                         " or tied to it on /tf_static, got " + frame(parent));
+    return false;
+  }
+  if (events_.is_full()) {
+    rejections_.add(loop_stands, place_of(transform) + "the loop stands for too long to take more");
     return false;
   }
   const hand_input::RawSample sample = raw_sample(transform.transform, seconds(stamp));
-  events_.push_back(live::StylusPose{sample, parent, *X_WP, ros_common::local_time(), age});
+  events_.put(live::StylusPose{sample, parent, *X_WP, ros_common::local_time(), age});
   wake_();
   return true;
 }
@@ -140,30 +141,30 @@ bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int
 void StylusInput::reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason,
                                double age) {
   statistics_.newest_offer_age = age;
-  reject(reason, place_of(transform) + "stamp: must be within max_age = " + number(parameters_.max_age) +
-                     " s of now and continue its stream (a bag needs --clock and use_sim_time), got an age of " +
-                     number(age) + " s");
+  std::ostringstream line;
+  line << place_of(transform) << "stamp: must be within max_age = " << parameters_.max_age
+       << " s of now and continue its stream (a bag needs --clock and use_sim_time), got an age of " << age << " s";
+  rejections_.add(reason, line.str());
 }
 
 void StylusInput::count_rejected(const std::vector<live::RejectedPose>& poses) {
   const std::lock_guard<std::mutex> lock(mutex_);
   for (const auto& [result, pose] : poses) {
-    reject(hand_input::to_string(result),
-           place(pose.parent, frame_) + hand_input::complaint(result, pose.sample, parameters_.input));
+    rejections_.add(hand_input::to_string(result),
+                    place(pose.parent, frame_) + hand_input::complaint(result, pose.sample, parameters_.input));
   }
 }
 
 void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   const std::lock_guard<std::mutex> lock(mutex_);
   // Without a clock yet there is no time that it could be of: an epoch that it began would be followed by the true one.
-  if (ros::Time::now().isZero()) return reject("no clock", joy_ + ": no time on /clock yet");
-  if (message->buttons.empty()) {
-    return reject("no buttons", joy_ + ": buttons: must be at least one button, got none");
-  }
-  if (!ros::Time::isSimTime()) {
-    return on_buttons(*message,
-                      wall_buttons_.local_or_now(nanoseconds(message->header.stamp), ros_common::wall_moment()));
-  }
+  if (ros::Time::now().isZero()) return rejections_.add("no clock", joy_ + ": no time on /clock yet");
+  if (message->buttons.empty())
+    return rejections_.add("no buttons", joy_ + ": buttons: must be at least one button, got none");
+  if (events_.is_full()) return rejections_.add(loop_stands, joy_ + ": the loop stands for too long to take more");
+  const std::int64_t stamp = ros_common::nanoseconds_of(message->header.stamp);
+  if (!ros::Time::isSimTime())
+    return on_buttons(*message, wall_buttons_.local_or_now(stamp, ros_common::wall_moment()));
   if (const std::optional<ros::Time> now = clock_.moment_of(message->header.stamp, buttons_, parameters_.max_age))
     return on_simulated_time(*message, *now);
   early_buttons_.keep(*message);
@@ -175,7 +176,7 @@ void StylusInput::on_simulated_time(const sensor_msgs::Joy& message, const ros::
   if (!stamp.isZero() && (buttons_.newest - stamp).toSec() > SimulatedClock::slip) return early_buttons_.keep(message);
   const bool usable_stamp = std::abs((now - stamp).toSec()) <= parameters_.max_age;
   if (usable_stamp) go_on_to(stamp, buttons_, early_buttons_);
-  on_buttons(message, nanoseconds(usable_stamp ? stamp : now));
+  on_buttons(message, ros_common::nanoseconds_of(usable_stamp ? stamp : now));
 }
 
 /// `stamp`: when the buttons were so, as local time has it [ns].
@@ -184,12 +185,12 @@ void StylusInput::on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp
   using motion::Press;
   const auto note = [&](std::size_t button, bool& was, Press down, std::optional<Press> up) {
     const bool is = message.buttons.size() > button && message.buttons[button] != 0;
-    if (std::exchange(was, is) != is && (is || up)) events_.push_back(live::StylusButton{t, is ? down : *up});
+    if (std::exchange(was, is) != is && (is || up)) events_.put(live::StylusButton{t, is ? down : *up});
   };
   note(0, pressed_, Press::grasp, Press::release);
   note(1, next_tool_, Press::next_tool, std::nullopt);
   note(static_cast<std::size_t>(parameters_.simulation.clutch_button), clutch_, Press::clutch_on, Press::clutch_off);
-  events_.push_back(live::ButtonsKnown{t, ros_common::local_time()});
+  events_.put(live::ButtonsKnown{t, ros_common::local_time()});
   wake_();
 }
 
@@ -229,18 +230,9 @@ double StylusInput::seconds(std::int64_t stamp) {
     // In simulated time a whole second: a bag played again gives the same times to the bit, whatever comes first.
     constexpr std::int64_t second = 1'000'000'000;
     zero_ = ros::Time::isSimTime() && stamp >= second ? stamp / second * second : stamp;
-    events_.push_back(live::NewEpoch{zero_});
+    events_.put(live::NewEpoch{zero_});
   }
   return ros::Duration().fromNSec(stamp - zero_).toSec();
-}
-
-void StylusInput::reject(const std::string& reason, const std::string& line) {
-  ++statistics_.rejected[reason];
-  const double now = ros_common::steady_time();
-  const auto told = told_.find(reason);
-  if (told != told_.end() && now - told->second < told_again_after) return;
-  told_[reason] = now;
-  ROS_WARN_STREAM(line << "; rejected");
 }
 
 }  // namespace spring_workbench::manipulation

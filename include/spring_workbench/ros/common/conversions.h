@@ -8,6 +8,7 @@
 #include <geometry_msgs/Wrench.h>
 #include <ros/time.h>
 
+#include <cstdint>
 #include <string>
 
 #include "spring_workbench/math/rigid_transform.h"
@@ -22,6 +23,9 @@ geometry_msgs::Pose to_pose(const RigidTransform& X);
 geometry_msgs::Wrench to_wrench(const Wrench& wrench);
 geometry_msgs::TransformStamped to_transform(const RigidTransform& X, const std::string& parent,
                                              const std::string& child, const ros::Time& stamp);
+
+/// A stamp [ns].
+inline std::int64_t nanoseconds_of(const ros::Time& stamp) { return static_cast<std::int64_t>(stamp.toNSec()); }
 
 /// Quaternions of another length than 1 are normalised.
 RigidTransform from_message(const geometry_msgs::Pose& pose);

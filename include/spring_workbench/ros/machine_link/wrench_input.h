@@ -6,13 +6,14 @@
 
 #include <array>
 #include <functional>
-#include <map>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "spring_workbench/live/inbox.h"
 #include "spring_workbench/live/stylus_events.h"
 #include "spring_workbench/motion/stream_clock.h"
+#include "spring_workbench/ros/common/rejections.h"
 
 namespace spring_workbench::machine_link {
 
@@ -35,20 +36,18 @@ class WrenchInput {
   struct Sensor {
     std::string topic, tip_frame;
     motion::StreamClock clock;
-    std::vector<live::StylusWrench> came;
+    live::Inbox<live::StylusWrench> came;
     ros::Subscriber subscriber;
   };
   void on_wrench(Sensor& sensor, const geometry_msgs::WrenchStamped& message);
   std::int64_t local_stamp(Sensor& sensor, const ros::Time& stamp) const;
-  void reject(const std::string& reason, const std::string& line);
 
   const std::string name_, world_frame_;
   const double max_age_;
   const std::function<void()> wake_;
   std::mutex mutex_;
   std::size_t messages_ = 0;
-  std::map<std::string, std::size_t> rejected_;  ///< by reason
-  std::map<std::string, double> told_;           ///< when a reason was last logged [s]
+  ros_common::Rejections rejections_;
   std::size_t reported_rejected_ = 0;
   int reported_timeouts_ = 0;
   std::array<Sensor, simulation::Simulation::most_hands> sensors_;

@@ -21,6 +21,7 @@ struct LoopStatistics {
   double longest_cycle = 0.0;         ///< wall time in the simulation [s]
   double master_silence = 0.0;        ///< since the ROS master last answered [s]
   std::string checkpoint_error;       ///< see Checkpoint::file_error()
+  int realtime_priority = 0;          ///< of the loop's thread, as the system gave it
   double prediction_error = 0.0;      ///< see LookAhead::position_error_99() [m]
 };
 

@@ -88,6 +88,7 @@ class ManipulationNode {
   double publish_time_ = 0.0;               ///< of the last cycle's messages [s]
   double show_at_latest_ = 0.0;             ///< even while there is more to commit, in local time [s]
   std::atomic<bool> stop_{false};
+  std::atomic<int> realtime_priority_{0};
   std::thread physics_;
 };
 

@@ -18,8 +18,9 @@ struct ManipulationParameters {
   std::vector<std::string> scene_roots;  ///< `scene_roots`: folders that `~load_scene` may read from, beside packages
   std::string checkpoint_file;           ///< `checkpoint_file`: where the state is kept as well; empty: nowhere
   double rate = 100.0;                   ///< `rate` [Hz], 1 … 2000: of what is shown between samples
-  double display_latency = 0.0;    ///< `display_latency` [s], 0 … 0.1: how far what is shown is ahead of the samples
-  double markers_rate = 30.0;      ///< `markers_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with
+  int realtime_priority = 0;     ///< `realtime_priority`, 0 … 99: of the loop's thread under SCHED_FIFO; 0: the usual
+  double display_latency = 0.0;  ///< `display_latency` [s], 0 … 0.1: how far what is shown is ahead of the samples
+  double markers_rate = 30.0;    ///< `markers_rate` [Hz], 0.1 … 200: the most that `~markers` is sent with
   std::string fork_curve = "rod";  ///< `fork_curve`: one of fork_curve_names(), the curve that `~markers` draws
   double fork_diameter = fork_mesh::usual_diameter;  ///< `fork_diameter`, 0.01 … 0.5: of the drawn coil, as a fraction
                                                      ///< of the rest length

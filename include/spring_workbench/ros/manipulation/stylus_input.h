@@ -12,9 +12,11 @@
 #include <string>
 #include <vector>
 
+#include "spring_workbench/live/inbox.h"
 #include "spring_workbench/live/stylus_events.h"
 #include "spring_workbench/motion/stream_clock.h"
 #include "spring_workbench/ros/common/early_messages.h"
+#include "spring_workbench/ros/common/rejections.h"
 #include "spring_workbench/ros/common/simulated_clock.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
 #include "spring_workbench/ros/manipulation/static_frames.h"
@@ -36,8 +38,8 @@ struct InputStatistics {
   double newest_offer_age = 0.0;                ///< age by its stamp of the newest sample, used or not [s]
 };
 
-/// The reason to leave out what a second node sends.
-constexpr char another_sender[] = "another sender";
+/// The reasons to leave out what a second node sends, and what comes while the loop stands.
+constexpr char another_sender[] = "another sender", loop_stands[] = "the loop stands";
 
 /// One stylus: listens to /tf, /tf_static and its buttons, and keeps what came, in order, until it is taken. What
 /// cannot be used is left out, counted by reason and told in one throttled line. Poses go on as they came: the gate is
@@ -73,7 +75,6 @@ class StylusInput {
   void start_anew_when_due();
   double seconds(std::int64_t stamp);
   void reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason, double age);
-  void reject(const std::string& reason, const std::string& line);
 
   const ManipulationParameters parameters_;
   const std::string frame_, joy_;
@@ -84,15 +85,15 @@ class StylusInput {
   // Of wall time.
   motion::StampedStream<geometry_msgs::TransformStamped> wall_poses_;
   motion::StreamClock wall_buttons_;
-  std::vector<live::StylusEvent> events_;
+  live::Inbox<live::StylusEvent> events_;
   InputStatistics statistics_;
   // Of simulated time.
   EarlyMessages<geometry_msgs::TransformStamped> early_poses_;
   EarlyMessages<sensor_msgs::Joy> early_buttons_;
   SimulatedClock::Stream poses_, buttons_;
   SimulatedClock clock_;
-  std::map<std::string, double> told_;  ///< when a reason to leave a sample out was last logged [s]
-  std::int64_t zero_ = 0;               ///< of the epoch, in local time [ns]; 0 before the first input
+  ros_common::Rejections rejections_;
+  std::int64_t zero_ = 0;  ///< of the epoch, in local time [ns]; 0 before the first input
   bool pressed_ = false, next_tool_ = false, clutch_ = false;
   ros::Subscriber tf_subscriber_, static_subscriber_, joy_subscriber_;
 };

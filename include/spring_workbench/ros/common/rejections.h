@@ -1,0 +1,21 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+namespace spring_workbench::ros_common {
+
+/// Counts what input is left out, by reason, and tells it: one line of a reason in five seconds.
+class Rejections {
+ public:
+  /// `line`: what was wrong with it, and what would be right.
+  void add(const std::string& reason, const std::string& line);
+  const std::map<std::string, std::size_t>& counts() const { return counts_; }
+
+ private:
+  std::map<std::string, std::size_t> counts_;
+  std::map<std::string, double> told_;  ///< when a reason was last logged [s]
+};
+
+}  // namespace spring_workbench::ros_common

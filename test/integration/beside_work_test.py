@@ -1,0 +1,156 @@
+#!/usr/bin/python3
+"""What goes on beside the work of the hand: a scene of large meshes is loaded and the hand notices nothing; the loop
+has a real-time priority, or says once why not."""
+import contextlib
+import math
+import os
+import resource
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+
+import roslib.packages
+import rospkg
+import rospy
+import rostest
+from spring_workbench.msg import ObjectStates
+from spring_workbench.srv import LoadScene
+from tf2_msgs.msg import TFMessage
+
+from stack import DEADLINE, DOWN, Listener, diagnostic_values, diagnostics_listener, stylus_transform, wait_for
+
+SCENE = os.path.join(rospkg.RosPack().get_path("spring_workbench"), "scenes", "single_box.urdf")
+MANIPULATION = roslib.packages.find_node("spring_workbench", "manipulation")
+PERIOD = 0.01  # [s] of the samples
+PRIORITY = 7
+RINGS = 100  # of a ball; its triangles are four times the square
+LINK = """<link name="ball_%d"><inertial><mass value="1"/><inertia ixx="1e-3" iyy="1e-3" izz="1e-3" ixy="0" ixz="0"
+ iyz="0"/></inertial><collision><geometry><mesh filename="ball_%d.stl"/></geometry></collision></link>
+<joint name="to_ball_%d" type="floating"><parent link="world"/><child link="ball_%d"/><origin xyz="%g 0 0.1"/>
+</joint>"""
+
+
+def write_ball(path, radius):
+    """A binary STL."""
+
+    def corner(i, j):
+        a, b = math.pi * i / RINGS, math.pi * j / RINGS
+        return (radius * math.sin(a) * math.cos(b), radius * math.sin(a) * math.sin(b), radius * math.cos(a))
+
+    triangles = []
+    for i in range(RINGS):
+        for j in range(2 * RINGS):
+            a, b, c, d = corner(i, j), corner(i + 1, j), corner(i + 1, j + 1), corner(i, j + 1)
+            triangles += [(a, b, c), (a, c, d)]
+    with open(path, "wb") as file:
+        file.write(b" " * 80 + struct.pack("<I", len(triangles)))
+        for a, b, c in triangles:
+            file.write(struct.pack("<12fH", 0.0, 0.0, 0.0, *a, *b, *c, 0))
+
+
+@contextlib.contextmanager
+def node(before=(), **options):
+    process = subprocess.Popen([*before, *MANIPULATION, "_scene:=" + SCENE], **options)
+    try:
+        yield process
+    finally:
+        process.send_signal(signal.SIGINT)
+        process.communicate(timeout=DEADLINE)
+
+
+def real_time_priority(pid):
+    """The largest of its threads, as the kernel has it."""
+    found = []
+    for task in os.listdir("/proc/%d/task" % pid):
+        with open("/proc/%d/task/%s/stat" % (pid, task)) as file:
+            found.append(int(file.read().rsplit(")", 1)[1].split()[37]))
+    return max(found)
+
+
+class BesideWork(unittest.TestCase):
+    def setUp(self):
+        self.diagnostics = diagnostics_listener()
+        self.addCleanup(self.diagnostics.subscriber.unregister)
+        self.shown = Listener("manipulation/display/objects", ObjectStates)
+        self.addCleanup(self.shown.subscriber.unregister)
+
+    def give(self, parameter, value):
+        rospy.set_param("manipulation/" + parameter, value)
+        self.addCleanup(rospy.delete_param, "manipulation/" + parameter)
+
+    def test_a_large_scene_is_loaded(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        links = ""
+        for i in range(4):
+            write_ball("%s/ball_%d.stl" % (folder.name, i), 0.05 + 0.001 * i)
+            links += LINK % (i, i, i, i, 0.2 * i - 0.3)
+        path = folder.name + "/balls.urdf"
+        with open(path, "w") as file:
+            file.write('<robot name="balls"><link name="world"/>%s</robot>' % links)
+        tf = rospy.Publisher("/tf", TFMessage, queue_size=100)
+        answers = []
+        self.give("scene_roots", [folder.name])
+        with node():
+            load = rospy.ServiceProxy("manipulation/load_scene", LoadScene)
+            load.wait_for_service(DEADLINE)
+            wait_for(lambda: tf.get_num_connections() > 0, "the node to listen")
+            sent, seen, begin = 0, None, time.monotonic()
+            caller = threading.Thread(target=lambda: answers.append(load(scene=path)))
+            while time.monotonic() < begin + DEADLINE and (caller.is_alive() or not answers):
+                x = 0.02 * math.sin(time.monotonic())
+                tf.publish(TFMessage([stylus_transform(rospy.Time.from_sec(time.time()), (x, 0.0, 0.3), DOWN)]))
+                time.sleep(PERIOD)
+                if seen is None and len(self.shown.messages) > 50:
+                    seen = len(self.shown.messages)
+                    caller.start()
+                sent += seen is not None
+            pictures = len(self.shown.messages) - seen
+            said = lambda: diagnostic_values(self.diagnostics.messages, "tracker input")
+            self.diagnostics.next()
+            self.diagnostics.next()
+            print("loaded while %d samples came: %d pictures; %s" % (sent, pictures, said()))
+            self.assertTrue(answers[0].success, answers[0].message)
+            self.assertGreater(sent, 50)  # it takes a while
+            self.assertGreater(pictures, 0.5 * sent)
+            self.assertNotIn("rejected: too old", said())
+            self.assertNotIn("rejected: the loop stands", said())
+            wait_for(lambda: len(self.shown.last.objects) == 4, "the balls")
+
+    def told_priority(self):
+        return wait_for(
+            lambda: diagnostic_values(self.diagnostics.messages, "physics loop").get("real-time priority"), "the status"
+        )
+
+    def test_the_loop_has_the_priority_that_is_told(self):
+        self.give("realtime_priority", PRIORITY)
+        with node() as process:
+            self.assertIn(self.told_priority(), ("0", str(PRIORITY)))  # 0: a host that permits none
+            self.assertEqual(real_time_priority(process.pid), int(self.told_priority()))
+
+    def test_without_being_asked_it_has_none(self):
+        with node() as process:
+            self.assertEqual(self.told_priority(), "0")
+            self.assertEqual(real_time_priority(process.pid), 0)
+
+    def test_what_is_not_permitted_is_told_once(self):
+        before = ["setpriv", "--bounding-set=-sys_nice", "--inh-caps=-sys_nice"] if os.geteuid() == 0 else []
+        self.give("realtime_priority", PRIORITY)
+        forbid = lambda: resource.setrlimit(resource.RLIMIT_RTPRIO, (0, 0))
+        with tempfile.TemporaryFile("w+") as log:
+            with node(before=before, stdout=log, stderr=log, preexec_fn=forbid) as process:
+                self.assertEqual(self.told_priority(), "0")
+                self.assertEqual(real_time_priority(process.pid), 0)
+                wait_for(lambda: len(self.shown.messages) > 5, "a node that works")
+            log.seek(0)
+            self.assertEqual(log.read().count("realtime_priority: %d is not permitted" % PRIORITY), 1)
+
+
+if __name__ == "__main__":
+    rospy.init_node("beside_work_test", disable_rostime=True)
+    rostest.rosrun("spring_workbench", "beside_work_test", BesideWork, sys.argv)
