@@ -21,6 +21,9 @@ constexpr std::int64_t clocks_apart = 50'000;
 /// [s] of attended time in which the other stream may follow a jump back. Less: what a busy player sends late is lost.
 /// Test: tools_test.py::test_both_start_anew_when_time_jumps_back.
 constexpr double jump_patience = 1.0;
+/// [s] for the answer of the node's own API. Longer: a node that is interrupted just then ends later. Test:
+/// ended_nodes_test.py::test_all_end_in_order at 600.
+constexpr double own_api_patience = 0.5;
 /// [s] between two log lines of one reason to leave input out. Less: the log is flooded. Test:
 /// machine_link_test.py::test_what_cannot_be_used_is_told_and_changes_nothing at 0.
 constexpr double told_again_after = 5.0;
