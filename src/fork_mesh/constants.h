@@ -17,6 +17,9 @@ constexpr double coil_radius = 0.5;
 /// DeformedFork.TheCoilIsAsWideAsItsDiameterAndAFifthOfItThickAreTheDiscs.
 constexpr double flange = 0.2;
 
+/// Of the seam along the spring, for its drawing. Fewer: a spiral with corners. Test:
+/// DeformedFork.TheSeamShowsTheTwist.
+constexpr int seam_pieces = 40;
 /// [m] of the tools that are no springs. Larger: clumsier. Test: ForkModel.EachToolHasALookOfItsOwn.
 constexpr double rigid_diameter = 0.03;
 

@@ -60,8 +60,11 @@ ForkModel::ForkModel(const ForkLook& look) : look_(look) {
   check(look);
   if (look.shaft) make_shaft();
   make_end();
-  if (look.spring == ForkLook::Spring::coil) make_spring(look.turns, look.points_per_turn, coil_radius);
-  if (look.spring == ForkLook::Spring::beam) make_spring(1, 2, 0.0);
+  if (look.spring == ForkLook::Spring::coil) {
+    make_wire(look.turns, look.turns * look.points_per_turn, coil_radius);
+    make_wire(0, seam_pieces, coil_radius);
+  }
+  if (look.spring == ForkLook::Spring::beam) make_wire(0, 2, 0.0);
 }
 
 std::size_t ForkModel::vertex_count() const {
@@ -128,18 +131,20 @@ void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double cent
   }
 }
 
-/// A wire of that radius [diameters] about the axis: a coil, or with 0 a beam.
-void ForkModel::make_spring(int turns, int points_per_turn, double radius) {
-  const int rings = turns * points_per_turn + 1;
+/// A wire in so many pieces around the axis, at that radius [diameters] from it: the coil; without turns a seam along
+/// the spring, which twist makes a spiral, or a beam.
+void ForkModel::make_wire(int turns, int pieces, double radius) {
+  const int sides = look_.wire_sides, rings = pieces + 1;
+  const int first = static_cast<int>(shaft_.size() + end_.size()) + sides * static_cast<int>(wire_.size());
+  const double phi_rate = 2.0 * M_PI * turns;
   const auto ring = [&](int k, double cap) {
-    const double share = static_cast<double>(k) / (rings - 1);
-    wire_.push_back({radius, radius > 0.0 ? 2.0 * M_PI * turns * share : 0.0, share, cap});
+    const double share = static_cast<double>(k) / pieces;
+    wire_.push_back({radius, phi_rate * share, phi_rate, share, cap});
   };
   ring(0, -1.0);
   for (int k = 0; k < rings; ++k) ring(k, 0.0);
   ring(rings - 1, 1.0);
 
-  const int sides = look_.wire_sides, first = static_cast<int>(shaft_.size() + end_.size());
   const int begin_cap = first, around = first + sides, end_cap = around + rings * sides;
   for (int i = 0; i < sides; ++i) {
     const int next = (i + 1) % sides;
@@ -157,12 +162,12 @@ void ForkModel::make_spring(int turns, int points_per_turn, double radius) {
 void ForkModel::add_ring(const WireRing& ring, const ForkCurve& curve, double wire_end, double diameter,
                          ForkMesh& mesh) const {
   const CurvePoint at = curve.at(wire_end * ring.z);
-  const double phi_rate = 2.0 * M_PI * look_.turns / wire_end;  // along the spring
   const Vector3d out(std::cos(ring.phi), std::sin(ring.phi), 0.0), around(-out.y(), out.x(), 0.0);
   const Vector3d from_axis = ring.r * diameter * out;
   const Vector3d centre = at.p + at.R * from_axis;
   const Vector3d along =
-      (at.p_rate + at.R * (at.turn_rate.cross(from_axis) + ring.r * diameter * phi_rate * around)).normalized();
+      (at.p_rate + at.R * (at.turn_rate.cross(from_axis) + ring.r * diameter * ring.phi_rate / wire_end * around))
+          .normalized();
   const Vector3d side = along.cross(at.R * out).normalized();
   const Vector3d outward = side.cross(along);
   for (int i = 0; i < look_.wire_sides; ++i) {

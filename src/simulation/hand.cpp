@@ -16,7 +16,8 @@ Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, contac
       fork_(settings.fork),
       objects_(objects),
       tool_(tool),
-      stylus_(settings.dropout_after, settings.wrench_timeout, scene.X_WH_start),
+      stylus_(settings.hand_time_scale * settings.dropout_after, settings.hand_time_scale * settings.wrench_timeout,
+              scene.X_WH_start),
       ray_length_(longest_ray) {}
 
 void Hand::reset() {

@@ -98,6 +98,8 @@ std::vector<Field> scene_fields(S& s) {
           "hand.scale", "–", between(1e-3, 1e3),
           "length in the world per length of the hand's motion, from the origin of the world; rotations are not scaled",
           s.hand_scale),
+      number("hand.time_scale", "–", between(1e-3, 1e3),
+             "time in the world per time of the hand: at 0.5 the world is in slow motion", s.hand_time_scale),
       integer("clutch.button", 2, 63, "the stylus button that, while it is down, lets the hand move without its tool",
               s.clutch_button),
   };
@@ -266,6 +268,11 @@ void check_together(const S& settings, const std::string& where) {
 }
 
 }  // namespace
+
+Twist at_hand(const Twist& V_W, const SimulationSettings& settings) {
+  const double rate = settings.hand_time_scale;
+  return {rate / settings.hand_scale * V_W.linear, rate * V_W.angular};
+}
 
 void validate(const SimulationSettings& settings, const std::string& where) {
   S copy = settings;  // its fields are found by reference

@@ -117,7 +117,8 @@ struct Simulation::Impl {
   contact::Objects objects;
   std::vector<Hand> hands;
   bool started = false;
-  double now = 0.0;
+  double now = 0.0;        ///< in the world, as all times in here
+  double asked_for = 0.0;  ///< the hand's time that was last asked for
 
   Impl(const scene::Scene& s, const SimulationSettings& set, std::vector<ObjectEdit> edited = {},
        const std::vector<std::string>& roots = {})
@@ -132,6 +133,9 @@ struct Simulation::Impl {
     for (std::size_t i = 0; i < most_hands; ++i) hands.emplace_back(scene, settings, objects, tool);
   }
   Hand& hand(std::size_t index) { return hands.at(index); }
+  double in_world(double t) const { return settings.hand_time_scale * t; }
+  /// Of the hand; exactly what was asked for where that is meant, so that to ask for it again changes nothing.
+  double of_hand(double t) const { return t == in_world(asked_for) ? asked_for : t / settings.hand_time_scale; }
   /// One fork for all objects (doc/model.md, "Calibration").
   void fit_to_world() {
     const tools::WorldGoal& goal = settings.grasp.world_goal;
@@ -413,23 +417,28 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 const scene::Scene& Simulation::scene() const { return impl_->scene; }
 const SimulationSettings& Simulation::settings() const { return impl_->settings; }
 
-double Simulation::time() const {
+double Simulation::world_time() const {
   const double first = impl_->first_sample();
   return impl_->started || !std::isfinite(first) ? impl_->now : first;
 }
 
+double Simulation::time() const { return impl_->of_hand(world_time()); }
+
 bool Simulation::push_stylus(const motion::PoseSample& sample, std::size_t hand) {
   motion::PoseSample in_world = sample;
+  in_world.t = impl_->in_world(sample.t);
   in_world.X.translation() *= impl_->settings.hand_scale;
   return impl_->hand(hand).stylus().push(in_world);
 }
 
 void Simulation::push_press(double t, motion::Press press, std::size_t hand) {
-  impl_->hand(hand).stylus().push(t, press);
+  impl_->hand(hand).stylus().push(impl_->in_world(t), press);
 }
 
 void Simulation::push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand) {
-  impl_->hand(hand).stylus().push(sample);
+  motion::ExternalWrench in_world = sample;
+  in_world.t = impl_->in_world(sample.t);
+  impl_->hand(hand).stylus().push(in_world);
 }
 
 double Simulation::newest_sample() const {
@@ -437,17 +446,20 @@ double Simulation::newest_sample() const {
   for (const Hand& hand : impl_->hands) {
     if (!hand.stylus().track().empty()) newest = std::max(newest, hand.stylus().track().end());
   }
-  return std::isfinite(newest) ? newest : time();
+  return std::isfinite(newest) ? impl_->of_hand(newest) : time();
 }
 
 double Simulation::next_edge() const {
-  if (!impl_->started) return impl_->first_sample();
-  return std::min(impl_->next_sample(impl_->now + same_time), impl_->next_edge());
+  if (!impl_->started) return impl_->of_hand(impl_->first_sample());
+  return impl_->of_hand(std::min(impl_->next_sample(impl_->now + same_time), impl_->next_edge()));
 }
 
 AdvanceReport Simulation::advance(double t_end) {
   AdvanceReport report;
-  impl_->advance(t_end, report);
+  impl_->asked_for = t_end;
+  impl_->advance(impl_->in_world(t_end), report);
+  report.simulated_time /= impl_->settings.hand_time_scale;
+  report.time_lost /= impl_->settings.hand_time_scale;
   return report;
 }
 
@@ -551,6 +563,7 @@ void Simulation::Impl::move(const ObjectEdit& edit) {
 
 void Simulation::Impl::continue_from(Impl& before, const ObjectEdit& edit) {
   now = before.now;
+  asked_for = before.asked_for;
   started = before.started;
   settings.dynamics = before.settings.dynamics;
   if (edit.action == Action::add) {

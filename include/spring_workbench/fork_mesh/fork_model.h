@@ -73,6 +73,7 @@ class ForkModel {
   };
   struct WireRing {
     double r, phi;     ///< the wire's centre [diameters, rad]
+    double phi_rate;   ///< along the wire [rad]
     double z;          ///< share of the wire's length along the spring
     double cap = 0.0;  ///< −1, 1: closes the wire at its begin, end, facing out; 0: around it
   };
@@ -80,7 +81,7 @@ class ForkModel {
 
   void make_shaft();
   void make_end();
-  void make_spring(int turns, int points_per_turn, double radius);
+  void make_wire(int turns, int pieces, double radius);
   void revolve(const std::vector<Eigen::Vector2d>& profile, double centre, Vertices& part);
   void add_ring(const WireRing& ring, const ForkCurve& curve, double wire_end, double diameter, ForkMesh& mesh) const;
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "spring_workbench/dynamics/settings.h"
+#include "spring_workbench/math/spatial.h"
 #include "spring_workbench/math/state_archive.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/scene/scene.h"
@@ -26,6 +27,7 @@ struct SimulationSettings {
   std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9
   bool massless = false;                      ///< key `massless`: no object has mass
   double hand_scale = 1.0;                    ///< key `hand.scale`, 1e-3 … 1e3
+  double hand_time_scale = 1.0;               ///< key `hand.time_scale`, 1e-3 … 1e3
   int clutch_button = 2;                      ///< key `clutch.button`, of the stylus' Joy
   dynamics::DynamicsSettings dynamics;        ///< keys `integrator`, `step`, `tolerance`, `inertia`
   rod::ForkSettings fork;                     ///< keys `shape`, `fork.*`
@@ -39,6 +41,9 @@ struct SimulationSettings {
 /// Throws InputError naming `where`, key, value and rule for a value that its key does not allow, or for damping ratios
 /// that the damping law does not allow.
 void validate(const SimulationSettings& settings, const std::string& where);
+
+/// A twist in the world as a machine in the hand's place makes it, in the hand's lengths and time.
+Twist at_hand(const Twist& V_W, const SimulationSettings& settings);
 
 /// A change of the fork while running; absent fields stay as they are.
 struct ForkChange {

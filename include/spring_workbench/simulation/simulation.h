@@ -90,6 +90,9 @@ struct ChangeReport {
 /// A scene, the hands and their tools, with just the subsystems that the scene needs. It owns simulated time. No clock,
 /// no thread, no log, no ROS: the same calls give bit-identical results. NaN is neither accepted nor returned. A hand
 /// is a number from 0 (the first stylus) to most_hands − 1; any other throws std::out_of_range.
+///
+/// All times are those of the hand's clock. In the world, whose velocities and rates are told, and whose steps
+/// `settings().dynamics.step` limits, `settings().hand_time_scale` times as much time goes by.
 class Simulation {
  public:
   static constexpr std::size_t most_hands = 2;
@@ -109,6 +112,8 @@ class Simulation {
 
   /// Simulated time [s]; the stamp of the first sample until `advance` is called.
   double time() const;
+  /// The same by the clock of the world [s].
+  double world_time() const;
 
   /// Adds a pose of the stylus; its position is scaled by `settings().hand_scale`. Returns false, and ignores the pose,
   /// if its stamp is not later than the newest one. Throws InputError if the pose is invalid (motion::PoseTrack::push).

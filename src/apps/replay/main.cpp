@@ -50,7 +50,7 @@ class ForkRows {
     std::string rows;
     for (std::size_t hand = 0; hand < averages_.size(); ++hand) {
       tools::ToolState tool = simulation.fork(hand);
-      averages_[hand].take(t, tool, touched_pose(simulation, tool));
+      averages_[hand].take(simulation.world_time(), tool, touched_pose(simulation, tool));
       if (hand < hands || tool.present) rows += fork_row(t, tool, hand);
     }
     return rows;

@@ -24,7 +24,7 @@ void ToolOutput::read(const simulation::Simulation& simulation, tools::ToolState
   for (const bodies::BodyState& object : simulation.objects()) {
     if (object.name == tool.touched) X_WT = object.X_WO;
   }
-  average_.take(simulation.time(), tool, X_WT);
+  average_.take(simulation.world_time(), tool, X_WT);
 }
 
 void ToolOutput::publish(const simulation::Simulation& simulation, const tools::ToolState& tool,
@@ -41,8 +41,9 @@ void ToolOutput::publish(const simulation::Simulation& simulation, const tools::
   });
   ros_common::publish_made(tip_twist_, header, [&] {
     geometry_msgs::TwistStamped message;
-    message.twist.linear = ros_common::to_vector(tool.V_WE_W.linear);
-    message.twist.angular = ros_common::to_vector(tool.V_WE_W.angular);
+    const Twist V_WE_W = simulation::at_hand(tool.V_WE_W, simulation.settings());
+    message.twist.linear = ros_common::to_vector(V_WE_W.linear);
+    message.twist.angular = ros_common::to_vector(V_WE_W.angular);
     return message;
   });
 }

@@ -51,6 +51,9 @@ class DeformedFork : public testing::Test {
     return look;
   }
 
+  /// Of the coil, and of the seam after it.
+  static constexpr std::size_t coil_rings = 10 * 48 + 3, seam_rings = 40 + 3;
+
   test_support::Random random_{12};
   const std::shared_ptr<const rod::ShapeModel> shape_ = rod::make_shape_model(rod::ShapeKind::linear, L);
   const ForkModel model_{fine()};
@@ -97,8 +100,7 @@ TEST_F(DeformedFork, WireKeepsItsThicknessAndShaftAndEndTheirShape) {
   ForkMesh rest;
   model_.deform(rod_curve(*shape_, rod::StrainVector::Zero(6), RigidTransform::Identity()), diameter, rest);
   const auto sides = static_cast<std::size_t>(fine().wire_sides);
-  const std::size_t rings = sides * static_cast<std::size_t>(fine().turns * fine().points_per_turn + 3);
-  const std::size_t first = model_.vertex_count() - rings;
+  const std::size_t first = model_.vertex_count() - sides * (coil_rings + seam_rings);
   const RigidTransform X_E_rest = shape_->section(rod::StrainVector::Zero(6), L);
   for (int run = 0; run < 20; ++run) {
     deform();
@@ -131,6 +133,21 @@ TEST_F(DeformedFork, MiddleProngPointsWhereTheSimulatedTipPoints) {
   }
 }
 
+/// At its beginning on the handle's x axis, at its end on the tip's.
+TEST_F(DeformedFork, TheSeamShowsTheTwist) {
+  const auto sides = static_cast<std::size_t>(fine().wire_sides);
+  const std::size_t first = model_.vertex_count() - sides * seam_rings;
+  for (int run = 0; run < 20; ++run) {
+    deform();
+    const RigidTransform X_E = X_WH_ * shape_->section(q_, L);
+    for (const auto& [ring, X] : {std::pair{first, X_WH_}, std::pair{mesh_.vertices.size() - sides, X_E}}) {
+      Vector3d centre = Vector3d::Zero();
+      for (std::size_t k = 0; k < sides; ++k) centre += mesh_.vertices[ring + k] / static_cast<double>(sides);
+      EXPECT_LT((centre - X * Vector3d(0.5 * diameter, 0.0, 0.0)).norm(), 1e-9);
+    }
+  }
+}
+
 TEST_F(DeformedFork, TorsionTurnsEachPlaceByItsShare) {
   const auto twisted_by = [&](double twist) {
     rod::StrainVector q = rod::StrainVector::Zero(6);
@@ -142,8 +159,7 @@ TEST_F(DeformedFork, TorsionTurnsEachPlaceByItsShare) {
   constexpr double twist = 1.3;
   const ForkMesh straight = twisted_by(0.0), twisted = twisted_by(twist);
   const auto sides = static_cast<std::size_t>(fine().wire_sides);
-  const auto rings = static_cast<std::size_t>(fine().turns * fine().points_per_turn + 3);
-  const std::size_t first = model_.vertex_count() - sides * rings;
+  const std::size_t first = model_.vertex_count() - sides * (coil_rings + seam_rings);
   for (std::size_t i = first; i < straight.vertices.size(); i += sides) {
     const auto centre = [&](const ForkMesh& mesh) {
       Vector3d sum = Vector3d::Zero();

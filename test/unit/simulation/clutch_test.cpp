@@ -1,4 +1,4 @@
-// The hand is moved without its tool; the hand's lengths in the world.
+// The hand is moved without its tool; the hand's lengths and time in the world.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -126,6 +126,91 @@ TEST(HandScale, TheToolGoesSoManyTimesAsFar) {
     simulation.advance(1.0);
     EXPECT_LT((pose(simulation).translation() - before.translation() - scale * by).norm(), 1e-4 * scale);
     EXPECT_NEAR(Eigen::AngleAxisd(before.linear().transpose() * pose(simulation).linear()).angle(), 0.5, 1e-4);
+  }
+}
+
+/// A hand that grasps, lifts, uses its clutch, feels a machine and lets go over a bench, all by a clock that goes
+/// `rate` times as fast as the one with which this is told.
+void live_through(double rate, Simulation& simulation) {
+  for (int i = 0; i <= 200; ++i) {
+    const double u = 0.01 * i, lift = 0.2 * u * u * (3.0 - 2.0 * u);
+    if (i > 120 && i < 170) continue;  // silent for longer than its dropout_after
+    simulation.push_stylus({rate * (0.02 * i), pointing_down(above + Vector3d(0.1 * u, 0.0, std::min(lift, 0.2)), u)});
+  }
+  simulation.push_button(rate * 0.1, true);
+  simulation.push_clutch(rate * 1.0, true);
+  simulation.push_clutch(rate * 1.4, false);
+  simulation.push_external_wrench({rate * 1.5, {Vector3d(2.0, 0.0, 3.0), Vector3d(0.0, 0.0, 0.05)}});
+  simulation.push_button(rate * 2.6, false);
+  simulation.advance(rate * 4.0);
+}
+
+/// The law of the time scale: what happens is what happens to a hand that is so much faster, bit by bit.
+TEST(HandTimeScale, IsAHandThatIsSoMuchFaster) {
+  for (const double scale : {0.1, 0.5, 1.0, 3.0}) {
+    SimulationSettings slow, fast;
+    slow.hand_time_scale = scale;
+    fast.dropout_after = scale * slow.dropout_after;
+    fast.wrench_timeout = scale * slow.wrench_timeout;
+    Simulation a(one_box(scene::ContactMode::stop), slow), b(one_box(scene::ContactMode::stop), fast);
+    live_through(1.0, a);
+    live_through(scale, b);
+    EXPECT_FALSE(a.objects()[0].held);
+    EXPECT_EQ(a.state_hash(), b.state_hash()) << scale;
+    EXPECT_EQ(a.time(), 4.0);
+    EXPECT_EQ(a.world_time(), b.time());
+  }
+}
+
+/// Times that the simulation tells can be asked for again.
+TEST(HandTimeScale, EdgesAndSamplesAreOfTheHand) {
+  SimulationSettings set;
+  set.hand_time_scale = 0.3;
+  Simulation simulation(one_box(), set);
+  push_move(simulation, 5.0, 6.0, above, above);
+  simulation.push_button(5.013, true);
+  EXPECT_NEAR(simulation.time(), 5.0, 1e-12);
+  EXPECT_NEAR(simulation.newest_sample(), 6.0, 1e-12);
+  double simulated = simulation.advance(5.0).simulated_time;
+  for (const double edge : {5.013, 5.02, 5.04}) {
+    EXPECT_NEAR(simulation.next_edge(), edge, 1e-12);
+    simulated += simulation.advance(simulation.next_edge()).simulated_time;
+    EXPECT_NEAR(simulated, simulation.time() - 5.0, 1e-12);
+    EXPECT_EQ(simulation.advance(simulation.time()).steps, 0);
+  }
+}
+
+/// Froude's law: in a world that is λ times as large, as dense and under the same gravity, all goes √λ times as slowly.
+/// With both scales the hand moves, sees and feels the same.
+TEST(HandTimeScale, WithTheScalesOfLengthAndForceALargeWorldIsLikeASmallOne) {
+  const auto run = [](double scale) {
+    const Vector3d size(0.1, 0.06, 0.04), at(0.02, 0.0, 0.5);
+    SimulationSettings set;
+    set.hand_scale = scale;
+    set.hand_time_scale = std::sqrt(scale);
+    set.force_scale = std::pow(scale, 3);
+    set.dynamics.step *= std::sqrt(scale);
+    set.fork.length *= scale;
+    set.fork.stiffness = {600.0 * scale * scale, 300.0 * scale * scale, 0.5 * std::pow(scale, 4)};
+    set.fork.damping_ratio = {0.2, 0.2, 0.2};
+    Simulation simulation(
+        scene_of({box("box", scale * size, std::pow(scale, 3), scale * at)}, scene::ContactMode::none), set);
+    push_move(simulation, 0.0, 1.5, above, above + Vector3d(0.2, 0.1, 0.2), 1.2);
+    simulation.push_button(0.0, true);
+    simulation.advance(1.3);
+    EXPECT_TRUE(simulation.objects()[0].held);
+    return simulation;
+  };
+  const Simulation small = run(1.0);
+  for (const double scale : {0.2, 10.0}) {
+    const Simulation large = run(scale);
+    EXPECT_LT((pose(large).translation() / scale - pose(small).translation()).norm(), 1e-8) << scale;
+    EXPECT_LT((pose(large).linear() - pose(small).linear()).norm(), 1e-7) << scale;
+    const Twist V = at_hand(large.fork().V_WE_W, large.settings()), V_small = small.fork().V_WE_W;
+    EXPECT_LT((V.linear - V_small.linear).norm(), 1e-6) << scale;
+    EXPECT_LT((V.angular - V_small.angular).norm(), 1e-5) << scale;
+    const Vector3d felt = large.fork().handle_wrench_H.force / large.fork().force_scale;
+    EXPECT_LT((felt - small.fork().handle_wrench_H.force).norm(), 1e-5) << scale;
   }
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "spring_workbench/fork_mesh/fork_model.h"
+#include "spring_workbench/fork_mesh/constants.h"
 #include "spring_workbench/hand_input/settings.h"
 #include "spring_workbench/simulation/settings.h"
 
