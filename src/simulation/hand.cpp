@@ -132,7 +132,7 @@ void Hand::select_tool(tools::Tool tool, double now) {
   if (tool == tool_) return;
   tool_ = tool;
   leave_with_probe(now);
-  if (!tools::can_hold(tool)) let_go(true, now);
+  if (!tools::can_hold(tool)) let_go(settings_.grasp.release == tools::Release::thrown, now);
   if (!hold_) return;
   const Twist before = object().V_WO_W;
   ray_length_ = std::max((stylus_.X_WS().inverse() * object().X_WO.translation()).z(), least_length);

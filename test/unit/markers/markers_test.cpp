@@ -163,6 +163,20 @@ TEST_F(MarkersOfALift, WhatTheTipIsInIsTranslucent) {
   EXPECT_EQ(color().a, 1.0f);
 }
 
+/// The probe holds nothing, and tells the force with which it presses.
+TEST_F(MarkersOfALift, TheProbeHasAReadoutWhileItTouches) {
+  simulation_.select_tool(tools::Tool::spring_probe);
+  go_to(0.2);
+  EXPECT_EQ(find(build(), "readout", 0), nullptr);
+  go_to(1.9);
+  const tools::ToolState tool = simulation_.fork();
+  ASSERT_FALSE(tool.touched.empty());
+  char force[20];
+  std::snprintf(force, sizeof force, " %.2f N ", tool.tip_wrench_W.force.norm());
+  EXPECT_GT(tool.tip_wrench_W.force.norm(), 1.0);
+  EXPECT_NE(find(build(), "readout", 0)->text.find(force), std::string::npos);
+}
+
 TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {
   for (const double t : {0.5, 2.2, 2.6, 4.0}) {
     go_to(t);

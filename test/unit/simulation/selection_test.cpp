@@ -84,5 +84,25 @@ TEST_F(Overlapping, WhatIsLitIsHeldWhereTheTipIsWhileTheButtonIsDown) {
   }
 }
 
+/// The probe cannot hold, so taking it in hand is a release like any other.
+TEST(Release, ByTheProbeIsAsItIsSet) {
+  for (const tools::Release release : {tools::Release::thrown, tools::Release::dropped}) {
+    SimulationSettings set;
+    set.grasp.release = release;
+    Simulation simulation(scene_of({box("box", Vector3d::Constant(side), 1.0, left)}, scene::ContactMode::none), set);
+    const Vector3d above = left + Vector3d(0.0, 0.0, reach);
+    push_move(simulation, 0.0, 1.0, above, above + Vector3d(0.3, 0.0, 0.2));
+    simulation.push_button(0.0, true);
+    simulation.advance(0.5);
+    ASSERT_TRUE(simulation.objects()[0].held);
+    const Twist before = simulation.objects()[0].V_WO_W;
+    ASSERT_GT(before.linear.norm(), 0.1);
+    simulation.select_tool(tools::Tool::spring_probe);
+    EXPECT_FALSE(simulation.objects()[0].held);
+    const Vector3d after = simulation.objects()[0].V_WO_W.linear;
+    EXPECT_EQ(after, release == tools::Release::thrown ? before.linear : Vector3d(Vector3d::Zero()));
+  }
+}
+
 }  // namespace
 }  // namespace spring_workbench::simulation::selection_test
