@@ -15,6 +15,7 @@ import roslib.packages
 import rospkg
 import rospy
 import rostest
+import yaml
 from rosgraph_msgs.msg import Log
 from spring_workbench.msg import Change, ObjectStates, StepReport, TaskState
 
@@ -35,6 +36,17 @@ class LaunchFiles(unittest.TestCase):
         self.assertTrue(all(p.in_place for p in done.placements))
         self.assertEqual(done.csv.split(",")[0], "7")
         self.assertGreater(done.hand_path, done.object_path)
+
+    def test_settings_of_a_file_take_precedence_over_arguments(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".yaml") as settings:
+            settings.write("{calibrate: none, massless: true, input: {dead_band: {angle: 0.01}}}")
+            settings.flush()
+            command = ["roslaunch", "--dump-params", "spring_workbench", "workbench.launch", "settings:=" + settings.name]
+            command += ["calibrate:=object", "error_bound:=false", "dead_band:=1e-3"]
+            parameters = yaml.safe_load(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
+        expected = {"calibrate": "none", "massless": True, "error_bound": False}
+        expected.update({"input/dead_band/angle": 0.01, "input/dead_band/distance": 1e-3})
+        self.assertEqual({key: parameters["/manipulation/" + key] for key in expected}, expected)
 
     def test_bag_moves_the_object(self):
         folder = tempfile.mkdtemp()

@@ -85,8 +85,8 @@ void LoadScale::draw_legend(MarkerList& markers) const {
   }
   char full[80];
   std::snprintf(full, sizeof full, "%.4g N = %.3g vkg", range_.full(), range_.full() / gravity_);
-  markers.add_text("legend", 2, foot_ + Vector3d(0.0, 0.0, legend_steps * legend_edge + 1.6 * legend_letters),
-                   legend_letters, full, legend_color);
+  const Vector3d above(6.0 * legend_letters, 0.0, legend_steps * legend_edge + 1.6 * legend_letters);
+  markers.add_text("legend", 2, foot_ + above, legend_letters, full, legend_color);
   draw_marks(markers);
 }
 
