@@ -41,8 +41,8 @@ class LaunchFiles(unittest.TestCase):
         with tempfile.NamedTemporaryFile("w", suffix=".yaml") as settings:
             settings.write("{calibrate: none, massless: true, input: {dead_band: {angle: 0.01}}}")
             settings.flush()
-            command = ["roslaunch", "--dump-params", "spring_workbench", "workbench.launch", "settings:=" + settings.name]
-            command += ["calibrate:=object", "error_bound:=false", "dead_band:=1e-3"]
+            command = ["roslaunch", "--dump-params", "spring_workbench", "workbench.launch"]
+            command += ["settings:=" + settings.name, "calibrate:=object", "error_bound:=false", "dead_band:=1e-3"]
             parameters = yaml.safe_load(subprocess.run(command, capture_output=True, text=True, check=True).stdout)
         expected = {"calibrate": "none", "massless": True, "error_bound": False}
         expected.update({"input/dead_band/angle": 0.01, "input/dead_band/distance": 1e-3})
