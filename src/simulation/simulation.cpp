@@ -436,9 +436,7 @@ void Simulation::push_press(double t, motion::Press press, std::size_t hand) {
 }
 
 void Simulation::push_external_wrench(const motion::ExternalWrench& sample, std::size_t hand) {
-  motion::ExternalWrench in_world = sample;
-  in_world.t = impl_->in_world(sample.t);
-  impl_->hand(hand).stylus().push(in_world);
+  impl_->hand(hand).stylus().push(motion::ExternalWrench{impl_->in_world(sample.t), sample.wrench, sample.axes});
 }
 
 double Simulation::newest_sample() const {

@@ -90,7 +90,6 @@ struct ChangeReport {
 /// A scene, the hands and their tools, with just the subsystems that the scene needs. It owns simulated time. No clock,
 /// no thread, no log, no ROS: the same calls give bit-identical results. NaN is neither accepted nor returned. A hand
 /// is a number from 0 (the first stylus) to most_hands − 1; any other throws std::out_of_range.
-///
 /// All times are those of the hand's clock. In the world, whose velocities and rates are told, and whose steps
 /// `settings().dynamics.step` limits, `settings().hand_time_scale` times as much time goes by.
 class Simulation {
