@@ -283,7 +283,7 @@ def compare(messages, rows):
         stamp = message.header.stamp.to_nsec()
         for state in message.objects:
             found = [n for zero in zeros for n in rows.get((stamp - zero, state.name), [])]
-            if stamp < stamps[0] or (not found and stamp > stamps[-1]):
+            if stamp <= stamps[0] or (not found and stamp > stamps[-1]):
                 outside += 1  # before the journal, or after it
                 continue
             numbers = numbers_of(state)
