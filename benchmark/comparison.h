@@ -9,6 +9,9 @@
 
 namespace spring_workbench::benchmark {
 
+/// Times the uncertainty of a reference: a smaller error says nothing, since a line ends there.
+constexpr double least_of_reference = 2.0;
+
 /// What an error is asked to be: a share of the hand's amplitude or of the largest deflection.
 struct ErrorTarget {
   double error = 1e-6;
@@ -41,7 +44,8 @@ struct SceneRows {
   /// Of the reference, in the target's measure.
   double uncertainty(const ErrorTarget& target) const;
   /// Ours beside each of the methods that are not ours and `wanted`, those that compare worst for ours first; those
-  /// where neither arrives are last.
+  /// where neither arrives are last. Without peers whose own limit, against which they are measured, is not known well
+  /// enough for the target.
   std::vector<Pair> pairs(const ErrorTarget& target, const std::function<bool(const std::string&)>& wanted) const;
 };
 

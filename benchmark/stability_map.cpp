@@ -132,6 +132,7 @@ void add(const StabilityCell& cell, const StabilityOutcome& outcome, StabilityRo
   row.energy_judged += outcome.energy_judged;
   row.none_refused += outcome.refused == 0;
   row.held += outcome.held();
+  row.on_its_own += outcome.held() && outcome.stops + outcome.fallback == 0;
 }
 
 void keep_the_worst(std::vector<StabilityRun>& failures) {
@@ -141,6 +142,23 @@ void keep_the_worst(std::vector<StabilityRun>& failures) {
 }
 
 }  // namespace
+
+void add(const StabilityRow& row, StabilityRow& sum) {
+  sum.cells += row.cells;
+  sum.finite += row.finite;
+  sum.bounded += row.bounded;
+  sum.energy_judged += row.energy_judged;
+  sum.energy_kept += row.energy_kept;
+  sum.none_refused += row.none_refused;
+  sum.held += row.held;
+  sum.cannot_fail += row.cannot_fail;
+  sum.real_time += row.real_time;
+  sum.three_times += row.three_times;
+  sum.on_its_own += row.on_its_own;
+  sum.steps += row.steps;
+  sum.stops += row.stops;
+  sum.fallback += row.fallback;
+}
 
 StabilityMap map_of(const std::vector<StabilityRun>& cells) {
   StabilityMap map;
@@ -322,13 +340,13 @@ std::string stability_csv(const StabilityMap& map) {
   std::ostringstream out;
   out << "integrator,shape,stiffness_factor,mass,step,damping_ratio,cells,finite,bounded,energy_judged,energy_kept,"
          "none_refused,"
-         "held,cannot_fail,real_time,three_times,steps,stops,steps_fallback\n";
+         "held,cannot_fail,real_time,three_times,on_its_own,steps,stops,steps_fallback\n";
   for (const StabilityRow& row : map.rows) {
     out << row.integrator << ',' << row.shape << ',' << row.stiffness_factor << ',' << row.mass << ',' << row.step
         << ',' << row.damping_ratio << ',' << row.cells << ',' << row.finite << ',' << row.bounded << ','
         << row.energy_judged << ',' << row.energy_kept << ',' << row.none_refused << ',' << row.held << ','
-        << row.cannot_fail << ',' << row.real_time << ',' << row.three_times << ',' << row.steps << ',' << row.stops
-        << ',' << row.fallback << '\n';
+        << row.cannot_fail << ',' << row.real_time << ',' << row.three_times << ',' << row.on_its_own << ','
+        << row.steps << ',' << row.stops << ',' << row.fallback << '\n';
   }
   return out.str();
 }

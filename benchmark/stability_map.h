@@ -71,6 +71,7 @@ struct StabilityRow {
   int cannot_fail = 0;  ///< cells that were drawn beside
   int cells = 0, finite = 0, bounded = 0, energy_judged = 0, energy_kept = 0, none_refused = 0, held = 0;
   int real_time = 0, three_times = 0;  ///< processor time below the simulated time; below three times that
+  int on_its_own = 0;                  ///< cells that hold without a stop and without the fallback
   double steps = 0.0, stops = 0.0, fallback = 0.0;
 };
 
@@ -78,8 +79,11 @@ template <typename Fields>
 void each_field(StabilityRow& r, Fields& fields) {
   fields(r.integrator, r.shape, r.stiffness_factor, r.mass, r.step, r.damping_ratio, r.cells, r.finite, r.bounded,
          r.energy_judged, r.energy_kept, r.none_refused, r.held, r.cannot_fail, r.real_time, r.three_times, r.steps,
-         r.stops, r.fallback);
+         r.stops, r.fallback, r.on_its_own);
 }
+
+/// The sum of the rows of one integrator, or of one and its shape.
+void add(const StabilityRow& row, StabilityRow& sum);
 
 /// A cell and what came of it.
 struct StabilityRun {

@@ -138,7 +138,7 @@ PageSection stability_section(const Measurements& measured, const Tables& tables
       "the "
       "energy does not grow while the hand rests by more than 3 µm of depth are worth under the hardest load, and no "
       "step was "
-      "refused; steps in which contact left the held one no way are counted beside.";
+      "refused or blocked.";
   section.figures.push_back(figure({"stability",
                                     tables.map,
                                     "stability_map.png",

@@ -135,30 +135,17 @@ std::string map_summary_csv(const StabilityMap& map) {
     if (sums.empty() || sums.back().integrator != row.integrator || sums.back().shape != row.shape) {
       sums.push_back({row.integrator, row.shape});
     }
-    StabilityRow& sum = sums.back();
-    sum.cells += row.cells;
-    sum.finite += row.finite;
-    sum.bounded += row.bounded;
-    sum.energy_judged += row.energy_judged;
-    sum.energy_kept += row.energy_kept;
-    sum.none_refused += row.none_refused;
-    sum.held += row.held;
-    sum.cannot_fail += row.cannot_fail;
-    sum.real_time += row.real_time;
-    sum.three_times += row.three_times;
-    sum.steps += row.steps;
-    sum.stops += row.stops;
-    sum.fallback += row.fallback;
+    add(row, sums.back());
   }
   std::ostringstream csv;
-  csv << "integrator,shape,cells,finite,bounded,energy judged,energy kept,no step refused,all of these,faster than "
-         "real "
-         "time,below three times that,steps,stops,steps_fallback,cells that cannot fail\n";
+  csv << "integrator,shape,cells,finite,bounded,energy judged,energy kept,no step refused,all of these,of those "
+         "without a stop or fallback,faster than real time,below three times that,steps,stops,steps_fallback,cells "
+         "that cannot fail\n";
   for (const StabilityRow& sum : sums) {
     csv << sum.integrator << ',' << sum.shape << ',' << sum.cells << ',' << sum.finite << ',' << sum.bounded << ','
         << sum.energy_judged << ',' << sum.energy_kept << ',' << sum.none_refused << ',' << sum.held << ','
-        << sum.real_time << ',' << sum.three_times << ',' << sum.steps << ',' << sum.stops << ',' << sum.fallback << ','
-        << sum.cannot_fail << '\n';
+        << sum.on_its_own << ',' << sum.real_time << ',' << sum.three_times << ',' << sum.steps << ',' << sum.stops
+        << ',' << sum.fallback << ',' << sum.cannot_fail << '\n';
   }
   return csv.str();
 }
