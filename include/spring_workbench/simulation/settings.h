@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "spring_workbench/dynamics/settings.h"
-#include "spring_workbench/math/spatial.h"
+#include "spring_workbench/math/rigid_transform.h"
 #include "spring_workbench/math/state_archive.h"
 #include "spring_workbench/rod/settings.h"
 #include "spring_workbench/scene/scene.h"
