@@ -216,7 +216,7 @@ void bind_settings(py::module_& module) {
 void bind_simulation(py::module_& module) {
   bind_scene(module);
   py::class_<Simulation> type(module, "Simulation",
-                              "Simulation of a scene with two hands and their tools. It reads no clock and starts no "
+                              "Simulation of a scene with hands and their tools. It reads no clock and starts no "
                               "thread; the same calls give bit-identical results.");
   type.def(py::init<const scene::Scene&, const SimulationSettings&>(), py::arg("scene"),
            py::arg_v("settings", SimulationSettings(), "Settings()"),

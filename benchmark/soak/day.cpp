@@ -311,7 +311,7 @@ class Day {
   scene::Scene scene_;
   std::mt19937 random_;
   std::vector<std::vector<RigidTransform>> paths_;
-  std::array<Hand, Simulation::most_hands> hands_;
+  std::array<Hand, 2> hands_;
   motion::WallClock wall_;
   std::unique_ptr<live::SimulationRunner> runner_;
   std::unique_ptr<live::Checkpoint> checkpoint_;

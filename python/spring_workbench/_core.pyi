@@ -247,7 +247,7 @@ class State:
     def __hash__(self) -> int: ...
 
 class Simulation:
-    """Simulation of a scene with two hands and their tools. It reads no clock and starts no thread; the same calls give
+    """Simulation of a scene with hands and their tools. It reads no clock and starts no thread; the same calls give
     bit-identical results."""
     def __init__(self, scene: Scene, settings: Settings = ...) -> None:
         """Starts a simulation of `scene`. Raises InputError if settings and scene do not match."""

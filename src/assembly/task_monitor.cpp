@@ -24,7 +24,7 @@ void TaskMonitor::reset() {
   placements_.clear();
   for (const Watched& w : watched_) placements_.push_back(judge_placement(w.body, w.target, w.body.X_WO, false));
   started_ = false;
-  hands_ = {};
+  hands_.clear();
   carried_.clear();
   released_height_.clear();
 }
@@ -35,6 +35,7 @@ void TaskMonitor::observe(const simulation::Simulation& simulation) {
   const double t = simulation.time();
   if (!started_) begin_ = t;
   started_ = true;
+  hands_.resize(simulation.hands());
   note_holds(simulation);
   note_drops(objects);
   if (!score_.complete()) {

@@ -1,8 +1,6 @@
 #include "spring_workbench/dynamics/coupling.h"
 
 #include <algorithm>
-#include <stdexcept>
-#include <string>
 
 namespace spring_workbench::dynamics {
 namespace {
@@ -34,7 +32,6 @@ RelativeMotion<double> seen_from(const motion::OwnAxesMotion& A, const motion::M
 }
 
 bool Couplings::attach(const std::vector<Attached>& couplings) {
-  if (couplings.size() > most) throw std::length_error("couplings: at most " + std::to_string(most) + " are possible");
   attached_ = couplings;
   std::vector<Coupling::Key> keys;
   for (const Attached& a : attached_) keys.push_back(a.coupling->key());
@@ -44,24 +41,23 @@ bool Couplings::attach(const std::vector<Attached>& couplings) {
 }
 
 void Couplings::look(const motion::FrameMotion& handle, double t, Seen<double>& seen) const {
-  seen.count = attached_.size();
-  for (std::size_t i = 0; i < seen.count; ++i) {
-    const Attached& a = attached_[i];
+  seen.from.clear();
+  for (const Attached& a : attached_) {
     const motion::OwnAxesMotion A = a.frame->in_own_axes(t);
     const motion::OwnAxesMotion H = (a.handle != nullptr ? *a.handle : handle).in_own_axes(t);
-    seen.from[i] = seen_from(A, H);
+    seen.from.push_back(seen_from(A, H));
     seen.distance = std::max({seen.distance, A.X.translation().norm(), H.X.translation().norm()});
   }
 }
 
 void Couplings::look(const motion::FrameMotion& handle, const math::Pack& t, Seen<math::Pack>& seen) const {
-  seen.count = attached_.size();
+  seen.from.resize(attached_.size());
   for (const Attached& a : attached_) a.coupling->begin_step();
-  for (int lane = 0; lane < math::pack_size && seen.count > 0; ++lane) {
-    Seen<double> at;
+  Seen<double> at;
+  for (int lane = 0; lane < math::pack_size && !seen.from.empty(); ++lane) {
     look(handle, t[lane], at);
     seen.distance = std::max(seen.distance, at.distance);
-    for (std::size_t i = 0; i < seen.count; ++i) {
+    for (std::size_t i = 0; i < seen.from.size(); ++i) {
       RelativeMotion<math::Pack>& s = seen.from[i];
       math::set_lane(s.R_AB, lane, at.from[i].R_AB);
       math::set_lane(s.p_AB, lane, at.from[i].p_AB);
@@ -73,12 +69,11 @@ void Couplings::look(const motion::FrameMotion& handle, const math::Pack& t, See
 
 Couplings::Seen<double> Couplings::lane(const Seen<math::Pack>& seen, int i) {
   Seen<double> at;
-  at.count = seen.count;
   at.distance = seen.distance;
   const auto three = [i](const math::Three<math::Pack>& v) { return math::three(math::vector(v, i)); };
-  for (std::size_t k = 0; k < seen.count; ++k) {
-    const RelativeMotion<math::Pack>& s = seen.from[k];
-    at.from[k] = {{three(s.R_AB.x), three(s.R_AB.y), three(s.R_AB.z)}, three(s.p_AB), three(s.v_AB), three(s.w_AB)};
+  for (const RelativeMotion<math::Pack>& s : seen.from) {
+    at.from.push_back(
+        {{three(s.R_AB.x), three(s.R_AB.y), three(s.R_AB.z)}, three(s.p_AB), three(s.v_AB), three(s.w_AB)});
   }
   return at;
 }

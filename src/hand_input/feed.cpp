@@ -60,7 +60,7 @@ Feed::Feed(simulation::Simulation& simulation, const InputSettings& settings) : 
                   false,
                   {},
                   0};
-  hands_.assign(simulation::Simulation::most_hands, hand);
+  hands_.assign(simulation.hands(), hand);
 }
 
 Feed::~Feed() = default;

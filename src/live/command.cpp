@@ -9,8 +9,6 @@
 namespace spring_workbench::live {
 namespace {
 
-constexpr std::size_t most_hands = simulation::Simulation::most_hands;
-
 simulation::ChangeReport change_settings(const Command& command, simulation::Simulation& simulation) {
   if (command.of_dynamics.empty()) return simulation.change(command.of_fork, command.hand);
   simulation.change(command.of_fork, command.of_dynamics);
@@ -19,7 +17,7 @@ simulation::ChangeReport change_settings(const Command& command, simulation::Sim
 
 simulation::ChangeReport release(const Command& command, simulation::Simulation& simulation) {
   std::vector<std::string> names;
-  for (std::size_t hand = 0; hand < most_hands; ++hand) {
+  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
     if (command.hand.value_or(hand) != hand) continue;
     const std::string name = simulation.fork(hand).held_object;
     if (simulation.release(hand) && std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
@@ -31,7 +29,7 @@ simulation::ChangeReport release(const Command& command, simulation::Simulation&
 }
 
 simulation::ChangeReport clutch(const Command& command, simulation::Simulation& simulation) {
-  for (std::size_t hand = 0; hand < most_hands; ++hand) {
+  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
     if (command.hand.value_or(hand) == hand) simulation.push_clutch(simulation.time(), command.on, hand);
   }
   simulation::ChangeReport report;
@@ -71,7 +69,7 @@ void Command::exchange(math::StateArchive& state) {
 simulation::ChangeReport perform(const Command& command, simulation::Simulation& simulation) {
   switch (command.kind) {
     case Command::Kind::select_tool:
-      return simulation.select_tool(command.tool, command.hand.value_or(0));
+      return simulation.select_tool(command.tool, command.hand);
     case Command::Kind::settings:
       return change_settings(command, simulation);
     case Command::Kind::calibrate:
@@ -99,7 +97,7 @@ simulation::ChangeReport perform(const Command& command, simulation::Simulation&
 
 std::vector<rod::ForkSettings> forks_of(const simulation::Simulation& simulation) {
   std::vector<rod::ForkSettings> forks;
-  for (std::size_t hand = 0; hand < most_hands; ++hand) forks.push_back(simulation.fork_settings(hand));
+  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) forks.push_back(simulation.fork_settings(hand));
   return forks;
 }
 

@@ -11,7 +11,7 @@ bool HandTimes::joins(std::size_t hand, std::int64_t zero, double t) const {
 }
 
 void HandTimes::begin(std::size_t hand, std::int64_t zero) {
-  shifts_.fill(std::nullopt);
+  shifts_.assign(shifts_.size(), std::nullopt);
   zero_ = zero;
   shifts_.at(hand) = 0.0;
 }

@@ -1,6 +1,6 @@
 #include "spring_workbench/live/journal.h"
 
-#include "spring_workbench/validation/input_error.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::live {
 
@@ -19,6 +19,7 @@ void Replayer::play(const Entry& entry, const AtStop& at_stop) {
   if (simulation_.empty() && (change == nullptr || change->state == simulation::SimulationState())) return;
   if (simulation_.empty()) {
     scene_ = change->scene;
+    settings_.styluses = change->state.styluses();
     simulation_.emplace_back(load_scene_(scene_), settings_);
     simulation_.front().restore(change->state);
     next_ = entry.index + 1;
@@ -47,6 +48,10 @@ void Replayer::go_to(double t, const AtStop& at_stop) {
 
 void Replayer::apply(const Accepted& accepted) {
   simulation::Simulation& simulation = simulation_.front();
+  if (accepted.hand >= simulation.hands()) {
+    validation::refuse("journal", "stylus", std::to_string(accepted.hand + 1),
+                       "at most " + std::to_string(simulation.hands()) + ", as the state before says");
+  }
   if (const auto press = Accepted::press_of(accepted.kind)) {
     simulation.push_press(accepted.t, *press, accepted.hand);
   } else if (accepted.kind == Accepted::Kind::pose) {

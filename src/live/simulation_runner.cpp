@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 #include "constants.h"
 
@@ -27,15 +28,13 @@ SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::
       ahead_(std::make_shared<LookAhead>(scene, settings)),
       task_(scene),
       simulated_time_(simulated_time),
-      times_(simulated_time) {
-  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-    inputs_.emplace_back(hand, settings.dropout_after);
-  }
+      times_(simulation_.hands(), simulated_time) {
+  for (std::size_t hand = 0; hand < simulation_.hands(); ++hand) inputs_.emplace_back(hand, settings.dropout_after);
 }
 
 void HandInput::tell(CycleReport& report) {
   report.more |= !waiting.empty();
-  report.rejected[hand] = std::exchange(rejected, {});
+  report.rejected.push_back(std::exchange(rejected, {}));
   report.input_age = std::max(report.input_age, newest_age);
 }
 
@@ -48,8 +47,8 @@ void HandInput::used(double t, const StylusPose& pose) {
 CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::LocalTime& now) {
   const Lock lock(mutex_);
   const auto begin = std::chrono::steady_clock::now();
-  for (HandInput& input : inputs_)
-    input.waiting.insert(input.waiting.end(), events[input.hand].begin(), events[input.hand].end());
+  for (const auto& [hand, came] : events)
+    std::copy(came.begin(), came.end(), std::back_inserter(inputs_.at(hand).waiting));
   feed(now);
   CycleReport report;
   report.left_out = times_.take_left_out();

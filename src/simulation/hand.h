@@ -61,7 +61,7 @@ class Hand {
   void select_tool(tools::Tool tool, double now);
   /// What the springs do to what is held, at its centre, world axes.
   Wrench spring_pull() const { return hold_->spring_pull(); }
-  /// Makes this tool, the only one left on the object, exert `pull_W` from now on; the object does not move.
+  /// Makes this tool exert `pull_W` on the object from now on; the object does not move.
   void take_over(const Wrench& pull_W, double now);
 
   /// The fork of this hand: as set, changed and calibrated since.

@@ -94,6 +94,8 @@ std::vector<Field> scene_fields(S& s) {
       number("gravity", "m/s²", between(0.0, 1e3), "along −z of world", s.gravity, as_scene),
       flag("massless", "no object has mass: each follows the tip, and stays where it is released", s.massless),
       number("force_scale", "–", between(1e-9, 1e9), "ratio of virtual to real force", s.force_scale, as_scene),
+      integer("styluses", 1, 255,
+              "how many styluses there are, each with its tool; what has not been heard of does nothing", s.styluses),
       number(
           "hand.scale", "–", between(1e-3, 1e3),
           "length in the world per length of the hand's motion, from the origin of the world; rotations are not scaled",

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <stdexcept>
+#include <tuple>
 
 #include "constants.h"
 #include "hand.h"
@@ -106,6 +107,13 @@ std::optional<Wrench> cut_down(const tools::LimitSettings& limit, const tools::T
   return Wrench{of_force * force, of_moment * moment};
 }
 
+/// Whether the fork would be another one with this change.
+bool changes(const ForkChange& change, const rod::ForkSettings& fork) {
+  const rod::ForkSettings f = change.applied_to(fork);
+  return std::tie(f.dofs, f.stiffness, f.damping_ratio, f.damping_coefficient, f.damping_law) !=
+         std::tie(fork.dofs, fork.stiffness, fork.damping_ratio, fork.damping_coefficient, fork.damping_law);
+}
+
 }  // namespace
 
 struct Simulation::Impl {
@@ -130,12 +138,19 @@ struct Simulation::Impl {
         objects(scene, set.bisection_levels) {
     const auto tool = validation::named<tools::Tool>(scene.tool, scene.path, "tool");
     if (settings.grasp.calibrate == tools::Calibration::world) fit_to_world();
-    for (std::size_t i = 0; i < most_hands; ++i) hands.emplace_back(scene, settings, objects, tool);
+    for (int i = 0; i < settings.styluses; ++i) hands.emplace_back(scene, settings, objects, tool);
   }
   Hand& hand(std::size_t index) { return hands.at(index); }
   double in_world(double t) const { return settings.hand_time_scale * t; }
   /// Of the hand; exactly what was asked for where that is meant, so that to ask for it again changes nothing.
   double of_hand(double t) const { return t == in_world(asked_for) ? asked_for : t / settings.hand_time_scale; }
+  /// That hand, or each.
+  std::vector<Hand*> chosen(std::optional<std::size_t> index) {
+    if (index) return {&hand(*index)};
+    std::vector<Hand*> all;
+    for (Hand& hand : hands) all.push_back(&hand);
+    return all;
+  }
   /// One fork for all objects (doc/model.md, "Calibration").
   void fit_to_world() {
     const tools::WorldGoal& goal = settings.grasp.world_goal;
@@ -149,7 +164,7 @@ struct Simulation::Impl {
   void start(double t_end);
   void advance(double t_end, AdvanceReport& report);
   void act(AdvanceReport& report);
-  /// Does `change`, by which a hand may let go. Where it leaves another one alone with what both held, that takes over.
+  /// Does `change`, by which a hand may let go. The others that held the same take over what its springs did.
   template <typename Change>
   void with_handover(Change&& change);
   std::map<std::size_t, std::vector<Hand*>> holders();
@@ -202,15 +217,19 @@ std::map<std::size_t, std::vector<Hand*>> Simulation::Impl::holders() {
 template <typename Change>
 void Simulation::Impl::with_handover(Change&& change) {
   if (std::count_if(hands.begin(), hands.end(), [](const Hand& hand) { return hand.holds(); }) < 2) return change();
-  std::map<std::size_t, Wrench> shared;  // what all springs together do to what several hands hold
-  for (const auto& [object, of_object] : holders()) {
-    if (of_object.size() < 2) continue;
-    for (const Hand* hand : of_object) shared[object] += hand->spring_pull();
-  }
+  const std::map<std::size_t, std::vector<Hand*>> before = holders();
+  std::map<Hand*, Wrench> pulls;
+  for (Hand& hand : hands) pulls[&hand] = hand.holds() ? hand.spring_pull() : Wrench();
   change();
-  for (const auto& [object, of_object] : holders()) {
-    const auto both = shared.find(object);
-    if (both != shared.end() && of_object.size() == 1) of_object.front()->take_over(both->second, now);
+  for (auto [object, of_object] : before) {
+    const auto holds_on = [o = object](const Hand* hand) { return hand->holds() && hand->carried() == o; };
+    const auto gone = std::stable_partition(of_object.begin(), of_object.end(), holds_on);
+    if (gone == of_object.end()) continue;
+    Wrench left_W;
+    std::for_each(gone, of_object.end(), [&](Hand* hand) { left_W += pulls[hand]; });
+    const double share = 1.0 / static_cast<double>(gone - of_object.begin());
+    const Wrench part_W{share * left_W.force, share * left_W.moment};
+    std::for_each(of_object.begin(), gone, [&](Hand* hand) { hand->take_over(pulls[hand] += part_W, now); });
   }
 }
 
@@ -366,7 +385,8 @@ void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
 }
 
 std::string Simulation::Impl::signature() const {
-  std::string text = validation::name_of(scene.contact) + "; " + validation::name_of(settings.fork.shape) + ";";
+  std::string text = validation::name_of(scene.contact) + "; " + validation::name_of(settings.fork.shape) + "; " +
+                     std::to_string(settings.styluses) + " styluses;";
   for (const scene::Body& body : given_scene.bodies) text += " " + body.name;
   return text;
 }
@@ -416,6 +436,7 @@ Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 const scene::Scene& Simulation::scene() const { return impl_->scene; }
 const SimulationSettings& Simulation::settings() const { return impl_->settings; }
+std::size_t Simulation::hands() const { return impl_->hands.size(); }
 
 double Simulation::world_time() const {
   const double first = impl_->first_sample();
@@ -479,7 +500,7 @@ void Simulation::place(const std::map<std::string, RigidTransform>& X_WO) {
 
 bool Simulation::release() {
   bool released = false;
-  for (std::size_t hand = 0; hand < most_hands; ++hand) released = release(hand) || released;
+  for (std::size_t hand = 0; hand < hands(); ++hand) released = release(hand) || released;
   return released;
 }
 
@@ -492,14 +513,19 @@ bool Simulation::release(std::size_t hand) {
 
 const rod::ForkSettings& Simulation::fork_settings(std::size_t hand) const { return impl_->hand(hand).fork(); }
 
-ChangeReport Simulation::select_tool(tools::Tool tool, std::size_t hand) {
+ChangeReport Simulation::select_tool(tools::Tool tool, std::optional<std::size_t> hand) {
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
-  const bool held = impl_->hand(hand).holds();
-  impl_->with_handover([&] { impl_->hand(hand).select_tool(tool, impl_->now); });
+  bool held = false;
+  impl_->with_handover([&] {
+    for (Hand* of : impl_->chosen(hand)) {
+      held |= of->holds();
+      of->select_tool(tool, impl_->now);
+    }
+  });
   change.elastic_energy_after = impl_->elastic_energy();
   change.message = "tool: " + validation::name_of(tool) +
-                   (held && !impl_->hand(hand).holds() ? "; it cannot hold, so the object was released" : "");
+                   (held && !tools::can_hold(tool) ? "; it cannot hold, so the object was released" : "");
   return change;
 }
 
@@ -517,8 +543,8 @@ ChangeReport Simulation::change(const ForkChange& change, std::optional<std::siz
   impl_->check(change, {});
   ChangeReport report;
   report.elastic_energy_before = impl_->elastic_energy();
-  for (std::size_t i = 0; i < most_hands; ++i) {
-    if (hand.value_or(i) == i) impl_->hand(i).change_fork(change, report);
+  for (Hand* of : impl_->chosen(hand)) {
+    if (changes(change, of->fork())) of->change_fork(change, report);
   }
   report.elastic_energy_after = impl_->elastic_energy();
   if (report.message.empty()) report.message = change.empty() ? "nothing changed" : "set; the strain stays as it is";
@@ -578,7 +604,7 @@ void Simulation::Impl::continue_from(Impl& before, const ObjectEdit& edit) {
   });
   if (edit.action == Action::remove) before.objects.wake_what_lies_on(edited, now);
   objects.continue_from(before.objects, now);
-  for (std::size_t i = 0; i < most_hands; ++i) {
+  for (std::size_t i = 0; i < hands.size(); ++i) {
     hands[i].continue_from(before.hands[i], edit.action == Action::mass ? edit.object : "", now);
   }
 }
@@ -613,9 +639,7 @@ ChangeReport Simulation::calibrate(std::optional<std::size_t> hand) {
   ChangeReport change;
   change.elastic_energy_before = impl_->elastic_energy();
   bool done = false;
-  for (std::size_t i = 0; i < most_hands; ++i) {
-    if (hand.value_or(i) == i) done = impl_->hand(i).calibrate(change, impl_->now) || done;
-  }
+  for (Hand* of : impl_->chosen(hand)) done = of->calibrate(change, impl_->now) || done;
   if (!done) throw validation::InputError("calibrate: no object is held by a fork or a spring; call it while one is");
   change.elastic_energy_after = impl_->elastic_energy();
   return change;
@@ -626,6 +650,7 @@ SimulationState Simulation::save() const {
   impl_->exchange(archive);
   SimulationState state;
   state.scene_ = impl_->signature();
+  state.styluses_ = impl_->settings.styluses;
   state.words_ = archive.taken();
   return state;
 }

@@ -31,9 +31,9 @@ std::string serialise(const SimulationState& state) {
   for (const std::uint64_t word : state.words_) append_hex(numbers, word);
   YAML::Emitter text;
   text << YAML::BeginMap << YAML::Key << "format" << YAML::Value << format << YAML::Key << "scene" << YAML::Value
-       << YAML::DoubleQuoted << state.scene_ << YAML::Key << "hash" << YAML::Value << YAML::DoubleQuoted
-       << to_hex(state.hash()) << YAML::Key << "numbers" << YAML::Value << YAML::DoubleQuoted << numbers
-       << YAML::EndMap;
+       << YAML::DoubleQuoted << state.scene_ << YAML::Key << "styluses" << YAML::Value << state.styluses_ << YAML::Key
+       << "hash" << YAML::Value << YAML::DoubleQuoted << to_hex(state.hash()) << YAML::Key << "numbers" << YAML::Value
+       << YAML::DoubleQuoted << numbers << YAML::EndMap;
   return text.c_str();
 }
 
@@ -49,6 +49,7 @@ SimulationState parse_state(const std::string& text) {
   }
   SimulationState state;
   state.scene_ = config::read_string(map["scene"], where, "scene");
+  state.styluses_ = config::read_integer(map["styluses"], where, "styluses", 1, 255);
   const std::string numbers = config::read_string(map["numbers"], where, "numbers");
   const bool all_hexadecimal = numbers.find_first_not_of(hexadecimal) == std::string::npos;
   if (all_hexadecimal && numbers.size() % word_digits == 0) {

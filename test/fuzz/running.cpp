@@ -26,7 +26,7 @@ void check_finite(const simulation::Simulation& simulation) {
     require(object.X_WO.matrix().allFinite() && object.V_WO_W.linear.allFinite() && object.V_WO_W.angular.allFinite(),
             "an object's pose and twist are finite");
   }
-  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
+  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
     const tools::ToolState fork = simulation.fork(hand);
     require(fork.X_WE.matrix().allFinite() && fork.strain.allFinite() && fork.tip_wrench_W.force.allFinite() &&
                 fork.tip_wrench_W.moment.allFinite() && std::isfinite(fork.elastic_energy),

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A live run is its replay: two hands, what two machines measure, services and live settings changed at random,
+"""A live run is its replay: three hands, what three machines measure, services and live settings changed at random,
 recorded with rosbag; what was committed equals what `replay` makes of the bag, bit by bit, and the state's hash at
 every comparison. `replay` makes each change again at its time, and it leads to the recorded state. Several sessions run
 at the same time, each with a master of its own, and beside them a busy process for each processor.
@@ -62,34 +62,41 @@ TOPICS = ["/manipulation/" + name for name in ("accepted", "changes", "objects")
 VIEWED = ["/tf", *("/manipulation/" + name for name in ("markers", "display/objects", "display/fork"))]
 
 
-class TwoHands:
-    """Two hands by the wall's clock, each with its own rate: they reach for the box, lift it, shake it, let go."""
+MANY = 3
+
+
+def ending(hand):
+    return "" if hand == 0 else "_%d" % (hand + 1)
+
+
+class Hands:
+    """Three hands by the wall's clock, each with its own rate: they reach for the box, lift it, shake it, let go."""
 
     def __init__(self, seed):
         self.random = random.Random(seed)
         self.tf = rospy.Publisher("/tf", TFMessage, queue_size=100)
-        self.joy = [rospy.Publisher(name, Joy, queue_size=100) for name in ("stylus/joy", "stylus_2/joy")]
+        self.joy = [rospy.Publisher("stylus%s/joy" % ending(hand), Joy, queue_size=100) for hand in range(MANY)]
         self.sensors = [
-            rospy.Publisher("manipulation/external_wrench" + ending, WrenchStamped, queue_size=100)
-            for ending in ("", "_2")
+            rospy.Publisher("manipulation/external_wrench" + ending(hand), WrenchStamped, queue_size=100)
+            for hand in range(MANY)
         ]
-        self.rates = [self.random.choice([30.0, 60.0, 120.0]) for _ in range(2)]
-        self.goal = [self.new_goal(hand) for hand in range(2)]
+        self.rates = [self.random.choice([30.0, 60.0, 120.0]) for _ in range(MANY)]
+        self.goal = [self.new_goal(hand) for hand in range(MANY)]
         self.position = list(self.goal)
-        self.next = [time.time()] * 2
-        self.pressed, self.clutch = [False, False], [False, False]
+        self.next = [time.time()] * MANY
+        self.pressed, self.clutch = [False] * MANY, [False] * MANY
 
     def new_goal(self, hand):
         reach = self.random.random() < 0.6
         return [
-            (0.02 if hand == 0 else -0.02) + self.random.gauss(0.0, 0.005 if reach else 0.05),
+            0.02 * (1 - hand) + self.random.gauss(0.0, 0.005 if reach else 0.05),
             self.random.gauss(0.0, 0.005 if reach else 0.05),
             0.22 if reach else self.random.uniform(0.25, 0.45),
         ]
 
     def step(self):
         now = time.time()
-        for hand in range(2):
+        for hand in range(MANY):
             if now < self.next[hand]:
                 continue
             dt = 1.0 / self.rates[hand]
@@ -105,8 +112,7 @@ class TwoHands:
             if silent:
                 continue
             transform = stylus_transform(stamp, self.position[hand], DOWN)
-            if hand == 1:
-                transform.child_frame_id = "stylus_2"
+            transform.child_frame_id = "stylus" + ending(hand)
             self.tf.publish(TFMessage([transform]))
             if self.random.random() < dt:
                 self.clutch[hand] = not self.clutch[hand]
@@ -121,7 +127,7 @@ class TwoHands:
         """The force sensor of a machine that this hand drives."""
         measured = WrenchStamped()
         measured.header.stamp = stamp
-        measured.header.frame_id = self.random.choice(["world", "fork_tip" if hand == 0 else "fork_tip_2"])
+        measured.header.frame_id = self.random.choice(["world", "fork_tip" + ending(hand)])
         force = [self.random.gauss(0.0, 2.0) for _ in range(3)]
         measured.wrench = Wrench(Vector3(*force), Vector3(0.0, 0.0, self.random.gauss(0.0, 0.02)))
         self.sensors[hand].publish(measured)
@@ -159,13 +165,13 @@ class Services:
         r.choice(
             [
                 lambda: call["select_tool"](
-                    tool=r.choice(["spring", "spring_fork", "spring_probe", "direct", "ray"]), stylus=r.randint(1, 2)
+                    tool=r.choice(["spring", "spring_fork", "spring_probe", "direct", "ray"]), stylus=r.randint(1, MANY)
                 ),
                 lambda: call["set_dofs"](
-                    stretch=r.random() < 0.7, bend=r.random() < 0.7, torsion=r.random() < 0.7, stylus=r.randint(0, 2)
+                    stretch=r.random() < 0.7, bend=r.random() < 0.7, torsion=r.random() < 0.7, stylus=r.randint(0, MANY)
                 ),
                 lambda: call["set_stiffness"](
-                    stretch=r.uniform(100.0, 2000.0), bend=r.uniform(50.0, 500.0), stylus=r.randint(0, 2)
+                    stretch=r.uniform(100.0, 2000.0), bend=r.uniform(50.0, 500.0), stylus=r.randint(0, MANY)
                 ),
                 lambda: call["set_integrator"](
                     name=r.choice(["exponential", "rk4"]), tolerance=SetIntegratorRequest.KEEP_TOLERANCE
@@ -176,9 +182,9 @@ class Services:
                 lambda: self.panel.update_configuration(
                     {"stretch": r.random() < 0.7, "bend_stiffness": r.uniform(50.0, 500.0)}
                 ),
-                lambda: call["release"](stylus=r.randint(0, 2)),
-                lambda: call["calibrate"](stylus=r.randint(0, 2)),
-                lambda: call["clutch"](on=r.random() < 0.5, stylus=r.randint(0, 2)),
+                lambda: call["release"](stylus=r.randint(0, MANY)),
+                lambda: call["calibrate"](stylus=r.randint(0, MANY)),
+                lambda: call["clutch"](on=r.random() < 0.5, stylus=r.randint(0, MANY)),
                 lambda: call["edit_object"](action="mass", name="box", mass=r.choice([0.0, r.uniform(0.5, 3.0)])),
                 lambda: call["edit_object"](action="friction", name="box", friction=r.uniform(0.0, 1.0)),
                 lambda: self.add_or_remove(),
@@ -203,14 +209,14 @@ def end(process):
 def record(seed, bag):
     """A session of one node, which the master knows by its usual name."""
     options, viewed = options_of(seed)
-    options += ["scene:=" + SCENE, "contact:=dynamic"]
+    options += ["scene:=" + SCENE, "contact:=dynamic", "styluses:=%d" % MANY]
     node = subprocess.Popen([*MANIPULATION, *("_" + option for option in options)])
     services = Services(seed)
     recorder = subprocess.Popen([sys.executable, __file__, "--record", bag])
     changes = Listener("manipulation/changes", Change)
     listener = rospy.Subscriber("manipulation/accepted", Accepted, lambda _: None)
     viewers = [rospy.Subscriber(topic, rospy.AnyMsg, lambda _: None) for topic in viewed]
-    hands = TwoHands(seed)
+    hands = Hands(seed)
     wait_for(lambda: hands.tf.get_num_connections() > 0 and changes.last, "the journal to begin")
     wait_for(lambda: os.path.exists(bag), "the recorder")
     wait_for(lambda: all(viewer.get_num_connections() > 0 for viewer in viewers), "the viewers")

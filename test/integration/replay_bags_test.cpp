@@ -79,8 +79,37 @@ TEST_F(Replay, ABagOfTwoHandsGivesTheSameBytesAsTheirMotionFiles) {
     both_hold += fork[row][3] == "box" && fork[row + 1][3] == "box" ? 1 : 0;
   }
   EXPECT_GT(both_hold, 50);
-  expect_refused("--scene box.urdf --motion hand.tum --motion hand.tum --motion hand.tum --out run.csv",
-                 {"--motion", "2 times"});
+}
+
+/// Whichever numbers they have: the fourth of four has its own rows, and the third, which the bag lacks, has none.
+TEST_F(Replay, ABagOfManyHandsIsReplayedWithAllOfThem) {
+  const std::string numbers[] = {"", "_2", "_4"};
+  std::string motions;
+  for (std::size_t k = 0; k < 3; ++k) {
+    std::vector<Sample> samples = lifting_hand();
+    for (Sample& s : samples) s.x += 0.02 * (static_cast<double>(k) - 1.0);
+    folder_.write("hand" + numbers[k] + ".tum", motion_text(samples));
+    write_bag(path("hands.bag"), samples, {"workbench", "stylus" + numbers[k], "stylus" + numbers[k] + "/joy"},
+              k == 0 ? rosbag::bagmode::Write : rosbag::bagmode::Append);
+    motions += " --motion hand" + numbers[k] + ".tum";
+  }
+  ASSERT_EQ(run("--scene box.urdf" + motions + " --out a.csv").status, 0);
+  ASSERT_EQ(run("--scene box.urdf --bag hands.bag --out b.csv").status, 0);
+  expect_same_bytes("a.csv", "b.csv");
+  const auto a = table("a.fork.csv"), b = table("b.fork.csv");
+  ASSERT_EQ(b.size(), 3 * (table("b.csv").size() - 1) + 1);
+  ASSERT_EQ(a.size(), b.size());
+  int all_hold = 0;
+  for (std::size_t row = 1; row < b.size(); row += 3) {
+    EXPECT_EQ(b[row][1] + b[row + 1][1] + b[row + 2][1], "forkfork_2fork_4");
+    EXPECT_EQ(a[row + 2][1], "fork_3");
+    for (std::size_t i = 4; i < b[row].size(); ++i) EXPECT_EQ(a[row + 2][i], b[row + 2][i]);
+    all_hold += b[row][3] == "box" && b[row + 1][3] == "box" && b[row + 2][3] == "box" ? 1 : 0;
+  }
+  EXPECT_GT(all_hold, 50);
+  write_bag(path("far.bag"), lifting_hand(), {"workbench", "stylus_300", "stylus_300/joy"});
+  expect_refused("--scene box.urdf --bag far.bag --out run.csv",
+                 {"styluses: must be an integer between 1 and 255, got 300"});
 }
 
 TEST_F(Replay, BadBagsAreRefused) {

@@ -215,7 +215,7 @@ class Tools(unittest.TestCase):
         first, second = self.fork.next(), self.fork_2.next()
         self.assertEqual((first.held_object, second.held_object), ("box", "box"))
         self.assertAlmostEqual(first.tip_wrench.force.z + second.tip_wrench.force.z, WEIGHT, delta=0.01)
-        rate = lambda: float(diagnostic_values(self.diagnostics.messages, "second stylus").get("rate [Hz]", 0.0))
+        rate = lambda: float(diagnostic_values(self.diagnostics.messages, "stylus 2").get("rate [Hz]", 0.0))
         wait_for(lambda: self.hand.run(0.1) or abs(rate() - 50.0) < 1.0, "the second stylus in /diagnostics")
         frames = {t.child_frame_id for m in self.tf.messages for t in m.transforms}
         self.assertLessEqual({"fork_handle", "fork_tip", "fork_handle_2", "fork_tip_2"}, frames)

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -58,7 +57,7 @@ class TaskMonitor {
   TaskScore score_;
   bool started_ = false;
   double begin_ = 0.0;
-  std::array<Hand, simulation::Simulation::most_hands> hands_;
+  std::vector<Hand> hands_;
   std::map<std::string, Carried> carried_;
   std::map<std::string, double> released_height_;  ///< of objects that may be falling [m]
 };

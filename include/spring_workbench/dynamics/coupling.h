@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <vector>
 
 #include "spring_workbench/math/state_archive.h"
@@ -68,18 +67,16 @@ struct Attached {
 /// Couplings of a held body. Keeps pointers to the couplings and motions that are attached.
 class Couplings {
  public:
-  static constexpr std::size_t most = 2;
   /// Motion of the handle H, seen from each frame A.
   template <typename S>
   struct Seen {
-    std::size_t count = 0;
     double distance =
         0.0;  ///< largest distance of the frames from the origin of the world, which scales their rounding errors [m]
-    std::array<RelativeMotion<S>, most> from;
+    std::vector<RelativeMotion<S>> from;
   };
 
   /// Attaches these couplings in place of the present ones. Returns whether they, or their laws, differ from those
-  /// before. Throws std::length_error for more than `most`.
+  /// before.
   bool attach(const std::vector<Attached>& couplings);
   /// Detaches all but the first `kept` until they are attached again: the equation of motion still includes them.
   void detach(std::size_t kept) { attached_.resize(std::min(kept, attached_.size())); }

@@ -107,7 +107,7 @@ class HeldBody {
   const PathCheck& path_check() const { return path_check_; }
 
   /// Attaches further tools that pull on the body from now on, along the motion of the handle that integrators are
-  /// given. Throws std::length_error for more than Couplings::most.
+  /// given.
   void attach(const std::vector<Attached>& couplings);
   /// Detaches couplings; see Couplings::detach.
   void detach(std::size_t kept) { couplings_.detach(kept); }

@@ -16,7 +16,7 @@ namespace spring_workbench::live {
 struct Command {
   enum class Kind {
     none,         ///< no change, or one that cannot be repeated: only the state after it is known
-    select_tool,  ///< select `tool` in `hand`, or else in the first hand
+    select_tool,  ///< select `tool` in `hand`, or else in each
     settings,     ///< apply `of_fork` to `hand`, or else to all; if `of_dynamics` is set, both to all
     calibrate,    ///< calibrate `hand`, or else all hands
     release,      ///< release what `hand`, or else each hand, holds

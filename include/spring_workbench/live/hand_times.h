@@ -1,13 +1,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
-
-#include "spring_workbench/simulation/simulation.h"
+#include <vector>
 
 namespace spring_workbench::live {
 
@@ -15,9 +13,9 @@ namespace spring_workbench::live {
 /// of the first hand.
 class HandTimes {
  public:
-  /// `simulated_time`: whether the clock is a simulated one. If so, a hand whose epoch lies clearly before the present
-  /// simulation time belongs to another run and does not join; on the wall clock every hand joins.
-  explicit HandTimes(bool simulated_time) : simulated_time_(simulated_time) {}
+  /// `hands`: how many; `simulated_time`: whether the clock is a simulated one. If so, a hand whose epoch lies clearly
+  /// before the present simulation time belongs to another run and does not join; on the wall clock every hand joins.
+  HandTimes(std::size_t hands, bool simulated_time) : simulated_time_(simulated_time), shifts_(hands) {}
 
   /// Returns whether a hand whose epoch is `zero` [ns] joins the other hands at simulation time `t` [s]; false means
   /// that time has jumped.
@@ -40,10 +38,9 @@ class HandTimes {
 
  private:
   bool simulated_time_;
-  double left_out_ = 0.0;  ///< [s]
-  std::int64_t zero_ = 0;  ///< epoch of simulation time [ns]
-  std::array<std::optional<double>, simulation::Simulation::most_hands>
-      shifts_;  ///< to add to a hand's times [s]; none: it has not joined
+  double left_out_ = 0.0;                      ///< [s]
+  std::int64_t zero_ = 0;                      ///< epoch of simulation time [ns]
+  std::vector<std::optional<double>> shifts_;  ///< to add to a hand's times [s]; none: it has not joined
 };
 
 }  // namespace spring_workbench::live

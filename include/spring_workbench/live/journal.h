@@ -62,7 +62,8 @@ class Replayer {
  public:
   using AtStop = std::function<void(simulation::Simulation&, const simulation::AdvanceReport&)>;
 
-  /// `load_scene(path)` loads a scene; `settings`: those with which the live run began.
+  /// `load_scene(path)` loads a scene; `settings`: those with which the live run began, whose
+  /// number of styluses is taken from the journal.
   Replayer(std::function<scene::Scene(const std::string&)> load_scene, simulation::SimulationSettings settings)
       : load_scene_(std::move(load_scene)), settings_(std::move(settings)) {}
 

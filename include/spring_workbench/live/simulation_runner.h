@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -44,14 +43,13 @@ struct Shown {
 /// Report of one cycle of the physics loop.
 struct CycleReport {
   simulation::AdvanceReport advance;
-  double wall_time = 0.0;      ///< [s], by the steady clock
-  bool behind = false;         ///< simulation is slower than the hands: samples are dropped
-  double left_out = 0.0;       ///< time that is skipped because the hands' time jumped [s]
-  bool more = false;           ///< more can be committed at once: call `cycle` again
-  PredictionError prediction;  ///< error of what was displayed for the time that is now committed
-  double input_age = 0.0;      ///< age of the newest sample by its stamp [s]
-  std::array<std::vector<RejectedPose>, simulation::Simulation::most_hands>
-      rejected;  ///< poses of each hand that the gate rejected
+  double wall_time = 0.0;                           ///< [s], by the steady clock
+  bool behind = false;                              ///< simulation is slower than the hands: samples are dropped
+  double left_out = 0.0;                            ///< time that is skipped because the hands' time jumped [s]
+  bool more = false;                                ///< more can be committed at once: call `cycle` again
+  PredictionError prediction;                       ///< error of what was displayed for the time that is now committed
+  double input_age = 0.0;                           ///< age of the newest sample by its stamp [s]
+  std::vector<std::vector<RejectedPose>> rejected;  ///< poses of each hand that the gate rejected
 };
 
 /// Statistics of one hand's samples so far.
@@ -112,6 +110,8 @@ class SimulationRunner {
   /// the scene.
   void resume(const scene::Scene& scene, const simulation::SimulationState& state);
 
+  /// How many hands there are.
+  std::size_t hands() const { return inputs_.size(); }
   /// Calls `use(const Simulation&)` with exclusive access to the simulation.
   template <typename Use>
   auto locked(Use&& use) const {

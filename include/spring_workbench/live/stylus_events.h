@@ -1,7 +1,7 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <variant>
 #include <vector>
@@ -44,7 +44,7 @@ struct StylusWrench {
 };
 using StylusEvent = std::variant<NewEpoch, StylusPose, StylusButton, ButtonsKnown, StylusWrench>;
 
-/// Events of each stylus since the last cycle.
-using HandEvents = std::array<std::vector<StylusEvent>, simulation::Simulation::most_hands>;
+/// Events since the last cycle, by stylus.
+using HandEvents = std::map<std::size_t, std::vector<StylusEvent>>;
 
 }  // namespace spring_workbench::live

@@ -26,6 +26,7 @@ struct SimulationSettings {
   std::optional<double> gravity;              ///< key `gravity` [m/s²], 0 … 1000
   std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9
   bool massless = false;                      ///< key `massless`: no object has mass
+  int styluses = 2;                           ///< key `styluses`, 1 … 255: a stylus is a byte in messages
   double hand_scale = 1.0;                    ///< key `hand.scale`, 1e-3 … 1e3
   double hand_time_scale = 1.0;               ///< key `hand.time_scale`, 1e-3 … 1e3
   int clutch_button = 2;                      ///< key `clutch.button`, of the stylus' Joy

@@ -25,6 +25,8 @@ class SimulationState {
   /// The state of no simulation.
   SimulationState() = default;
 
+  /// How many styluses its simulation has.
+  int styluses() const { return styluses_; }
   /// Returns the hash of all its numbers: equal states have equal hashes on every machine.
   std::uint64_t hash() const { return math::hash(words_); }
   bool operator==(const SimulationState& other) const { return scene_ == other.scene_ && words_ == other.words_; }
@@ -36,6 +38,7 @@ class SimulationState {
   friend SimulationState parse_state(const std::string& text);
 
   std::string scene_;  ///< must be the same in a simulation that is restored from it
+  int styluses_ = 0;   ///< likewise
   math::StateArchive::Words words_;
 };
 
@@ -89,13 +92,11 @@ struct ChangeReport {
 
 /// A scene, the hands and their tools, with just the subsystems that the scene needs. It owns simulated time. No clock,
 /// no thread, no log, no ROS: the same calls give bit-identical results. NaN is neither accepted nor returned. A hand
-/// is a number from 0 (the first stylus) to most_hands − 1; any other throws std::out_of_range.
+/// is a number from 0 (the first stylus) to hands() − 1; any other throws std::out_of_range.
 /// All times are those of the hand's clock. In the world, whose velocities and rates are told, and whose steps
 /// `settings().dynamics.step` limits, `settings().hand_time_scale` times as much time goes by.
 class Simulation {
  public:
-  static constexpr std::size_t most_hands = 2;
-
   /// Throws InputError when settings and scene do not fit (e.g. `grasp.object` is not in the scene).
   Simulation(const scene::Scene& scene, const SimulationSettings& settings);
   ~Simulation();
@@ -106,6 +107,8 @@ class Simulation {
   const scene::Scene& scene() const;
   /// The settings as given, with `dynamics` as changed since and `fork` as calibrated to the world.
   const SimulationSettings& settings() const;
+  /// How many there are.
+  std::size_t hands() const;
   /// The fork in a hand: as given, changed and calibrated since.
   const rod::ForkSettings& fork_settings(std::size_t hand = 0) const;
 
@@ -157,9 +160,9 @@ class Simulation {
 
   // Changes while running; pose and twist of the object do not jump. A change that is impossible throws InputError and
   // changes nothing.
-  /// Changes the tool in one hand. It keeps its object; the new tool starts without strain. The probe cannot hold: with
-  /// it the object is released.
-  ChangeReport select_tool(tools::Tool tool, std::size_t hand = 0);
+  /// Changes the tool in one hand, or in each. It keeps its object; the new tool starts without strain. The probe
+  /// cannot hold: with it the object is released.
+  ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = 0);
   /// Changes the fork in one hand, or in all.
   ChangeReport change(const ForkChange& change, std::optional<std::size_t> hand = std::nullopt);
   /// Changes integrator, step or tolerance of all hands. Throws InputError if a value is invalid.
@@ -187,8 +190,8 @@ class Simulation {
   /// of one state are equal.
   SimulationState save() const;
   /// Restores a saved state, from which the future is bit-identical, whatever has happened since. Throws InputError,
-  /// and changes nothing, if the state has other objects, another contact mode or another shape of the fork, or is
-  /// invalid.
+  /// and changes nothing, if the state has other objects, another number of styluses, another contact mode or
+  /// another shape of the fork, or is invalid.
   void restore(const SimulationState& state);
   /// The hash of save().
   std::uint64_t state_hash() const { return save().hash(); }

@@ -1,6 +1,7 @@
-#include <array>
+#include <algorithm>
 #include <chrono>
 #include <iostream>
+#include <map>
 #include <utility>
 
 #include "constants.h"
@@ -18,12 +19,14 @@
 namespace spring_workbench::replay {
 namespace {
 
-std::vector<Motion> load_motions(const Options& options) {
+std::map<std::size_t, Motion> load_motions(const Options& options) {
   if (!options.bag.empty()) {
     return read_bag(options.bag, options.parent, options.child, options.settings.clutch_button);
   }
-  std::vector<Motion> motions;
-  for (const std::string& path : options.motions) motions.push_back(read_motion(*motion_files::open_motion(path)));
+  std::map<std::size_t, Motion> motions;
+  for (const std::string& path : options.motions) {
+    motions.emplace(motions.size(), read_motion(*motion_files::open_motion(path)));
+  }
   return motions;
 }
 
@@ -43,21 +46,22 @@ RigidTransform touched_pose(const simulation::Simulation& simulation, const tool
   return RigidTransform::Identity();
 }
 
-/// A row for each hand: the first, and those that are present or of `hands`.
+/// A row for each hand: the first, and those that are present or have one of `motions`.
 class ForkRows {
  public:
-  std::string at(double t, const simulation::Simulation& simulation, std::size_t hands) {
+  std::string at(double t, const simulation::Simulation& simulation, const std::map<std::size_t, Motion>& motions) {
     std::string rows;
+    averages_.resize(simulation.hands());
     for (std::size_t hand = 0; hand < averages_.size(); ++hand) {
       tools::ToolState tool = simulation.fork(hand);
       averages_[hand].take(simulation.world_time(), tool, touched_pose(simulation, tool));
-      if (hand < hands || tool.present) rows += fork_row(t, tool, hand);
+      if (hand == 0 || tool.present || motions.count(hand) > 0) rows += fork_row(t, tool, hand);
     }
     return rows;
   }
 
  private:
-  std::array<instruments::ReadingAverage, simulation::Simulation::most_hands> averages_;
+  std::vector<instruments::ReadingAverage> averages_;
 };
 
 scene::Scene load_scene(const std::string& path) {
@@ -98,7 +102,7 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
       summary.add_contacts(simulation.contacts());
       ++summary.outputs;
       objects.write(object_rows(simulation.time(), simulation));
-      fork.write(fork_rows.at(simulation.time(), simulation, 1));
+      fork.write(fork_rows.at(simulation.time(), simulation, {}));
     });
     const auto* accepted = std::get_if<hand_input::Accepted>(&entry.what);
     if (accepted != nullptr && accepted->kind == hand_input::Accepted::Kind::pose) ++summary.samples;
@@ -121,8 +125,10 @@ Summary run(const Options& options) {
     const std::vector<live::Entry> journal = read_journal(options.bag);
     if (!journal.empty()) return run_journal(options, journal);
   }
-  const std::vector<Motion> motions = load_motions(options);
-  simulation::Simulation simulation(load_scene(options.scene), options.settings);
+  const std::map<std::size_t, Motion> motions = load_motions(options);
+  simulation::SimulationSettings settings = options.settings;
+  settings.styluses = std::max(settings.styluses, static_cast<int>(motions.rbegin()->first) + 1);
+  simulation::Simulation simulation(load_scene(options.scene), settings);
   config::OutputFile objects(options.out);
   config::OutputFile fork(fork_path(options.out));
   objects.write(object_header());
@@ -131,9 +137,9 @@ Summary run(const Options& options) {
 
   Summary summary;
   hand_input::Feed feed(simulation, options.input);
-  for (std::size_t hand = 0; hand < motions.size(); ++hand) {
-    push_motion(motions[hand], hand, options.settings.grasp.object.empty(), feed);
-    summary.samples += motions[hand].samples.size();
+  for (const auto& [hand, motion] : motions) {
+    push_motion(motion, hand, settings.grasp.object.empty(), feed);
+    summary.samples += motion.samples.size();
   }
   const double end = simulation.newest_sample() + time_tolerance;
   const auto started = std::chrono::steady_clock::now();
@@ -141,10 +147,10 @@ Summary run(const Options& options) {
     summary.advance.add(feed.advance_to(t));
     summary.add_contacts(simulation.contacts());
     objects.write(object_rows(t, simulation));
-    fork.write(fork_rows.at(t, simulation, motions.size()));
+    fork.write(fork_rows.at(t, simulation, motions));
   }
   summary.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-  for (std::size_t hand = 0; hand < motions.size(); ++hand) {
+  for (const auto& [hand, motion] : motions) {
     summary.add(feed.gate_counts(hand));
     summary.add(feed.reacquisition_counts(hand));
   }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -27,10 +28,10 @@ void add_button(double t, bool pressed, std::vector<ButtonEvent>& buttons);
 /// Everything that the source has.
 Motion read_motion(motion::StylusSource& source);
 
-/// The transforms `parent` → `child` of a bag with buttons 0, 1 and `clutch_button` of stylus/joy, and where the bag
-/// has them those of further styluses (`child`_2, stylus_2/joy). Times from the first sample of all. Throws InputError.
-std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child,
-                             int clutch_button);
+/// The hands of a bag, by number from 0: the transforms `parent` → `child` with buttons 0, 1 and `clutch_button` of
+/// stylus/joy, then `child`_2 with stylus_2/joy, and so on. Times from the first sample of all. Throws InputError.
+std::map<std::size_t, Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child,
+                                       int clutch_button);
 
 /// What a live run published on ~accepted and ~changes, in order; empty where the bag has none of it. Throws
 /// InputError.

@@ -42,11 +42,7 @@ config::CommandOption once(const std::string& name, std::string& field) {
 }
 
 void add_motion(const std::string& path, std::vector<std::string>& motions) {
-  constexpr std::size_t most = simulation::Simulation::most_hands;
   if (path.empty()) validation::refuse(command_line, "--motion", "", "a path");
-  if (motions.size() == most)
-    validation::refuse(command_line, "--motion", "another, " + path,
-                       "given at most " + std::to_string(most) + " times");
   motions.push_back(path);
 }
 
@@ -97,11 +93,11 @@ replay --scene SCENE.urdf (--motion FILE [--motion FILE] | --bag FILE.bag) [--se
 
   --scene     a scene: path or package:// URI of a URDF; a YAML file of the same name next to it is read, too
   --motion    the hand: lines of `t x y z qx qy qz qw [button]` (s, m, -, 0 or 1), or a script (*.yaml) of waypoints.
-              Give it twice for two hands; the time of each starts at its own first sample
+              Give it once for each hand; the time of each starts at its own first sample
   --bag       the hands from a bag: its transforms --parent -> --child (default workbench -> stylus) of any topic but
-              /tf_static, and buttons 0 (grasp), 1 (next tool) and clutch.button of stylus/joy; a second hand
-              from CHILD_2 (stylus_2) and stylus_2/joy, if the bag has them. If it has ~accepted and ~changes of
-              manipulation, that live run is repeated bit by bit, with a line for each committed time
+              /tf_static, and buttons 0 (grasp), 1 (next tool) and clutch.button of stylus/joy; further hands
+              from CHILD_2 (stylus_2) and stylus_2/joy, CHILD_3, ..., all that the bag has. If it has ~accepted and
+              ~changes of manipulation, that live run is repeated bit by bit, with a line for each committed time
   --settings  a YAML file of the keys below
   --set       one key; may be given several times; takes precedence over --settings
   --out       writes RUN.csv and RUN.fork.csv; nothing is written if anything fails
@@ -112,7 +108,7 @@ names an object, which the first hand then holds; the buttons are then ignored.
 RUN.csv, a line per output time and movable object (world, centre of mass; m, -, m/s, rad/s):
   t,object,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz
 RUN.fork.csv, a line per output time and hand:
-  t,fork,tool,held                          [s], the hand's fork (fork, fork_2), its tool, the object held
+  t,fork,tool,held                          [s], the hand's fork (fork, fork_2, ...), its tool, the object held
   stretch,bend_x,bend_y,torsion             [m, m, m, rad] deformation of the fork, measured at its tip
   handle_x,...,handle_qw                    the handle in world
   proxy_x,...,proxy_qw                      the proxy handle (differs from the handle if the object cannot follow)

@@ -7,31 +7,29 @@
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/diagnostic_status.h"
 #include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/ros/common/publishing.h"
 #include "spring_workbench/validation/input_error.h"
 #include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::machine_link {
 namespace {
 
-std::string ending(std::size_t hand) { return hand == 0 ? "" : "_" + std::to_string(hand + 1); }
-
 Vector3d vector_of(const geometry_msgs::Vector3& v) { return {v.x, v.y, v.z}; }
 
 }  // namespace
 
-WrenchInput::WrenchInput(ros::NodeHandle private_node, const std::string& world_frame, const std::string& frame_prefix,
-                         double max_age, std::function<void()> wake)
+WrenchInput::WrenchInput(ros::NodeHandle private_node, std::size_t styluses, const std::string& world_frame,
+                         const std::string& frame_prefix, double max_age, std::function<void()> wake)
     : name_(private_node.getNamespace()),
       world_frame_(world_frame),
       max_age_(max_age),
       wake_(std::move(wake)),
-      sensors_{{{"", "", motion::StreamClock(max_age), live::Inbox<live::StylusWrench>(most_waiting), {}},
-                {"", "", motion::StreamClock(max_age), live::Inbox<live::StylusWrench>(most_waiting), {}}}} {
+      sensors_(styluses, {"", "", motion::StreamClock(max_age), live::Inbox<live::StylusWrench>(most_waiting), {}}) {
   const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
   for (std::size_t hand = 0; hand < sensors_.size(); ++hand) {
     Sensor& sensor = sensors_[hand];
-    sensor.topic = private_node.resolveName("external_wrench" + ending(hand));
-    sensor.tip_frame = frame_prefix + "fork_tip" + ending(hand);
+    sensor.topic = private_node.resolveName("external_wrench" + ros_common::hand_suffix(hand));
+    sensor.tip_frame = frame_prefix + "fork_tip" + ros_common::hand_suffix(hand);
     sensor.subscriber = private_node.subscribe<geometry_msgs::WrenchStamped>(
         sensor.topic, input_queue,
         [this, &sensor](const geometry_msgs::WrenchStampedConstPtr& message) { on_wrench(sensor, *message); },

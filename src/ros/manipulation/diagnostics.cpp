@@ -37,13 +37,18 @@ std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std:
   return "all samples are rejected, most of them as: " + most->first;
 }
 
-std::vector<DiagnosticStatus> ManipulationDiagnostics::report(const TrackerInput& first, const TrackerInput& second,
+std::vector<DiagnosticStatus> ManipulationDiagnostics::report(const std::vector<TrackerInput>& styluses,
                                                               const LoopStatistics& loop, double now) {
-  std::vector<DiagnosticStatus> result{report_input("tracker input", first, last_first_, now), report_loop(loop)};
-  const bool is_second = second.hand.stream.samples > 0 || !second.input.rejected.empty();
-  if (is_second) result.push_back(report_input("second stylus", second, last_second_, now));
-  last_first_ = first;
-  last_second_ = second;
+  last_.resize(styluses.size());
+  std::vector<DiagnosticStatus> result;
+  for (std::size_t hand = 0; hand < styluses.size(); ++hand) {
+    const TrackerInput& stylus = styluses[hand];
+    if (hand > 0 && stylus.hand.stream.samples == 0 && stylus.input.rejected.empty()) continue;
+    const std::string what = hand > 0 ? "stylus " + std::to_string(hand + 1) : "tracker input";
+    result.push_back(report_input(what, stylus, last_[hand], now));
+  }
+  result.push_back(report_loop(loop));
+  last_ = styluses;
   last_loop_ = loop;
   return result;
 }

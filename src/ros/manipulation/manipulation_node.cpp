@@ -44,11 +44,8 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
     : parameters_(
           read_manipulation_parameters(ros_common::private_parameters(private_node), private_node.getNamespace())),
       runner_(scene::load_scene(parameters_.scene), parameters_.simulation, parameters_.input, ros::Time::isSimTime()),
-      input_(input_thread_.handle(node), parameters_, parameters_.stylus_frame, "stylus/joy",
-             [this] { alarm_.ring(); }),
-      second_input_(input_thread_.handle(node), parameters_, parameters_.stylus_frame + "_2", "stylus_2/joy",
-                    [this] { alarm_.ring(); }),
-      wrenches_(input_thread_.handle(private_node), parameters_.world_frame, parameters_.frame_prefix,
+      inputs_(listen(input_thread_.handle(node))),
+      wrenches_(input_thread_.handle(private_node), inputs_.size(), parameters_.world_frame, parameters_.frame_prefix,
                 parameters_.max_age, [this] { alarm_.ring(); }),
       publisher_(private_node, parameters_),
       scene_publisher_(private_node, parameters_.world_frame),
@@ -69,6 +66,16 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
     for (const std::string& warning : simulation.scene().warnings) ROS_WARN_STREAM(warning);
     ROS_INFO("scene %s: %zu bodies", simulation.scene().name.c_str(), simulation.scene().bodies.size());
   });
+}
+
+std::deque<StylusInput> ManipulationNode::listen(const ros::NodeHandle& node) {
+  std::deque<StylusInput> inputs;
+  for (int k = 0; k < parameters_.simulation.styluses; ++k) {
+    const std::string number = ros_common::hand_suffix(inputs.size());
+    inputs.emplace_back(node, parameters_, parameters_.stylus_frame + number, "stylus" + number + "/joy",
+                        [this] { alarm_.ring(); });
+  }
+  return inputs;
 }
 
 ManipulationNode::~ManipulationNode() {
@@ -96,11 +103,11 @@ void ManipulationNode::run_physics() {
 /// Whether there is more to do at once. `begin`: when this was due, or a sample woke the thread.
 bool ManipulationNode::run_step(double begin) {
   const hand_input::LocalTime local = ros_common::local_time();
-  live::HandEvents events{input_.take_events(), second_input_.take_events()};
+  live::HandEvents events;
+  for (std::size_t hand = 0; hand < inputs_.size(); ++hand) events[hand] = inputs_[hand].take_events();
   wrenches_.add_to(events);
   const live::CycleReport report = runner_.cycle(events, local);
-  input_.count_rejected(report.rejected[0]);
-  second_input_.count_rejected(report.rejected[1]);
+  for (std::size_t hand = 0; hand < inputs_.size(); ++hand) inputs_[hand].count_rejected(report.rejected[hand]);
   // In simulated time the clock may have gone on by itself.
   const double deadline = (ros::Time::isSimTime() ? std::max(begin, local.loop) : begin) + 1.0 / parameters_.rate;
   std::optional<live::Shown> shown;
@@ -139,16 +146,17 @@ void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
   loop.realtime_priority = realtime_priority_;
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
-  TrackerInput first{input_.statistics(), runner_.hand_statistics(0), ""};
+  std::vector<TrackerInput> styluses;
+  for (const StylusInput& input : inputs_)
+    styluses.push_back({input.statistics(), runner_.hand_statistics(styluses.size()), ""});
+  std::string& hint = styluses.front().hint;
   {
     const std::lock_guard<std::mutex> lock(master_mutex_);
-    first.hint = hint_for_silence(first, senders_of_tf_, parameters_.stylus_frame);
+    hint = hint_for_silence(styluses.front(), senders_of_tf_, parameters_.stylus_frame);
     loop.master_silence = ros_common::steady_time() - master_answered_;
   }
-  if (!first.hint.empty())
-    ROS_WARN_STREAM_DELAYED_THROTTLE(hint_patience, "no sample of the stylus yet: " << first.hint);
-  const TrackerInput second{second_input_.statistics(), runner_.hand_statistics(1), ""};
-  message.status = diagnostics_.report(first, second, loop, ros_common::loop_time());
+  if (!hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(hint_patience, "no sample of the stylus yet: " << hint);
+  message.status = diagnostics_.report(styluses, loop, ros_common::loop_time());
   wrenches_.report(loop.advance.wrench_timeouts, message.status);
   message.status.push_back(lost_messages_.report(ros::this_node::getName()));
   diagnostics_publisher_.publish(message);
@@ -186,7 +194,7 @@ void ManipulationNode::end_with_its_master() {
 void ManipulationNode::place_workbench() {
   if (workbench_placed_ || parameters_.workbench_frame == parameters_.world_frame) return;
   workbench_placed_ = true;
-  if (input_.workbench_known()) return;
+  if (inputs_.front().workbench_known()) return;
   static_transforms_.sendTransform(ros_common::to_transform(RigidTransform::Identity(), parameters_.world_frame,
                                                             parameters_.workbench_frame, ros::Time::now()));
 }

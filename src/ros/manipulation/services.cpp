@@ -29,25 +29,22 @@ void fill(const simulation::ChangeReport& report, Response& response) {
   response.elastic_energy_after = report.elastic_energy_after;
 }
 
-/// The hand of the field `stylus` (1, 2, …); none for 0.
-std::optional<std::size_t> hand_of(unsigned stylus, const std::string& service) {
-  constexpr std::size_t most = simulation::Simulation::most_hands;
-  if (stylus > most) {
-    validation::refuse(service, "stylus", std::to_string(stylus), "an integer between 0 and " + std::to_string(most));
+/// `stylus`: 1, 2, …; 0: every one.
+live::Command command_of(const live::SimulationRunner& runner, live::Command::Kind kind, unsigned stylus,
+                         const std::string& service) {
+  if (stylus > runner.hands()) {
+    validation::refuse(service, "stylus", std::to_string(stylus),
+                       "an integer between 0 and " + std::to_string(runner.hands()));
   }
-  return stylus > 0 ? std::optional<std::size_t>(stylus - 1) : std::nullopt;
-}
-
-live::Command command_of(live::Command::Kind kind, unsigned stylus, const std::string& service) {
   live::Command command;
   command.kind = kind;
-  command.hand = hand_of(stylus, service);
+  if (stylus > 0) command.hand = stylus - 1;
   return command;
 }
 
 void select_tool(live::SimulationRunner& runner, const SelectTool::Request& request, SelectTool::Response& response) {
   const auto tool = validation::named<tools::Tool>(request.tool, "select_tool", "tool");
-  live::Command command = command_of(live::Command::Kind::select_tool, request.stylus, "select_tool");
+  live::Command command = command_of(runner, live::Command::Kind::select_tool, request.stylus, "select_tool");
   command.tool = tool;
   fill(runner.change("select_tool", command), response);
 }
@@ -55,7 +52,7 @@ void select_tool(live::SimulationRunner& runner, const SelectTool::Request& requ
 template <typename Response>
 void change_fork(live::SimulationRunner& runner, const simulation::ForkChange& change, unsigned stylus,
                  const std::string& service, Response& response) {
-  live::Command command = command_of(live::Command::Kind::settings, stylus, service);
+  live::Command command = command_of(runner, live::Command::Kind::settings, stylus, service);
   command.of_fork = change;
   fill(runner.change(service, command), response);
 }
@@ -140,17 +137,18 @@ void save_scene(live::SimulationRunner& runner, const std::vector<std::string>& 
 }
 
 void calibrate(live::SimulationRunner& runner, const Calibrate::Request& request, Calibrate::Response& response) {
-  fill(runner.change("calibrate", command_of(live::Command::Kind::calibrate, request.stylus, "calibrate")), response);
+  fill(runner.change("calibrate", command_of(runner, live::Command::Kind::calibrate, request.stylus, "calibrate")),
+       response);
 }
 
 void set_clutch(live::SimulationRunner& runner, const SetClutch::Request& request, SetClutch::Response& response) {
-  live::Command command = command_of(live::Command::Kind::clutch, request.stylus, "clutch");
+  live::Command command = command_of(runner, live::Command::Kind::clutch, request.stylus, "clutch");
   command.on = request.on != 0;
   response.message = runner.change("clutch", command).message;
 }
 
 void release(live::SimulationRunner& runner, const Release::Request& request, Release::Response& response) {
-  const live::Command command = command_of(live::Command::Kind::release, request.stylus, "release");
+  const live::Command command = command_of(runner, live::Command::Kind::release, request.stylus, "release");
   response.message = runner.change("release", command).message;
 }
 

@@ -39,8 +39,8 @@ StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationP
       shown_objects_publisher_(private_node.advertise<ObjectStates>("display/objects", 5)),
       accepted_publisher_(private_node.advertise<Accepted>("accepted", state_queue)),
       changes_publisher_(private_node.advertise<Change>("changes", state_queue)) {
-  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand) {
-    const std::string number = ros_common::hand_suffix(hand);
+  for (int k = 0; k < parameters.simulation.styluses; ++k) {
+    const std::string number = ros_common::hand_suffix(hands_.size());
     hands_.push_back({private_node.advertise<ForkState>("fork" + number, state_queue),
                       private_node.advertise<ForkState>("display/fork" + number, 5),
                       machine_link::ToolOutput(private_node, parameters.frame_prefix, number, state_queue)});

@@ -21,8 +21,7 @@ MarkerArray MarkerBuilder::build(const simulation::Simulation& simulation, const
   if (drawn_ == Drawn::everything) draw_bodies(simulation, list);
   draw_targets(scene, list);
   scale.draw_legend(list);
-  for (std::size_t hand = 0; hand < simulation::Simulation::most_hands; ++hand)
-    draw_hand(simulation, scale, hand, list);
+  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) draw_hand(simulation, scale, hand, list);
   draw_shadows(simulation, forks_W_, list);
   draw_contacts(simulation.contacts(), simulation.fork().length, list);
   MarkerArray markers = list.take();

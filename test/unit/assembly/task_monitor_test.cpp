@@ -152,30 +152,34 @@ TEST(TaskMonitor, ResetForgetsAll) {
   EXPECT_EQ(score_csv(assembly.score()), score_csv(TaskMonitor(box_scene()).score()));
 }
 
-/// Two hands lift a box each and let go in the air: both count. Then both lift the same one: each has grasped, and the
+/// Three hands lift a box each and let go in the air: all count. Then all lift the same one: each has grasped, and the
 /// way of the box counts once.
 TEST(TaskMonitor, EveryHandScores) {
   scene::Scene scene = box_scene();
-  scene.bodies.push_back(scene.bodies[0]);
-  scene.bodies.back().name = "other";
-  scene.bodies.back().X_WO.translation().y() = 0.3;
+  for (const double y : {0.3, -0.3}) {
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies.back().name = y > 0.0 ? "second" : "third";
+    scene.bodies.back().X_WO.translation().y() = y;
+  }
+  simulation::SimulationSettings settings = Assembly::settings(tools::Release::dropped);
+  settings.styluses = 3;
   for (const bool same : {false, true}) {
-    simulation::Simulation simulation(scene, Assembly::settings(tools::Release::dropped));
+    simulation::Simulation simulation(scene, settings);
     TaskMonitor monitor(scene);
     for (int k = 0; k <= 150; ++k) {
       const double t = 0.02 * k, z = 0.25 + 0.1 * std::min(t, 1.0);
-      for (std::size_t hand = 0; hand < 2; ++hand) {
-        const double y = hand == 0 ? 0.0 : (same ? 0.02 : 0.3);
+      for (std::size_t hand = 0; hand < 3; ++hand) {
+        const double y = (same ? 0.02 : 0.3) * (hand == 2 ? -1.0 : static_cast<double>(hand));
         simulation.push_stylus({t, make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, y, z))}, hand);
         if (k == 1 || k == 100) simulation.push_button(t, k == 1, hand);
       }
       simulation.advance(t);
       monitor.observe(simulation);
     }
-    EXPECT_EQ(monitor.score().grasps, 2) << same;
-    EXPECT_NEAR(monitor.score().hand_path, 0.2, 1e-9) << same;
-    EXPECT_NEAR(monitor.score().object_path, same ? 0.1 : 0.2, 0.03) << same;
-    EXPECT_EQ(monitor.score().drops, same ? 1 : 2);
+    EXPECT_EQ(monitor.score().grasps, 3) << same;
+    EXPECT_NEAR(monitor.score().hand_path, 0.3, 1e-9) << same;
+    EXPECT_NEAR(monitor.score().object_path, same ? 0.1 : 0.3, 0.03) << same;
+    EXPECT_EQ(monitor.score().drops, same ? 1 : 3);
   }
 }
 

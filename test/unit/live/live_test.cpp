@@ -33,7 +33,13 @@ StylusPose pose_at(double t, const Vector3d& p) {
 
 /// The box in the left hand, shaken; `until_second` [s]: samples of the right hand up to there.
 struct Bench {
-  SimulationRunner runner{two_boxes(), simulation::SimulationSettings(), hand_input::InputSettings(), false};
+  explicit Bench(int styluses = 2) : runner(two_boxes(), of(styluses), hand_input::InputSettings(), false) {}
+  static simulation::SimulationSettings of(int styluses) {
+    simulation::SimulationSettings settings;
+    settings.styluses = styluses;
+    return settings;
+  }
+  SimulationRunner runner;
   double largest_error = 0.0;
   Shown last;
 
@@ -226,12 +232,17 @@ StylusWrench wrench_at(double t) {
 /// A run with changes at random and a sensor whose messages are late at random or do not come, the state noted after
 /// it.
 std::vector<Entry> random_journal(unsigned seed, std::uint64_t& hash) {
-  Bench bench;
+  Bench bench(2 + static_cast<int>(seed % 3));
   std::mt19937 random(seed);
   std::vector<Entry> journal;
   for (int k = 0; k < 300; ++k) {
     if (k == 20) bench.runner.keep_journal(true);
     HandEvents events = bench.sample(k, k < 100 || k > 180);
+    if (bench.runner.hands() > 2) {
+      if (k == 60) events[2].push_back(NewEpoch{});
+      if (k == 70) events[2].push_back(StylusButton{interval * k, motion::Press::grasp});
+      if (k >= 60) events[2].push_back(pose_at(interval * k, right));
+    }
     if (k % 60 > 30) events[0].push_back(wrench_at(interval * (k - 0.01 * static_cast<double>(random() % 400))));
     bench.commit(events, interval * k);
     if (random() % 20 == 0) change_at_random(bench.runner, random);

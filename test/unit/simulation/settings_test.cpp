@@ -50,7 +50,8 @@ std::string fingerprint(const SimulationSettings& s) {
   }
   out << name(s.fork.damping_law) << '|' << s.fork.dofs.stretch << s.fork.dofs.bend << s.fork.dofs.torsion << '|'
       << s.limit.force << '|' << s.limit.moment << '|' << name(s.limit.action) << '|' << s.hand_scale << '|'
-      << s.hand_time_scale << '|' << s.clutch_button << s.massless << '|' << s.fork.switch_off_time << '|'
+      << s.hand_time_scale << '|' << s.styluses << '|' << s.clutch_button << s.massless << '|' << s.fork.switch_off_time
+      << '|'
       << name(s.grasp.calibrate) << s.grasp.object_goal.sag << '|' << s.grasp.object_goal.twist << '|'
       << s.grasp.world_goal.stretch << '|' << s.grasp.world_goal.bend << '|' << s.grasp.world_goal.twist << '|'
       << s.grasp.world_goal.heaviest.value_or(-1.0) << s.grasp.start_follow << '|' << s.grasp.object << '|'
@@ -68,7 +69,7 @@ TEST(Settings, EveryKeySetsAFieldOfItsOwn) {
     ASSERT_EQ(refusal(yaml, settings), "") << yaml;
     EXPECT_TRUE(outcomes.insert(fingerprint(settings)).second) << d.key << " changes nothing, or what another key sets";
   }
-  EXPECT_EQ(outcomes.size(), 48u) << "one field of the structs has no key, or fingerprint() does not know it";
+  EXPECT_EQ(outcomes.size(), 49u) << "one field of the structs has no key, or fingerprint() does not know it";
 }
 
 TEST(Settings, EveryDefaultThatIsAValueIsAllowed) {
@@ -197,6 +198,7 @@ TEST(Settings, ValidateRefusesWhatAFileMayNotSay) {
   for (const double tolerance : {-1e-9, nan, 1.0}) refused([=](auto& s) { s.dynamics.tolerance = tolerance; });
   for (const double stiffness : {-1.0, nan, 1e20}) refused([=](auto& s) { s.fork.stiffness.bend = stiffness; });
   for (const double gravity : {-1.0, nan}) refused([=](auto& s) { s.gravity = gravity; });
+  for (const int styluses : {-1, 0, 256}) refused([=](auto& s) { s.styluses = styluses; });
   for (const int levels : {-1, 31}) refused([=](auto& s) { s.bisection_levels = levels; });
   refused([](auto& s) { s.contact = static_cast<scene::ContactMode>(7); });
   refused([](auto& s) { s.grasp.release = static_cast<tools::Release>(-1); });

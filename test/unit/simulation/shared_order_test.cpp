@@ -53,6 +53,19 @@ Simulation two_forks(const dynamics::DynamicsSettings& dynamics, const std::stri
   return simulation;
 }
 
+/// Two forks and a third one, on one side of the box and at another distance from its middle.
+Simulation three_forks(const dynamics::DynamicsSettings& dynamics, const std::string& shape, bool soft) {
+  SimulationSettings set = with(dynamics, shape, soft);
+  set.styluses = 3;
+  Simulation simulation(one_box(2.0), set);
+  const Vector3d from[] = {{-0.05, 0.0, 0.7}, {0.05, 0.0, 0.7}, {0.01, 0.02, 0.7}};
+  for (std::size_t hand = 0; hand < 3; ++hand) {
+    push_swing(simulation, from[hand], hand, 0.1);
+    simulation.push_button(0.0, true, hand);
+  }
+  return simulation;
+}
+
 Simulation fork_and_spring(const dynamics::DynamicsSettings& dynamics, bool soft) {
   Simulation simulation = two_forks(dynamics, "linear", soft);
   simulation.advance(0.0);
@@ -134,6 +147,10 @@ std::vector<Case> cases() {
     all.push_back({"two forks, " + shape, [shape](const dynamics::DynamicsSettings& dynamics, bool soft) {
                      return two_forks(dynamics, shape, soft);
                    }});
+    all.push_back({"three forks, " + shape, [shape](const dynamics::DynamicsSettings& dynamics, bool soft) {
+                     return three_forks(dynamics, shape, soft);
+                   }});
+    if (shape == "constant") all.back().resolved = 2.5e-3;
   }
   all.push_back({"fork and spring", fork_and_spring});
   all.push_back({"fork and probe", fork_and_probe, 1.0});
@@ -196,7 +213,9 @@ SimulationSettings with_coefficients(double k, const std::string& shape) {
 
 /// The poses of a box that so many hands, all on one way, hold by forks.
 std::vector<RigidTransform> on_one_way(const SimulationSettings& set, std::size_t hands, double second = 1.0) {
-  Simulation simulation(one_box(2.0), set);
+  SimulationSettings of_all = set;
+  of_all.styluses = static_cast<int>(hands);
+  Simulation simulation(one_box(2.0), of_all);
   for (std::size_t hand = 0; hand < hands; ++hand) {
     push_swing(simulation, Vector3d(0.03, 0.01, 0.7), hand, 0.4);
     simulation.push_button(0.0, true, hand);
@@ -219,11 +238,13 @@ std::vector<RigidTransform> on_one_way(const SimulationSettings& set, std::size_
   return poses;
 }
 
-TEST(SharedLaw, TwoForksInOnePlaceAreOneOfTwiceTheStiffness) {
+TEST(SharedLaw, ForksInOnePlaceAreOneOfAllTheirStiffness) {
   for (const std::string shape : {"linear", "bushing"}) {
-    EXPECT_LT(farthest(on_one_way(with_coefficients(400.0, shape), 2), on_one_way(with_coefficients(800.0, shape), 1)),
-              1e-9)
-        << shape;
+    const std::vector<RigidTransform> of_one = on_one_way(with_coefficients(1200.0, shape), 1);
+    for (const std::size_t n : {2u, 3u, 6u}) {
+      const double k = 1200.0 / static_cast<double>(n);
+      EXPECT_LT(farthest(on_one_way(with_coefficients(k, shape), n), of_one), 1e-9) << shape << n;
+    }
   }
 }
 
@@ -264,8 +285,9 @@ TEST(SharedLaw, ReadingsOfAllToolsAreTheChangeOfMomentum) {
   for (const Case& c : cases()) {
     Simulation simulation = c.setup(stepping(dynamics::IntegratorKind::exponential, 1e-3), false);
     const auto pull = [&] {
-      return Vector3d(simulation.fork(0).tip_wrench_W.force + simulation.fork(1).tip_wrench_W.force -
-                      c.mass * 9.81 * Vector3d::UnitZ());
+      Vector3d sum = -c.mass * 9.81 * Vector3d::UnitZ();
+      for (std::size_t hand = 0; hand < simulation.hands(); ++hand) sum += simulation.fork(hand).tip_wrench_W.force;
+      return sum;
     };
     simulation.advance(0.2);
     Vector3d impulse = Vector3d::Zero(), before = pull();

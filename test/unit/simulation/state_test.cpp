@@ -59,7 +59,7 @@ void append_outputs(const Simulation& s, const AdvanceReport& report, Numbers& o
     matrix(o.V_WO_W.angular);
     out.insert(out.end(), {double(o.held), double(o.highlighted), double(o.in_contact), double(o.asleep)});
   }
-  for (std::size_t hand = 0; hand < Simulation::most_hands; ++hand) {
+  for (std::size_t hand = 0; hand < s.hands(); ++hand) {
     const tools::ToolState f = s.fork(hand);
     matrix(f.X_WH_proxy.matrix());
     matrix(f.X_WE.matrix());
@@ -77,7 +77,7 @@ void append_outputs(const Simulation& s, const AdvanceReport& report, Numbers& o
 /// What the user does in one slot; the same for the same session and slot.
 void act(Simulation& s, unsigned session, int k) {
   Random random(1000 * session + static_cast<unsigned>(k));
-  for (std::size_t hand = 0; hand < Simulation::most_hands; ++hand) {
+  for (std::size_t hand = 0; hand < s.hands(); ++hand) {
     const double t = k * slot, side = hand == 0 ? 1.0 : -1.0, phase = 0.7 * session;
     const Vector3d p(0.05 * std::sin(3.0 * t + phase) + 0.02 * side, 0.02 * std::sin(5.0 * t * side + phase),
                      0.235 + 0.03 * std::sin(4.0 * t + side));
@@ -92,7 +92,7 @@ void act(Simulation& s, unsigned session, int k) {
   if (session % 2 == 1 && k % 5 == 0) {
     const Wrench pull{{4.0 * std::sin(k), 2.0, 5.0 * std::cos(k)}, {0.0, 0.02, 0.01}};
     const auto axes = static_cast<motion::ExternalWrench::Axes>(k % 2);
-    s.push_external_wrench({(k + 0.3) * slot, pull, axes}, static_cast<std::size_t>(k) % Simulation::most_hands);
+    s.push_external_wrench({(k + 0.3) * slot, pull, axes}, static_cast<std::size_t>(k) % s.hands());
   }
   ForkChange fork;
   if (chance(random, 0.05)) fork.dofs = {chance(random, 0.7), chance(random, 0.7), chance(random, 0.7)};
@@ -103,7 +103,7 @@ void act(Simulation& s, unsigned session, int k) {
     fork.damping_coefficient = {3.0, 2.0, 0.01};
     fork.damping_law = any<rod::DampingLaw>(random);
   }
-  if (!fork.empty()) s.change(fork, random() % 2);
+  if (!fork.empty()) s.change(fork, random() % s.hands());
   if (chance(random, 0.05)) {
     DynamicsChange dynamics;
     dynamics.integrator = any<dynamics::IntegratorKind>(random);
@@ -120,7 +120,7 @@ Numbers go_on(Simulation& s, unsigned session, int from, int to, Seen* seen = nu
     const AdvanceReport report = s.advance((k - 1) * slot);
     append_outputs(s, report, out);
     if (seen == nullptr) continue;
-    for (std::size_t hand = 0; hand < Simulation::most_hands; ++hand) {
+    for (std::size_t hand = 0; hand < s.hands(); ++hand) {
       const tools::ToolState f = s.fork(hand);
       if (!f.held_object.empty() || !f.touched.empty()) seen->tools_in_use.insert(f.tool);
     }
@@ -170,6 +170,7 @@ struct Session {
 Session make_session(scene::ContactMode mode, unsigned number) {
   Session session{boxes(mode), {}, number};
   Random random(number);
+  session.settings.styluses = number % 4 == 3 ? 3 : 2;
   session.settings.tool = any<tools::Tool>(random);
   session.settings.fork.shape = any<rod::ShapeKind>(random);
   session.settings.dynamics.integrator = any<dynamics::IntegratorKind>(random);
@@ -250,6 +251,9 @@ TEST(State, OfAnotherSceneIsRefused) {
   EXPECT_THROW(s.restore(Simulation(fewer, {}).save()), validation::InputError);
   EXPECT_THROW(s.restore(Simulation(boxes(scene::ContactMode::none), {}).save()), validation::InputError);
   EXPECT_THROW(s.restore(Simulation(boxes(scene::ContactMode::stop), other_shape).save()), validation::InputError);
+  SimulationSettings three;
+  three.styluses = 3;
+  EXPECT_THROW(s.restore(Simulation(boxes(scene::ContactMode::stop), three).save()), validation::InputError);
   EXPECT_THROW(s.restore(SimulationState()), validation::InputError);
   EXPECT_EQ(s.state_hash(), before);
 }

@@ -4,7 +4,6 @@
 #include <geometry_msgs/WrenchStamped.h>
 #include <ros/ros.h>
 
-#include <array>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -17,14 +16,14 @@
 
 namespace spring_workbench::machine_link {
 
-/// Listens to `external_wrench` and `external_wrench_2`: what machines' force sensors measure on what the styluses
+/// Listens to `external_wrench`, `external_wrench_2`, …: what machines' force sensors measure on what the styluses
 /// hold. What cannot be used is left out, counted by reason and told in one throttled line.
 class WrenchInput {
  public:
-  /// `world_frame`: the frame for wrenches in world axes; `frame_prefix`: what those of the tip begin with; `max_age`
-  /// [s]: a stamp further from now is not believed. `wake` is called when something has come.
-  WrenchInput(ros::NodeHandle private_node, const std::string& world_frame, const std::string& frame_prefix,
-              double max_age, std::function<void()> wake);
+  /// `styluses`: how many; `world_frame`: the frame for wrenches in world axes; `frame_prefix`: what those of the tip
+  /// begin with; `max_age` [s]: a stamp further from now is not believed. `wake` is called when something has come.
+  WrenchInput(ros::NodeHandle private_node, std::size_t styluses, const std::string& world_frame,
+              const std::string& frame_prefix, double max_age, std::function<void()> wake);
 
   /// Adds what came since the last call.
   void add_to(live::HandEvents& events);
@@ -50,7 +49,7 @@ class WrenchInput {
   ros_common::Rejections rejections_;
   std::size_t reported_rejected_ = 0;
   int reported_timeouts_ = 0;
-  std::array<Sensor, simulation::Simulation::most_hands> sensors_;
+  std::vector<Sensor> sensors_;
 };
 
 }  // namespace spring_workbench::machine_link

@@ -38,14 +38,14 @@ std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std:
                              const std::string& stylus_frame);
 
 /// Watches the counters and says once a second how tracker input and physics loop are doing: WARN when something went
-/// wrong since the last time, STALE when no sample came at all. A second stylus is told of once something came of it.
+/// wrong since the last time, STALE when no sample came at all. A further stylus is told of once something came of it.
 class ManipulationDiagnostics {
  public:
   /// `name`: of the node. `dropout_after` [s]: silence of the tracker longer than this is told.
   ManipulationDiagnostics(const std::string& name, double dropout_after) : name_(name), dropout_after_(dropout_after) {}
 
-  /// `now` [s]: local time.
-  std::vector<diagnostic_msgs::DiagnosticStatus> report(const TrackerInput& first, const TrackerInput& second,
+  /// `styluses`: of each, always as many; `now` [s]: local time.
+  std::vector<diagnostic_msgs::DiagnosticStatus> report(const std::vector<TrackerInput>& styluses,
                                                         const LoopStatistics& loop, double now);
 
  private:
@@ -55,7 +55,7 @@ class ManipulationDiagnostics {
 
   std::string name_;
   double dropout_after_;
-  TrackerInput last_first_, last_second_;
+  std::vector<TrackerInput> last_;
   LoopStatistics last_loop_;
 };
 

@@ -5,6 +5,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <atomic>
+#include <deque>
 #include <mutex>
 #include <string>
 #include <thread>
@@ -56,6 +57,7 @@ class ManipulationNode {
  private:
   void run_physics();
   bool run_step(double begin);
+  std::deque<StylusInput> listen(const ros::NodeHandle& node);
   void count(const live::CycleReport& report, bool deadline_missed);
   void on_every_second(const ros::SteadyTimerEvent&);
   void place_workbench();
@@ -67,7 +69,7 @@ class ManipulationNode {
   live::SimulationRunner runner_;
   ros_common::Alarm alarm_;
   CallbackThread input_thread_, master_thread_, disk_thread_;
-  StylusInput input_, second_input_;
+  std::deque<StylusInput> inputs_;
   machine_link::WrenchInput wrenches_;
   StatePublisher publisher_;
   markers::ScenePublisher scene_publisher_;

@@ -5,9 +5,11 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <algorithm>
-#include <array>
+#include <charconv>
 #include <cstdint>
 #include <iostream>
+#include <map>
+#include <optional>
 #include <regex>
 #include <set>
 #include <sstream>
@@ -51,8 +53,7 @@ RigidTransform to_pose(const geometry_msgs::Transform& transform, const std::str
 live::Entry to_entry(const Accepted& message) {
   hand_input::Accepted accepted;
   validation::check_number("~accepted", "kind", message.kind, validation::between(0, Accepted::EXTERNAL_WRENCH));
-  validation::check_number("~accepted", "stylus", message.stylus,
-                           validation::between(1, simulation::Simulation::most_hands));
+  validation::check_number("~accepted", "stylus", message.stylus, validation::between(1, 255));
   accepted.kind = static_cast<hand_input::Accepted::Kind>(message.kind);
   accepted.hand = message.stylus - 1u;
   accepted.t = message.time;
@@ -79,31 +80,39 @@ live::Entry to_entry(const Change& message) {
   return {message.index, message.committed, std::nullopt, change};
 }
 
+/// The hand, from 0, that a name is of: `first`, or `first`_2 and so on; none for any other.
+std::optional<std::size_t> hand_of(const std::string& name, const std::string& first) {
+  if (name == first) return 0;
+  if (name.rfind(first + "_", 0) != 0) return std::nullopt;
+  const char* const end = name.data() + name.size();
+  std::size_t number = 0;
+  const auto read = std::from_chars(name.data() + first.size() + 1, end, number);
+  const bool is_one = read.ec == std::errc() && read.ptr == end && number > 1 && name[first.size() + 1] != '0';
+  return is_one ? std::optional<std::size_t>(number - 1) : std::nullopt;
+}
+
 /// Collects the hands from the messages of a bag.
 class BagReader {
  public:
   BagReader(std::string path, const std::string& parent, const std::string& child, int clutch_button)
-      : path_(std::move(path)), parent_(bare(parent)), clutch_button_(static_cast<std::size_t>(clutch_button)) {
-    for (std::size_t i = 0; i < hands_.size(); ++i) {
-      const std::string ending = i == 0 ? "" : "_" + std::to_string(i + 1);
-      hands_[i].frame = bare(child) + ending;
-      hands_[i].joy = "stylus" + ending + "/joy";
-    }
-  }
+      : path_(std::move(path)),
+        parent_(bare(parent)),
+        child_(bare(child)),
+        clutch_button_(static_cast<std::size_t>(clutch_button)) {}
 
-  std::vector<Motion> read() {
+  std::map<std::size_t, Motion> read() {
     rosbag::Bag bag(path_, rosbag::bagmode::Read);
     rosbag::View view(bag);
     for (const rosbag::MessageInstance& message : view) take(message);
-    if (hands_.front().poses.empty()) refuse_missing();
-    ros::Time zero = hands_.front().poses.front().stamp;
-    for (const Hand& hand : hands_) {
+    ros::Time zero = ros::TIME_MAX;
+    for (const auto& [number, hand] : hands_) {
       if (!hand.poses.empty()) zero = std::min(zero, hand.poses.front().stamp);
     }
-    std::vector<Motion> motions;
-    for (const Hand& hand : hands_) {
-      if (!hand.poses.empty()) motions.push_back(motion(hand, zero));
+    std::map<std::size_t, Motion> motions;
+    for (const auto& [number, hand] : hands_) {
+      if (!hand.poses.empty()) motions[number] = motion(hand, zero);
     }
+    if (motions.empty()) refuse_missing();
     return motions;
   }
 
@@ -117,7 +126,6 @@ class BagReader {
     bool grasp, next_tool, clutch;
   };
   struct Hand {
-    std::string frame, joy;
     std::vector<Pose> poses;
     std::vector<Buttons> buttons;
   };
@@ -150,12 +158,13 @@ class BagReader {
     const std::string topic = bare(message.getTopic());
     if (topic == "tf_static") return;
     if (message.getDataType() == "sensor_msgs/Joy") {
-      const auto hand = std::find_if(hands_.begin(), hands_.end(), [&](const Hand& h) { return h.joy == topic; });
-      if (hand == hands_.end()) return;
+      const std::size_t begins = topic.rfind("/joy");
+      const auto hand = hand_of(topic.substr(0, begins), "stylus");
+      if (!hand || begins == std::string::npos || begins + 4 != topic.size()) return;
       const auto joy = message.instantiate<sensor_msgs::Joy>();
       if (!joy || joy->buttons.empty()) return;
       const auto down = [&](std::size_t button) { return joy->buttons.size() > button && joy->buttons[button] != 0; };
-      hand->buttons.push_back(
+      hands_[*hand].buttons.push_back(
           {joy->header.stamp.isZero() ? message.getTime() : joy->header.stamp, down(0), down(1), down(clutch_button_)});
     } else if (const auto tf = message.instantiate<tf2_msgs::TFMessage>()) {  // also the older tf/tfMessage
       for (const auto& transform : tf->transforms) take(transform, message.getTime());
@@ -166,23 +175,23 @@ class BagReader {
     const std::string from = bare(transform.header.frame_id);
     const std::string to = bare(transform.child_frame_id);
     pairs_.insert(from + " -> " + to);
-    const auto hand = std::find_if(hands_.begin(), hands_.end(), [&](const Hand& h) { return h.frame == to; });
-    if (from != parent_ || hand == hands_.end()) return;
+    const auto hand = hand_of(to, child_);
+    if (from != parent_ || !hand) return;
     const ros::Time stamp = transform.header.stamp.isZero() ? received : transform.header.stamp;
     std::ostringstream where;
     where << path_ << ": " << from << " -> " << to << " at " << stamp;
-    hand->poses.push_back({stamp, to_pose(transform.transform, where.str())});
+    hands_[*hand].poses.push_back({stamp, to_pose(transform.transform, where.str())});
   }
 
   [[noreturn]] void refuse_missing() const {
     const std::vector<std::string> there(pairs_.begin(), pairs_.end());
-    validation::refuse(path_, "transform", parent_ + " -> " + hands_.front().frame,
+    validation::refuse(path_, "transform", parent_ + " -> " + child_,
                        there.empty() ? "in the bag, which has none" : "one of " + validation::join(there));
   }
 
-  std::string path_, parent_;
+  std::string path_, parent_, child_;
   std::size_t clutch_button_;
-  std::array<Hand, simulation::Simulation::most_hands> hands_;
+  std::map<std::size_t, Hand> hands_;
   std::set<std::string> own_types_;  ///< of messages, that were seen
   std::set<std::string> pairs_;      ///< all that are in the bag, for the message
 };
@@ -201,8 +210,8 @@ auto reading(const std::string& path, Read&& read) {
   }
 }
 
-std::vector<Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child,
-                             int clutch_button) {
+std::map<std::size_t, Motion> read_bag(const std::string& path, const std::string& parent, const std::string& child,
+                                       int clutch_button) {
   return reading(path, [&] { return BagReader(path, parent, child, clutch_button).read(); });
 }
 

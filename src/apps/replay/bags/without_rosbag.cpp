@@ -11,7 +11,9 @@ namespace {
 
 }  // namespace
 
-std::vector<Motion> read_bag(const std::string&, const std::string&, const std::string&, int) { refuse_bag(); }
+std::map<std::size_t, Motion> read_bag(const std::string&, const std::string&, const std::string&, int) {
+  refuse_bag();
+}
 
 std::vector<live::Entry> read_journal(const std::string&) { refuse_bag(); }
 
