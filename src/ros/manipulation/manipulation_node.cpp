@@ -70,11 +70,8 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
 
 std::deque<StylusInput> ManipulationNode::listen(const ros::NodeHandle& node) {
   std::deque<StylusInput> inputs;
-  for (int k = 0; k < parameters_.simulation.styluses; ++k) {
-    const std::string number = ros_common::hand_suffix(inputs.size());
-    inputs.emplace_back(node, parameters_, parameters_.stylus_frame + number, "stylus" + number + "/joy",
-                        [this] { alarm_.ring(); });
-  }
+  for (int k = 0; k < parameters_.simulation.styluses; ++k)
+    inputs.emplace_back(node, parameters_, inputs.size(), [this] { alarm_.ring(); });
   return inputs;
 }
 

@@ -2,7 +2,6 @@
 
 #include <tf2/exceptions.h>
 
-#include "raw_sample.h"
 #include "spring_workbench/ros/common/conversions.h"
 
 namespace spring_workbench::manipulation {
@@ -11,6 +10,11 @@ std::string frame(const std::string& name) { return !name.empty() && name.front(
 
 std::string place(const std::string& parent, const std::string& child) {
   return "tf " + parent + " -> " + child + ": ";
+}
+
+hand_input::RawSample raw_sample(const geometry_msgs::Transform& T, double t) {
+  return {t, Vector3d(T.translation.x, T.translation.y, T.translation.z),
+          Quaterniond(T.rotation.w, T.rotation.x, T.rotation.y, T.rotation.z)};
 }
 
 StaticFrames::StaticFrames(const std::string& world, const std::string& workbench)

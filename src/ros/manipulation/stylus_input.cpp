@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "constants.h"
-#include "raw_sample.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/ros/common/publishing.h"
 
 namespace spring_workbench::manipulation {
 namespace {
@@ -19,11 +19,11 @@ std::string place_of(const geometry_msgs::TransformStamped& transform) {
 
 }  // namespace
 
-StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame,
-                         std::string joy, std::function<void()> wake)
+StylusInput::StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::size_t hand,
+                         std::function<void()> wake)
     : parameters_(parameters),
-      frame_(std::move(frame)),
-      joy_(std::move(joy)),
+      frame_(parameters.stylus_frame + ros_common::hand_suffix(hand)),
+      joy_("stylus" + ros_common::hand_suffix(hand) + "/joy"),
       wake_(std::move(wake)),
       static_frames_(parameters.world_frame, parameters.workbench_frame),
       sender_(parameters.simulation.dropout_after),

@@ -51,8 +51,7 @@ std::string fingerprint(const SimulationSettings& s) {
   out << name(s.fork.damping_law) << '|' << s.fork.dofs.stretch << s.fork.dofs.bend << s.fork.dofs.torsion << '|'
       << s.limit.force << '|' << s.limit.moment << '|' << name(s.limit.action) << '|' << s.hand_scale << '|'
       << s.hand_time_scale << '|' << s.styluses << '|' << s.clutch_button << s.massless << '|' << s.fork.switch_off_time
-      << '|'
-      << name(s.grasp.calibrate) << s.grasp.object_goal.sag << '|' << s.grasp.object_goal.twist << '|'
+      << '|' << name(s.grasp.calibrate) << s.grasp.object_goal.sag << '|' << s.grasp.object_goal.twist << '|'
       << s.grasp.world_goal.stretch << '|' << s.grasp.world_goal.bend << '|' << s.grasp.world_goal.twist << '|'
       << s.grasp.world_goal.heaviest.value_or(-1.0) << s.grasp.start_follow << '|' << s.grasp.object << '|'
       << name(s.grasp.release) << '|';

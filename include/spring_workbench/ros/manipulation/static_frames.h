@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "spring_workbench/hand_input/settings.h"
+#include "spring_workbench/hand_input/sample_gate.h"
 #include "spring_workbench/math/rigid_transform.h"
 
 namespace spring_workbench::manipulation {
@@ -15,6 +15,8 @@ namespace spring_workbench::manipulation {
 std::string frame(const std::string& name);
 /// Where a transform stands, for a message about it.
 std::string place(const std::string& parent, const std::string& child);
+/// A transform as it came, as the gate takes it; `t` [s].
+hand_input::RawSample raw_sample(const geometry_msgs::Transform& T, double t);
 
 /// Where the frames of /tf_static are in the world; the workbench is the world until one says otherwise.
 class StaticFrames {

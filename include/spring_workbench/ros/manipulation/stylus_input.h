@@ -46,9 +46,9 @@ constexpr char another_sender[] = "another sender", loop_stands[] = "the loop st
 /// in the Feed.
 class StylusInput {
  public:
-  /// Listens to the child frame `frame` and to `joy` (`stylus/joy`: button 0 grasps while it is down, 1 takes the next
-  /// tool). `wake` is called when something has come.
-  StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::string frame, std::string joy,
+  /// Listens to the child frame `stylus` and to `stylus/joy`, or those of a further `hand` (button 0 grasps while it is
+  /// down, 1 takes the next tool). `wake` is called when something has come.
+  StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::size_t hand,
               std::function<void()> wake);
 
   /// What came since the last call. The first event ever, and the first after simulated time has jumped back,
