@@ -147,6 +147,17 @@ Body read_object(const std::string& name, const std::string& urdf, const std::op
   return body;
 }
 
+std::size_t movable_body(const Scene& scene, const std::string& name, const std::string& where,
+                         const std::string& key) {
+  const std::optional<std::size_t> index = find_body(scene, name);
+  if (index && scene.bodies[*index].movable) return *index;
+  std::vector<std::string> movable;
+  for (const Body& b : scene.bodies) {
+    if (b.movable) movable.push_back(b.name);
+  }
+  validation::refuse(where, key, name, "a movable object of the scene (" + validation::join(movable) + ")");
+}
+
 void set_mass(Body& body, double mass, const std::string& where) {
   MassProperties& m = body.mass_properties;
   if (mass > 0.0 && m.mass > 0.0) {

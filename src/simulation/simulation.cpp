@@ -10,6 +10,7 @@
 #include "constants.h"
 #include "hand.h"
 #include "spring_workbench/dynamics/integrator.h"
+#include "spring_workbench/instruments/tip_wrench.h"
 #include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/rod/shape_model.h"
 #include "spring_workbench/scene/editing.h"
@@ -24,23 +25,6 @@ constexpr double same_time = motion::Stylus::same_time;
 
 using Action = ObjectEdit::Action;
 
-std::vector<std::string> names_of_movable(const scene::Scene& scene) {
-  std::vector<std::string> names;
-  for (const scene::Body& b : scene.bodies) {
-    if (b.movable) names.push_back(b.name);
-  }
-  return names;
-}
-
-/// A movable body by its name. Throws InputError naming `where` and `key`.
-std::size_t movable_body(const scene::Scene& scene, const std::string& name, const std::string& where,
-                         const std::string& key) {
-  const std::optional<std::size_t> index = scene::find_body(scene, name);
-  if (index && scene.bodies[*index].movable) return *index;
-  validation::refuse(where, key, name,
-                     "a movable object of the scene (" + validation::join(names_of_movable(scene)) + ")");
-}
-
 /// Throws InputError when the edit does not fit the scene.
 void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bool massless, scene::Scene& scene) {
   const std::string where = "edit_object";
@@ -51,7 +35,7 @@ void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bo
     if (massless) scene::set_mass(scene.bodies.back(), 0.0, where);
     return;
   }
-  const std::size_t index = movable_body(scene, edit.object, where, "name");
+  const std::size_t index = scene::movable_body(scene, edit.object, where, "name");
   if (edit.action == Action::mass) scene::set_mass(scene.bodies[index], edit.mass, where);
   if (edit.action == Action::friction) scene.bodies[index].material.friction = edit.friction;
   if (edit.action != Action::remove) return;
@@ -85,26 +69,8 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, cons
   }
   if (settings.tool) scene.tool = validation::name_of(*settings.tool);
   for (const ObjectEdit& edit : edits) make_edit(edit, roots, settings.massless, scene);
-  if (!settings.grasp.object.empty()) movable_body(scene, settings.grasp.object, scene.path, "grasp.object");
+  if (!settings.grasp.object.empty()) scene::movable_body(scene, settings.grasp.object, scene.path, "grasp.object");
   return scene;
-}
-
-/// What a machine measures on what the hand holds: at the tip, world axes, in virtual units.
-Wrench measured_at_tip(const Hand& hand, const tools::ToolState& tool) {
-  const auto& [force, moment] = hand.stylus().wrench()->wrench;
-  const bool of_tip = hand.stylus().wrench()->axes == motion::ExternalWrench::Axes::tip;
-  const Matrix3d R = tool.force_scale * (of_tip ? Matrix3d(tool.X_WE.linear()) : Matrix3d(Matrix3d::Identity()));
-  return {R * force, R * moment};
-}
-
-/// What a tool may do at its tip of what it does, world axes, where that is more than its limit: the force cut down to
-/// its limit, and the moment in the same proportion and to its own.
-std::optional<Wrench> cut_down(const tools::LimitSettings& limit, const tools::ToolState& tool) {
-  const auto& [force, moment] = tool.tip_wrench_W;
-  const double of_force = std::min(limit.force / force.norm(), 1.0);
-  const double of_moment = std::min(limit.moment / moment.norm(), of_force);
-  if (!(of_moment < 1.0)) return std::nullopt;
-  return Wrench{of_force * force, of_moment * moment};
 }
 
 /// Whether the fork would be another one with this change.
@@ -275,7 +241,7 @@ Wrench Simulation::Impl::measured_load(std::size_t object, const std::vector<Han
     if (!hand->stylus().wrench() || !hand->holds()) continue;
     const tools::ToolState tool = hand->state(now);
     const Vector3d lever = tool.X_WE.translation() - objects.states()[object].X_WO.translation();
-    load_W += math::shifted(measured_at_tip(*hand, tool), lever);
+    load_W += math::shifted(instruments::measured_at_tip(*hand->stylus().wrench(), tool), lever);
   }
   return load_W;
 }
@@ -292,7 +258,7 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
     if (const auto slip = slipping.find(on_it.front()); slip != slipping.end()) {
       Wrench at_tip_W = slip->second;
       const Hand& hand = *slip->first;
-      if (hand.stylus().wrench()) at_tip_W += measured_at_tip(hand, hand.state(now));
+      if (hand.stylus().wrench()) at_tip_W += instruments::measured_at_tip(*hand.stylus().wrench(), hand.state(now));
       carried.push_back({object, on_it.front()->begin_slip(at_tip_W)});
       continue;
     }
@@ -327,7 +293,7 @@ bool Simulation::Impl::beyond_limits(Slipping& slipping, std::vector<Hand*>& let
   for (const auto& [object, of_object] : holders()) {
     for (Hand* hand : of_object) {
       if (slipping.count(hand) > 0 || !hand->springs()) continue;
-      const std::optional<Wrench> pull = cut_down(settings.limit, hand->state(now));
+      const std::optional<Wrench> pull = instruments::cut_down(settings.limit, hand->state(now));
       if (!pull) continue;
       if (of_object.size() == 1 && settings.limit.action == tools::LimitAction::slip) {
         slipping[hand] = *pull;
@@ -571,7 +537,7 @@ void Simulation::Impl::check_place(const std::string& name, const RigidTransform
 }
 
 void Simulation::Impl::move(const ObjectEdit& edit) {
-  const scene::Body& body = scene.bodies[movable_body(scene, edit.object, "edit_object", "name")];
+  const scene::Body& body = scene.bodies[scene::movable_body(scene, edit.object, "edit_object", "name")];
   const std::size_t object = *objects.find(edit.object);
   for (const Hand& hand : hands) {
     if (hand.carried() == object) {

@@ -15,6 +15,9 @@ namespace spring_workbench::scene {
 Body read_object(const std::string& name, const std::string& urdf, const std::optional<RigidTransform>& X_WL,
                  const Scene& scene, const std::vector<std::string>& roots, const std::string& where);
 
+/// A movable body by its name. Throws InputError naming `where` and `key`.
+std::size_t movable_body(const Scene& scene, const std::string& name, const std::string& where, const std::string& key);
+
 /// Gives a movable body the mass `mass` [kg] ≥ 0, distributed as it is; a body without mass gets that of its shapes.
 /// Throws InputError naming `where` for one without mass and without volume.
 void set_mass(Body& body, double mass, const std::string& where);

@@ -143,17 +143,16 @@ void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
   loop.realtime_priority = realtime_priority_;
   diagnostic_msgs::DiagnosticArray message;
   message.header.stamp = ros::Time::now();
-  std::vector<TrackerInput> styluses;
-  for (const StylusInput& input : inputs_)
-    styluses.push_back({input.statistics(), runner_.hand_statistics(styluses.size()), ""});
-  std::string& hint = styluses.front().hint;
+  std::vector<TrackerInput> all;
+  for (const StylusInput& input : inputs_) all.push_back({input.statistics(), runner_.hand_statistics(all.size()), ""});
+  std::string& hint = all.front().hint;
   {
     const std::lock_guard<std::mutex> lock(master_mutex_);
-    hint = hint_for_silence(styluses.front(), senders_of_tf_, parameters_.stylus_frame);
+    hint = hint_for_silence(all.front(), senders_of_tf_, parameters_.stylus_frame);
     loop.master_silence = ros_common::steady_time() - master_answered_;
   }
   if (!hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(hint_patience, "no sample of the stylus yet: " << hint);
-  message.status = diagnostics_.report(styluses, loop, ros_common::loop_time());
+  message.status = diagnostics_.report(all, loop, ros_common::loop_time());
   wrenches_.report(loop.advance.wrench_timeouts, message.status);
   message.status.push_back(lost_messages_.report(ros::this_node::getName()));
   diagnostics_publisher_.publish(message);

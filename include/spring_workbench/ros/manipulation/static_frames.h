@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "spring_workbench/hand_input/sample_gate.h"
+#include "spring_workbench/live/stylus_events.h"
 #include "spring_workbench/math/rigid_transform.h"
 
 namespace spring_workbench::manipulation {
