@@ -321,17 +321,22 @@ TEST(Verdicts, OneCellThatFailsIsEnoughForContactsExtremesNotToHold) {
   EXPECT_EQ(result_of(measured, "Contact at its extremes, stop"), Verdict::Result::fail);
 }
 
+ErrorRow one_step_per_sample(const std::string& rod) {
+  ErrorRow row;
+  row.scene = rod;
+  row.shape = "linear";
+  row.method = "exponential";
+  row.ours = true;
+  row.step = 0.02;
+  row.finite = true;
+  return row;
+}
+
 TEST(Verdicts, ErrorsOfTheRodAreJudgedInPositionAndAngle) {
   for (const auto& [error, angle, held] :
        {std::tuple{0.9e-5, 0.9e-4, true}, std::tuple{1.1e-5, 0.0, false}, std::tuple{0.0, 1.1e-4, false}}) {
     Measurements measured;
-    ErrorRow row;
-    row.scene = "underdamped";
-    row.shape = "linear";
-    row.method = "exponential";
-    row.ours = true;
-    row.step = 0.02;
-    row.finite = true;
+    ErrorRow row = one_step_per_sample("underdamped");
     row.position_error = error;
     row.angle_error = angle;
     measured.rods = {row};
@@ -342,14 +347,8 @@ TEST(Verdicts, ErrorsOfTheRodAreJudgedInPositionAndAngle) {
 TEST(Verdicts, TheRodsOfWhichMoreWasAskedAreJudgedByThatToo) {
   for (const auto& [between, held] : {std::pair{1.9e-7, true}, std::pair{2.1e-7, false}}) {
     Measurements measured;
-    ErrorRow row;
-    row.scene = "recorded_soft_6dof";
-    row.shape = "linear";
-    row.method = "exponential";
-    row.ours = true;
-    row.step = 0.02;
+    ErrorRow row = one_step_per_sample("recorded_soft_6dof");
     row.steps_per_second = 100.0;
-    row.finite = true;
     row.error_between = between;
     measured.rods = {row};
     int passed = 0;
