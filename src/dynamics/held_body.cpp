@@ -179,7 +179,9 @@ HandleForcing HandleForcings::at(int i) const {
 }
 
 HandleForcing HeldBody::with_frames_at_rest(HandleForcing handle) const {
-  for (RelativeMotion<double>& A_H : handle.seen.from) A_H.v_AB = A_H.w_AB = math::none<double>();
+  for (std::size_t i = 0; i < handle.seen.count; ++i) {
+    handle.seen.from(i).v_AB = handle.seen.from(i).w_AB = math::none<double>();
+  }
   return handle;
 }
 

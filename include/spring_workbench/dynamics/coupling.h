@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <vector>
 
 #include "spring_workbench/math/state_archive.h"
@@ -67,12 +68,21 @@ struct Attached {
 /// Couplings of a held body. Keeps pointers to the couplings and motions that are attached.
 class Couplings {
  public:
-  /// Motion of the handle H, seen from each frame A.
+  /// Motion of the handle H, seen from each frame A: the first few of any number are not on the heap.
   template <typename S>
   struct Seen {
     double distance =
         0.0;  ///< largest distance of the frames from the origin of the world, which scales their rounding errors [m]
-    std::vector<RelativeMotion<S>> from;
+    std::size_t count = 0;
+    std::array<RelativeMotion<S>, 3> first;
+    std::vector<RelativeMotion<S>> more;
+
+    void resize(std::size_t frames) {
+      count = frames;
+      more.resize(frames - std::min(frames, first.size()));
+    }
+    RelativeMotion<S>& from(std::size_t i) { return i < first.size() ? first[i] : more[i - first.size()]; }
+    const RelativeMotion<S>& from(std::size_t i) const { return const_cast<Seen*>(this)->from(i); }
   };
 
   /// Attaches these couplings in place of the present ones. Returns whether they, or their laws, differ from those
