@@ -85,9 +85,9 @@ class Filter {
     refuse(BPF_JSET, writing);
     step(BPF_RET | BPF_K, SECCOMP_RET_ALLOW);
   }
-  void install() {
+  bool install() {
     const sock_fprog program{static_cast<unsigned short>(steps_.size()), steps_.data()};
-    prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program);
+    return prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program) == 0;
   }
 
  private:
@@ -119,9 +119,6 @@ void keep_alone(int file) {
   }
 }
 
-void confine() {
-  if (processor() == 0 || prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) != 0) return;
-  Filter().install();
-}
+bool confine() { return processor() != 0 && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && Filter().install(); }
 
 }  // namespace spring_workbench::validation

@@ -6,7 +6,8 @@ namespace spring_workbench::validation {
 void keep_alone(int file);
 
 /// From now on this process opens no socket, writes no file, starts no program and touches no other process: these
-/// calls fail with EPERM. Does nothing where the kernel or the processor's kind offers no such filter.
-void confine();
+/// calls fail with EPERM. Returns false, and does nothing, where the kernel or the processor's kind offers no such
+/// filter.
+[[nodiscard]] bool confine();
 
 }  // namespace spring_workbench::validation

@@ -13,12 +13,24 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <iostream>
+#include <mutex>
 
 #include "confine.h"
 #include "spring_workbench/validation/input_error.h"
 
 namespace spring_workbench::validation {
 namespace {
+
+/// What the child says before its result.
+constexpr char confined[] = "+", unconfined[] = "-";
+
+void warn_once_of_unconfined() {
+  static std::once_flag said;
+  std::call_once(said, [] {
+    std::cerr << "warning: child processes that read files are not confined: no seccomp filter could be installed\n";
+  });
+}
 
 /// Ends the process by a signal, whatever the caller did with it, when `seconds` of the timer are over.
 void end_after(double seconds, decltype(ITIMER_REAL) timer, int signal) {
@@ -77,8 +89,8 @@ std::string read_all(int file) {
     end_after(limits.time, ITIMER_PROF, SIGPROF);
     end_after(10.0 * limits.time, ITIMER_REAL, SIGALRM);  // what waits for ever takes no processor time
     limit_memory(limits.memory);
-    confine();
-    _exit(write_all(pipe, work()) ? 0 : 1);
+    const char* const is_confined = confine() ? confined : unconfined;
+    _exit(write_all(pipe, is_confined) && write_all(pipe, work()) ? 0 : 1);
   } catch (const std::exception&) {
     _exit(1);
   }
@@ -118,7 +130,9 @@ std::optional<std::string> run_in_child(const std::function<std::string()>& work
   while (wait4(process, &status, 0, &usage) < 0 && errno == EINTR) {
   }
   if (time_used != nullptr) *time_used = seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  if (data.compare(0, 1, unconfined) == 0) warn_once_of_unconfined();
   if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
+  data.erase(0, 1);
   return data;
 }
 

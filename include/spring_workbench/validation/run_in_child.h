@@ -18,8 +18,9 @@ struct ChildLimits {
 /// memory there does not affect the caller. Returns nothing if the child died, `work` threw, or a limit was hit. The
 /// child has only the calling thread: `work` must not wait for others. It has none of the caller's open files, and gets
 /// no rights by running a program. Where the kernel can filter calls (on x86-64 and ARM64), it can open no socket,
-/// write or remove no file, run no program and touch no other process: these fail with EPERM. `time_used` receives its
-/// processor time [s]. Throws InputError if no process can be created.
+/// write or remove no file, run no program and touch no other process: these fail with EPERM. Where it cannot, one line
+/// on stderr says so, once. `time_used` receives its processor time [s]. Throws InputError if no process can be
+/// created.
 std::optional<std::string> run_in_child(const std::function<std::string()>& work, const ChildLimits& limits,
                                         double* time_used = nullptr);
 
