@@ -130,10 +130,11 @@ struct Simulation::Impl {
   void start(double t_end);
   void advance(double t_end, AdvanceReport& report);
   void act(AdvanceReport& report);
+  /// What the hands held before a change, and what their springs did; of with_handover() alone.
+  std::vector<std::pair<std::optional<std::size_t>, Wrench>> held_before;
   /// Does `change`, by which a hand may let go. The others that held the same take over what its springs did.
   template <typename Change>
   void with_handover(Change&& change);
-  std::map<std::size_t, std::vector<Hand*>> holders();
   Wrench measured_load(std::size_t object, const std::vector<Hand*>& on_it) const;
   double next_sample(double after) const;
   double next_edge() const;
@@ -171,31 +172,28 @@ void Simulation::Impl::start(double t_end) {
   for (Hand& hand : hands) hand.stylus().follow(now);
 }
 
-/// Who holds what, by object.
-std::map<std::size_t, std::vector<Hand*>> Simulation::Impl::holders() {
-  std::map<std::size_t, std::vector<Hand*>> holders;
-  for (Hand& hand : hands) {
-    if (hand.holds()) holders[*hand.carried()].push_back(&hand);
-  }
-  return holders;
-}
-
 template <typename Change>
 void Simulation::Impl::with_handover(Change&& change) {
   if (std::count_if(hands.begin(), hands.end(), [](const Hand& hand) { return hand.holds(); }) < 2) return change();
-  const std::map<std::size_t, std::vector<Hand*>> before = holders();
-  std::map<Hand*, Wrench> pulls;
-  for (Hand& hand : hands) pulls[&hand] = hand.holds() ? hand.spring_pull() : Wrench();
+  held_before.clear();
+  for (const Hand& hand : hands) {
+    held_before.emplace_back(hand.holds() ? hand.carried() : std::nullopt,
+                             hand.holds() ? hand.spring_pull() : Wrench());
+  }
   change();
-  for (auto [object, of_object] : before) {
-    const auto holds_on = [o = object](const Hand* hand) { return hand->holds() && hand->carried() == o; };
-    const auto gone = std::stable_partition(of_object.begin(), of_object.end(), holds_on);
-    if (gone == of_object.end()) continue;
+  const auto keeps = [this](std::size_t i) { return hands[i].holds() && hands[i].carried() == held_before[i].first; };
+  for (std::size_t i = 0; i < hands.size(); ++i) {
     Wrench left_W;
-    std::for_each(gone, of_object.end(), [&](Hand* hand) { left_W += pulls[hand]; });
-    const double share = 1.0 / static_cast<double>(gone - of_object.begin());
-    const Wrench part_W{share * left_W.force, share * left_W.moment};
-    std::for_each(of_object.begin(), gone, [&](Hand* hand) { hand->take_over(pulls[hand] += part_W, now); });
+    int keep = 0, left = 0;
+    for (std::size_t k = 0; k < hands.size() && keeps(i); ++k) {
+      if (held_before[k].first != held_before[i].first) continue;
+      ++(keeps(k) ? keep : left);
+      if (!keeps(k)) left_W += held_before[k].second;
+    }
+    if (left == 0) continue;
+    const double share = 1.0 / keep;
+    held_before[i].second += Wrench{share * left_W.force, share * left_W.moment};
+    hands[i].take_over(held_before[i].second, now);
   }
 }
 
@@ -289,20 +287,21 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
 
 /// The hands that do more than their limit now and have to let go, and those that slip. False when there is none more.
 bool Simulation::Impl::beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go) {
-  const std::size_t before = slipping.size();
-  for (const auto& [object, of_object] : holders()) {
-    for (Hand* hand : of_object) {
-      if (slipping.count(hand) > 0 || !hand->springs()) continue;
-      const std::optional<Wrench> pull = instruments::cut_down(settings.limit, hand->state(now));
-      if (!pull) continue;
-      if (of_object.size() == 1 && settings.limit.action == tools::LimitAction::slip) {
-        slipping[hand] = *pull;
-      } else {
-        let_go.push_back(hand);
-      }
+  const std::size_t slipped = slipping.size();
+  for (Hand& hand : hands) {
+    if (slipping.count(&hand) > 0 || !hand.springs()) continue;
+    const std::optional<Wrench> pull = instruments::cut_down(settings.limit, hand.state(now));
+    if (!pull) continue;
+    const bool alone = std::none_of(hands.begin(), hands.end(), [&](const Hand& other) {
+      return &other != &hand && other.holds() && other.carried() == hand.carried();
+    });
+    if (alone && settings.limit.action == tools::LimitAction::slip) {
+      slipping[&hand] = *pull;
+    } else {
+      let_go.push_back(&hand);
     }
   }
-  return slipping.size() > before || !let_go.empty();
+  return slipping.size() > slipped || !let_go.empty();
 }
 
 /// Where a tool would do more than its limit, the step is taken again without it, or with what it can do (doc/model.md,
