@@ -122,11 +122,13 @@ void bind_state_access(py::class_<Simulation>& type) {
           "True for each object that is at rest and costs nothing until something moves it; shape (n,).")
       .def_property_readonly("contacts", &Simulation::contacts,
                              "Contact points at the present time: a list of Contact.")
-      .def("fork", &Simulation::fork, py::arg("hand") = 0, "Returns the state of the tool in a hand (0 or 1).")
+      .def("fork", &Simulation::fork, py::arg("hand") = 0,
+           "Returns the state of the tool in a hand, also if it is no fork.")
       .def("save", &Simulation::save, "Returns the whole state.")
       .def("restore", &Simulation::restore, py::arg("state"),
-           "Restores a saved state; the simulation then continues bit-identically. Raises InputError if the state has "
-           "other objects, another contact mode or another shape of the fork.")
+           "Restores a saved state; the simulation then continues bit-identically. Raises InputError, and changes "
+           "nothing, "
+           "if the state has other bodies, another contact mode, number of styluses or shape of the fork.")
       .def_property_readonly(
           "state_hash", [](const Simulation& s) { return simulation::to_hex(s.state_hash()); },
           "Hash of the whole state: 16 hexadecimal digits.");
@@ -150,17 +152,16 @@ the three that is on; step [s]; tolerance [m], 0 for fixed steps. Raises InputEr
       .def(
           "calibrate", [](Simulation& s) { s.calibrate(); },
           "Fits each hand's tool to the object that it holds or, with calibrate: world, restores the scene's "
-          "stiffness. "
-          "Raises InputError if nothing is held by a fork or a spring.")
+          "stiffness. Raises InputError if nothing is held by a fork or a spring.")
       .def(
           "release", [](Simulation& s) { return s.release(); },
           "Releases the objects of all hands. Returns False if nothing was held.")
       .def(
           "place", [](Simulation& s, const std::map<std::string, Array>& poses) { s.place(to_poses(poses)); },
           py::arg("poses"),
-          "Releases all objects and places those named in `poses` (name: pose, shape (4, 4)), at rest. Raises "
-          "InputError if "
-          "a pose is invalid.")
+          R"(Releases all objects and places those named in `poses` (name: pose, shape (4, 4)), at rest.
+
+Raises InputError, and changes nothing, if a name is not that of a movable object or a pose is invalid.)")
       .def(
           "edit",
           [](Simulation& s, const std::string& action, const std::string& name, const std::string& urdf,
@@ -207,17 +208,17 @@ void bind_settings(py::module_& module) {
            }),
            py::arg("values") = py::dict(),
            "values: a dictionary, nested or with dotted keys, as in a settings file. Raises InputError for an unknown "
-           "key, a "
-           "wrong type or a value that is not allowed.")
+           "key, a wrong type or a value that is not allowed.")
       .def("update", update, py::arg("values"),
            "Sets these values, all or none. Raises InputError as the constructor does.");
 }
 
 void bind_simulation(py::module_& module) {
   bind_scene(module);
-  py::class_<Simulation> type(module, "Simulation",
-                              "Simulation of a scene with hands and their tools. It reads no clock and starts no "
-                              "thread; the same calls give bit-identical results.");
+  py::class_<Simulation> type(module, "Simulation", R"(Simulation of a scene with hands and their tools.
+
+It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus, at
+most the setting `styluses` - 1; any other raises InputError.)");
   type.def(py::init<const scene::Scene&, const SimulationSettings&>(), py::arg("scene"),
            py::arg_v("settings", SimulationSettings(), "Settings()"),
            "Starts a simulation of `scene`. Raises InputError if settings and scene do not match.")
@@ -228,11 +229,10 @@ void bind_simulation(py::module_& module) {
           },
           py::arg("t"), py::arg("pose"), py::arg("hand") = 0,
           "Adds a pose of the stylus, shape (4, 4), at time t [s]; its z axis is that of the fork, from the hand to "
-          "the "
-          "tip. Returns False if t is not later than the time of the newest pose. Raises InputError if the pose is "
+          "the tip. Returns False if t is not later than the time of the newest pose. Raises InputError if the pose is "
           "invalid.")
       .def("push_button", &Simulation::push_button, py::arg("t"), py::arg("pressed"), py::arg("hand") = 0,
-           "Presses (True) or releases (False) the grasp button at time t [s].")
+           "Presses (True) or releases (False) the grasp button at time t [s]. Raises InputError if t is not finite.")
       .def(
           "push_external_wrench",
           [](Simulation& s, double t, const Array& wrench, const std::string& axes, std::size_t hand) {
@@ -248,7 +248,10 @@ the next one, at most for external_wrench_timeout. Raises InputError if a value 
       .def("push_motion", &push_motion, py::arg("motion"), py::arg("hand") = 0,
            "Adds all samples and button edges of a recorded motion.")
       .def("advance", &Simulation::advance, py::arg("t_end"), py::call_guard<py::gil_scoped_release>(),
-           "Simulates up to time t_end [s], in steps that also end at the samples. Returns a Report.");
+           R"(Simulates up to time t_end [s], in steps that also end at the samples. Returns a Report.
+
+If t_end is not later than `time`, no time passes; buttons that were pushed for times up to `time` still act. Raises
+InputError if t_end is not finite.)");
   bind_state_access(type);
   bind_changes(type);
 }

@@ -247,8 +247,10 @@ class State:
     def __hash__(self) -> int: ...
 
 class Simulation:
-    """Simulation of a scene with hands and their tools. It reads no clock and starts no thread; the same calls give
-    bit-identical results."""
+    """Simulation of a scene with hands and their tools.
+
+    It reads no clock and starts no thread; the same calls give bit-identical results. `hand` is 0 for the first stylus, at
+    most the setting `styluses` - 1; any other raises InputError."""
     def __init__(self, scene: Scene, settings: Settings = ...) -> None:
         """Starts a simulation of `scene`. Raises InputError if settings and scene do not match."""
     def push_stylus(self, t: float, pose: npt.ArrayLike, hand: int = 0) -> bool:
@@ -256,7 +258,7 @@ class Simulation:
         tip. Returns False if t is not later than the time of the newest pose. Raises InputError if the pose is
         invalid."""
     def push_button(self, t: float, pressed: bool, hand: int = 0) -> None:
-        """Presses (True) or releases (False) the grasp button at time t [s]."""
+        """Presses (True) or releases (False) the grasp button at time t [s]. Raises InputError if t is not finite."""
     def push_external_wrench(self, t: float, wrench: npt.ArrayLike, axes: str = "world", hand: int = 0) -> None:
         """Adds a force [N] and a moment [N m] on the held object at the tip, shape (6,), measured at time t [s].
 
@@ -265,7 +267,10 @@ class Simulation:
     def push_motion(self, motion: Motion, hand: int = 0) -> None:
         """Adds all samples and button edges of a recorded motion."""
     def advance(self, t_end: float) -> Report:
-        """Simulates up to time t_end [s], in steps that also end at the samples. Returns a Report."""
+        """Simulates up to time t_end [s], in steps that also end at the samples. Returns a Report.
+
+        If t_end is not later than `time`, no time passes; buttons that were pushed for times up to `time` still act. Raises
+        InputError if t_end is not finite."""
     @property
     def time(self) -> float:
         """Simulated time [s]."""
@@ -294,12 +299,12 @@ class Simulation:
     def contacts(self) -> List[Contact]:
         """Contact points at the present time: a list of Contact."""
     def fork(self, hand: int = 0) -> Fork:
-        """Returns the state of the tool in a hand (0 or 1)."""
+        """Returns the state of the tool in a hand, also if it is no fork."""
     def save(self) -> State:
         """Returns the whole state."""
     def restore(self, state: State) -> None:
-        """Restores a saved state; the simulation then continues bit-identically. Raises InputError if the state has
-        other objects, another contact mode or another shape of the fork."""
+        """Restores a saved state; the simulation then continues bit-identically. Raises InputError, and changes nothing,
+        if the state has other bodies, another contact mode, number of styluses or shape of the fork."""
     @property
     def state_hash(self) -> str:
         """Hash of the whole state: 16 hexadecimal digits."""
@@ -327,8 +332,9 @@ class Simulation:
     def release(self) -> bool:
         """Releases the objects of all hands. Returns False if nothing was held."""
     def place(self, poses: Mapping[str, npt.ArrayLike]) -> None:
-        """Releases all objects and places those named in `poses` (name: pose, shape (4, 4)), at rest. Raises InputError
-        if a pose is invalid."""
+        """Releases all objects and places those named in `poses` (name: pose, shape (4, 4)), at rest.
+
+        Raises InputError, and changes nothing, if a name is not that of a movable object or a pose is invalid."""
     def edit(
         self,
         action: str,

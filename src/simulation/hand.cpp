@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "add_estimates.h"
 #include "constants.h"
 #include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/tools/calibration.h"
@@ -30,10 +29,10 @@ void Hand::reset() {
   pushes_ = false;
 }
 
-void Hand::continue_from(Hand& before, const std::string& remade, double now) {
+void Hand::continue_from(Hand& before, const std::string& new_mass, double now) {
   const std::string held = before.hold_ ? before.object().name : "";
   const bool had_mass = before.springs();
-  const std::unique_ptr<tools::ToolHold> old = held == remade ? std::move(before.hold_) : nullptr;
+  const std::unique_ptr<tools::ToolHold> old = held == new_mass ? std::move(before.hold_) : nullptr;
   before.grasp_.object = objects_.find(held).value_or(0);
   math::StateArchive taken;
   before.exchange(taken, now);
@@ -263,7 +262,7 @@ void Hand::exchange(math::StateArchive& state, double now) {
       throw std::out_of_range("the tool holds an unknown object");
     hold_ = holds ? maker().make(grasp_, grasped_body(), now) : nullptr;
     const scene::Body* body = touched < scene_.bodies.size() ? &scene_.bodies[touched] : nullptr;
-    const tools::InFront front{0.0, body, body != nullptr ? &body->material : &scene_.bench_material};
+    const tools::AxisHit front{0.0, body, body != nullptr ? &body->material : &scene_.bench_material};
     probe_ = touches ? std::make_unique<tools::Probe>(fork_.length, fork_, front, now) : nullptr;
   }
   if (holds) state(*hold_);

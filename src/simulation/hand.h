@@ -13,6 +13,9 @@
 
 namespace spring_workbench::simulation {
 
+/// Adds what a hold's steps estimate of their errors to the report of an advance.
+void add_to(AdvanceReport& report, const stepping::StepEstimates& e);
+
 /// One hand: a stylus, the tool in it, and the object that the tool holds.
 class Hand {
  public:
@@ -22,9 +25,9 @@ class Hand {
   /// Forgets all samples and holds nothing. The caller resets the objects.
   void reset();
 
-  /// Goes on from where `before` is, which is of another scene and has no probe on anything; its objects are among this
-  /// one's. Where it holds the object called `remade`, whose mass is another, its pull stays.
-  void continue_from(Hand& before, const std::string& remade, double now);
+  /// Takes over the state of `before`, a hand in another scene, all of whose objects are also in this one and whose
+  /// probe touches nothing. If it holds the object `new_mass`, whose mass has changed, its springs keep their pull.
+  void continue_from(Hand& before, const std::string& new_mass, double now);
 
   motion::Stylus& stylus() { return stylus_; }
   const motion::Stylus& stylus() const { return stylus_; }
@@ -35,12 +38,12 @@ class Hand {
   void apply_buttons(double now);
   bool holds() const { return hold_ != nullptr; }
   void let_go(bool thrown, double now);
-  /// The probe leaves what it touches, which goes on as it moves; where it still is there, it is touched anew.
+  /// Takes the probe off what it touches, whose motion continues; if it is still in reach, it is touched again.
   void leave_with_probe(double now);
   /// Leaves the tool where it is while the hand moves alone (`on`), or lets it follow the hand again. A held object
   /// keeps its twist.
   void set_clutch(bool on, double now);
-  /// What the tool carries, in the workbench: the object that is held, or pushed by the probe.
+  /// Returns the object that the tool holds or the probe pushes.
   std::optional<std::size_t> carried() const {
     return hold_ || pushes_ ? std::optional<std::size_t>(grasp_.object) : std::nullopt;
   }
@@ -59,7 +62,7 @@ class Hand {
   /// Changes the tool, also while it holds an object: the object continues from its pose and twist, and the strain of
   /// the new tool is zero.
   void select_tool(tools::Tool tool, double now);
-  /// What the springs do to what is held, at its centre, world axes.
+  /// Returns the wrench of the springs on the held object, at its centre, world axes.
   Wrench spring_pull() const { return hold_->spring_pull(); }
   /// Makes this tool exert `pull_W` on the object from now on; the object does not move.
   void take_over(const Wrench& pull_W, double now);
@@ -68,11 +71,11 @@ class Hand {
   const rod::ForkSettings& fork() const { return fork_; }
   /// Changes the fork, also while it holds an object. The change must be valid.
   void change_fork(const ForkChange& change, ChangeReport& report);
-  /// That of the settings, which are changed before.
+  /// Adopts the integrator, step and tolerance of the settings, which have been changed before.
   void change_integrator() {
     if (hold_) hold_->set_step_control(settings_.dynamics);
   }
-  /// Size, springs and dampers from the held object and its grasp. False when nothing is held on a tool with springs.
+  /// Sets length, springs and dampers to fit the held object. Returns false if no tool with springs holds one.
   bool calibrate(ChangeReport& change, double now);
 
   double elastic_energy() const { return probe_ ? probe_->elastic_energy() : hold_ ? hold_->elastic_energy() : 0.0; }
@@ -91,7 +94,7 @@ class Hand {
   void begin_call() { moved_ = false; }
   tools::ToolState state(double now) const;
 
-  /// Between two calls of `advance`; settings and objects come before.
+  /// Exchanges the state between two calls of `advance`; settings and objects have to be exchanged before.
   void exchange(math::StateArchive& state, double now);
 
  private:
@@ -101,16 +104,16 @@ class Hand {
   void select_pierced();
   void touch_with_probe(double now);
   void grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, bool follow_hand, double now);
-  bool dynamic() const { return hold_ && hold_->coordinates() > 0; }  ///< there is something for an integrator to do
+  bool dynamic() const { return hold_ && hold_->coordinates() > 0; }  ///< whether there is something to integrate
   const bodies::BodyState& object() const { return objects_.states()[grasp_.object]; }  ///< that is held, or pushed
   /// How far the tip is in front of the hand, along z [m].
   double reach() const;
   tools::GraspedBody grasped_body() const {
     return {objects_.scene_index(grasp_.object), objects_.body(grasp_.object), object().X_WO};
   }
-  /// The grip on the object where it is, for a tool that has its usual size.
+  /// Returns the grasp of the object at its present pose, for a tool of its usual size.
   tools::Grasp grasp_of(std::size_t object) const;
-  /// The length of the fork's spring part from the object's size, where it has mass.
+  /// Fits the length of the fork's spring part to the size of an object that has mass.
   void fit_size(tools::Grasp& grasp) const;
   tools::HoldMaker maker() const { return {fork_, settings_.dynamics, scene_.gravity}; }
   void make_hold(double now);

@@ -22,7 +22,7 @@ void Hand::select_pierced() {
   const std::optional<std::size_t> before = std::exchange(inserted_, std::nullopt);
   const bool picks = tool_ == tools::Tool::ray;
   // The nearest thing in the way of the hand, and the objects that the tip is in.
-  const tools::InFront front =
+  const tools::AxisHit front =
       look_ahead(scene_, objects_, stylus_.X_WS(), picks ? longest_ray : reach(),
                  [&](const scene::Body& body, const RigidTransform& X_OH) {
                    return !picks && geometry::contains(body.collision, X_OH * Vector3d(0.0, 0.0, reach()));
@@ -46,7 +46,7 @@ void Hand::select_pierced() {
 void Hand::touch_with_probe(double now) {
   if (!stylus_.known(now)) return leave_with_probe(now);
   const double length = fork_.length;
-  tools::InFront front = look_ahead(scene_, objects_, stylus_.X_WS(), length,
+  tools::AxisHit front = look_ahead(scene_, objects_, stylus_.X_WS(), length,
                                     [](const scene::Body&, const RigidTransform&) { return false; });
   const double down = -stylus_.X_WS().linear()(2, 2), height = stylus_.X_WS().translation().z() - scene_.bench_height;
   if (height > 0.0 && down * front.distance > height) front = {height / down, nullptr, &scene_.bench_material};

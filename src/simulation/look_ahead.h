@@ -8,9 +8,9 @@ namespace spring_workbench::simulation {
 
 /// The nearest thing within `reach` [m] in front of the stylus. `passes(body, X_OH)`: not in the way.
 template <typename Passes>
-tools::InFront look_ahead(const scene::Scene& scene, const contact::ObjectList& objects, const RigidTransform& X_WS,
+tools::AxisHit look_ahead(const scene::Scene& scene, const contact::ObjectList& objects, const RigidTransform& X_WS,
                           double reach, Passes&& passes) {
-  tools::InFront found{reach};
+  tools::AxisHit found{reach};
   const auto look = [&](const scene::Body& body, const RigidTransform& X_WO) {
     const RigidTransform X_OH = X_WO.inverse() * X_WS;
     const auto hit =

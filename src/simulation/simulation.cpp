@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <sstream>
 #include <stdexcept>
 #include <tuple>
 
@@ -17,6 +18,7 @@
 #include "spring_workbench/tools/calibration.h"
 #include "spring_workbench/tools/sharing.h"
 #include "spring_workbench/validation/names.h"
+#include "spring_workbench/validation/number_rule.h"
 
 namespace spring_workbench::simulation {
 namespace {
@@ -25,7 +27,7 @@ constexpr double same_time = motion::Stylus::same_time;
 
 using Action = ObjectEdit::Action;
 
-/// Throws InputError when the edit does not fit the scene.
+/// Throws InputError if the edit does not match the scene.
 void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bool massless, scene::Scene& scene) {
   const std::string where = "edit_object";
   validate(edit);
@@ -43,7 +45,7 @@ void make_edit(const ObjectEdit& edit, const std::vector<std::string>& roots, bo
   scene.targets.erase(edit.object);
 }
 
-/// The edits with one more, without those that it makes superfluous.
+/// The edits and one more, without those that it supersedes.
 std::vector<ObjectEdit> with(std::vector<ObjectEdit> edits, const ObjectEdit& edit) {
   bool was_added = false;
   const auto superfluous = [&](const ObjectEdit& other) {
@@ -57,7 +59,7 @@ std::vector<ObjectEdit> with(std::vector<ObjectEdit> edits, const ObjectEdit& ed
   return edits;
 }
 
-/// The scene as the settings and the edits have it. Throws InputError when they do not fit.
+/// The scene with the settings and the edits applied. Throws InputError if they do not match.
 scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, const std::vector<ObjectEdit>& edits,
                     const std::vector<std::string>& roots) {
   validate(settings, scene.path);
@@ -73,7 +75,16 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, cons
   return scene;
 }
 
-/// Whether the fork would be another one with this change.
+/// Throws InputError naming the first property that differs.
+void check_made_with(const std::string& saved, const std::string& present) {
+  std::istringstream of_saved(saved), of_present(present);
+  for (std::string was, is; std::getline(of_present, is);) {
+    if (!std::getline(of_saved, was)) was = "nothing saved";
+    if (was != is) validation::refuse("restore", "state", "one with " + was, "one with " + is);
+  }
+}
+
+/// Returns whether this change would change the fork.
 bool changes(const ForkChange& change, const rod::ForkSettings& fork) {
   const rod::ForkSettings f = change.applied_to(fork);
   return std::tie(f.dofs, f.stiffness, f.damping_ratio, f.damping_coefficient, f.damping_law) !=
@@ -106,7 +117,10 @@ struct Simulation::Impl {
     if (settings.grasp.calibrate == tools::Calibration::world) fit_to_world();
     for (int i = 0; i < settings.styluses; ++i) hands.emplace_back(scene, settings, objects, tool);
   }
-  Hand& hand(std::size_t index) { return hands.at(index); }
+  Hand& hand(std::size_t index) {
+    if (index < hands.size()) return hands[index];
+    validation::refuse("simulation", "hand", std::to_string(index), "less than " + std::to_string(hands.size()));
+  }
   double in_world(double t) const { return settings.hand_time_scale * t; }
   /// Of the hand; exactly what was asked for where that is meant, so that to ask for it again changes nothing.
   double of_hand(double t) const { return t == in_world(asked_for) ? asked_for : t / settings.hand_time_scale; }
@@ -143,8 +157,8 @@ struct Simulation::Impl {
   bool beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go);
   void carry(double h, const Slipping& slipping, AdvanceReport& report);
   void step(double end, AdvanceReport& report);
-  /// What must be the same in a simulation that goes on from a state of this one.
-  std::string signature() const;
+  /// What a simulation that continues from a state of this one must be made with, a line per property.
+  std::string made_with() const;
   void exchange(math::StateArchive& state);
   void set(const math::StateArchive::Words& words);
   double elastic_energy() const;
@@ -349,9 +363,10 @@ void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
   fill_parts(report);
 }
 
-std::string Simulation::Impl::signature() const {
-  std::string text = validation::name_of(scene.contact) + "; " + validation::name_of(settings.fork.shape) + "; " +
-                     std::to_string(settings.styluses) + " styluses;";
+std::string Simulation::Impl::made_with() const {
+  std::string text = "contact " + validation::name_of(scene.contact) + "\nshape " +
+                     validation::name_of(settings.fork.shape) + "\n" + std::to_string(settings.styluses) +
+                     " styluses\nbodies";
   for (const scene::Body& body : given_scene.bodies) text += " " + body.name;
   return text;
 }
@@ -418,6 +433,7 @@ bool Simulation::push_stylus(const motion::PoseSample& sample, std::size_t hand)
 }
 
 void Simulation::push_press(double t, motion::Press press, std::size_t hand) {
+  validation::check_number("button", "t", t, validation::any_number());
   impl_->hand(hand).stylus().push(impl_->in_world(t), press);
 }
 
@@ -439,6 +455,7 @@ double Simulation::next_edge() const {
 }
 
 AdvanceReport Simulation::advance(double t_end) {
+  validation::check_number("advance", "t_end", t_end, validation::any_number());
   AdvanceReport report;
   impl_->asked_for = t_end;
   impl_->advance(impl_->in_world(t_end), report);
@@ -455,12 +472,11 @@ void Simulation::reset() {
 
 void Simulation::place(const std::map<std::string, RigidTransform>& X_WO) {
   for (const auto& [name, X] : X_WO) {
+    scene::movable_body(impl_->scene, name, "place", "name");
     if (!X.matrix().allFinite()) validation::refuse("place", name, "NaN or infinity", "a finite pose");
   }
   release();
-  for (const auto& [name, X] : X_WO) {
-    if (const auto object = impl_->objects.find(name)) impl_->objects.place(*object, X, impl_->now);
-  }
+  for (const auto& [name, X] : X_WO) impl_->objects.place(*impl_->objects.find(name), X, impl_->now);
 }
 
 bool Simulation::release() {
@@ -531,8 +547,8 @@ void Simulation::change(const ForkChange& of_fork, const DynamicsChange& of_dyna
 void Simulation::Impl::check_place(const std::string& name, const RigidTransform& X_WO) const {
   const std::string other = objects.inside_of(*objects.find(name), X_WO);
   if (other.empty()) return;
-  validation::refuse("edit_object", "pose", "one inside " + other,
-                     "where " + name + " is at most 0.1 mm inside anything else");
+  validation::refuse("edit_object", "pose", "one at which it overlaps " + other,
+                     "a pose at which " + name + " overlaps no other body by more than 0.1 mm");
 }
 
 void Simulation::Impl::move(const ObjectEdit& edit) {
@@ -614,7 +630,7 @@ SimulationState Simulation::save() const {
   math::StateArchive archive;
   impl_->exchange(archive);
   SimulationState state;
-  state.scene_ = impl_->signature();
+  state.origin_ = impl_->made_with();
   state.styluses_ = impl_->settings.styluses;
   state.words_ = archive.taken();
   return state;
@@ -622,7 +638,7 @@ SimulationState Simulation::save() const {
 
 void Simulation::restore(const SimulationState& state) {
   const SimulationState present = save();
-  if (state.scene_ != present.scene_) validation::refuse("restore", "scene", state.scene_, present.scene_);
+  check_made_with(state.origin_, present.origin_);
   try {
     std::vector<ObjectEdit> edits;
     math::StateArchive head(state.words_);

@@ -30,8 +30,8 @@ std::string serialise(const SimulationState& state) {
   numbers.reserve(word_digits * state.words_.size());
   for (const std::uint64_t word : state.words_) append_hex(numbers, word);
   YAML::Emitter text;
-  text << YAML::BeginMap << YAML::Key << "format" << YAML::Value << format << YAML::Key << "scene" << YAML::Value
-       << YAML::DoubleQuoted << state.scene_ << YAML::Key << "styluses" << YAML::Value << state.styluses_ << YAML::Key
+  text << YAML::BeginMap << YAML::Key << "format" << YAML::Value << format << YAML::Key << "made_with" << YAML::Value
+       << YAML::DoubleQuoted << state.origin_ << YAML::Key << "styluses" << YAML::Value << state.styluses_ << YAML::Key
        << "hash" << YAML::Value << YAML::DoubleQuoted << to_hex(state.hash()) << YAML::Key << "numbers" << YAML::Value
        << YAML::DoubleQuoted << numbers << YAML::EndMap;
   return text.c_str();
@@ -48,7 +48,7 @@ SimulationState parse_state(const std::string& text) {
     throw validation::InputError(where + ": format: must be " + format);
   }
   SimulationState state;
-  state.scene_ = config::read_string(map["scene"], where, "scene");
+  state.origin_ = config::read_string(map["made_with"], where, "made_with");
   state.styluses_ = config::read_integer(map["styluses"], where, "styluses", 1, 255);
   const std::string numbers = config::read_string(map["numbers"], where, "numbers");
   const bool all_hexadecimal = numbers.find_first_not_of(hexadecimal) == std::string::npos;

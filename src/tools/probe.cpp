@@ -3,7 +3,7 @@
 #include <algorithm>
 
 namespace spring_workbench::tools {
-Probe::Probe(double length, const rod::ForkSettings& fork, const InFront& touched, double now)
+Probe::Probe(double length, const rod::ForkSettings& fork, const AxisHit& touched, double now)
     : length_(length),
       body_(touched.body),
       material_(*touched.material),
@@ -13,7 +13,7 @@ Probe::Probe(double length, const rod::ForkSettings& fork, const InFront& touche
   touch(touched);
 }
 
-void Probe::touch(const InFront& touched) {
+void Probe::touch(const AxisHit& touched) {
   depth_ = length_ - touched.distance;
   point_O_ = touched.point_O;
   normal_O_ = touched.normal_O;

@@ -386,7 +386,7 @@ class Manipulation(unittest.TestCase):
             ("edit_object", ("move", "box", "", Pose(), 0.0, 0.0), ("pose",)),
             ("edit_object", ("move", "box", "", UPRIGHT, 0.0, 0.0), ("box, which a tool holds or pushes",)),
             ("edit_object", ("add", "box", BRICK, UPRIGHT, 0.0, 0.0), ("name", "box")),
-            ("edit_object", ("add", "brick", BRICK, UNDER, 0.0, 0.0), ("where brick is", "one inside the workbench")),
+            ("edit_object", ("add", "brick", BRICK, UNDER, 0.0, 0.0), ("brick overlaps", "it overlaps the workbench")),
             ("edit_object", ("add", "brick", "/etc/hostname", UPRIGHT, 0.0, 0.0), ("urdf", "/etc/hostname")),
             ("save_scene", ("/etc/scene.urdf",), ("path", "/etc/scene.urdf")),
             ("save_scene", ("scene.urdf",), ("path", "scene.urdf")),

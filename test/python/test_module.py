@@ -196,8 +196,38 @@ def test_what_is_no_pose_is_refused():
     with pytest.raises(sw.InputError, match="none.urdf"):
         sw.load_scene("none.urdf")
     assert issubclass(sw.InputError, ValueError)
-    with pytest.raises(IndexError):
-        simulation.fork(hand=7)
+
+
+def test_hands_times_and_names_that_do_not_exist_are_refused():
+    simulation = holding()
+    simulation.advance(1.0)
+    before = simulation.state_hash
+    hand = "hand: must be less than 2, got 5"
+    for call in [
+        simulation.fork,
+        lambda hand: simulation.push_button(1.0, True, hand),
+        lambda hand: simulation.push_stylus(20.0, np.eye(4), hand),
+        lambda hand: simulation.select_tool("spring", hand),
+    ]:
+        with pytest.raises(sw.InputError, match=hand):
+            call(5)
+    for t in [np.nan, np.inf, -np.inf]:
+        with pytest.raises(sw.InputError, match="t_end: must be a finite number, got"):
+            simulation.advance(t)
+        with pytest.raises(sw.InputError, match="t: must be a finite number, got"):
+            simulation.push_button(t, True)
+    with pytest.raises(sw.InputError, match=r"name: must be a movable object of the scene \(box\), got bin"):
+        simulation.place({"bin": sw.pose([0.0, 0.0, 1.0]), "box": sw.pose([0.0, 0.0, 5.0])})
+    assert simulation.held.tolist() == [True] and simulation.state_hash == before
+
+
+def test_to_advance_to_the_past_takes_no_time():
+    simulation = holding()
+    simulation.advance(1.0)
+    before = simulation.state_hash
+    report = simulation.advance(0.5)
+    assert (simulation.time, report.steps, report.simulated_time) == (1.0, 0, 0.0)
+    assert simulation.state_hash == before
 
 
 def test_everything_public_has_a_docstring():

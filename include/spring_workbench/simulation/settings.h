@@ -21,7 +21,7 @@ namespace spring_workbench::simulation {
 /// Settings of a simulation, one field per key. `setting_descriptions()` has type, unit, range and meaning of each key;
 /// parameters, the options of `replay` and doc/reference.md come from it.
 struct SimulationSettings {
-  std::optional<tools::Tool> tool;            ///< key `tool`; default: as in the scene; likewise the next three
+  std::optional<tools::Tool> tool;            ///< key `tool`; absent: the scene's, as for the next three
   std::optional<scene::ContactMode> contact;  ///< key `contact`
   std::optional<double> gravity;              ///< key `gravity` [m/s²], 0 … 1000
   std::optional<double> force_scale;          ///< key `force_scale`, 1e-9 … 1e9
@@ -29,21 +29,21 @@ struct SimulationSettings {
   int styluses = 2;                           ///< key `styluses`, 1 … 255: a stylus is a byte in messages
   double hand_scale = 1.0;                    ///< key `hand.scale`, 1e-3 … 1e3
   double hand_time_scale = 1.0;               ///< key `hand.time_scale`, 1e-3 … 1e3
-  int clutch_button = 2;                      ///< key `clutch.button`, of the stylus' Joy
+  int clutch_button = 2;                      ///< key `clutch.button`: index in the stylus' Joy
   dynamics::DynamicsSettings dynamics;        ///< keys `integrator`, `step`, `tolerance`, `inertia`
   rod::ForkSettings fork;                     ///< keys `shape`, `fork.*`
   tools::LimitSettings limit;                 ///< keys `limit.*`
-  tools::GraspSettings grasp;                 ///< keys `calibrate`, `grasp.*`, `start.follow`, `release`
-  double dropout_after = 0.5;                 ///< key `dropout_after` [s]
-  double wrench_timeout = 0.1;                ///< key `external_wrench_timeout` [s]
-  int bisection_levels = 8;  ///< key `bisection_levels`; 0 … 30 (paper, section 5); 0: time of impact
+  tools::GraspSettings grasp;   ///< keys `calibrate`, `calibration.*`, `grasp.*`, `start.follow`, `release`
+  double dropout_after = 0.5;   ///< key `dropout_after` [s], > 0: silence after which a hand rests
+  double wrench_timeout = 0.1;  ///< key `external_wrench_timeout` [s], > 0
+  int bisection_levels = 8;     ///< key `bisection_levels`, 0 … 30 (paper, section 5); 0: time of impact instead
 };
 
 /// Throws InputError naming `where`, key, value and rule for a value that its key does not allow, or for damping ratios
 /// that the damping law does not allow.
 void validate(const SimulationSettings& settings, const std::string& where);
 
-/// A twist in the world as a machine in the hand's place makes it, in the hand's lengths and time.
+/// Converts a twist in the world to the lengths and time of the hand, for a machine that moves in its place.
 Twist at_hand(const Twist& V_W, const SimulationSettings& settings);
 
 /// A change of the fork while running; absent fields stay as they are.
@@ -57,11 +57,11 @@ struct ForkChange {
 
   bool empty() const { return !dofs && !changes_springs(); }
   bool changes_springs() const;
-  /// The fork with this change.
+  /// Returns the fork with this change.
   rod::ForkSettings applied_to(rod::ForkSettings fork) const;
 };
 
-/// The change that gives another fork the springs, dampers and DOFs of `fork`; shape and length are not changed.
+/// Returns the change that gives any fork the springs, dampers and DOFs of `fork`; its shape and length stay.
 ForkChange change_to(const rod::ForkSettings& fork);
 
 /// A change of integrator, step or tolerance; absent fields stay as they are.

@@ -22,14 +22,12 @@ namespace spring_workbench::simulation {
 /// continues bit by bit like the one that was saved (`Simulation::save`, `Simulation::restore`).
 class SimulationState {
  public:
-  /// The state of no simulation.
-  SimulationState() = default;
+  SimulationState() = default;  ///< empty: to be assigned to; `Simulation::restore` refuses it
 
-  /// How many styluses its simulation has.
-  int styluses() const { return styluses_; }
+  int styluses() const { return styluses_; }  ///< of the simulation that was saved; 0 if empty
   /// Returns the hash of all its numbers: equal states have equal hashes on every machine.
   std::uint64_t hash() const { return math::hash(words_); }
-  bool operator==(const SimulationState& other) const { return scene_ == other.scene_ && words_ == other.words_; }
+  bool operator==(const SimulationState& other) const { return origin_ == other.origin_ && words_ == other.words_; }
   bool operator!=(const SimulationState& other) const { return !(*this == other); }
 
  private:
@@ -37,8 +35,8 @@ class SimulationState {
   friend std::string serialise(const SimulationState& state);
   friend SimulationState parse_state(const std::string& text);
 
-  std::string scene_;  ///< must be the same in a simulation that is restored from it
-  int styluses_ = 0;   ///< likewise
+  std::string origin_;  ///< what a simulation restored from it must be made with, a line per property
+  int styluses_ = 0;
   math::StateArchive::Words words_;
 };
 
@@ -90,14 +88,14 @@ struct ChangeReport {
   std::string message;                 ///< one line for the user
 };
 
-/// A scene, the hands and their tools, with just the subsystems that the scene needs. It owns simulated time. No clock,
-/// no thread, no log, no ROS: the same calls give bit-identical results. NaN is neither accepted nor returned. A hand
-/// is a number from 0 (the first stylus) to hands() − 1; any other throws std::out_of_range.
-/// All times are those of the hand's clock. In the world, whose velocities and rates are told, and whose steps
-/// `settings().dynamics.step` limits, `settings().hand_time_scale` times as much time goes by.
+/// A scene, the hands and their tools, with only the subsystems that the scene needs. It owns simulated time. It uses
+/// no clock, thread, log or ROS: the same calls give bit-identical results. NaN is neither accepted nor returned. A
+/// hand is a number from 0 (the first stylus) to hands() − 1; any other throws InputError. All times are those of the
+/// hand's clock. `settings().hand_time_scale` times as much time passes in the world, in which velocities and rates are
+/// reported and whose steps `settings().dynamics.step` limits.
 class Simulation {
  public:
-  /// Throws InputError when settings and scene do not fit (e.g. `grasp.object` is not in the scene).
+  /// Throws InputError if settings and scene do not match (e.g. `grasp.object` is not in the scene).
   Simulation(const scene::Scene& scene, const SimulationSettings& settings);
   ~Simulation();
   Simulation(Simulation&&) noexcept;
@@ -107,8 +105,7 @@ class Simulation {
   const scene::Scene& scene() const;
   /// The settings as given, with `dynamics` as changed since and `fork` as calibrated to the world.
   const SimulationSettings& settings() const;
-  /// How many there are.
-  std::size_t hands() const;
+  std::size_t hands() const;  ///< as many as `settings().styluses`
   /// The fork in a hand: as given, changed and calibrated since.
   const rod::ForkSettings& fork_settings(std::size_t hand = 0) const;
 
@@ -120,8 +117,7 @@ class Simulation {
   /// Adds a pose of the stylus; its position is scaled by `settings().hand_scale`. Returns false, and ignores the pose,
   /// if its stamp is not later than the newest one. Throws InputError if the pose is invalid (motion::PoseTrack::push).
   bool push_stylus(const motion::PoseSample& sample, std::size_t hand = 0);
-  /// A button of the stylus goes down or up at time `t` [s]; takes effect at the first step that begins at or after
-  /// `t`.
+  /// Presses or releases a button at time `t` [s], finite; it acts at the first step that begins at or after `t`.
   void push_press(double t, motion::Press press, std::size_t hand = 0);
   /// The grasp button.
   void push_button(double t, bool pressed, std::size_t hand = 0) {
@@ -145,45 +141,45 @@ class Simulation {
   /// over several edges in one call.
   double next_edge() const;
 
-  /// Simulates from time() to `t_end` in steps of at most `settings().dynamics.step` that end at the samples.
+  /// Simulates from time() to `t_end` [s] in steps of at most `settings().dynamics.step` that end at the samples. If
+  /// `t_end` is not later than time(), no time passes, but earlier buttons act. Throws InputError if it is not finite.
   AdvanceReport advance(double t_end);
 
   /// Puts all objects back to their start poses, releases them and forgets all samples.
   void reset();
-  /// Places these objects at rest at the given poses; all hands release first. Names that are not in the scene are
-  /// ignored. Throws InputError if a pose is not finite.
+  /// Places these objects at rest at the given poses; all hands release first. Throws InputError, and changes nothing,
+  /// if a name is not that of a movable object or a pose is not finite.
   void place(const std::map<std::string, RigidTransform>& X_WO);
   /// Every hand releases its object. Returns false if nothing was held.
   bool release();
-  /// The same for one hand.
-  bool release(std::size_t hand);
+  bool release(std::size_t hand);  ///< the same for one hand
 
   // Changes while running; pose and twist of the object do not jump. A change that is impossible throws InputError and
   // changes nothing.
-  /// Changes the tool in one hand, or in each. It keeps its object; the new tool starts without strain. The probe
-  /// cannot hold: with it the object is released.
+  /// Changes the tool in one hand or, with std::nullopt, in each. The hand keeps its object, and the new tool starts
+  /// without strain; only the probe cannot hold, so the object is released.
   ChangeReport select_tool(tools::Tool tool, std::optional<std::size_t> hand = 0);
-  /// Changes the fork in one hand, or in all.
+  /// Changes the fork in one hand or, with std::nullopt, in each.
   ChangeReport change(const ForkChange& change, std::optional<std::size_t> hand = std::nullopt);
   /// Changes integrator, step or tolerance of all hands. Throws InputError if a value is invalid.
   void change(const DynamicsChange& change);
   /// Makes both changes, or neither.
   void change(const ForkChange& of_fork, const DynamicsChange& of_dynamics);
   /// Adds, moves or removes an object, or changes its mass or friction; everything else continues from where it is.
-  /// Added and moved objects stand at rest and fall where nothing carries them; what lay on a moved or removed one
-  /// falls, and a removed one is released. Throws InputError, and changes nothing, for an object that is not there, a
-  /// held one that is to be moved, and a place (also of an added one) that is more than 0.1 mm inside something. A URDF
-  /// is read from `roots` as by load_scene(), and again by restore(). An object's start stays when it is moved.
+  /// Added and moved objects start at rest and fall if nothing supports them; objects that lay on a moved or removed
+  /// one fall. A removed object is released first. A moved object keeps its start pose, to which reset() returns it. A
+  /// URDF is read from `roots` as by load_scene(), and again by restore(). Throws InputError also for a held object
+  /// that is to be moved, and for an added or moved one that would overlap another body by more than 0.1 mm.
   ChangeReport edit(const ObjectEdit& edit, const std::vector<std::string>& roots = {});
   /// The scene as edited, with its objects where they are now.
   scene::Scene scene_now() const;
-  /// Fits the tool in one hand, or in each, to the object that it holds; with `calibrate: world`, restores the scene's
-  /// stiffness. The damping ratios stay. Throws InputError if no object is held by a fork or a spring.
+  /// Fits one tool, or with std::nullopt each, to the object that it holds; with `calibrate: world`, restores the
+  /// scene's stiffness. The damping ratios stay. Throws InputError if no fork or spring holds an object.
   ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
 
   const std::vector<bodies::BodyState>& objects() const;       ///< the movable objects, in the scene's order
-  tools::ToolState fork(std::size_t hand = 0) const;           ///< the tool in a hand, whichever it is
-  const std::vector<contact::ContactState>& contacts() const;  ///< those present, and those ended since the last call
+  tools::ToolState fork(std::size_t hand = 0) const;           ///< state of the tool in a hand, also if it is no fork
+  const std::vector<contact::ContactState>& contacts() const;  ///< present ones, and those that ended in the last call
 
   /// The whole state: time, hands with their samples, buttons, tools and holds, objects, contacts and their warm
   /// starts, histories of integrators, the settings that can be changed while running, and what was edited. Two saves
@@ -193,8 +189,7 @@ class Simulation {
   /// and changes nothing, if the state has other objects, another number of styluses, another contact mode or
   /// another shape of the fork, or is invalid.
   void restore(const SimulationState& state);
-  /// The hash of save().
-  std::uint64_t state_hash() const { return save().hash(); }
+  std::uint64_t state_hash() const { return save().hash(); }  ///< hash of save()
 
  private:
   struct Impl;

@@ -10,8 +10,8 @@
 
 namespace spring_workbench::tools {
 
-/// What is in front of a hand along its z axis.
-struct InFront {
+/// The nearest body, or the bench, that the z axis of a hand meets.
+struct AxisHit {
   double distance = 0.0;              ///< [m]
   const scene::Body* body = nullptr;  ///< null: the bench plane
   const scene::Material* material = nullptr;
@@ -20,17 +20,17 @@ struct InFront {
   Vector3d normal_O = Vector3d::Zero();  ///< of its surface there, outward
 };
 
-/// The tool `spring_probe` where it touches something (doc/model.md, "The probe"): a spring along the probe's axis in
-/// series with the material's, which it reads out. It can only push, without friction at its tip. On a body that moves
-/// it is a coupling with a damper beside both; the surface is the plane that it has met.
+/// The tool `spring_probe` while it touches something (doc/model.md, "The probe"): a spring along the probe's axis in
+/// series with that of the material, which it reads. It can only push, without friction at its tip. On a movable body
+/// it is a coupling with a damper parallel to both springs; the surface is the plane in which it was first touched.
 class Probe final : public dynamics::Coupling {
  public:
   /// Touches what is `touched.distance` in front of the hand, nearer than the probe's `length` [m], from time `now` [s]
   /// on. Keeps no reference.
-  Probe(double length, const rod::ForkSettings& fork, const InFront& touched, double now);
+  Probe(double length, const rod::ForkSettings& fork, const AxisHit& touched, double now);
 
-  /// The same touch at a new moment.
-  void touch(const InFront& touched);
+  /// Updates the touch of the same body.
+  void touch(const AxisHit& touched);
   void set_springs(const rod::ForkSettings& fork);
   /// The hand's motion; it must cover the steps that follow.
   void set_hand(const motion::MotionSegment& hand) { hand_ = hand; }
@@ -41,26 +41,26 @@ class Probe final : public dynamics::Coupling {
   void pull(const math::Pack& t, const dynamics::RelativeMotion<math::Pack>& A_O,
             dynamics::Pull<math::Pack>& pull) const override;
   Springs springs(double t, const dynamics::RelativeMotion<double>& A_O) const override;
-  /// The body has come there by time `t` [s].
+  /// Follows the body to time `t` [s], at which `object` is its motion.
   void follow(double t, const motion::MotionState& object);
 
-  /// On a body that does not move: the force is that of the springs at rest.
+  /// Sets the force to that of the springs in equilibrium, for a body that does not move.
   void press();
 
   double elastic_energy() const { return 0.5 * force_ * depth_; }
   const scene::Body* body() const { return body_; }
-  /// All that changes while it touches the same body.
+  /// Exchanges all that changes while it touches the same body.
   void exchange(math::StateArchive& state) {
     state(since_, version_, k_, series_, c_, hand_, point_O_, normal_O_, depth_, force_);
   }
-  /// Fills in what the probe knows; `X_WH`: the hand.
+  /// Fills in the state of the tool; `X_WH`: the hand.
   void describe(const RigidTransform& X_WH, ToolState& state) const;
 
  private:
   /// The tip at the surface, as the hand sees it.
   template <typename S>
   struct Touch {
-    S depth, rate;         ///< how far the tip would be inside if nothing gave way [m], [m/s]
+    S depth, rate;         ///< depth of the tip if both springs were rigid [m], [m/s]
     math::Three<S> arm;    ///< from the object's centre
     math::Three<S> speed;  ///< of the object there
     S force;

@@ -211,11 +211,14 @@ TEST_P(Edits, WhatDoesNotFitIsRefusedInOneLineAndChangesNothing) {
          "edit_object: action: must be one of add, move, remove, mass, friction");
   if (GetParam() == ContactMode::none) return;
   expect(move_to("below", at(Vector3d(2.0, 0.0, 0.3))),
-         "edit_object: pose: must be where below is at most 0.1 mm inside anything else, got one inside wall");
+         "edit_object: pose: must be a pose at which below overlaps no other body by more than 0.1 mm, got one at "
+         "which it overlaps wall");
   expect(addition("brick", at(Vector3d(-1.0, 0.0, 0.049))),
-         "edit_object: pose: must be where brick is at most 0.1 mm inside anything else, got one inside the workbench");
+         "edit_object: pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
+         "which it overlaps the workbench");
   expect(addition("brick", object(s, "held").X_WO),
-         "edit_object: pose: must be where brick is at most 0.1 mm inside anything else, got one inside");
+         "edit_object: pose: must be a pose at which brick overlaps no other body by more than 0.1 mm, got one at "
+         "which it overlaps");
 }
 
 TEST(EditedFriction, DecidesHowFarABoxSlides) {

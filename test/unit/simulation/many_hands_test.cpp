@@ -207,8 +207,8 @@ TEST(ManyHands, AnyNumberFromOneTo255) {
   for (const std::size_t styluses : {1u, 3u, 255u}) {
     Simulation s(plate(), with(styluses));
     EXPECT_EQ(s.hands(), styluses);
-    EXPECT_THROW(s.push_stylus({0.0, pointing_down(place(0, 1))}, styluses), std::out_of_range);
-    EXPECT_THROW(s.fork(styluses), std::out_of_range);
+    EXPECT_THROW(s.push_stylus({0.0, pointing_down(place(0, 1))}, styluses), validation::InputError);
+    EXPECT_THROW(s.fork(styluses), validation::InputError);
     s.push_stylus({0.0, pointing_down(Vector3d(0, 0, 0.7))}, styluses - 1);
     s.push_button(0.0, true, styluses - 1);
     s.advance(0.1);

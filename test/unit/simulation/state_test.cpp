@@ -247,14 +247,28 @@ TEST(State, OfAnotherSceneIsRefused) {
   scene::Scene renamed = boxes(scene::ContactMode::stop), fewer = renamed;
   renamed.bodies[0].name = "z";
   fewer.bodies.pop_back();
-  EXPECT_THROW(s.restore(Simulation(renamed, {}).save()), validation::InputError);
-  EXPECT_THROW(s.restore(Simulation(fewer, {}).save()), validation::InputError);
-  EXPECT_THROW(s.restore(Simulation(boxes(scene::ContactMode::none), {}).save()), validation::InputError);
-  EXPECT_THROW(s.restore(Simulation(boxes(scene::ContactMode::stop), other_shape).save()), validation::InputError);
   SimulationSettings three;
   three.styluses = 3;
-  EXPECT_THROW(s.restore(Simulation(boxes(scene::ContactMode::stop), three).save()), validation::InputError);
-  EXPECT_THROW(s.restore(SimulationState()), validation::InputError);
+  const auto refused = [&](const SimulationState& state) {
+    try {
+      s.restore(state);
+    } catch (const validation::InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const scene::Scene same = boxes(scene::ContactMode::stop);
+  EXPECT_EQ(refused(Simulation(renamed, {}).save()),
+            "restore: state: must be one with bodies a b c d wall, got one with bodies z b c d wall");
+  EXPECT_EQ(refused(Simulation(fewer, {}).save()),
+            "restore: state: must be one with bodies a b c d wall, got one with bodies a b c d");
+  EXPECT_EQ(refused(Simulation(boxes(scene::ContactMode::none), {}).save()),
+            "restore: state: must be one with contact stop, got one with contact none");
+  EXPECT_EQ(refused(Simulation(same, other_shape).save()),
+            "restore: state: must be one with shape linear, got one with shape bushing");
+  EXPECT_EQ(refused(Simulation(same, three).save()),
+            "restore: state: must be one with 2 styluses, got one with 3 styluses");
+  EXPECT_EQ(refused(SimulationState()), "restore: state: must be one with contact stop, got one with nothing saved");
   EXPECT_EQ(s.state_hash(), before);
 }
 
