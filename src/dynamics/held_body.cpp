@@ -185,11 +185,11 @@ HandleForcing HeldBody::with_frames_at_rest(HandleForcing handle) const {
   return handle;
 }
 
-const rod::TipOf<double>& HeldBody::tip(const double* q, const double* q_dot, bool of_rates) const {
+const rod::TipOf<double>& HeldBody::tip(const double* q, const double* q_dot, bool needs_rates) const {
   const int n = coordinates_.count();
   LastTip& last = last_tip_;
   const bool same = last.known && std::equal(q, q + n, last.q.begin()) &&
-                    (!of_rates || std::equal(q_dot, q_dot + n, last.q_dot.begin()));
+                    (!needs_rates || std::equal(q_dot, q_dot + n, last.q_dot.begin()));
   if (same) return last.tip;
   std::copy_n(q, n, last.q.begin());
   std::copy_n(q_dot, n, last.q_dot.begin());

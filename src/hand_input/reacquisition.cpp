@@ -31,7 +31,7 @@ std::vector<motion::PoseSample> Reacquisition::follow(const motion::PoseSample& 
     if (sample.t > lost_at()) note_loss(lost_at());
     const bool held = simulated_until > newest_->t + same_time;
     if (held) result.push_back({simulated_until, newest_->X});
-    if (held || relocation) set_out(sample);
+    if (held || relocation) begin_catch_up(sample);
   }
   result.push_back({sample.t, catching_up_ ? catch_up(sample) : sample.X});
   newest_ = result.back();
@@ -40,16 +40,16 @@ std::vector<motion::PoseSample> Reacquisition::follow(const motion::PoseSample& 
   return result;
 }
 
-void Reacquisition::set_out(const motion::PoseSample& sample) {
+void Reacquisition::begin_catch_up(const motion::PoseSample& sample) {
   catching_up_ = true;
-  set_out_at_ = sample.t;
+  catch_up_began_ = sample.t;
   tracked_ = sample;
   ++counts_.reacquisitions;
 }
 
 RigidTransform Reacquisition::catch_up(const motion::PoseSample& sample) {
   const double dt = sample.t - tracked_.t;
-  const double ramp = smooth_step((sample.t - set_out_at_) / ramp_time);
+  const double ramp = smooth_step((sample.t - catch_up_began_) / ramp_time);
   RigidTransform X = newest_->X;  // first with the tracked hand ...
   X.translation() += ramp * (sample.X.translation() - tracked_.X.translation());
   X.linear() = X.linear() * math::exp_so3(ramp * math::log_so3(tracked_.X.linear().transpose() * sample.X.linear()));

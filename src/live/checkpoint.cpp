@@ -22,22 +22,22 @@ const std::string header = "# spring_workbench checkpoint 1\n";
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 [[noreturn]] void refuse(const std::string& path, const std::string& reason) {
-  validation::refuse("manipulation", "checkpoint_file", path + ": " + reason,
-                     "the path of a checkpoint, or of no file yet, in a folder that can be written");
+  validation::refuse("manipulation", "checkpoint_file", path + " (" + reason + ")",
+                     "the path of a checkpoint or of a new file, in a writable folder");
 }
 
-/// A file of ours behind its header; null if there is none.
+/// Opens a checkpoint and reads past its header; null if there is no such file.
 File open_ours(const std::string& path) {
-  // Neither a link nor a FIFO without a writer is waited for or followed.
+  // Does not follow a symbolic link, and does not wait for the writer of a FIFO.
   const int descriptor = open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
   if (descriptor < 0 && errno == ENOENT) return File(nullptr, std::fclose);
-  if (descriptor < 0) refuse(path, errno == ELOOP ? "it is a link" : std::strerror(errno));
+  if (descriptor < 0) refuse(path, errno == ELOOP ? "a symbolic link" : std::strerror(errno));
   File file(fdopen(descriptor, "r"), std::fclose);
   struct stat status {};
-  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) refuse(path, "it is no regular file");
+  if (fstat(descriptor, &status) != 0 || !S_ISREG(status.st_mode)) refuse(path, "not a regular file");
   std::string begin(header.size(), '\0');
   begin.resize(std::fread(begin.data(), 1, begin.size(), file.get()));
-  if (begin != header) refuse(path, "it is another file");
+  if (begin != header) refuse(path, "a file of another program");
   return file;
 }
 
@@ -86,7 +86,7 @@ std::string CheckpointFile::read() const {
   std::string text;
   char part[1 << 16];
   while (const std::size_t bytes = file ? std::fread(part, 1, sizeof part, file.get()) : 0) text.append(part, bytes);
-  if (file && std::ferror(file.get()) != 0) refuse(path_, "it cannot be read");
+  if (file && std::ferror(file.get()) != 0) refuse(path_, "cannot be read");
   return text;
 }
 

@@ -10,9 +10,9 @@ RigidTransform HeadMotion::follow(double stamp, const RigidTransform& X_FH, doub
     if (stamp < stamp_ || stamp > stamp_ + head_dropout) predictor_.restart();
     predictor_.push({stamp, X_FH});
     stamp_ = stamp;
-    came_ = now;
+    received_at_ = now;
   }
-  const auto predicted = latency > 0.0 ? predictor_.predict(stamp + latency + (now - came_)) : std::nullopt;
+  const auto predicted = latency > 0.0 ? predictor_.predict(stamp + latency + (now - received_at_)) : std::nullopt;
   return predicted ? predicted->X : X_FH;
 }
 

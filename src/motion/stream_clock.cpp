@@ -20,9 +20,9 @@ std::string to_string(StampVerdict verdict) {
 
 WallMoment WallClock::look(std::int64_t wall, std::int64_t steady) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  const std::int64_t apart = wall - steady, moved = apart - apart_.value_or(apart);
+  const std::int64_t apart = wall - steady, moved = apart - offset_.value_or(apart);
   if (std::abs(seconds(moved)) > clock_slip) steps_ += moved;
-  apart_ = apart;
+  offset_ = apart;
   return {wall - steps_, steps_};
 }
 

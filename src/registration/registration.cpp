@@ -82,9 +82,10 @@ void check_fit(const std::vector<Landmark>& landmarks, const Registration& resul
     validation::refuse(kWhere, "residual of " + name, given, "at most " + millimetres(largest_residual));
   }
   if (other && other->first < std::max(3.0 * result.rms, 0.5 * largest_residual)) {
-    validation::refuse(kWhere, "landmarks",
-                       in_order(landmarks, other->second) + ", which fits to " + millimetres(other->first) + " as well",
-                       "arranged so that only one order fits");
+    validation::refuse(
+        kWhere, "landmarks",
+        "ones that also fit in the order " + in_order(landmarks, other->second) + ", to " + millimetres(other->first),
+        "placed so that the touches fit in only one order");
   }
 }
 

@@ -208,8 +208,9 @@ TipFit<S>::TipFit(const ShapeModel& shape, const math::ThreeByThree<S>& R_HE, co
   const S velocity[n] = {per_length * v_HE.x, per_length * v_HE.y, per_length * v_HE.z, w_HE.x, w_HE.y, w_HE.z};
   exact_.solve(velocity, q_dot);
   for (int l = 0; l < math::lanes<S>; ++l) {
-    at_its_end_[l] = !shape.strain_is_pose() && !(math::lane(inverse_squared, l) * least_motion * least_motion <= 1.0);
-    if (at_its_end_[l]) set_lane(q_dot, l, Slope(columns, l, L).solve(lane_of(velocity, l)));
+    near_singular_[l] =
+        !shape.strain_is_pose() && !(math::lane(inverse_squared, l) * least_motion * least_motion <= 1.0);
+    if (near_singular_[l]) set_lane(q_dot, l, Slope(columns, l, L).solve(lane_of(velocity, l)));
   }
 }
 
@@ -269,7 +270,7 @@ void TipFit<S>::wrench(const S (&generalised)[max_strain_coordinates], math::Thr
   S scaled[n];
   exact_.solve_transposed(generalised, scaled);
   for (int l = 0; l < math::lanes<S>; ++l) {
-    if (!at_its_end_[l]) continue;
+    if (!near_singular_[l]) continue;
     const Slope slope(Columns<S>(tip, shape_.length()), l, shape_.length());
     set_lane(scaled, l, slope.solve_transposed(lane_of(generalised, l)));
   }

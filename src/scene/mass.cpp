@@ -78,19 +78,21 @@ std::string inertia_defect(const RigidMass& mass, const std::vector<geometry::Sh
   return "";
 }
 
-RigidMass mended_mass(const RigidMass& given, const std::vector<geometry::Shape>& shapes, double density,
-                      const std::string& where, std::vector<std::string>& warnings) {
+RigidMass repaired_mass(const RigidMass& given, const std::vector<geometry::Shape>& shapes, double density,
+                        const std::string& where, std::vector<std::string>& warnings) {
   if (!(given.mass > 0.0)) {
     const RigidMass solid = solid_mass(shapes, density, where, warnings);
     if (!(solid.mass > 0.0))
-      validation::refuse(where, "mass", "0", "> 0 unless the movable body has a shape with a volume");
+      validation::refuse(where, "mass", "0",
+                         "> 0, since the movable body has no shape with a volume to compute it from");
     return solid;
   }
   const std::string defect = inertia_defect(given, shapes);
   if (defect.empty()) return given;
   const RigidMass solid = solid_mass(shapes, density, where, warnings);
   if (!(solid.mass > 0.0))
-    validation::refuse(where, "inertia", "one that " + defect, "physically possible unless the body has a shape");
+    validation::refuse(where, "inertia", "one that " + defect,
+                       "physically possible, since the body has no shape to compute it from");
   warnings.push_back(where + ": inertia " + defect + "; the inertia of its shape is used instead");
   return {given.mass, given.centre, solid.inertia * (given.mass / solid.mass)};
 }

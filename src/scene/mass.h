@@ -31,7 +31,7 @@ std::string inertia_defect(const RigidMass& mass, const std::vector<geometry::Sh
 
 /// The mass of a movable body: as the URDF has it where that is possible, otherwise mended from the shapes, with a
 /// warning. Throws InputError naming `where` when it cannot be mended.
-RigidMass mended_mass(const RigidMass& given, const std::vector<geometry::Shape>& shapes, double density,
-                      const std::string& where, std::vector<std::string>& warnings);
+RigidMass repaired_mass(const RigidMass& given, const std::vector<geometry::Shape>& shapes, double density,
+                        const std::string& where, std::vector<std::string>& warnings);
 
 }  // namespace spring_workbench::scene

@@ -112,7 +112,7 @@ class BodyBuilder {
   void place_at_centre_of_mass(const RigidMass& given_L, Body& body) {
     const std::string where = file_.where(body.name);
     const std::vector<geometry::Shape>& shapes = body.collision.empty() ? body.visual : body.collision;
-    const RigidMass mass = mended_mass(given_L, shapes, body.material.density, where, warnings_);
+    const RigidMass mass = repaired_mass(given_L, shapes, body.material.density, where, warnings_);
     if (body.collision.empty()) warnings_.push_back(where + ": no collision shape: the body touches nothing");
     validation::check_number(where, "mass", mass.mass, validation::between(0.0, most_mass));
     body.mass_properties = {mass.mass, mass.inertia};

@@ -161,10 +161,10 @@ class Checkpoint(unittest.TestCase):
         with open(os.path.join(folder, "other"), "w", encoding="ascii") as file:
             file.write("somebody's")
         for name, reason in [
-            ("fifo", "it is no regular file"),
-            ("link", "it is a link"),
-            ("", "it is no regular file"),
-            ("other", "it is another file"),
+            ("fifo", "not a regular file"),
+            ("link", "a symbolic link"),
+            ("", "not a regular file"),
+            ("other", "a file of another program"),
             ("none/checkpoint", "No such file or directory"),
         ]:
             with self.subTest(name=name):

@@ -18,7 +18,7 @@ class ContactLog {
  public:
   explicit ContactLog(const scene::Scene& scene) : scene_(scene) {}
 
-  /// Forgets all; from now on for so many objects.
+  /// Forgets all contacts, and prepares for this number of objects.
   void reset(std::size_t objects);
   /// Contacts of one object after a step of `h` [s]. An object without a step keeps its contacts.
   void note(std::size_t object, const bodies::BodyState& state, const std::vector<ContactRow>& rows, double h);
@@ -26,7 +26,8 @@ class ContactLog {
   void take(std::size_t object, const ContactLog& from, std::size_t its);
   const std::vector<ContactState>& touching(std::size_t object) const { return touching_[object]; }
 
-  /// A call of `advance` begins and ends: `told` are then the contacts of that call with their phases.
+  /// Mark the begin and the end of a call of `advance`; after it, told() has the contacts of that call with their
+  /// phases.
   void begin_call();
   void end_call();
   const std::vector<ContactState>& told() const { return told_; }
@@ -41,7 +42,7 @@ class ContactLog {
   std::vector<std::vector<ContactState>> touching_;  ///< by object: contacts after its last step
   std::set<std::size_t> with_contacts_;              ///< objects that touch something
   std::vector<ContactState> before_;                 ///< when the call began
-  std::vector<ContactState> ended_;                  ///< since they were told last
+  std::vector<ContactState> ended_;                  ///< ended in the present call
   std::vector<ContactState> told_;
 };
 

@@ -23,9 +23,9 @@ struct ContactRow {
   }
 };
 
-/// Finds the loads that leave every gap ≥ 0, press only, and keep to Coulomb's friction: gap ≥ 0 ⊥ normal load ≥ 0, and
-/// the slip vanishes or the friction is μ times the normal load against it. `compliance` (6 × 6, symmetric, not
-/// negative) says how a wrench at the centre of mass changes the body's motion. Projected Gauss–Seidel, contact by
+/// Finds the loads of Signorini's and Coulomb's laws: gap ≥ 0 ⊥ normal load ≥ 0, and either the slip is zero or the
+/// friction opposes it with μ times the normal load. `compliance` (6 × 6, symmetric, ≥ 0): change of the body's motion
+/// per wrench at the centre of mass. Projected Gauss–Seidel, contact by
 /// contact.
 void solve_contacts(const Matrix6d& compliance, std::vector<ContactRow>& rows);
 

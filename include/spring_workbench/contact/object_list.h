@@ -9,7 +9,7 @@
 
 namespace spring_workbench::contact {
 
-/// The movable objects of a scene, and where they are. One is named by its place in `states()`.
+/// The movable objects of a scene and their states. An object is given by its index in `states()`.
 class ObjectList {
  public:
   /// Keeps a reference to `scene`.
@@ -26,13 +26,13 @@ class ObjectList {
   bool with_contact() const { return scene_.contact != scene::ContactMode::none; }
 
  protected:
-  /// All back to their start, asleep.
+  /// Puts all objects back to their start poses, asleep.
   void put_back();
 
   const scene::Scene& scene_;
   std::vector<bodies::BodyState> states_;
-  std::vector<std::size_t> object_of_;    ///< by index in the scene; means something for movable bodies
-  std::vector<std::size_t> highlighted_;  ///< few of many: a step looks at no others
+  std::vector<std::size_t> object_of_;    ///< object by index in the scene; valid for movable bodies
+  std::vector<std::size_t> highlighted_;  ///< the objects that are highlighted
 
  private:
   std::vector<std::size_t> in_scene_;  ///< index in the scene, by object

@@ -36,8 +36,8 @@ struct StepCounts {
   }
 };
 
-/// The movable objects of a scene: those that fly freely and those that sleep, and what they touch. A tool takes one
-/// with `hold`, carries it, and gives it back with `let_go`.
+/// The movable objects of a scene, held, in free flight or asleep, and their contacts. A tool takes an object with
+/// `hold`, carries it in `step`, and gives it back with `let_go`.
 class Objects : public ObjectList {
  public:
   /// Keeps a reference to `scene`. `bisection_levels`: of the search for contact.
@@ -47,8 +47,8 @@ class Objects : public ObjectList {
   void reset();
   /// Time begins at `now` [s].
   void begin(double now);
-  /// Goes on from where the objects of the same names are among `before`, of another scene; others begin at their
-  /// start.
+  /// Takes over the state of the objects of the same names in `before`, which are those of another scene; other objects
+  /// begin at their start poses.
   void continue_from(const Objects& before, double now);
 
   /// Whether an object is in free flight: not held and not asleep.
@@ -63,14 +63,14 @@ class Objects : public ObjectList {
   /// massless one stays where it is.
   void let_go(std::size_t object, Grip grip, bool thrown, double now);
   void take_state(std::size_t object, const motion::MotionState& s);
-  /// What the object would be in by more than `support_gap`, were it at `X_WO`: a name, empty for nothing.
+  /// Returns the name of a body that the object, at `X_WO`, would overlap by more than `support_gap`; empty if none.
   std::string inside_of(std::size_t object, const RigidTransform& X_WO) const;
-  /// Puts an object that no tool has somewhere, at rest; it falls from there.
+  /// Places an object that no tool holds or pushes at `X_WO`, at rest; it falls from there.
   void place(std::size_t object, const RigidTransform& X_WO, double now);
 
-  /// Wakes the sleeping objects that rest on `object`, directly or on one another.
+  /// Wakes the sleeping objects that rest on `object`, directly or through other objects.
   void wake_what_lies_on(std::size_t object, double now);
-  /// Returns whether nothing moves that a held object could touch.
+  /// Returns whether everything that a held object could touch is at rest.
   bool rests(std::size_t object) const;
 
   /// Carries held and free objects over `h` [s] from `now` on, with the contact mode of the scene. An object that has
@@ -81,8 +81,8 @@ class Objects : public ObjectList {
   void exchange(math::StateArchive& state);
 
  private:
-  /// Contact mode `dynamic`: what only fixed bodies are near, held or free, is carried as with `stop`, all the rest in
-  /// one world.
+  /// Contact mode `dynamic`: objects that have only fixed bodies near them are carried as in mode `stop`, all others
+  /// together in one rigid-body world.
   void step_among_movable(const std::vector<Carried>& held, double now, double h, StepCounts& counts);
   void step_together(const std::vector<Carried>& held, const std::vector<std::size_t>& moving, double now, double h,
                      StepCounts& counts);
@@ -90,10 +90,10 @@ class Objects : public ObjectList {
   /// Returns false, and does nothing, if `may_go` forbids the motion.
   bool carry(bodies::SteppedBody& stepped, std::size_t object, double h, const ContactStepper::MayGo& may_go,
              StepCounts& counts);
-  /// On its way from its state, without a tool; a massless one stays.
+  /// Continues an object without a tool from its present state; a massless one stays where it is.
   void let_fly(std::size_t object, double now);
   void set_free(std::size_t object, const Twist& V_WO_W, double now);
-  /// Wakes what nothing carries, with all that lies on it.
+  /// Wakes the objects that nothing supports, and all that lie on them.
   void let_fall();
   void put_to_sleep_if_slow(std::size_t object, double now);
   bool touches_what_moves(std::size_t object) const;
@@ -102,7 +102,7 @@ class Objects : public ObjectList {
   std::unique_ptr<ContactStepper> contact_stepper_;       ///< likewise
   std::unique_ptr<DynamicStepper> dynamic_stepper_;       ///< of contact mode `dynamic` alone
   ContactLog contacts_;
-  /// Of a movable object, beside its state.
+  /// What is kept of a movable object in addition to its state.
   struct Object {
     int grasping = 0, pushing = 0;                ///< tools that carry it
     std::unique_ptr<bodies::FreeBody> free_body;  ///< null while held, asleep or among movable bodies
@@ -111,7 +111,7 @@ class Objects : public ObjectList {
   };
   std::vector<Object> objects_;
   bodies::TrialStart start_;  ///< of a step without contact; no allocation there
-  // Few of many: a step looks at no others.
+  // A few of many objects: a step visits only these.
   std::set<std::size_t> free_;        ///< those with a free body
   std::set<std::size_t> in_contact_;  ///< with contact mode `dynamic`
 };

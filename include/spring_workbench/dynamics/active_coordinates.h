@@ -16,11 +16,11 @@ struct StrainState {
   void exchange(math::StateArchive& state) { state(q, q_dot); }
 };
 
-/// Which of a shape model's strain coordinates an equation of motion has. One of a DOF that is off is zero; one of a
-/// DOF that is being switched off returns to zero by a prescribed motion, critically damped.
+/// The strain coordinates of a shape model that an equation of motion has. Those of a DOF that is off are zero; those
+/// of a DOF that is being switched off return to zero by a prescribed motion, critically damped.
 class ActiveCoordinates {
  public:
-  /// All of `count` coordinates, 1 … max_strain_coordinates.
+  /// Begins with all coordinates active: `count`, 1 … max_strain_coordinates.
   explicit ActiveCoordinates(int count);
 
   int count() const { return count_; }  ///< of the shape model
@@ -32,18 +32,18 @@ class ActiveCoordinates {
   /// Switches the coordinates of a DOF on or off. One that goes off while strained in the state `full` returns to zero
   /// from time `t` [s] on with the time constant `return_time` [s].
   void set(const rod::CoordinateRange& range, bool on, double t, double return_time, const StrainState& full);
-  /// Ends the returns that have come to zero by time `t` [s]. True if one has.
+  /// Ends the returns that have reached zero by time `t` [s]. Returns whether one ended.
   bool drop_finished_returns(double t);
 
-  /// The active ones of all coordinates.
+  /// Picks the active coordinates out of all.
   rod::StrainVector gather(const rod::StrainVector& all) const;
-  /// All coordinates, of which those that are not active are zero, in place.
+  /// Writes all coordinates, count() of them: the active ones from `active`, zero for the others.
   template <typename S>
   void scatter(const S* active, S* all) const {
     for (int c = 0; c < count_; ++c) all[c] = S{};
     for (int i = 0; i < size_; ++i) all[(*this)[i]] = active[i];
   }
-  /// All coordinates at time `t` [s], with the prescribed ones as they are then.
+  /// Returns all coordinates at time `t` [s], including the prescribed ones.
   StrainState full_state(double t, const StrainState& active) const;
   /// Sets lane `k` of the prescribed coordinates at time `t` [s] among all; the others stay.
   template <typename S>

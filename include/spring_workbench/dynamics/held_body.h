@@ -79,18 +79,18 @@ class HeldBody {
   void set_springs_with_modal_damping(const rod::PerDof& stiffness, double damping_ratio);
   /// Stiffness, damping ratios and damping law of `fork`.
   void set_springs(const rod::ForkSettings& fork);
-  /// Moment of inertia about the fork's axis through the grasp [kg·m²].
+  /// Returns the body's moment of inertia about the fork's axis, which passes through the tip [kg·m²].
   double axial_inertia() const;
-  /// Stiffness [N/m, N/m, N·m/rad] and damping coefficients [the same times s] of the DOFs; with one ratio for every
-  /// mode, those of each DOF by itself.
+  /// Stiffness [N/m, N/m, N·m/rad] and damping coefficients [the same times s] of the DOFs. With modal damping the
+  /// coefficients are those that would give each DOF this ratio by itself.
   const rod::PerDof& dof_stiffness() const { return stiffness_; }
   const rod::PerDof& dof_damping() const { return damping_; }
 
-  /// Switches DOFs. One that is switched off while strained follows, from time `t` [s] on, the critically damped return
-  /// with the time constant `return_time` [s]; `full` is the state in all coordinates at `t`. Returns the new active
-  /// state: pose and twist of the body do not change.
+  /// Switches DOFs on and off. A DOF that is switched off while strained returns to zero, critically damped, from time
+  /// `t` [s] on with the time constant `return_time` [s]; `full` is the state in all coordinates at `t`. Returns the
+  /// new active state, in which the body has the same pose and twist.
   StrainState set_dofs(const rod::ForkDofs& dofs, double t, double return_time, const StrainState& full);
-  /// Ends prescribed motions that have come to zero by time `t`. Returns whether one ended.
+  /// Ends the prescribed returns that have reached zero by time `t` [s]. Returns whether one ended.
   bool drop_finished_returns(double t);
   /// Returns whether a DOF that was switched off is still returning to zero strain.
   bool returning() const { return coordinates_.returning(); }
@@ -151,7 +151,7 @@ class HeldBody {
   /// Active state at time `t` in all coordinates of the shape model.
   StrainState full_state(double t, const StrainState& state) const { return coordinates_.full_state(t, state); }
 
-  /// Pose, velocity and, where `q_ddot` is given, acceleration of the object frame O, in world axes.
+  /// Pose, velocity and, if `q_ddot` is given, acceleration of the object frame O, in world axes.
   motion::MotionState object(const HandleForcing& handle, const StrainState& state,
                              const rod::StrainVector* q_ddot = nullptr) const;
   /// Jacobian of the object's velocity [linear; angular], axes of H, in the active coordinates: 6 × size().
@@ -175,9 +175,9 @@ class HeldBody {
     Matrix3d R_HO;
     rod::StrainJacobian linear, angular;
   };
-  /// The tip for strain and rates of all coordinates: that of the last call if it was for the same. What does not
-  /// depend on the rates is right for any of them if they are not `of_rates`.
-  const rod::TipOf<double>& tip(const double* q, const double* q_dot, bool of_rates) const;
+  /// Computes the tip for strain and strain rates of all coordinates, or returns the last result if it was for the same
+  /// ones. Without `needs_rates`, only what depends on the strain alone is valid.
+  const rod::TipOf<double>& tip(const double* q, const double* q_dot, bool needs_rates) const;
   template <int n, typename S>
   void accelerate(const ForcingOf<S>& handle, const S* q, const S* q_dot, S* q_ddot,
                   EnergyBalance* balance = nullptr) const;
@@ -209,13 +209,13 @@ class HeldBody {
   rod::StrainVector K_, D_;          ///< all coordinates; with modal damping D_ is zero
   bool modal_ = false;
   double modal_ratio_ = 0.0;
-  rod::StrainMatrix D_modal_;  ///< active coordinates; where modal_
+  rod::StrainMatrix D_modal_;  ///< active coordinates; valid if modal_
   ActiveCoordinates coordinates_;
   Couplings couplings_;
   Wrench external_W_;
   bool loaded_ = false;  ///< the external wrench is not zero
   PathCheck path_check_;
-  /// A step asks for pose, Jacobian and mass matrix of one state several times over. Not for two threads at once.
+  /// Result of the last tip(): a step asks for pose, Jacobian and mass matrix of one state repeatedly. Not thread-safe.
   struct LastTip {
     bool known = false;
     std::array<double, rod::max_strain_coordinates> q, q_dot;

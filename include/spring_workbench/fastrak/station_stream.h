@@ -8,14 +8,14 @@
 
 namespace spring_workbench::fastrak {
 
-/// The stamps of one station of a device: by the device's cadence. That is measured over three seconds without a gap,
-/// again if it proves wrong; until then a stamp is the moment of receipt.
+/// Stamps the samples of one station of a device evenly, at the device's cadence. The cadence is measured over three
+/// seconds without a gap, and again if samples drift from it; until then a stamp is the moment of receipt.
 class StationStream {
  public:
   /// `dropout_after` [s], > 0: see StreamMonitor. `even_stamps`: false leaves the moments of receipt as they are.
   StationStream(double dropout_after, bool even_stamps) : even_stamps_(even_stamps), monitor_(dropout_after) {}
 
-  /// Stamp [s] of the next sample, received at `received` [s] of the same clock.
+  /// Returns the stamp [s] of the next sample, which was received at `received` [s] by the same clock.
   double stamp(double received);
   const motion::StreamFigures& figures() const { return monitor_.figures(); }
 

@@ -6,14 +6,14 @@
 
 namespace spring_workbench::geometry {
 
-/// Where a ray meets a shape.
+/// Point at which a ray enters a shape.
 struct RayHit {
   double distance;    ///< along the ray [m]
-  Vector3d normal_O;  ///< outward, of unit length; zero where the ray starts inside
+  Vector3d normal_O;  ///< outward unit normal; zero if the ray starts inside
 };
 
-/// The first of the shapes that begins along the unit vector `d_O` from `p_O` [m] on (both in the frame of the shapes),
-/// at most `reach` [m] away; at 0 where the start is inside. Nothing if the path is free.
+/// Returns the first hit of the ray from `p_O` [m] along the unit vector `d_O` (both in the frame of the shapes) on any
+/// of the shapes, at most `reach` [m] away; at distance 0 if it starts inside one. Nothing if it hits none.
 std::optional<RayHit> first_along_ray(const std::vector<Shape>& shapes, const Vector3d& p_O, const Vector3d& d_O,
                                       double reach);
 

@@ -7,11 +7,11 @@
 
 namespace spring_workbench::hand_input {
 
-/// Lets a hand rest that only trembles. A hand that stays within `dead_band_distance` and `dead_band_angle` of one pose
-/// for 0.3 s rests: the followed pose is bit-identical from then on, until the tracked one is farther from it than
+/// Keeps a hand that only trembles at rest. A hand that stays within `dead_band_distance` and `dead_band_angle` of one
+/// pose for 0.3 s rests: the followed pose is bit-identical from then on, until the tracked one is farther from it than
 /// that. Then it is dragged along at that distance, which shrinks with a time constant of 0.1 s. The followed pose is
 /// therefore never farther than the band from the tracked one, does not jump, and is the tracked one during motion. A
-/// band of 0 for position or rotation leaves that alone.
+/// band of 0 for position or rotation leaves it unfiltered.
 class DeadBand {
  public:
   explicit DeadBand(const InputSettings& settings) : settings_(settings) {}

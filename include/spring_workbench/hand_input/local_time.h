@@ -2,12 +2,12 @@
 
 namespace spring_workbench::hand_input {
 
-/// One moment on two clocks [s].
+/// The present moment on two clocks [s].
 struct LocalTime {
-  double loop = 0.0;      ///< of the loop: steady, or simulated
-  double attended = 0.0;  ///< of the steady clock, the time in which this process ran: it grows by at most 10 ms from
-                          ///< one look to the next, so that messages that wait while a busy machine stops the process
-                          ///< are not taken for messages that do not come
+  double loop = 0.0;      ///< clock of the loop: the steady clock or, under use_sim_time, simulated time
+  double attended = 0.0;  ///< time that this process has spent running, by the steady clock: each reading adds at most
+                          ///< 10 ms, so that messages that only wait, because a busy machine has stopped the process,
+                          ///< do not count as missing
 };
 
 }  // namespace spring_workbench::hand_input

@@ -37,7 +37,7 @@ class Reacquisition {
   void restart();
 
  private:
-  void set_out(const motion::PoseSample& sample);
+  void begin_catch_up(const motion::PoseSample& sample);
   RigidTransform catch_up(const motion::PoseSample& sample);
   double lost_at() const { return newest_->t + settings_.loss_timeout; }
   void note_loss(double t);
@@ -46,7 +46,7 @@ class Reacquisition {
   std::optional<motion::PoseSample> newest_;  ///< followed
   motion::PoseSample tracked_;                ///< the newest one, as it was tracked
   bool catching_up_ = false;
-  double set_out_at_ = 0.0;      ///< [s]
+  double catch_up_began_ = 0.0;  ///< [s]
   bool loss_noted_ = false;      ///< the present loss is counted
   std::deque<double> releases_;  ///< not taken yet
   ReacquisitionCounts counts_;

@@ -7,7 +7,7 @@
 
 namespace spring_workbench::motion {
 
-/// Where a tracked head is when a picture of it is seen.
+/// Predicts where a tracked head is when a picture that is drawn now is seen.
 class HeadMotion {
  public:
   /// Returns the pose of the head in F at `latency` [s] from `now` [s, by the steady clock], predicted from the samples
@@ -18,7 +18,7 @@ class HeadMotion {
  private:
   PosePredictor predictor_;
   double stamp_ = -std::numeric_limits<double>::infinity();  ///< of the newest sample [s]
-  double came_ = 0.0;                                        ///< when it was given [s]
+  double received_at_ = 0.0;                                 ///< when it was given [s]
 };
 
 }  // namespace spring_workbench::motion

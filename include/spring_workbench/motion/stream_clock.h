@@ -24,7 +24,7 @@ class WallClock {
 
  private:
   std::mutex mutex_;
-  std::optional<std::int64_t> apart_;  ///< wall less steady at the last look [ns]
+  std::optional<std::int64_t> offset_;  ///< wall less steady at the last look [ns]
   std::int64_t steps_ = 0;
 };
 
@@ -50,7 +50,7 @@ class StreamClock {
 
   /// A message stamped `stamp` [ns] came at `now`.
   StampVerdict judge(std::int64_t stamp, const WallMoment& now);
-  /// The local time of a message that is used whatever its stamp says: by that where it fits, else now [ns].
+  /// Returns the local time [ns] of a message that is used in any case: that of its stamp if it fits, otherwise now.
   std::int64_t local_or_now(std::int64_t stamp, const WallMoment& now);
   /// The stamp by the local wall clock without its steps [ns].
   std::int64_t local(std::int64_t stamp) const { return stamp - offset_; }
@@ -58,7 +58,7 @@ class StreamClock {
   double age(std::int64_t stamp, const WallMoment& now) const {
     return 1e-9 * static_cast<double>(now.now - local(stamp));
   }
-  /// Whether a message has fitted.
+  /// Returns whether a message has fitted yet.
   bool has_begun() const { return newest_.has_value(); }
   /// Steps of the sender's clock so far.
   std::size_t steps() const { return steps_; }

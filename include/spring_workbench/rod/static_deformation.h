@@ -7,11 +7,11 @@
 
 namespace spring_workbench::rod {
 
-/// A strain and how it changes with the generalised force: what a fork under a load comes to rest at.
+/// Strain of a fork in equilibrium under a load, and its derivative by the generalised force.
 struct RestStrain {
   StrainVector q;
   StrainMatrix compliance;  ///< symmetric, ≥ 0; zero for coordinates without stiffness
-  StrainVector imbalance;   ///< elastic force less that of the load, which is left; none at the end of the range
+  StrainVector imbalance;   ///< residual: elastic force less that of the load; zero at the end of the range
 };
 
 /// The fork at rest under a load at the object's centre of mass that keeps its direction in the handle frame H
@@ -25,9 +25,9 @@ class StaticDeformation {
                     const Wrench& load_H)
       : shape_(shape), K_(stiffness), active_(active), p_EO_(p_EO), load_H_(load_H) {}
 
-  /// In the paper's order (section 5): bend and stretch with the twist of `from`, then the twist with these. So a
-  /// load that stays is followed, twist and bend by turns, to the equilibrium of all. Newton's method with a line
-  /// search, from `from`; where the rod's range ends, it stays at the end.
+  /// In the paper's order (section 5): bend and stretch with the twist of `from`, then the twist with these; repeated
+  /// calls under a constant load therefore converge to the equilibrium of all coordinates. Newton's method with a line
+  /// search, starting at `from`; stops at the end of the rod's range.
   RestStrain under_load(const StrainVector& from) const;
 
   /// Generalised force of the load, or of another at the same place [force; moment].
@@ -35,7 +35,7 @@ class StaticDeformation {
   StrainVector force(const StrainVector& q, const Vector6d& load_H) const;
 
  private:
-  /// Active coordinates that are found together.
+  /// Active coordinates that are solved for together.
   struct Block {
     int count = 0;
     int index[max_strain_coordinates] = {};
@@ -43,12 +43,12 @@ class StaticDeformation {
   struct Slope;
   Block block(bool torsion) const;
   StrainVector imbalance(const StrainVector& q) const;  ///< elastic force less that of the load
-  /// Derivative of the imbalance by the block's coordinates; and how far each moves the tip per unit, over the
-  /// fork's length or in radians.
+  /// Derivative of the imbalance by the block's coordinates; and the tip's motion per unit of each, as a fraction of
+  /// the fork's length or in radians.
   Slope slope(const StrainVector& q, const Block& block) const;
   /// Equilibrium of the block's coordinates; returns those that are not at the end of the rod's range.
   Block find(Block block, StrainVector& q) const;
-  /// Puts coordinates that `change` alone leads out of the range to its end, and takes them from the block.
+  /// Moves coordinates that `change` alone would lead out of the range to its end, and removes them from the block.
   bool stop(const StrainVector& change, Block& block, StrainVector& q) const;
 
   const ShapeModel& shape_;

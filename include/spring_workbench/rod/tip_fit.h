@@ -5,17 +5,17 @@
 
 namespace spring_workbench::rod {
 
-/// Inverse kinematics of a shape of six coordinates: the strain, and its rate, with which the tip E moves as it is
-/// told. For one motion (`S` double) or several. Where the rod cannot (the end of its range, or of the poses that it
-/// reaches) it is the strain that comes nearest to the pose, on the way from the one before: its tip stays behind, and
-/// rates and wrenches are finite.
+/// Inverse kinematics of a shape model of six coordinates: strain and strain rate for a prescribed motion of the tip E,
+/// for one motion (`S` double) or several. If the rod cannot reach the pose (at the end of its range, or of its
+/// workspace), it is the strain on the path from the last one that comes nearest: the tip stays behind, and rates and
+/// wrenches are finite.
 template <typename S>
 struct TipFit {
   S q[max_strain_coordinates], q_dot[max_strain_coordinates];
   TipOf<S> tip;  ///< of `q`: what it reaches of the pose
 
-  /// `R_HE`, `p_HE`: the pose; velocities in the axes of H. Goes from the strain `start` on, by Newton's method; if the
-  /// solutions that lead on from it end, from the straight rod. A `bushing` has a closed form. Keeps a reference to
+  /// `R_HE`, `p_HE`: the pose; velocities in the axes of H. Newton's method, starting at the strain `start` or, if the
+  /// branch of solutions from there ends, at the straight rod. A `bushing` has a closed form. Keeps a reference to
   /// `shape`.
   TipFit(const ShapeModel& shape, const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE,
          const math::Three<S>& v_HE, const math::Three<S>& w_HE, const S* start);
@@ -25,12 +25,12 @@ struct TipFit {
 
  private:
   void find_strain(const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE, const S* start);
-  /// Newton's method from `q` on. Returns whether it went as the slope foretold, in the rod's range.
+  /// Newton's method from `q` on. Returns whether its steps did what the slope predicted, inside the rod's range.
   bool follow_slope(const math::ThreeByThree<S>& R_HE, const math::Three<S>& p_HE);
 
   const ShapeModel& shape_;
   math::SquareSystem<max_strain_coordinates, S> exact_;  ///< the tip's Jacobian, velocities over the rod's length
-  bool at_its_end_[math::lanes<S>];                      ///< it is all but singular: the tip can hardly move somewhere
+  bool near_singular_[math::lanes<S>];                   ///< the Jacobian: the tip can hardly move in some direction
 };
 
 extern template struct TipFit<double>;

@@ -22,11 +22,11 @@ std::size_t movable_body(const Scene& scene, const std::string& name, const std:
 /// Throws InputError naming `where` for one without mass and without volume.
 void set_mass(Body& body, double mass, const std::string& where);
 
-/// Writes the scene to the URDF `path`, which ends in .urdf, and the YAML beside it; both first under temporary names,
-/// which are then renamed.
-/// Links on fixed joints are one link then, meshes are named where they lie. What `load_scene` reads from there are the
-/// same bodies, materials, targets and settings, to rounding. Returns the path of the URDF. Throws InputError where
-/// `path` is in none of `roots` and no ROS package (no `roots`: anywhere), or cannot be written.
+/// Writes the scene to the URDF `path`, which must end in .urdf, and to the YAML file of the same name next to it; both
+/// are written under temporary names and then renamed. Links joined by fixed joints become one link; meshes are not
+/// copied, but referred to by their paths. load_scene() reads back the same bodies, materials, targets and settings, up
+/// to rounding. Returns the path of the URDF. Throws InputError if `path` cannot be written, or is neither in one of
+/// `roots` nor in a ROS package (without `roots`: may be anywhere).
 std::string save_scene(const Scene& scene, const std::string& path, const std::vector<std::string>& roots = {});
 
 }  // namespace spring_workbench::scene

@@ -11,9 +11,9 @@ double weighing_gravity(double gravity);
 
 /// Stiffness [N/m, N/m, N·m/rad] of a fork of shape model `shape` and `length` [m] for the body as it is grasped
 /// (`body.X_OE`). Hanging from the upright fork it extends the fork by `goal.sag` of its length; held level, gravity
-/// along −x of the handle, it deflects the tip by as much: both in the full nonlinear equilibrium. Then every
-/// direction, twisting too, has near to the natural frequency `ω = sqrt(g / (sag · length))`, whatever the mass.
-/// If `gravity` is 0, the Earth's is used.
+/// along −x of the handle, it deflects the tip by as much: both in the full nonlinear equilibrium. Every
+/// direction, twisting included, then has about the natural frequency `ω = sqrt(g / (sag · length))`, whatever the
+/// mass. If `gravity` is 0, the Earth's is used.
 rod::PerDof calibrated_stiffness(rod::ShapeKind shape, double length, const dynamics::BodyInertia& body, double gravity,
                                  const ObjectGoal& goal = {});
 
@@ -38,12 +38,12 @@ WorldLoad world_load(const scene::Scene& scene, const WorldGoal& goal);
 /// Stiffness [N/m, N/m, N·m/rad] of the one fork for all bodies of a world (paper, section 4), of `shape`, `length` and
 /// `slope_stiffness` as in `fork`: hanging from the upright fork, `load.mass` extends it by `goal.stretch` of its
 /// length; held level at its centre it deflects the tip by `goal.bend` of the length; held level at a lever of
-/// `load.lever` from its centre it twists the fork by `goal.twist`: each in the full nonlinear equilibrium. What weighs
-/// less does so in proportion. If `gravity` is 0, the Earth's is used.
+/// `load.lever` from its centre it twists the fork by `goal.twist`: each in the full nonlinear equilibrium. Lighter
+/// bodies deform it in proportion. If `gravity` is 0, the Earth's is used.
 rod::PerDof world_stiffness(const rod::ForkSettings& fork, const WorldLoad& load, double gravity,
                             const WorldGoal& goal = {});
 
-/// The damping law of a calibrated fork: `modal`, if the damping ratios of its degrees of freedom are one.
+/// Sets the damping law of a calibrated fork to `modal` if the damping ratios of its degrees of freedom are equal.
 void damp_calibrated(rod::ForkSettings& fork);
 
 }  // namespace spring_workbench::tools

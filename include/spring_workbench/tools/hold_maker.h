@@ -22,7 +22,7 @@ struct Grasp {
   void exchange(math::StateArchive& state) { state(tool, object, X_WS, X_OE, reach, length); }
 };
 
-/// The object that it takes.
+/// The object to be grasped.
 struct GraspedBody {
   std::size_t index = 0;  ///< in the scene
   const scene::Body& body;

@@ -15,15 +15,15 @@ struct ToolOnObject {
   Probe* probe = nullptr;
 };
 
-/// An object on several tools, or pushed, over one step: one tool leads and carries it, the others pull at it and
+/// An object on several tools, or pushed, over one step: one tool leads and carries it, the others pull on it and
 /// follow (doc/model.md, "Several tools on one object").
 class Sharing {
  public:
-  /// All tools on the object, which know their hands' motion; `make_unheld`: it as none holds it.
+  /// `tools`: all on the object, with their hands' motions set; `make_unheld`: makes the object as if no tool held it.
   Sharing(const std::vector<ToolOnObject>& tools, const std::function<std::unique_ptr<ToolHold>()>& make_unheld);
 
   ToolHold* body() { return leader_; }
-  /// The step is done, and the object is there at time `now` [s].
+  /// Ends the step: the followers follow to time `now` [s], at which `object` is the motion of the object.
   void end_step(const motion::MotionState& object, double now);
 
  private:

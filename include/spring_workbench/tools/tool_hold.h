@@ -12,28 +12,29 @@
 
 namespace spring_workbench::tools {
 
-/// A tool's hold on an object: the object as the hand moves it through the tool.
+/// A tool's hold on an object: a body that the hand moves through the tool.
 class ToolHold : public bodies::SteppedBody {
  public:
-  // Of several tools on an object one leads: it carries the object, and the others pull at it as couplings of its
-  // equation of motion. They follow where the object has come to (doc/model.md, "Several tools on one object").
+  // If several tools hold an object, one leads: it carries the object, and the others pull on it as couplings in its
+  // equation of motion. They then follow to the object's new pose (doc/model.md, "Several tools on one object").
   virtual double since() const = 0;  ///< when it took hold [s]
-  /// As a tool that follows, for the steps from the present state on.
+  /// Returns this tool as a follower's coupling, for the steps from the present state on.
   virtual const dynamics::Coupling& coupling() = 0;
-  /// Leads from now on; without others it is alone with the object. To be told before each step.
+  /// Leads from now on, with `others` as followers; without any, this tool alone holds the object. Call before each
+  /// step.
   virtual void lead(const std::vector<dynamics::Attached>& others) = 0;
-  /// The step with the others is done: they are not asked any more.
+  /// Ends the step with the followers, which are not used any more.
   virtual void stop_leading() = 0;
-  /// The object has come there by time `t` [s].
+  /// Follows the leader to time `t` [s], at which `object` is the motion of the object.
   virtual void follow(double t, const ToolHold& leader, const motion::MotionState& object) = 0;
-  /// The hand's motion that its springs begin at.
+  /// Returns the motion of the hand to which the springs are attached.
   virtual const motion::MotionSegment& hand() const = 0;
-  /// Of the handle that the object sees from the hand's: seen = offset · hand, in world.
+  /// Returns the offset, in world, of the handle on which the springs act from that in the hand: offset · X_WH.
   virtual const RigidTransform& offset() const = 0;
 
-  /// A constant wrench on the object beyond contact, at its centre, world axes. To be told before each step.
+  /// Sets a constant wrench on the object in addition to contact, at its centre, world axes. Call before each step.
   virtual void set_load(const Wrench& load_W) = 0;
-  /// The present time [s] and the hand's motion from it on; it must cover the steps that follow.
+  /// Sets the present time [s] and the motion of the hand, which must cover the steps that follow.
   virtual void set_hand(const motion::MotionSegment& hand, double t) = 0;
   /// Whether nothing moves for the next `h` [s], so that only let_pass() is needed: the hand is at rest and the object
   /// has come to rest on it. `may_fall_asleep`: false if something else may move it.

@@ -127,24 +127,23 @@ TEST(CheckpointFile, WhatIsNotOursIsLeftAlone) {
   const auto expect_refused = [&](const std::string& path, const std::string& reason) {
     const CheckpointFile file(path);
     const std::string told =
-        "manipulation: checkpoint_file: must be the path of a checkpoint, or of no file yet, in a folder that can be "
-        "written, got " +
-        path + ": " + reason;
+        "manipulation: checkpoint_file: must be the path of a checkpoint or of a new file, in a writable folder, got " +
+        path + " (" + reason + ")";
     EXPECT_EQ(refusal([&] { file.read(); }), told);
     EXPECT_EQ(refusal([&] { file.write("new"); }), told);
     EXPECT_EQ(refusal([&] { file.remove(); }), told);
     EXPECT_EQ(refusal([&] { file.set_aside(); }), told);
     EXPECT_TRUE(fs::exists(fs::symlink_status(path)));
   };
-  expect_refused(folder.path("other"), "it is another file");
-  expect_refused(folder.path("empty"), "it is another file");
-  expect_refused(folder.path("folder"), "it is no regular file");
-  expect_refused(folder.path("link"), "it is a link");
-  expect_refused(folder.path("dangling"), "it is a link");
-  expect_refused(folder.path("fifo"), "it is no regular file");
-  expect_refused("/dev/zero", "it is no regular file");
+  expect_refused(folder.path("other"), "a file of another program");
+  expect_refused(folder.path("empty"), "a file of another program");
+  expect_refused(folder.path("folder"), "not a regular file");
+  expect_refused(folder.path("link"), "a symbolic link");
+  expect_refused(folder.path("dangling"), "a symbolic link");
+  expect_refused(folder.path("fifo"), "not a regular file");
+  expect_refused("/dev/zero", "not a regular file");
   const std::string below = folder.path("other/a");
-  EXPECT_NE(refusal([&] { CheckpointFile(below).write("x"); }).find(below + ": Not a directory"), std::string::npos);
+  EXPECT_NE(refusal([&] { CheckpointFile(below).write("x"); }).find(below + " (Not a directory)"), std::string::npos);
   const std::string nowhere = folder.path("none/a");
   EXPECT_EQ(refusal([&] { CheckpointFile(nowhere).write("x"); }),
             "manipulation: checkpoint_file: " + nowhere + ": cannot be written: No such file or directory");

@@ -8,10 +8,10 @@
 
 namespace spring_workbench::ros_common {
 
-/// What the topics and frames of a hand end in: "" of the first (0), "_2" of the second, and so on.
+/// Suffix of a hand's topics and frames: "" for the first hand (0), "_2" for the second, and so on.
 inline std::string hand_suffix(std::size_t hand) { return hand > 0 ? "_" + std::to_string(hand + 1) : ""; }
 
-/// Sends what `make` makes, with this header, if somebody listens.
+/// Publishes the message that `make` returns, with this header, if there is a subscriber.
 template <typename Make>
 void publish_made(const ros::Publisher& publisher, const std_msgs::Header& header, Make&& make) {
   if (publisher.getNumSubscribers() == 0) return;
