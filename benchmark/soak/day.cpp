@@ -86,7 +86,7 @@ class Day {
       if (chance(kTick / kChangeEvery)) change();
       for (std::size_t hand = 0; hand < hands_.size(); ++hand) send(hand);
       if (t_ >= stands_until_) cycle();
-      if (tick % 10 == 0) runner_->show(uniform(0.0, 0.05), now());
+      if (tick % 10 == 0) runner_->show(uniform(0.0, 0.05), now(), [](const live::Moment&) { return false; });
       if (tick % 30 == 0) compare();
       note(tick, end);
     }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <iterator>
 
 #include "constants.h"
@@ -14,7 +15,7 @@ SimulationRunner::Noted::Noted(SimulationRunner& runner, std::string what, Comma
 
 SimulationRunner::Noted::~Noted() {
   ++runner_.revision_;
-  runner_.ahead_->restart();
+  runner_.copies_.ahead.restart();
   if (!runner_.keeps_journal_) return;
   const std::string& scene = runner_.simulation_.scene().path;
   runner_.journal_.note(committed_, runner_.stamp(),
@@ -25,7 +26,7 @@ SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::
                                    const hand_input::InputSettings& input, bool simulated_time)
     : simulation_(scene, settings),
       feed_(simulation_, input),
-      ahead_(std::make_shared<LookAhead>(scene, settings)),
+      copies_(scene, settings),
       task_(scene),
       simulated_time_(simulated_time),
       times_(simulation_.hands(), simulated_time) {
@@ -91,16 +92,26 @@ void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
 
 void SimulationRunner::commit(double stop, CycleReport& report) {
   report.advance = feed_.advance_to(stop);
-  report.prediction = ahead_->compare(simulation_);
+  report.prediction = copies_.ahead.compare(simulation_);
   task_.observe(simulation_);
   ++revision_;
 }
 
-Shown SimulationRunner::show(double latency, const hand_input::LocalTime& now) {
+std::optional<Shown> SimulationRunner::show(double latency, const hand_input::LocalTime& now, const Wanted& wanted) {
   const Lock lock(mutex_);
   const double horizon = latency > 0.0 ? std::min(latency + feed_.waited(now), motion::PosePredictor::farthest) : 0.0;
-  const double beyond = ahead_->show_newest(simulation_, feed_, horizon, pace_);
-  return {{ahead_, &ahead_->shown()}, moment_at(ahead_->shown().time(), feed_.has_sample()), beyond};
+  const double beyond = copies_.ahead.show_newest(simulation_, feed_, horizon, pace_);
+  const simulation::Simulation& shown = copies_.ahead.shown();
+  const Moment at = moment_at(shown.time(), feed_.has_sample());
+  if (!wanted(at)) return std::nullopt;
+  return Shown{{at, shown.save(), copies_.reader}, beyond};
+}
+
+std::optional<Committed> SimulationRunner::committed(const Wanted& wanted) const {
+  const Lock lock(mutex_);
+  const Moment at = moment_at(simulation_.time(), std::isfinite(feed_.committed()));
+  if (!wanted(at)) return std::nullopt;
+  return Committed{{at, simulation_.save(), copies_.reader}, task_.placements(), task_.score()};
 }
 
 bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
@@ -159,7 +170,7 @@ void SimulationRunner::start_anew(const std::string& what, Command::Kind kind) {
   undo_.perform(command, simulation_);
   task_.reset();
   feed_.restart();
-  ahead_->begin_anew();
+  copies_.ahead.begin_anew();
 }
 
 void SimulationRunner::restart() {
@@ -189,8 +200,7 @@ void SimulationRunner::load(const scene::Scene& scene) {
   const auto [settings, forks] = locked([](const auto& s) { return std::make_pair(s.settings(), forks_of(s)); });
   Command command;
   command.kind = Command::Kind::load_scene;
-  begin_with("load_scene", command, make_simulation(scene, settings, forks),
-             std::make_shared<LookAhead>(scene, settings), {});
+  begin_with("load_scene", command, make_simulation(scene, settings, forks), Copies(scene, settings), {});
 }
 
 void SimulationRunner::resume(const scene::Scene& scene, const simulation::SimulationState& state) {
@@ -198,18 +208,18 @@ void SimulationRunner::resume(const scene::Scene& scene, const simulation::Simul
   simulation::Simulation simulation(scene, settings);
   simulation.restore(state);
   std::map<std::string, RigidTransform> places = put_to_rest(simulation, simulation.time());
-  begin_with("resume", {}, std::move(simulation), std::make_shared<LookAhead>(scene, settings), std::move(places));
+  begin_with("resume", {}, std::move(simulation), Copies(scene, settings), std::move(places));
 }
 
 void SimulationRunner::begin_with(const std::string& what, const Command& command, simulation::Simulation simulation,
-                                  std::shared_ptr<LookAhead> ahead, std::map<std::string, RigidTransform> places) {
+                                  Copies copies, std::map<std::string, RigidTransform> places) {
   const Lock lock(mutex_);
   const Noted noted(*this, what, command);
   places_ = std::move(places);
   undo_ = Undo();
   task_ = assembly::TaskMonitor(simulation.scene());
   simulation_ = std::move(simulation);
-  ahead_ = std::move(ahead);
+  copies_ = std::move(copies);
   feed_.restart();
 }
 

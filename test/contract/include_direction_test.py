@@ -10,7 +10,7 @@ import unittest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 OWN = "spring_workbench/"
 NODES = {"manipulation", "tracker_driver", "contact_sound", "register_tracker"}
-ROS_MODULES = NODES | {"ros_common", "machine_link", "markers", "nodes", "rviz_plugin"}
+ROS_MODULES = NODES | {"ros_common", "machine_link", "services", "markers", "nodes", "rviz_plugin"}
 EXTERNAL = [  # headers, modules that may use them, whether their public headers may as well
     (
         re.compile(

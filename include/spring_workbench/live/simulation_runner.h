@@ -1,7 +1,7 @@
 #pragma once
 
-#include <cmath>
 #include <deque>
+#include <functional>
 #include <limits>
 #include <map>
 #include <memory>
@@ -33,12 +33,32 @@ struct Moment {
   std::size_t revision = 0;  ///< grows with every change of the committed simulation
 };
 
-/// What is displayed: nothing changes it any more until the next one is asked for.
-struct Shown {
-  std::shared_ptr<const simulation::Simulation> simulation;
-  Moment at;             ///< its stamp is that of the displayed time
+/// A simulation at one moment, for another thread to read while the simulation goes on.
+struct Snapshot {
+  Moment at;
+  simulation::SimulationState state;
+  std::shared_ptr<simulation::Simulation> reader;  ///< of the same scene; all snapshots of a runner share it
+
+  /// The simulation as it was. The next call, of any snapshot of the runner, changes what it returns; one thread.
+  const simulation::Simulation& read() const {
+    reader->restore(state);
+    return *reader;
+  }
+};
+
+/// The committed simulation, and the task as it stood then.
+struct Committed : Snapshot {
+  std::vector<assembly::Placement> placements;
+  assembly::TaskScore score;
+};
+
+/// What is displayed; the stamp is that of the displayed time.
+struct Shown : Snapshot {
   double horizon = 0.0;  ///< how far it is beyond the newest sample [s]
 };
+
+/// Whether a snapshot of this moment is wanted.
+using Wanted = std::function<bool(const Moment&)>;
 
 /// Report of one cycle of the physics loop.
 struct CycleReport {
@@ -96,8 +116,10 @@ class SimulationRunner {
   CycleReport cycle(const HandEvents& events, const hand_input::LocalTime& now);
 
   /// Advances the displayed copy to the newest sample; with `latency` > 0 [s], further by `latency` and by the local
-  /// time since that sample arrived.
-  Shown show(double latency, const hand_input::LocalTime& now);
+  /// time since that sample arrived. Returns what is displayed, if it is wanted.
+  std::optional<Shown> show(double latency, const hand_input::LocalTime& now, const Wanted& wanted);
+  /// Returns the committed simulation, if it is wanted.
+  std::optional<Committed> committed(const Wanted& wanted) const;
 
   /// Puts all objects back to their initial poses with nothing held; the simulation continues with the next sample.
   void restart();
@@ -118,12 +140,6 @@ class SimulationRunner {
     const Lock lock(mutex_);
     return use(simulation_);
   }
-  /// Calls `use(const Simulation&, const TaskMonitor&, const Moment&)` with exclusive access to all of the same moment.
-  template <typename Use>
-  auto committed(Use&& use) const {
-    const Lock lock(mutex_);
-    return use(simulation_, task_, moment_at(simulation_.time(), std::isfinite(feed_.committed())));
-  }
   /// Makes a change of the present scene, which the journal calls `what`. Throws as perform().
   simulation::ChangeReport change(const std::string& what, const Command& command);
   /// Starts the journal, with the present state as its first entry, or stops it.
@@ -138,11 +154,18 @@ class SimulationRunner {
   HandStatistics hand_statistics(std::size_t hand) const;
   /// See LookAhead.
   double prediction_error_99() const {
-    return locked([this](const auto&) { return ahead_->position_error_99(); });
+    return locked([this](const auto&) { return copies_.ahead.position_error_99(); });
   }
 
  private:
   using Lock = std::lock_guard<FairMutex>;
+  /// What is made once for each scene: the displayed copy, and the one that snapshots are read with.
+  struct Copies {
+    Copies(const scene::Scene& scene, const simulation::SimulationSettings& settings)
+        : ahead(scene, settings), reader(std::make_shared<simulation::Simulation>(scene, settings)) {}
+    LookAhead ahead;
+    std::shared_ptr<simulation::Simulation> reader;
+  };
   /// Encloses a change of the simulation: its destructor writes the state after the change to the journal.
   class Noted {
    public:
@@ -170,13 +193,13 @@ class SimulationRunner {
   void commit(double stop, CycleReport& report);
   std::optional<std::int64_t> stamp() const;
   void start_anew(const std::string& what, Command::Kind kind);
-  void begin_with(const std::string& what, const Command& command, simulation::Simulation simulation,
-                  std::shared_ptr<LookAhead> ahead, std::map<std::string, RigidTransform> places);
+  void begin_with(const std::string& what, const Command& command, simulation::Simulation simulation, Copies copies,
+                  std::map<std::string, RigidTransform> places);
 
   mutable FairMutex mutex_;
   simulation::Simulation simulation_;
   hand_input::Feed feed_;
-  std::shared_ptr<LookAhead> ahead_;  ///< shared with who looks at what was shown last
+  Copies copies_;
   assembly::TaskMonitor task_;
   std::vector<HandInput> inputs_;
   bool simulated_time_;

@@ -68,6 +68,11 @@ motion::WallMoment wall_moment() {
   return ros::Time::isSimTime() ? motion::WallMoment{reading.ros, 0} : clock.look(reading.ros, reading.steady);
 }
 
+ros::Time stamp_of(const std::optional<std::int64_t>& stamp) {
+  const motion::WallMoment moment = wall_moment();
+  return ros::Time().fromNSec(static_cast<std::uint64_t>(stamp.value_or(moment.now) + moment.steps));
+}
+
 ros::Time ros_time(double t) {
   const Reading reading = read_clocks();
   return ros::Time().fromNSec(static_cast<std::uint64_t>(reading.ros)) -

@@ -7,7 +7,8 @@ namespace spring_workbench::manipulation {
 
 // Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
-/// messages of one topic that wait for a slow subscriber. Fewer: a run of steps without pause loses some. Test:
+/// messages of one topic that wait for a slow subscriber, and committed states whose messages are not made yet (beyond
+/// them the loop waits). Fewer: a run of steps without pause loses some. Test:
 /// played_recordings_test.py::test_a_hundred_rounds_are_the_same.
 constexpr std::uint32_t state_queue = 1000;
 /// messages of /tf or of buttons that wait while the machine is busy. Fewer: samples are lost. Test:

@@ -48,9 +48,10 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private
       wrenches_(input_thread_.handle(private_node), inputs_.size(), parameters_.world_frame, parameters_.frame_prefix,
                 parameters_.max_age, [this] { alarm_.ring(); }),
       publisher_(private_node, parameters_),
+      outbox_(publisher_, runner_),
       scene_publisher_(private_node, parameters_.world_frame),
-      services_(advertise_services(private_node, runner_, scene_roots(parameters_, runner_))),
-      live_tuning_(make_live_tuning(private_node, runner_)),
+      services_(services::advertise_services(private_node, runner_, scene_roots(parameters_, runner_))),
+      live_tuning_(services::make_live_tuning(private_node, runner_)),
       checkpoint_(master_thread_.handle(private_node), disk_thread_.handle(private_node), parameters_.checkpoint_file,
                   runner_, parameters_.scene, scene_roots(parameters_, runner_)),
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
@@ -107,17 +108,12 @@ bool ManipulationNode::run_step(double begin) {
   for (std::size_t hand = 0; hand < inputs_.size(); ++hand) inputs_[hand].count_rejected(report.rejected[hand]);
   // In simulated time the clock may have gone on by itself.
   const double deadline = (ros::Time::isSimTime() ? std::max(begin, local.loop) : begin) + 1.0 / parameters_.rate;
-  std::optional<live::Shown> shown;
   if (!report.more || local.loop >= show_at_latest_) {
     show_at_latest_ = local.loop + 1.0 / parameters_.rate;
-    shown = runner_.show(parameters_.display_latency, local);
+    outbox_.take_shown(parameters_.display_latency, local);
   }
-  const double simulated = ros_common::steady_time();
-  if (shown) publisher_.publish_shown(*shown, local.loop);
-  publisher_.publish_committed(runner_, report, publish_time_, ros_common::loop_time() > deadline);
-  publisher_.publish_journal(runner_);
-  publish_time_ = ros_common::steady_time() - simulated;
-  count(report, ros_common::loop_time() > deadline);
+  const bool sent = outbox_.take_committed(report, deadline);
+  count(report, !sent && ros_common::loop_time() > deadline);
   return report.more;
 }
 
@@ -138,6 +134,7 @@ void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
   std::unique_lock<std::mutex> loop_lock(loop_mutex_);
   LoopStatistics loop = loop_;
   loop_lock.unlock();
+  loop.deadlines_missed += outbox_.deadlines_missed();
   loop.prediction_error = runner_.prediction_error_99();
   loop.checkpoint_error = checkpoint_.file_error();
   loop.realtime_priority = realtime_priority_;

@@ -14,19 +14,6 @@ namespace spring_workbench::manipulation {
 
 using ros_common::publish_made;
 
-namespace {
-
-/// Now, as stamps of the simulation are [ns].
-std::int64_t now() { return ros_common::wall_moment().now; }
-/// Such a stamp as the clock stands now.
-ros::Time at(std::int64_t stamp) {
-  return ros::Time().fromNSec(static_cast<std::uint64_t>(stamp + ros_common::wall_moment().steps));
-}
-
-ros::Time stamp_of(const live::Moment& moment) { return at(moment.began ? moment.stamp : now()); }
-
-}  // namespace
-
 StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters)
     : world_frame_(parameters.world_frame),
       frame_prefix_(parameters.frame_prefix),
@@ -55,7 +42,7 @@ void StatePublisher::publish_journal(live::SimulationRunner& runner) {
   if (listeners == 0 && journal_listeners_ > 0) runner.keep_journal(false);
   journal_listeners_ = listeners;
   for (const live::Entry& entry : runner.take_journal()) {
-    const std_msgs::Header header = header_at(at(entry.stamp.value_or(now())));
+    const std_msgs::Header header = header_at(ros_common::stamp_of(entry.stamp));
     const auto send = [&](auto message, const ros::Publisher& publisher) {
       message.header = header;
       message.index = entry.index;
@@ -68,58 +55,42 @@ void StatePublisher::publish_journal(live::SimulationRunner& runner) {
   }
 }
 
-bool StatePublisher::Repeat::due(const live::Moment& moment, const ros::Time& new_stamp) {
-  const double steady = ros_common::steady_time();
-  // Before the first sample the stamp goes on by itself.
-  const bool same = moment.revision == revision && (new_stamp == stamp || !moment.began);
-  if (same && steady < sent + repeat_after) return false;
-  *this = {new_stamp, moment.revision, steady};
-  return true;
+void StatePublisher::publish(const CommittedState& state, double publish_time) {
+  const simulation::Simulation& simulation = state.committed.read();
+  const std_msgs::Header header = header_at(state.stamp);
+  publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
+  for (std::size_t hand = 0; hand < hands_.size(); ++hand) publish_hand(hand, simulation, header);
+  publish_contacts(simulation, header);
+  publish_made(task_publisher_, header, [&] { return to_message(state.committed.placements, state.committed.score); });
+  publish_made(steps_publisher_, header, [&] {
+    const live::CycleReport& report = state.report;
+    StepReport message = to_message(report.advance);
+    (markers_were_built_ ? message.active : message.skipped).push_back("markers");
+    message.wall_time = report.wall_time;
+    message.publish_time = publish_time;
+    message.deadline_missed = ros_common::loop_time() > state.deadline;
+    message.integrator = validation::name_of(simulation.settings().dynamics.integrator);
+    message.behind = report.behind;
+    message.input_age = report.input_age;
+    message.horizon = horizon_;
+    message.prediction_error = report.prediction.position;
+    message.prediction_angle_error = report.prediction.angle;
+    return message;
+  });
 }
 
-void StatePublisher::publish_committed(const live::SimulationRunner& runner, const live::CycleReport& report,
-                                       double publish_time, bool deadline_missed) {
-  runner.committed(
-      [&](const simulation::Simulation& simulation, const assembly::TaskMonitor& task, const live::Moment& moment) {
-        if (moment.has_sample && !moment.began) return;
-        const ros::Time stamp = stamp_of(moment);
-        if (!committed_.due(moment, stamp)) return;
-        const std_msgs::Header header = header_at(stamp);
-        publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
-        for (std::size_t hand = 0; hand < hands_.size(); ++hand) publish_hand(hand, simulation, header);
-        publish_contacts(simulation, header);
-        publish_made(task_publisher_, header, [&] { return to_message(task.placements(), task.score()); });
-        publish_made(steps_publisher_, header, [&] {
-          StepReport message = to_message(report.advance);
-          (markers_were_built_ ? message.active : message.skipped).push_back("markers");
-          message.wall_time = report.wall_time;
-          message.publish_time = publish_time;
-          message.deadline_missed = deadline_missed;
-          message.integrator = validation::name_of(simulation.settings().dynamics.integrator);
-          message.behind = report.behind;
-          message.input_age = report.input_age;
-          message.horizon = horizon_;
-          message.prediction_error = report.prediction.position;
-          message.prediction_angle_error = report.prediction.angle;
-          return message;
-        });
-      });
-}
-
-void StatePublisher::publish_shown(const live::Shown& shown, double local_time) {
-  horizon_ = shown.horizon;
-  const ros::Time stamp = stamp_of(shown.at);
-  if (!shown_.due(shown.at, stamp)) return;
-  const simulation::Simulation& simulation = *shown.simulation;
-  const std_msgs::Header header = header_at(stamp);
-  publish_transforms(simulation, stamp);
+void StatePublisher::publish(const ShownState& state) {
+  horizon_ = state.shown.horizon;
+  const simulation::Simulation& simulation = state.shown.read();
+  const std_msgs::Header header = header_at(state.stamp);
+  publish_transforms(simulation, state.stamp);
   publish_made(shown_objects_publisher_, header, [&] { return to_message(simulation.objects()); });
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
     const tools::ToolState tool = simulation.fork(hand);
     if (hand == 0 || tool.present)
       publish_made(hands_[hand].shown_fork, header, [&] { return to_message(tool, fork_diameter_); });
   }
-  markers_were_built_ = markers_.publish(simulation, header, local_time);
+  markers_were_built_ = markers_.publish(simulation, header, state.local_time);
 }
 
 void StatePublisher::publish_hand(std::size_t hand, const simulation::Simulation& simulation,

@@ -7,13 +7,12 @@
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/motion/stream_clock.h"
 #include "support/bench_scenes.h"
+#include "support/snapshots.h"
 
 namespace spring_workbench::live::clocks_test {
 namespace {
 
-std::int64_t stamp_of(const SimulationRunner& runner) {
-  return runner.committed([](const auto&, const auto&, const Moment& moment) { return moment.stamp; });
-}
+std::int64_t stamp_of(const SimulationRunner& runner) { return runner.committed(always)->at.stamp; }
 
 constexpr std::int64_t wall_begin = 1'700'000'000'000'000'000;
 constexpr double interval = 0.008;  // [s] between samples
@@ -122,7 +121,7 @@ class Session {
     while (report.more) report = runner_.cycle({}, arrival);
     const double force = runner_.locked([](const auto& s) { return s.fork().handle_wrench_H.force.norm(); });
     strongest_ = std::max(strongest_, force);
-    runner_.show(0.0, arrival);
+    runner_.show(0.0, arrival, always);
   }
 
   SimulationRunner runner_{one_box(), simulation::SimulationSettings(), hand_input::InputSettings(), false};

@@ -7,6 +7,7 @@
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/validation/input_error.h"
 #include "support/bench_scenes.h"
+#include "support/snapshots.h"
 
 namespace spring_workbench::live::live_test {
 namespace {
@@ -44,10 +45,10 @@ struct Bench {
   Shown last;
 
   double show(double latency, double now) {
-    last = runner.show(latency, {now, now});
+    last = *runner.show(latency, {now, now}, always);
     return last.horizon;
   }
-  const simulation::Simulation& shown() const { return *last.simulation; }
+  const simulation::Simulation& shown() const { return last.read(); }
   void commit(const HandEvents& events, double now) {
     CycleReport report = runner.cycle(events, {now, now});
     for (; report.more; report = runner.cycle({}, {now, now})) note(report);

@@ -13,13 +13,12 @@
 #include "spring_workbench/live/fair_mutex.h"
 #include "spring_workbench/live/simulation_runner.h"
 #include "support/bench_scenes.h"
+#include "support/snapshots.h"
 
 namespace spring_workbench::live::pace_test {
 namespace {
 
-std::int64_t stamp_of(const SimulationRunner& runner) {
-  return runner.committed([](const auto&, const auto&, const Moment& moment) { return moment.stamp; });
-}
+std::int64_t stamp_of(const SimulationRunner& runner) { return runner.committed(always)->at.stamp; }
 
 TEST(Pace, IsBehindWhereWhatIsTakenIsNotDoneSoon) {
   Pace quick, slow;
@@ -101,7 +100,7 @@ TEST(Pace, AStepThatCannotKeepUpLosesNothing) {
         if (sent == 1) events[0].emplace_back(StylusButton{t, motion::Press::grasp});
       }
       const CycleReport report = runner.cycle(events, {now(), now()});
-      runner.show(0.0, {now(), now()});
+      runner.show(0.0, {now(), now()}, always);
       ++cycles;
       behind += report.behind ? 1 : 0;
       left_out += report.left_out;

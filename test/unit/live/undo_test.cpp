@@ -4,6 +4,7 @@
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/validation/input_error.h"
 #include "support/bench_scenes.h"
+#include "support/snapshots.h"
 
 namespace spring_workbench::live::undo_test {
 namespace {
@@ -44,12 +45,10 @@ struct Bench {
       pose.arrival = {t, t};
       events[0].push_back(pose);
       while (runner.cycle(std::exchange(events, {}), {t, t}).more) continue;
-      shown = runner.show(0.0, {t, t});
+      shown = *runner.show(0.0, {t, t}, always);
     }
   }
-  std::size_t placements() const {
-    return runner.committed([](const auto&, const auto& task, const auto&) { return task.placements().size(); });
-  }
+  std::size_t placements() const { return runner.committed(always)->placements.size(); }
   double mass() const {
     return runner.locked([](const auto& s) { return s.scene().bodies[0].mass_properties.mass; });
   }
@@ -90,7 +89,7 @@ TEST(Undo, PutsObjectsAndMassesWhereTheyWereAndTimeGoesOn) {
   bench.go_on(100);
   EXPECT_GT(bench.time(), now);
   EXPECT_NEAR(bench.objects()[0].X_WO.translation().z(), 0.05, 1e-4);  // has fallen
-  EXPECT_EQ(bench.shown.simulation->objects().size(), 2u);
+  EXPECT_EQ(bench.shown.read().objects().size(), 2u);
   EXPECT_THROW(bench.runner.undo(), validation::InputError);
 }
 

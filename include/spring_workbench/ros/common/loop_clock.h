@@ -3,7 +3,9 @@
 #include <ros/time.h>
 
 #include <condition_variable>
+#include <cstdint>
 #include <mutex>
+#include <optional>
 
 #include "spring_workbench/hand_input/local_time.h"
 #include "spring_workbench/motion/stream_clock.h"
@@ -21,6 +23,9 @@ hand_input::LocalTime local_time();
 
 /// ROS time now, the steps of the wall clock taken out; under `use_sim_time` as it stands.
 motion::WallMoment wall_moment();
+
+/// A stamp of the simulation [ns], a time of wall_moment(), as the clock stands now; the present without one.
+ros::Time stamp_of(const std::optional<std::int64_t>& stamp);
 
 /// ROS time at which the steady clock showed `t` [s].
 ros::Time ros_time(double t);

@@ -14,7 +14,8 @@ namespace spring_workbench::manipulation {
 /// What the physics loop did so far.
 struct LoopStatistics {
   std::size_t cycles = 0;
-  std::size_t deadlines_missed = 0;
+  std::size_t deadlines_missed = 0;   ///< by the cycle or by its messages
+  std::size_t states_left_out = 0;    ///< see OutboxStatistics
   simulation::AdvanceReport advance;  ///< all steps together
   double left_out = 0.0;              ///< of time, since the process stood or time leapt [s]
   std::size_t cycles_behind = 0;      ///< in which simulated time was slower than the hands'

@@ -17,12 +17,13 @@
 #include "spring_workbench/ros/machine_link/wrench_input.h"
 #include "spring_workbench/ros/manipulation/checkpoint.h"
 #include "spring_workbench/ros/manipulation/diagnostics.h"
-#include "spring_workbench/ros/manipulation/live_tuning.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
-#include "spring_workbench/ros/manipulation/services.h"
+#include "spring_workbench/ros/manipulation/outbox.h"
 #include "spring_workbench/ros/manipulation/state_publisher.h"
 #include "spring_workbench/ros/manipulation/stylus_input.h"
 #include "spring_workbench/ros/markers/scene_publisher.h"
+#include "spring_workbench/ros/services/live_tuning.h"
+#include "spring_workbench/ros/services/services.h"
 
 namespace spring_workbench::manipulation {
 
@@ -44,8 +45,8 @@ class CallbackThread {
 };
 
 /// The node `manipulation`: tf and buttons in; physics in its own thread, woken by samples, on the steady clock or,
-/// under `use_sim_time`, on ROS time; states, markers and reports out. Call the callbacks of the global queue next to
-/// it. It ends in order when it is destroyed before ros::shutdown().
+/// under `use_sim_time`, on ROS time; states, markers and reports out, by another thread. Call the callbacks of the
+/// global queue next to it. It ends in order when it is destroyed before ros::shutdown().
 class ManipulationNode {
  public:
   /// Reads parameters and scene. Throws InputError when one cannot be used.
@@ -72,9 +73,10 @@ class ManipulationNode {
   std::deque<StylusInput> inputs_;
   machine_link::WrenchInput wrenches_;
   StatePublisher publisher_;
+  Outbox outbox_;
   markers::ScenePublisher scene_publisher_;
   std::vector<ros::ServiceServer> services_;
-  std::unique_ptr<LiveTuning> live_tuning_;
+  std::unique_ptr<services::LiveTuning> live_tuning_;
   Checkpoint checkpoint_;
   ManipulationDiagnostics diagnostics_;
   ros_common::LostMessages lost_messages_;
@@ -87,7 +89,6 @@ class ManipulationNode {
   std::mutex master_mutex_;
   std::vector<std::string> senders_of_tf_;  ///< by the master's last answer
   double master_answered_;                  ///< when that came [s], by the steady clock
-  double publish_time_ = 0.0;               ///< of the last cycle's messages [s]
   double show_at_latest_ = 0.0;             ///< even while there is more to commit, in local time [s]
   std::atomic<bool> stop_{false};
   std::atomic<int> realtime_priority_{0};

@@ -13,31 +13,36 @@
 
 namespace spring_workbench::manipulation {
 
+/// A committed state to be sent, and what the cycle did that led to it.
+struct CommittedState {
+  live::Committed committed;
+  ros::Time stamp;
+  live::CycleReport report;
+  double deadline = 0.0;  ///< of the cycle, in local time [s]
+};
+
+/// A displayed state to be sent.
+struct ShownState {
+  live::Shown shown;
+  ros::Time stamp;
+  double local_time = 0.0;  ///< [s]
+};
+
 /// Sends the committed simulation, to be recorded (~objects, ~contacts, ~steps, ~task, and of each stylus ~fork,
 /// ~wrench, ~tip_twist, ~joy_feedback and ~probe), the journal (~accepted, ~changes), and what is shown, to be looked
 /// at (/tf, ~display/objects, ~display/fork of each stylus, ~markers, ~display/markers). Messages are made only while
-/// there is a subscriber. What has not changed is sent again ten times a second.
+/// there is a subscriber.
 class StatePublisher {
  public:
   StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters);
 
-  /// After each cycle of the physics loop, with what it did; nothing between the first sample and the simulation's
-  /// first step to it. `publish_time` [s]: of the cycle before.
-  void publish_committed(const live::SimulationRunner& runner, const live::CycleReport& report, double publish_time,
-                         bool deadline_missed);
-  /// `now` [s]: local time.
-  void publish_shown(const live::Shown& shown, double now);
+  /// `publish_time` [s]: how long the messages before these took.
+  void publish(const CommittedState& state, double publish_time);
+  void publish(const ShownState& state);
   /// The journal, while both of its topics have a subscriber.
   void publish_journal(live::SimulationRunner& runner);
 
  private:
-  /// Whether something has to be sent again, or for the first time.
-  struct Repeat {
-    ros::Time stamp;
-    std::size_t revision = 0;
-    double sent = -1.0;  ///< [s], by the steady clock
-    bool due(const live::Moment& moment, const ros::Time& stamp);
-  };
   /// What is sent of one stylus; the topics and frames of the second end in _2, and so on.
   struct HandTopics {
     ros::Publisher fork, shown_fork;
@@ -52,10 +57,9 @@ class StatePublisher {
   ros::Time last_transforms_;
   double all_transforms_ = -1.0;        ///< when all were sent last [s], by the steady clock
   std::vector<RigidTransform> sent_X_;  ///< of the objects
-  Repeat committed_, shown_;
   double horizon_ = 0.0;
   bool had_contacts_ = false;
-  bool markers_were_built_ = false;  ///< in this cycle
+  bool markers_were_built_ = false;  ///< with the last shown state
   double fork_diameter_;
   markers::MarkerPublisher markers_;
   tf2_ros::TransformBroadcaster transforms_;

@@ -7,7 +7,7 @@
 
 #include "spring_workbench/live/simulation_runner.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::services {
 
 /// The services of the node `manipulation`, which end with what is returned. Each makes one change of the simulation;
 /// what cannot be done is answered with `success = false` and one line, and changes nothing. `runner` must outlive
@@ -15,4 +15,4 @@ namespace spring_workbench::manipulation {
 std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle private_node, live::SimulationRunner& runner,
                                                    const std::vector<std::string>& scene_roots);
 
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::services

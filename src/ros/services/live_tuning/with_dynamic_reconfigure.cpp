@@ -1,10 +1,10 @@
 #include <dynamic_reconfigure/server.h>
 
 #include "spring_workbench/ManipulationConfig.h"
-#include "spring_workbench/ros/manipulation/live_tuning.h"
+#include "spring_workbench/ros/services/live_tuning.h"
 #include "spring_workbench/validation/names.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::services {
 namespace {
 
 /// What the simulation has now; of the forks, the first hand's.
@@ -99,4 +99,4 @@ std::unique_ptr<LiveTuning> make_live_tuning(const ros::NodeHandle& private_node
   return std::make_unique<Reconfigure>(private_node, runner);
 }
 
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::services

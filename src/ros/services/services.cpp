@@ -1,4 +1,4 @@
-#include "spring_workbench/ros/manipulation/services.h"
+#include "spring_workbench/ros/services/services.h"
 
 #include <std_srvs/Trigger.h>
 
@@ -19,7 +19,7 @@
 #include "spring_workbench/scene/editing.h"
 #include "spring_workbench/validation/names.h"
 
-namespace spring_workbench::manipulation {
+namespace spring_workbench::services {
 namespace {
 
 template <typename Response>
@@ -206,4 +206,4 @@ std::vector<ros::ServiceServer> advertise_services(ros::NodeHandle node, live::S
   return servers;
 }
 
-}  // namespace spring_workbench::manipulation
+}  // namespace spring_workbench::services

@@ -1,0 +1,79 @@
+#include "spring_workbench/ros/manipulation/outbox.h"
+
+#include <chrono>
+#include <utility>
+
+#include "constants.h"
+#include "spring_workbench/ros/common/loop_clock.h"
+
+namespace spring_workbench::manipulation {
+
+Outbox::Outbox(StatePublisher& publisher, live::SimulationRunner& runner)
+    : publisher_(publisher), runner_(runner), thread_([this] { run(); }) {}
+
+Outbox::~Outbox() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    stop_ = true;
+  }
+  bell_.notify_one();
+  thread_.join();
+}
+
+bool Outbox::Repeat::due(const live::Moment& moment) {
+  const ros::Time new_stamp = ros_common::stamp_of(moment.began ? std::make_optional(moment.stamp) : std::nullopt);
+  const double steady = ros_common::steady_time();
+  // Before the first sample the stamp goes on by itself.
+  const bool same = moment.revision == revision && (new_stamp == stamp || !moment.began);
+  if (same && steady < sent + repeat_after) return false;
+  *this = {new_stamp, moment.revision, steady};
+  return true;
+}
+
+void Outbox::take_shown(double latency, const hand_input::LocalTime& now) {
+  std::optional<live::Shown> shown =
+      runner_.show(latency, now, [this](const live::Moment& moment) { return shown_due_.due(moment); });
+  if (!shown) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  shown_ = ShownState{std::move(*shown), shown_due_.stamp, now.loop};
+  bell_.notify_one();
+}
+
+bool Outbox::take_committed(const live::CycleReport& report, double deadline) {
+  std::optional<live::Committed> committed = runner_.committed([this](const live::Moment& moment) {
+    return (moment.began || !moment.has_sample) && committed_due_.due(moment);
+  });
+  if (!committed) return false;
+  std::unique_lock<std::mutex> lock(mutex_);
+  emptied_.wait(lock, [this] { return committed_.size() < state_queue; });
+  committed_.push_back({std::move(*committed), committed_due_.stamp, report, deadline});
+  bell_.notify_one();
+  return true;
+}
+
+/// Nothing wakes it for the journal, which is looked at whenever a state is sent, and at least as often as a
+/// state is repeated.
+void Outbox::run() {
+  double publish_time = 0.0;
+  std::unique_lock<std::mutex> lock(mutex_);
+  for (bool stop = false; !stop;) {
+    bell_.wait_for(lock, std::chrono::duration<double>(repeat_after),
+                   [this] { return stop_ || shown_ || !committed_.empty(); });
+    stop = stop_;
+    const std::optional<ShownState> shown = std::exchange(shown_, std::nullopt);
+    std::deque<CommittedState> committed = std::exchange(committed_, {});
+    lock.unlock();
+    emptied_.notify_one();
+    const double begin = ros_common::steady_time();
+    if (shown) publisher_.publish(*shown);
+    for (const CommittedState& state : committed) {
+      publisher_.publish(state, publish_time);
+      if (ros_common::loop_time() > state.deadline) ++deadlines_missed_;
+    }
+    publisher_.publish_journal(runner_);
+    publish_time = ros_common::steady_time() - begin;
+    lock.lock();
+  }
+}
+
+}  // namespace spring_workbench::manipulation

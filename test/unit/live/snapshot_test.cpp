@@ -1,0 +1,112 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "spring_workbench/live/simulation_runner.h"
+#include "spring_workbench/math/spatial.h"
+#include "support/bench_scenes.h"
+#include "support/snapshots.h"
+
+namespace spring_workbench::live::snapshot_test {
+namespace {
+
+constexpr double interval = 0.01;  // [s]
+
+scene::Scene boxes(scene::ContactMode mode) {
+  const Vector3d size(0.1, 0.06, 0.04);
+  return scene_of({box("held", size, 1.0, {0.0, 0.0, 0.02}), box("other", size, 0.5, {0.12, 0.01, 0.02})}, mode);
+}
+
+/// A hand that carries the box to and fro over the bench, against the other one and down on it.
+HandEvents hand(int k) {
+  HandEvents events;
+  const double t = interval * k;
+  if (k == 0) events[0].push_back(NewEpoch{});
+  if (k == 1) events[0].push_back(StylusButton{t, motion::Press::grasp});
+  if (k == 250) events[0].push_back(StylusButton{t, motion::Press::release});
+  const Vector3d p(0.06 * std::sin(3.0 * t), 0.01 * std::sin(2.0 * t), 0.22 + 0.01 * std::sin(5.0 * t));
+  StylusPose pose;
+  pose.sample = {t, p, Quaterniond(pointing_down(p).linear())};
+  pose.arrival = {t, t};
+  events[0].push_back(pose);
+  return events;
+}
+
+/// All that a node says of it.
+std::vector<double> readings(const simulation::Simulation& simulation) {
+  std::vector<double> all{simulation.time()};
+  const auto add = [&all](const auto& matrix) {
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) all.push_back(matrix(i));
+  };
+  for (const bodies::BodyState& object : simulation.objects()) {
+    add(object.X_WO.matrix());
+    add(to_vector(object.V_WO_W));
+    add(Eigen::Vector4d(object.held, object.highlighted, object.in_contact, object.asleep));
+  }
+  for (const contact::ContactState& contact : simulation.contacts()) {
+    add(contact.p_W);
+    add(contact.n_W);
+    add(Eigen::Vector4d(contact.depth, contact.impulse, contact.force, contact.slip_speed));
+    all.push_back(static_cast<double>(contact.phase));
+  }
+  const tools::ToolState tool = simulation.fork();
+  add(tool.strain);
+  add(tool.X_WH_proxy.matrix());
+  add(tool.X_WE.matrix());
+  add(to_vector(tool.V_WE_W));
+  add(to_vector(tool.tip_wrench_W));
+  add(to_vector(tool.handle_wrench_H));
+  add(Eigen::Vector4d(tool.elastic_energy, tool.kinetic_energy, tool.weight, tool.load));
+  return all;
+}
+
+TEST(Snapshot, ReadsAsTheSimulationOfItsMoment) {
+  for (const scene::ContactMode mode :
+       {scene::ContactMode::none, scene::ContactMode::stop, scene::ContactMode::dynamic}) {
+    SimulationRunner runner(boxes(mode), simulation::SimulationSettings(), hand_input::InputSettings(), false);
+    std::vector<Committed> taken;
+    std::vector<std::vector<double>> said;
+    std::size_t contacts = 0;
+    for (int k = 0; k < 400; ++k) {
+      const double t = interval * k;
+      if (k == 150) {
+        Command removal;
+        removal.kind = Command::Kind::edit;
+        removal.edit = {simulation::ObjectEdit::Action::remove, "other", "", std::nullopt};
+        runner.change("edit_object", removal);
+      }
+      if (k == 200) runner.undo();
+      for (HandEvents events = hand(k); runner.cycle(std::exchange(events, {}), {t, t}).more;) continue;
+      runner.show(0.02, {t, t}, always);
+      taken.push_back(*runner.committed(always));
+      runner.locked([&](const simulation::Simulation& simulation) {
+        said.push_back(readings(simulation));
+        contacts += simulation.contacts().size();
+      });
+    }
+    EXPECT_EQ(contacts > 0, mode != scene::ContactMode::none);
+    // Long after, and in any order.
+    for (const std::size_t step : {1u, 7u}) {
+      for (std::size_t k = 0; k < taken.size(); k += step) {
+        EXPECT_EQ(readings(taken[k].read()), said[k]) << k;
+        EXPECT_EQ(readings(taken[taken.size() - 1 - k].read()), said[taken.size() - 1 - k]);
+      }
+    }
+  }
+}
+
+TEST(Snapshot, IsMadeWhereItIsWanted) {
+  SimulationRunner runner(boxes(scene::ContactMode::none), simulation::SimulationSettings(),
+                          hand_input::InputSettings(), false);
+  runner.cycle(hand(0), {0.0, 0.0});
+  const auto never = [](const Moment&) { return false; };
+  EXPECT_FALSE(runner.committed(never));
+  EXPECT_FALSE(runner.show(0.0, {0.0, 0.0}, never));
+  const Moment at = runner.committed(always)->at;
+  EXPECT_TRUE(at.has_sample);
+  runner.restart();
+  EXPECT_TRUE(runner.committed([&](const Moment& moment) { return moment.revision > at.revision; }));
+}
+
+}  // namespace
+}  // namespace spring_workbench::live::snapshot_test
