@@ -46,7 +46,7 @@ struct Shared {
     return hand_at(t, {side, across, length}, 0.3 * static_cast<double>(tool));
   }
   void touch(const rod::ForkSettings& fork) {
-    InFront front{0.9 * length, &body, &body.material};
+    AxisHit front{0.9 * length, &body, &body.material};
     const RigidTransform X_WH = hand(tools.size(), 0.0).at(0.0).X;
     front.point_O = X_WO.inverse() * (X_WH * Vector3d(0.0, 0.0, front.distance));
     front.normal_O = -(X_WO.linear().transpose() * X_WH.linear().col(2));
