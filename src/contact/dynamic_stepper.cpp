@@ -203,8 +203,7 @@ rigid_bodies::DrivenBody DynamicStepper::driven_body(const Candidate& c, double 
   d.V_WO_W = c.begin.velocity;
   d.compliance = positive(response.displacement);
   d.mobility = c.body->mobility();
-  d.displacement_by_impulse =
-      response.velocity;  // an impulse does at once what a constant load does in the course of the step
+  d.displacement_by_impulse = response.by_impulse;
   const Vector6d by_load = d.compliance * to_vector(c.load_W) + d.displacement_by_impulse * to_vector(c.impact_W);
   d.displacement_W.linear = c.end.X.translation() - c.begin.X.translation() - by_load.head<3>();
   d.displacement_W.angular = c.begin.X.linear() * math::turn_between(c.begin.X, c.end.X) - by_load.tail<3>();

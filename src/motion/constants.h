@@ -23,6 +23,11 @@ constexpr double largest_moment = 1e5;
 constexpr double rotation_tolerance = 1e-6;
 /// Over which the figures of a stream are smoothed. Test: StreamMonitor.SaysRateJitterGapsAndAge at 5.
 constexpr std::size_t monitored_samples = 50;
+/// [s] over which the velocity and the acceleration of a proxy at present are seen. Larger: they are those of a time
+/// that is still to come. Test: Proxy.AtPresentIsMovedByTheHandAndByItsOffset at 1e-2.
+constexpr double glance = 1e-4;
+/// [m, rad]; the proxy has come back. Test: none: no value tried makes one fail.
+constexpr double no_offset = 1e-9;
 /// [m, rad]; a follower so near to its goal is there. Test:
 /// PoseFollower.ComesToEveryGoalNeverFasterThanAHandAndNeverAway at 0.1.
 constexpr double arrived = 1e-9;

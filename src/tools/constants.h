@@ -20,8 +20,6 @@ constexpr double return_time = 0.05;
 /// [s]; squared over the object's mass, how the proxy gives way at rest. Longer: what cannot follow presses less. Test:
 /// StopContact.AForkThatCannotFollowPressesAsItsRuleSaysAndHoldsNothingBack.
 constexpr double give_time = 5e-3;
-/// [m, rad]; the proxy has come back. Test: none: no value tried makes one fail.
-constexpr double no_offset = 1e-9;
 /// [m/s], and of a turning times the fork's length, below which an object on a hand at rest stops (the paper's
 /// threshold, section 3.3). Test: HeldAtRest.CostsNothing at 0.
 constexpr double still_speed = 1e-7;

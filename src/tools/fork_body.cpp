@@ -11,18 +11,6 @@
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::tools {
-namespace {
-
-RigidTransform shrunk(const RigidTransform& offset, double factor) {
-  RigidTransform X;
-  X.linear() = math::exp_so3(factor * math::log_so3(offset.linear()));
-  X.translation() = factor * offset.translation();
-  X.makeAffine();
-  return X;
-}
-
-}  // namespace
-
 ForkBody::ForkBody(std::size_t index, dynamics::HeldBody held, stepping::StepControl control, double t,
                    const RigidTransform& X_SH)
     : index_(index),
@@ -50,28 +38,18 @@ void ForkBody::set_load(const Wrench& load_W) {
 
 RigidTransform ForkBody::hand_pose() const { return hand_.at(state_.t).X; }
 
-motion::MotionSegment ForkBody::seen_motion() const {
-  return state_.behind ? motion::MotionSegment(state_.offset * hand_pose()) : hand_;
-}
-
 dynamics::HandleForcing ForkBody::handle() const {
-  return state_.behind ? held_.forcing(seen_motion(), state_.t) : held_.forcing(hand_, state_.t);
-}
-
-void ForkBody::place_proxy(const RigidTransform& offset) {
-  state_.behind = (offset.matrix() - RigidTransform::Identity().matrix()).cwiseAbs().maxCoeff() > no_offset;
-  state_.offset = state_.behind ? offset : RigidTransform::Identity();
+  const motion::Proxy& proxy = state_.proxy;
+  return proxy.behind() ? held_.forcing(proxy.motion(hand_, state_.t), state_.t) : held_.forcing(hand_, state_.t);
 }
 
 motion::MotionState ForkBody::object() const {
   const auto is_known = [this](const Known& k) {
     return k.t == state_.t && k.version == held_.version() && k.strain.q == state_.strain.q &&
-           k.strain.q_dot == state_.strain.q_dot && k.behind == state_.behind &&
-           (!k.behind || k.offset.matrix() == state_.offset.matrix());
+           k.strain.q_dot == state_.strain.q_dot && k.proxy == state_.proxy;
   };
   if (!known_ || !is_known(*known_)) {
-    known_ = {state_.t,      held_.version(), state_.strain,
-              state_.behind, state_.offset,   held_.object(handle(), state_.strain)};
+    known_ = {state_.t, held_.version(), state_.strain, state_.proxy, held_.object(handle(), state_.strain)};
   }
   return known_->object;
 }
@@ -86,21 +64,21 @@ motion::MotionState ForkBody::object_with_acceleration() const {
   return held_.object(h, state_.strain, &a);
 }
 
-Matrix6d ForkBody::proxy_compliance(double h) const {
+Matrix6d ForkBody::rigid_mobility() const {
   if (yields_everywhere()) return Matrix6d::Zero();
   const Matrix3d R = object().X.linear();
   Matrix6d P = spatial_matrix(1.0 / held_.body().mass, R * held_.body().inertia_O.inverse() * R.transpose());
-  P -= mobility();
+  P -= strain_mobility();
   if (const rod::StrainMatrix& stops = load_response_.stops(); stops.cols() > 0) {
     const rod::StrainMatrix by_stops = inverse_mass() * stops;
     const auto lost = (jacobian_W() * by_stops).eval();
     P += lost * (stops.transpose() * by_stops).llt().solve(lost.transpose());
   }
-  return give_time * give_time * (1.0 - std::exp(-h / return_time)) * P;
+  return P;
 }
 
-RigidTransform ForkBody::returned_offset(double h) const {
-  return state_.behind ? shrunk(state_.offset, std::exp(-h / return_time)) : RigidTransform::Identity();
+Matrix6d ForkBody::proxy_compliance(double h) const {
+  return give_time * give_time * (1.0 - std::exp(-h / return_time)) * rigid_mobility();
 }
 
 RigidTransform ForkBody::given_way(double h, const Wrench& contact_W) const {
@@ -113,22 +91,15 @@ RigidTransform ForkBody::given_way(double h, const Wrench& contact_W) const {
 }
 
 RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
-  return yields_everywhere() || is_zero(contact_W) ? returned_offset(h) : given_way(h, contact_W) * returned_offset(h);
-}
-
-motion::MotionSegment ForkBody::proxy_motion(double h, const RigidTransform& offset_end) const {
-  const motion::PoseSample begin{state_.t, state_.offset * hand_pose()};
-  const motion::PoseSample end{state_.t + h, offset_end * hand_.at(state_.t + h).X};
-  const Vector3d v = (end.X.translation() - begin.X.translation()) / h;
-  const Vector3d w = math::turn_between(begin.X, end.X) / h;
-  return motion::MotionSegment(begin, v, w, end, v, w);
+  const RigidTransform returned = state_.proxy.returned(std::exp(-h / return_time));
+  return yields_everywhere() || is_zero(contact_W) ? returned : given_way(h, contact_W) * returned;
 }
 
 bool ForkBody::advance(double h, const Wrench& contact_W) {
   const RigidTransform offset = next_offset(h, contact_W);
-  const bool behind = (offset.matrix() - RigidTransform::Identity().matrix()).cwiseAbs().maxCoeff() > no_offset;
-  const bool as_hand = !behind && !state_.behind;
-  const motion::MotionSegment motion = as_hand ? hand_ : proxy_motion(h, offset);
+  const bool as_hand = !state_.proxy.behind() && offset.matrix() == RigidTransform::Identity().matrix();
+  const Twist rate = as_hand ? Twist() : state_.proxy.rate_to(offset, hand_.at(state_.t + h).X.translation(), h);
+  const motion::MotionSegment motion = as_hand ? hand_ : state_.proxy.motion(hand_, state_.t, h, offset, rate);
   dynamics::StrainState next = state_.strain;
   held_.set_external_wrench(held_.size() > 0 ? math::sum(contact_W, load_W_) : load_W_);
   if (held_.size() > 0) {
@@ -142,7 +113,7 @@ bool ForkBody::advance(double h, const Wrench& contact_W) {
   state_.t += h;
   state_.strain = next;
   state_.pull_W.reset();
-  place_proxy(offset);
+  state_.proxy.place(offset, rate);
   if (held_.returning() && held_.drop_finished_returns(state_.t) && held_.size() == 0)
     state_.strain = held_.zero_state();
   return hand_pose().translation().norm() < largest_distance;
@@ -193,38 +164,48 @@ rod::StrainMatrix ForkBody::inverse_mass() const {
 }
 
 bodies::SteppedBody::Response ForkBody::response(double h) const {
-  const Matrix6d proxy = proxy_compliance(h);
-  Response a{proxy, proxy / h};
+  // A proxy has no mass, and keeps nothing of an impulse.
+  Response a{proxy_compliance(h), Matrix6d::Zero()};
   if (held_.size() > 0) {
     const auto J = jacobian_W();
     const dynamics::Integrator::Response r =
         load_response_.response(control_.integrator(), held_, handle(), h, state_.strain);
     a.displacement += J * r.q * J.transpose();
-    a.velocity += J * r.q_dot * J.transpose();
+    a.by_impulse += J * r.q_dot * J.transpose();
   }
   return a;
 }
 
 void ForkBody::correct(double h, const Wrench& change_W) {
-  const RigidTransform offset = yields_everywhere() ? state_.offset : given_way(h, change_W) * state_.offset;
+  motion::Proxy proxy = state_.proxy;
+  if (!yields_everywhere()) {
+    const RigidTransform offset = given_way(h, change_W) * proxy.offset();
+    const Twist more = proxy.rate_to(offset, hand_pose().translation(), h);
+    proxy.place(offset, to_twist(to_vector(proxy.rate()) + to_vector(more)));
+  }
   if (held_.size() > 0) {
     const rod::StrainVector change = jacobian_W().transpose() * to_vector(change_W);
     const Eigen::Index known = load_response_.stops().cols();
     load_response_.correct(control_.integrator(), held_, handle(), h, change, state_.strain);
     trial_.stops += static_cast<int>(load_response_.stops().cols() - known);
   }
-  place_proxy(offset);
+  state_.proxy = proxy;
 }
 
-Matrix6d ForkBody::mobility() const {
+Matrix6d ForkBody::strain_mobility() const {
   if (held_.size() == 0) return Matrix6d::Zero();
   const auto J = jacobian_W();
   return J * inverse_mass() * J.transpose();
 }
 
+Matrix6d ForkBody::mobility() const { return strain_mobility() + rigid_mobility(); }
+
 void ForkBody::add_impulse(const Wrench& impulse_W) {
-  if (held_.size() == 0) return;
   sleep_ = Sleep();
+  if (!yields_everywhere()) {
+    state_.proxy.kick(to_twist(rigid_mobility() * to_vector(impulse_W)), object().X.translation());
+  }
+  if (held_.size() == 0) return;
   state_.strain.q_dot += inverse_mass() * (jacobian_W().transpose() * to_vector(impulse_W));
 }
 
@@ -237,7 +218,7 @@ bool ForkBody::sleeps(double h, bool may_fall_asleep) {
   const bool asleep = sleep_.version == held_.version() && sleep_.X_WH.matrix() == begin.X.matrix();
   if (hand_rests && asleep) return true;
   sleep_ = Sleep();
-  if (!hand_rests || !may_fall_asleep || state_.behind || held_.returning()) return false;
+  if (!hand_rests || !may_fall_asleep || state_.proxy.behind() || held_.returning()) return false;
   const motion::MotionState o = object_with_acceleration();
   const double L = held_.shape().length();
   const bool at_rest = std::max(o.velocity.linear.norm(), L * o.velocity.angular.norm()) < still_speed &&
@@ -257,10 +238,9 @@ void ForkBody::block(double h) {
   added_ = 0.0;
   // The seen handle stays where it is, whatever the hand does next, and the strain with it.
   state_.strain.q_dot.setZero();
-  const RigidTransform seen = state_.offset * hand_pose();
+  const RigidTransform before = hand_pose();
   state_.t += h;
-  state_.offset = seen * hand_pose().inverse();
-  state_.behind = true;
+  state_.proxy.rest(before, hand_.at(state_.t));
 }
 
 void ForkBody::follow_rigidly(double h) {

@@ -38,7 +38,7 @@ class ForkBody : public ToolHold {
   void stop_leading() override;
   void follow(double t, const ToolHold& leader, const motion::MotionState& object) override;
   const motion::MotionSegment& hand() const override { return hand_; }
-  const RigidTransform& offset() const override { return state_.offset; }
+  const motion::Proxy& proxy() const override { return state_.proxy; }
   void set_load(const Wrench& load_W) override;
   void set_hand(const motion::MotionSegment& hand, double t) override;
   bool sleeps(double h, bool may_fall_asleep) override;
@@ -89,13 +89,12 @@ class ForkBody : public ToolHold {
   struct State {
     double t = 0.0;
     dynamics::StrainState strain;
-    bool behind = false;                                 ///< the seen handle is not where the hand is
-    RigidTransform offset = RigidTransform::Identity();  ///< seen handle = offset · hand, in world
-    double energy_added = 0.0;                           ///< [J]
+    motion::Proxy proxy;
+    double energy_added = 0.0;  ///< [J]
     stepping::StepControl::Memory stepping;
     std::optional<Wrench> pull_W;  ///< on the object at its centre, where it was shared last
 
-    void exchange(math::StateArchive& state) { state(t, strain, behind, offset, energy_added, stepping, pull_W); }
+    void exchange(math::StateArchive& state) { state(t, strain, proxy, energy_added, stepping, pull_W); }
   };
   void take_hand(const motion::MotionSegment& hand) {
     hand_ = hand;
@@ -105,20 +104,16 @@ class ForkBody : public ToolHold {
   bool yields_everywhere() const {
     return held_.size() == rod::max_strain_coordinates && load_response_.stops().cols() == 0;
   }
+  /// Of mobility(): what the strain does of it, and the rest, in the directions in which the strain cannot move.
+  Matrix6d strain_mobility() const;
+  Matrix6d rigid_mobility() const;
   /// Compliance of the proxy to a wrench at the centre of mass over a step, in the directions that the coordinates
   /// cannot follow: that of a spring and a damper in parallel (doc/model.md, "When the fork cannot follow").
   Matrix6d proxy_compliance(double h) const;
   /// How the proxy gives way to a wrench over a step: a rotation about the object's centre of mass and a translation.
   RigidTransform given_way(double h, const Wrench& contact_W) const;
-  /// The proxy's offset at the end of a step without a load.
-  RigidTransform returned_offset(double h) const;
   /// The offset of the proxy at the end of a step under a wrench.
   RigidTransform next_offset(double h, const Wrench& contact_W) const;
-  void place_proxy(const RigidTransform& offset);
-  /// The seen handle's motion at present; a proxy rests between two steps.
-  motion::MotionSegment seen_motion() const;
-  /// The seen handle's motion over a step that ends with this offset.
-  motion::MotionSegment proxy_motion(double h, const RigidTransform& offset_end) const;
   rod::StrainMatrix inverse_mass() const;
   /// What the rod does to the object at its centre, world axes: its change of momentum less gravity and contact.
   Wrench rod_load(const motion::MotionState& object) const;
@@ -142,8 +137,7 @@ class ForkBody : public ToolHold {
     double t;
     long version;  ///< of the equations
     dynamics::StrainState strain;
-    bool behind;
-    RigidTransform offset;
+    motion::Proxy proxy;
     motion::MotionState object;
   };
   mutable std::optional<Known> known_;

@@ -48,8 +48,7 @@ void ForkBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {
   const RigidTransform X_HH = hand_pose().inverse() * X_WO * X_HO.inverse();
   take_hand(hand_.of_frame(normalised(X_HH)));
   X_SH_ = normalised(X_SH_ * X_HH);
-  state_.behind = false;
-  state_.offset = RigidTransform::Identity();
+  state_.proxy = motion::Proxy();
   state_.pull_W.reset();
   state_.stepping = stepping::StepControl::Memory();
   sleep_ = Sleep();
@@ -63,8 +62,7 @@ RigidTransform ForkBody::slip(double h, const motion::MotionState& object, const
   const dynamics::HandleForcing at_origin = held_.forcing(motion::MotionSegment(RigidTransform::Identity()), state_.t);
   const RigidTransform X_HO = held_.object(at_origin, state_.strain).X;
   state_.t += h;
-  state_.behind = false;
-  state_.offset = RigidTransform::Identity();
+  state_.proxy = motion::Proxy();
   state_.pull_W = pull_W;
   state_.stepping = stepping::StepControl::Memory();
   sleep_ = Sleep();

@@ -19,13 +19,14 @@ void ForkBody::follow(double t, const ToolHold& leader, const motion::MotionStat
   state_.stepping = stepping::StepControl::Memory();
   state_.t = t;
   const bool rigid = held_.size() < rod::max_strain_coordinates;
-  place_proxy(rigid ? leader.offset() : RigidTransform::Identity());
+  state_.proxy = rigid ? leader.proxy() : motion::Proxy();
   if (held_.size() == 0) {  // so is the leader: nothing is felt of this one, and its proxy goes where the object is
     state_.pull_W = Wrench();
-    place_proxy(object.X * held_.object(handle(), held_.zero_state()).X.inverse() * state_.offset);
+    const RigidTransform by = object.X * held_.object(handle(), held_.zero_state()).X.inverse();
+    state_.proxy.place(by * state_.proxy.offset(), state_.proxy.rate());
     return;
   }
-  const motion::OwnAxesMotion A = seen_motion().in_own_axes(t);
+  const motion::OwnAxesMotion A = state_.proxy.motion(hand_, t).in_own_axes(t);
   const dynamics::RelativeMotion<double> A_O = dynamics::seen_from(A, object);
   dynamics::Pull<double> pull;
   coupling_.pull(t, A_O, pull);
@@ -33,7 +34,7 @@ void ForkBody::follow(double t, const ToolHold& leader, const motion::MotionStat
   state_.pull_W = Wrench{R_WA * math::vector(pull.force), R_WA * math::vector(pull.moment)};
   const ForkCoupling::Following following = coupling_.follow(A_O);
   state_.strain = following.strain;
-  place_proxy(A.X * following.X_HP * A.X.inverse() * state_.offset);
+  state_.proxy.place(A.X * following.X_HP * A.X.inverse() * state_.proxy.offset(), state_.proxy.rate());
   if (held_.returning() && held_.drop_finished_returns(t) && held_.size() == 0) state_.strain = held_.zero_state();
 }
 

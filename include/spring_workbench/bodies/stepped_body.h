@@ -59,10 +59,10 @@ class SteppedBody {
   virtual void save(TrialStart& start) const = 0;
   virtual void restore(const TrialStart& start) = 0;
 
-  /// Change of the displacement over a step, and of the velocity at its end, per constant wrench; 6 × 6 [linear;
+  /// Change of the displacement over a step per constant wrench, and per impulse at its start; 6 × 6 [linear;
   /// angular].
   struct Response {
-    Matrix6d displacement, velocity;
+    Matrix6d displacement, by_impulse;
   };
   virtual Response response(double h) const = 0;
   /// Moves the end of the last advance(), of `h` [s], to where it would be if its wrench were changed by `change_W`, to

@@ -6,6 +6,7 @@
 #include "spring_workbench/bodies/stepped_body.h"
 #include "spring_workbench/dynamics/coupling.h"
 #include "spring_workbench/dynamics/settings.h"
+#include "spring_workbench/motion/proxy.h"
 #include "spring_workbench/stepping/step_estimates.h"
 #include "spring_workbench/tools/settings.h"
 #include "spring_workbench/tools/tool_state.h"
@@ -29,8 +30,8 @@ class ToolHold : public bodies::SteppedBody {
   virtual void follow(double t, const ToolHold& leader, const motion::MotionState& object) = 0;
   /// Returns the motion of the hand to which the springs are attached.
   virtual const motion::MotionSegment& hand() const = 0;
-  /// Returns the offset, in world, of the handle on which the springs act from that in the hand: offset · X_WH.
-  virtual const RigidTransform& offset() const = 0;
+  /// Returns the handle on which the springs act, from that in the hand.
+  virtual const motion::Proxy& proxy() const = 0;
 
   /// Sets a constant wrench on the object in addition to contact, at its centre, world axes. Call before each step.
   virtual void set_load(const Wrench& load_W) = 0;
