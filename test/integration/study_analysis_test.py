@@ -80,6 +80,8 @@ class Statistics(unittest.TestCase):
             self.assertAlmostEqual(sa.wilcoxon(-differences), sa.wilcoxon(differences))
         self.assertAlmostEqual(sa.wilcoxon(np.ones(6)), 2.0 / 2**6)  # tied: one of all sign changes on each side
         self.assertEqual(sa.wilcoxon(np.zeros(6)), 1.0)
+        for differ in (1, 2, 3):  # of six participants
+            self.assertAlmostEqual(sa.wilcoxon(np.repeat([2.5, 0.0], [differ, 6 - differ])), 2.0 / 2**differ)
         self.assertEqual(sa.friedman(np.ones((6, 3))), 1.0)
 
     def test_holm(self):
