@@ -200,7 +200,7 @@ def drag_panel(axes, rows, factor):
 def overview(table, picture, drags):
     """As wide as a page of text, in letters that can be read there."""
     rows, contact_rows = by_step(read(table)), read(drags)
-    figure, panels = pyplot.subplots(2, 3, figsize=(11.0, 8.6))
+    figure, panels = pyplot.subplots(2, 3, figsize=(11.0, 8.9))
     names = (("soft_light", "stiff_light"), ("soft_heavy", "stiff_heavy"))
     factors = sorted({float(row["stiffness_factor"]) for row in contact_rows})
     for line, of_line, factor in zip(panels, names, (factors[0], factors[-1])):
@@ -212,14 +212,14 @@ def overview(table, picture, drags):
     panels[1][2].set_visible(len(factors) > 1)
     for axes in panels[1]:
         axes.set_xlabel("µs per simulated second")
-    figure.tight_layout(rect=(0, 0.135, 1, 0.955))
+    figure.tight_layout(rect=(0, 0.165, 1, 0.955))
     for x, text in ((0.36, "carried by a hand that is tracked at 50 Hz"), (0.85, "pressed on a plane and dragged")):
         figure.text(x, 0.97, text, ha="center", fontsize=12, fontweight="bold")
-    for axes, x, columns in ((panels[0][0], 0.34, 4), (panels[0][2], 0.83, 2)):
-        place = dict(loc="upper center", bbox_to_anchor=(x, 0.135), ncol=columns, frameon=False, columnspacing=1.2)
+    for axes, x, columns in ((panels[0][0], 0.33, 4), (panels[0][2], 0.805, 2)):
+        place = dict(loc="upper center", bbox_to_anchor=(x, 0.165), ncol=columns, frameon=False, columnspacing=1.2)
         figure.legend(*axes.get_legend_handles_labels(), fontsize=9.5, **place)
-    figure.text(0.34, 0.055, "run time; steps or tolerances become finer along a line", ha="center", fontsize=9.5)
-    figure.text(0.83, 0.015, "processor time; dotted: a box that cannot turn", ha="center", fontsize=9.5)
+    figure.text(0.33, 0.085, "run time; steps or tolerances become finer along a line", ha="center", fontsize=9.5)
+    figure.text(0.805, 0.015, "processor time; dotted: a box that cannot turn", ha="center", fontsize=9.5)
     figure.savefig(picture, dpi=140)
 
 
