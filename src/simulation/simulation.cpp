@@ -82,6 +82,7 @@ void check_made_with(const std::string& saved, const std::string& present) {
     if (!std::getline(of_saved, was)) was = "nothing saved";
     if (was != is) validation::refuse("restore", "state", "one with " + was, "one with " + is);
   }
+  if (std::string more; std::getline(of_saved, more)) validation::refuse("restore", "state", more, "one without it");
 }
 
 /// Returns whether this change would change the fork.

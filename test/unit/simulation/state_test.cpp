@@ -269,6 +269,9 @@ TEST(State, OfAnotherSceneIsRefused) {
   EXPECT_EQ(refused(Simulation(same, three).save()),
             "restore: state: must be one with 2 styluses, got one with 3 styluses");
   EXPECT_EQ(refused(SimulationState()), "restore: state: must be one with contact stop, got one with nothing saved");
+  std::string more = serialise(s.save());
+  more.insert(more.find("wall\"") + 4, "\\ndoors");
+  EXPECT_EQ(refused(parse_state(more)), "restore: state: must be one without it, got doors");
   EXPECT_EQ(s.state_hash(), before);
 }
 
