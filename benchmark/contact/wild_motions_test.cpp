@@ -35,8 +35,9 @@ TEST(RodInRoom, IsNeverBlockedHoweverTheForkIsDampedOrFolds) {
   }
 }
 
+// In 217 contacts of neighbouring triangles count as one, and it is the deepest that approaches.
 TEST(RingOnRod, StaysOnTheRod) {
-  for (const unsigned seed : {0u, 3u, 10u}) {
+  for (const unsigned seed : {0u, 3u, 10u, 217u}) {
     const WildResult result = run(WildMotion{WildScene::ring_on_rod, scene::ContactMode::stop, seed});
     EXPECT_FALSE(result.passed_through) << seed;
     EXPECT_LE(result.penetration, 1e-4) << seed;

@@ -42,6 +42,8 @@ void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, 
   std::vector<collision::ContactPoint> found;
   collision_.find_contacts(body, X_WO, tolerance, found);
   ++outcome.queries;
+  // Of those that count as one, the deepest comes last and is the one.
+  std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; });
   for (const collision::ContactPoint& point : found) {
     const auto same =
         std::find_if(rows.begin(), rows.end(), [&](const ContactRow& row) { return is_same(row.point, point); });
