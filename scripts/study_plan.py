@@ -18,6 +18,7 @@ SCORE = (  # as `assembly_trials` and the field csv of ~task have it
     "grasps",
     "collisions",
     "drops",
+    "broken",
     "largest_force_N",
     "position_error_m",
     "angle_error_rad",

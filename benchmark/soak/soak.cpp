@@ -36,8 +36,7 @@ class Hash {
 
 class Soak {
  public:
-  Soak(const SoakOptions& options, std::ostream& out)
-      : options_(options), out_(out), simulation_(scene::load_scene(options.scene), options.settings) {}
+  Soak(const SoakOptions& options, std::ostream& out) : Soak(options, out, scene::load_scene(options.scene)) {}
 
   SoakResult run() {
     out_ << "steps,assemblies,simulated_s,resident_MB,largest_energy_J,drift_m\n";
@@ -56,6 +55,8 @@ class Soak {
   }
 
  private:
+  Soak(const SoakOptions& options, std::ostream& out, const scene::Scene& scene)
+      : options_(options), out_(out), simulation_(scene, assembly::with_all_hands(scene, options.settings)) {}
   bool over() const { return result_.steps >= options_.steps; }
 
   void assemble(unsigned seed) {
@@ -63,12 +64,13 @@ class Soak {
     assembly::OperatorSettings hand;
     hand.seed = seed;
     assembly::SimulatedOperator person(simulation_.scene(), hand, [this] { return assembly::look_at(simulation_); });
-    bool pressed = false;
+    std::vector<bool> pressed(person.hands(), false);
     double before = 0.0;
     for (std::optional<motion::StylusSample> sample; !over() && (sample = person.next()) && sample->t < kTimeLimit;) {
-      simulation_.push_stylus(*sample);
-      if (sample->button != pressed) simulation_.push_button(sample->t, sample->button);
-      pressed = sample->button;
+      simulation_.push_stylus(*sample, sample->hand);
+      if (sample->button != pressed[sample->hand]) simulation_.push_button(sample->t, sample->button, sample->hand);
+      pressed[sample->hand] = sample->button;
+      if (sample->hand + 1 < person.hands()) continue;
       advance(before);
       monitor.observe(simulation_);
       before = sample->t;

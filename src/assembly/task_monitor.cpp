@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <iterator>
-#include <set>
 #include <utility>
 
 #include "constants.h"
@@ -24,6 +23,7 @@ void TaskMonitor::reset() {
   placements_.clear();
   for (const Watched& w : watched_) placements_.push_back(judge_placement(w.body, w.target, w.body.X_WO, false));
   started_ = false;
+  broken_.clear();
   hands_.clear();
   carried_.clear();
   released_height_.clear();
@@ -58,6 +58,8 @@ void TaskMonitor::judge(const std::vector<bodies::BodyState>& objects) {
     const auto o =
         std::find_if(objects.begin(), objects.end(), [&](const bodies::BodyState& s) { return s.name == w.body.name; });
     placements_[i] = judge_placement(w.body, w.target, o->X_WO, o->held);
+    placements_[i].broken = broken_.count(w.body.name) > 0;
+    placements_[i].in_place = placements_[i].in_place && !placements_[i].broken;
     score_.placed += placements_[i].in_place ? 1 : 0;
     score_.position_error += placements_[i].position_error / static_cast<double>(watched_.size());
     if (!angle_matters(w.target)) continue;
@@ -121,6 +123,8 @@ void TaskMonitor::note_contacts(double t, const std::vector<contact::ContactStat
     double& force = forces[{c.object, c.other}];
     force += c.force;
     score_.largest_force = std::max(score_.largest_force, force);
+    note_force(c.object, force);
+    note_force(c.other, force);
     const auto held = carried_.find(c.object);
     if (held == carried_.end()) continue;
     const auto touch = held->second.last_touch.find(c.other);
@@ -129,6 +133,13 @@ void TaskMonitor::note_contacts(double t, const std::vector<contact::ContactStat
     if (t > last + same_contact && !carried) ++score_.collisions;
     held->second.last_touch[c.other] = t;
   }
+}
+
+void TaskMonitor::note_force(const std::string& object, double force) {
+  for (const Watched& w : watched_) {
+    if (w.body.name == object && force > w.target.max_force) broken_.insert(object);
+  }
+  score_.broken = static_cast<int>(broken_.size());
 }
 
 bool TaskMonitor::is_fixed(const std::string& name) const {

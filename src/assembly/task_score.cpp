@@ -6,7 +6,8 @@
 namespace spring_workbench::assembly {
 
 std::string score_csv_header() {
-  return "placed,targets,time_s,hand_path_m,object_path_m,grasps,collisions,drops,largest_force_N,position_error_m,"
+  return "placed,targets,time_s,hand_path_m,object_path_m,grasps,collisions,drops,broken,largest_force_N,position_"
+         "error_m,"
          "angle_error_rad";
 }
 
@@ -15,8 +16,8 @@ std::string score_csv(const TaskScore& s) {
   line.imbue(std::locale::classic());
   line.precision(9);
   line << s.placed << ',' << s.targets << ',' << s.time << ',' << s.hand_path << ',' << s.object_path << ',' << s.grasps
-       << ',' << s.collisions << ',' << s.drops << ',' << s.largest_force << ',' << s.position_error << ','
-       << s.angle_error;
+       << ',' << s.collisions << ',' << s.drops << ',' << s.broken << ',' << s.largest_force << ',' << s.position_error
+       << ',' << s.angle_error;
   return line.str();
 }
 

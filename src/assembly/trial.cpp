@@ -1,37 +1,50 @@
 #include "spring_workbench/assembly/trial.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "spring_workbench/hand_input/feed.h"
 #include "spring_workbench/tools/tool.h"
 
 namespace spring_workbench::assembly {
 
 OperatorView look_at(const simulation::Simulation& simulation) {
-  const tools::ToolState tool = simulation.fork();
   OperatorView view;
   view.objects = simulation.objects();
-  view.X_HE.translation().z() = tool.length;
-  view.turns = tools::turns(tool.tool);
+  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
+    const tools::ToolState tool = simulation.fork(hand);
+    view.tools.push_back({RigidTransform::Identity(), tools::turns(tool.tool), tool.held_object});
+    view.tools.back().X_HE.translation().z() = tool.length;
+  }
   return view;
+}
+
+simulation::SimulationSettings with_all_hands(const scene::Scene& scene, simulation::SimulationSettings settings) {
+  settings.styluses = std::max(settings.styluses, static_cast<int>(scene.X_WH_start.size()));
+  return settings;
 }
 
 Trial run_trial(const scene::Scene& scene, const simulation::SimulationSettings& simulation_settings,
                 const OperatorSettings& operator_settings, double time_limit) {
-  simulation::Simulation simulation(scene, simulation_settings);
+  simulation::Simulation simulation(scene, with_all_hands(scene, simulation_settings));
   hand_input::Feed feed(simulation, hand_input::InputSettings());
   TaskMonitor monitor(simulation.scene());
-  SimulatedOperator hand(simulation.scene(), operator_settings, [&] { return look_at(simulation); });
+  SimulatedOperator person(simulation.scene(), operator_settings, [&] { return look_at(simulation); });
   Trial trial;
-  bool pressed = false;
-  while (const std::optional<motion::StylusSample> sample = hand.next()) {
+  std::vector<bool> pressed(person.hands(), false);
+  double before = 0.0;  // time of the samples before these [s]
+  while (const std::optional<motion::StylusSample> sample = person.next()) {
     if (sample->t > time_limit) break;
-    feed.push_stylus(*sample);
-    if (sample->button != pressed) feed.push_button(sample->t, sample->button);
-    pressed = sample->button;
-    if (!trial.motion.empty()) {
-      trial.steps_rejected += feed.advance_to(trial.motion.back().t).steps_rejected;
+    feed.push_stylus(*sample, sample->hand);
+    if (sample->button != pressed[sample->hand]) feed.push_button(sample->t, sample->button, sample->hand);
+    pressed[sample->hand] = sample->button;
+    trial.motion.push_back(*sample);
+    if (sample->hand + 1 < person.hands()) continue;
+    if (sample->t > 0.0) {
+      trial.steps_rejected += feed.advance_to(before).steps_rejected;
       monitor.observe(simulation);
     }
-    trial.motion.push_back(*sample);
+    before = sample->t;
   }
   trial.score = monitor.score();
   trial.placements = monitor.placements();

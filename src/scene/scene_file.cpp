@@ -51,14 +51,38 @@ ObjectEntry read_object(const YAML::Node& map, const std::string& path, const st
   return entry;
 }
 
+/// Points in a link frame, one per hand [m].
+std::vector<Vector3d> read_grips(const YAML::Node& list, const std::string& path, const std::string& key) {
+  if (!list.IsSequence() || list.size() == 0)
+    throw validation::InputError(line_of(list, path) + ": " + key + ": must be a list of points, one per hand");
+  std::vector<Vector3d> points;
+  for (const YAML::Node& node : list) {
+    const std::vector<double> p = config::read_numbers(node, path, key, 3);
+    points.emplace_back(p[0], p[1], p[2]);
+  }
+  return points;
+}
+
 Target read_target(const YAML::Node& map, const std::string& path, const std::string& prefix) {
-  config::check_keys(map, path, prefix, {"pose", "position_tolerance", "angle_tolerance"});
+  config::check_keys(map, path, prefix, {"pose", "position_tolerance", "angle_tolerance", "max_force", "grips"});
   Target target;
   target.X_WL = config::read_pose(map["pose"], path, prefix + "pose");
   const Fields field{map, path, prefix};
   field("position_tolerance", target.position_tolerance, config::read_number, validation::positive());
   field("angle_tolerance", target.angle_tolerance, config::read_number, validation::positive());
+  field("max_force", target.max_force, config::read_number, validation::positive_or_infinite());
+  if (map["grips"].IsDefined()) target.p_LG = read_grips(map["grips"], path, prefix + "grips");
   return target;
+}
+
+std::vector<RigidTransform> read_handles(const YAML::Node& start, const std::string& path) {
+  std::vector<std::string> keys = {handle_key(0), handle_key(1)};
+  while (start[keys.back()].IsDefined()) keys.push_back(handle_key(keys.size()));
+  config::check_keys(start, path, "start.", keys);
+  keys.pop_back();
+  std::vector<RigidTransform> handles;
+  for (const std::string& key : keys) handles.push_back(config::read_pose(start[key], path, "start." + key));
+  return handles;
 }
 
 void read_settings(const YAML::Node& map, const std::string& path, SceneFile& file) {
@@ -70,10 +94,7 @@ void read_settings(const YAML::Node& map, const std::string& path, SceneFile& fi
   field("contact", scene.contact, config::read_named<ContactMode>);
   const std::vector<std::string> tools = {"spring", "spring_fork", "spring_probe", "direct", "ray"};
   field("tool", scene.tool, config::read_choice, tools);
-  if (map["start"].IsDefined()) {
-    config::check_keys(map["start"], path, "start.", {"handle"});
-    scene.X_WH_start = config::read_pose(map["start"]["handle"], path, "start.handle");
-  }
+  if (map["start"].IsDefined()) scene.X_WH_start = read_handles(map["start"], path);
   if (map["defaults"].IsDefined()) {
     const YAML::Node defaults = map["defaults"];
     config::check_keys(defaults, path, "defaults.", default_keys);
@@ -105,7 +126,13 @@ SceneFile read_scene_file(const std::string& path) {
     file.objects[name] = read_object(node, path, "objects." + name + ".", file);
   });
   for_each_entry(map, path, "targets", [&](const std::string& name, const YAML::Node& node) {
-    file.settings.targets[name] = read_target(node, path, "targets." + name + ".");
+    const Target& target = file.settings.targets[name] = read_target(node, path, "targets." + name + ".");
+    const std::size_t hands = file.settings.X_WH_start.size();
+    if (target.p_LG.size() > hands) {
+      validation::refuse(line_of(node["grips"], path), "targets." + name + ".grips",
+                         std::to_string(target.p_LG.size()) + " points",
+                         "at most " + std::to_string(hands) + ", one for each handle of start");
+    }
     file.targets[name] = line_of(node, path);
   });
   return file;

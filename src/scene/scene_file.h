@@ -25,6 +25,9 @@ struct SceneFile {
   std::map<std::string, std::string> targets;  ///< name → "<file>:<line>"
 };
 
+/// Key of `start:` for a hand, from 0: handle, handle_2, ...
+inline std::string handle_key(std::size_t hand) { return hand == 0 ? "handle" : "handle_" + std::to_string(hand + 1); }
+
 /// Reads it. Throws InputError with file:line, key, value and rule; unknown keys are refused.
 SceneFile read_scene_file(const std::string& path);
 

@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "mesh_file.h"
+#include "scene_file.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/scene/editing.h"
 #include "spring_workbench/validation/names.h"
@@ -96,6 +97,7 @@ void fill_link(TiXmlElement& link, const Body& body) {
     TiXmlElement& visual = add(link, "visual");
     add_origin(visual, X_LO * shape.X_OS);
     add_geometry(visual, shape.geometry, body.name);
+    if (!shape.color_given) continue;
     TiXmlElement& material = add(visual, "material");
     material.SetAttribute("name", body.name + " " + std::to_string(number++));
     const Eigen::Vector4d& c = shape.color;
@@ -161,7 +163,8 @@ std::string yaml_of(const Scene& scene) {
   map["tool"] = scene.tool;
   map["force_scale"] = scene.force_scale;
   map["bench_height"] = scene.bench_height;
-  map["start"]["handle"] = numbers(scene.X_WH_start);
+  for (std::size_t hand = 0; hand < scene.X_WH_start.size(); ++hand)
+    map["start"][handle_key(hand)] = numbers(scene.X_WH_start[hand]);
   map["defaults"] = node_of(scene.bench_material);
   for (const Body& body : scene.bodies) {
     YAML::Node object = node_of(body.material);
@@ -173,6 +176,8 @@ std::string yaml_of(const Scene& scene) {
     node["pose"] = numbers(target.X_WL);
     node["position_tolerance"] = target.position_tolerance;
     node["angle_tolerance"] = target.angle_tolerance;
+    node["max_force"] = target.max_force;
+    for (const Vector3d& p : target.p_LG) node["grips"].push_back(std::vector<double>{p.x(), p.y(), p.z()});
     map["targets"][name] = node;
   }
   YAML::Emitter text;

@@ -158,6 +158,7 @@ class BodyBuilder {
         if (!element->material || !element->material->texture_filename.empty()) continue;
         const urdf::Color& c = element->material->color;  // urdfdom takes 0 … 1 only
         shape.color = Eigen::Vector4f(c.r, c.g, c.b, c.a).cast<double>();
+        shape.color_given = true;
       }
     }
     return shapes;

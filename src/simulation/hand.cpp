@@ -16,7 +16,7 @@ Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, contac
       objects_(objects),
       tool_(tool),
       stylus_(settings.hand_time_scale * settings.dropout_after, settings.hand_time_scale * settings.wrench_timeout,
-              scene.X_WH_start),
+              scene.X_WH_start.front()),
       ray_length_(longest_ray) {}
 
 void Hand::reset() {

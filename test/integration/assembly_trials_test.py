@@ -85,6 +85,30 @@ class AssemblyTrials(unittest.TestCase):
         given_up = list(csv.DictReader(run(*arguments, "--time-limit", "10").stdout.splitlines()))[0]
         self.assertLess(int(given_up["placed"]), 3)
 
+    def test_two_hands_are_recorded_and_replayed(self):
+        """A motion file per hand; the two repeat the work: the bar in its slot, the box on the other side."""
+        scene = SOURCE + "/scenes/two_handed.urdf"
+        with tempfile.TemporaryDirectory() as folder:
+            hands = [os.path.join(folder, name) for name in ("hand.tum", "hand_2.tum")]
+            out = os.path.join(folder, "run.csv")
+            arguments = ["--scene", scene, "--settings", SETTINGS]
+            done = run(*arguments, "--tool", "spring_fork", "--trials", "1", "--record", hands[0])
+            score = list(csv.DictReader(done.stdout.splitlines()))[0]
+            self.assertEqual((score["placed"], score["grasps"], score["drops"]), ("2", "4", "0"))
+            command = [REPLAY, *arguments, "--motion", hands[0], "--motion", hands[1], "--out", out]
+            again = subprocess.run(command, capture_output=True, text=True)
+            self.assertEqual(again.returncode, 0, again.stderr)
+            last = {row["object"]: row for row in csv.DictReader(pathlib.Path(out).read_text().splitlines())}
+        self.assertLess(abs(float(last["bar"]["y"]) - 0.2), 0.01)
+        self.assertLess(abs(float(last["box"]["x"]) - 0.45), 0.01)
+
+    def test_what_is_fragile_breaks_in_a_rigid_tool_alone(self):
+        arguments = ["--scene", SOURCE + "/scenes/fragile.urdf", "--settings", SETTINGS, "--trials", "1", "--tool"]
+        for tool, broken in [("spring_fork", 0), ("direct", 1)]:
+            score = list(csv.DictReader(run(*arguments, tool).stdout.splitlines()))[0]
+            self.assertEqual(int(score["broken"]) > 0, broken > 0, tool)
+            self.assertEqual(int(score["placed"]), int(score["targets"]) - int(score["broken"]), tool)
+
     def test_bad_input_is_refused_in_one_line(self):
         for arguments, word in [
             ([], "--scene"),

@@ -17,7 +17,7 @@ import rospy
 import rostest
 import yaml
 from rosgraph_msgs.msg import Log
-from spring_workbench.msg import Change, ObjectStates, StepReport, TaskState
+from spring_workbench.msg import Change, ForkState, ObjectStates, StepReport, TaskState
 
 from stack import Launched, Listener, make_bag, wait_for
 
@@ -36,6 +36,21 @@ class LaunchFiles(unittest.TestCase):
         self.assertTrue(all(p.in_place for p in done.placements))
         self.assertEqual(done.csv.split(",")[0], "7")
         self.assertGreater(done.hand_path, done.object_path)
+
+    def test_the_operator_works_with_two_hands(self):
+        """It carries a bar with both, and one hands a box over to the other."""
+        rospy.set_param("/use_sim_time", False)
+        tasks, held = Listener("manipulation/task", TaskState), set()
+        forks = [Listener("manipulation/fork" + suffix, ForkState) for suffix in ("", "_2")]
+        scene = "scene:=package://spring_workbench/scenes/two_handed.urdf"
+        with Launched("workbench.launch", scene, "input:=operator", "rviz:=false"):
+
+            def complete():
+                held.add(tuple(fork.last.held_object if fork.last else "" for fork in forks))
+                return tasks.last and tasks.last.complete
+
+            wait_for(complete, "all objects in place", deadline=240.0)
+        self.assertLessEqual({("bar", "bar"), ("box", ""), ("box", "box"), ("", "box")}, held)
 
     def test_settings_of_a_file_take_precedence_over_arguments(self):
         with tempfile.NamedTemporaryFile("w", suffix=".yaml") as settings:

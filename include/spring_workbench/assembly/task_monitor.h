@@ -2,6 +2,7 @@
 
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,7 @@ class TaskMonitor {
   void add_ways(const simulation::Simulation& simulation);
   void note_holds(const simulation::Simulation& simulation);
   void note_contacts(double t, const std::vector<contact::ContactState>& contacts);
+  void note_force(const std::string& object, double force);
   void note_drops(const std::vector<bodies::BodyState>& objects);
   bool is_fixed(const std::string& name) const;
 
@@ -59,6 +61,7 @@ class TaskMonitor {
   double begin_ = 0.0;
   std::vector<Hand> hands_;
   std::map<std::string, Carried> carried_;
+  std::set<std::string> broken_;
   std::map<std::string, double> released_height_;  ///< of objects that may be falling [m]
 };
 

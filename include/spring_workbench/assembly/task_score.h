@@ -15,6 +15,7 @@ struct TaskScore {
   int grasps = 0;            ///< times that an object was grasped
   int collisions = 0;        ///< times that a held object hit something; setting it down on a fixed body does not count
   int drops = 0;             ///< releases after which the object fell by more than 2 cm
+  int broken = 0;            ///< objects with a target that were pressed by more than its largest force
   double largest_force = 0.0;   ///< between an object and what it touches [N]
   double position_error = 0.0;  ///< mean over the targets, at present [m]
   double angle_error = 0.0;     ///< mean over the targets that ask for an angle, at present [rad]

@@ -4,6 +4,7 @@
 
 #include "spring_workbench/assembly/simulated_operator.h"
 #include "spring_workbench/assembly/task_monitor.h"
+#include "spring_workbench/simulation/simulation.h"
 
 namespace spring_workbench::assembly {
 
@@ -11,15 +12,19 @@ namespace spring_workbench::assembly {
 struct Trial {
   TaskScore score;
   std::vector<Placement> placements;
-  std::vector<motion::StylusSample> motion;  ///< of the hand, as it was sampled
+  std::vector<motion::StylusSample> motion;  ///< of the hands, as they were sampled
   int steps_rejected = 0;
 };
 
-/// What an operator sees who looks at the simulation and has its first hand's tool.
+/// What an operator sees who looks at the simulation and has the tools of its hands.
 OperatorView look_at(const simulation::Simulation& simulation);
 
-/// Runs one: no clock, no ROS; the same arguments give bit-identical results. The simulation runs one sample behind the
-/// hand, as it does live. Ends when the operator does, or after `time_limit` [s]. Throws InputError as Simulation does.
+/// The settings with a stylus for each hand of the operator, or more.
+simulation::SimulationSettings with_all_hands(const scene::Scene& scene, simulation::SimulationSettings settings);
+
+/// Runs one: no clock, no ROS; the same arguments give bit-identical results. The simulation has all hands, and runs
+/// one sample behind them, as it does live. Ends when the operator does, or after `time_limit` [s]. Throws InputError
+/// as Simulation does.
 Trial run_trial(const scene::Scene& scene, const simulation::SimulationSettings& simulation_settings,
                 const OperatorSettings& operator_settings, double time_limit = 300.0);
 

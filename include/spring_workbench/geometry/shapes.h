@@ -40,6 +40,7 @@ struct Shape {
   Geometry geometry;
   RigidTransform X_OS = RigidTransform::Identity();
   Eigen::Vector4d color = Eigen::Vector4d(0.7, 0.7, 0.7, 1.0);  ///< r, g, b, alpha in 0 … 1
+  bool color_given = false;  ///< by the scene; otherwise colours and textures of a mesh file come before `color`
 };
 
 }  // namespace spring_workbench::geometry

@@ -10,9 +10,10 @@
 namespace spring_workbench::motion {
 
 /// A sample of a tracked stylus: `t` [s] since the source's first sample, the pose X of the stylus in the tracker's
-/// base frame, and whether the grasp button is down.
+/// base frame, whether the grasp button is down, and which stylus it is.
 struct StylusSample : PoseSample {
   bool button = false;
+  std::size_t hand = 0;  ///< number of the stylus, from 0
 };
 
 /// An edge of one of a stylus' buttons.

@@ -47,6 +47,9 @@ struct Target {
   RigidTransform X_WL = RigidTransform::Identity();
   double position_tolerance = 0.01;
   double angle_tolerance = 0.1;
+  double max_force = std::numeric_limits<double>::infinity();  ///< [N], > 0: pressed harder by another body, it breaks
+  std::vector<Vector3d> p_LG;  ///< where the hands that carry it hold it, in its link frame; empty: one hand, at its
+                               ///< centre of mass
 };
 
 /// A scene as read from a URDF and the YAML file of the same name next to it.
@@ -59,8 +62,8 @@ struct Scene {
   Material bench_material;            ///< the scene's defaults
   ContactMode contact = ContactMode::stop;
   std::string tool = "spring_fork";
-  double force_scale = 1.0;                                ///< ratio of virtual to real force, > 0
-  RigidTransform X_WH_start = RigidTransform::Identity();  ///< start of the fork's handle
+  double force_scale = 1.0;                                               ///< ratio of virtual to real force, > 0
+  std::vector<RigidTransform> X_WH_start = {RigidTransform::Identity()};  ///< start of each hand's handle; one or more
   std::map<std::string, Target> targets;
   std::vector<std::string> warnings;  ///< one line for each repair on loading, naming the link
 };

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -23,18 +24,27 @@ void write_file(const std::string& path, const std::string& text) {
   expect_written(file.good(), path);
 }
 
-/// The hand as a motion file (doc/reference.md): to 10 µm and 10 µrad, less than the tracker's noise.
-std::string motion_text(const std::vector<motion::StylusSample>& motion) {
+/// A hand as a motion file (doc/reference.md): to 10 µm and 10 µrad, less than the tracker's noise.
+std::string motion_text(const std::vector<motion::StylusSample>& motion, std::size_t hand) {
   std::ostringstream text;
   text.imbue(std::locale::classic());
   text << "# t x y z qx qy qz qw button\n" << std::fixed;
   for (const motion::StylusSample& sample : motion) {
+    if (sample.hand != hand) continue;
     const Vector3d& p = sample.X.translation();
     const Quaterniond q(sample.X.linear());
     text << std::setprecision(3) << sample.t << std::setprecision(5) << ' ' << p.x() << ' ' << p.y() << ' ' << p.z()
          << ' ' << q.x() << ' ' << q.y() << ' ' << q.z() << ' ' << q.w() << ' ' << (sample.button ? 1 : 0) << '\n';
   }
   return text.str();
+}
+
+/// The path of a hand's motion file: HAND.tum, HAND_2.tum, ...
+std::string path_of(const std::string& record, std::size_t hand) {
+  if (hand == 0) return record;
+  std::filesystem::path path(record);
+  const std::string name = path.stem().string() + "_" + std::to_string(hand + 1) + path.extension().string();
+  return path.replace_filename(name).string();
 }
 
 /// Runs the trials and writes what was asked for.
@@ -57,7 +67,9 @@ void run(const Options& options) {
       all.back().scores.push_back(trial.score);
       csv += std::to_string(hand.seed) + "," + std::to_string(all.size()) + "," + label + ",1,0," +
              assembly::score_csv(trial.score) + "\n";
-      if (!options.record.empty() && all.size() == 1 && k == 0) write_file(options.record, motion_text(trial.motion));
+      if (options.record.empty() || all.size() > 1 || k > 0) continue;
+      for (std::size_t h = 0; h < scene.X_WH_start.size(); ++h)
+        write_file(path_of(options.record, h), motion_text(trial.motion, h));
     }
   }
   if (!options.table.empty()) write_file(options.table, markdown_table(all));

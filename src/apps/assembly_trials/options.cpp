@@ -64,7 +64,8 @@ assembly_trials --scene SCENE.urdf [--settings FILE.yaml] [--tool LABEL] [--tria
               participant is the seed, condition the tool, order its place in the list above; columns as of a study
               with people
   --table     a Markdown table of the means of each tool with 95 % confidence intervals
-  --record    the hand of the first trial as a motion file for replay and tracker_driver
+  --record    the hand of the first trial as a motion file for replay and tracker_driver; the second hand of an
+              operator with two goes to HAND_2.tum
 
 Without --out the lines go to standard output. Exit status: 0 done; 1 failed; 2 bad arguments or input, with one line on
 standard error.

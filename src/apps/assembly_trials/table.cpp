@@ -59,6 +59,7 @@ std::string markdown_table(const std::vector<ToolTrials>& tools) {
                             {"grasps", 1.0, &Score::grasps},
                             {"collisions", 1.0, &Score::collisions},
                             {"drops", 1.0, &Score::drops},
+                            {"broken", 1.0, &Score::broken},
                             {"largest force [N]", 1.0, &Score::largest_force},
                             {"placement error [mm]", 1e3, &Score::position_error}};
   std::string table = "| tool | trials | completed |", rule = "| --- | --- | --- |";

@@ -96,6 +96,7 @@ TaskState to_message(const std::vector<assembly::Placement>& placements, const a
     p.position_error = placement.position_error;
     p.angle_error = placement.angle_error;
     p.in_place = placement.in_place;
+    p.broken = placement.broken;
     message.placements.push_back(p);
   }
   message.targets = static_cast<uint32_t>(score.targets);
@@ -107,6 +108,7 @@ TaskState to_message(const std::vector<assembly::Placement>& placements, const a
   message.grasps = static_cast<uint32_t>(score.grasps);
   message.collisions = static_cast<uint32_t>(score.collisions);
   message.drops = static_cast<uint32_t>(score.drops);
+  message.broken = static_cast<uint32_t>(score.broken);
   message.largest_force = score.largest_force;
   message.position_error = score.position_error;
   message.angle_error = score.angle_error;

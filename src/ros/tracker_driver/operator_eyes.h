@@ -2,27 +2,41 @@
 
 #include <ros/ros.h>
 
+#include <string>
+#include <vector>
+
 #include "spring_workbench/ForkState.h"
 #include "spring_workbench/ObjectStates.h"
 #include "spring_workbench/assembly/simulated_operator.h"
 #include "spring_workbench/ros/common/conversions.h"
+#include "spring_workbench/ros/common/publishing.h"
 #include "spring_workbench/tools/tool.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::tracker_driver {
 
-/// What the simulated operator sees of a running node `manipulation`: its ~objects and ~fork.
+/// What the simulated operator sees of a running node `manipulation`: its ~objects, and ~fork of each hand.
 class OperatorEyes {
  public:
-  explicit OperatorEyes(ros::NodeHandle node)
-      : objects_subscriber_(node.subscribe("manipulation/objects", 1, &OperatorEyes::on_objects, this)),
-        fork_subscriber_(node.subscribe("manipulation/fork", 1, &OperatorEyes::on_fork, this)) {}
+  OperatorEyes(ros::NodeHandle node, std::size_t hands)
+      : objects_subscriber_(node.subscribe("manipulation/objects", 1, &OperatorEyes::on_objects, this)) {
+    view_.tools.resize(hands);
+    for (std::size_t hand = 0; hand < hands; ++hand) {
+      fork_subscribers_.push_back(node.subscribe<ForkState>(
+          "manipulation/fork" + ros_common::hand_suffix(hand), 1,
+          [this, hand](const ForkState::ConstPtr& message) { view_.tools[hand] = tool_of(*message); }));
+    }
+  }
 
-  /// Waits until something is seen; returns at shutdown too.
+  /// Waits until something is seen; returns at shutdown too. The forks of further hands are seen once these move, and
+  /// are taken for the first one's until then.
   void wait() {
-    while (ros::ok() && (view_.objects.empty() || view_.X_HE.translation().isZero())) {
+    while (ros::ok() && (view_.objects.empty() || view_.tools.front().X_HE.translation().isZero())) {
       ros::spinOnce();
       ros::WallDuration(0.02).sleep();
+    }
+    for (assembly::OperatorView::Tool& tool : view_.tools) {
+      if (tool.X_HE.translation().isZero()) tool = view_.tools.front();
     }
   }
   /// The newest view; serves the callbacks of this thread first.
@@ -47,13 +61,17 @@ class OperatorEyes {
       view_.objects.push_back(state);
     }
   }
-  void on_fork(const ForkState& message) {
-    view_.X_HE.translation().z() = message.length;
-    view_.turns = tools::turns(validation::named<tools::Tool>(message.tool, "fork", "tool"));
+  static assembly::OperatorView::Tool tool_of(const ForkState& message) {
+    assembly::OperatorView::Tool tool;
+    tool.X_HE.translation().z() = message.length;
+    tool.turns = tools::turns(validation::named<tools::Tool>(message.tool, "fork", "tool"));
+    tool.held_object = message.held_object;
+    return tool;
   }
 
   assembly::OperatorView view_;
-  ros::Subscriber objects_subscriber_, fork_subscriber_;
+  ros::Subscriber objects_subscriber_;
+  std::vector<ros::Subscriber> fork_subscribers_;
 };
 
 }  // namespace spring_workbench::tracker_driver

@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <utility>
@@ -65,14 +66,18 @@ class TrackerDriver {
         X_BT_(parameters_.X_BT),
         diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)) {
     joy_publishers_[1] = node.advertise<sensor_msgs::Joy>("stylus/joy", 100);
-    for (const int station : parameters_.fastrak.styluses) {
+    std::vector<int> styluses = parameters_.fastrak.styluses;
+    if (parameters_.source == "operator") {
+      scene_ = scene::load_scene(parameters_.scene);
+      eyes_ = std::make_unique<OperatorEyes>(node, scene_.X_WH_start.size());
+      styluses.resize(scene_.X_WH_start.size());
+      std::iota(styluses.begin(), styluses.end(), 1);
+    }
+    for (const int station : styluses) {
       if (station == 1) continue;
       joy_publishers_[station] = node.advertise<sensor_msgs::Joy>("stylus_" + std::to_string(station) + "/joy", 100);
     }
-    if (parameters_.source == "operator") {
-      eyes_ = std::make_unique<OperatorEyes>(node);
-      return;
-    }
+    if (eyes_) return;
     device_ = open_device(node, private_node);
     if (device_) return;
     const auto first = open()->next();
@@ -96,8 +101,7 @@ class TrackerDriver {
       assembly::OperatorSettings settings;
       settings.seed = static_cast<unsigned>(parameters_.seed);
       eyes_->wait();
-      return std::make_unique<assembly::SimulatedOperator>(scene::load_scene(parameters_.scene), settings,
-                                                           [this] { return eyes_->look(); });
+      return std::make_unique<assembly::SimulatedOperator>(scene_, settings, [this] { return eyes_->look(); });
     }
     const std::string path = resolve(parameters_.file);
     if (parameters_.source == "scripted") return std::make_unique<motion_files::ScriptedSource>(path);
@@ -134,12 +138,13 @@ class TrackerDriver {
     ros::Time::waitForValid();
     const double start = ros_common::loop_time() + parameters_.pause;
     ++passes_;
-    double last = -std::numeric_limits<double>::infinity();  // time of the newest sample sent [s]
+    std::map<std::size_t, double> newest;  // time of the newest sample sent, by hand [s]
     const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
     while (ros::ok()) {
       auto sample = source->next();
       if (!sample) return;
       const double t = sample->t / parameters_.speed;
+      double& last = newest.try_emplace(sample->hand, -std::numeric_limits<double>::infinity()).first->second;
       if (t <= last || t < last + shortest - stamp_slack) {
         ++not_sent_;
         continue;
@@ -152,12 +157,13 @@ class TrackerDriver {
   }
 
   void send(const motion::StylusSample& sample, const ros::Time& stamp) {
+    const int station = static_cast<int>(sample.hand) + 1;
     transforms_.sendTransform(
         {ros_common::to_transform(X_BT_ * sample.X * Eigen::Translation3d(parameters_.p_ST),
-                                  parameters_.workbench_frame, parameters_.stylus_frame, stamp),
+                                  parameters_.workbench_frame, frame_of(station), stamp),
          ros_common::to_transform(parameters_.X_BHead, parameters_.workbench_frame, parameters_.head_frame, stamp)});
     const bool held = sample.t >= parameters_.grasp_from && sample.t < parameters_.grasp_until;
-    send_buttons(1, {sample.button || held}, stamp);
+    send_buttons(station, {sample.button || held}, stamp);
     ++sent_;
   }
 
@@ -296,7 +302,8 @@ class TrackerDriver {
   std::map<int, Station> stations_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   RigidTransform X_BT_;
-  std::unique_ptr<OperatorEyes> eyes_;  ///< for the operator
+  scene::Scene scene_;                  ///< for the operator
+  std::unique_ptr<OperatorEyes> eyes_;  ///< likewise
   std::size_t sent_ = 0, not_sent_ = 0, passes_ = 0;
   double interval_ = 0.0;  ///< between the last two samples sent [s]
   bool over_ = false;

@@ -8,6 +8,7 @@
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/validation/input_error.h"
 #include "support/paths.h"
+#include "support/random_poses.h"
 
 namespace spring_workbench::assembly::simulated_operator_test {
 namespace {
@@ -37,7 +38,10 @@ OperatorView view_of(const scene::Scene& scene) {
     state.X_WO = body.X_WO;
     view.objects.push_back(state);
   }
-  view.X_HE.translation().z() = 0.2;
+  for (std::size_t hand = 0; hand < scene.X_WH_start.size(); ++hand) {
+    view.tools.emplace_back();
+    view.tools.back().X_HE.translation().z() = 0.2;
+  }
   return view;
 }
 
@@ -169,6 +173,75 @@ TEST(SimulatedOperator, LeavesAloneWhatIsInPlace) {
   EXPECT_TRUE(trial.score.complete());
   EXPECT_EQ(trial.score.grasps, 0);
   EXPECT_LT(trial.motion.back().t, 2.0);
+}
+
+const std::string two_handed = test_support::checkout("scenes/two_handed.urdf");
+
+/// Hands that are moved alike move as one, however far each would have to go alone: so a long thing is not bent.
+TEST(OperatorHands, ThatReachTogetherKeepTheirDistance) {
+  test_support::Random random(5);
+  for (int i = 0; i < 50; ++i) {
+    const std::vector<RigidTransform> start = {random.pose(1.0), random.pose(1.0)};
+    OperatorHands hands(start, still_hand());
+    const Vector3d way = random.vector(0.5);
+    const auto moved = [&](std::size_t hand) { return RigidTransform(Eigen::Translation3d(way) * start[hand]); };
+    const double end = hands.reach({0, 1}, moved, 1.0);
+    EXPECT_NEAR(end, 1.1 + 0.2 * std::log2(1.0 + way.norm() / 0.01), 1e-9);
+    const Vector3d apart = start[1].translation() - start[0].translation();
+    for (double t = 0.9; t < end + 0.1; t += 0.02) {
+      const Vector3d a = hands.sample(0, t).X.translation(), b = hands.sample(1, t).X.translation();
+      EXPECT_LT((b - a - apart).norm(), 1e-12) << t;
+    }
+    EXPECT_LT((hands.X_WH()[1].translation() - moved(1).translation()).norm(), 1e-12);
+  }
+}
+
+/// Under way, a hand goes on from where it is.
+TEST(OperatorHands, DoNotLeapWhenAReachIsBroken) {
+  const RigidTransform start = RigidTransform::Identity();
+  OperatorHands hands({start}, still_hand());
+  const auto to = [](double x) {
+    return [x](std::size_t) { return RigidTransform(Eigen::Translation3d(x, 0.0, 0.0)); };
+  };
+  const double end = hands.reach({0}, to(0.4), 0.0);
+  const double before = hands.sample(0, 0.5 * end).X.translation().x();
+  EXPECT_NEAR(before, 0.2, 1e-9);
+  hands.reach({0}, to(-0.1), 0.5 * end);
+  EXPECT_NEAR(hands.sample(0, 0.5 * end + 1e-3).X.translation().x(), before, 1e-4);
+}
+
+/// The bar needs both hands, and the box goes from one to the other: four grasps, nothing falls.
+TEST(SimulatedOperator, CarriesABarWithTwoHandsAndHandsABoxOver) {
+  scene::Scene scene = scene::load_scene(two_handed);
+  for (const tools::Tool tool : {tools::Tool::spring_fork, tools::Tool::direct}) {
+    simulation::SimulationSettings settings = assembly_settings();
+    settings.tool = tool;
+    const Trial trial = run_trial(scene, settings, OperatorSettings());
+    EXPECT_TRUE(trial.score.complete());
+    EXPECT_EQ(trial.score.grasps, 4);
+    EXPECT_EQ(trial.score.drops, 0);
+  }
+}
+
+/// Who takes it, who has it then: the near hand alone, both, the far one alone; and the other way round.
+TEST(SimulatedOperator, HandsOverFromTheNearHandToTheFarOne) {
+  for (const double side : {1.0, -1.0}) {
+    scene::Scene scene = scene::load_scene(two_handed);
+    scene.targets.erase("bar");
+    scene::Body& box = scene.bodies[*scene::find_body(scene, "box")];
+    box.X_WO.translation().x() *= side;
+    scene.targets["box"].X_WL.translation().x() *= side;
+    const Trial trial = run_trial(scene, assembly_settings(), OperatorSettings());
+    EXPECT_TRUE(trial.score.complete());
+    std::vector<std::string> order;
+    for (std::size_t k = 0; k + 1 < trial.motion.size(); k += 2) {
+      ASSERT_EQ(trial.motion[k].t, trial.motion[k + 1].t);
+      const std::string pressed = std::to_string(trial.motion[k].button) + std::to_string(trial.motion[k + 1].button);
+      if (order.empty() || order.back() != pressed) order.push_back(pressed);
+    }
+    const std::string near = side > 0.0 ? "10" : "01", far = side > 0.0 ? "01" : "10";
+    EXPECT_EQ(order, (std::vector<std::string>{"00", near, "11", far, "00"}));
+  }
 }
 
 TEST(SimulatedOperator, BadSettingsAreRefused) {

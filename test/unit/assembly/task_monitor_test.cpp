@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "spring_workbench/math/so3.h"
 #include "support/random_poses.h"
@@ -13,8 +14,10 @@ namespace {
 
 constexpr double edge = 0.1;  // [m] of the box
 
+constexpr double unbreakable = std::numeric_limits<double>::infinity();
+
 /// A box of 1 kg on the bench at the origin, wanted at x = 0.2, and a wall at x = 0.4.
-scene::Scene box_scene() {
+scene::Scene box_scene(double max_force = unbreakable) {
   scene::Scene scene;
   scene::Body box;
   box.name = "box";
@@ -28,14 +31,15 @@ scene::Scene box_scene() {
   wall.collision = {{geometry::Box{Vector3d(0.02, 1.0, 1.0)}}};
   scene.bodies = {box, wall};
   scene.targets["box"].X_WL.translation() = Vector3d(0.2, 0.0, 0.5 * edge);
+  scene.targets["box"].max_force = max_force;
   return scene;
 }
 
 /// A hand above the box that goes evenly from point to point; the monitor looks at every sample.
 class Assembly {
  public:
-  explicit Assembly(tools::Release release = tools::Release::dropped)
-      : simulation_(scene_, settings(release)), monitor_(scene_) {
+  explicit Assembly(double max_force = unbreakable, tools::Release release = tools::Release::dropped)
+      : scene_(box_scene(max_force)), simulation_(scene_, settings(release)), monitor_(scene_) {
     go(0.02, Vector3d::Zero());
   }
   static simulation::SimulationSettings settings(tools::Release release) {
@@ -62,7 +66,7 @@ class Assembly {
   TaskMonitor& monitor() { return monitor_; }
 
  private:
-  const scene::Scene scene_ = box_scene();
+  const scene::Scene scene_;
   simulation::Simulation simulation_;
   TaskMonitor monitor_;
   double t_ = 0.0;
@@ -142,6 +146,31 @@ TEST(TaskMonitor, RunningAgainstTheWallIsOneCollision) {
   EXPECT_EQ(assembly.score().collisions, 1);
   EXPECT_GT(assembly.score().largest_force, 1.0);
   EXPECT_TRUE(std::isfinite(assembly.score().largest_force));
+}
+
+/// Against the wall and to the target: broken if it bears a little less than the blow, whatever comes then.
+TEST(TaskMonitor, WhatIsPressedTooHardIsBrokenForGood) {
+  double blow = 0.0;
+  for (const double share : {0.0, 0.999, 1.001}) {
+    Assembly assembly(share > 0.0 ? share * blow : unbreakable);
+    assembly.press(true);
+    assembly.go(1.0, Vector3d(0.0, 0.0, 0.1));
+    assembly.go(1.0, Vector3d(0.38, 0.0, 0.0));
+    assembly.go(1.0, Vector3d(-0.18, 0.0, 0.0));
+    assembly.go(1.0, Vector3d::Zero());
+    assembly.go(1.0, Vector3d(0.0, 0.0, -0.098));
+    assembly.press(false);
+    assembly.go(1.0, Vector3d::Zero());
+    const bool broken = share > 0.0 && share < 1.0;
+    EXPECT_EQ(assembly.score().broken, broken ? 1 : 0) << share;
+    EXPECT_EQ(assembly.monitor().placements()[0].broken, broken) << share;
+    EXPECT_EQ(assembly.score().complete(), !broken) << share;
+    EXPECT_LT(assembly.score().position_error, 0.01) << share;
+    if (share == 0.0) blow = assembly.score().largest_force;
+    EXPECT_EQ(assembly.score().largest_force, blow) << share;
+    assembly.monitor().reset();
+    EXPECT_EQ(assembly.score().broken, 0);
+  }
 }
 
 TEST(TaskMonitor, ResetForgetsAll) {

@@ -458,6 +458,9 @@ TEST_F(LoadScene, ColoursComeFromTheMaterials) {
                                 "<color rgba='0.5 0.25 0.75 0.125'/></material></visual>");
   ASSERT_EQ(scene.bodies[0].visual.size(), 1u);
   EXPECT_TRUE(scene.bodies[0].visual[0].color.isApprox(Eigen::Vector4d(0.5, 0.25, 0.75, 0.125)));
+  EXPECT_TRUE(scene.bodies[0].visual[0].color_given);
+  const Scene plain = load_part(unit_box + "<visual><geometry><sphere radius='0.1'/></geometry></visual>");
+  EXPECT_FALSE(plain.bodies[0].visual[0].color_given);
   EXPECT_EQ(load_part(unit_box).bodies[0].visual.size(), 1u);
 }
 
@@ -474,8 +477,9 @@ defaults: {friction: 0.7, restitution: 0.2, density: 800, material_stiffness: 10
 objects:
   part: {friction: 0.1, material_stiffness: .inf}
 targets:
-  part: {pose: [1, 2, 3, 0, 0, 0, 2], position_tolerance: 0.02, angle_tolerance: 0.3}
-start: {handle: [0.1, 0.2, 0.3, 1, 0, 0, 0]}
+  part: {pose: [1, 2, 3, 0, 0, 0, 2], position_tolerance: 0.02, angle_tolerance: 0.3, max_force: 12,
+         grips: [[-0.3, 0, 0.1], [0.4, 0, 0.2]]}
+start: {handle: [0.1, 0.2, 0.3, 1, 0, 0, 0], handle_2: [0.5, 0.2, 0.3, 1, 0, 0, 0]}
 )");
   EXPECT_EQ(scene.gravity, 1.62);
   EXPECT_EQ(scene.contact, ContactMode::none);
@@ -490,7 +494,12 @@ start: {handle: [0.1, 0.2, 0.3, 1, 0, 0, 0]}
   EXPECT_TRUE(scene.targets.at("part").X_WL.translation().isApprox(Vector3d(1, 2, 3)));
   EXPECT_TRUE(scene.targets.at("part").X_WL.linear().isIdentity());
   EXPECT_EQ(scene.targets.at("part").angle_tolerance, 0.3);
-  EXPECT_TRUE(scene.X_WH_start.linear().isApprox(Matrix3d(Vector3d(1, -1, -1).asDiagonal())));
+  EXPECT_EQ(scene.targets.at("part").max_force, 12.0);
+  ASSERT_EQ(scene.targets.at("part").p_LG.size(), 2u);
+  EXPECT_EQ(scene.targets.at("part").p_LG[1], Vector3d(0.4, 0.0, 0.2));
+  ASSERT_EQ(scene.X_WH_start.size(), 2u);
+  EXPECT_EQ(scene.X_WH_start[1].translation(), Vector3d(0.5, 0.2, 0.3));
+  EXPECT_TRUE(scene.X_WH_start.front().linear().isApprox(Matrix3d(Vector3d(1, -1, -1).asDiagonal())));
   EXPECT_EQ(scene.name, "scene");
 }
 
@@ -513,7 +522,11 @@ TEST_F(LoadScene, BadYamlIsRefusedWithLineAndKey) {
            {"targets:\n  nobody: {pose: [0, 0, 0, 0, 0, 0, 1]}", ":2:", "nobody"},
            {"targets:\n  part: {position_tolerance: 1}", ":", "targets.part.pose"},
            {"targets:\n  part: {pose: [0, 0, 0, 0, 0, 0, 0]}", ":2:", "targets.part.pose"},
+           {"targets:\n  part: {pose: [0, 0, 0, 0, 0, 0, 1], max_force: 0}", ":2:", "targets.part.max_force"},
+           {"targets:\n  part: {pose: [0, 0, 0, 0, 0, 0, 1], grips: 3}", ":2:", "targets.part.grips"},
+           {"targets:\n  part: {pose: [0, 0, 0, 0, 0, 0, 1], grips: [[0, 0, 0], [1, 0, 0]]}", ":2:", "part.grips"},
            {"start: {hand: 1}", ":1:", "start.hand"},
+           {"start: {handle_2: [0, 0, 0, 0, 0, 0, 1]}", ":", "start.handle"},
            {"a: [", ":", "YAML"}}) {
     const std::string message = part_refusal(unit_box, yaml);
     EXPECT_TRUE(has(message, "scene.yaml" + place)) << yaml;

@@ -20,6 +20,7 @@ void expect_same(const std::vector<geometry::Shape>& a, const std::vector<geomet
   for (std::size_t i = 0; i < a.size(); ++i) {
     EXPECT_TRUE(a[i].X_OS.isApprox(b[i].X_OS, 1e-12));
     EXPECT_LT((a[i].color - b[i].color).norm(), 1e-6);
+    EXPECT_EQ(a[i].color_given, b[i].color_given);
     ASSERT_EQ(a[i].geometry.index(), b[i].geometry.index());
     if (const auto* mesh = std::get_if<geometry::MeshPtr>(&a[i].geometry)) {
       const geometry::TriangleMesh &of_a = **mesh, &of_b = *std::get<geometry::MeshPtr>(b[i].geometry);
@@ -49,7 +50,9 @@ void expect_same(const Scene& a, const Scene& b) {
   EXPECT_EQ(a.tool, b.tool);
   EXPECT_EQ(a.force_scale, b.force_scale);
   EXPECT_EQ(a.bench_height, b.bench_height);
-  EXPECT_TRUE(a.X_WH_start.isApprox(b.X_WH_start, 1e-14));
+  ASSERT_EQ(a.X_WH_start.size(), b.X_WH_start.size());
+  for (std::size_t hand = 0; hand < a.X_WH_start.size(); ++hand)
+    EXPECT_TRUE(a.X_WH_start[hand].isApprox(b.X_WH_start[hand], 1e-14));
   expect_same(a.bench_material, b.bench_material);
   ASSERT_EQ(a.bodies.size(), b.bodies.size());
   for (std::size_t i = 0; i < a.bodies.size(); ++i) {
@@ -70,6 +73,8 @@ void expect_same(const Scene& a, const Scene& b) {
     EXPECT_TRUE(target.X_WL.isApprox(b.targets.at(name).X_WL, 1e-14)) << name;
     EXPECT_EQ(target.position_tolerance, b.targets.at(name).position_tolerance);
     EXPECT_EQ(target.angle_tolerance, b.targets.at(name).angle_tolerance);
+    EXPECT_EQ(target.max_force, b.targets.at(name).max_force);
+    EXPECT_EQ(target.p_LG, b.targets.at(name).p_LG);
   }
 }
 
