@@ -2,6 +2,7 @@
 """The launch files and the rviz configuration as shipped, and a bag that is made here and played into the stack."""
 import glob
 import json
+import math
 import os
 import shutil
 import subprocess
@@ -27,7 +28,7 @@ PACKAGE = rospkg.RosPack().get_path("spring_workbench")
 class LaunchFiles(unittest.TestCase):
     def test_demo_assembles_all_objects(self):
         rospy.set_param("/use_sim_time", False)
-        tasks = Listener("manipulation/task", TaskState)
+        tasks, forks = Listener("manipulation/task", TaskState), Listener("manipulation/fork", ForkState)
         with Launched("demo.launch", "rviz:=false", "pause:=1"):
             tasks.next(lambda m: m.placed >= 1, "the first object in place")
             wait_for(lambda: tasks.last.complete, "all objects in place", deadline=240.0)
@@ -36,6 +37,10 @@ class LaunchFiles(unittest.TestCase):
         self.assertTrue(all(p.in_place for p in done.placements))
         self.assertEqual(done.csv.split(",")[0], "7")
         self.assertGreater(done.hand_path, done.object_path)
+        carried = [m for m in forks.messages if m.held_object == "orange_box"]
+        self.assertGreater(max(abs(m.torsion) for m in carried), math.radians(10))
+        self.assertGreater(max(math.hypot(*m.bend) for m in carried), 0.05)
+        self.assertGreater(max(m.stretch for m in carried), 0.05)
 
     def test_the_operator_works_with_two_hands(self):
         """It carries a bar with both, and one hands a box over to the other."""
