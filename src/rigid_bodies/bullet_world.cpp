@@ -397,7 +397,7 @@ double BulletWorld::admissible_fraction_of_free() const {
     const Item& item = items_[before.body];
     const Vector3d moved = item.X_WO.translation() - before.X_WO.translation();
     const Vector3d turned = item.radius * math::turn_between(before.X_WO, item.X_WO);
-    if (moved.norm() + turned.norm() < blind_way_of_free) continue;
+    if (moved.norm() + turned.norm() < deepest_way) continue;
     part = std::min(part, part_of_way(before.body, before.X_WO, item.X_WO, false, blind_way_of_free));
   }
   return part;
