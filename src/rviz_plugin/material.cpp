@@ -27,10 +27,6 @@ void set_color(const Ogre::ColourValue& color, const Ogre::MaterialPtr& material
   material->setDepthWriteEnabled(solid);
 }
 
-void set_color(const std_msgs::ColorRGBA& color, const Ogre::MaterialPtr& material) {
-  set_color(Ogre::ColourValue(color.r, color.g, color.b, color.a), material);
-}
-
 void remove_material(const Ogre::MaterialPtr& material) {
   if (material) Ogre::MaterialManager::getSingleton().remove(material->getHandle());
 }

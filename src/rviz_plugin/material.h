@@ -2,7 +2,6 @@
 
 #include <OgreColourValue.h>
 #include <OgreMaterial.h>
-#include <std_msgs/ColorRGBA.h>
 
 #include <string>
 
@@ -14,7 +13,6 @@ std::string unique_name(const std::string& kind);
 /// A material of its own, lit from both sides, as rviz' markers are; whoever made it removes it.
 Ogre::MaterialPtr make_material();
 void set_color(const Ogre::ColourValue& color, const Ogre::MaterialPtr& material);
-void set_color(const std_msgs::ColorRGBA& color, const Ogre::MaterialPtr& material);
 void remove_material(const Ogre::MaterialPtr& material);
 
 }  // namespace spring_workbench::rviz_plugin

@@ -4,6 +4,9 @@
 #include <OgreMeshManager.h>
 #include <OgreSceneManager.h>
 #include <OgreSceneNode.h>
+#include <OgreSubEntity.h>
+#include <OgreTechnique.h>
+#include <rviz/mesh_loader.h>
 #include <rviz/ogre_helpers/shape.h>
 
 #include <cmath>
@@ -27,13 +30,13 @@ void set_pose(const geometry_msgs::Pose& pose, Ogre::SceneNode* node) {
   node->setOrientation(rotation);
 }
 
-/// rviz' primitives are of size 1; its cylinder stands along y.
-void set_size(const ShapeDescription& shape, Ogre::SceneNode* node) {
+/// rviz' primitives are of size 1; its cylinder stands along y. Triangles are scaled, files are not.
+void set_size(const ShapeDescription& shape, bool of_file, Ogre::SceneNode* node) {
   const auto& size = shape.size;
   if (shape.type == ShapeDescription::CYLINDER) {
     node->rotate(Ogre::Quaternion(Ogre::Degree(90), Ogre::Vector3::UNIT_X));
     node->setScale(static_cast<float>(size.x), static_cast<float>(size.z), static_cast<float>(size.y));
-  } else if (shape.type != ShapeDescription::MESH) {
+  } else if (shape.type != ShapeDescription::MESH || of_file) {
     node->setScale(static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(size.z));
   }
 }
@@ -54,7 +57,7 @@ void SceneObjects::describe(const SceneDescription& scene) {
     body.named = !body.movable;
     body.node = parent_->createChildSceneNode();
     set_pose(description.pose, body.node);
-    for (const ShapeDescription& shape : description.visual) add_part(shape, body);
+    for (const ShapeDescription& shape : description.visual) add_part(scene, shape, body);
     body.node->setVisible(body.named);
   }
 }
@@ -67,13 +70,23 @@ Ogre::Entity* SceneObjects::make_entity(const ShapeDescription& shape) {
   return rviz::Shape::createEntity(unique_name("shape"), type, manager_);
 }
 
-void SceneObjects::add_part(const ShapeDescription& shape, Body& body) {
-  if (shape.type == ShapeDescription::MESH && !meshes_[shape.mesh]) return;  // without triangles
-  Part part{body.node->createChildSceneNode(), make_entity(shape), make_material(), shape.color};
+void SceneObjects::add_part(const SceneDescription& scene, const ShapeDescription& shape, Body& body) {
+  const bool is_mesh = shape.type == ShapeDescription::MESH;
+  if (is_mesh && !meshes_[shape.mesh]) return;  // without triangles
+  const Ogre::MeshPtr file =                    // null, too, if rviz cannot read it
+      is_mesh && shape.file_colors != 0 ? rviz::loadMeshFromResource(scene.meshes[shape.mesh].uri) : Ogre::MeshPtr();
+  Part part{body.node->createChildSceneNode(), file ? manager_->createEntity(file) : make_entity(shape), {}};
   set_pose(shape.pose, part.node);
-  set_size(shape, part.node);
-  set_color(shape.color, part.material);
-  part.entity->setMaterial(part.material);
+  set_size(shape, bool(file), part.node);
+  const auto& c = shape.color;
+  if (!file) part.looks.push_back({make_material(), Ogre::ColourValue(c.r, c.g, c.b, c.a)});
+  for (unsigned i = 0; file && i < part.entity->getNumSubEntities(); ++i) {
+    const Ogre::MaterialPtr material = part.entity->getSubEntity(i)->getMaterial()->clone(unique_name("material"));
+    part.looks.push_back({material, material->getTechnique(0)->getPass(0)->getDiffuse()});
+  }
+  for (unsigned i = 0; i < part.entity->getNumSubEntities(); ++i)
+    part.entity->getSubEntity(i)->setMaterial(part.looks[file ? i : 0].material);
+  for (const Look& look : part.looks) set_color(look.color, look.material);
   part.node->attachObject(part.entity);
   body.parts.push_back(part);
   ++built_;
@@ -98,15 +111,15 @@ void SceneObjects::color(Body& body, bool highlighted, bool pierced) {
   body.highlighted = highlighted;
   body.pierced = pierced;
   for (const Part& part : body.parts) {
-    std_msgs::ColorRGBA color = part.color;
-    if (pierced) color.a *= static_cast<float>(fork_mesh::pierced_opacity);
-    if (highlighted) {
-      const Eigen::Vector3f lit = fork_mesh::highlighted(Vector3d(color.r, color.g, color.b)).cast<float>();
-      color.r = lit[0];
-      color.g = lit[1];
-      color.b = lit[2];
+    for (const Look& look : part.looks) {
+      Ogre::ColourValue color = look.color;
+      if (highlighted) {
+        const Eigen::Vector3f lit = fork_mesh::highlighted(Vector3d(color.r, color.g, color.b)).cast<float>();
+        color = Ogre::ColourValue(lit[0], lit[1], lit[2], color.a);
+      }
+      if (pierced) color.a *= static_cast<float>(fork_mesh::pierced_opacity);
+      set_color(color, look.material);
     }
-    set_color(color, part.material);
   }
 }
 
@@ -115,7 +128,7 @@ void SceneObjects::clear() {
     for (const Part& part : body.parts) {
       manager_->destroyEntity(part.entity);
       manager_->destroySceneNode(part.node);
-      remove_material(part.material);
+      for (const Look& look : part.looks) remove_material(look.material);
     }
     if (body.node != nullptr) manager_->destroySceneNode(body.node);
   }

@@ -46,11 +46,14 @@ class SceneObjects {
   const Ogre::SceneNode* node(const std::string& name) const;
 
  private:
+  struct Look {
+    Ogre::MaterialPtr material;
+    Ogre::ColourValue color;  ///< if nothing is in it
+  };
   struct Part {
     Ogre::SceneNode* node;
     Ogre::Entity* entity;
-    Ogre::MaterialPtr material;
-    std_msgs::ColorRGBA color;
+    std::vector<Look> looks;  ///< one, or of a mesh file one per sub-mesh
   };
   struct Body {
     Ogre::SceneNode* node = nullptr;
@@ -61,7 +64,7 @@ class SceneObjects {
   };
 
   Ogre::Entity* make_entity(const ShapeDescription& shape);
-  void add_part(const ShapeDescription& shape, Body& body);
+  void add_part(const SceneDescription& scene, const ShapeDescription& shape, Body& body);
   static void color(Body& body, bool highlighted, bool pierced);
 
   Ogre::SceneManager* manager_;

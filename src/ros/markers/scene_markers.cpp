@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "constants.h"
+#include "file_colors.h"
 #include "spring_workbench/fork_mesh/constants.h"
 #include "spring_workbench/fork_mesh/load_color.h"
 #include "spring_workbench/geometry/shape_queries.h"
@@ -46,6 +47,9 @@ void draw_shape(const std::string& ns, int id, const geometry::Shape& shape, con
     marker.scale = ros_common::to_vector(Vector3d(2.0 * cylinder->radius, 2.0 * cylinder->radius, cylinder->length));
   } else {
     set_mesh(*std::get<geometry::MeshPtr>(shape.geometry), marker);
+    if (color != shape.color || !has_file_colors(shape)) return;  // lit or translucent: in one colour
+    marker.mesh_use_embedded_materials = 1;
+    marker.color = std_msgs::ColorRGBA();  // no tint
   }
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <tuple>
 
+#include "file_colors.h"
 #include "marker_list.h"
 #include "spring_workbench/ros/common/conversions.h"
 
@@ -45,6 +46,8 @@ ShapeDescription to_message(const geometry::Shape& shape, MeshIndices& meshes, S
     const auto [entry, is_new] = meshes.emplace(mesh, static_cast<std::uint32_t>(scene.meshes.size()));
     if (is_new) scene.meshes.push_back(to_message(*mesh));
     message.mesh = entry->second;
+    message.size = ros_common::to_vector(mesh->scale);
+    message.file_colors = has_file_colors(shape) ? 1 : 0;
   }
   return message;
 }
@@ -92,6 +95,14 @@ bool same_body(const scene::Body& a, const scene::Body& b) {
 }
 
 }  // namespace
+
+bool has_file_colors(const geometry::Shape& shape) {
+  const auto* mesh = std::get_if<geometry::MeshPtr>(&shape.geometry);
+  if (mesh == nullptr || shape.color_given || (*mesh)->uri.empty()) return false;
+  std::string ending = (*mesh)->uri.substr((*mesh)->uri.size() - std::min<std::size_t>(4, (*mesh)->uri.size()));
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending != ".stl";
+}
 
 SceneDescription describe(const scene::Scene& scene) {
   SceneDescription message;

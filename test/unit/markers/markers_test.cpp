@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "spring_workbench/scene/scene.h"
@@ -244,6 +245,28 @@ TEST(Markers, AMeshIsSentByItsFile) {
   EXPECT_EQ(marker->scale.z, 2.0);
   EXPECT_TRUE(marker->points.empty());
   EXPECT_NEAR(marker->color.r, box.visual[0].color[0], 1e-6);
+}
+
+/// Unless the scene gives it another colour, or its kind of file has none.
+TEST(Markers, AMeshHasTheColoursOfItsFile) {
+  scene::Scene scene = scene::load_scene(test_support::checkout("scenes/single_box.urdf"));
+  geometry::TriangleMesh mesh = *test_support::box_mesh(Vector3d(0.2, 0.1, 0.1));
+  geometry::Shape& shape = scene.bodies[*scene::find_body(scene, "box")].visual[0];
+  for (const auto& [uri, given, own] :
+       std::vector<std::tuple<std::string, bool, bool>>{{"package://a/b.dae", false, true},
+                                                        {"package://a/b.dae", true, false},
+                                                        {"package://a/b.STL", false, false}}) {
+    mesh.uri = uri;
+    shape.geometry = std::make_shared<const geometry::TriangleMesh>(mesh);
+    shape.color_given = given;
+    const simulation::Simulation simulation(scene, simulation::SimulationSettings());
+    const MarkerArray markers =
+        MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(simulation, std_msgs::Header());
+    const Marker* marker = find(markers, "box", 0);
+    ASSERT_NE(marker, nullptr);
+    EXPECT_EQ(marker->mesh_use_embedded_materials != 0, own) << uri << given;
+    EXPECT_NEAR(marker->color.a, own ? 0.0 : 1.0, 1e-6) << uri << given;
+  }
 }
 
 TEST_F(MarkersOfALift, AnInsertedObjectIsHighlighted) {

@@ -15,6 +15,7 @@
 #include "spring_workbench/fork_mesh/constants.h"
 #include "spring_workbench/fork_mesh/load_color.h"
 #include "spring_workbench/validation/input_error.h"
+#include "support/temporary_folder.h"
 
 namespace spring_workbench::rviz_plugin::scene_objects_test {
 namespace {
@@ -127,6 +128,57 @@ TEST_F(SceneObjectsTest, ShapesHaveTheirSize) {
     EXPECT_NEAR(size.y, 0.2F, 0.01F) << name;
     EXPECT_NEAR(size.z, 0.3F, 0.01F) << name;
   }
+}
+
+/// A square and a triangle as Wavefront files have them: green, and with a picture of two by two pixels.
+std::string write_file_with_colors(const test_support::TemporaryFolder& folder) {
+  std::string picture("BM\x46\0\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\2\0\0\0\2\0\0\0\1\0\x18\0", 30);
+  picture += std::string(24, '\0') + std::string("\xff\xff\xff\x10\x10\xf0\0\0\x10\x10\xf0\xff\xff\xff\0\0", 16);
+  folder.write("checks.bmp", picture);
+  folder.write("thing.mtl", "newmtl green\nKd 0.1 0.9 0.2\nnewmtl checks\nKd 1 1 1\nmap_Kd checks.bmp\n");
+  folder.write("thing.obj",
+               "mtllib thing.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\n"
+               "usemtl green\nf 1 2 5\nusemtl checks\nf 1/1 2/2 3/3 4/4\n");
+  return "file://" + folder.path("thing.obj");
+}
+
+/// The colours and textures of a file stay while the object is lit or translucent; what was made for it is freed.
+TEST_F(SceneObjectsTest, AMeshFileHasItsOwnColours) {
+  const test_support::TemporaryFolder folder;
+  SceneDescription scene = scene_of_all();
+  scene.meshes[0].uri = write_file_with_colors(folder);
+  ShapeDescription& shape = scene.bodies[4].visual[0];
+  shape.file_colors = 1;
+  shape.size.x = shape.size.y = shape.size.z = 2.0;
+  SceneObjects objects(manager_, parent_);
+  objects.describe(scene);  // rviz keeps what it has read
+  objects.clear();
+  const Counts before = counts();
+  objects.describe(scene);
+  const Ogre::Entity* entity = entity_of(objects, "mesh");
+  ASSERT_EQ(entity->getNumSubEntities(), 2u);
+  const auto pass = [&](unsigned i) { return entity->getSubEntity(i)->getMaterial()->getTechnique(0)->getPass(0); };
+  const unsigned green = pass(0)->getNumTextureUnitStates() == 0 ? 0 : 1, checks = 1 - green;
+  EXPECT_EQ(pass(green)->getNumTextureUnitStates(), 0);
+  EXPECT_EQ(pass(checks)->getNumTextureUnitStates(), 1);
+  EXPECT_NEAR(pass(green)->getDiffuse().g, 0.9F, 1e-3F);
+  EXPECT_NEAR(entity->getWorldBoundingBox(true).getSize().x, 2.0F, 0.1F);  // Ogre pads it
+  ObjectStates states = states_of(scene, random_);
+  ObjectState& state = states.objects.back();
+  ASSERT_EQ(state.name, "mesh");
+  state.held = 1;
+  objects.place(states);
+  EXPECT_NEAR(pass(green)->getDiffuse().g, 0.9F, 1e-3F);
+  EXPECT_NEAR(pass(checks)->getDiffuse().a, static_cast<float>(fork_mesh::pierced_opacity), 1e-3F);
+  EXPECT_EQ(pass(checks)->getNumTextureUnitStates(), 1);
+  state.held = 0;
+  objects.place(states);
+  EXPECT_EQ(pass(checks)->getDiffuse().a, 1.0F);
+  objects.clear();
+  EXPECT_EQ(counts(), before);
+  scene.meshes[0].uri = "file:///nowhere/thing.obj";  // its triangles are there
+  objects.describe(scene);
+  EXPECT_NEAR(color_of(objects, "mesh").r, 0.8F, 1e-6F);
 }
 
 TEST_F(SceneObjectsTest, FramesBuildNothing) {
