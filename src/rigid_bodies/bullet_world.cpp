@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <set>
 
 #include "constants.h"
@@ -20,6 +21,11 @@ namespace {
 using Extent = Eigen::AlignedBox3d;
 
 btDbvtVolume volume(const Extent& box) { return btDbvtVolume::FromMM(to_bullet(box.min()), to_bullet(box.max())); }
+
+/// See blind_way_of_free. On a shorter way, boxes around other shapes tell no more than that it is short.
+double blind_on(double way) {
+  return way < blind_way_of_free ? std::numeric_limits<double>::infinity() : blind_way_of_free;
+}
 
 }  // namespace
 
@@ -395,10 +401,10 @@ double BulletWorld::admissible_fraction_of_free() const {
   double part = 1.0;
   for (const BeforeStep& before : before_step_) {
     const Item& item = items_[before.body];
-    const Vector3d moved = item.X_WO.translation() - before.X_WO.translation();
-    const Vector3d turned = item.radius * math::turn_between(before.X_WO, item.X_WO);
-    if (moved.norm() + turned.norm() < deepest_way) continue;
-    part = std::min(part, part_of_way(before.body, before.X_WO, item.X_WO, false, blind_way_of_free));
+    const double turned = item.radius * math::turn_between(before.X_WO, item.X_WO).norm();
+    const double way = (item.X_WO.translation() - before.X_WO.translation()).norm() + turned;
+    if (way < deepest_way) continue;
+    part = std::min(part, part_of_way(before.body, before.X_WO, item.X_WO, false, blind_on(way)));
   }
   return part;
 }

@@ -32,11 +32,12 @@ constexpr double penetration_share = 0.2;
 /// [m] that a body may go towards what is near, where the shapes are not boxes. Larger: deeper; smaller: held back.
 /// Test: none: no value tried makes one fail.
 constexpr double blind_way = 2e-4;
-/// [m], likewise of a body that nobody holds. Larger: thrown things go through thin ones; smaller: what flies and rolls
-/// among movable bodies costs more. Test: LooseThrows.ALooseThinWallIsNotGoneThrough at 0.02.
+/// [m], likewise of a body that nobody holds, on a way that is not shorter. Larger: thrown things go through thin ones;
+/// smaller: what flies and rolls among movable bodies costs more. Test: LooseThrows.ALooseThinWallIsNotGoneThrough at
+/// 0.02.
 constexpr double blind_way_of_free = 1e-3;
-/// [m]; no deeper goes a box into another, and what nobody holds and goes less is not looked at. Smaller: held bodies
-/// are held back more often. Test: RigidWorld.AWayEndsWhereItTouches.
+/// [m]; no deeper goes a box into another, and what nobody holds is not looked at on a shorter way. Smaller: held
+/// bodies are held back more often. Test: RigidWorld.AWayEndsWhereItTouches.
 constexpr double deepest_way = 5e-5;
 /// [m]; a contact without impulse is told while its gap is smaller. Test: none: no value tried makes one fail.
 constexpr double closed_gap = 1e-5;
