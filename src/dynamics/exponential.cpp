@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "error_spread.h"
 #include "modal_decomposition.h"
@@ -24,9 +25,12 @@ constexpr int most_iterations = 12;
 /// a linear part costs, it is taken again (CVODE's msbp, by cost).
 constexpr int few_iterations = 3;
 constexpr int refactorisation_budget = 150;
-/// The iteration has converged when what it would still change is below this share of the collocation's error, or of
-/// the rounding of the step's own change.
-constexpr double share_of_error = 0.02;
+/// A new linear part is also worth its cost if it will be the nearer one for so many steps, of the average length so
+/// far.
+constexpr double steps_worth_it = 50.0;
+/// The iteration ends when what it would still change is below this share of the last step's collocation error, and
+/// has converged if that is below most_of_error of this one's, or below the rounding of the step's own change.
+constexpr double share_of_error = 0.02, most_of_error = 0.1;
 constexpr double share_of_change = 1e-15;
 /// From this iteration on, one that leaves more than slow_convergence of the last one's change is given up.
 constexpr int iterations_to_judge = 5;
@@ -37,8 +41,9 @@ constexpr double forget_rate = 1.3;
 constexpr double farthest_extrapolated = 1.5;
 /// Of the bound: what it allows for of what further iterations would change; how much that is, at an unknown rate.
 constexpr double share_of_iterations = 0.5, not_known = 1e3;
-/// Of the step: the start of a step and the end of the last one are the same moment.
+/// Of the step: what rounding makes of the same moment.
 constexpr double same_time = 1e-9;
+constexpr double not_a_time = std::numeric_limits<double>::quiet_NaN();
 
 math::Pack pack(const std::array<double, nodes>& x) { return math::Pack{x[0], x[1], x[2], x[3]}; }
 
@@ -49,7 +54,7 @@ class Exponential::Core {
   virtual ~Core() = default;
   virtual StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                             StrainState& state) = 0;
-  virtual bool response(const HeldBody& body, double h, Response& r) = 0;
+  virtual const Response* response(const HeldBody& body, double h) = 0;  ///< nullptr: of other equations
   virtual void carry(StrainState& deviation) const = 0;
   virtual void follow(const HeldBody& body, RunError& error) = 0;
   virtual void exchange(math::StateArchive& state) = 0;
@@ -60,13 +65,11 @@ class Exponential::CoreOf final : public Core {
  public:
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                     StrainState& state) override {
-    const bool changed = version_ != body.version();
-    if (changed || (slow_iterations_ > refactorisation_budget && state.q != modes().q_reference)) {
-      linearise(body, body.forcing(handle, t), state.q);
-    }
+    if (version_ != body.version() || has_moved_on(state.q)) linearise(body, body.forcing(handle, t), state.q);
     const StrainState begin = state;
+    const bool predicted = !std::isnan(t_begin_);
     StepEstimate e = iterate(body, handle, t, h, state);
-    if (!e.converged && begin.q != modes().q_reference) {
+    if (!e.converged && (predicted || begin.q != modes().q_reference)) {
       linearise(body, body.forcing(handle, t), begin.q);
       state = begin;
       e = iterate(body, handle, t, h, state);
@@ -74,13 +77,15 @@ class Exponential::CoreOf final : public Core {
     return e;
   }
 
-  bool response(const HeldBody& body, double h, Response& r) override {
-    if (version_ != body.version()) return false;
+  const Response* response(const HeldBody& body, double h) override {
+    if (version_ != body.version()) return nullptr;
     collocation_.prepare(h);
-    const Eigen::Matrix<double, 2 * n, n> end = collocation_.response(modes().inverse_mass);
-    r.q = end.template topRows<n>();
-    r.q_dot = end.template bottomRows<n>();
-    return true;
+    if (response_h_ != collocation_.h()) {
+      const Eigen::Matrix<double, 2 * n, n> end = collocation_.response(modes().inverse_mass);
+      response_ = {end.template topRows<n>(), end.template bottomRows<n>()};
+      response_h_ = collocation_.h();
+    }
+    return &response_;
   }
 
   void carry(StrainState& deviation) const override {
@@ -119,8 +124,9 @@ class Exponential::CoreOf final : public Core {
   void exchange(math::StateArchive& state) override {
     state(version_);
     if (version_ < 0) return;  // nothing derived yet
-    state(collocation_, model_, rate_, squared_error_, slow_iterations_, last_h_, t_end_, end_);
+    state(collocation_, model_, rate_, squared_error_, begin_, way_, steps_, slow_iterations_, last_h_, t_begin_);
     if (state.sets()) spread_.set(collocation_.modes());
+    response_h_ = 0.0;
   }
 
  private:
@@ -133,15 +139,27 @@ class Exponential::CoreOf final : public Core {
 
   const ModalDecomposition& modes() const { return collocation_.modes(); }
 
+  /// Whether a new linear part is worth its cost; of the strain at the start of each step.
+  bool has_moved_on(const Strain& q) {
+    const auto length = [this](const Strain& way) { return std::sqrt(Strain(modes().mass).dot(way.cwiseAbs2())); };
+    way_ += length(q - std::exchange(begin_, q));
+    const double from_reference = length(q - Strain(modes().q_reference));
+    return from_reference * ++steps_ > steps_worth_it * way_ ||
+           (slow_iterations_ > refactorisation_budget && from_reference > 0.0);
+  }
+
   void linearise(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
+    begin_ = q;
+    way_ = 0.0;
+    steps_ = slow_iterations_ = 0;
     const ModalDecomposition found = modal_decomposition(body, handle, q);
     if (version_ == body.version() && !(found.to_modes.allFinite() && found.from_modes.allFinite())) return;
     collocation_.set(found);
     spread_.set(found);
     version_ = body.version();
-    t_end_ = std::numeric_limits<double>::quiet_NaN();
+    t_begin_ = not_a_time;
     rate_ = 1.0;
-    slow_iterations_ = 0;
+    response_h_ = 0.0;
   }
 
   /// The acceleration under the handle's acceleration and the loads alone, to first order.
@@ -169,18 +187,15 @@ class Exponential::CoreOf final : public Core {
                                               double h, const NodeStrains& forcing, const Strain& q,
                                               const Strain& q_dot) {
     const Strain linear = collocation_.stiffness() * q + collocation_.damping() * q_dot;
-    const bool follows = std::abs(t - t_end_) <= same_time * last_h_ && q == end_.q && q_dot == end_.q_dot &&
-                         h < farthest_extrapolated * last_h_;
+    // In steps of the last one's length, from its start: a step may follow it, or be taken instead of it.
+    const double begin = (t - t_begin_) / last_h_, length = h / last_h_;
+    const bool known = begin > -same_time && begin + length < 1.0 + farthest_extrapolated;
     NodeStrains r;
-    if (follows) {
-      std::array<math::Pack, nodes> row;
-      for (std::size_t i = 0; i < nodes; ++i) {
-        const auto weights = math::Collocation::interpolated(1.0 + c[i] * h / last_h_);
-        for (std::size_t j = 0; j < nodes; ++j) row[j][i] = weights[j];
-      }
-      for (int i = 0; i < n; ++i) {
-        const math::Pack model = model_[at(i)];
-        r[at(i)] = row[0] * model[0] + row[1] * model[1] + row[2] * model[2] + row[3] * model[3] - linear[i];
+    if (known) {
+      for (std::size_t k = 0; k < nodes; ++k) {
+        const auto w = math::Collocation::interpolated(begin + c[k] * length);
+        const math::Pack weights{w[0], w[1], w[2], w[3]};
+        for (int i = 0; i < n; ++i) r[at(i)][k] = math::sum(weights * model_[at(i)]) - linear[i];
       }
     } else {
       rate_ = 1.0;
@@ -224,18 +239,20 @@ class Exponential::CoreOf final : public Core {
     return r;
   }
 
-  /// What the defect of the interpolant through the residual `r` does to the modes at the end; `x` begins at the
-  /// samples.
-  SPRING_WORKBENCH_INLINE Modes defect_effect(const HeldBody& body, const motion::FrameMotion& handle, double t,
-                                              double h, const Strain& q0, const Strain& q_dot0, NodeModes& x,
-                                              const NodeStrains& r, const NodeModes& in_modes) {
-    collocation_.drive_samples(x, in_modes, x);
-    NodeStrains defect = residual(body, body.forcing(handle, t + h * pack(s)), q0, q_dot0, x);
+  /// What the defect of the interpolant through the residual `r` does to the modes at the end; `from` begin().
+  SPRING_WORKBENCH_INLINE Modes defect_effect(const HeldBody& body, const HandleForcings& forcing, const Strain& q0,
+                                              const Strain& q_dot0, const NodeModes& from, const NodeStrains& r,
+                                              const NodeModes& in_modes) {
+    NodeModes x;
+    collocation_.drive_samples(from, in_modes, x);
+    NodeStrains defect = residual(body, forcing, q0, q_dot0, x);
     for (int i = 0; i < n; ++i) {
       for (std::size_t j = 0; j < nodes; ++j) defect[at(i)] -= math::Collocation::at_samples()[j] * r[at(i)][j];
     }
     defect_ = collocation_.in_modes(defect);
-    return collocation_.end_effect(defect_);
+    const Modes missed = collocation_.end_effect(defect_);
+    squared_error_ = collocation_.squared_size(missed);
+    return missed;
   }
 
   /// What an iteration changed, from where it began, and its squared size.
@@ -261,13 +278,14 @@ class Exponential::CoreOf final : public Core {
     collocation_.begin(q_dot0, begin, begin_samples);
     collocation_.drive(begin, in_modes, x);
 
+    const HandleForcings at_samples = body.forcing(handle, t + h * pack(s));
     const double squared_state = rounded(body, forcing.seen.distance, h, q0, q_dot0);
     mixer_.restart();
-    double all_before = 0.0, rate = std::min(1.0, rate_ * forget_rate), left = 0.0, squared_left = 0.0;
-    bool converged = false;
+    double all_before = 0.0, rate = std::min(1.0, rate_ * forget_rate), left = 0.0;
+    bool converged = false, ends = false;
     int iterations = 0;
-    Modes reached, change;
-    while (!converged && iterations < most_iterations) {
+    Modes reached, change, missed = Modes::Zero();
+    while (!converged && !ends) {
       ++iterations;
       auto& image = mixer_.next();
       r = residual(body, forcing, q0, q_dot0, x);
@@ -280,22 +298,21 @@ class Exponential::CoreOf final : public Core {
       const double rounding = share_of_change * share_of_change * (collocation_.squared_size(reached) + squared_state);
       if (iterations > 1) rate = std::sqrt(all / all_before);
       if (iterations == 2) rate_ = rate;
-      if (iterations > 2 && rate > slow_convergence && all > rounding) {
-        converged = all <= rounded_where_loads_cancel(body, q0, q_dot0);
-        if (converged) left = 1.0;  // a further iteration changes as much again
-        if (converged || iterations > iterations_to_judge) break;
+      const bool slow = iterations > 2 && rate > slow_convergence && all > rounding;
+      const bool cancels = slow && all <= rounded_where_loads_cancel(body, q0, q_dot0);
+      ends = cancels || (slow && iterations > iterations_to_judge) || iterations == most_iterations;
+      left = cancels ? 1.0 : rate < 1.0 ? rate / (1.0 - rate) : not_known;  // 1: the next changes as much again
+      const double squared_left = left * left * collocation_.squared_size(change);
+      const auto below = [&](double most) { return squared_left <= std::max(most * most * squared_error_, rounding); };
+      if (ends || below(share_of_error)) {
+        missed = defect_effect(body, at_samples, q0, q_dot0, begin_samples, r, in_modes);
+        converged = cancels || below(most_of_error);
       }
-      left = rate < 1.0 ? rate / (1.0 - rate) : not_known;
-      squared_left = left * left * collocation_.squared_size(change);
-      converged = squared_left <= std::max(share_of_error * share_of_error * squared_error_, rounding);
       all_before = all;
       mixer_.mix(collocation_.squared_weight(), x);
     }
     slow_iterations_ += std::max(0, iterations - few_iterations);
 
-    const Modes missed = defect_effect(body, handle, t, h, q0, q_dot0, begin_samples, r, in_modes);
-    squared_error_ = collocation_.squared_size(missed);
-    converged = converged || squared_left <= share_of_error * share_of_error * squared_error_;
     const Modes end = collocation_.deviation(reached),
                 error = -collocation_.deviation(Modes((1.0 + left) * missed + left * change));
     state.q = q0 + end.template head<n>();
@@ -303,21 +320,24 @@ class Exponential::CoreOf final : public Core {
     const Strain linear = collocation_.stiffness() * q0 + collocation_.damping() * q_dot0;
     for (int i = 0; i < n; ++i) model_[at(i)] = r[at(i)] - by_forcing[at(i)] + linear[i];
     last_h_ = h;
-    t_end_ = t + h;
-    end_ = state;
+    t_begin_ = converged && end.allFinite() ? t : not_a_time;
     done_ = {forcing, q0, q_dot0, r, mixer_.last().x};
-    return {error.template head<n>(), modes().fastest * h, error.template tail<n>(), converged && end.allFinite()};
+    return {error.template head<n>(), modes().fastest * h, error.template tail<n>(), !std::isnan(t_begin_)};
   }
 
   Collocation collocation_;
   long version_ = -1;
   math::AndersonMixer<static_cast<std::size_t>(2 * n)> mixer_;
-  NodeStrains model_{};         ///< the last step's acceleration at its nodes, without linear part and forcing
-  double rate_ = 1.0;           ///< of convergence, from the first to the second iteration
-  double squared_error_ = 0.0;  ///< of the last step's collocation
-  int slow_iterations_ = 0;     ///< beyond few_iterations, with this linear part
-  double last_h_ = 0.0, t_end_ = 0.0;
-  StrainState end_;
+  NodeStrains model_{};            ///< the last step's acceleration at its nodes, without linear part and forcing
+  double rate_ = 1.0;              ///< of convergence, from the first to the second iteration
+  double squared_error_ = 0.0;     ///< of the last step's collocation
+  Strain begin_ = Strain::Zero();  ///< of the last step
+  double way_ = 0.0;               ///< of the strain from step to step, with this linear part [m √kg]
+  int steps_ = 0;                  ///< with this linear part
+  int slow_iterations_ = 0;        ///< beyond few_iterations, with this linear part
+  double last_h_ = 0.0, t_begin_ = not_a_time;  ///< of the last step; NaN: nothing to predict from
+  Response response_;                           ///< of the linear part
+  double response_h_ = 0.0;                     ///< the step that it is for [s]; 0: none
   ErrorSpread<n, Collocation> spread_;
   // Of the last step, for follow(); nothing of it goes on to the next.
   struct {
@@ -368,8 +388,8 @@ void Exponential::exchange(math::StateArchive& state) {
 
 Integrator::Response Exponential::response(const HeldBody& body, const HandleForcing& handle, double h,
                                            const StrainState& state) {
-  Response r;
-  if (body.size() > 0 && body.size() == n_ && core_->response(body, h, r)) return r;
+  const Response* known = body.size() > 0 && body.size() == n_ ? core_->response(body, h) : nullptr;
+  if (known != nullptr) return *known;
   return Integrator::response(body, handle, h, state);
 }
 

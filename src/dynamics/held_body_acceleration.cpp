@@ -149,24 +149,18 @@ SPRING_WORKBENCH_WIDE void HeldBody::acceleration(const HandleForcings& h, const
   accelerate<n, math::Pack>(h, q, q_dot, q_ddot);
 }
 
-template Eigen::Matrix<double, 1, 1> HeldBody::acceleration<1>(const HandleForcing&, const Eigen::Matrix<double, 1, 1>&,
-                                                               const Eigen::Matrix<double, 1, 1>&) const;
-template void HeldBody::acceleration<1>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
-template Eigen::Matrix<double, 2, 1> HeldBody::acceleration<2>(const HandleForcing&, const Eigen::Matrix<double, 2, 1>&,
-                                                               const Eigen::Matrix<double, 2, 1>&) const;
-template void HeldBody::acceleration<2>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
-template Eigen::Matrix<double, 3, 1> HeldBody::acceleration<3>(const HandleForcing&, const Eigen::Matrix<double, 3, 1>&,
-                                                               const Eigen::Matrix<double, 3, 1>&) const;
-template void HeldBody::acceleration<3>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
-template Eigen::Matrix<double, 4, 1> HeldBody::acceleration<4>(const HandleForcing&, const Eigen::Matrix<double, 4, 1>&,
-                                                               const Eigen::Matrix<double, 4, 1>&) const;
-template void HeldBody::acceleration<4>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
-template Eigen::Matrix<double, 5, 1> HeldBody::acceleration<5>(const HandleForcing&, const Eigen::Matrix<double, 5, 1>&,
-                                                               const Eigen::Matrix<double, 5, 1>&) const;
-template void HeldBody::acceleration<5>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
-template Eigen::Matrix<double, 6, 1> HeldBody::acceleration<6>(const HandleForcing&, const Eigen::Matrix<double, 6, 1>&,
-                                                               const Eigen::Matrix<double, 6, 1>&) const;
-template void HeldBody::acceleration<6>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) const;
+#define SPRING_WORKBENCH_FOR_SIZE(n)                                                                                \
+  template Eigen::Matrix<double, n, 1> HeldBody::acceleration<n>(                                                   \
+      const HandleForcing&, const Eigen::Matrix<double, n, 1>&, const Eigen::Matrix<double, n, 1>&) const;          \
+  template void HeldBody::acceleration<n>(const HandleForcings&, const math::Pack*, const math::Pack*, math::Pack*) \
+      const;
+SPRING_WORKBENCH_FOR_SIZE(1)
+SPRING_WORKBENCH_FOR_SIZE(2)
+SPRING_WORKBENCH_FOR_SIZE(3)
+SPRING_WORKBENCH_FOR_SIZE(4)
+SPRING_WORKBENCH_FOR_SIZE(5)
+SPRING_WORKBENCH_FOR_SIZE(6)
+#undef SPRING_WORKBENCH_FOR_SIZE
 
 template <int n>
 SPRING_WORKBENCH_WIDE void HeldBody::balance(const HandleForcings& h, const math::Pack* q, const math::Pack* q_dot,

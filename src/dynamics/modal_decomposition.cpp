@@ -2,10 +2,9 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
-#include <Eigen/LU>
 #include <cmath>
-#include <limits>
 
+#include "spring_workbench/math/real_modes.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/spatial.h"
 
@@ -33,28 +32,6 @@ rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& h
     stiffness.col(j) = (body.acceleration(handle, down, rest) - body.acceleration(handle, up, rest)) / (2.0 * moved);
   }
   return stiffness;
-}
-
-/// Copies eigenvectors in real columns, a conjugate pair as its real and imaginary part, pairs first. So V⁻¹ is that of
-/// what is kept of the pair, with no more error than its condition makes.
-void sort_modes(const Eigen::EigenSolver<ModeMatrix>& solver, ModeMatrix& V, ModalDecomposition& part) {
-  const auto values = solver.eigenvalues();
-  const auto vectors = solver.eigenvectors().eval();
-  part.pairs = 0;
-  Eigen::Index at = 0;
-  const auto add = [&](const auto& column, std::complex<double> rate) {
-    part.rates[static_cast<std::size_t>(at)] = rate;
-    V.col(at++) = column;
-  };
-  for (Eigen::Index m = 0; m < values.size(); ++m) {
-    if (values[m].imag() <= 0.0) continue;
-    add(vectors.col(m).real(), values[m]);
-    add(vectors.col(m).imag(), values[m]);
-    ++part.pairs;
-  }
-  for (Eigen::Index m = 0; m < values.size(); ++m) {
-    if (values[m].imag() == 0.0) add(vectors.col(m).real(), values[m]);
-  }
 }
 
 /// The accelerations by a wrench and by the handle's.
@@ -97,8 +74,7 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
   part.stiffness += shapes * missing.asDiagonal() * to_shapes;
   const rod::StrainMatrix modal_stiffness = to_shapes * part.stiffness * shapes;
 
-  Eigen::EigenSolver<ModeMatrix> solver(2 * n);
-  ModeMatrix V(2 * n, 2 * n), V_inverse;
+  math::RealModes<ModeMatrix> modes;
   double off_critical = 0.0;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     part.damping = part.inverse_mass * springs.D;
@@ -107,24 +83,20 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
     A.topRightCorner(n, n).diagonal() = scale;
     A.bottomLeftCorner(n, n) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());
     A.bottomRightCorner(n, n) = -(to_shapes * part.damping * shapes);
-    solver.compute(A);
-    if (solver.info() != Eigen::Success) {
-      part.to_modes = part.from_modes = ModeMatrix::Constant(2 * n, 2 * n, std::numeric_limits<double>::quiet_NaN());
-      return part;
-    }
-    sort_modes(solver, V, part);
-    V_inverse = V.partialPivLu().inverse();
-    if (V.norm() * V_inverse.norm() < worst_condition) break;
+    modes = math::RealModes<ModeMatrix>(A);
+    if (!(modes.condition > worst_condition)) break;
     off_critical = off_critical == 0.0 ? 1e-8 : 10.0 * off_critical;
   }
-  part.fastest = solver.eigenvalues().cwiseAbs().maxCoeff();
+  part.pairs = modes.pairs;
+  for (int i = 0; i < 2 * n; ++i) part.rates[static_cast<std::size_t>(i)] = modes.rates[i];
+  part.fastest = modes.rates.cwiseAbs().maxCoeff();
 
   part.from_modes.resize(2 * n, 2 * n);
-  part.from_modes.topRows(n) = shapes * scale.cwiseInverse().asDiagonal() * V.topRows(n);
-  part.from_modes.bottomRows(n) = shapes * V.bottomRows(n);
+  part.from_modes.topRows(n) = shapes * scale.cwiseInverse().asDiagonal() * modes.vectors.topRows(n);
+  part.from_modes.bottomRows(n) = shapes * modes.vectors.bottomRows(n);
   part.to_modes.resize(2 * n, 2 * n);
-  part.to_modes.leftCols(n) = V_inverse.leftCols(n) * (scale.asDiagonal() * to_shapes);
-  part.to_modes.rightCols(n) = V_inverse.rightCols(n) * to_shapes;
+  part.to_modes.leftCols(n) = modes.inverse.leftCols(n) * (scale.asDiagonal() * to_shapes);
+  part.to_modes.rightCols(n) = modes.inverse.rightCols(n) * to_shapes;
   return part;
 }
 
