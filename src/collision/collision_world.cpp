@@ -72,7 +72,7 @@ struct PieceRange {
   double radius;
 };
 
-/// Goes on from `free` towards `touching` by what is surely clear, and then by ever longer steps from `least` on.
+/// Moves `free` towards `touching` by what is surely clear, and then by ever longer steps, from `least` on.
 template <typename ClearFrom, typename TouchingAt>
 void approach(const ClearFrom& clear_from, const TouchingAt& touching_at, double least, double& free,
               double& touching) {
@@ -180,10 +180,10 @@ struct CollisionWorld::Impl {
     }
   }
 
-  /// Which part of the way `move`, `turn` (in the body's axes) the body can surely go from `X_WO` on without being
-  /// deeper in anything than `tolerance`, at most `longest`: conservative advancement, piece by piece. Boxes around the
-  /// pieces stay clear of each other as their corners do of a plane between them; where boxes around other shapes
-  /// overlap, it is the gap between the surfaces that is left.
+  /// Fraction, at most `longest`, of the displacement `move`, `turn` (in the body's axes) that the body can surely make
+  /// from `X_WO` on without being deeper in anything than `tolerance`: conservative advancement, part by part. Boxes
+  /// stay apart as long as their corners do not cross a plane between them; if the boxes around other shapes overlap,
+  /// the gap between their surfaces counts.
   double clear_way(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
                    double tolerance, double longest) {
     const geometry::StraightMotion path{X_WO.translation(), move_W, X_WO.linear() * turn_O};

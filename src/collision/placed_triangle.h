@@ -42,8 +42,8 @@ class Polygon {
 /// The part of `cut` that is behind the plane of `face` and over its area.
 Polygon part_behind(const Triangle& cut, const Triangle& face);
 
-/// Where two triangles cross: from `begin` to `end`, with the solid behind `own` to be seen on the left by who stands
-/// on `other`. Both ends are equal where they do not cross.
+/// The segment along which two triangles cross, from `begin` to `end`, such that the solid behind `own` is on the left
+/// if one looks along it standing on `other`. Both ends are equal if they do not cross.
 struct Crossing {
   Vector3d begin = Vector3d::Zero();
   Vector3d end = Vector3d::Zero();

@@ -17,7 +17,7 @@ void append_sphere_triangle_contacts(double radius, const Vector3d& centre_W, co
                                      const RigidTransform& X_WS, const std::vector<int>& triangles, double tolerance,
                                      std::vector<ContactPoint>& contacts);
 
-/// The same contacts told from the other body's side.
+/// Turns the contacts from `first` on into those of the other body.
 void turn_round(std::size_t first, std::vector<ContactPoint>& contacts);
 
 }  // namespace spring_workbench::collision

@@ -5,6 +5,7 @@
 
 #include "nearest_point.h"
 #include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/math/moving_frames.h"
 
 namespace spring_workbench::collision {
 namespace {
@@ -36,7 +37,8 @@ std::pair<Vector3d, int> nearest_point(const Surface& surface, const Vector3d& q
 
 /// How far the shape reaches along −n, as a coordinate along n.
 double lowest_along(const geometry::Geometry& geometry, const RigidTransform& X_WS, const Vector3d& n) {
-  const RigidTransform X_NW(Quaterniond::FromTwoVectors(n, Vector3d::UnitZ()));
+  RigidTransform X_NW = RigidTransform::Identity();
+  X_NW.linear() = math::shortest_rotation(n, Vector3d::UnitZ());
   return geometry::bounding_box(geometry, X_NW * X_WS).min().z();
 }
 

@@ -18,7 +18,7 @@ double deepest(const Polygon& polygon, const Triangle& face) {
 /// Edge k of a triangle with the directions that point from it into its two faces.
 struct Edge {
   Vector3d start, along, into_face, into_neighbour;
-  bool convex;
+  bool convex = false;
 };
 
 Edge edge_of(const Triangle& t, std::size_t k) {
@@ -54,17 +54,17 @@ std::optional<ContactPoint> edge_contact(const Edge& own, const Edge& other) {
   return ContactPoint{0, other.start + t * other.along, n, depth};
 }
 
-/// Ways in which two triangles may be in contact: on the other's face, on the own face, or on edges.
-struct Ways {
+/// Directions in which two triangles may be in contact: on the other's face, on the own face, or on edges.
+struct Paths {
   Polygon own_part, other_part;
-  std::array<ContactPoint, 2 + 9> deepest = {};  // of each way: first the two faces, then edges
+  std::array<ContactPoint, 2 + 9> deepest = {};  // of each path: first the two faces, then edges
   std::size_t count = 0;
 
   void add(const ContactPoint& contact) { deepest[count++] = contact; }
 };
 
-Ways find_paths(const Triangle& own, const Triangle& other) {
-  Ways paths{part_behind(own, other), part_behind(other, own)};
+Paths find_paths(const Triangle& own, const Triangle& other) {
+  Paths paths{part_behind(own, other), part_behind(other, own)};
   paths.add({0, other.corners[0], other.n, deepest(paths.own_part, other)});
   paths.add({0, own.corners[0], -own.n, deepest(paths.other_part, own)});
   for (std::size_t i = 0; i < 3; ++i) {
@@ -79,8 +79,8 @@ Ways find_paths(const Triangle& own, const Triangle& other) {
   return paths;
 }
 
-/// Of the ways that go about as well along `n` as the best one, the least deep; nothing where all lie across.
-std::optional<std::size_t> choose_path(const Ways& paths, const std::optional<Vector3d>& n) {
+/// The least deep of the paths that are about as near to `n` as the nearest one; nothing if all are far from it.
+std::optional<std::size_t> choose_path(const Paths& paths, const std::optional<Vector3d>& n) {
   const auto goes_along = [&](const ContactPoint& path) { return n ? n->dot(path.n_W) : 1.0; };
   double best = least_along;
   for (std::size_t i = 0; i < paths.count; ++i) {
@@ -99,7 +99,7 @@ std::optional<std::size_t> choose_path(const Ways& paths, const std::optional<Ve
 
 bool append_triangle_contacts(const Triangle& own, const Triangle& other, const std::optional<Vector3d>& n_W,
                               double tolerance, std::vector<ContactPoint>& contacts) {
-  const Ways paths = find_paths(own, other);
+  const Paths paths = find_paths(own, other);
   const std::optional<std::size_t> chosen = choose_path(paths, n_W);
   if (!chosen) return false;
   const auto add = [&](const ContactPoint& contact) {

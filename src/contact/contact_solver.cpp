@@ -52,8 +52,8 @@ void solve_contacts(const Matrix6d& compliance, std::vector<ContactRow>& rows) {
   struct Response {
     Matrix3d point;
     Eigen::Matrix<double, 6, 3> body;
-    double normal, tangential;
-    bool complies;
+    double normal = 0.0, tangential = 0.0;
+    bool complies = false;
   };
   std::vector<Response> responses;
   for (const ContactRow& row : rows) {

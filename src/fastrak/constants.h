@@ -34,9 +34,9 @@ constexpr double source_silence = 0.25;
 constexpr double answer_time = 0.15;
 /// on the line at once. Fewer: a slow line never streams. Test: FastrakSource.ReadsEveryModeThatItCanAskFor.
 constexpr double line_bytes = 200.0;
-/// [s] that the line is given by a reader that comes late itself. Test: none: only a stopped process meets it.
+/// [s] that the line is given if the reading thread itself is late. Test: none: only a stopped process meets it.
 constexpr double late_reader_chance = 0.05;
-/// set-ups in vain after which the port is opened anew. Test: none: both ways end in a stream.
+/// failed set-ups after which the port is opened again. Test: none: the stream starts in either case.
 constexpr int attempts_per_opening = 5;
 /// [s] for a write. Longer: a stuck port shows later. Test: none: a pseudo-terminal always takes them.
 constexpr double longest_write = 0.2;

@@ -65,7 +65,7 @@ FastrakSource::FastrakSource(const FastrakSettings& settings)
 FastrakSource::~FastrakSource() {
   try {
     if (port_) port_->write("c");
-  } catch (const SerialError&) {
+  } catch (const std::exception&) {
     // The port is gone, and the stream with it.
   }
 }
@@ -121,7 +121,7 @@ void FastrakSource::send_portion() {
 
 void FastrakSource::listen(Time until) {
   const Time begin = steady_clock::now();
-  // Whoever comes late himself gives the line a chance before he calls it silent.
+  // If this thread itself is late, the line gets a little more time before it counts as silent.
   const double least = begin >= deadline_ ? late_reader_chance : 0.0;
   const double wait = std::max(least, duration<double>(until - begin).count());
   const std::string bytes = port_->read(wait);

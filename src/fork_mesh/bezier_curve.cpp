@@ -4,6 +4,7 @@
 
 #include "constants.h"
 #include "spring_workbench/fork_mesh/fork_curve.h"
+#include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/math/quadrature.h"
 #include "spring_workbench/math/so3.h"
 
@@ -123,7 +124,7 @@ ForkCurve bezier_curve(const RigidTransform& X_WH, const RigidTransform& X_WE, d
     RigidTransform X = stations.back();
     X.translation() = curve.at(t);
     const Vector3d along = curve.rate(t);
-    if (along.norm() > 0.0) X.linear() = Quaterniond::FromTwoVectors(X.linear().col(2), along) * X.linear();
+    if (along.norm() > 0.0) X.linear() = math::shortest_rotation(X.linear().col(2), along) * X.linear();
     stations.push_back(X);
   }
   spread_twist(X_WE, twist, stations);

@@ -98,8 +98,9 @@ void ForkModel::make_end() {
       return revolve({{0.0, -2.0 * ball}, {ball, 0.0}, {0.0, 2.0 * ball}}, 0.0, end_);
     case ForkLook::End::ball: {
       std::vector<Eigen::Vector2d> half_circle;
-      for (int i = 0; i <= look_.round_sides / 2; ++i) {
-        const double angle = M_PI * i / (look_.round_sides / 2);
+      const int sectors = look_.round_sides / 2;
+      for (int i = 0; i <= sectors; ++i) {
+        const double angle = M_PI * i / sectors;
         half_circle.emplace_back(ball * std::sin(angle), -ball * std::cos(angle));
       }
       half_circle.front().x() = half_circle.back().x() = 0.0;

@@ -37,10 +37,10 @@ constexpr std::size_t touch_samples = 500;
 constexpr int fewest_to_spare = 2;
 /// Of the intervals. Test: MaterialEstimate.CoversTheTruthAsOftenAsItSays.
 constexpr double confidence = 0.95;
-/// Fits of a time constant, each beside the one before; two or three are usual. Fewer: no reading of a strongly damped
+/// Gauss–Newton iterations of a time constant; two or three are usual. Fewer: no reading of a strongly damped
 /// touch. Test: MaterialEstimate.FindsTheDampingThatIsThere at 1.
 constexpr int most_refits = 30;
-/// Of the compliance of a touch: a material that gives way less is rigid. Test:
+/// Of the compliance of a touch: a material that yields less is rigid. Test:
 /// Probe.WhatIsRigidReadsAsInfinite at 0.
 constexpr double no_give = 1e-9;
 /// Of its standard deviation: a change of the time constant that is none. Test: none: means nothing.

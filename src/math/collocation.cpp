@@ -54,7 +54,7 @@ Collocation::Row Collocation::interpolated(double at) {
 
 const std::array<Pack, count>& Collocation::at_samples() {
   static const auto rows = [] {
-    std::array<Pack, count> r;
+    std::array<Pack, count> r{};
     for (std::size_t k = 0; k < count; ++k) {
       for (std::size_t j = 0; j < count; ++j) r[j][k] = interpolated(s[k])[j];
     }

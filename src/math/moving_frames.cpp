@@ -7,6 +7,10 @@
 
 namespace spring_workbench::math {
 
+Matrix3d shortest_rotation(const Vector3d& from, const Vector3d& to) {
+  return Quaterniond::FromTwoVectors(from, to).toRotationMatrix();  // a decomposition, compiled here alone
+}
+
 Vector3d aligned_rate(const Matrix3d& R, const Vector3d& w, const Vector3d& n, const Vector3d& n_dot) {
   // The quaternion (q, v) from z to u, which is n in the axes of R: q² = (1 + u_z) / 2, 2 q v = z × u.
   const Vector3d u = R.transpose() * n, u_dot = R.transpose() * (n_dot - w.cross(n)), z = Vector3d::UnitZ();

@@ -20,7 +20,7 @@ std::atomic<bool> end_asked{false};
 
 void ask_for_end(int) { end_asked = true; }
 
-/// ROS' own ways to end a node close the line to the master first, and what the node still has to tell it is lost.
+/// roscpp's own handlers close the connection to the master before the node has deleted its parameters there.
 void end_in_order() {
   std::signal(SIGINT, ask_for_end);
   std::signal(SIGTERM, ask_for_end);

@@ -39,12 +39,12 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
 
   using Jacobian = Eigen::Matrix<double, 3, 6>;
   struct Contact {
-    btManifoldPoint* point;
-    int a, b;           ///< solver bodies
+    btManifoldPoint* point = nullptr;
+    int a = 0, b = 0;   ///< solver bodies
     Jacobian J_a, J_b;  ///< motion [normal, across, across] = J_a · V_a + J_b · V_b
     Vector3d missing;   ///< motion that its law asks for, before any impulse of this solve [m/s]
     Vector3d impulse;   ///< [N·s]
-    double friction, gap;
+    double friction = 0.0, gap = 0.0;
   };
   Contact make_contact(int index, const btContactSolverInfo& info) const;
   double missing_along_normal(const Contact& contact, double by_bullet, const btContactSolverInfo& info) const;

@@ -7,7 +7,7 @@
 namespace spring_workbench::rod {
 
 void ShapeModel::tip(const StrainVector& q, const StrainVector& q_dot, TipKinematics& out) const {
-  TipOf<double> tip_of;
+  TipOf<double> tip_of{};
   tip(q.data(), q_dot.data(), tip_of);
   out.R_HE = math::matrix(tip_of.R_HE, 0);
   out.p_HE = math::vector(tip_of.p_HE);

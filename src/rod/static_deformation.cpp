@@ -12,11 +12,11 @@ namespace {
 
 constexpr double difference = 1e-6;  ///< of the tip's way, for slopes
 constexpr double digits = 1e-8;      ///< of a strain far off, for the same
-constexpr double done = 1e-10;       ///< change of the tip over its way; the next one is smaller by `difference`
+constexpr double done = 1e-10;  ///< change of the tip over its displacement; the next one is smaller by `difference`
 constexpr double first_reach = 1.0;  ///< change of the tip over which the slope is taken to mean something
-constexpr double longer = 4.0;       ///< by which the reach grows where it did
-constexpr double overshot = 0.5;     ///< of the force along a change that may be left, the other way, at its end
-constexpr int most_changes = 60;     ///< what is off after so many is told
+constexpr double longer = 4.0;       ///< factor by which the reach grows if it did
+constexpr double overshot = 0.5;     ///< of the force along a change that may be left, reversed, at its end
+constexpr int most_changes = 60;     ///< after which the residual is reported
 constexpr int most_search_halvings = 40;
 constexpr int halvings_to_stop = 52;
 constexpr double flat = 1e-12;  ///< of the largest stiffness: one that is none

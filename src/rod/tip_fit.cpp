@@ -54,8 +54,8 @@ struct Columns {
   }
 };
 
-/// The Jacobian of one rod, to solve with where the tip may move less than it should: from there on 1/σ of a singular
-/// value goes on as σ/σ₀², to none.
+/// The Jacobian of one rod, to solve with. If the tip hardly moves in some direction, 1/σ of a singular value below σ₀
+/// becomes σ/σ₀², which goes to zero.
 class Slope {
  public:
   template <typename S>
@@ -131,7 +131,7 @@ struct OnTheWay {
       : q(strain), tip(tip_of(shape, strain)), away(tip, R_HE, p_HE, shape.length()) {}
   static TipOf<double> tip_of(const ShapeModel& shape, const Vector6d& q) {
     const double zero[n] = {};
-    TipOf<double> tip;
+    TipOf<double> tip{};
     shape.tip(q.data(), zero, tip);
     return tip;
   }

@@ -38,10 +38,8 @@ class ForkDisplay : public rviz::Display {
   void onEnable() override;
   void onDisable() override;
 
- private Q_SLOTS:
-  void subscribe();
-
  private:
+  Q_SLOT void subscribe();
   void on_fork(const ForkStateConstPtr& message);
   bool deform(const ForkState& fork);
   void draw(const ForkState& fork);

@@ -48,7 +48,8 @@ void announce_publishers(const std::string& topic, const XmlRpcValue& publishers
 }
 
 void register_topics() {
-  const std::string node = ros::this_node::getName(), uri = ros::XMLRPCManager::instance()->getServerURI();
+  const std::string& node = ros::this_node::getName();
+  const std::string uri = ros::XMLRPCManager::instance()->getServerURI();
   ros::V_string topics;
   XmlRpcValue response, publishers;
   ros::this_node::getAdvertisedTopics(topics);

@@ -37,10 +37,8 @@ class ObjectsDisplay : public rviz::Display {
   void onEnable() override;
   void onDisable() override;
 
- private Q_SLOTS:
-  void subscribe();
-
  private:
+  Q_SLOT void subscribe();
   void on_scene(const SceneDescriptionConstPtr& message);
   void on_objects(const ObjectStatesConstPtr& message);
   void describe();

@@ -14,11 +14,11 @@
 
 namespace spring_workbench::rviz_plugin {
 
-/// Calls services in a thread of its own, so that nobody waits for a node that is gone or stopped. Of calls with the
-/// same key that wait, only the newest is made.
+/// Calls services in a thread of its own, so that rviz does not wait for a node that is gone or stopped. Of the waiting
+/// calls with one key, only the newest is made.
 class ServiceCaller {
  public:
-  /// `tell` gets one line about each call that was made, in the caller's thread.
+  /// `tell` is called in that thread with one line about each call that was made.
   explicit ServiceCaller(std::function<void(const std::string&)> tell);
   ~ServiceCaller();
 

@@ -59,11 +59,11 @@ class WorkbenchPanel : public rviz::Panel {
   double free_at_ = 0.0;         ///< when switches and choices follow the node again [s]
 
   QWidget* controls_;
-  DofControls* dofs_;
-  QComboBox *integrator_, *tool_;
-  QCheckBox* grasp_;
-  QLineEdit* scene_;
-  QLabel *held_, *answer_;
+  DofControls* dofs_ = nullptr;
+  QComboBox *integrator_ = nullptr, *tool_ = nullptr;
+  QCheckBox* grasp_ = nullptr;
+  QLineEdit* scene_ = nullptr;
+  QLabel *held_ = nullptr, *answer_ = nullptr;
   StepFigures* figures_;
   ServiceCaller services_;
 };

@@ -105,7 +105,7 @@ std::string resolve_file(const std::string& name, const std::string& folder, con
   const std::string path = path_of(name, folder, where, key).string();
   std::error_code error;
   if (name.empty()) validation::refuse(where, key, name, "an existing file");
-  check_folder(path, roots, name, where, key);  // first: nobody is told what there is elsewhere
+  check_folder(path, roots, name, where, key);  // first: the message does not say which files exist elsewhere
   if (!fs::is_regular_file(path, error))
     validation::refuse(where, key, name, "an existing file (looked for " + path + ")");
   const std::uintmax_t bytes = fs::file_size(path, error);

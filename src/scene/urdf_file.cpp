@@ -142,8 +142,8 @@ int depth_below(const TiXmlNode& node) {
   return deepest;
 }
 
-/// Whether TinyXML gets through it alive. It takes a stack frame for each element in another, and nobody but TinyXML
-/// knows what it takes for an element: so where there are enough for a stack, a child process tries it.
+/// Whether TinyXML can parse the text without crashing. It uses a stack frame for each level of nesting, and only
+/// TinyXML knows what it counts as an element: so if the stack might not suffice, a child process tries it first.
 bool can_be_parsed(const std::string& xml) {
   const auto parse = [&] {
     TiXmlDocument document;
@@ -175,7 +175,7 @@ TiXmlDocument load_xml(const std::string& path) {
   return document;
 }
 
-/// The link that a joint goes from ("parent") or to ("child"); empty where it names none, of which urdfdom tells.
+/// The link that a joint goes from ("parent") or to ("child"); empty if it names none, which urdfdom reports.
 std::string end_of(const TiXmlElement& joint, const char* which) {
   const TiXmlElement* end = joint.FirstChildElement(which);
   const char* link = end != nullptr ? end->Attribute("link") : nullptr;

@@ -18,8 +18,8 @@ using S = SimulationSettings;
 using validation::between;
 using validation::NumberRule;
 
-/// One key of some settings: who reads a file, a parameter or a command line, and who checks settings made in C++, ask
-/// the same rule. Refers to the settings that the table was made for.
+/// One key of some settings. Values from files, parameters, command lines and C++ are all checked by its one rule.
+/// Refers to the settings that the table was made for.
 struct Field {
   SettingDescription description;
   std::function<void(const YAML::Node&, const std::string& where)> read;
@@ -94,8 +94,8 @@ std::vector<Field> scene_fields(S& s) {
       number("gravity", "m/s²", between(0.0, 1e3), "along −z of world", s.gravity, as_scene),
       flag("massless", "no object has mass: each follows the tip, and stays where it is released", s.massless),
       number("force_scale", "–", between(1e-9, 1e9), "ratio of virtual to real force", s.force_scale, as_scene),
-      integer("styluses", 1, 255,
-              "how many styluses there are, each with its tool; what has not been heard of does nothing", s.styluses),
+      integer("styluses", 1, 255, "number of styluses, each with its tool; one that sends no samples does nothing",
+              s.styluses),
       number(
           "hand.scale", "–", between(1e-3, 1e3),
           "length in the world per length of the hand's motion, from the origin of the world; rotations are not scaled",

@@ -164,7 +164,7 @@ struct Simulation::Impl {
   void set(const math::StateArchive::Words& words);
   double elastic_energy() const;
   void move(const ObjectEdit& edit);
-  /// Goes on from where `before` is, of the same scene but for `edit`.
+  /// Takes over the state of `before`, whose scene is the same but for `edit`.
   void continue_from(Impl& before, const ObjectEdit& edit);
   void check_place(const std::string& name, const RigidTransform& X_WO) const;
   void check(const ForkChange& of_fork, const DynamicsChange& of_dynamics) const;
@@ -243,7 +243,7 @@ double Simulation::Impl::end_of_step(double t_end) const {
   const double stretch_end = next_sample < t_end + same_time ? next_sample : t_end;
   const double count = std::ceil((stretch_end - now) / settings.dynamics.step - 1e-9);
   const double end = count > 1.0 ? now + (stretch_end - now) / count : stretch_end;
-  // An edge a rounding error beside that makes no step of its own.
+  // An edge that differs from that by a rounding error makes no step of its own.
   return std::abs(next_edge - end) < same_time ? std::max(end, next_edge) : std::min(end, next_edge);
 }
 

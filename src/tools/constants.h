@@ -25,12 +25,12 @@ constexpr double give_time = 5e-3;
 constexpr double still_speed = 1e-7;
 /// [m/s²], likewise. Test: none: no value tried makes one fail.
 constexpr double still_acceleration = 1e-6;
-/// [m] from the origin; a hand further away is not one to go on with. Test: none: no value tried makes one fail.
+/// [m] from the origin; a step of a hand farther away is rejected. Test: none: no value tried makes one fail.
 constexpr double largest_distance = 1e6;
-/// Of the generalised force that the springs of a fork gripped anew are to do. Test:
+/// Of the generalised force that the springs exert after a regrasp: its largest error. Test:
 /// TwoHands.HandoverMovesTheObjectLessThanAMillimetre at 0.
 constexpr double exact_pull = 1e-12;
-/// [rad/s] with which the object would swing on what is off in a fork that another tool leads. Smaller: it gives way
+/// [rad/s] with which the object would swing on what is off in a fork that another tool leads. Smaller: it yields
 /// under the object's weight. Larger: contact, solved to a micrometre, cannot say what two such forks are to carry.
 /// Test: SharedLaw.WhatIsOffInBothForksSharesThePressOnTheBench at 1e4, 30.
 constexpr double rigid_rate = 1e3;

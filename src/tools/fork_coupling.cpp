@@ -118,7 +118,7 @@ dynamics::Coupling::Springs ForkCoupling::springs(double t, const dynamics::Rela
   for (int i = 0; i < n; ++i) {
     double unit[n] = {};
     unit[i] = 1.0;
-    math::Three<double> force, moment;
+    math::Three<double> force{}, moment{};
     at.fit.wrench(unit, force, moment);
     to_object.col(i) << math::vector(force), math::vector(moment + cross(at.r_OE, force));
   }

@@ -1,4 +1,4 @@
-// The fork as the hand grips it anew while it holds.
+// Regrasping: the hand takes the fork at another pose while the fork holds an object.
 #include <Eigen/QR>
 #include <cmath>
 

@@ -28,7 +28,7 @@ void ForkBody::follow(double t, const ToolHold& leader, const motion::MotionStat
   }
   const motion::OwnAxesMotion A = state_.proxy.motion(hand_, t).in_own_axes(t);
   const dynamics::RelativeMotion<double> A_O = dynamics::seen_from(A, object);
-  dynamics::Pull<double> pull;
+  dynamics::Pull<double> pull{};
   coupling_.pull(t, A_O, pull);
   const Matrix3d& R_WA = A.X.linear();
   state_.pull_W = Wrench{R_WA * math::vector(pull.force), R_WA * math::vector(pull.moment)};

@@ -1,4 +1,4 @@
-// Changes of the fork while it holds, and what it tells of itself.
+// Changes of the fork while it holds an object, and its state as reported.
 #include "fork_body.h"
 #include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/tools/calibration.h"

@@ -34,7 +34,7 @@ Probe::Touch<S> Probe::touch_of(const dynamics::RelativeMotion<S>& A_O) const {
   // Along z of the hand to the plane through the point with the normal, both fixed to the object.
   const math::Three<S> n = A_O.R_AB * math::three(normal_O_), p = A_O.p_AB + A_O.R_AB * math::three(point_O_);
   const S per_slope = 1.0 / n.z, distance = dot(n, p) * per_slope;
-  Touch<S> at;
+  Touch<S> at{};
   at.depth = length_ - distance;
   at.arm = math::Three<S>{S{}, S{}, distance} - A_O.p_AB;
   at.speed = A_O.v_AB + cross(A_O.w_AB, at.arm);

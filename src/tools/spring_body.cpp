@@ -35,7 +35,7 @@ struct SpringCoupling::Span {
 template <typename S>
 SpringCoupling::Span<S> SpringCoupling::span(const dynamics::RelativeMotion<S>& A_O) const {
   const S squared = dot(A_O.p_AB, A_O.p_AB);
-  Span<S> s;
+  Span<S> s{};
   for (int i = 0; i < math::lanes<S>; ++i) {
     math::set_lane(s.length, i, std::max(std::sqrt(math::lane(squared, i)), no_length));
   }
@@ -131,7 +131,7 @@ SpringBody::Reading SpringBody::reading() const {
   const motion::OwnAxesMotion A = hand_.in_own_axes(time());
   const motion::MotionState o = object();
   const dynamics::RelativeMotion<double> A_O = dynamics::seen_from(A, o);
-  dynamics::Pull<double> pull;
+  dynamics::Pull<double> pull{};
   spring_.pull(time(), A_O, pull);
   return {o.X.translation() - A.X.translation(),
           {A.X.linear() * math::vector(pull.force), Vector3d::Zero()},
@@ -181,7 +181,7 @@ void SpringBody::describe(bool, ToolState& state) const {
   state.stretch = now.d.norm() - spring_.rest_length();
   // Drawn straight from the hand to the object's centre.
   state.X_WH = state.X_WH_proxy = X_WH;
-  state.X_WH_proxy.linear() = Quaterniond::FromTwoVectors(X_WH.linear().col(2), n).toRotationMatrix() * X_WH.linear();
+  state.X_WH_proxy.linear() = math::shortest_rotation(X_WH.linear().col(2), n) * X_WH.linear();
   state.X_WE = state.X_WH_proxy * Eigen::Translation3d(0.0, 0.0, now.d.norm());
   const double drawn = state.shape == rod::ShapeKind::bushing ? state.stretch : state.stretch / spring_.rest_length();
   state.strain[state.strain.size() - 1] = drawn;

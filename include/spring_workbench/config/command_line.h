@@ -27,8 +27,8 @@ CommandOption text_option(const std::string& name, std::string& value);
 CommandOption number_option(const std::string& name, const validation::NumberRule& rule, double& value);
 CommandOption integer_option(const std::string& name, int min, int max, int& value);
 
-/// Hands the options to their takers, in the order in which they are given; false at `--help`, after which nothing is
-/// read. Throws InputError for an option that is not among `options`, one without its value, and what is no option.
+/// Reads the options in the order in which they are given. Returns false at `--help`, after which nothing is read.
+/// Throws InputError for an option that is not among `options`, one without its value, and an argument that is none.
 bool read_command_line(int argc, char** argv, const std::vector<CommandOption>& options);
 
 /// A whole program: `run(*options)`, or the help text where `parse()` gives none. Turns what it throws into one line

@@ -5,8 +5,8 @@
 
 namespace spring_workbench::config {
 
-/// A file that appears whole or not at all, even if the program or the machine ends meanwhile: it is written
-/// beside its path (`PATH.part<process>`), brought to the disk, and renamed by commit(). What is no regular file (a
+/// A file that appears whole or not at all, even if the program or the machine ends meanwhile: it is written next to
+/// its path (as `PATH.part<process>`), flushed to the disk, and renamed by commit(). Anything but a regular file (a
 /// pipe, /dev/null) is written in place.
 class OutputFile {
  public:

@@ -14,9 +14,9 @@ namespace spring_workbench::fastrak {
 /// Towsley, INFOCOM 1999; Zhang, Liu and Xia, INFOCOM 2002). A stamp is on that line, never after its receipt, and
 /// later than the stamp before.
 ///
-/// Lost records show as receipts that stay late by whole intervals: after half a second of them (16 at least), or at
-/// once after a silence, the count goes on where the line is; for two seconds it may be taken back, when the records
-/// come after all.
+/// Lost records show as receipts that stay late by whole intervals. After half a second of them (16 at least), or at
+/// once after a silence, the count continues from where the line is; this is undone if the records still come within
+/// two seconds.
 class CadenceClock {
  public:
   /// `interval` [s], > 0: between samples by the device's description; may be wrong by 0.5 %.

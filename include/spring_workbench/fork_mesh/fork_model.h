@@ -68,14 +68,14 @@ class ForkModel {
 
  private:
   struct CylindricalVertex {
-    double r, phi, z;  ///< about the fork's axis, z from the first or last local frame [diameters]
-    double normal_r, normal_phi, normal_z;
+    double r = 0.0, phi = 0.0, z = 0.0;  ///< about the fork's axis, z from the first or last local frame [diameters]
+    double normal_r = 0.0, normal_phi = 0.0, normal_z = 0.0;
   };
   struct WireRing {
-    double r, phi;     ///< the wire's centre [diameters, rad]
-    double phi_rate;   ///< along the wire [rad]
-    double z;          ///< share of the wire's length along the spring
-    double cap = 0.0;  ///< −1, 1: closes the wire at its begin, end, facing out; 0: around it
+    double r = 0.0, phi = 0.0;  ///< the wire's centre [diameters, rad]
+    double phi_rate = 0.0;      ///< along the wire [rad]
+    double z = 0.0;             ///< share of the wire's length along the spring
+    double cap = 0.0;           ///< −1, 1: closes the wire at its begin, end, facing out; 0: around it
   };
   using Vertices = std::vector<CylindricalVertex>;
 

@@ -8,17 +8,17 @@
 
 namespace spring_workbench::instruments {
 
-/// From no load to the weight of a scene's heaviest object: the range of what a tool carries there. In proportion to
-/// the load, or, where the weights of the objects span more than a decade, to its logarithm.
+/// The range of loads in a scene: from none to the weight of its heaviest object. In proportion to the load or, if the
+/// weights of the objects span more than a decade, to its logarithm.
 class LoadRange {
  public:
   LoadRange(const scene::Scene& scene, const tools::WorldGoal& goal);
 
-  /// Fills in what the tool tells as an instrument, in the scene's units, from its wrench and poses.
+  /// Fills in the tool's readings as an instrument, in the scene's units, from its wrench and poses.
   void read(tools::ToolState& tool) const;
   /// The larger of the tip's force and of its moment over the tool's length [N].
   static double load(const tools::ToolState& tool);
-  /// Where a load [N] is in the range: 0 … 1.
+  /// Position of a load [N] in the range: 0 … 1.
   double place(double load) const;
   double full() const { return full_; }  ///< [N], > 0
   /// Of the objects, from the heaviest to the lightest [N].

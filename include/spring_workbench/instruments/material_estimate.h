@@ -14,22 +14,22 @@ struct Estimate {
   double high = std::numeric_limits<double>::infinity();
 };
 
-/// What a touch of the probe shows of the material. As series of springs, the surface and the probe's own spring are as
-/// stiff as `touch`; `material` is what is left without the probe's.
+/// What one touch of the probe shows of the material. `touch` is the stiffness of material and probe in series, and
+/// `material` that of the material alone.
 struct MaterialReading {
   Estimate touch;                   ///< [N/m]
   Estimate material;                ///< [N/m]; where the interval of its compliance contains 0, `high` is infinite
   double material_deviation = 0.0;  ///< its standard deviation, to first order [N/m]
-  Estimate damping;                 ///< of the touch, beside both springs [N·s/m]
+  Estimate damping;                 ///< of the touch, parallel to both springs [N·s/m]
 };
 
 /// Identifies stiffness and damping from one touch of the probe, by least squares with Student's intervals
-/// (doc/model.md, "The probe"). It sees where a tracker says the hand is, whose noise it takes from the residuals, and
-/// the probe's force, which it takes as exact; neither the place of the surface nor anything of the material.
+/// (doc/model.md, "The probe"). It is given the tracked position of the hand, whose noise it estimates from residuals,
+/// and the probe's force, which counts as exact; neither the place of the surface nor anything about the material.
 ///
-/// A spring K and a damper C beside it obey F = K d + C ḋ, so that the depth is d = Φ(F) / K with Φ the low-pass of the
-/// time constant C / K. The force being known and the depth noisy, the fit is of the depth: path = b + Φ(F) / K. It is
-/// linear in b and 1 / K, and Gauss-Newton in the time constant.
+/// A spring K with a damper C in parallel obeys F = K d + C ḋ, so the depth is d = Φ(F) / K, where Φ is the low-pass
+/// filter with the time constant C / K. Since the force is known and the depth noisy, the depth is fitted:
+/// path = b + Φ(F) / K, linear in b and 1 / K, with Gauss–Newton iterations for the time constant.
 class MaterialEstimate {
  public:
   /// `probe_stiffness` [N/m], > 0, of the probe's own spring.
@@ -38,12 +38,12 @@ class MaterialEstimate {
   /// A sample of the tracker at time `t` [s], later than the last: the hand's `path` along the probe's axis, from
   /// anywhere, growing into the surface [m], and the force with which the probe pushes [N]. The oldest are forgotten.
   void add(double t, double path, double force);
-  /// None before the touch has pushed by enough different forces to say anything.
+  /// None until the forces of the touch differ enough.
   std::optional<MaterialReading> reading() const;
 
-  /// A place on the curve of force over depth.
+  /// A point of the curve of force over depth.
   struct CurvePoint {
-    double depth, force;  ///< of the hand beyond the surface as it is estimated [m], [N]
+    double depth, force;  ///< of the hand beyond the estimated surface [m], [N]
   };
   /// The samples, once there is a reading.
   std::vector<CurvePoint> curve() const;

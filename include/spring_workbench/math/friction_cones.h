@@ -10,9 +10,9 @@ namespace spring_workbench::math {
 /// the normal impulse, and no contact closes. `A` is symmetric and positive semidefinite, 3 n × 3 n.
 ///
 /// A primal-dual interior point method on the friction cones (Nesterov and Todd's scaling, Mehrotra's corrector), with
-/// De Saxcé's shift of the normal rate by the slip: it takes some 20 systems of equations however unlike the masses
-/// are, where Gauss–Seidel's sweeps take thousands [NT98, DF98 in doc/model.md]. False, with `x` as it was, where it
-/// found none.
+/// De Saxcé's shift of the normal rate by the slip. It solves some 20 systems of equations, whatever the ratio of the
+/// masses, where Gauss–Seidel needs thousands of iterations [NT98, DF98 in doc/model.md]. Returns false, and leaves `x`
+/// unchanged, if it finds no such impulses.
 bool solve_in_cones(const Eigen::MatrixXd& A, const Eigen::VectorXd& b, const std::vector<double>& friction,
                     Eigen::VectorXd& x);
 

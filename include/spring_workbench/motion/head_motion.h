@@ -7,12 +7,12 @@
 
 namespace spring_workbench::motion {
 
-/// Predicts where a tracked head is when a picture that is drawn now is seen.
+/// Predicts the pose of a tracked head at the time at which a picture that is drawn now will be seen.
 class HeadMotion {
  public:
   /// Returns the pose of the head in F at `latency` [s] from `now` [s, by the steady clock], predicted from the samples
-  /// given so far; without latency the newest sample. `X_FH`: the newest sample, of which `stamp` [s] tells whether it
-  /// is a new one.
+  /// given so far; without latency the newest sample. `X_FH`: the newest sample; it is a new one if its `stamp` [s]
+  /// differs from the last one's.
   RigidTransform follow(double stamp, const RigidTransform& X_FH, double now, double latency);
 
  private:

@@ -11,9 +11,9 @@ class Proxy {
   bool behind() const { return behind_; }
   const RigidTransform& offset() const { return offset_; }
 
-  /// As it is at the offset, which changes with `rate`: that of what is fixed to the handle, at the origin of world.
+  /// Sets the offset and its rate of change, as the twist of a frame fixed to the handle, at the origin of world.
   void place(const RigidTransform& offset, const Twist& rate);
-  /// Rests where it is seen of a hand that is at `before`, while the hand comes to `now`.
+  /// Stays where it is in world, while the hand moves from `before` to `now`.
   void rest(const RigidTransform& before, const MotionState& now);
   /// An impulse gives it `change`, about the point `p` of world [m].
   void kick(const Twist& change, const Vector3d& p);

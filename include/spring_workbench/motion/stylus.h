@@ -39,7 +39,7 @@ class Stylus {
   void push(double t, Press press) { presses_.push_back({t, press}); }
   void push(const ExternalWrench& sample) { wrench_.push(sample); }
   const PoseTrack& track() const { return track_; }
-  /// Whether a sample says where it is at time `now` [s].
+  /// Whether its pose at time `now` [s] follows from the samples.
   bool known(double now) const { return !track_.empty() && now >= track_.begin() - same_time; }
   /// Its motion from `now` to the next sample.
   MotionSegment motion(double now) { return of_tool(track_.segment(now)); }
@@ -83,7 +83,7 @@ class Stylus {
     clutched_ = on;
   }
 
-  /// Goes to where it is at `now`, where that is known.
+  /// Moves to its pose at `now`, if that is known.
   void follow(double now) {
     if (clutched_ || !known(now)) return;
     X_WS_ = track_.pose(std::max(now, track_.begin()));

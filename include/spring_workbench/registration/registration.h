@@ -19,7 +19,7 @@ struct Registration {
   RigidTransform X_BT = RigidTransform::Identity();
   std::vector<double> residuals;  ///< distance of each landmark from where the touch says it is [m]
   double rms = 0.0;               ///< of the residuals [m]
-  double touch_error = 0.0;       ///< standard deviation of a touch along one axis, as the residuals tell it [m]
+  double touch_error = 0.0;       ///< standard deviation of a touch along one axis, estimated from the residuals [m]
   double position_error = 0.0;    ///< expected RMS error of a point at the landmarks' middle [m]
   double angle_error = 0.0;       ///< expected RMS angle of the rotation's error [rad]
 };
@@ -30,14 +30,14 @@ struct Registration {
 /// σ²/N` and `σ² tr (Σ (|d|² I − d dᵀ))⁻¹`, d from the landmarks' middle. Throws InputError when there are too few, two
 /// names are the same, they lie (within a centimetre) on one line, a residual is larger than `largest_residual` [m]
 /// (the message names the worst, and the order that would fit if there is one), or, for up to seven landmarks, another
-/// order of the touches fits nearly as well: then their arrangement is symmetric and cannot tell which is which.
+/// order of the touches fits nearly as well: the landmarks are then too symmetric to be distinguished.
 Registration register_tracker(const std::vector<Landmark>& landmarks, double largest_residual);
 
-/// Where the tip is in the stylus' frame, found by turning the stylus about its resting tip.
+/// Place of the tip in the stylus' frame, found by turning the stylus about its tip, which rests.
 struct PivotCalibration {
   Vector3d p_ST = Vector3d::Zero();     ///< tip in the stylus' frame [m]
-  Vector3d p_pivot = Vector3d::Zero();  ///< where it rested, in the tracker's frame [m]
-  double rms = 0.0;                     ///< distance of the tip from there [m]
+  Vector3d p_pivot = Vector3d::Zero();  ///< place at which it rested, in the tracker's frame [m]
+  double rms = 0.0;                     ///< of the tip's distances from there [m]
 };
 
 /// Least squares of `R p_ST + p = p_pivot` over all poses. Throws InputError when there are fewer than ten, when the

@@ -30,7 +30,7 @@ struct TipFit {
 
   const ShapeModel& shape_;
   math::SquareSystem<max_strain_coordinates, S> exact_;  ///< the tip's Jacobian, velocities over the rod's length
-  bool near_singular_[math::lanes<S>];                   ///< the Jacobian: the tip can hardly move in some direction
+  bool near_singular_[math::lanes<S>] = {};              ///< the Jacobian: the tip can hardly move in some direction
 };
 
 extern template struct TipFit<double>;

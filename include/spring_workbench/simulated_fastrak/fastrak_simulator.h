@@ -15,16 +15,16 @@ namespace spring_workbench::simulated_fastrak {
 class FastrakSimulator {
  public:
   /// `link`: a symbolic link to the pseudo-terminal, re-created whenever that changes; empty: none. Throws InputError
-  /// where something else than a link stands there, or none can be made.
+  /// if something other than a link is there, or none can be made.
   FastrakSimulator(FastrakDevice device, LineFaults faults, std::string link = "");
-  ~FastrakSimulator();  ///< takes the link away
+  ~FastrakSimulator();  ///< removes the link
   FastrakSimulator(const FastrakSimulator&) = delete;
   FastrakSimulator& operator=(const FastrakSimulator&) = delete;
 
   /// Path of the pseudo-terminal; empty while it is unplugged.
   std::string path() const { return terminal_ ? terminal_->path() : ""; }
 
-  /// Answers the host and sends what waits; waits for the host, at most `timeout` [s].
+  /// Reads commands of the host, responds, and sends what is due; waits for the host, at most `timeout` [s].
   void serve(double timeout);
 
   /// One cycle at time `t` [s], later than the last one.

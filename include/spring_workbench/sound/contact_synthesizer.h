@@ -24,7 +24,7 @@ class ContactSynthesizer {
   /// `volume` in 0 … 1. Throws InputError for another.
   explicit ContactSynthesizer(double volume);
 
-  /// An impact of a normal impulse ≥ 0 [N·s] on a body. If more bodies ring than can be told apart, the softest ends.
+  /// An impact of a normal impulse ≥ 0 [N·s] on a body. If too many bodies ring to be distinguished, the softest ends.
   void strike(double impulse, const SoundingBody& body = SoundingBody());
   /// From now on, contacts slip at most at this speed ≥ 0 [m/s]; 0 ends it.
   void scrape(double speed);

@@ -16,7 +16,7 @@ struct AxisHit {
   const scene::Body* body = nullptr;  ///< null: the bench plane
   const scene::Material* material = nullptr;
   // Of a body, in its object frame:
-  Vector3d point_O = Vector3d::Zero();   ///< where it is met [m]
+  Vector3d point_O = Vector3d::Zero();   ///< point at which the axis meets it [m]
   Vector3d normal_O = Vector3d::Zero();  ///< of its surface there, outward
 };
 
@@ -25,8 +25,8 @@ struct AxisHit {
 /// it is a coupling with a damper parallel to both springs; the surface is the plane in which it was first touched.
 class Probe final : public dynamics::Coupling {
  public:
-  /// Touches what is `touched.distance` in front of the hand, nearer than the probe's `length` [m], from time `now` [s]
-  /// on. Keeps no reference.
+  /// Touches the body that is `touched.distance` in front of the hand, less than the probe's `length` [m], from time
+  /// `now` [s] on. Keeps no reference.
   Probe(double length, const rod::ForkSettings& fork, const AxisHit& touched, double now);
 
   /// Updates the touch of the same body.

@@ -119,7 +119,7 @@ Summary run_journal(const Options& options, const std::vector<live::Entry>& jour
   return summary;
 }
 
-/// Loads the scene, moves the hand through it, writes both files; where it throws, no file is left.
+/// Loads the scene, moves the hand through it and writes both files; if it throws, no file is left.
 Summary run(const Options& options) {
   if (!options.bag.empty()) {
     const std::vector<live::Entry> journal = read_journal(options.bag);

@@ -22,7 +22,7 @@ struct Motion {
   std::vector<ButtonEvent> clutch;          ///< and of the clutch
 };
 
-/// Notes that the button is down or up from `t` on; what is no change, or lies before the last change, is put right.
+/// Appends that the button is down or up from `t` on, but no earlier than the last change, if that is a change.
 void add_button(double t, bool pressed, std::vector<ButtonEvent>& buttons);
 
 /// Everything that the source has.

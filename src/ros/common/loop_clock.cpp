@@ -23,7 +23,7 @@ struct Reading {
   std::int64_t ros, steady;
 };
 
-/// They are read beside each other, once more where the process was interrupted in between.
+/// Reads both clocks one after the other, and again if the process was interrupted in between.
 Reading read_clocks() {
   const auto steady = [] { return duration_cast<nanoseconds>(steady_clock::now().time_since_epoch()).count(); };
   Reading reading{};

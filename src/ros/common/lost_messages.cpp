@@ -11,7 +11,7 @@
 namespace spring_workbench::ros_common {
 namespace {
 
-/// Nothing where the node ends and the thread behind its API is gone: the port still takes what nobody answers.
+/// Nothing while the node ends: its port still accepts calls, but no thread responds to them any more.
 std::optional<XmlRpc::XmlRpcValue> bus_statistics(const std::string& name) {
   XmlRpc::XmlRpcValue caller, answer;
   caller[0] = name;
@@ -28,7 +28,7 @@ std::optional<XmlRpc::XmlRpcValue> bus_statistics(const std::string& name) {
 
 }  // namespace
 
-/// roscpp counts them itself, and tells the counts of present connections to nobody but callers of this node's own API:
+/// roscpp counts them itself, and reports the counts of present connections only through the node's own API:
 /// of publishers, subscribers [topic, [number, bytes, messages, lost, …] of each connection], services.
 diagnostic_msgs::DiagnosticStatus LostMessages::report(const std::string& name) {
   std::optional<XmlRpc::XmlRpcValue> answer = bus_statistics(name);

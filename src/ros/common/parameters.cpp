@@ -35,7 +35,7 @@ YAML::Node to_yaml(const XmlRpc::XmlRpcValue& value, const std::string& key) {
 
 YAML::Node private_parameters(const ros::NodeHandle& private_node) {
   XmlRpc::XmlRpcValue values;
-  const std::string name = private_node.getNamespace();
+  const std::string& name = private_node.getNamespace();
   if (!private_node.getParam(name, values)) return YAML::Node(YAML::NodeType::Map);
   return to_yaml(values, name);
 }

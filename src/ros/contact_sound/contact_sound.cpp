@@ -23,7 +23,7 @@ namespace {
 class ContactSound {
  public:
   ContactSound(ros::NodeHandle& node, const ros::NodeHandle& private_node) : played_until_(ros_common::steady_time()) {
-    const std::string where = private_node.getNamespace();
+    const std::string& where = private_node.getNamespace();
     YAML::Node parameters = ros_common::private_parameters(private_node);
     config::check_keys(parameters, where, "", {"file", "volume"});
     const YAML::Node volume = ros_common::take(parameters, "volume"), file = ros_common::take(parameters, "file");

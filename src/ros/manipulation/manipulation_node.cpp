@@ -40,7 +40,7 @@ std::vector<std::string> scene_roots(const ManipulationParameters& parameters, l
 
 }  // namespace
 
-ManipulationNode::ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node)
+ManipulationNode::ManipulationNode(ros::NodeHandle node, const ros::NodeHandle& private_node)
     : parameters_(
           read_manipulation_parameters(ros_common::private_parameters(private_node), private_node.getNamespace())),
       runner_(scene::load_scene(parameters_.scene), parameters_.simulation, parameters_.input, ros::Time::isSimTime()),

@@ -7,6 +7,7 @@
 
 #include "constants.h"
 #include "message_source.h"
+#include "spring_workbench/math/moving_frames.h"
 #include "spring_workbench/motion/pose_follower.h"
 #include "spring_workbench/ros/common/conversions.h"
 
@@ -45,8 +46,7 @@ InteractiveMarkerControl make_axis(const std::string& name, const Vector3d& axis
   InteractiveMarkerControl control;
   control.name = name;
   control.interaction_mode = mode;
-  control.orientation =
-      ros_common::to_quaternion(Quaterniond::FromTwoVectors(Vector3d::UnitX(), axis).toRotationMatrix());
+  control.orientation = ros_common::to_quaternion(math::shortest_rotation(Vector3d::UnitX(), axis));
   return control;
 }
 
@@ -152,7 +152,7 @@ class InteractiveMarkerSource final : public MessageSource {
 
 }  // namespace
 
-std::unique_ptr<motion::LiveSource> make_interactive_marker_source(ros::NodeHandle private_node,
+std::unique_ptr<motion::LiveSource> make_interactive_marker_source(const ros::NodeHandle& private_node,
                                                                    const std::string& workbench_frame,
                                                                    const RigidTransform& X_WB) {
   return std::make_unique<InteractiveMarkerSource>(private_node, workbench_frame, X_WB);

@@ -41,7 +41,7 @@ class JoySource final : public MessageSource {
 
 }  // namespace
 
-std::unique_ptr<motion::LiveSource> make_joy_source(ros::NodeHandle node, const JoySettings& settings,
+std::unique_ptr<motion::LiveSource> make_joy_source(const ros::NodeHandle& node, const JoySettings& settings,
                                                     const RigidTransform& X_WB) {
   return std::make_unique<JoySource>(node, settings, X_WB);
 }

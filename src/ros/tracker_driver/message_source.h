@@ -27,13 +27,13 @@ class MessageSource : public motion::LiveSource {
 
 /// A stylus moved by the messages of a game pad or a 3D mouse on the topic `joy`. `X_WB`: the stylus at the start, in
 /// the workbench.
-std::unique_ptr<motion::LiveSource> make_joy_source(ros::NodeHandle node, const JoySettings& settings,
+std::unique_ptr<motion::LiveSource> make_joy_source(const ros::NodeHandle& node, const JoySettings& settings,
                                                     const RigidTransform& X_WB);
 
 /// A stylus dragged with the mouse in rviz: an interactive marker with six degrees of freedom under `stylus/marker`,
 /// with grasping and the next tool in its menu, grasping also by the service `~grasp`. `X_WB`: the stylus at the start,
 /// in the frame `workbench_frame`.
-std::unique_ptr<motion::LiveSource> make_interactive_marker_source(ros::NodeHandle private_node,
+std::unique_ptr<motion::LiveSource> make_interactive_marker_source(const ros::NodeHandle& private_node,
                                                                    const std::string& workbench_frame,
                                                                    const RigidTransform& X_WB);
 

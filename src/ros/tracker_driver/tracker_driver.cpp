@@ -60,7 +60,7 @@ namespace {
 
 class TrackerDriver {
  public:
-  TrackerDriver(ros::NodeHandle node, ros::NodeHandle private_node)
+  TrackerDriver(ros::NodeHandle node, const ros::NodeHandle& private_node)
       : parameters_(read_tracker_parameters(ros_common::private_parameters(private_node), private_node.getNamespace())),
         name_(private_node.getNamespace()),
         X_BT_(parameters_.X_BT),
@@ -109,7 +109,8 @@ class TrackerDriver {
   }
 
   /// Nothing where the source is a motion.
-  std::unique_ptr<motion::LiveSource> open_device(ros::NodeHandle node, ros::NodeHandle private_node) const {
+  std::unique_ptr<motion::LiveSource> open_device(const ros::NodeHandle& node,
+                                                  const ros::NodeHandle& private_node) const {
     const RigidTransform above = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d(0.0, 0.0, 0.4));
     const RigidTransform X_WB = parameters_.X_BS_first.value_or(above);
     if (parameters_.source == "fastrak") return std::make_unique<fastrak::FastrakSource>(parameters_.fastrak);
@@ -168,7 +169,7 @@ class TrackerDriver {
   }
 
   struct Buttons {
-    bool grasp, next_tool = false, clutch = false;
+    bool grasp = false, next_tool = false, clutch = false;
   };
   void send_buttons(int station, const Buttons& down, const ros::Time& stamp) {
     sensor_msgs::Joy joy;
@@ -316,6 +317,6 @@ class TrackerDriver {
 
 }  // namespace
 
-void run(ros::NodeHandle node, ros::NodeHandle private_node) { TrackerDriver(node, private_node).run(); }
+void run(const ros::NodeHandle& node, const ros::NodeHandle& private_node) { TrackerDriver(node, private_node).run(); }
 
 }  // namespace spring_workbench::tracker_driver

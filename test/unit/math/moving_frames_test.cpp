@@ -3,12 +3,30 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
 
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::math::moving_frames_test {
 namespace {
+
+/// It turns one vector onto the other, by the angle between them, also if they are parallel or opposite.
+TEST(MovingFrames, ShortestRotationTurnsByTheAngleBetween) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  const auto any = [&] { return Vector3d(normal(random), normal(random), normal(random)); };
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d a = any(), b = i % 10 == 0 ? Vector3d(-2.0 * a) : i % 10 == 1 ? Vector3d(3.0 * a) : any();
+    const Matrix3d R = shortest_rotation(a, b);
+    // Close to opposite vectors the angle loses digits: half of them at most.
+    const double exact = 1e-14 / std::max(1e-7, 1.0 + a.normalized().dot(b.normalized()));
+    EXPECT_LT((R * a.normalized() - b.normalized()).norm(), exact);
+    EXPECT_LT((R.transpose() * R - Matrix3d::Identity()).norm(), exact);
+    EXPECT_NEAR(log_so3(R).norm(), std::atan2(a.cross(b).norm(), a.dot(b)), exact);
+  }
+}
 
 /// Also far from z and where the frame itself turns; at half a turn there is no shortest way.
 TEST(MovingFrames, AlignedRateIsTheDerivativeOfTheShortestTurn) {
@@ -20,7 +38,7 @@ TEST(MovingFrames, AlignedRateIsTheDerivativeOfTheShortestTurn) {
     const auto aligned = [&](double t) {
       const Matrix3d R = exp_so3(t * w) * exp_so3(theta);
       const Vector3d n = (n0 + t * n_dot).normalized();
-      return Matrix3d(Quaterniond::FromTwoVectors(R.col(2), n).toRotationMatrix() * R);
+      return Matrix3d(shortest_rotation(R.col(2), n) * R);
     };
     if (exp_so3(theta).col(2).dot(n0) < -0.9) continue;
     constexpr double dt = 1e-6;

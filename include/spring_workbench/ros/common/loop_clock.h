@@ -21,10 +21,10 @@ double loop_time();
 /// Now by both clocks.
 hand_input::LocalTime local_time();
 
-/// ROS time now, the steps of the wall clock taken out; under `use_sim_time` as it stands.
+/// ROS time now, without the steps of the wall clock; under `use_sim_time` simulated time.
 motion::WallMoment wall_moment();
 
-/// A stamp of the simulation [ns], a time of wall_moment(), as the clock stands now; the present without one.
+/// Converts a stamp of the simulation [ns], a time of wall_moment(), to the present clock; without one, the present.
 ros::Time stamp_of(const std::optional<std::int64_t>& stamp);
 
 /// ROS time at which the steady clock showed `t` [s].

@@ -6,7 +6,7 @@
 
 namespace spring_workbench::ros_common {
 
-/// Counts what input is left out, by reason, and tells it: one line of a reason in five seconds.
+/// Counts rejected input by reason, and reports it in the log: at most one line per reason in five seconds.
 class Rejections {
  public:
   /// `line`: what was wrong with it, and what would be right.

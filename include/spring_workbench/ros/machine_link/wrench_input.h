@@ -17,7 +17,7 @@
 namespace spring_workbench::machine_link {
 
 /// Listens to `external_wrench`, `external_wrench_2`, …: what machines' force sensors measure on what the styluses
-/// hold. What cannot be used is left out, counted by reason and told in one throttled line.
+/// hold. Invalid messages are rejected, counted by reason and reported in one throttled line.
 class WrenchInput {
  public:
   /// `styluses`: how many; `world_frame`: the frame for wrenches in world axes; `frame_prefix`: what those of the tip

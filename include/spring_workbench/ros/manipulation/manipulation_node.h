@@ -50,7 +50,7 @@ class CallbackThread {
 class ManipulationNode {
  public:
   /// Reads parameters and scene. Throws InputError when one cannot be used.
-  ManipulationNode(ros::NodeHandle node, ros::NodeHandle private_node);
+  ManipulationNode(ros::NodeHandle node, const ros::NodeHandle& private_node);
   ~ManipulationNode();
   ManipulationNode(const ManipulationNode&) = delete;
   ManipulationNode& operator=(const ManipulationNode&) = delete;

@@ -20,9 +20,9 @@ class MarkerList;
 enum class Drawn { everything, beside_displays };
 
 /// Draws the simulation for rviz: bodies, targets, shadows on the bench, the deformed fork in the colour of its load
-/// with a legend, force and moment at the tip of each as arrows and text, contact points with their normals. Every
-/// marker keeps its namespace and id while what it shows is there and is deleted by name when it is gone, so that
-/// nothing flickers; rviz drops by itself what is no longer sent.
+/// with a legend, force and moment at the tip of each as arrows and text, contact points with their normals. Nothing
+/// flickers: a marker keeps its namespace and id as long as it is shown, and is then deleted by name. Markers that are
+/// no longer sent expire in rviz.
 class MarkerBuilder {
  public:
   /// `fork_curve`: one of fork_curve_names(); `fork_diameter`: of the coil, as a fraction of the rest length.

@@ -19,6 +19,6 @@ std::string why_not_sent(const motion::StationSample& sample, const std::string&
 /// which each sample is due or, from a device, arrived. Station 1 of a device is the stylus, head_stations are the
 /// heads (frames head, head_2, …), and any other station k is the frame stylus_k. Poses are passed on raw; the receiver
 /// gates and smooths them. Throws InputError if a parameter or the file cannot be used.
-void run(ros::NodeHandle node, ros::NodeHandle private_node);
+void run(const ros::NodeHandle& node, const ros::NodeHandle& private_node);
 
 }  // namespace spring_workbench::tracker_driver

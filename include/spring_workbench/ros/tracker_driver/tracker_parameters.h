@@ -42,8 +42,8 @@ struct TrackerParameters {
   std::vector<int> head_stations;  ///< `head_stations` of a FASTRAK: those on heads, of 2 … 4; none: the head rests
   RigidTransform X_BHead =
       head_before_the_bench();  ///< `head` (pose); with head_stations in the frame of each receiver
-  double grasp_from = std::numeric_limits<double>::infinity();  ///< `grasp_from` [s]: the button goes down …
-  double grasp_until = std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up, beside the file's own
+  double grasp_from = std::numeric_limits<double>::infinity();   ///< `grasp_from` [s]: the button goes down …
+  double grasp_until = std::numeric_limits<double>::infinity();  ///< `grasp_until` [s]: … and up; adds to the file's
   Vector3d p_ST = Vector3d::Zero();  ///< `tip` (x y z) [m]: the handle's origin in the tracked frame of the stylus
   double interpupillary_distance = 0.063;  ///< `interpupillary_distance` [m], 0 … 0.2: between eye_left and eye_right
   double dropout_after = 0.5;              ///< `dropout_after` [s], > 0: rate and jitter leave longer gaps out

@@ -142,7 +142,7 @@ class BagReader {
     return motion;
   }
 
-  /// A bag of ours with fields that were renamed: each is told once, with its new name.
+  /// Reports each renamed field of our messages in the bag once, with its new name.
   void tell_renamed(const rosbag::MessageInstance& message) {
     if (message.getDataType().rfind("spring_workbench/", 0) != 0 || !own_types_.insert(message.getDataType()).second)
       return;

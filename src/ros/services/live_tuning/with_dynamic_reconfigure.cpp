@@ -76,7 +76,7 @@ class Reconfigure final : public LiveTuning {
     told_ = config;
   }
 
-  /// Tells what others have changed.
+  /// Reports changes that did not come from here.
   void follow() {
     ManipulationConfig now = told_;
     runner_.locked([&](const simulation::Simulation& simulation) { take_from(simulation, now); });
