@@ -3,7 +3,7 @@ add_module(ros_common FOLDER ros/common DEPENDS hand_input LIBRARIES ${catkin_LI
 target_include_directories(spring_workbench_ros_common SYSTEM PUBLIC
   ${catkin_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 add_dependencies(spring_workbench_ros_common ${PROJECT_NAME}_generate_messages_cpp)
-add_module(markers FOLDER ros/markers DEPENDS ros_common simulation fork_mesh)
+add_module(markers FOLDER ros/markers DEPENDS ros_common live fork_mesh)
 add_module(machine_link FOLDER ros/machine_link DEPENDS ros_common live)
 add_module(services FOLDER ros/services DEPENDS ros_common live)
 add_module(manipulation FOLDER ros/manipulation DEPENDS ros_common live fork_mesh markers machine_link services)

@@ -66,10 +66,11 @@ struct Part {
   }
 };
 
-/// A body's pieces, and how far they reach from its origin.
+/// A body's pieces, how far they reach from its origin, and where that is.
 struct PieceRange {
   std::size_t begin, end;
   double radius;
+  RigidTransform X_WO;
 };
 
 /// Moves `free` towards `touching` by what is surely clear, and then by ever longer steps, from `least` on.
@@ -131,10 +132,12 @@ struct CollisionWorld::Impl {
                        BoxObject(parts.size()), geometry::bounding_box(shape.geometry)});
       parts.back().in_broadphase.place(parts.back().box_at(parts.back().X_WS));
     }
-    bodies.push_back({begin, parts.size(), geometry::bounding_radius(body.collision)});
+    bodies.push_back({begin, parts.size(), geometry::bounding_radius(body.collision), body.X_WO});
   }
 
   void place(std::size_t body, const RigidTransform& X_WO) {
+    if (X_WO.matrix() == bodies[body].X_WO.matrix()) return;
+    bodies[body].X_WO = X_WO;
     for (std::size_t i = bodies[body].begin; i < bodies[body].end; ++i) {
       parts[i].X_WS = X_WO * parts[i].X_OS;
       // Out and in again: update() would look at the whole tree.

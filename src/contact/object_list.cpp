@@ -5,7 +5,9 @@ namespace spring_workbench::contact {
 ObjectList::ObjectList(const scene::Scene& scene) : scene_(scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     object_of_.push_back(in_scene_.size());
-    if (scene.bodies[i].movable) in_scene_.push_back(i);
+    if (!scene.bodies[i].movable) continue;
+    named_.emplace(scene.bodies[i].name, in_scene_.size());
+    in_scene_.push_back(i);
   }
 }
 
@@ -19,20 +21,13 @@ void ObjectList::put_back() {
 }
 
 std::optional<std::size_t> ObjectList::find(const std::string& name) const {
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    if (states_[i].name == name) return i;
-  }
-  return std::nullopt;
+  const auto found = named_.find(name);
+  return found == named_.end() ? std::nullopt : std::make_optional(found->second);
 }
 
 void ObjectList::clear_highlights() {
   for (const std::size_t object : highlighted_) states_[object].highlighted = false;
   highlighted_.clear();
-}
-
-void ObjectList::highlight(std::size_t object) {
-  states_[object].highlighted = true;
-  highlighted_.push_back(object);
 }
 
 }  // namespace spring_workbench::contact

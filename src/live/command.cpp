@@ -43,7 +43,7 @@ std::vector<std::uint64_t> Command::words() const {
   if (kind == Kind::none) return {};
   math::StateArchive archive;
   Command(*this).exchange(archive);
-  return archive.taken();
+  return std::move(archive).taken();
 }
 
 Command Command::from(const std::vector<std::uint64_t>& words) {

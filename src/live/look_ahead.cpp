@@ -8,7 +8,7 @@
 namespace spring_workbench::live {
 
 void LookAhead::show(const simulation::Simulation& committed, const hand_input::Feed& feed, double t) {
-  copy_.restore(committed.save());
+  copy_.follow(committed);
   if (feed.has_sample()) {
     feed.predict(t, copy_);
     copy_.advance(t);

@@ -15,7 +15,7 @@ SimulationRunner::Noted::Noted(SimulationRunner& runner, std::string what, Comma
 
 SimulationRunner::Noted::~Noted() {
   ++runner_.revision_;
-  runner_.copies_.ahead.restart();
+  runner_.ahead_.restart();
   if (!runner_.keeps_journal_) return;
   const std::string& scene = runner_.simulation_.scene().path;
   runner_.journal_.note(committed_, runner_.stamp(),
@@ -26,7 +26,8 @@ SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::
                                    const hand_input::InputSettings& input, bool simulated_time)
     : simulation_(scene, settings),
       feed_(simulation_, input),
-      copies_(scene, settings),
+      ahead_(scene, settings),
+      scene_(std::make_shared<const scene::Scene>(simulation_.scene())),
       task_(scene),
       simulated_time_(simulated_time),
       times_(simulation_.hands(), simulated_time) {
@@ -92,7 +93,7 @@ void SimulationRunner::feed(HandInput& input, const StylusEvent& event) {
 
 void SimulationRunner::commit(double stop, CycleReport& report) {
   report.advance = feed_.advance_to(stop);
-  report.prediction = copies_.ahead.compare(simulation_);
+  report.prediction = ahead_.compare(simulation_);
   task_.observe(simulation_);
   ++revision_;
 }
@@ -100,18 +101,18 @@ void SimulationRunner::commit(double stop, CycleReport& report) {
 std::optional<Shown> SimulationRunner::show(double latency, const hand_input::LocalTime& now, const Wanted& wanted) {
   const Lock lock(mutex_);
   const double horizon = latency > 0.0 ? std::min(latency + feed_.waited(now), motion::PosePredictor::farthest) : 0.0;
-  const double beyond = copies_.ahead.show_newest(simulation_, feed_, horizon, pace_);
-  const simulation::Simulation& shown = copies_.ahead.shown();
+  const double beyond = ahead_.show_newest(simulation_, feed_, horizon, pace_);
+  const simulation::Simulation& shown = ahead_.shown();
   const Moment at = moment_at(shown.time(), feed_.has_sample());
   if (!wanted(at)) return std::nullopt;
-  return Shown{{at, shown.save(), copies_.reader}, beyond};
+  return Shown{{at, view_of(shown, scene_)}, beyond};
 }
 
 std::optional<Committed> SimulationRunner::committed(const Wanted& wanted) const {
   const Lock lock(mutex_);
   const Moment at = moment_at(simulation_.time(), std::isfinite(feed_.committed()));
   if (!wanted(at)) return std::nullopt;
-  return Committed{{at, simulation_.save(), copies_.reader}, task_.placements(), task_.score()};
+  return Committed{{at, view_of(simulation_, scene_)}, task_.placements(), task_.score()};
 }
 
 bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
@@ -170,7 +171,7 @@ void SimulationRunner::start_anew(const std::string& what, Command::Kind kind) {
   undo_.perform(command, simulation_);
   task_.reset();
   feed_.restart();
-  copies_.ahead.begin_anew();
+  ahead_.begin_anew();
 }
 
 void SimulationRunner::restart() {
@@ -184,7 +185,7 @@ simulation::ChangeReport SimulationRunner::change(const std::string& what, const
   const Noted noted(*this, what, command);
   simulation::ChangeReport report = undo_.perform(command, simulation_);
   const bool taken_back = command.kind == Command::Kind::undo;
-  if (taken_back || command.kind == Command::Kind::edit) task_ = assembly::TaskMonitor(simulation_.scene());
+  if (taken_back || command.kind == Command::Kind::edit) scene_changed();
   if (taken_back) feed_.restart();
   return report;
 }
@@ -195,12 +196,12 @@ std::string SimulationRunner::undo() {
   return change("undo", command).message;
 }
 
-/// The copies are made without the lock: they may take their time.
+/// The simulations are made without the lock: they may take their time.
 void SimulationRunner::load(const scene::Scene& scene) {
   const auto [settings, forks] = locked([](const auto& s) { return std::make_pair(s.settings(), forks_of(s)); });
   Command command;
   command.kind = Command::Kind::load_scene;
-  begin_with("load_scene", command, make_simulation(scene, settings, forks), Copies(scene, settings), {});
+  begin_with("load_scene", command, make_simulation(scene, settings, forks), LookAhead(scene, settings), {});
 }
 
 void SimulationRunner::resume(const scene::Scene& scene, const simulation::SimulationState& state) {
@@ -208,19 +209,24 @@ void SimulationRunner::resume(const scene::Scene& scene, const simulation::Simul
   simulation::Simulation simulation(scene, settings);
   simulation.restore(state);
   std::map<std::string, RigidTransform> places = put_to_rest(simulation, simulation.time());
-  begin_with("resume", {}, std::move(simulation), Copies(scene, settings), std::move(places));
+  begin_with("resume", {}, std::move(simulation), LookAhead(scene, settings), std::move(places));
 }
 
 void SimulationRunner::begin_with(const std::string& what, const Command& command, simulation::Simulation simulation,
-                                  Copies copies, std::map<std::string, RigidTransform> places) {
+                                  LookAhead ahead, std::map<std::string, RigidTransform> places) {
   const Lock lock(mutex_);
   const Noted noted(*this, what, command);
   places_ = std::move(places);
   undo_ = Undo();
-  task_ = assembly::TaskMonitor(simulation.scene());
   simulation_ = std::move(simulation);
-  copies_ = std::move(copies);
+  ahead_ = std::move(ahead);
+  scene_changed();
   feed_.restart();
+}
+
+void SimulationRunner::scene_changed() {
+  scene_ = std::make_shared<const scene::Scene>(simulation_.scene());
+  task_ = assembly::TaskMonitor(*scene_);
 }
 
 void SimulationRunner::keep_journal(bool keep) {

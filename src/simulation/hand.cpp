@@ -12,6 +12,7 @@ Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, contac
     : scene_(scene),
       settings_(settings),
       loads_(scene, settings.grasp.world_goal),
+      around_(scene),
       fork_(settings.fork),
       objects_(objects),
       tool_(tool),

@@ -8,6 +8,7 @@
 #include "spring_workbench/motion/slip.h"
 #include "spring_workbench/motion/stylus.h"
 #include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/tools/axis_hit.h"
 #include "spring_workbench/tools/hold_maker.h"
 #include "spring_workbench/tools/sharing.h"
 
@@ -127,6 +128,7 @@ class Hand {
   const scene::Scene& scene_;
   const SimulationSettings& settings_;
   const instruments::LoadRange loads_;
+  const bodies::Surroundings around_;
   rod::ForkSettings fork_;
   contact::Objects& objects_;
   tools::Tool tool_;

@@ -4,7 +4,6 @@
 
 #include "constants.h"
 #include "hand.h"
-#include "look_ahead.h"
 #include "spring_workbench/geometry/shape_queries.h"
 
 namespace spring_workbench::simulation {
@@ -23,19 +22,20 @@ void Hand::select_pierced() {
   const bool picks = tool_ == tools::Tool::ray;
   // The nearest thing in the way of the hand, and the objects that the tip is in.
   const tools::AxisHit front =
-      look_ahead(scene_, objects_, stylus_.X_WS(), picks ? longest_ray : reach(),
-                 [&](const scene::Body& body, const RigidTransform& X_OH) {
-                   return !picks && geometry::contains(body.collision, X_OH * Vector3d(0.0, 0.0, reach()));
-                 });
+      tools::first_on_axis(scene_, objects_.states(), around_, stylus_.X_WS(), picks ? longest_ray : reach(),
+                           [&](const scene::Body& body, const RigidTransform& X_OH) {
+                             return !picks && geometry::contains(body.collision, X_OH * Vector3d(0.0, 0.0, reach()));
+                           });
   ray_length_ = front.distance;
   const Vector3d tip = stylus_.X_WS() * Vector3d(0.0, 0.0, reach());
   double nearest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < objects_.states().size(); ++i) {
     const RigidTransform& X_WO = objects_.states()[i].X_WO;
-    const bool pierced =
-        picks ? front.body == &objects_.body(i)
-              : front.body == nullptr && geometry::contains(objects_.body(i).collision, X_WO.inverse() * tip);
-    const double distance = (X_WO.translation() - tip).norm() * (before == i ? another_is_nearer : 1.0);
+    const Vector3d away = X_WO.translation() - tip;
+    const bool pierced = picks ? front.body == &objects_.body(i)
+                               : front.body == nullptr && around_.may_contain(objects_.scene_index(i), away) &&
+                                     geometry::contains(objects_.body(i).collision, X_WO.inverse() * tip);
+    const double distance = away.norm() * (before == i ? another_is_nearer : 1.0);
     if (!pierced || distance >= nearest) continue;
     nearest = distance;
     inserted_ = i;
@@ -46,8 +46,8 @@ void Hand::select_pierced() {
 void Hand::touch_with_probe(double now) {
   if (!stylus_.known(now)) return leave_with_probe(now);
   const double length = fork_.length;
-  tools::AxisHit front = look_ahead(scene_, objects_, stylus_.X_WS(), length,
-                                    [](const scene::Body&, const RigidTransform&) { return false; });
+  tools::AxisHit front = tools::first_on_axis(scene_, objects_.states(), around_, stylus_.X_WS(), length,
+                                              [](const scene::Body&, const RigidTransform&) { return false; });
   const double down = -stylus_.X_WS().linear()(2, 2), height = stylus_.X_WS().translation().z() - scene_.bench_height;
   if (height > 0.0 && down * front.distance > height) front = {height / down, nullptr, &scene_.bench_material};
   const bool touches = front.material != nullptr && front.distance > 0.0;  // at 0 the hand itself is inside

@@ -75,8 +75,17 @@ scene::Scene set_up(scene::Scene scene, const SimulationSettings& settings, cons
   return scene;
 }
 
+/// What a simulation that continues from a state of this one must be made with, a line per property.
+std::string made_with(const scene::Scene& given, scene::ContactMode contact, const SimulationSettings& settings) {
+  std::string text = "contact " + validation::name_of(contact) + "\nshape " + validation::name_of(settings.fork.shape) +
+                     "\n" + std::to_string(settings.styluses) + " styluses\nbodies";
+  for (const scene::Body& body : given.bodies) text += " " + body.name;
+  return text;
+}
+
 /// Throws InputError naming the first property that differs.
 void check_made_with(const std::string& saved, const std::string& present) {
+  if (saved == present) return;
   std::istringstream of_saved(saved), of_present(present);
   for (std::string was, is; std::getline(of_present, is);) {
     if (!std::getline(of_saved, was)) was = "nothing saved";
@@ -100,6 +109,8 @@ struct Simulation::Impl {
   std::vector<ObjectEdit> edits;  ///< of the given scene
   SimulationSettings settings;
   const scene::Scene scene;
+  const std::string origin;        ///< of its states
+  std::size_t words_of_state = 0;  ///< of the last one saved
   contact::Objects objects;
   std::vector<Hand> hands;
   bool started = false;
@@ -113,6 +124,7 @@ struct Simulation::Impl {
         edits(std::move(edited)),
         settings(set),
         scene(set_up(s, set, edits, roots)),
+        origin(made_with(s, scene.contact, set)),
         objects(scene, set.bisection_levels) {
     const auto tool = validation::named<tools::Tool>(scene.tool, scene.path, "tool");
     if (settings.grasp.calibrate == tools::Calibration::world) fit_to_world();
@@ -158,8 +170,6 @@ struct Simulation::Impl {
   bool beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go);
   void carry(double h, const Slipping& slipping, AdvanceReport& report);
   void step(double end, AdvanceReport& report);
-  /// What a simulation that continues from a state of this one must be made with, a line per property.
-  std::string made_with() const;
   void exchange(math::StateArchive& state);
   void set(const math::StateArchive::Words& words);
   double elastic_energy() const;
@@ -362,14 +372,6 @@ void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
   objects.contacts().end_call();
   report.simulated_time = now - begin;
   fill_parts(report);
-}
-
-std::string Simulation::Impl::made_with() const {
-  std::string text = "contact " + validation::name_of(scene.contact) + "\nshape " +
-                     validation::name_of(settings.fork.shape) + "\n" + std::to_string(settings.styluses) +
-                     " styluses\nbodies";
-  for (const scene::Body& body : given_scene.bodies) text += " " + body.name;
-  return text;
 }
 
 void Simulation::Impl::exchange(math::StateArchive& state) {
@@ -628,12 +630,13 @@ ChangeReport Simulation::calibrate(std::optional<std::size_t> hand) {
 }
 
 SimulationState Simulation::save() const {
-  math::StateArchive archive;
+  math::StateArchive archive(impl_->words_of_state);
   impl_->exchange(archive);
   SimulationState state;
-  state.origin_ = impl_->made_with();
+  state.origin_ = impl_->origin;
   state.styluses_ = impl_->settings.styluses;
-  state.words_ = archive.taken();
+  state.words_ = std::move(archive).taken();
+  impl_->words_of_state = state.words_.size();
   return state;
 }
 
@@ -652,6 +655,14 @@ void Simulation::restore(const SimulationState& state) {
     impl_->set(present.words_);
     throw validation::InputError(std::string("restore: not a saved state: ") + error.what());
   }
+}
+
+void Simulation::follow(const Simulation& other) {
+  if (other.impl_->origin != impl_->origin || !(other.impl_->edits == impl_->edits)) return restore(other.save());
+  math::StateArchive archive(impl_->words_of_state);
+  other.impl_->exchange(archive);
+  impl_->set(archive.taken());
+  impl_->words_of_state = archive.taken().size();
 }
 
 const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->objects.states(); }

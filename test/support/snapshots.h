@@ -1,8 +1,15 @@
 #pragma once
 
+#include <memory>
+
 #include "spring_workbench/live/simulation_runner.h"
 
 namespace spring_workbench {
+
+/// What can be seen of a simulation now.
+inline live::View view_of(const simulation::Simulation& simulation) {
+  return live::view_of(simulation, std::make_shared<const scene::Scene>(simulation.scene()));
+}
 
 /// Wants a snapshot of every moment.
 inline bool always(const live::Moment&) { return true; }

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "spring_workbench/bodies/body_state.h"
@@ -22,7 +23,10 @@ class ObjectList {
   bool massless(std::size_t object) const { return !(body(object).mass_properties.mass > 0.0); }
   std::optional<std::size_t> find(const std::string& name) const;
   void clear_highlights();
-  void highlight(std::size_t object);
+  void highlight(std::size_t object) {
+    states_[object].highlighted = true;
+    highlighted_.push_back(object);
+  }
   bool with_contact() const { return scene_.contact != scene::ContactMode::none; }
 
  protected:
@@ -35,7 +39,8 @@ class ObjectList {
   std::vector<std::size_t> highlighted_;  ///< the objects that are highlighted
 
  private:
-  std::vector<std::size_t> in_scene_;  ///< index in the scene, by object
+  std::vector<std::size_t> in_scene_;                   ///< index in the scene, by object
+  std::unordered_map<std::string, std::size_t> named_;  ///< object by name
 };
 
 }  // namespace spring_workbench::contact

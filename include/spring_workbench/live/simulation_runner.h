@@ -20,6 +20,7 @@
 #include "spring_workbench/live/pace.h"
 #include "spring_workbench/live/stylus_events.h"
 #include "spring_workbench/live/undo.h"
+#include "spring_workbench/live/view.h"
 #include "spring_workbench/motion/pose_predictor.h"
 #include "spring_workbench/motion/stream_monitor.h"
 
@@ -33,17 +34,10 @@ struct Moment {
   std::size_t revision = 0;  ///< grows with every change of the committed simulation
 };
 
-/// A simulation at one moment, for another thread to read while the simulation goes on.
+/// A simulation at one moment.
 struct Snapshot {
   Moment at;
-  simulation::SimulationState state;
-  std::shared_ptr<simulation::Simulation> reader;  ///< of the same scene; all snapshots of a runner share it
-
-  /// The simulation as it was. The next call, of any snapshot of the runner, changes what it returns; one thread.
-  const simulation::Simulation& read() const {
-    reader->restore(state);
-    return *reader;
-  }
+  View view;
 };
 
 /// The committed simulation, and the task as it stood then.
@@ -154,18 +148,11 @@ class SimulationRunner {
   HandStatistics hand_statistics(std::size_t hand) const;
   /// See LookAhead.
   double prediction_error_99() const {
-    return locked([this](const auto&) { return copies_.ahead.position_error_99(); });
+    return locked([this](const auto&) { return ahead_.position_error_99(); });
   }
 
  private:
   using Lock = std::lock_guard<FairMutex>;
-  /// What is made once for each scene: the displayed copy, and the one that snapshots are read with.
-  struct Copies {
-    Copies(const scene::Scene& scene, const simulation::SimulationSettings& settings)
-        : ahead(scene, settings), reader(std::make_shared<simulation::Simulation>(scene, settings)) {}
-    LookAhead ahead;
-    std::shared_ptr<simulation::Simulation> reader;
-  };
   /// Encloses a change of the simulation: its destructor writes the state after the change to the journal.
   class Noted {
    public:
@@ -193,13 +180,15 @@ class SimulationRunner {
   void commit(double stop, CycleReport& report);
   std::optional<std::int64_t> stamp() const;
   void start_anew(const std::string& what, Command::Kind kind);
-  void begin_with(const std::string& what, const Command& command, simulation::Simulation simulation, Copies copies,
+  void begin_with(const std::string& what, const Command& command, simulation::Simulation simulation, LookAhead ahead,
                   std::map<std::string, RigidTransform> places);
+  void scene_changed();
 
   mutable FairMutex mutex_;
   simulation::Simulation simulation_;
   hand_input::Feed feed_;
-  Copies copies_;
+  LookAhead ahead_;
+  std::shared_ptr<const scene::Scene> scene_;
   assembly::TaskMonitor task_;
   std::vector<HandInput> inputs_;
   bool simulated_time_;

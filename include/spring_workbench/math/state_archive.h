@@ -25,13 +25,14 @@ class StateArchive {
  public:
   using Words = std::vector<std::uint64_t>;
 
-  /// Reads the numbers.
-  StateArchive() = default;
+  /// Reads the numbers, about as many as `expected`.
+  explicit StateArchive(std::size_t expected = 0) { taken_.reserve(expected); }
   /// Sets them from `words`, which must outlive this.
   explicit StateArchive(const Words& words) : given_(&words) {}
 
   bool sets() const { return given_ != nullptr; }
-  const Words& taken() const { return taken_; }
+  const Words& taken() const& { return taken_; }
+  Words taken() && { return std::move(taken_); }
   bool at_end() const { return given_ == nullptr || next_ == given_->size(); }
 
   /// The next values of the state. Throws std::out_of_range if there are too few words.
@@ -56,7 +57,17 @@ class StateArchive {
     }
   }
   void exchange_numbers(double* numbers, Eigen::Index count) {
-    for (Eigen::Index i = 0; i < count; ++i) exchange(numbers[i]);
+    static_assert(sizeof(double) == sizeof(std::uint64_t));
+    const auto size = static_cast<std::size_t>(count);
+    if (size == 0) return;
+    if (!sets()) {
+      taken_.resize(taken_.size() + size);
+      std::memcpy(&taken_[taken_.size() - size], numbers, size * sizeof(double));
+    } else {
+      if (size > given_->size() - next_) throw std::out_of_range("state: ends too early");
+      std::memcpy(numbers, &(*given_)[next_], size * sizeof(double));
+      next_ += size;
+    }
   }
 
   template <typename T>

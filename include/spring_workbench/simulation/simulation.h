@@ -189,6 +189,8 @@ class Simulation {
   /// and changes nothing, if the state has other objects, another number of styluses, another contact mode or
   /// another shape of the fork, or is invalid.
   void restore(const SimulationState& state);
+  /// The same as restore(other.save()), and quicker for one of the same scene, settings and edits.
+  void follow(const Simulation& other);
   std::uint64_t state_hash() const { return save().hash(); }  ///< hash of save()
 
  private:

@@ -19,17 +19,16 @@ ToolOutput::ToolOutput(ros::NodeHandle private_node, const std::string& frame_pr
       joy_feedback_(private_node.advertise<sensor_msgs::JoyFeedbackArray>("joy_feedback" + number, queue)),
       probe_(private_node.advertise<ProbeReading>("probe" + number, queue)) {}
 
-void ToolOutput::read(const simulation::Simulation& simulation, tools::ToolState& tool) {
+void ToolOutput::read(const live::View& view, tools::ToolState& tool) {
   RigidTransform X_WT = RigidTransform::Identity();
-  for (const bodies::BodyState& object : simulation.objects()) {
-    if (object.name == tool.touched) X_WT = object.X_WO;
+  for (const bodies::BodyState& object : view.objects) {
+    if (!tool.touched.empty() && object.name == tool.touched) X_WT = object.X_WO;
   }
-  average_.take(simulation.world_time(), tool, X_WT);
+  average_.take(view.world_time, tool, X_WT);
 }
 
-void ToolOutput::publish(const simulation::Simulation& simulation, const tools::ToolState& tool,
-                         const std_msgs::Header& header) {
-  vibrate(simulation, tool);
+void ToolOutput::publish(const live::View& view, const tools::ToolState& tool, const std_msgs::Header& header) {
+  vibrate(view, tool);
   if (!tool.touched.empty()) ros_common::publish_made(probe_, header, [&] { return reading_of(tool); });
   std_msgs::Header of_handle = header;
   of_handle.frame_id = handle_frame_;
@@ -41,7 +40,7 @@ void ToolOutput::publish(const simulation::Simulation& simulation, const tools::
   });
   ros_common::publish_made(tip_twist_, header, [&] {
     geometry_msgs::TwistStamped message;
-    const Twist V_WE_W = simulation::at_hand(tool.V_WE_W, simulation.settings());
+    const Twist V_WE_W = simulation::at_hand(tool.V_WE_W, view.settings);
     message.twist.linear = ros_common::to_vector(V_WE_W.linear);
     message.twist.angular = ros_common::to_vector(V_WE_W.angular);
     return message;
@@ -69,14 +68,14 @@ ProbeReading ToolOutput::reading_of(const tools::ToolState& tool) const {
 }
 
 /// Sent while it vibrates, and once more when that ends.
-void ToolOutput::vibrate(const simulation::Simulation& simulation, const tools::ToolState& tool) {
+void ToolOutput::vibrate(const live::View& view, const tools::ToolState& tool) {
   if (joy_feedback_.getNumSubscribers() == 0) return;
   double impulse = 0.0;
-  for (const contact::ContactState& contact : simulation.contacts()) {
+  for (const contact::ContactState& contact : view.contacts) {
     const bool of_held = contact.object == tool.held_object || contact.other == tool.held_object;
     if (of_held && contact.phase == contact::ContactPhase::started) impulse += contact.impulse;
   }
-  const double intensity = vibration_.feel(simulation.time(), tool, impulse);
+  const double intensity = vibration_.feel(view.time, tool, impulse);
   if (std::exchange(vibrates_, intensity) == 0.0 && intensity == 0.0) return;
   sensor_msgs::JoyFeedbackArray message;
   message.array.resize(1);

@@ -7,10 +7,11 @@
 
 namespace spring_workbench::manipulation {
 
-ObjectStates to_message(const std::vector<bodies::BodyState>& objects) {
-  ObjectStates message;
+void write(const std::vector<bodies::BodyState>& objects, ObjectStates& message) {
+  message.objects.resize(objects.size());
+  auto next = message.objects.begin();
   for (const bodies::BodyState& object : objects) {
-    ObjectState state;
+    ObjectState& state = *next++;
     state.name = object.name;
     state.pose = ros_common::to_pose(object.X_WO);
     state.twist.linear = ros_common::to_vector(object.V_WO_W.linear);
@@ -19,9 +20,7 @@ ObjectStates to_message(const std::vector<bodies::BodyState>& objects) {
     state.highlighted = object.highlighted;
     state.in_contact = object.in_contact;
     state.asleep = object.asleep;
-    message.objects.push_back(state);
   }
-  return message;
 }
 
 ForkState to_message(const tools::ToolState& tool, double fork_diameter) {

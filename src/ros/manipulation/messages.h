@@ -15,7 +15,8 @@
 namespace spring_workbench::manipulation {
 
 // What the core says as messages: same frames, same units.
-ObjectStates to_message(const std::vector<bodies::BodyState>& objects);
+/// Into a message that may have been used before: that of as many objects again allocates nothing.
+void write(const std::vector<bodies::BodyState>& objects, ObjectStates& message);
 /// `fork_diameter`: of the coil, as a fraction of the rest length.
 ForkState to_message(const tools::ToolState& tool, double fork_diameter);
 TaskState to_message(const std::vector<assembly::Placement>& placements, const assembly::TaskScore& score);

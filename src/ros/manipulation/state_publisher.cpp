@@ -7,7 +7,6 @@
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/publishing.h"
-#include "spring_workbench/ros/markers/for_each_object.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::manipulation {
@@ -56,11 +55,11 @@ void StatePublisher::publish_journal(live::SimulationRunner& runner) {
 }
 
 void StatePublisher::publish(const CommittedState& state, double publish_time) {
-  const simulation::Simulation& simulation = state.committed.read();
+  const live::View& view = state.committed.view;
   const std_msgs::Header header = header_at(state.stamp);
-  publish_made(objects_publisher_, header, [&] { return to_message(simulation.objects()); });
-  for (std::size_t hand = 0; hand < hands_.size(); ++hand) publish_hand(hand, simulation, header);
-  publish_contacts(simulation, header);
+  publish_objects(view, objects_publisher_, header);
+  for (std::size_t hand = 0; hand < hands_.size(); ++hand) publish_hand(hand, view, header);
+  publish_contacts(view, header);
   publish_made(task_publisher_, header, [&] { return to_message(state.committed.placements, state.committed.score); });
   publish_made(steps_publisher_, header, [&] {
     const live::CycleReport& report = state.report;
@@ -69,7 +68,7 @@ void StatePublisher::publish(const CommittedState& state, double publish_time) {
     message.wall_time = report.wall_time;
     message.publish_time = publish_time;
     message.deadline_missed = ros_common::loop_time() > state.deadline;
-    message.integrator = validation::name_of(simulation.settings().dynamics.integrator);
+    message.integrator = validation::name_of(view.settings.dynamics.integrator);
     message.behind = report.behind;
     message.input_age = report.input_age;
     message.horizon = horizon_;
@@ -81,33 +80,40 @@ void StatePublisher::publish(const CommittedState& state, double publish_time) {
 
 void StatePublisher::publish(const ShownState& state) {
   horizon_ = state.shown.horizon;
-  const simulation::Simulation& simulation = state.shown.read();
+  const live::View& view = state.shown.view;
   const std_msgs::Header header = header_at(state.stamp);
-  publish_transforms(simulation, state.stamp);
-  publish_made(shown_objects_publisher_, header, [&] { return to_message(simulation.objects()); });
+  publish_transforms(view, state.stamp);
+  publish_objects(view, shown_objects_publisher_, header);
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
-    const tools::ToolState tool = simulation.fork(hand);
+    const tools::ToolState& tool = view.tools[hand];
     if (hand == 0 || tool.present)
       publish_made(hands_[hand].shown_fork, header, [&] { return to_message(tool, fork_diameter_); });
   }
-  markers_were_built_ = markers_.publish(simulation, header, state.local_time);
+  markers_were_built_ = markers_.publish(view, header, state.local_time);
 }
 
-void StatePublisher::publish_hand(std::size_t hand, const simulation::Simulation& simulation,
-                                  const std_msgs::Header& header) {
-  tools::ToolState tool = simulation.fork(hand);
-  hands_[hand].output.read(simulation, tool);
+void StatePublisher::publish_objects(const live::View& view, const ros::Publisher& publisher,
+                                     const std_msgs::Header& header) {
+  if (publisher.getNumSubscribers() == 0) return;
+  write(view.objects, objects_);
+  objects_.header = header;
+  publisher.publish(objects_);
+}
+
+void StatePublisher::publish_hand(std::size_t hand, const live::View& view, const std_msgs::Header& header) {
+  tools::ToolState tool = view.tools[hand];
+  hands_[hand].output.read(view, tool);
   if (hand > 0 && !tool.present) return;
   publish_made(hands_[hand].fork, header, [&] { return to_message(tool, fork_diameter_); });
-  hands_[hand].output.publish(simulation, tool, header);
+  hands_[hand].output.publish(view, tool, header);
 }
 
-void StatePublisher::publish_transforms(const simulation::Simulation& simulation, const ros::Time& stamp) {
+void StatePublisher::publish_transforms(const live::View& view, const ros::Time& stamp) {
   if (stamp.isZero() || stamp == last_transforms_) return;
   last_transforms_ = stamp;
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
-    const tools::ToolState tool = simulation.fork(hand);
+    const tools::ToolState& tool = view.tools[hand];
     if (hand > 0 && !tool.present) continue;
     const std::string number = ros_common::hand_suffix(hand);
     transforms.push_back(
@@ -115,11 +121,11 @@ void StatePublisher::publish_transforms(const simulation::Simulation& simulation
     transforms.push_back(ros_common::to_transform(tool.X_WE, world_frame_, frame_prefix_ + "fork_tip" + number, stamp));
   }
   const double steady = ros_common::steady_time();
-  const bool all = steady >= all_transforms_ + repeat_after || sent_X_.size() != simulation.objects().size();
+  const bool all = steady >= all_transforms_ + repeat_after || sent_X_.size() != view.objects.size();
   if (all) all_transforms_ = steady;
-  sent_X_.resize(simulation.objects().size(), RigidTransform::Identity());
+  sent_X_.resize(view.objects.size(), RigidTransform::Identity());
   auto sent = sent_X_.begin();
-  markers::for_each_object(simulation, [&](const bodies::BodyState& object, const scene::Body& body) {
+  view.for_each_object([&](const bodies::BodyState& object, const scene::Body& body) {
     RigidTransform& last = *sent++;
     if (!all && last.matrix() == object.X_WO.matrix()) return;
     last = object.X_WO;
@@ -129,10 +135,10 @@ void StatePublisher::publish_transforms(const simulation::Simulation& simulation
   transforms_.sendTransform(transforms);
 }
 
-void StatePublisher::publish_contacts(const simulation::Simulation& simulation, const std_msgs::Header& header) {
-  const bool has_contacts = !simulation.contacts().empty();
+void StatePublisher::publish_contacts(const live::View& view, const std_msgs::Header& header) {
+  const bool has_contacts = !view.contacts.empty();
   if (has_contacts || had_contacts_) {
-    Contacts message = to_message(simulation.contacts());
+    Contacts message = to_message(view.contacts);
     message.header = header;
     contacts_publisher_.publish(message);
   }

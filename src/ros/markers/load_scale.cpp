@@ -38,12 +38,12 @@ Color load_color(double place) {
   return color;
 }
 
-LoadScale::LoadScale(const simulation::Simulation& simulation)
-    : range_(simulation.scene(), simulation.settings().grasp.world_goal),
-      gravity_(tools::weighing_gravity(simulation.scene().gravity)),
-      foot_(legend_corner(simulation.scene()) + Vector3d(0.5 * legend_edge, -0.5 * legend_edge, 0.05)) {
-  if (simulation.settings().grasp.calibrate == tools::Calibration::world) {
-    stretch_stiffness_ = simulation.settings().fork.stiffness.stretch;
+LoadScale::LoadScale(const live::View& view)
+    : range_(*view.scene, view.settings.grasp.world_goal),
+      gravity_(tools::weighing_gravity(view.scene->gravity)),
+      foot_(legend_corner(*view.scene) + Vector3d(0.5 * legend_edge, -0.5 * legend_edge, 0.05)) {
+  if (view.settings.grasp.calibrate == tools::Calibration::world) {
+    stretch_stiffness_ = view.settings.fork.stiffness.stretch;
   }
 }
 

@@ -2,14 +2,14 @@
 
 #include "marker_list.h"
 #include "spring_workbench/instruments/load_range.h"
-#include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/live/view.h"
 
 namespace spring_workbench::markers {
 
 /// The legend of how much a tool carries, in the colours of fork_mesh::load_color over the scene's LoadRange.
 class LoadScale {
  public:
-  explicit LoadScale(const simulation::Simulation& simulation);
+  explicit LoadScale(const live::View& view);
 
   /// A column of the colours at the scene's left back corner: what its end means in N and vkg, and a mark for each
   /// object's weight; with `calibrate: world` the extension that the hanging object gives the fork, too.

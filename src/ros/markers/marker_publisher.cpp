@@ -15,14 +15,14 @@ MarkerPublisher::MarkerPublisher(ros::NodeHandle private_node, const std::string
       all_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 5)),
       beside_displays_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("display/markers", 5)) {}
 
-bool MarkerPublisher::publish(const simulation::Simulation& simulation, const std_msgs::Header& header, double now) {
+bool MarkerPublisher::publish(const live::View& view, const std_msgs::Header& header, double now) {
   const bool wait = now < next_ && now > next_ - period_;  // a clock that went back waits not
   const bool all = all_publisher_.getNumSubscribers() > 0;
   const bool beside_displays = beside_displays_publisher_.getNumSubscribers() > 0;
   if (wait || (!all && !beside_displays)) return false;
   next_ = now < next_ + period_ && now >= next_ ? next_ + period_ : now + period_;
-  if (all) all_publisher_.publish(all_.build(simulation, header));
-  if (beside_displays) beside_displays_publisher_.publish(beside_displays_.build(simulation, header));
+  if (all) all_publisher_.publish(all_.build(view, header));
+  if (beside_displays) beside_displays_publisher_.publish(beside_displays_.build(view, header));
   return true;
 }
 

@@ -14,32 +14,31 @@ using visualization_msgs::MarkerArray;
 MarkerBuilder::MarkerBuilder(std::string fork_curve, double fork_diameter, double lifetime, Drawn drawn)
     : fork_curve_(std::move(fork_curve)), fork_diameter_(fork_diameter), lifetime_(lifetime), drawn_(drawn) {}
 
-MarkerArray MarkerBuilder::build(const simulation::Simulation& simulation, const std_msgs::Header& header) {
-  const scene::Scene& scene = simulation.scene();
-  const LoadScale scale(simulation);
+MarkerArray MarkerBuilder::build(const live::View& view, const std_msgs::Header& header) {
+  const scene::Scene& scene = *view.scene;
+  const LoadScale scale(view);
   MarkerList list(header, lifetime_);
-  if (drawn_ == Drawn::everything) draw_bodies(simulation, list);
+  if (drawn_ == Drawn::everything) draw_bodies(view, list);
   draw_targets(scene, list);
   scale.draw_legend(list);
-  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) draw_hand(simulation, scale, hand, list);
-  draw_shadows(simulation, forks_W_, list);
-  draw_contacts(simulation.contacts(), simulation.fork().length, list);
+  for (std::size_t hand = 0; hand < view.tools.size(); ++hand) draw_hand(view, scale, hand, list);
+  draw_shadows(view, forks_W_, list);
+  draw_contacts(view.contacts, view.tools.front().length, list);
   MarkerArray markers = list.take();
   delete_what_is_gone(header, markers);
   return markers;
 }
 
-void MarkerBuilder::draw_hand(const simulation::Simulation& simulation, const LoadScale& scale, std::size_t hand,
-                              MarkerList& list) {
+void MarkerBuilder::draw_hand(const live::View& view, const LoadScale& scale, std::size_t hand, MarkerList& list) {
   if (hand == 0) forks_W_.clear();
-  const tools::ToolState tool = simulation.fork(hand);
+  const tools::ToolState& tool = view.tools[hand];
   if (hand > 0 && !tool.present) return;
   const std::string number = hand > 0 ? "_" + std::to_string(hand + 1) : "";
   const fork_mesh::ForkModel& model = deform(tool);
   forks_W_.push_back(fork_mesh_.vertices);
   if (drawn_ == Drawn::everything) draw_fork(model, fork_mesh_, load_color(tool.load), number, list);
   draw_gap(tool, number, list);
-  draw_load(simulation.scene(), tool, number, list);
+  draw_load(*view.scene, tool, number, list);
   if (!tool.held_object.empty()) scale.draw_load(tool, number, list);
 }
 

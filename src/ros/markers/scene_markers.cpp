@@ -9,7 +9,6 @@
 #include "spring_workbench/fork_mesh/load_color.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/ros/common/conversions.h"
-#include "spring_workbench/ros/markers/for_each_object.h"
 
 namespace spring_workbench::markers {
 namespace {
@@ -119,12 +118,12 @@ void draw_shadow(int id, const std::vector<Vector3d>& points_W, double bench_hei
 
 }  // namespace
 
-void draw_bodies(const simulation::Simulation& simulation, MarkerList& markers) {
-  const scene::Scene& scene = simulation.scene();
+void draw_bodies(const live::View& view, MarkerList& markers) {
+  const scene::Scene& scene = *view.scene;
   for (const scene::Body& body : scene.bodies) {
     if (!body.movable) draw_body(body, body.X_WO, false, false, markers);
   }
-  for_each_object(simulation, [&](const bodies::BodyState& object, const scene::Body& body) {
+  view.for_each_object([&](const bodies::BodyState& object, const scene::Body& body) {
     draw_body(body, object.X_WO, object.highlighted, object.highlighted || object.held, markers);
   });
 }
@@ -141,11 +140,10 @@ void draw_targets(const scene::Scene& scene, MarkerList& markers) {
   }
 }
 
-void draw_shadows(const simulation::Simulation& simulation, const std::vector<std::vector<Vector3d>>& forks_W,
-                  MarkerList& markers) {
-  const scene::Scene& scene = simulation.scene();
+void draw_shadows(const live::View& view, const std::vector<std::vector<Vector3d>>& forks_W, MarkerList& markers) {
+  const scene::Scene& scene = *view.scene;
   int id = 0;
-  for_each_object(simulation, [&](const bodies::BodyState& object, const scene::Body& body) {
+  view.for_each_object([&](const bodies::BodyState& object, const scene::Body& body) {
     std::vector<Vector3d> outline;
     for (const geometry::Shape& shape : body.visual) add_outline(shape, object.X_WO, outline);
     draw_shadow(id++, outline, scene.bench_height, markers);

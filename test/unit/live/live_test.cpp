@@ -48,7 +48,7 @@ struct Bench {
     last = *runner.show(latency, {now, now}, always);
     return last.horizon;
   }
-  const simulation::Simulation& shown() const { return last.read(); }
+  const View& shown() const { return last.view; }
   void commit(const HandEvents& events, double now) {
     CycleReport report = runner.cycle(events, {now, now});
     for (; report.more; report = runner.cycle({}, {now, now})) note(report);
@@ -74,13 +74,13 @@ TEST(LookAhead, ShowsTheNewestSampleAtOnceAndLeavesTheCommittedAlone) {
     const std::uint64_t before = bench.runner.locked([](const auto& s) { return s.state_hash(); });
     EXPECT_EQ(bench.show(0.0, interval * k), 0.0);
     EXPECT_EQ(bench.runner.locked([](const auto& s) { return s.state_hash(); }), before);
-    EXPECT_EQ(bench.shown().time(), interval * k);
-    EXPECT_LT((bench.shown().fork().X_WH.translation() - hand_at(interval * k)).norm(), 1e-12);
+    EXPECT_EQ(bench.shown().time, interval * k);
+    EXPECT_LT((bench.shown().tools.front().X_WH.translation() - hand_at(interval * k)).norm(), 1e-12);
     if (k > 0) {
       EXPECT_EQ(bench.runner.locked([](const auto& s) { return s.time(); }), interval * (k - 1));
     }
   }
-  EXPECT_TRUE(bench.shown().objects()[0].held);
+  EXPECT_TRUE(bench.shown().objects[0].held);
 }
 
 TEST(LookAhead, ASilentSecondHandDelaysNoPictureOfTheFirst) {
@@ -88,8 +88,8 @@ TEST(LookAhead, ASilentSecondHandDelaysNoPictureOfTheFirst) {
   for (int k = 0; k < 60; ++k) {
     bench.commit(bench.sample(k, k < 30), interval * k);
     bench.show(0.0, interval * k);
-    EXPECT_EQ(bench.shown().time(), interval * k);
-    EXPECT_LT((bench.shown().fork().X_WH.translation() - hand_at(interval * k)).norm(), 1e-12) << k;
+    EXPECT_EQ(bench.shown().time, interval * k);
+    EXPECT_LT((bench.shown().tools.front().X_WH.translation() - hand_at(interval * k)).norm(), 1e-12) << k;
   }
 }
 
@@ -113,8 +113,8 @@ TEST(LookAhead, StationsInTurnDelayTheDisplayByNothingAndTheCommittedByOneTurn) 
       bench.commit(events, t);
       bench.show(0.0, t);
       if (station == 0) {
-        EXPECT_EQ(bench.shown().time(), t) << stations << " stations, cycle " << cycle;
-        EXPECT_LT((bench.shown().fork().X_WH.translation() - hand_at(t)).norm(), 1e-12) << cycle;
+        EXPECT_EQ(bench.shown().time, t) << stations << " stations, cycle " << cycle;
+        EXPECT_LT((bench.shown().tools.front().X_WH.translation() - hand_at(t)).norm(), 1e-12) << cycle;
         uncommitted.push_back(cycle);
       }
       const double committed = bench.runner.locked([](const auto& s) { return s.time(); });
@@ -178,8 +178,8 @@ TEST(LookAhead, WhatIsShownDoesNotGoBack) {
     bench.commit(events, now);
     for (const double wait : {0.0, 0.004}) {
       bench.show(0.02, now + wait);
-      EXPECT_GE(bench.shown().time(), before);
-      before = bench.shown().time();
+      EXPECT_GE(bench.shown().time, before);
+      before = bench.shown().time;
     }
   }
 }

@@ -33,23 +33,23 @@ HandEvents hand(int k) {
 }
 
 /// All that a node says of it.
-std::vector<double> readings(const simulation::Simulation& simulation) {
-  std::vector<double> all{simulation.time()};
+std::vector<double> readings(double time, const scene::Scene& scene, const std::vector<bodies::BodyState>& objects,
+                             const tools::ToolState& tool, const std::vector<contact::ContactState>& contacts) {
+  std::vector<double> all{time, static_cast<double>(scene.bodies.size())};
   const auto add = [&all](const auto& matrix) {
     for (Eigen::Index i = 0; i < matrix.size(); ++i) all.push_back(matrix(i));
   };
-  for (const bodies::BodyState& object : simulation.objects()) {
+  for (const bodies::BodyState& object : objects) {
     add(object.X_WO.matrix());
     add(to_vector(object.V_WO_W));
     add(Eigen::Vector4d(object.held, object.highlighted, object.in_contact, object.asleep));
   }
-  for (const contact::ContactState& contact : simulation.contacts()) {
+  for (const contact::ContactState& contact : contacts) {
     add(contact.p_W);
     add(contact.n_W);
     add(Eigen::Vector4d(contact.depth, contact.impulse, contact.force, contact.slip_speed));
     all.push_back(static_cast<double>(contact.phase));
   }
-  const tools::ToolState tool = simulation.fork();
   add(tool.strain);
   add(tool.X_WH_proxy.matrix());
   add(tool.X_WE.matrix());
@@ -58,6 +58,10 @@ std::vector<double> readings(const simulation::Simulation& simulation) {
   add(to_vector(tool.handle_wrench_H));
   add(Eigen::Vector4d(tool.elastic_energy, tool.kinetic_energy, tool.weight, tool.load));
   return all;
+}
+
+std::vector<double> readings(const View& view) {
+  return readings(view.time, *view.scene, view.objects, view.tools.front(), view.contacts);
 }
 
 TEST(Snapshot, ReadsAsTheSimulationOfItsMoment) {
@@ -80,7 +84,8 @@ TEST(Snapshot, ReadsAsTheSimulationOfItsMoment) {
       runner.show(0.02, {t, t}, always);
       taken.push_back(*runner.committed(always));
       runner.locked([&](const simulation::Simulation& simulation) {
-        said.push_back(readings(simulation));
+        said.push_back(readings(simulation.time(), simulation.scene(), simulation.objects(), simulation.fork(),
+                                simulation.contacts()));
         contacts += simulation.contacts().size();
       });
     }
@@ -88,9 +93,29 @@ TEST(Snapshot, ReadsAsTheSimulationOfItsMoment) {
     // Long after, and in any order.
     for (const std::size_t step : {1u, 7u}) {
       for (std::size_t k = 0; k < taken.size(); k += step) {
-        EXPECT_EQ(readings(taken[k].read()), said[k]) << k;
-        EXPECT_EQ(readings(taken[taken.size() - 1 - k].read()), said[taken.size() - 1 - k]);
+        EXPECT_EQ(readings(taken[k].view), said[k]) << k;
+        EXPECT_EQ(readings(taken[taken.size() - 1 - k].view), said[taken.size() - 1 - k]);
       }
+    }
+  }
+}
+
+/// Whatever the copy has done in between, and whatever was edited.
+TEST(Snapshot, ACopyThatFollowsHasTheWholeState) {
+  for (const scene::ContactMode mode :
+       {scene::ContactMode::none, scene::ContactMode::stop, scene::ContactMode::dynamic}) {
+    simulation::Simulation committed(boxes(mode), {}), copy(boxes(mode), {});
+    for (int k = 0; k < 300; ++k) {
+      const double t = interval * k;
+      const Vector3d p(0.06 * std::sin(3.0 * t), 0.01 * std::sin(2.0 * t), 0.22 + 0.01 * std::sin(5.0 * t));
+      committed.push_stylus({t, pointing_down(p)});
+      if (k == 1 || k == 150) committed.push_button(t, k == 1);
+      if (k == 200) committed.edit({simulation::ObjectEdit::Action::remove, "other", "", std::nullopt});
+      committed.advance(t);
+      copy.follow(committed);
+      EXPECT_TRUE(copy.save() == committed.save()) << k;
+      copy.push_button(t, k % 7 < 3);
+      copy.advance(t + 0.03);
     }
   }
 }

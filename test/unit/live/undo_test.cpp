@@ -89,7 +89,7 @@ TEST(Undo, PutsObjectsAndMassesWhereTheyWereAndTimeGoesOn) {
   bench.go_on(100);
   EXPECT_GT(bench.time(), now);
   EXPECT_NEAR(bench.objects()[0].X_WO.translation().z(), 0.05, 1e-4);  // has fallen
-  EXPECT_EQ(bench.shown.read().objects().size(), 2u);
+  EXPECT_EQ(bench.shown.view.objects.size(), 2u);
   EXPECT_THROW(bench.runner.undo(), validation::InputError);
 }
 

@@ -13,6 +13,7 @@
 #include "support/bench_scenes.h"
 #include "support/meshes.h"
 #include "support/paths.h"
+#include "support/snapshots.h"
 
 namespace spring_workbench::markers {
 namespace {
@@ -38,7 +39,7 @@ class MarkersOfALift : public testing::Test {
   MarkerArray build() {
     std_msgs::Header header;
     header.frame_id = "world";
-    return builder_.build(simulation_, header);
+    return builder_.build(view_of(simulation_), header);
   }
 
   simulation::Simulation simulation_{scene::load_scene(test_support::checkout("scenes/single_box.urdf")),
@@ -209,7 +210,7 @@ TEST(LoadScale, EveryWeightOfTheMiniWorldHasItsPlace) {
     for (const double t : {0.0, 0.1}) simulation.push_stylus({t, make_transform(Quaterniond(0, 1, 0, 0), hand)});
     simulation.advance(4.0);
     const MarkerArray markers =
-        MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(simulation, std_msgs::Header());
+        MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(view_of(simulation), std_msgs::Header());
     const auto color = find(markers, "fork", 0)->color;
     colors[body.mass_properties.mass] = Eigen::Vector3f(color.r, color.g, color.b).cast<double>();
     ASSERT_NE(find(markers, "legend load", 0), nullptr) << body.name;
@@ -237,7 +238,7 @@ TEST(Markers, AMeshIsSentByItsFile) {
   box.visual[0].geometry = std::make_shared<const geometry::TriangleMesh>(mesh);
   const MarkerArray markers =
       MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0)
-          .build(simulation::Simulation(scene, simulation::SimulationSettings()), std_msgs::Header());
+          .build(view_of(simulation::Simulation(scene, simulation::SimulationSettings())), std_msgs::Header());
   const Marker* marker = find(markers, "box", 0);
   ASSERT_NE(marker, nullptr);
   EXPECT_EQ(marker->type, Marker::MESH_RESOURCE);
@@ -261,7 +262,7 @@ TEST(Markers, AMeshHasTheColoursOfItsFile) {
     shape.color_given = given;
     const simulation::Simulation simulation(scene, simulation::SimulationSettings());
     const MarkerArray markers =
-        MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(simulation, std_msgs::Header());
+        MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(view_of(simulation), std_msgs::Header());
     const Marker* marker = find(markers, "box", 0);
     ASSERT_NE(marker, nullptr);
     EXPECT_EQ(marker->mesh_use_embedded_materials != 0, own) << uri << given;
@@ -308,7 +309,7 @@ TEST(Markers, OfManyObjectsEachIsItsOwnBody) {
   simulation.place(places);
   std::map<std::string, Marker> drawn;
   for (const Marker& marker :
-       MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(simulation, std_msgs::Header()).markers) {
+       MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(view_of(simulation), std_msgs::Header()).markers) {
     if (marker.ns.rfind("body ", 0) == 0) drawn[marker.ns] = marker;
   }
   ASSERT_EQ(drawn.size(), 1500u);

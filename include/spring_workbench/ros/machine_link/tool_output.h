@@ -9,7 +9,7 @@
 #include "spring_workbench/ProbeReading.h"
 #include "spring_workbench/instruments/reading_average.h"
 #include "spring_workbench/instruments/vibration.h"
-#include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/live/view.h"
 
 namespace spring_workbench::machine_link {
 
@@ -24,12 +24,12 @@ class ToolOutput {
              std::uint32_t queue);
 
   /// Reads the tool of this hand in the simulation as the instrument that it is, and fills its averages in.
-  void read(const simulation::Simulation& simulation, tools::ToolState& tool);
+  void read(const live::View& view, tools::ToolState& tool);
   /// `tool`: that of this hand, as it was read; `header`: the state's stamp, and the world frame.
-  void publish(const simulation::Simulation& simulation, const tools::ToolState& tool, const std_msgs::Header& header);
+  void publish(const live::View& view, const tools::ToolState& tool, const std_msgs::Header& header);
 
  private:
-  void vibrate(const simulation::Simulation& simulation, const tools::ToolState& tool);
+  void vibrate(const live::View& view, const tools::ToolState& tool);
 
   ProbeReading reading_of(const tools::ToolState& tool) const;
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "spring_workbench/ObjectStates.h"
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/ros/machine_link/tool_output.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
@@ -48,9 +49,10 @@ class StatePublisher {
     ros::Publisher fork, shown_fork;
     machine_link::ToolOutput output;
   };
-  void publish_hand(std::size_t hand, const simulation::Simulation& simulation, const std_msgs::Header& header);
-  void publish_transforms(const simulation::Simulation& simulation, const ros::Time& stamp);
-  void publish_contacts(const simulation::Simulation& simulation, const std_msgs::Header& header);
+  void publish_objects(const live::View& view, const ros::Publisher& publisher, const std_msgs::Header& header);
+  void publish_hand(std::size_t hand, const live::View& view, const std_msgs::Header& header);
+  void publish_transforms(const live::View& view, const ros::Time& stamp);
+  void publish_contacts(const live::View& view, const std_msgs::Header& header);
   std_msgs::Header header_at(const ros::Time& stamp) const;
 
   std::string world_frame_, frame_prefix_;
@@ -61,6 +63,7 @@ class StatePublisher {
   bool had_contacts_ = false;
   bool markers_were_built_ = false;  ///< with the last shown state
   double fork_diameter_;
+  ObjectStates objects_;  ///< that was sent last
   markers::MarkerPublisher markers_;
   tf2_ros::TransformBroadcaster transforms_;
   ros::Publisher objects_publisher_, contacts_publisher_, steps_publisher_, task_publisher_, shown_objects_publisher_,

@@ -16,7 +16,7 @@ class MarkerPublisher {
   MarkerPublisher(ros::NodeHandle private_node, const std::string& fork_curve, double fork_diameter, double rate);
 
   /// Returns whether markers were due at `now` [s], local time, and made.
-  bool publish(const simulation::Simulation& simulation, const std_msgs::Header& header, double now);
+  bool publish(const live::View& view, const std_msgs::Header& header, double now);
 
  private:
   double period_;  ///< [s]

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "spring_workbench/fork_mesh/fork_model.h"
-#include "spring_workbench/simulation/simulation.h"
+#include "spring_workbench/live/view.h"
 
 namespace spring_workbench::markers {
 
@@ -29,13 +29,13 @@ class MarkerBuilder {
   /// `lifetime` [s] of a marker that is not sent again.
   MarkerBuilder(std::string fork_curve, double fork_diameter, double lifetime, Drawn drawn = Drawn::everything);
 
-  visualization_msgs::MarkerArray build(const simulation::Simulation& simulation, const std_msgs::Header& header);
+  visualization_msgs::MarkerArray build(const live::View& view, const std_msgs::Header& header);
 
  private:
   using MarkerKey = std::pair<std::string, int>;
 
   /// The tool of a hand and what it carries.
-  void draw_hand(const simulation::Simulation& simulation, const LoadScale& scale, std::size_t hand, MarkerList& list);
+  void draw_hand(const live::View& view, const LoadScale& scale, std::size_t hand, MarkerList& list);
   const fork_mesh::ForkModel& deform(const tools::ToolState& tool);
   void delete_what_is_gone(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers);
 

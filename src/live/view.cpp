@@ -1,0 +1,15 @@
+#include "spring_workbench/live/view.h"
+
+#include <utility>
+
+namespace spring_workbench::live {
+
+View view_of(const simulation::Simulation& simulation, std::shared_ptr<const scene::Scene> scene) {
+  View view{std::move(scene),        simulation.settings(), simulation.time(),
+            simulation.world_time(), simulation.objects(),  {},
+            simulation.contacts()};
+  for (std::size_t hand = 0; hand < simulation.hands(); ++hand) view.tools.push_back(simulation.fork(hand));
+  return view;
+}
+
+}  // namespace spring_workbench::live
