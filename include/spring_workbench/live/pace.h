@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 namespace spring_workbench::live {
 
 /// Measures how much processor time the simulation needs and whether it keeps up with the hands. While it is behind,
@@ -20,6 +22,21 @@ class Pace {
  private:
   double cost_ = 0.0;  ///< time to simulate one second, smoothed [s]
   bool behind_ = false;
+};
+
+/// Says when to show what is ahead of the committed simulation although there is more to commit: once in `period`, but
+/// no more than half of the time is spent on it. A look ahead is the longer, the further behind the committed
+/// simulation is; so this catches up.
+class ShowTimes {
+ public:
+  explicit ShowTimes(double period) : period_(period) {}
+  bool due(double now) const { return now >= next_; }
+  /// Reports that what is shown was made from `began` to `ended` [s].
+  void shown(double began, double ended) { next_ = ended + std::max(period_, ended - began); }
+
+ private:
+  double period_;      ///< [s]
+  double next_ = 0.0;  ///< [s]
 };
 
 }  // namespace spring_workbench::live

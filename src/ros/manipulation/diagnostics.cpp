@@ -113,6 +113,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("time skipped [s]", loop.left_out)
       .add("cycles behind the hands", loop.cycles_behind)
       .add("longest cycle [s]", loop.longest_cycle)
+      .add("waits for unsent messages", loop.waits)
       .add("prediction error, 99 % [m]", loop.prediction_error)
       .add("real-time priority", loop.realtime_priority);
   status.add("since the master answered [s]", loop.master_silence);
@@ -125,6 +126,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
     status.raise(DiagnosticStatus::ERROR, "steps rejected: the result was not finite or bounded");
   }
   if (loop.deadlines_missed > last_loop_.deadlines_missed) status.raise(DiagnosticStatus::WARN, "deadlines missed");
+  if (loop.waits > last_loop_.waits) status.raise(DiagnosticStatus::WARN, "the loop waits: its messages take too long");
   if (loop.left_out > last_loop_.left_out) status.raise(DiagnosticStatus::WARN, "time was skipped");
   if (loop.cycles_behind > last_loop_.cycles_behind)
     status.raise(DiagnosticStatus::WARN, "behind: simulation is slower than the motion of the hands");

@@ -62,6 +62,7 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, const ros::NodeHandle& 
       describes_scene_(node.createSteadyTimer(ros::WallDuration(scene_period),
                                               [this](const ros::SteadyTimerEvent&) { describe_scene(); })),
       master_answered_(ros_common::steady_time()),
+      show_times_(1.0 / parameters_.rate),
       physics_([this] { run_physics(); }) {
   runner_.locked([](const simulation::Simulation& simulation) {
     for (const std::string& warning : simulation.scene().warnings) ROS_WARN_STREAM(warning);
@@ -108,9 +109,9 @@ bool ManipulationNode::run_step(double begin) {
   for (std::size_t hand = 0; hand < inputs_.size(); ++hand) inputs_[hand].count_rejected(report.rejected[hand]);
   // In simulated time the clock may have gone on by itself.
   const double deadline = (ros::Time::isSimTime() ? std::max(begin, local.loop) : begin) + 1.0 / parameters_.rate;
-  if (!report.more || local.loop >= show_at_latest_) {
-    show_at_latest_ = local.loop + 1.0 / parameters_.rate;
+  if (const double now = ros_common::steady_time(); !report.more || show_times_.due(now)) {
     outbox_.take_shown(parameters_.display_latency, local);
+    show_times_.shown(now, ros_common::steady_time());
   }
   const bool sent = outbox_.take_committed(report, deadline);
   count(report, !sent && ros_common::loop_time() > deadline);
@@ -135,6 +136,7 @@ void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
   LoopStatistics loop = loop_;
   loop_lock.unlock();
   loop.deadlines_missed += outbox_.deadlines_missed();
+  loop.waits = outbox_.waits();
   loop.prediction_error = runner_.prediction_error_99();
   loop.checkpoint_error = checkpoint_.file_error();
   loop.realtime_priority = realtime_priority_;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <utility>
+#include <vector>
 
 #include "constants.h"
 #include "spring_workbench/ros/common/loop_clock.h"
@@ -9,7 +10,7 @@
 namespace spring_workbench::manipulation {
 
 Outbox::Outbox(StatePublisher& publisher, live::SimulationRunner& runner)
-    : publisher_(publisher), runner_(runner), thread_([this] { run(); }) {}
+    : publisher_(publisher), runner_(runner), committed_(state_queue), thread_([this] { run(); }) {}
 
 Outbox::~Outbox() {
   {
@@ -45,10 +46,14 @@ bool Outbox::take_committed(const live::CycleReport& report, double deadline) {
   });
   if (!committed) return false;
   std::unique_lock<std::mutex> lock(mutex_);
-  emptied_.wait(lock, [this] { return committed_.size() < state_queue; });
-  committed_.push_back({std::move(*committed), committed_due_.stamp, report, deadline});
+  committed_.put({std::move(*committed), committed_due_.stamp, report, deadline}, lock);
   bell_.notify_one();
   return true;
+}
+
+std::size_t Outbox::waits() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return committed_.waits();
 }
 
 /// Nothing wakes it for the journal, which is looked at whenever a state is sent, and at least as often as a
@@ -61,9 +66,8 @@ void Outbox::run() {
                    [this] { return stop_ || shown_ || !committed_.empty(); });
     stop = stop_;
     const std::optional<ShownState> shown = std::exchange(shown_, std::nullopt);
-    std::deque<CommittedState> committed = std::exchange(committed_, {});
+    const std::vector<CommittedState> committed = committed_.take();
     lock.unlock();
-    emptied_.notify_one();
     const double begin = ros_common::steady_time();
     if (shown) publisher_.publish(*shown);
     for (const CommittedState& state : committed) {

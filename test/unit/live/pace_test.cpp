@@ -42,6 +42,30 @@ TEST(Pace, IsBehindWhereWhatIsTakenIsNotDoneSoon) {
   EXPECT_TRUE(turns.can_look_ahead(0.5));
 }
 
+/// With three seconds of samples to be simulated, and more coming, what is shown is far ahead of the committed state
+/// and takes as long as its way there; the committed state catches up all the same, and is shown at least ten times a
+/// second.
+TEST(ShowTimes, ALongWayAheadDoesNotKeepFromCatchingUp) {
+  for (const double period : {1e-3, 0.01}) {
+    for (const double cost : {0.05, 0.2, 0.4}) {  // [s] for simulating one second
+      const double step = 0.005;                  // [s] between samples
+      ShowTimes times(period);
+      double now = 3.0, committed = 0.0, shown = 3.0;
+      while (now - committed > step && now < 60.0) {
+        now += cost * step;
+        committed += step;
+        if (!times.due(now)) continue;
+        const double began = now;
+        now += std::min(cost * (now - committed), 0.1);
+        times.shown(began, now);
+        EXPECT_LT(now - shown, 0.25);
+        shown = now;
+      }
+      EXPECT_LT(now, 3.0 + 3.0 * cost / (0.5 - cost)) << period << ' ' << cost;
+    }
+  }
+}
+
 /// A thread that takes it again and again lets another have its turn.
 TEST(FairMutex, NobodyWaitsForMoreThanOneTurn) {
   FairMutex mutex;

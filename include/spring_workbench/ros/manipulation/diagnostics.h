@@ -15,7 +15,7 @@ namespace spring_workbench::manipulation {
 struct LoopStatistics {
   std::size_t cycles = 0;
   std::size_t deadlines_missed = 0;   ///< by the cycle or by its messages
-  std::size_t states_left_out = 0;    ///< see OutboxStatistics
+  std::size_t waits = 0;              ///< for states whose messages are unsent (Outbox)
   simulation::AdvanceReport advance;  ///< all steps together
   double left_out = 0.0;              ///< of time, since the process stood or time leapt [s]
   std::size_t cycles_behind = 0;      ///< in which simulated time was slower than the hands'

@@ -89,7 +89,7 @@ class ManipulationNode {
   std::mutex master_mutex_;
   std::vector<std::string> senders_of_tf_;  ///< by the master's last answer
   double master_answered_;                  ///< when that came [s], by the steady clock
-  double show_at_latest_ = 0.0;             ///< even while there is more to commit, in local time [s]
+  live::ShowTimes show_times_;              ///< while there is more to commit, by the steady clock
   std::atomic<bool> stop_{false};
   std::atomic<int> realtime_priority_{0};
   std::thread physics_;

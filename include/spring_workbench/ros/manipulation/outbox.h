@@ -3,11 +3,11 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
-#include <deque>
 #include <mutex>
 #include <optional>
 #include <thread>
 
+#include "spring_workbench/live/backlog.h"
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/ros/manipulation/state_publisher.h"
 
@@ -34,6 +34,8 @@ class Outbox {
 
   /// Cycles so far whose messages were sent after their deadline.
   std::size_t deadlines_missed() const { return deadlines_missed_; }
+  /// How often the loop has waited because too many states were unsent.
+  std::size_t waits();
 
  private:
   /// Whether something has to be sent again, or for the first time.
@@ -49,9 +51,9 @@ class Outbox {
   live::SimulationRunner& runner_;
   Repeat shown_due_, committed_due_;
   std::mutex mutex_;
-  std::condition_variable bell_, emptied_;
-  std::optional<ShownState> shown_;       ///< not sent yet
-  std::deque<CommittedState> committed_;  ///< not sent yet
+  std::condition_variable bell_;
+  std::optional<ShownState> shown_;          ///< not sent yet
+  live::Backlog<CommittedState> committed_;  ///< not sent yet
   std::atomic<std::size_t> deadlines_missed_{0};
   bool stop_ = false;
   std::thread thread_;
