@@ -1,4 +1,5 @@
 #include <ros/ros.h>
+#include <topic_tools/shape_shifter.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -29,6 +30,7 @@ using namespace spring_workbench::benchmark;
 constexpr double kSpeed = 0.01;                                        // [m/s] along x
 constexpr double kReach = 0.2;                                         // [m] of the fork, from the handle to the tip
 constexpr double kAbove = 0.15, kPressed = 0.005;                      // [m]
+constexpr double kBetween = 0.1;                                       // [s] two looks at the processor time
 constexpr double kDown = 1.0, kGrasp = 1.5, kBegin = 2.5, kEnd = 2.0;  // [s]
 
 /// Down to an object, in which the tip then is; grasps, presses, goes evenly along x, and rests.
@@ -56,17 +58,13 @@ struct Process {
   explicit Process(int pid) : folder("/proc/" + std::to_string(pid) + "/") {}
   /// Since it was started [s].
   double age() const {
-    std::ifstream stat(folder + "stat"), up("/proc/uptime");
-    std::string text((std::istreambuf_iterator<char>(stat)), std::istreambuf_iterator<char>());
-    std::istringstream fields(text.substr(text.rfind(')') + 1));
-    constexpr int before_start = 19;
-    std::string skipped;
-    for (int i = 0; i < before_start; ++i) fields >> skipped;
-    double ticks = 0.0, uptime = 0.0;
-    fields >> ticks;
+    std::ifstream up("/proc/uptime");
+    double uptime = 0.0;
     up >> uptime;
-    return uptime - ticks / static_cast<double>(sysconf(_SC_CLK_TCK));
+    return uptime - ticks(kStart) / static_cast<double>(sysconf(_SC_CLK_TCK));
   }
+  /// Processor time of all threads [s].
+  double processor_time() const { return (ticks(kUser) + ticks(kSystem)) / static_cast<double>(sysconf(_SC_CLK_TCK)); }
   /// Resident [MB].
   double memory() const {
     std::ifstream file(folder + "statm");
@@ -75,15 +73,32 @@ struct Process {
     return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / 1e6;
   }
   std::string folder;
+
+ private:
+  // Fields of the file `stat` behind the name of the program.
+  static constexpr std::size_t kUser = 11, kSystem = 12, kStart = 19;
+  double ticks(std::size_t field) const {
+    std::ifstream stat(folder + "stat");
+    const std::string text((std::istreambuf_iterator<char>(stat)), std::istreambuf_iterator<char>());
+    std::istringstream rest(text.substr(text.rfind(')') + 1));
+    const std::vector<std::string> fields((std::istream_iterator<std::string>(rest)), {});
+    return std::stod(fields.at(field));
+  }
 };
 
-/// Listens to the node. What it takes from the steps are those in which something was held.
+/// Listens to the node, and takes the messages for rviz and for a bag too, unread. What it takes from the steps are
+/// those in which something was held.
 class Observer {
  public:
   Observer(ros::NodeHandle& node, const Process& process) : process_(process) {
     const ros::TransportHints fast = ros::TransportHints().tcpNoDelay();
     steps_ = node.subscribe("manipulation/steps", 10000, &Observer::take_steps, this, fast);
     fork_ = node.subscribe("manipulation/fork", 10000, &Observer::take_fork, this, fast);
+    for (const char* topic : {"manipulation/objects", "manipulation/accepted", "manipulation/display/objects",
+                              "manipulation/display/markers", "tf"}) {
+      unread_.push_back(node.subscribe<topic_tools::ShapeShifter>(
+          topic, 10000, [](const topic_tools::ShapeShifter::ConstPtr&) {}, nullptr, fast));
+    }
   }
   template <typename Use>
   auto locked(Use&& use) const {
@@ -95,18 +110,31 @@ class Observer {
   }
 
   // Under the lock.
-  std::vector<Moment> seen;          ///< of the first hand
-  std::vector<double> step_times;    ///< [s] of cycles
-  std::size_t missed = 0;            ///< deadlines
-  double start = 0.0;                ///< of the node, up to its first report [s]
-  std::set<std::string> run, named;  ///< parts
+  std::vector<Moment> seen;           ///< of the first hand
+  std::vector<double> step_times;     ///< [s] of cycles
+  std::vector<double> publish_times;  ///< [s] of cycles
+  double first = 0.0, until = 0.0;    ///< such cycles, steady [s]
+  double processor_time = 0.0;        ///< of the node between the two [s]
+  std::size_t missed = 0;             ///< deadlines
+  double start = 0.0;                 ///< of the node, up to its first report [s]
+  std::set<std::string> run, named;   ///< parts
 
  private:
   void take_steps(const StepReport::ConstPtr& message) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (start == 0.0) start = process_.age();
     if (!holds_ || message->steps == 0) return;
+    const double now = steady_now();
+    if (step_times.empty()) {
+      first = now;
+      processor_time_before_ = process_.processor_time();
+    }
+    if (now > until + kBetween) {
+      until = now;
+      processor_time = process_.processor_time() - processor_time_before_;
+    }
     step_times.push_back(message->wall_time);
+    publish_times.push_back(message->publish_time);
     missed += message->deadline_missed;
     run.insert(message->active.begin(), message->active.end());
     named.insert(message->skipped.begin(), message->skipped.end());
@@ -121,7 +149,9 @@ class Observer {
   Process process_;
   mutable std::mutex mutex_;
   bool holds_ = false;
+  double processor_time_before_ = 0.0;
   ros::Subscriber steps_, fork_;
+  std::vector<ros::Subscriber> unread_;
 };
 
 std::string words(const std::set<std::string>& all, const std::set<std::string>& but = {}) {
@@ -143,7 +173,8 @@ std::vector<Vector3d> objects_of(const scene::Scene& scene, std::size_t count) {
 }
 
 /// Start [ms], memory [MB], cycles, 50, 99 and 99.9 % of their time [µs], deadlines missed, 50 %, 99 % and longest
-/// latency [ms], parts that ran, and parts that never did.
+/// latency [ms], parts that ran, parts that never did, 99 % of the times of publishing [µs], and processor time of the
+/// node [% of one processor].
 void tell(Observer& observer, const Process& process, const std::vector<double>& all, std::ostream& out) {
   observer.locked([&] {
     std::vector<double>& steps = observer.step_times;
@@ -153,7 +184,10 @@ void tell(Observer& observer, const Process& process, const std::vector<double>&
     for (const double part : {0.5, 0.99, 0.999}) out << ',' << 1e6 * quantile(steps, part);
     out << ',' << observer.missed;
     for (const double part : {0.5, 0.99, 1.0}) out << ',' << 1e3 * quantile(all, part);
-    out << ',' << words(observer.run) << ',' << words(observer.named, observer.run) << std::endl;
+    out << ',' << words(observer.run) << ',' << words(observer.named, observer.run);
+    std::sort(observer.publish_times.begin(), observer.publish_times.end());
+    out << ',' << 1e6 * quantile(observer.publish_times, 0.99) << ','
+        << 100.0 * observer.processor_time / (observer.until - observer.first) << std::endl;
   });
 }
 

@@ -22,9 +22,9 @@ constexpr double most_mesh_time = 30.0;
 constexpr std::uint64_t most_mesh_memory = std::uint64_t{2} << 30;
 /// XML elements in each other, of which a URDF has six; more are refused. Test: LoadScene.RefusesHostileFiles at 6400.
 constexpr int most_nesting = 64;
-/// Of a URDF; a chain of them is walked by recursion, so that more would end the stack. Test:
-/// LoadScene.RefusesHostileFiles.
-constexpr std::size_t most_links = 10000;
+/// Of a URDF: its root and ten thousand more. A chain of them is walked by recursion, so that more would end the stack.
+/// Test: LoadScene.RefusesHostileFiles.
+constexpr std::size_t most_links = 10001;
 /// Elements from which a child process tries whether TinyXML's recursion gets through. Larger: a deep file may crash;
 /// smaller: small files cost a process. Test: LoadScene.RefusesHostileFiles at 1e9.
 constexpr int tried_from = 500;

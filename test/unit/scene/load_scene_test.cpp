@@ -647,7 +647,7 @@ TEST_F(LoadScene, RefusesHostileFiles) {
   EXPECT_TRUE(has(refusal_from(folder_.path("attribute.urdf"), {}), "nesting"));
 
   std::string chain = "<robot name='r'><link name='l0'/>";
-  for (int i = 1; i < 10001; ++i) {
+  for (int i = 1; i < 10002; ++i) {
     const std::string a = std::to_string(i - 1), b = std::to_string(i);
     chain += "<link name='l" + b + "'/><joint name='j" + b + "' type='fixed'><parent link='l" + a +
              "'/><child link='l" + b + "'/></joint>";
