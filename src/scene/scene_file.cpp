@@ -77,7 +77,7 @@ Target read_target(const YAML::Node& map, const std::string& path, const std::st
 
 std::vector<RigidTransform> read_handles(const YAML::Node& start, const std::string& path) {
   std::vector<std::string> keys = {handle_key(0), handle_key(1)};
-  while (start[keys.back()].IsDefined()) keys.push_back(handle_key(keys.size()));
+  while (start.IsMap() && start[keys.back()].IsDefined()) keys.push_back(handle_key(keys.size()));
   config::check_keys(start, path, "start.", keys);
   keys.pop_back();
   std::vector<RigidTransform> handles;
