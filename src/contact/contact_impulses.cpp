@@ -8,8 +8,7 @@
 #include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::contact {
-void ContactStepper::collide(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce,
-                             double h) const {
+void ContactStepper::collide(bodies::SteppedBody& body, std::vector<ContactRow>& rows, Bounce bounce, double h) const {
   const motion::MotionState s = body.object();
   std::vector<ContactRow> contacts = rows;
   std::vector<double> restitution;
@@ -23,10 +22,12 @@ void ContactStepper::collide(bodies::SteppedBody& body, const std::vector<Contac
     restitution.push_back(bounces ? std::sqrt(of_both) : 0.0);
     approach = approach || speed > may_approach;
   }
-  if (approach) body.add_impulse(impact(body.mobility(), to_vector(s.velocity), contacts, restitution, h));
+  if (!approach) return;
+  body.add_impulse(impact(body.mobility(), to_vector(s.velocity), contacts, restitution, h));
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse_W += contacts[i].load_W;
 }
 
-void ContactStepper::settle(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, double h) const {
+void ContactStepper::settle(bodies::SteppedBody& body, std::vector<ContactRow>& rows, double h) const {
   const motion::MotionState s = body.object();
   std::vector<ContactRow> impulses = rows;
   for (ContactRow& impulse : impulses) {
@@ -42,6 +43,7 @@ void ContactStepper::settle(bodies::SteppedBody& body, const std::vector<Contact
   const Wrench given = total_load(impulses);
   solve_contacts(body.mobility(), impulses);
   body.add_impulse(total_load(impulses) - given);
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse_W += impulses[i].load_W - h * rows[i].load_W;
 }
 
 }  // namespace spring_workbench::contact

@@ -18,7 +18,8 @@ ContactRow row_of(const rigid_bodies::WorldContact& contact, double h) {
   ContactRow row;
   row.point = {contact.other, contact.p_W, contact.n_W, contact.depth};
   row.gap = -contact.depth;
-  row.load_W = contact.impulse_W / h;
+  row.impulse_W = contact.impulse_W;
+  row.load_W = row.impulse_W / h;
   return row;
 }
 
@@ -40,8 +41,8 @@ void ContactLog::note(std::size_t object, const bodies::BodyState& state, const 
     c.p_W = row.point.p_W;
     c.n_W = row.point.n_W;
     c.depth = std::max(0.0, -row.gap);
-    c.force = std::max(0.0, row.load_W.dot(row.point.n_W));
-    c.impulse = h * c.force;
+    c.impulse = std::max(0.0, row.impulse_W.dot(row.point.n_W));
+    c.force = c.impulse / h;
     const Vector3d v = state.V_WO_W.linear + state.V_WO_W.angular.cross(row.point.p_W - state.X_WO.translation());
     c.slip_speed = (v - row.point.n_W * v.dot(row.point.n_W)).norm();
     now_touching.push_back(c);

@@ -57,7 +57,7 @@ void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, 
 void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<ContactRow>& rows, double depth,
                              ContactOutcome& outcome) const {
   if (rows.empty()) return;
-  const std::vector<ContactRow> before = std::move(rows);
+  std::vector<ContactRow> before = std::move(rows);
   rows.clear();
   const RigidTransform X_WO = body.object().X;
   std::vector<Vector3d> directions;
@@ -82,7 +82,9 @@ void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<Contac
   for (ContactRow& row : rows) {
     const auto old = std::find_if(before.begin(), before.end(),
                                   [&](const ContactRow& o) { return is_same(o.point, row.point, 5.0 * same_point); });
-    if (old != before.end()) row.load_W = old->load_W;
+    if (old == before.end()) continue;
+    row.load_W = old->load_W;
+    row.impulse_W = std::exchange(old->impulse_W, Vector3d::Zero());
   }
 }
 
@@ -271,6 +273,7 @@ ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, dou
     }
   }
   rows = std::move(solved);
+  for (ContactRow& row : rows) row.impulse_W += h * row.load_W;
   body.accept();
   if (body.reverses()) settle(body, rows, h);
   return {true, in_contact ? std::clamp(straight, 0.5, longer) : longer, {}};
@@ -283,6 +286,7 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
   double left = h, substep = h;
   bool met = false;  // since the last substep that was done
   refresh(body, rows, probe_depth, outcome);
+  for (ContactRow& row : rows) row.impulse_W.setZero();
   collide(body, rows, Bounce::of_materials, h);
   for (int i = 0; i < most_tries && left > shortest_share * h; ++i) {
     substep = std::min(substep, left);

@@ -17,8 +17,8 @@ Vector3d at_point(const Vector6d& motion, const ContactRow& row) {
 /// What contacts give back of the impulses `rows` that have ended their approach and left the body with velocity `v`:
 /// each its share of its normal impulse (Poisson's law), and the friction that takes the most energy. Unlike Newton's
 /// law, that returns at most what was lost; of several different shares it may be more: then all give back less.
-Wrench given_back(const Matrix6d& mobility, const Vector6d& v, const std::vector<double>& shares,
-                  const std::vector<ContactRow>& rows) {
+std::vector<ContactRow> given_back(const Matrix6d& mobility, const Vector6d& v, const std::vector<double>& shares,
+                                   const std::vector<ContactRow>& rows) {
   std::vector<ContactRow> back = rows;
   for (std::size_t i = 0; i < back.size(); ++i) back[i].load_W *= shares[i];
   Vector6d motion = v + mobility * to_vector(total_load(back));
@@ -47,12 +47,13 @@ Wrench given_back(const Matrix6d& mobility, const Vector6d& v, const std::vector
   const double slope = gained.dot(v), curvature = gained.dot(mobility * gained);
   const double root = std::sqrt(std::max(0.0, slope * slope - 2.0 * curvature * energy));
   const double share = curvature > 0.0 ? std::clamp((root - slope) / curvature, 0.0, 1.0) : 1.0;
-  return {share * gained.head<3>(), share * gained.tail<3>()};
+  for (ContactRow& row : back) row.load_W *= share;
+  return back;
 }
 
 }  // namespace
 
-Wrench impact(const Matrix6d& mobility, const Vector6d& v, std::vector<ContactRow> contacts,
+Wrench impact(const Matrix6d& mobility, const Vector6d& v, std::vector<ContactRow>& contacts,
               const std::vector<double>& restitution, double h) {
   std::vector<double> gaps;
   for (const ContactRow& row : contacts) gaps.push_back(row.gap);
@@ -69,12 +70,14 @@ Wrench impact(const Matrix6d& mobility, const Vector6d& v, std::vector<ContactRo
     solve_contacts(mobility, contacts);
     return total_load(contacts);
   };
-  Wrench sum = end_approach(v, true);
-  if (*std::max_element(restitution.begin(), restitution.end()) == 0.0) return sum;
-  const Vector6d still = v + mobility * to_vector(sum);
-  const Wrench back = given_back(mobility, still, restitution, contacts);
-  sum += back;
-  return sum += end_approach(still + mobility * to_vector(back), false);
+  const Wrench stops = end_approach(v, true);
+  if (*std::max_element(restitution.begin(), restitution.end()) == 0.0) return stops;
+  const std::vector<ContactRow> stopped = contacts;
+  const Vector6d still = v + mobility * to_vector(stops);
+  const std::vector<ContactRow> back = given_back(mobility, still, restitution, stopped);
+  end_approach(still + mobility * to_vector(total_load(back)), false);
+  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].load_W += stopped[i].load_W + back[i].load_W;
+  return total_load(contacts);
 }
 
 }  // namespace spring_workbench::contact

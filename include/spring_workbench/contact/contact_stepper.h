@@ -8,7 +8,6 @@
 #include "spring_workbench/contact/contact_solver.h"
 
 namespace spring_workbench::contact {
-
 /// Result of contact in one step.
 struct ContactOutcome {
   std::vector<ContactRow> rows;  ///< the contacts at the end of the step; `load_W` [N]
@@ -41,7 +40,7 @@ class ContactStepper {
   /// Removes the approach speed of the contacts, with the restitution of the materials or none. An open contact may
   /// approach so fast that it closes within `h` [s]: what lands on several points lands on all of them at once.
   enum class Bounce { none, of_materials };
-  void collide(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, Bounce bounce, double h) const;
+  void collide(bodies::SteppedBody& body, std::vector<ContactRow>& rows, Bounce bounce, double h) const;
   /// Advances the body by `h` from the start of the present trial, under loads that leave the gaps of the rows closed
   /// or open. Returns false if the body then penetrates.
   bool advance_in_contact(bodies::SteppedBody& body, double h, std::vector<ContactRow>& rows,
@@ -67,7 +66,7 @@ class ContactStepper {
                     ContactOutcome& outcome) const;
   /// Corrects the impulses of the rows' loads over a substep of `h` [s] so that no contact approaches at its end, and
   /// none slips where friction, which is constant over it, has reversed its slip or could have held it.
-  void settle(bodies::SteppedBody& body, const std::vector<ContactRow>& rows, double h) const;
+  void settle(bodies::SteppedBody& body, std::vector<ContactRow>& rows, double h) const;
   /// Adds the contacts that are new and removes their approach speed. Returns false if none is new.
   bool meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, double h, std::vector<ContactRow>& rows,
             ContactOutcome& outcome) const;

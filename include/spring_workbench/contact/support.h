@@ -6,7 +6,6 @@
 #include "spring_workbench/collision/collision_world.h"
 
 namespace spring_workbench::contact {
-
 // Which bodies support which, from their poses alone; a body is given by its index in the scene.
 
 /// Returns whether a body supports this one from below, at a distance of at most 0.1 mm.

@@ -126,6 +126,20 @@ TEST_P(LetGo, ABallThatSlidesAsItBouncesComesOffByPoissonsLaw) {
   }
 }
 
+TEST_P(LetGo, WhatTheContactsTellIsTheImpulseOfTheBench) {
+  const double radius = 0.05, step = 0.02;
+  Simulation s = let_go(scene_of({ball(radius, Vector3d(0, 0, 2.0 * radius), 0.3)}, GetParam(), 0.3), 0.0, 0.6, step);
+  const double begin = s.time(), before = s.objects()[0].V_WO_W.linear.z();
+  double told = 0.0;
+  for (int i = 1; i <= 15; ++i) {
+    s.advance(begin + step * i);
+    for (const contact::ContactState& c : s.contacts()) told += c.impulse * c.n_W.z();
+  }
+  const double given = s.objects()[0].V_WO_W.linear.z() - before + g * (s.time() - begin);  // [N·s], of 1 kg
+  ASSERT_GT(given, 2.0);
+  EXPECT_NEAR(told, given, 0.01 * given);
+}
+
 TEST_P(LetGo, OnAnInclineItStaysBelowTheAngleOfFrictionAndSlidesAbove) {
   const double mu = 0.5;
   for (const double off : {-0.1, 0.1}) {
