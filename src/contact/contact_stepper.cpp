@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "constants.h"
@@ -25,6 +26,8 @@ double extent(const RigidTransform& X0, const RigidTransform& X1, double radius)
 bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b, double within = same_point) {
   return a.other == b.other && a.n_W.dot(b.n_W) > 0.99 && (a.p_W - b.p_W).norm() < within;
 }
+
+bool has_given(const ContactRow& row) { return row.impulse_W != Vector3d::Zero(); }
 
 }  // namespace
 
@@ -86,6 +89,7 @@ void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<Contac
     row.load_W = old->load_W;
     row.impulse_W = std::exchange(old->impulse_W, Vector3d::Zero());
   }
+  std::copy_if(before.begin(), before.end(), std::back_inserter(outcome.ended), has_given);
 }
 
 bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std::vector<ContactRow>& rows,
@@ -160,6 +164,7 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
     set_slip(row, path);
     if (path.dot(row.point.n_W) > touching) seen.push_back(row);
   }
+  for (ContactRow& row : seen) row.impulse_W.setZero();
   refresh(body, seen, probe_depth, outcome);
   add_contacts(body.index(), X1, touching, seen, outcome);
   for (const ContactRow& row : seen) {
@@ -174,7 +179,7 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
     }
     const bool known = at < work.size();
     if (known && work[at].gap <= row.gap + 0.1 * touching) continue;
-    const Vector3d load = known ? work[at].load_W : Vector3d(Vector3d::Zero());
+    const ContactRow before = known ? work[at] : ContactRow();
     const Vector3d start = moved(X1, X0, row.point.p_W);
     const Vector3d path = row.point.p_W - start;
     // One that is open at first is for the sweep to find: what reverses would bounce from a load that holds it.
@@ -184,7 +189,8 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
       starts.emplace_back();
     }
     work[at] = row;
-    work[at].load_W = load;
+    work[at].load_W = before.load_W;
+    work[at].impulse_W = before.impulse_W;
     // It presses there when it has come: at its own point, which an unloaded piece carries deep into the other.
     work[at].lever_W = row.point.p_W + row.gap * row.point.n_W - X1.translation();
     set_slip(work[at], path);
@@ -285,8 +291,8 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
   if (const RigidTransform here = body.object().X; !may_go(here, here)) return false;
   double left = h, substep = h;
   bool met = false;  // since the last substep that was done
-  refresh(body, rows, probe_depth, outcome);
   for (ContactRow& row : rows) row.impulse_W.setZero();
+  refresh(body, rows, probe_depth, outcome);
   collide(body, rows, Bounce::of_materials, h);
   for (int i = 0; i < most_tries && left > shortest_share * h; ++i) {
     substep = std::min(substep, left);
@@ -313,8 +319,10 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
     outcome.time_lost += left;
     for (ContactRow& row : rows) row.load_W.setZero();  // a search from these loads has failed
   }
-  rows.erase(std::remove_if(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap > probe_depth; }),
-             rows.end());
+  const auto open =
+      std::stable_partition(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap <= probe_depth; });
+  std::copy_if(open, rows.end(), std::back_inserter(outcome.ended), has_given);
+  rows.erase(open, rows.end());
   outcome.rows = rows;
   return true;
 }

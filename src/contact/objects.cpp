@@ -160,6 +160,7 @@ bool Objects::carry(bodies::SteppedBody& stepped, std::size_t object, double h, 
   counts.collision_queries += outcome.queries;
   counts.note(outcome.time_lost, outcome.refused);
   states_[object].in_contact = !outcome.rows.empty();
+  outcome.rows.insert(outcome.rows.end(), outcome.ended.begin(), outcome.ended.end());
   contacts_.note(object, states_[object], outcome.rows, h);
   return true;
 }
