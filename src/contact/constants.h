@@ -105,12 +105,6 @@ constexpr double margin_near = 5e-4;
 /// [s] for which a free body is slow before it sleeps. Larger: it costs longer. With `dynamic` 0.5 s. Test:
 /// Simulation.BoxThatIsDroppedComesToRestOnTheBench at 20.
 constexpr double asleep_after = 0.2;
-/// [m]; what is nearer above an object that is taken or falls lies on it, and wakes; what is farther above all else
-/// falls at the start. Larger: it hangs in the air. Test: Falling.WhatNothingCarriesFallsAndWhatStandsStays at 0.1.
-constexpr double support_gap = 1e-4;
-/// Of a contact's normal along z, from where on it carries. Larger: what lies on a slope falls, or floats when that is
-/// taken. Test: Falling.WhatNothingCarriesFallsAndWhatStandsStays at 1.
-constexpr double least_support = 0.1;
 /// [m] from the origin; a body that flies further stops there. Test: Simulation.WhatFliesAwayStopsAtTheEndOfTheWorld.
 constexpr double world_limit = 100.0;
 

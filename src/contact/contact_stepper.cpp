@@ -89,7 +89,7 @@ void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<Contac
     row.load_W = old->load_W;
     row.impulse_W = std::exchange(old->impulse_W, Vector3d::Zero());
   }
-  std::copy_if(before.begin(), before.end(), std::back_inserter(outcome.ended), has_given);
+  std::copy_if(before.begin(), before.end(), std::back_inserter(outcome.rows), has_given);
 }
 
 bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std::vector<ContactRow>& rows,
@@ -321,9 +321,9 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
   }
   const auto open =
       std::stable_partition(rows.begin(), rows.end(), [](const ContactRow& r) { return r.gap <= probe_depth; });
-  std::copy_if(open, rows.end(), std::back_inserter(outcome.ended), has_given);
+  std::copy_if(open, rows.end(), std::back_inserter(outcome.rows), has_given);
   rows.erase(open, rows.end());
-  outcome.rows = rows;
+  outcome.rows.insert(outcome.rows.end(), rows.begin(), rows.end());
   return true;
 }
 

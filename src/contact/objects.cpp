@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "constants.h"
+#include "spring_workbench/collision/support.h"
 #include "spring_workbench/contact/contact_engines.h"
-#include "spring_workbench/contact/support.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/scene/constants.h"
 
@@ -64,7 +64,7 @@ void Objects::continue_from(const Objects& before, double now) {
 }
 
 std::string Objects::inside_of(std::size_t object, const RigidTransform& X_WO) const {
-  return collision_ ? contact::inside_of(*collision_, scene_, scene_index(object), X_WO) : "";
+  return collision_ ? collision::inside_of(*collision_, scene_, scene_index(object), X_WO) : "";
 }
 
 void Objects::let_fall() {
@@ -159,8 +159,7 @@ bool Objects::carry(bodies::SteppedBody& stepped, std::size_t object, double h, 
   take_state(object, stepped.object());
   counts.collision_queries += outcome.queries;
   counts.note(outcome.time_lost, outcome.refused);
-  states_[object].in_contact = !outcome.rows.empty();
-  outcome.rows.insert(outcome.rows.end(), outcome.ended.begin(), outcome.ended.end());
+  states_[object].in_contact = !objects_[object].rows.empty();
   contacts_.note(object, states_[object], outcome.rows, h);
   return true;
 }

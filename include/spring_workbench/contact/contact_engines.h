@@ -6,6 +6,7 @@
 #include "spring_workbench/rigid_bodies/rigid_world.h"
 
 namespace spring_workbench::contact {
+
 // The contact engines are shared libraries that are opened by name; the run path of the calling library or program
 // determines where they are found. The first call opens one; a program that calls neither function maps neither FCL nor
 // Bullet. Both throw InputError if the library is missing, because a build may leave it out.

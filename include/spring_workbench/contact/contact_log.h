@@ -9,6 +9,7 @@
 #include "spring_workbench/rigid_bodies/rigid_world.h"
 
 namespace spring_workbench::contact {
+
 /// A contact of a step of `h` [s] in the world of movable bodies.
 ContactRow row_of(const rigid_bodies::WorldContact& contact, double h);
 

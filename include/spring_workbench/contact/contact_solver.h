@@ -7,6 +7,7 @@
 #include "spring_workbench/math/state_archive.h"
 
 namespace spring_workbench::contact {
+
 /// A contact as the solver sees it. The body's motion at its centre of mass is [displacement; rotation] or, for
 /// impulses, [velocity; angular velocity], in world axes.
 struct ContactRow {

@@ -5,6 +5,7 @@
 #include "spring_workbench/math/state_archive.h"
 
 namespace spring_workbench::contact {
+
 /// Phase of a contact.
 enum class ContactPhase { started, persisting, ended };
 

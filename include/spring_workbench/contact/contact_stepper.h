@@ -8,10 +8,10 @@
 #include "spring_workbench/contact/contact_solver.h"
 
 namespace spring_workbench::contact {
+
 /// Result of contact in one step.
 struct ContactOutcome {
-  std::vector<ContactRow> rows;   ///< the contacts at the end of the step; `load_W` [N]
-  std::vector<ContactRow> ended;  ///< those of the step that were over before its end, with their `impulse_W`
+  std::vector<ContactRow> rows;  ///< the contacts of the step, also those that are over at its end
   int queries = 0;
   double time_lost = 0.0;  ///< time for which no motion was possible and the body was stopped [s]
   bool refused = false;    ///< a step without contact would not have been finite or bounded

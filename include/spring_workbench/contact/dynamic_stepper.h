@@ -7,6 +7,7 @@
 #include "spring_workbench/rigid_bodies/rigid_world.h"
 
 namespace spring_workbench::contact {
+
 /// Contact mode `dynamic` (doc/model.md) where movable bodies are near: held bodies and all movable ones in one
 /// rigid-body world. A held body that nothing can touch is carried by its own integrator alone; near others, all bodies
 /// advance together in short substeps, in which the held body responds to contact with the compliance of its fork.

@@ -9,6 +9,7 @@
 #include "spring_workbench/scene/scene.h"
 
 namespace spring_workbench::contact {
+
 /// The movable objects of a scene and their states. An object is given by its index in `states()`.
 class ObjectList {
  public:

@@ -12,6 +12,7 @@
 #include "spring_workbench/contact/object_list.h"
 
 namespace spring_workbench::contact {
+
 /// Body that a tool carries over a step.
 struct Carried {
   std::size_t object;  ///< in the workbench
