@@ -2,7 +2,7 @@
 # opens. find_package(spring_workbench) gives the target spring_workbench::core.
 set(objects)
 foreach(module math friction validation config geometry motion rod dynamics stepping scene bodies tools instruments
-    contact simulation hand_input motion_files)
+    contact objects simulation hand_input motion_files)
   list(APPEND objects $<TARGET_OBJECTS:spring_workbench_${module}>)
 endforeach()
 add_library(spring_workbench_core SHARED ${objects})

@@ -66,11 +66,18 @@ Thing thing_of(unsigned seed) {
   return t;
 }
 
-double energy(const scene::Body& body, const bodies::BodyState& o) {
-  const Vector3d w_O = o.X_WO.linear().transpose() * o.V_WO_W.angular;
-  const scene::MassProperties& m = body.mass_properties;
-  return 0.5 * m.mass * o.V_WO_W.linear.squaredNorm() + 0.5 * w_O.dot(m.inertia_O * w_O);
-}
+/// What bodies without gravity keep: momentum, angular momentum about the origin; and their energy.
+struct Kept {
+  Vector6d momentum = Vector6d::Zero();
+  double energy = 0.0;
+
+  void add(const scene::MassProperties& m, const bodies::BodyState& o) {
+    const Vector3d p = m.mass * o.V_WO_W.linear, w_O = o.X_WO.linear().transpose() * o.V_WO_W.angular;
+    momentum.head<3>() += p;
+    momentum.tail<3>() += o.X_WO.translation().cross(p) + o.X_WO.linear() * (m.inertia_O * w_O);
+    energy += 0.5 * p.dot(o.V_WO_W.linear) + 0.5 * w_O.dot(m.inertia_O * w_O);
+  }
+};
 
 scene::Scene scene_of(const Throw& thrown, const Thing& t) {
   const double width = thrown.loose ? loose_width : fixed_width;
@@ -82,6 +89,10 @@ scene::Scene scene_of(const Throw& thrown, const Thing& t) {
   scene.bench_height = -100.0;
   scene.bodies = {t.body, standing("wall", geometry::Box{size}, RigidTransform::Identity(), 0.3)};
   if (thrown.loose) scene.bodies[1] = box("wall", size, 0.5, Vector3d::Zero(), 0.3);
+  if (thrown.among_others) {
+    const RigidTransform X_WP = at(Vector3d(0.5 * thickness + 2e-4 + 0.05, 0.45 * width, 0.0));
+    scene.bodies.push_back(standing("post", geometry::Box{Vector3d::Constant(0.1)}, X_WP, 0.3));
+  }
   for (scene::Body& body : scene.bodies) body.material.restitution = t.restitution;
   return scene;
 }
@@ -105,10 +116,13 @@ ThrowResult run(const Throw& thrown) {
   const scene::Scene scene = scene_of(thrown, t);
   simulation::Simulation s = let_go(scene, t.step, held, t.v, t.w);
   const auto both = [&] {
-    return energy(scene.bodies[0], s.objects()[0]) + (thrown.loose ? energy(scene.bodies[1], s.objects()[1]) : 0.0);
+    Kept kept;
+    for (std::size_t i = 0; i < s.objects().size(); ++i) kept.add(scene.bodies[i].mass_properties, s.objects()[i]);
+    return kept;
   };
-  const double start = both(), begin = processor_time();
-  double least = start, end = held + 1.2 / t.v.x();
+  const Kept start = both();
+  const double begin = processor_time(), end = held + 1.2 / t.v.x();
+  double least = start.energy;
   ThrowResult r;
   for (double time = held + t.step; time < end; time += t.step) {
     const simulation::AdvanceReport report = s.advance(time);
@@ -116,25 +130,30 @@ ThrowResult run(const Throw& thrown) {
     r.steps_unsolved += report.steps_unsolved;
     const RigidTransform X_WA = thrown.loose ? s.objects()[1].X_WO : RigidTransform::Identity();
     look_at_wall(t, X_WA.inverse() * s.objects()[0].X_WO, thrown.loose ? loose_width : fixed_width, r);
-    r.energy_gained = std::max(r.energy_gained, (both() - least) / start);
-    least = std::min(least, both());
+    const Kept now = both();
+    r.energy_gained = std::max(r.energy_gained, (now.energy - least) / start.energy);
+    least = std::min(least, now.energy);
+    if (!thrown.loose || thrown.among_others) continue;
+    const double changed = (now.momentum - start.momentum).norm() / start.momentum.head<3>().norm();
+    r.momentum_changed = std::max(r.momentum_changed, changed);
   }
   r.seconds = (processor_time() - begin) / (end - held);
   return r;
 }
 
 void run_throws(int count, int first, std::ostream& out) {
-  out << "contact,wall,shape,throws,passed_through,over_0.1_mm,depth_mm,worst_seed,energy_gained_%,steps_blocked,"
-         "most_processor_time\n";
-  for (const Throw& kind : {Throw{scene::ContactMode::stop, 0, false}, Throw{scene::ContactMode::dynamic, 0, false},
-                            Throw{scene::ContactMode::dynamic, 0, true}}) {
+  out << "contact,wall,shape,throws,passed_through,over_0.1_mm,depth_mm,worst_seed,energy_gained_%,most_gaining_seed,"
+         "momentum_changed,steps_blocked,most_processor_time\n";
+  for (const Throw& kind :
+       {Throw{scene::ContactMode::stop, 0, false}, Throw{scene::ContactMode::dynamic, 0, false},
+        Throw{scene::ContactMode::dynamic, 0, true}, Throw{scene::ContactMode::dynamic, 0, true, true}}) {
     std::array<ThrowResult, shape_names.size()> worst;
-    std::array<std::array<int, 4>, shape_names.size()> counts{};  // throws, passed, deep, worst seed
+    std::array<std::array<int, 5>, shape_names.size()> counts{};  // throws, passed, deep, worst seeds
     for (int seed = first; seed < first + count; ++seed) {
-      const ThrowResult r = run({kind.contact, static_cast<unsigned>(seed), kind.loose});
+      const ThrowResult r = run({kind.contact, static_cast<unsigned>(seed), kind.loose, kind.among_others});
       const std::size_t shape = static_cast<std::size_t>(seed) % shape_names.size();
       ThrowResult& w = worst[shape];
-      std::array<int, 4>& c = counts[shape];
+      std::array<int, 5>& c = counts[shape];
       ++c[0];
       c[1] += r.passed_through ? 1 : 0;
       c[2] += !r.passed_through && r.depth > 1e-4 ? 1 : 0;
@@ -142,16 +161,24 @@ void run_throws(int count, int first, std::ostream& out) {
         w.depth = r.depth;
         c[3] = seed;
       }
-      w.energy_gained = std::max(w.energy_gained, r.energy_gained);
+      if (r.energy_gained > w.energy_gained) {
+        w.energy_gained = r.energy_gained;
+        c[4] = seed;
+      }
+      w.momentum_changed = std::max(w.momentum_changed, r.momentum_changed);
       w.steps_blocked += r.steps_blocked;
       w.seconds = std::max(w.seconds, r.seconds);
     }
     for (std::size_t i = 0; i < shape_names.size(); ++i) {
       const ThrowResult& w = worst[i];
-      const std::array<int, 4>& c = counts[i];
-      out << name_of(kind.contact) << ',' << (kind.loose ? "loose" : "fixed") << ',' << shape_names[i] << ',' << c[0]
-          << ',' << c[1] << ',' << c[2] << ',' << 1e3 * w.depth << ',' << c[3] << ',' << 100.0 * w.energy_gained << ','
-          << w.steps_blocked << ',' << w.seconds << std::endl;
+      const std::array<int, 5>& c = counts[i];
+      out << name_of(kind.contact) << ','
+          << (kind.among_others ? "loose and a post"
+              : kind.loose      ? "loose"
+                                : "fixed")
+          << ',' << shape_names[i] << ',' << c[0] << ',' << c[1] << ',' << c[2] << ',' << 1e3 * w.depth << ',' << c[3]
+          << ',' << 100.0 * w.energy_gained << ',' << c[4] << ',' << w.momentum_changed << ',' << w.steps_blocked << ','
+          << w.seconds << std::endl;
     }
   }
 }

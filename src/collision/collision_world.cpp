@@ -247,6 +247,16 @@ bool CollisionWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, co
   return false;
 }
 
+std::vector<std::size_t> CollisionWorld::near(const Eigen::AlignedBox3d& box_W) const {
+  impl_->find_near(bench, box_W);
+  std::vector<std::size_t> bodies;
+  for (const std::size_t part : impl_->near) {
+    if (bodies.empty() || bodies.back() != impl_->parts[part].body) bodies.push_back(impl_->parts[part].body);
+  }
+  if (box_W.min().z() < impl_->bench_height) bodies.push_back(bench);
+  return bodies;
+}
+
 bool CollisionWorld::touches(std::size_t body, const RigidTransform& X_WO, double tolerance) const {
   impl_->find_all(body, X_WO, tolerance, true);
   return !impl_->found.empty();

@@ -102,10 +102,5 @@ constexpr double shortest_piece = 1e-5;
 /// [m] from the path of a body within which other bodies are considered. Goes into
 /// `DynamicContact.ANeighbourThatIsNotTouchedIsNotFelt`.
 constexpr double margin_near = 5e-4;
-/// [s] for which a free body is slow before it sleeps. Larger: it costs longer. With `dynamic` 0.5 s. Test:
-/// Simulation.BoxThatIsDroppedComesToRestOnTheBench at 20.
-constexpr double asleep_after = 0.2;
-/// [m] from the origin; a body that flies further stops there. Test: Simulation.WhatFliesAwayStopsAtTheEndOfTheWorld.
-constexpr double world_limit = 100.0;
 
 }  // namespace spring_workbench::contact

@@ -226,7 +226,7 @@ std::vector<std::size_t> DynamicStepper::alone(const std::vector<std::size_t>& m
     RigidTransform X1 = X0;
     X1.translation() += h * world_->velocity(body).linear;
     X1.linear() = math::exp_so3(h * world_->velocity(body).angular) * X0.linear();
-    if (!world_->near_movable(body, X0, X1, h, moving)) alone.push_back(body);
+    if (world_->movable_near(body, X0, X1, h, moving, 1).empty()) alone.push_back(body);
   }
   return alone;
 }

@@ -164,8 +164,7 @@ Extent BulletWorld::path_of(std::size_t index, double h) const {
   const Item& item = items_[index];
   Extent box = geometry::bounding_box(item.box_O, item.X_WO);
   const double turned = std::min(h * item.V_WO_W.angular.norm() * item.radius, 2.0 * item.radius);
-  const Vector3d moved = h * item.V_WO_W.linear;
-  box.extend(Extent(box.min() + moved, box.max() + moved));
+  box.extend(Extent(box).translate(h * item.V_WO_W.linear));
   return geometry::grown(box, turned + margin_near);
 }
 
@@ -315,24 +314,25 @@ Extent BulletWorld::swept(const Item& item, const RigidTransform& X0_WO, const R
   return geometry::grown(path, margin + item.radius * std::min(turned, 2.0));
 }
 
-bool BulletWorld::near_movable(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
-                               const std::vector<std::size_t>& carried) const {
-  if (items_[body].leaf == nullptr) return false;
+RigidWorld::Bodies BulletWorld::movable_near(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                                             double h, const Bodies& carried, std::size_t most) const {
+  if (items_[body].leaf == nullptr) return {};
+  std::set<std::size_t> near;
   const Extent path = swept(items_[body], X0_WO, X1_WO, margin_near);
-  const auto any = [&](const std::vector<std::size_t>& of, const auto& is) {
-    return std::any_of(of.begin(), of.end(), [&](std::size_t i) { return i != body && is(items_[i], i); });
+  const auto add = [&](const Bodies& of, const auto& is) {
+    std::copy_if(of.begin(), of.end(), std::inserter(near, near.end()), [&](auto i) { return i != body && is(i); });
   };
-  const auto comes_near = [&](const Item& o, std::size_t i) { return o.leaf && path_of(i, h).intersects(path); };
-  return any(inside(path), [](const Item& o, std::size_t) { return o.movable; }) ||
-         any(in_world_, [&](const Item& o, std::size_t i) { return awake(o) && comes_near(o, i); }) ||
-         any(carried, comes_near);
+  const auto comes = [&](auto i) { return near.size() < most && items_[i].leaf && path_of(i, h).intersects(path); };
+  add(inside(path), [&](auto i) { return items_[i].movable; });
+  add(in_world_, [&](auto i) { return awake(items_[i]) && comes(i); });
+  add(carried, comes);
+  return {near.begin(), near.end()};
 }
 
 bool BulletWorld::may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                             double margin) const {
-  const Item& item = items_[body];
-  if (item.leaf == nullptr) return false;
-  const Extent path = swept(item, X0_WO, X1_WO, margin);
+  if (items_[body].leaf == nullptr) return false;
+  const Extent path = swept(items_[body], X0_WO, X1_WO, margin);
   const std::vector<std::size_t> found = inside(path);
   return path.min().z() < scene_.bench_height || found.size() > 1 || (found.size() == 1 && found[0] != body);
 }

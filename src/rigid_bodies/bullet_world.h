@@ -56,8 +56,8 @@ class BulletWorld final : public RigidWorld {
   const RigidTransform& pose(std::size_t body) const override { return items_[body].X_WO; }
   const Twist& velocity(std::size_t body) const override { return items_[body].V_WO_W; }
   bool awake(std::size_t body) const override { return awake(items_[body]); }
-  bool near_movable(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
-                    const std::vector<std::size_t>& carried) const override;
+  Bodies movable_near(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
+                      const Bodies& carried, std::size_t most) const override;
   bool may_touch(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                  double margin) const override;
   double collision_free_fraction(std::size_t body, const RigidTransform& X0_WO,

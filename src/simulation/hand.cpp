@@ -8,7 +8,7 @@
 #include "spring_workbench/tools/calibration.h"
 
 namespace spring_workbench::simulation {
-Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, contact::Objects& objects, tools::Tool tool)
+Hand::Hand(const scene::Scene& scene, const SimulationSettings& settings, objects::Objects& objects, tools::Tool tool)
     : scene_(scene),
       settings_(settings),
       loads_(scene, settings.grasp.world_goal),
@@ -116,7 +116,7 @@ void Hand::grasp(std::size_t object, const std::optional<RigidTransform>& X_OE, 
   // Strain is zero now. The object keeps its motion as far as the tool lets it; one that follows starts with the
   // hand's.
   if (!follow_hand && dynamic()) hold_->take_twist(objects_.states()[object].V_WO_W);
-  objects_.hold(object, contact::Objects::Grip::grasp, now);
+  objects_.hold(object, objects::Objects::Grip::grasp, now);
   objects_.take_state(object, hold_->object());
 }
 
@@ -153,7 +153,7 @@ void Hand::take_over(const Wrench& pull_W, double now) {
 
 void Hand::let_go(bool thrown, double now) {
   if (!hold_) return;
-  objects_.let_go(grasp_.object, contact::Objects::Grip::grasp, thrown, now);
+  objects_.let_go(grasp_.object, objects::Objects::Grip::grasp, thrown, now);
   hold_.reset();
 }
 

@@ -3,10 +3,10 @@
 #include <memory>
 #include <optional>
 
-#include "spring_workbench/contact/objects.h"
 #include "spring_workbench/instruments/load_range.h"
 #include "spring_workbench/motion/slip.h"
 #include "spring_workbench/motion/stylus.h"
+#include "spring_workbench/objects/objects.h"
 #include "spring_workbench/simulation/simulation.h"
 #include "spring_workbench/tools/axis_hit.h"
 #include "spring_workbench/tools/hold_maker.h"
@@ -21,7 +21,7 @@ void add_to(AdvanceReport& report, const stepping::StepEstimates& e);
 class Hand {
  public:
   /// Keeps references to scene, settings and objects.
-  Hand(const scene::Scene& scene, const SimulationSettings& settings, contact::Objects& objects, tools::Tool tool);
+  Hand(const scene::Scene& scene, const SimulationSettings& settings, objects::Objects& objects, tools::Tool tool);
 
   /// Forgets all samples and holds nothing. The caller resets the objects.
   void reset();
@@ -130,7 +130,7 @@ class Hand {
   const instruments::LoadRange loads_;
   const bodies::Surroundings around_;
   rod::ForkSettings fork_;
-  contact::Objects& objects_;
+  objects::Objects& objects_;
   tools::Tool tool_;
   motion::Stylus stylus_;
   double ray_length_;                    ///< to what the ray hits [m]

@@ -59,13 +59,13 @@ void Hand::touch_with_probe(double now) {
     probe_ = std::make_unique<tools::Probe>(length, fork_, front, now);
     const std::optional<std::size_t> object = front.body != nullptr ? objects_.find(front.body->name) : std::nullopt;
     pushes_ = object && !objects_.massless(*object);
-    if (pushes_) objects_.hold(grasp_.object = *object, contact::Objects::Grip::push, now);
+    if (pushes_) objects_.hold(grasp_.object = *object, objects::Objects::Grip::push, now);
   }
   if (!pushes_) probe_->press();
 }
 
 void Hand::leave_with_probe(double now) {
-  if (pushes_) objects_.let_go(grasp_.object, contact::Objects::Grip::push, true, now);
+  if (pushes_) objects_.let_go(grasp_.object, objects::Objects::Grip::push, true, now);
   pushes_ = false;
   probe_.reset();
 }

@@ -111,7 +111,7 @@ struct Simulation::Impl {
   const scene::Scene scene;
   const std::string origin;        ///< of its states
   std::size_t words_of_state = 0;  ///< of the last one saved
-  contact::Objects objects;
+  objects::Objects objects;
   std::vector<Hand> hands;
   bool started = false;
   double now = 0.0;        ///< in the world, as all times in here
@@ -275,7 +275,7 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
   for (Hand& hand : hands) {
     if (const auto object = hand.carried()) tools_on[*object].push_back(&hand);
   }
-  std::vector<contact::Carried> carried;
+  std::vector<objects::Carried> carried;
   std::map<std::size_t, tools::Sharing> shared;
   for (const auto& [object, on_it] : tools_on) {
     if (const auto slip = slipping.find(on_it.front()); slip != slipping.end()) {
@@ -296,7 +296,7 @@ void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& 
     sharing.body()->set_load(load_W);
     carried.push_back({object, shared.emplace(object, std::move(sharing)).first->second.body()});
   }
-  contact::StepCounts counts;
+  objects::StepCounts counts;
   objects.step(carried, now, h, counts);
   report.steps += counts.steps;
   report.steps_among_movable += counts.steps_among_movable;

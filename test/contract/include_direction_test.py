@@ -26,7 +26,9 @@ EXTERNAL = [  # headers, modules that may use them, whether their public headers
     (re.compile(r"^(urdf\w*|assimp)/"), {"scene"}, False),
 ]
 YAML = re.compile(r"^yaml-cpp/")
-WITHOUT_YAML = set("math validation geometry motion rod fork_mesh dynamics stepping bodies tools contact".split())
+WITHOUT_YAML = set(
+    "math validation geometry motion rod fork_mesh dynamics stepping bodies tools contact objects".split()
+)
 EXECUTABLES = {  # folders of executables, which have no module of their own: what they may use
     "rviz_plugin": {"fork_mesh", "tools"},
     "nodes": NODES,

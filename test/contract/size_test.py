@@ -15,7 +15,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 EXEMPTIONS = pathlib.Path(__file__).with_name("size_exemptions.txt")
-MOST_EXEMPTIONS = 9  # only ever made smaller
+MOST_EXEMPTIONS = 8  # only ever made smaller
 LIMITS = {"module": 2000, "class": 300, "function": 60}
 BASES = ["include/spring_workbench", "src"]
 

@@ -46,6 +46,7 @@ struct WorldContact {
 class RigidWorld {
  public:
   static constexpr std::size_t bench = static_cast<std::size_t>(-1);
+  using Bodies = std::vector<std::size_t>;  ///< indices in the scene
 
   virtual ~RigidWorld() = default;
 
@@ -63,10 +64,10 @@ class RigidWorld {
   virtual const Twist& velocity(std::size_t body) const = 0;  ///< at O, world axes
   virtual bool awake(std::size_t body) const = 0;             ///< false for one that is not movable
 
-  /// Broadphase: returns whether anything movable comes near the path of the body over `h` [s]: a sleeping body, or one
-  /// that is awake or in `carried`, on its own path.
-  virtual bool near_movable(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
-                            const std::vector<std::size_t>& carried) const = 0;
+  /// Broadphase: returns what is movable and comes near the path of the body over `h` [s]: sleeping bodies, and those
+  /// that are awake or in `carried`, on their own paths. The search ends when it has found `most` of them.
+  virtual Bodies movable_near(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, double h,
+                              const Bodies& carried, std::size_t most) const = 0;
 
   /// Broadphase: returns whether anything else, including the bench, comes within `margin` [m] of the path of the body;
   /// the rotation is covered.

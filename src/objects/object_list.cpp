@@ -1,6 +1,6 @@
-#include "spring_workbench/contact/object_list.h"
+#include "spring_workbench/objects/object_list.h"
 
-namespace spring_workbench::contact {
+namespace spring_workbench::objects {
 
 ObjectList::ObjectList(const scene::Scene& scene) : scene_(scene) {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -30,4 +30,4 @@ void ObjectList::clear_highlights() {
   highlighted_.clear();
 }
 
-}  // namespace spring_workbench::contact
+}  // namespace spring_workbench::objects

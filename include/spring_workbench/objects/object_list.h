@@ -8,7 +8,7 @@
 #include "spring_workbench/bodies/body_state.h"
 #include "spring_workbench/scene/scene.h"
 
-namespace spring_workbench::contact {
+namespace spring_workbench::objects {
 
 /// The movable objects of a scene and their states. An object is given by its index in `states()`.
 class ObjectList {
@@ -43,4 +43,4 @@ class ObjectList {
   std::unordered_map<std::string, std::size_t> named_;  ///< object by name
 };
 
-}  // namespace spring_workbench::contact
+}  // namespace spring_workbench::objects

@@ -1,40 +1,26 @@
-#include "spring_workbench/contact/objects.h"
+#include "spring_workbench/objects/objects.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <utility>
 
-#include "constants.h"
-#include "spring_workbench/collision/support.h"
-#include "spring_workbench/contact/contact_engines.h"
-#include "spring_workbench/geometry/shape_queries.h"
-#include "spring_workbench/scene/constants.h"
+#include "free_pairs.h"
 
-namespace spring_workbench::contact {
-Objects::Objects(const scene::Scene& scene, int bisection_levels) : ObjectList(scene), contacts_(scene) {
-  if (with_contact()) {
-    collision_ = open_collision_world(scene);
-    contact_stepper_ = std::make_unique<ContactStepper>(scene, *collision_, bisection_levels);
+namespace spring_workbench::objects {
+
+Objects::Objects(const scene::Scene& scene, int bisection_levels) : FreeObjects(scene, bisection_levels) {
+  if (scene.contact == scene::ContactMode::dynamic) {
+    pairs_ = std::make_unique<FreePairs>(scene, *collision_, *contact_stepper_);
   }
   reset();
 }
 
-void Objects::reset() {
-  put_back();
-  contacts_.reset(states_.size());
-  if (scene_.contact == scene::ContactMode::dynamic) dynamic_stepper_ = std::make_unique<DynamicStepper>(scene_);
-  free_.clear();
-  in_contact_.clear();
-  objects_.clear();
-  objects_.resize(states_.size());
-  for (std::size_t i = 0; collision_ && i < states_.size(); ++i) {
-    collision_->set_pose(scene_index(i), states_[i].X_WO);
-  }
-  if (with_contact() && scene_.gravity > 0.0) let_fall();
-}
+Objects::~Objects() = default;
 
-void Objects::begin(double now) {
-  for (const std::size_t object : free_) objects_[object].slow_since = now;
+void Objects::reset() {
+  in_contact_.clear();
+  put_back();
 }
 
 void Objects::continue_from(const Objects& before, double now) {
@@ -63,27 +49,6 @@ void Objects::continue_from(const Objects& before, double now) {
   }
 }
 
-std::string Objects::inside_of(std::size_t object, const RigidTransform& X_WO) const {
-  return collision_ ? collision::inside_of(*collision_, scene_, scene_index(object), X_WO) : "";
-}
-
-void Objects::let_fall() {
-  for (std::size_t i = 0; i < objects_.size(); ++i) {
-    if (massless(i) || body(i).collision.empty() || !states_[i].asleep) continue;
-    if (is_carried(*collision_, scene_index(i), states_[i].X_WO)) continue;
-    set_free(i, Twist(), 0.0);
-    wake_what_lies_on(i, 0.0);
-  }
-}
-
-bool Objects::any_free() const { return !free_.empty() || (dynamic_stepper_ && dynamic_stepper_->others_awake()); }
-
-void Objects::take_state(std::size_t object, const motion::MotionState& s) {
-  states_[object].X_WO = s.X;
-  states_[object].V_WO_W = s.velocity;
-  if (collision_) collision_->set_pose(scene_index(object), s.X);
-}
-
 void Objects::hold(std::size_t object, Grip grip, double now) {
   ++(grip == Grip::grasp ? objects_[object].grasping : objects_[object].pushing);
   objects_[object].free_body.reset();
@@ -110,60 +75,6 @@ void Objects::place(std::size_t object, const RigidTransform& X_WO, double now) 
   let_fly(object, now);
 }
 
-void Objects::let_fly(std::size_t object, double now) {
-  bodies::BodyState& o = states_[object];
-  if (massless(object)) {
-    o.asleep = true;
-    if (dynamic_stepper_) dynamic_stepper_->world().place(scene_index(object), o.X_WO, Twist(), false);
-  } else {
-    set_free(object, o.V_WO_W, now);
-  }
-}
-
-void Objects::set_free(std::size_t object, const Twist& V_WO_W, double now) {
-  states_[object].asleep = false;
-  if (dynamic_stepper_) dynamic_stepper_->world().place(scene_index(object), states_[object].X_WO, V_WO_W, false);
-  objects_[object].free_body = std::make_unique<bodies::FreeBody>(scene_index(object), body(object), scene_.gravity,
-                                                                  states_[object].X_WO, V_WO_W);
-  free_.insert(object);
-  objects_[object].slow_since = now;
-}
-
-void Objects::wake_what_lies_on(std::size_t object, double now) {
-  if (!with_contact()) return;
-  for (const std::size_t above : movable_on(*collision_, scene_, scene_index(object), states_[object].X_WO)) {
-    const std::size_t other = object_of_[above];
-    if (!states_[other].asleep || states_[other].held || massless(other)) continue;
-    set_free(other, Twist(), now);
-    wake_what_lies_on(other, now);
-  }
-}
-
-bool Objects::carry(bodies::SteppedBody& stepped, std::size_t object, double h, const ContactStepper::MayGo& may_go,
-                    StepCounts& counts) {
-  ContactOutcome outcome;
-  if (contact_stepper_) {
-    if (!contact_stepper_->step(stepped, h, may_go, objects_[object].rows, outcome)) return false;
-  } else {
-    stepped.save(start_);
-    if (stepped.advance(h, Wrench())) {
-      stepped.accept();
-    } else {
-      stepped.restore(start_);
-      stepped.follow_rigidly(h);
-      outcome.refused = true;
-      counts.time_lost += h;
-    }
-  }
-  ++counts.steps;
-  take_state(object, stepped.object());
-  counts.collision_queries += outcome.queries;
-  counts.note(outcome.time_lost, outcome.refused);
-  states_[object].in_contact = !objects_[object].rows.empty();
-  contacts_.note(object, states_[object], outcome.rows, h);
-  return true;
-}
-
 void Objects::step(const std::vector<Carried>& held, double now, double h, StepCounts& counts) {
   if (dynamic_stepper_) return step_among_movable(held, now, h, counts);
   const auto anywhere = [](const RigidTransform&, const RigidTransform&) { return true; };
@@ -177,23 +88,33 @@ void Objects::step(const std::vector<Carried>& held, double now, double h, StepC
 
 void Objects::step_among_movable(const std::vector<Carried>& held, double now, double h, StepCounts& counts) {
   rigid_bodies::RigidWorld& world = dynamic_stepper_->world();
-  std::vector<Carried> carried = held, among_others, alone;
+  std::vector<Carried> carried = held, among_others;
   for (const std::size_t object : free_) carried.push_back({object, objects_[object].free_body.get()});
   std::vector<std::size_t> moving;
   for (const Carried& c : carried) moving.push_back(scene_index(c.object));
+  if (!free_.empty()) look_around(moving, h);
+  std::set<std::size_t> gone;  // by themselves, or in pairs
   for (const Carried& c : carried) {
+    if (gone.count(c.object) > 0) continue;
     Object& object = objects_[c.object];
     const bodies::BodyState& o = states_[c.object];
+    std::vector<std::size_t> near;
     const auto among_fixed = [&](const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
-      return !world.near_movable(scene_index(c.object), X0_WO, X1_WO, h, moving);
+      near = world.movable_near(scene_index(c.object), X0_WO, X1_WO, h, moving, scene_.bodies.size());
+      // What is gone has kept clear of this one.
+      const auto is_gone = [&](std::size_t other) { return gone.count(object_of_[other]) > 0; };
+      near.erase(std::remove_if(near.begin(), near.end(), is_gone), near.end());
+      return near.empty();
     };
     if (carry(*c.body, c.object, h, among_fixed, counts)) {
       if (object.free_body) put_to_sleep_if_slow(c.object, now + h);
       in_contact_.erase(c.object);  // its contacts are noted already
       world.place(scene_index(c.object), o.X_WO, o.V_WO_W, false);
-      alone.push_back(c);
+      gone.insert(c.object);
       continue;
     }
+    if (object.free_body && near.size() == 1 && carry_pair(c.object, object_of_[near[0]], gone, now, h, counts))
+      continue;
     object.rows.clear();
     if (!object.free_body) {
       among_others.push_back(c);
@@ -204,16 +125,64 @@ void Objects::step_among_movable(const std::vector<Carried>& held, double now, d
     dynamic_stepper_->set_free(scene_index(c.object), o.X_WO, o.V_WO_W);
   }
   if (!among_others.empty() || dynamic_stepper_->others_awake()) step_together(among_others, moving, now, h, counts);
-  for (const Carried& c : alone) {
-    if (states_[c.object].in_contact) in_contact_.insert(c.object);
+  for (const std::size_t object : gone) {
+    if (states_[object].in_contact) in_contact_.insert(object);
   }
+}
+
+void Objects::look_around(const std::vector<std::size_t>& carried, double h) {
+  const rigid_bodies::RigidWorld& world = dynamic_stepper_->world();
+  pairs_->begin(h);
+  for (const std::size_t body : carried) {
+    const bodies::BodyState& o = states_[object_of_[body]];
+    pairs_->add_moving(body, o.X_WO, o.V_WO_W);
+  }
+  for (const std::size_t body : world.bodies_near()) {
+    if (world.awake(body)) pairs_->add_moving(body, world.pose(body), world.velocity(body));
+  }
+}
+
+bool Objects::carry_pair(std::size_t object, std::size_t other, std::set<std::size_t>& gone, double now, double h,
+                         StepCounts& counts) {
+  const bool sleeps = states_[other].asleep;
+  if (massless(other) || objects_[other].carried() || (!sleeps && !objects_[other].free_body)) return false;
+  // The heavier one turns least: the step is seen from it.
+  const bool lighter = body(object).mass_properties.mass < body(other).mass_properties.mass;
+  const std::array<std::size_t, 2> both = lighter ? std::array{object, other} : std::array{other, object};
+  const auto body_of = [&](std::size_t o) {
+    return bodies::FreeBody(scene_index(o), body(o), scene_.gravity, states_[o].X_WO, states_[o].V_WO_W);
+  };
+  bodies::BodyPair pair(body_of(both[0]), body_of(both[1]));
+  std::array<std::vector<contact::ContactRow>, 2> rows{objects_[both[0]].rows, {}};
+  contact::ContactOutcome outcome;
+  if (!pairs_->step(pair, rows[0], outcome)) return false;
+  ++counts.steps_among_movable;
+  note(outcome, counts);
+  const std::array<std::vector<contact::ContactRow>, 2> told{outcome.rows, {}};
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::size_t o = both[i];
+    if (o == other && sleeps && outcome.rows.empty()) continue;  // sleeps on
+    const bodies::FreeBody& moved = i == 0 ? pair.first() : pair.second();
+    const motion::MotionState s = moved.object();
+    if (!objects_[o].free_body) set_free(o, s.velocity, now);
+    *objects_[o].free_body = moved;
+    take_state(o, s);
+    dynamic_stepper_->world().place(scene_index(o), s.X, s.velocity, false);
+    states_[o].in_contact = !rows[0].empty();
+    objects_[o].rows = rows[i];
+    objects_[o].slow_since = now + h;
+    contacts_.note(o, states_[o], told[i], h);
+    in_contact_.erase(o);
+    gone.insert(o);
+  }
+  return true;
 }
 
 void Objects::step_together(const std::vector<Carried>& held, const std::vector<std::size_t>& moving, double now,
                             double h, StepCounts& counts) {
   std::vector<bodies::SteppedBody*> bodies;
   for (const Carried& c : held) bodies.push_back(c.body);
-  const DynamicStepper::Outcome outcome = dynamic_stepper_->step(bodies, h);
+  const contact::DynamicStepper::Outcome outcome = dynamic_stepper_->step(bodies, h);
   counts.steps += outcome.substeps;
   counts.steps_among_movable += outcome.substeps;
   counts.steps_unsolved += outcome.unsolved;
@@ -223,7 +192,7 @@ void Objects::step_together(const std::vector<Carried>& held, const std::vector<
   const rigid_bodies::RigidWorld& world = dynamic_stepper_->world();
   for (const std::size_t near : world.bodies_near()) {
     const std::size_t object = object_of_[near];
-    if (!scene_.bodies[near].movable || objects_[object].grasping + objects_[object].pushing > 0) continue;
+    if (!scene_.bodies[near].movable || objects_[object].carried()) continue;
     take_state(object, {world.pose(near), world.velocity(near), {}});
     states_[object].asleep = !world.awake(near);
   }
@@ -234,10 +203,10 @@ void Objects::step_together(const std::vector<Carried>& held, const std::vector<
 }
 
 void Objects::note_world_contacts(double h) {
-  std::map<std::size_t, std::vector<ContactRow>> rows;
+  std::map<std::size_t, std::vector<contact::ContactRow>> rows;
   for (const std::size_t object : in_contact_) rows[object];
   for (const rigid_bodies::WorldContact& c : dynamic_stepper_->contacts()) {
-    rows[object_of_[c.body]].push_back(row_of(c, h));
+    rows[object_of_[c.body]].push_back(contact::row_of(c, h));
   }
   for (auto& [object, of_object] : rows) {
     if (of_object.empty() && states_[object].asleep) continue;
@@ -269,29 +238,6 @@ void Objects::exchange(math::StateArchive& state) {
   state(contacts_, highlighted_, free_, in_contact_);
   if (dynamic_stepper_) state(*dynamic_stepper_);
 }
-
 bool Objects::rests(std::size_t object) const { return dynamic_stepper_ ? !any_free() : !touches_what_moves(object); }
 
-bool Objects::touches_what_moves(std::size_t object) const {
-  const std::vector<ContactState>& now = contacts_.touching(object);
-  return std::any_of(now.begin(), now.end(), [&](const ContactState& c) {
-    const std::optional<std::size_t> other = find(c.other);
-    return other && !states_[*other].asleep;
-  });
-}
-
-void Objects::put_to_sleep_if_slow(std::size_t object, double now) {
-  bodies::BodyState& o = states_[object];
-  o.asleep = false;
-  const double speed =
-      o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * geometry::bounding_radius(body(object).collision);
-  if (!o.in_contact || touches_what_moves(object) || speed > scene::asleep_speed) objects_[object].slow_since = now;
-  if (o.X_WO.translation().norm() > world_limit || now - objects_[object].slow_since > asleep_after) {
-    objects_[object].free_body.reset();
-    free_.erase(object);
-    o.V_WO_W = Twist();
-    o.asleep = true;
-  }
-}
-
-}  // namespace spring_workbench::contact
+}  // namespace spring_workbench::objects
