@@ -77,7 +77,7 @@ class BadStart(unittest.TestCase):
                 ({"file": "/nowhere/a.tum"}, ["/nowhere/a.tum"]),
                 ({"file": broken}, [broken + ":2", "zero"]),
                 ({"file": no_waypoints, "source": "scripted"}, [no_waypoints, "waypoints"]),
-                ({"file": MOTION, "source": "mouse"}, ["source", "mouse"]),
+                ({"file": MOTION, "source": "mice"}, ["source", "mice", "mouse, joy, fastrak"]),
                 ({"file": MOTION, "speed": -1.0}, ["speed", "-1"]),
                 ({"file": "package://no_such_package/a.tum"}, ["no_such_package"]),
             ],

@@ -74,7 +74,7 @@ class MovedByMessages(unittest.TestCase):
             self.assertAlmostEqual(q.x * q.x + q.y * q.y + q.z * q.z + q.w * q.w, 1.0, delta=1e-9)
 
     def test_marker(self):
-        with Driver("interactive_marker") as driver:
+        with Driver("mouse") as driver:
             init = Listener("stylus/marker/update_full", InteractiveMarkerInit)
             marker = wait_for(lambda: init.last, "the marker").markers[0]
             self.assertEqual(marker.header.frame_id, "workbench")

@@ -115,7 +115,7 @@ class TrackerDriver {
     const RigidTransform X_WB = parameters_.X_BS_first.value_or(above);
     if (parameters_.source == "fastrak") return std::make_unique<fastrak::FastrakSource>(parameters_.fastrak);
     if (parameters_.source == "joy") return make_joy_source(node, parameters_.joy, X_WB);
-    if (parameters_.source == "interactive_marker") {
+    if (parameters_.source == "mouse") {
       return make_interactive_marker_source(private_node, parameters_.workbench_frame, X_WB);
     }
     return nullptr;

@@ -16,7 +16,7 @@ std::vector<std::string> keys_of(const std::string& source) {
   if (source == "fastrak") {
     add({"offset", "tip", "even_stamps", "head_stations"});
     add(fastrak::fastrak_keys());
-  } else if (source == "interactive_marker" || source == "joy") {
+  } else if (source == "mouse" || source == "joy") {
     add({"start"});
     if (source == "joy") add(joy_keys());
   } else if (source == "operator") {
@@ -25,6 +25,13 @@ std::vector<std::string> keys_of(const std::string& source) {
     add({"offset", "tip", "file", "speed", "loop", "pause", "start", "grasp_from", "grasp_until"});
   }
   return keys;
+}
+
+/// In the words of the launch argument `input`, or what the mouse was called before.
+std::string read_source(const YAML::Node& value, const std::string& where) {
+  if (value.IsScalar() && value.Scalar() == "interactive_marker") return "mouse";
+  return config::read_choice(value, where, "source",
+                             {"mouse", "joy", "fastrak", "operator", "scripted", "motion_file"});
 }
 
 std::vector<int> read_head_stations(const YAML::Node& value, const std::string& where,
@@ -51,11 +58,7 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
     if (parameters[key])
       throw validation::InputError(where + ": " + key + ": unknown key; it is now a parameter of manipulation, ~input");
   }
-  if (parameters["source"]) {
-    result.source =
-        config::read_choice(parameters["source"], where, "source",
-                            {"motion_file", "scripted", "operator", "fastrak", "interactive_marker", "joy"});
-  }
+  if (parameters["source"]) result.source = read_source(parameters["source"], where);
   config::check_keys(parameters, where, "", keys_of(result.source));
   const bool is_motion = result.source == "motion_file" || result.source == "scripted";
   result.even_stamps = result.source == "fastrak";

@@ -63,7 +63,7 @@ std::set<std::string> known_parameters(const std::string& source) {
 
 TEST(TrackerReference, ParametersAreThoseOfTheCode) {
   std::set<std::string> known{"grasp"};  // a service, in a table of its own
-  for (const char* source : {"fastrak", "motion_file", "operator", "interactive_marker", "joy"}) {
+  for (const char* source : {"fastrak", "motion_file", "operator", "mouse", "joy"}) {
     for (const std::string& name : known_parameters(source)) known.insert(name);
   }
   EXPECT_GT(known.size(), 20u);
@@ -100,10 +100,17 @@ TEST(TrackerParameters, InputSettingsAreSaidToBeOfManipulation) {
   }
 }
 
+TEST(TrackerParameters, SourcesAreCalledAsTheLaunchFilesCallThem) {
+  EXPECT_EQ(refusal_of("{source: rat}"),
+            "/tracker_driver:1: source: must be one of mouse, joy, fastrak, operator, scripted, motion_file, got rat");
+  for (const char* source : {"mouse", "interactive_marker"})
+    EXPECT_EQ(read_tracker_parameters(YAML::Load("{source: " + std::string(source) + "}"), "").source, "mouse");
+}
+
 TEST(TrackerParameters, RefusesWithTheKeyInTheMessage) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"{}", "file"},
-      {"{file: a, source: mouse}", "source"},
+      {"{file: a, source: mice}", "source"},
       {"{file: a, speed: 0}", "speed"},
       {"{file: a, offset: [0, 0, 0, 0, 0, 0, 0]}", "offset"},
       {"{file: a, offset: [0, 0, 0, 0, 0, 0, 1], start: [0, 0, 0, 0, 0, 0, 1]}", "start"},

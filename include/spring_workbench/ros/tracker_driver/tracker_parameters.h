@@ -23,8 +23,7 @@ inline RigidTransform head_before_the_bench() {
 
 /// Private parameters of the node `tracker_driver`.
 struct TrackerParameters {
-  std::string source =
-      "motion_file";  ///< `source`: motion_file, scripted, fastrak, operator, interactive_marker or joy
+  std::string source = "motion_file";  ///< `source`: mouse, joy, fastrak, operator, scripted or motion_file
   std::string file;   ///< `file`, of motion_file and scripted, required: path or package:// URI of the motion or script
   std::string scene;  ///< `scene`, required by operator: URDF of the scene to assemble
   int seed = 1;       ///< `seed` of the operator, 0 … 1e9
