@@ -44,6 +44,8 @@ class ContactSound(unittest.TestCase):
 
     def tearDown(self):
         wait_for(lambda: self.publisher.get_num_connections() == 0, "the player to be gone")
+        if rospy.has_param("contact_sound"):
+            rospy.delete_param("contact_sound")
 
     def record(self, player, seconds):
         """Until so much more sound is in the file, which has another name while it grows."""
@@ -103,6 +105,26 @@ class ContactSound(unittest.TestCase):
 
     def test_a_large_box_sounds_lower_than_a_small_one(self):
         self.assertLess(2 * self.pitch_of(0.2, 5.0), self.pitch_of(0.05, 0.08))
+
+    def test_no_impact_is_lost_while_the_machine_is_busy(self):
+        """The player stands still while an impact and two thousand more messages come: it is heard."""
+        self.publisher.unregister()
+        self.publisher = rospy.Publisher("contacts", Contacts, queue_size=None)  # it loses nothing itself
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "sound.wav")
+            player = Player(path)
+            wait_for(lambda: self.publisher.get_num_connections() > 0, "the player to listen")
+            self.record(player, 0.25)
+            player.process.send_signal(signal.SIGSTOP)
+            self.publisher.publish(contact(Contact.STARTED, impulse=0.5))
+            for _ in range(2000):
+                self.publisher.publish(contact(Contact.PERSISTING))
+            player.process.send_signal(signal.SIGCONT)
+            self.record(player, 0.7)
+            player.end()
+            with wave.open(path) as file:
+                samples = array.array("h", file.readframes(file.getnframes()))
+        self.assertGreater(max(map(abs, samples)), 500)
 
     def test_plays_on_a_device(self):
         player = Player(SDL_AUDIODRIVER="dummy")

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "constants.h"
 #include "spring_workbench/Contacts.h"
 #include "spring_workbench/SceneDescription.h"
 #include "spring_workbench/config/yaml_fields.h"
+#include "spring_workbench/ros/common/callback_thread.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/parameters.h"
 #include "spring_workbench/sound/audio_output.h"
@@ -30,14 +32,20 @@ class ContactSound {
     synthesizer_ = std::make_unique<sound::ContactSynthesizer>(
         volume ? config::read_number(volume, where, "volume", validation::between(0.0, 1.0)) : 0.8);
     output_ = file ? sound::open_wav_file(config::read_string(file, where, "file")) : sound::open_audio_device();
-    subscriber_ = node.subscribe("contacts", 100, &ContactSound::on_contacts, this);
-    scene_subscriber_ = node.subscribe("scene_description", 1, &ContactSound::on_scene, this);
+    ros::NodeHandle heard = contacts_thread_.handle(node);
+    constexpr std::uint32_t unbounded = 0;  // no impact is lost: they are taken faster than anybody sends them
+    subscriber_ = heard.subscribe("contacts", unbounded, &ContactSound::on_contacts, this);
+    scene_subscriber_ = heard.subscribe("scene_description", 1, &ContactSound::on_scene, this);
     timer_ = node.createSteadyTimer(ros::WallDuration(render_period), &ContactSound::play, this);
   }
+  ~ContactSound() { contacts_thread_.stop(); }
+  ContactSound(const ContactSound&) = delete;
+  ContactSound& operator=(const ContactSound&) = delete;
 
  private:
   /// A body rings as a cube with its mass and radius of gyration.
   void on_scene(const SceneDescription::ConstPtr& message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
     bodies_.clear();
     for (const BodyDescription& body : message->bodies) {
       const double trace = body.inertia[0] + body.inertia[4] + body.inertia[8];
@@ -58,6 +66,7 @@ class ContactSound {
   }
 
   void on_contacts(const Contacts::ConstPtr& message) {
+    const std::lock_guard<std::mutex> lock(mutex_);
     double speed = 0.0;
     for (const Contact& contact : message->contacts) {
       if (contact.phase == Contact::STARTED) strike(contact);
@@ -69,18 +78,25 @@ class ContactSound {
 
   void play(const ros::SteadyTimerEvent&) {
     const double now = ros_common::steady_time();
-    if (now - last_contacts_ > silent_after) synthesizer_->scrape(0.0);
     played_until_ = std::max(played_until_, now - longest_filled_gap);
     const auto count =
         static_cast<std::size_t>(std::max(0.0, now - played_until_) * sound::ContactSynthesizer::sample_rate);
     played_until_ += static_cast<double>(count) / sound::ContactSynthesizer::sample_rate;
-    output_->write(synthesizer_->render(count));
+    output_->write(render(count, now));  // may wait for the disk
   }
 
+  std::vector<float> render(std::size_t count, double now) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (now - last_contacts_ > silent_after) synthesizer_->scrape(0.0);
+    return synthesizer_->render(count);
+  }
+
+  std::mutex mutex_;  ///< of the synthesizer, the bodies and when they were heard of last
   std::unique_ptr<sound::ContactSynthesizer> synthesizer_;
   std::unique_ptr<sound::AudioOutput> output_;
   std::map<std::string, sound::SoundingBody> bodies_;
   double played_until_, last_contacts_ = 0.0;  ///< [s], by the steady clock
+  ros_common::CallbackThread contacts_thread_;
   ros::Subscriber subscriber_, scene_subscriber_;
   ros::SteadyTimer timer_;
 };
