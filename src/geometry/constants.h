@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstddef>
+
 // Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
 namespace spring_workbench::geometry {
@@ -12,5 +14,11 @@ constexpr double edges_by_share = 0.05;
 /// [m] by which a contact is deeper than the four that are kept, to take the place of one. Test: none: none that was
 /// tried fails.
 constexpr double stands_out = 1e-6;
+/// cosine of the angle between two triangles below which their edge is drawn smooth. Greater: round meshes have facets.
+/// Test: Meshes.AreSmoothBelowTheCrease.
+constexpr float crease_cosine = 0.7F;
+/// triangles at a vertex up to which it is drawn smooth: making a fan of n takes n². Fewer: the tips of cones have
+/// facets. Test: Meshes.AreSmoothBelowTheCrease at 4, 200.
+constexpr std::size_t most_smoothed = 64;
 
 }  // namespace spring_workbench::geometry

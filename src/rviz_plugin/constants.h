@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstddef>
-
 namespace spring_workbench::rviz_plugin {
 
 // Each with its unit, what changing it does, and the test that notices (scripts/mutate).
@@ -16,12 +14,6 @@ constexpr double settling = 0.7;
 constexpr double kept_for = 10.0;
 /// of a logarithmic slider. Fewer: coarser values. Test: none: a look.
 constexpr int slider_positions = 1000;
-/// cosine of the angle between two triangles below which their edge is drawn smooth. Greater: round meshes have facets.
-/// Test: Meshes.AreSmoothBelowTheCrease.
-constexpr float crease_cosine = 0.7F;
-/// triangles at a vertex up to which it is drawn smooth: making a fan of n takes n². Fewer: the tips of cones have
-/// facets. Test: Meshes.AreSmoothBelowTheCrease at 4, 200.
-constexpr std::size_t most_smoothed = 64;
 /// looks in a second whether rviz ends. Fewer: it ends later. Test: none: rviz ends later.
 constexpr int master_slices = 10;
 /// [s] from the end of rviz' windows until it ends without the ROS master's leave. Longer: with a master that hangs,

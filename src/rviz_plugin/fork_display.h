@@ -1,62 +1,58 @@
 #pragma once
 
 #ifndef Q_MOC_RUN
-#include <OgreMaterial.h>
 #include <ros/subscriber.h>
 #include <rviz/display.h>
 
+#include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
+#include "drawn_fork.h"
 #include "master_watch.h"
-#include "spring_workbench/ForkState.h"
-#include "spring_workbench/fork_mesh/fork_model.h"
 #endif
 
-namespace Ogre {
-class ManualObject;
-}
 namespace rviz {
 class RosTopicProperty;
 }  // namespace rviz
 
 namespace spring_workbench::rviz_plugin {
 
-/// Draws the spring-fork from `ForkState` alone: the rod's curve from shape, length and strain, the mesh along it. At
-/// most once a frame of rviz; gone when no message has come for two seconds.
+/// Draws the forks of all styluses, at most once a frame of rviz: that of its topic, and those of the topics that the
+/// master knows with _2, _3 and so on behind it. A fork is gone when no message of it has come for two seconds.
 class ForkDisplay : public rviz::Display {
   Q_OBJECT
  public:
   ForkDisplay();
-  ~ForkDisplay() override;
+  ~ForkDisplay() override { forks_.clear(); }
 
   void update(float wall_dt, float ros_dt) override;
   void reset() override;
   void setTopic(const QString& topic, const QString& datatype) override;
 
  protected:
-  void onInitialize() override;
-  void onEnable() override;
-  void onDisable() override;
+  void onInitialize() override { master_ = MasterWatch::shared(); }
+  void onEnable() override { subscribe(); }
+  void onDisable() override { forks_.clear(); }
 
  private:
+  struct Fork {
+    Fork(Ogre::SceneManager* manager, Ogre::SceneNode* parent) : drawn(manager, parent) {}
+    DrawnFork drawn;
+    ForkStateConstPtr newest;  ///< not yet drawn
+    double silence = 0.0;      ///< since the newest message [s]
+    ros::Subscriber subscriber;
+  };
   Q_SLOT void subscribe();
-  void on_fork(const ForkStateConstPtr& message);
-  bool deform(const ForkState& fork);
-  void draw(const ForkState& fork);
-  void fill(unsigned int section, const fork_mesh::ForkModel::Triangles& triangles, const Ogre::MaterialPtr& material,
-            bool is_new);
-  void hide();
+  void listen(const std::string& topic);
+  void listen_to_all();
+  void draw(Fork& fork);
 
   rviz::RosTopicProperty* topic_;
-  ros::Subscriber subscriber_;
   std::shared_ptr<MasterWatch> master_;
-  ForkStateConstPtr newest_;  ///< not yet drawn
-  double silence_ = 0.0;      ///< since the newest message [s]
-  std::string tool_ = "spring_fork";
-  fork_mesh::ForkModel model_;  ///< of that tool
-  fork_mesh::ForkMesh mesh_;
-  Ogre::ManualObject* object_ = nullptr;
-  Ogre::MaterialPtr spring_material_, rigid_material_;
+  std::map<std::string, Fork> forks_;                     ///< by topic
+  std::shared_ptr<const std::vector<std::string>> seen_;  ///< what the master said of topics
 };
 
 }  // namespace spring_workbench::rviz_plugin

@@ -34,6 +34,14 @@ int master_process() {
   return static_cast<int>(payload);
 }
 
+std::shared_ptr<const std::vector<std::string>> published_topics() {
+  ros::master::V_TopicInfo all;
+  ros::master::getTopics(all);
+  std::vector<std::string> names;
+  for (const ros::master::TopicInfo& topic : all) names.push_back(topic.name);
+  return std::make_shared<const std::vector<std::string>>(std::move(names));
+}
+
 /// Tells this node, in the master's place, who publishes a topic.
 void announce_publishers(const std::string& topic, const XmlRpcValue& publishers) {
   const std::string uri = ros::XMLRPCManager::instance()->getServerURI();
@@ -91,6 +99,7 @@ void MasterWatch::run() {
     if (i != 0) continue;
     const int process = master_process();
     if (process != 0 && (was_gone || process != known)) register_topics();
+    if (process != 0) std::atomic_store(&topics_, published_topics());
     was_gone = process == 0;
     if (process != 0) known = process;
   }

@@ -2,7 +2,9 @@
 
 #include <atomic>
 #include <memory>
+#include <string>
 #include <thread>
+#include <vector>
 
 namespace spring_workbench::rviz_plugin {
 
@@ -13,11 +15,14 @@ class MasterWatch {
   /// The one of this process; lives as long as somebody holds it.
   static std::shared_ptr<MasterWatch> shared();
   ~MasterWatch();
+  /// The topics with a publisher, as the master said last; null before that.
+  std::shared_ptr<const std::vector<std::string>> topics() const { return std::atomic_load(&topics_); }
 
  private:
   MasterWatch();
   void run();
 
+  std::shared_ptr<const std::vector<std::string>> topics_;
   std::atomic<bool> ends_{false};
   std::thread thread_;
 };

@@ -11,9 +11,8 @@
 
 #include <cmath>
 
-#include "material.h"
-#include "mesh.h"
 #include "message_checks.h"
+#include "resources.h"
 #include "spring_workbench/fork_mesh/constants.h"
 #include "spring_workbench/fork_mesh/load_color.h"
 

@@ -253,6 +253,26 @@ class Recovery(unittest.TestCase):
         time.sleep(5.0)
         self.stack.stop(sender)
 
+    def test_the_forks_of_all_styluses(self):
+        """Next to each other, each with the number of its stylus; one that is silent is gone."""
+        stack = self.stack
+        stack.master()
+        self.open_rviz("fork")
+        drawn, senders = [0], []
+        for k, number in enumerate(["", "_2", "_7", "_12"]):
+            handle = "{position: {x: %g, z: 0.3}, orientation: {x: 1.0}}" % (0.2 * k - 0.3)
+            fork = "{header: {frame_id: world}, tool: spring_fork, shape: constant, length: 0.2, diameter: 0.03, "
+            fork += "strain: [0, 0, 0, 0], load: 0.5, proxy_handle: %s}" % handle
+            topic = "manipulation/display/fork" + number
+            senders.append(stack.start("rostopic", "pub", "-r", "10", topic, "spring_workbench/ForkState", fork))
+            stack.until(lambda: self.look()[0] > drawn[-1] + 100, "the fork of stylus " + number)
+            drawn.append(self.settled(lambda: self.look()[0], lambda now, before: now == before))
+        print("pixels drawn with one fork more each time: %s" % drawn)
+        for more in (b - a for a, b in zip(drawn, drawn[1:])):
+            self.assertLess(abs(more - drawn[1]), 0.5 * drawn[1])
+        stack.stop(senders[2])
+        stack.until(lambda: abs(self.look()[0] - drawn[3]) < 0.2 * drawn[1], "the fork that is silent to go")
+
     def test_malformed_messages_are_harmless(self):
         stack = self.stack
         stack.master()

@@ -1,5 +1,3 @@
-#include "src/rviz_plugin/mesh.h"
-
 #include <OgreHardwareVertexBuffer.h>
 #include <OgreSubMesh.h>
 #include <gtest/gtest.h>
@@ -9,6 +7,7 @@
 
 #include "ogre.h"
 #include "spring_workbench/math/rigid_transform.h"
+#include "src/rviz_plugin/resources.h"
 
 namespace spring_workbench::rviz_plugin::mesh_test {
 namespace {

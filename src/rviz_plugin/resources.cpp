@@ -1,7 +1,12 @@
-#include "material.h"
+#include "resources.h"
 
+#include <OgreManualObject.h>
 #include <OgreMaterialManager.h>
+#include <OgreMeshManager.h>
+#include <OgreSceneManager.h>
 #include <OgreTechnique.h>
+
+#include "spring_workbench/geometry/corner_normals.h"
 
 namespace spring_workbench::rviz_plugin {
 
@@ -29,6 +34,27 @@ void set_color(const Ogre::ColourValue& color, const Ogre::MaterialPtr& material
 
 void remove_material(const Ogre::MaterialPtr& material) {
   if (material) Ogre::MaterialManager::getSingleton().remove(material->getHandle());
+}
+
+Ogre::MeshPtr make_mesh(const MeshDescription& mesh, Ogre::SceneManager* manager) {
+  const std::vector<Eigen::Vector3f> normals = geometry::corner_normals(mesh.vertices, mesh.triangles);
+  if (normals.empty()) return Ogre::MeshPtr();
+  Ogre::ManualObject* object = manager->createManualObject();
+  object->estimateVertexCount(normals.size());
+  object->begin("BaseWhiteNoLighting", Ogre::RenderOperation::OT_TRIANGLE_LIST);
+  for (std::size_t corner = 0; corner < normals.size(); ++corner) {
+    const float* p = &mesh.vertices[3 * std::size_t{mesh.triangles[corner]}];
+    object->position(p[0], p[1], p[2]);
+    object->normal(normals[corner].x(), normals[corner].y(), normals[corner].z());
+  }
+  object->end();
+  const Ogre::MeshPtr result = object->convertToMesh(unique_name("mesh"));
+  manager->destroyManualObject(object);
+  return result;
+}
+
+void remove_mesh(const Ogre::MeshPtr& mesh) {
+  if (mesh) Ogre::MeshManager::getSingleton().remove(mesh->getHandle());
 }
 
 }  // namespace spring_workbench::rviz_plugin
