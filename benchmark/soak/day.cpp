@@ -242,7 +242,7 @@ class Day {
     for (std::size_t number = 0; number < hands_.size(); ++number) {
       for (const auto& [stamp, record] : std::exchange(hands_[number].waiting, {})) {
         const motion::WallMoment moment =
-            wall_.look(kBegin + nanoseconds(t_) + nanoseconds(host_set_), nanoseconds(t_));
+            wall_.read(kBegin + nanoseconds(t_) + nanoseconds(host_set_), nanoseconds(t_));
         hands_[number].stream.offer(
             record, stamp, moment,
             [&](const Record& one, std::int64_t local, double age) { use(number, one, local, age, events[number]); },

@@ -63,7 +63,8 @@ class Soak {
     assembly::TaskMonitor monitor(simulation_.scene());
     assembly::OperatorSettings hand;
     hand.seed = seed;
-    assembly::SimulatedOperator person(simulation_.scene(), hand, [this] { return assembly::look_at(simulation_); });
+    assembly::SimulatedOperator person(simulation_.scene(), hand,
+                                       [this] { return assembly::operator_view(simulation_); });
     std::vector<bool> pressed(person.hands(), false);
     double before = 0.0;
     for (std::optional<motion::StylusSample> sample; !over() && (sample = person.next()) && sample->t < kTimeLimit;) {

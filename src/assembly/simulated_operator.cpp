@@ -45,8 +45,8 @@ std::optional<motion::StylusSample> SimulatedOperator::next() {
 
 void SimulatedOperator::begin_moment() {
   t_ = static_cast<double>(moments_++) / settings_.rate;
-  seen_.push_back({t_, look_(), hands_.X_WH()});
-  while (seen_.size() > 1 && seen_[1].t <= t_ - settings_.reaction + time_slack) seen_.pop_front();
+  percepts_.push_back({t_, look_(), hands_.X_WH()});
+  while (percepts_.size() > 1 && percepts_[1].t <= t_ - settings_.reaction + time_slack) percepts_.pop_front();
   if (t_ >= t_decide_ - time_slack && phase_ != Phase::over) decide();
 }
 
@@ -195,7 +195,7 @@ void SimulatedOperator::take_to(const Vector3d& p_WE, Phase then) {
 
 void SimulatedOperator::bring_to(const RigidTransform& X_WO, Phase then) {
   const auto place = [&](std::size_t hand) {
-    const RigidTransform X_WH = X_WO * object().X_WO.inverse() * seen_.front().X_WH[hand];
+    const RigidTransform X_WH = X_WO * object().X_WO.inverse() * percepts_.front().X_WH[hand];
     return make_transform(Quaterniond(X_WH.linear()), X_WH.translation());  // one motion after the other rounds
   };
   reach(engaged_, place, then);

@@ -39,7 +39,7 @@ void TaskMonitor::observe(const simulation::Simulation& simulation) {
   note_holds(simulation);
   note_drops(objects);
   if (!score_.complete()) {
-    add_ways(simulation);
+    add_path_lengths(simulation);
     note_contacts(t, simulation.contacts());
     score_.time = t - begin_;
   }
@@ -102,7 +102,7 @@ void TaskMonitor::note_drops(const std::vector<bodies::BodyState>& objects) {
   }
 }
 
-void TaskMonitor::add_ways(const simulation::Simulation& simulation) {
+void TaskMonitor::add_path_lengths(const simulation::Simulation& simulation) {
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     const tools::ToolState tool = simulation.fork(i);
     if (!tool.present) continue;

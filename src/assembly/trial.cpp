@@ -8,7 +8,7 @@
 
 namespace spring_workbench::assembly {
 
-OperatorView look_at(const simulation::Simulation& simulation) {
+OperatorView operator_view(const simulation::Simulation& simulation) {
   OperatorView view;
   view.objects = simulation.objects();
   for (std::size_t hand = 0; hand < simulation.hands(); ++hand) {
@@ -29,7 +29,7 @@ Trial run_trial(const scene::Scene& scene, const simulation::SimulationSettings&
   simulation::Simulation simulation(scene, with_all_hands(scene, simulation_settings));
   hand_input::Feed feed(simulation, hand_input::InputSettings());
   TaskMonitor monitor(simulation.scene());
-  SimulatedOperator person(simulation.scene(), operator_settings, [&] { return look_at(simulation); });
+  SimulatedOperator person(simulation.scene(), operator_settings, [&] { return operator_view(simulation); });
   Trial trial;
   std::vector<bool> pressed(person.hands(), false);
   double before = 0.0;  // time of the samples before these [s]

@@ -154,7 +154,7 @@ HandleForcing HeldBody::forcing(const motion::FrameMotion& handle, double t) con
   f.angular_velocity = m.w_B;
   f.angular_acceleration = m.alpha_B;
   f.acceleration_less_gravity.noalias() = m.X.linear().transpose() * (m.a_W + gravity_ * Vector3d::UnitZ());
-  couplings_.look(handle, t, f.seen);
+  couplings_.find_relative_motions(handle, t, f.seen);
   return f;
 }
 
@@ -162,7 +162,7 @@ HandleForcings HeldBody::forcing(const motion::FrameMotion& handle, const math::
   HandleForcings f;
   f.t = t;
   f.of_H = handle.forcing(t, gravity_);
-  couplings_.look(handle, t, f.seen);
+  couplings_.find_relative_motions(handle, t, f.seen);
   return f;
 }
 
@@ -180,7 +180,7 @@ HandleForcing HandleForcings::at(int i) const {
 
 HandleForcing HeldBody::with_frames_at_rest(HandleForcing handle) const {
   for (std::size_t i = 0; i < handle.seen.count; ++i) {
-    handle.seen.from(i).v_AB = handle.seen.from(i).w_AB = math::none<double>();
+    handle.seen.in_frame(i).v_AB = handle.seen.in_frame(i).w_AB = math::none<double>();
   }
   return handle;
 }

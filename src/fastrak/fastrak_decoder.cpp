@@ -25,7 +25,7 @@ std::vector<FastrakMessage> FastrakDecoder::decode(std::string_view bytes) {
     if (rest[0] == '2') look = look_for_reply(rest, found, length);
     if (look == Look::unfinished) break;
     if (look == Look::nothing) {
-      ++left_out_;
+      ++bytes_skipped_;
       length = 1;
     }
     begin += length;

@@ -131,10 +131,10 @@ void FastrakSource::listen(Time until) {
     return;
   }
   answered_ = true;
-  const std::size_t left_out_before = decoder_.bytes_left_out();
+  const std::size_t skipped_before = decoder_.bytes_skipped();
   const auto messages = decoder_.decode(bytes);
   const std::size_t samples_before = samples_.size();
-  if (state_ == State::streaming) counters_["bytes skipped"] += decoder_.bytes_left_out() - left_out_before;
+  if (state_ == State::streaming) counters_["bytes skipped"] += decoder_.bytes_skipped() - skipped_before;
   for (const FastrakMessage& message : messages) {
     std::visit([&](const auto& m) { take(m, now); }, message);
   }

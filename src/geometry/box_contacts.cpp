@@ -77,7 +77,7 @@ std::vector<BoxContact> reduced(const std::vector<BoxContact>& all, const Vector
   return four;
 }
 
-std::vector<BoxContact> of_faces(const OutlineBox& a, const OutlineBox& b, const Axis& axis, double seen_from) {
+std::vector<BoxContact> of_faces(const OutlineBox& a, const OutlineBox& b, const Axis& axis, double margin) {
   const bool face_of_b = axis.of_b >= 0;
   const OutlineBox& face = face_of_b ? b : a;
   const Vector3d out = face_of_b ? axis.n_W : Vector3d(-axis.n_W);  // of the face
@@ -93,7 +93,7 @@ std::vector<BoxContact> of_faces(const OutlineBox& a, const OutlineBox& b, const
   std::vector<BoxContact> contacts;
   for (const Vector3d& p : polygon) {
     const double gap = out.dot(p - face.X.translation()) - face.half[normal];
-    if (gap < seen_from) contacts.push_back({face_of_b ? Vector3d(p - gap * out) : p, axis.n_W, gap});
+    if (gap < margin) contacts.push_back({face_of_b ? Vector3d(p - gap * out) : p, axis.n_W, gap});
   }
   if (contacts.size() > 4) {
     return reduced(contacts, face.X.linear().col((normal + 1) % 3), face.X.linear().col((normal + 2) % 3));
@@ -120,26 +120,26 @@ BoxContact of_edges(const OutlineBox& a, const OutlineBox& b, const Axis& axis) 
 
 }  // namespace
 
-std::vector<BoxContact> box_contacts(const OutlineBox& a, const OutlineBox& b, double seen_from) {
+std::vector<BoxContact> box_contacts(const OutlineBox& a, const OutlineBox& b, double margin) {
   Axis faces, edges;
   for (int i = 0; i < 3; ++i) {
     look(a, b, a.X.linear().col(i), i, -1, faces);
     look(a, b, b.X.linear().col(i), -1, i, faces);
   }
-  if (faces.gap > seen_from) return {};
+  if (faces.gap > margin) return {};
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) look(a, b, a.X.linear().col(i).cross(b.X.linear().col(k)), i, k, edges);
   }
-  if (edges.gap > seen_from) return {};
+  if (edges.gap > margin) return {};
   if (edges.gap > faces.gap + edges_by + edges_by_share * std::abs(faces.gap)) return {of_edges(a, b, edges)};
-  return of_faces(a, b, faces, seen_from);
+  return of_faces(a, b, faces, margin);
 }
 
-std::vector<BoxContact> box_contacts(const OutlineBox& a, const Vector3d& n_W, double height, double seen_from) {
+std::vector<BoxContact> box_contacts(const OutlineBox& a, const Vector3d& n_W, double height, double margin) {
   std::vector<BoxContact> contacts;
   for (const Vector3d& p : face_towards(a, -n_W)) {
     const double gap = n_W.dot(p) - height;
-    if (gap < seen_from) contacts.push_back({p - gap * n_W, n_W, gap});
+    if (gap < margin) contacts.push_back({p - gap * n_W, n_W, gap});
   }
   return contacts;
 }

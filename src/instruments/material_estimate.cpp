@@ -53,7 +53,7 @@ void MaterialEstimate::add(double t, double path, double force) {
 /// Least squares of path = surface + compliance · (y + (T − lag) dy/dT) + start · exp(−(t − t₀) / lag), which is linear
 /// in surface, compliance, its product with T, and in what the touch had before the first sample (an impact, or what is
 /// forgotten), which dies away.
-std::optional<MaterialEstimate::Fit> MaterialEstimate::fit_beside(double lag) const {
+std::optional<MaterialEstimate::Fit> MaterialEstimate::fit_near(double lag) const {
   const auto count = static_cast<Eigen::Index>(samples_.size());
   constexpr Eigen::Index unknowns = 4;
   if (count < unknowns + fewest_to_spare) return std::nullopt;
@@ -92,7 +92,7 @@ std::optional<MaterialEstimate::Fit> MaterialEstimate::fit_beside(double lag) co
 std::optional<MaterialEstimate::Fit> MaterialEstimate::fit() const {
   double lag = 0.0;
   for (int i = 0; i < most_refits; ++i) {
-    const std::optional<Fit> fit = fit_beside(lag);
+    const std::optional<Fit> fit = fit_near(lag);
     if (!fit || !(fit->compliance > 0.0)) return std::nullopt;
     const double next = std::max(fit->lag, 0.0);
     if (std::abs(next - lag) <= settled * fit->lag_deviation + no_lag) return fit;

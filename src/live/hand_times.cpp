@@ -16,10 +16,10 @@ void HandTimes::begin(std::size_t hand, std::int64_t zero) {
   shifts_.at(hand) = 0.0;
 }
 
-void HandTimes::leave_out(double seconds) {
+void HandTimes::skip(double seconds) {
   const std::int64_t gap = std::llround(1e9 * seconds);
   zero_ += gap;
-  left_out_ += seconds;
+  skipped_ += seconds;
   for (std::optional<double>& shift : shifts_) {
     if (shift) *shift -= 1e-9 * static_cast<double>(gap);
   }

@@ -34,7 +34,7 @@ SimulationRunner::SimulationRunner(const scene::Scene& scene, const simulation::
   for (std::size_t hand = 0; hand < simulation_.hands(); ++hand) inputs_.emplace_back(hand, settings.dropout_after);
 }
 
-void HandInput::tell(CycleReport& report) {
+void HandInput::add_to(CycleReport& report) {
   report.more |= !waiting.empty();
   report.rejected.push_back(std::exchange(rejected, {}));
   report.input_age = std::max(report.input_age, newest_age);
@@ -53,10 +53,10 @@ CycleReport SimulationRunner::cycle(const HandEvents& events, const hand_input::
     std::copy(came.begin(), came.end(), std::back_inserter(inputs_.at(hand).waiting));
   feed(now);
   CycleReport report;
-  report.left_out = times_.take_left_out();
+  report.time_skipped = times_.take_skipped();
   if (const std::optional<double> stop = feed_.next_stop(now)) commit(*stop, report);
   report.more = feed_.next_stop(now).has_value();
-  for (HandInput& input : inputs_) input.tell(report);
+  for (HandInput& input : inputs_) input.add_to(report);
   report.input_age += feed_.waited(now);
   report.wall_time = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   const double lag = simulation_.newest_sample() - simulation_.time();
@@ -72,7 +72,7 @@ void SimulationRunner::feed(const hand_input::LocalTime& now) {
       const auto* epoch = std::get_if<NewEpoch>(&input.waiting.front());
       const bool restarts = epoch != nullptr && !joins(input, *epoch);
       if (restarts && simulated_time_ && feed_.next_stop(now)) break;
-      // What comes from before a jump of time that another hand has told of already is of no use.
+      // Input from before a time jump that another hand has already reported is useless.
       if (times_.knows(input.hand) || epoch != nullptr) feed(input, input.waiting.front());
       input.waiting.pop_front();
     }
@@ -123,7 +123,7 @@ void SimulationRunner::apply(HandInput& input, const NewEpoch& epoch) {
   if (joins(input, epoch)) {
     times_.join(input.hand, epoch.zero);
   } else {
-    start_anew("the hand's time begins", Command::Kind::restart);
+    restart_with("the hand's time begins", Command::Kind::restart);
     times_.begin(input.hand, epoch.zero);
   }
   feed_.restart_gate(input.hand);
@@ -136,7 +136,7 @@ double SimulationRunner::time_of(const HandInput& input, double t) {
   const double ahead = times_.time_of(input.hand, t) - std::max(simulation_.time(), simulation_.newest_sample());
   if (feed_.has_sample() && ahead > (was_behind_ ? 0.0 : longest_catch_up)) {
     was_behind_ = false;
-    times_.leave_out(std::max(ahead - simulation_.settings().dynamics.step, 0.0));
+    times_.skip(std::max(ahead - simulation_.settings().dynamics.step, 0.0));
     for (const HandInput& other : inputs_) feed_.restart_gate(other.hand);
   }
   return times_.time_of(input.hand, t);
@@ -163,7 +163,7 @@ void SimulationRunner::push(HandInput& input, StylusWrench wrench, double t) {
   feed_.push_external_wrench(wrench.sample, input.hand);
 }
 
-void SimulationRunner::start_anew(const std::string& what, Command::Kind kind) {
+void SimulationRunner::restart_with(const std::string& what, Command::Kind kind) {
   Command command;
   command.kind = kind;
   command.places = std::exchange(places_, {});
@@ -171,13 +171,13 @@ void SimulationRunner::start_anew(const std::string& what, Command::Kind kind) {
   undo_.perform(command, simulation_);
   task_.reset();
   feed_.restart();
-  ahead_.begin_anew();
+  ahead_.allow_time_back();
 }
 
 void SimulationRunner::restart() {
   const Lock lock(mutex_);
   places_.clear();
-  start_anew("reset", Command::Kind::reset);
+  restart_with("reset", Command::Kind::reset);
 }
 
 simulation::ChangeReport SimulationRunner::change(const std::string& what, const Command& command) {

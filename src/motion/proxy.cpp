@@ -9,9 +9,9 @@ namespace {
 
 Twist sum(const Twist& a, const Twist& b) { return to_twist(to_vector(a) + to_vector(b)); }
 
-/// The handle that is seen of a hand: pose, and velocity with body rates.
-struct Seen {
-  Seen(const MotionState& hand, const RigidTransform& offset, const Twist& rate)
+/// Pose and velocity, with body rates, of the proxy of a hand.
+struct ProxyMotion {
+  ProxyMotion(const MotionState& hand, const RigidTransform& offset, const Twist& rate)
       : X(offset * hand.X),
         v(offset.linear() * hand.velocity.linear + math::shifted(rate, X.translation()).linear),
         w_own(X.linear().transpose() * (offset.linear() * hand.velocity.angular + rate.angular)) {}
@@ -33,7 +33,7 @@ void Proxy::rest(const RigidTransform& before, const MotionState& now) {
   const RigidTransform X = offset_ * before;
   behind_ = true;
   offset_ = X * now.X.inverse();
-  const Seen carried(now, offset_, Twist());
+  const ProxyMotion carried(now, offset_, Twist());
   rate_ = math::shifted(Twist{-carried.v, -(X.linear() * carried.w_own)}, -X.translation());
 }
 
@@ -44,9 +44,9 @@ void Proxy::kick(const Twist& change, const Vector3d& p) {
 
 Twist Proxy::rate_to(const RigidTransform& offset, const Vector3d& hand, double h) const {
   const RigidTransform by = offset * offset_.inverse();
-  const Vector3d seen = offset * hand;
-  const Twist rate{(seen - by.inverse() * seen) / h, math::log_so3(by.linear()) / h};
-  return math::shifted(rate, -seen);
+  const Vector3d p = offset * hand;
+  const Twist rate{(p - by.inverse() * p) / h, math::log_so3(by.linear()) / h};
+  return math::shifted(rate, -p);
 }
 
 RigidTransform Proxy::returned(double left) const {
@@ -60,7 +60,7 @@ RigidTransform Proxy::returned(double left) const {
 
 MotionSegment Proxy::motion(const MotionSegment& hand, double t, double h, const RigidTransform& offset,
                             const Twist& rate) const {
-  const Seen a(hand.at(t), offset_, rate), b(hand.at(t + h), offset, rate);
+  const ProxyMotion a(hand.at(t), offset_, rate), b(hand.at(t + h), offset, rate);
   return MotionSegment({t, a.X}, a.v, a.w_own, {t + h, b.X}, b.v, b.w_own);
 }
 

@@ -7,10 +7,10 @@
 
 namespace spring_workbench::motion {
 
-void Slip::begin(const RigidTransform& X_WS, const RigidTransform& seen) {
+void Slip::begin(const RigidTransform& X_WS, const RigidTransform& X_WS_tool) {
   open_ = true;
-  by_W_ = seen.translation() - X_WS.translation();
-  turn_S_ = math::turn_between(X_WS, seen);
+  by_W_ = X_WS_tool.translation() - X_WS.translation();
+  turn_S_ = math::turn_between(X_WS, X_WS_tool);
 }
 
 RigidTransform Slip::displaced(const RigidTransform& X_WS, double left) const {

@@ -13,12 +13,12 @@ double seconds(std::int64_t nanoseconds) { return 1e-9 * static_cast<double>(nan
 
 }  // namespace
 
-std::string to_string(StampVerdict verdict) {
+std::string to_string(StampResult result) {
   static const char* const names[] = {"fits", "stepped", "too old", "from the future", "stamp not later"};
-  return names[static_cast<std::size_t>(verdict)];
+  return names[static_cast<std::size_t>(result)];
 }
 
-WallMoment WallClock::look(std::int64_t wall, std::int64_t steady) {
+WallMoment WallClock::read(std::int64_t wall, std::int64_t steady) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const std::int64_t apart = wall - steady, moved = apart - offset_.value_or(apart);
   if (std::abs(seconds(moved)) > clock_slip) steps_ += moved;
@@ -26,47 +26,47 @@ WallMoment WallClock::look(std::int64_t wall, std::int64_t steady) {
   return {wall - steps_, steps_};
 }
 
-StampVerdict StreamClock::judge(std::int64_t stamp, const WallMoment& now) {
+StampResult StreamClock::check(std::int64_t stamp, const WallMoment& now) {
   if (!newest_) return begin(stamp, now);
   const double own_age = age(stamp, now), as_this_host = seconds(now.now - stamp + now.steps);
   const double off = std::abs(own_age - usual_age_);
   if (off > clock_slip && std::abs(as_this_host - usual_age_) < off) {
     step_to(now.steps);
-    return StampVerdict::stepped;
+    return StampResult::stepped;
   }
-  StampVerdict verdict = StampVerdict::fits;
-  if (own_age > max_age_) verdict = StampVerdict::too_old;
-  if (own_age < usual_age_ - clock_slip) verdict = StampVerdict::from_the_future;
-  if (seconds(*newest_ - stamp) > clock_slip) verdict = StampVerdict::not_later;
-  if (verdict != StampVerdict::fits) {
-    if (!comes_as_stamped({stamp, own_age})) return verdict;
+  StampResult result = StampResult::fits;
+  if (own_age > max_age_) result = StampResult::too_old;
+  if (own_age < usual_age_ - clock_slip) result = StampResult::from_the_future;
+  if (seconds(*newest_ - stamp) > clock_slip) result = StampResult::not_later;
+  if (result != StampResult::fits) {
+    if (!arrives_evenly({stamp, own_age})) return result;
     const auto younger = [](const Stamped& a, const Stamped& b) { return a.age < b.age; };
     const double least = std::min_element(misfits_.begin(), misfits_.end(), younger)->age;
     step_to(offset_ + std::llround(1e9 * (usual_age_ - least)));
-    return StampVerdict::stepped;
+    return StampResult::stepped;
   }
-  usual_age_ = std::min(own_age, usual_age_ + clock_drift * seconds(now.now - came_));
+  usual_age_ = std::min(own_age, usual_age_ + clock_drift * seconds(now.now - arrival_));
   newest_ = std::max(*newest_, stamp);
-  came_ = now.now;
+  arrival_ = now.now;
   misfits_.clear();
-  return verdict;
+  return result;
 }
 
 std::int64_t StreamClock::local_or_now(std::int64_t stamp, const WallMoment& now) {
-  StampVerdict verdict = judge(stamp, now);
-  if (verdict == StampVerdict::stepped) verdict = judge(stamp, now);
-  return verdict == StampVerdict::fits ? local(stamp) : now.now;
+  StampResult result = check(stamp, now);
+  if (result == StampResult::stepped) result = check(stamp, now);
+  return result == StampResult::fits ? local(stamp) : now.now;
 }
 
-StampVerdict StreamClock::begin(std::int64_t stamp, const WallMoment& now) {
+StampResult StreamClock::begin(std::int64_t stamp, const WallMoment& now) {
   offset_ = now.steps;
   const double first_age = age(stamp, now);
-  if (first_age > max_age_) return StampVerdict::too_old;
-  if (first_age < -max_age_) return StampVerdict::from_the_future;
+  if (first_age > max_age_) return StampResult::too_old;
+  if (first_age < -max_age_) return StampResult::from_the_future;
   usual_age_ = first_age;
   newest_ = stamp;
-  came_ = now.now;
-  return StampVerdict::fits;
+  arrival_ = now.now;
+  return StampResult::fits;
 }
 
 void StreamClock::step_to(std::int64_t offset) {
@@ -78,7 +78,7 @@ void StreamClock::step_to(std::int64_t offset) {
 
 /// Whether this one, and those before it that did not fit either, come as evenly as they are stamped: what waited
 /// somewhere and comes at once does not.
-bool StreamClock::comes_as_stamped(const Stamped& message) {
+bool StreamClock::arrives_evenly(const Stamped& message) {
   if (!misfits_.empty() && message.stamp <= misfits_.back().stamp) misfits_.clear();
   misfits_.push_back(message);
   while (misfits_.size() > step_messages && seconds(message.stamp - misfits_[1].stamp) >= step_span)

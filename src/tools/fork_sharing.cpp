@@ -27,7 +27,7 @@ void ForkBody::follow(double t, const ToolHold& leader, const motion::MotionStat
     return;
   }
   const motion::OwnAxesMotion A = state_.proxy.motion(hand_, t).in_own_axes(t);
-  const dynamics::RelativeMotion<double> A_O = dynamics::seen_from(A, object);
+  const dynamics::RelativeMotion<double> A_O = dynamics::relative_motion(A, object);
   dynamics::Pull<double> pull{};
   coupling_.pull(t, A_O, pull);
   const Matrix3d& R_WA = A.X.linear();

@@ -78,7 +78,7 @@ dynamics::Coupling::Springs Probe::springs(double, const dynamics::RelativeMotio
 }
 
 void Probe::follow(double t, const motion::MotionState& object) {
-  const Touch<double> at = touch_of(dynamics::seen_from(hand_.in_own_axes(t), object));
+  const Touch<double> at = touch_of(dynamics::relative_motion(hand_.in_own_axes(t), object));
   depth_ = at.depth;
   force_ = at.force;
 }

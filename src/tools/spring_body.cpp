@@ -130,7 +130,7 @@ rod::PerDof SpringBody::fitting_stiffness(const rod::ForkSettings& fork, double 
 SpringBody::Reading SpringBody::reading() const {
   const motion::OwnAxesMotion A = hand_.in_own_axes(time());
   const motion::MotionState o = object();
-  const dynamics::RelativeMotion<double> A_O = dynamics::seen_from(A, o);
+  const dynamics::RelativeMotion<double> A_O = dynamics::relative_motion(A, o);
   dynamics::Pull<double> pull{};
   spring_.pull(time(), A_O, pull);
   return {o.X.translation() - A.X.translation(),

@@ -58,7 +58,7 @@ void fastrak(std::string_view input) {
   const std::string_view bytes = input.substr(2);
   fastrak::FastrakDecoder whole(layouts), pieces(layouts);
   const auto messages = whole.decode(bytes);
-  require(whole.bytes_left_out() <= bytes.size(), "no more bytes are left out than came");
+  require(whole.bytes_skipped() <= bytes.size(), "no more bytes are left out than came");
   std::vector<fastrak::FastrakMessage> again;
   for (std::size_t i = 0; i < bytes.size(); i += step) {
     for (const fastrak::FastrakMessage& message : pieces.decode(bytes.substr(i, step))) again.push_back(message);

@@ -16,12 +16,12 @@
 namespace spring_workbench::assembly {
 
 /// A simulated person who assembles the scene: takes each object that is not at its target with the tool in the hand,
-/// carries it there and sets it down, by looking at where the object is and correcting, whatever the tool does. What is
-/// seen is seen late. It knows of a tool where its tip is at rest, and whether it turns what it holds: with one that
-/// does not, it carries objects as they are, and leaves alone one that is in its place but turned. It has as many hands
-/// as the scene has starts of a handle. An object whose target names several grips is carried by one hand at each,
-/// together; any other one by the hand that begins nearest to it, which hands it over midway if another begins nearer
-/// to the target. It is not a person: no learning, no tiring, no second thoughts.
+/// carries it there and sets it down, by looking at where the object is and correcting, whatever the tool does. It
+/// perceives everything with a delay. It knows of a tool where its tip is at rest, and whether it turns what it holds:
+/// with one that does not, it carries objects as they are, and leaves alone one that is in its place but turned. It has
+/// as many hands as the scene has starts of a handle. An object whose target names several grips is carried by one hand
+/// at each, together; any other one by the hand that begins nearest to it, which hands it over midway if another begins
+/// nearer to the target. It is not a person: no learning, no tiring, no second thoughts.
 class SimulatedOperator final : public motion::StylusSource {
  public:
   using Look = std::function<OperatorView()>;
@@ -37,10 +37,10 @@ class SimulatedOperator final : public motion::StylusSource {
 
  private:
   enum class Phase { choose, above, insert, grip, lift, carry, lower, release, over };
-  struct Seen {
+  struct Percept {
     double t = 0.0;
     OperatorView view;
-    std::vector<RigidTransform> X_WH;  ///< where the hands were then, as the operator feels it
+    std::vector<RigidTransform> X_WH;  ///< poses of the hands at that time
   };
   /// A hand that is to take hold of the object, and where: in the object's frame.
   struct Taker {
@@ -61,8 +61,8 @@ class SimulatedOperator final : public motion::StylusSource {
   void lower();
   void let_go();
 
-  const OperatorView& view() const { return seen_.front().view; }
-  const bodies::BodyState& object() const { return view().object(job_->object()); }  ///< the one at hand
+  const OperatorView& view() const { return percepts_.front().view; }
+  const bodies::BodyState& object() const { return view().object(job_->object()); }  ///< the object of the present job
   bool holds(std::size_t hand) const { return view().tools[hand].held_object == job_->object(); }
   Vector3d grip_point() const;  ///< where the next hand takes the object, in world
   RigidTransform hand_lifted(std::size_t hand) const;
@@ -82,7 +82,7 @@ class SimulatedOperator final : public motion::StylusSource {
   std::optional<std::size_t> receiver_;  ///< gets the object from the hand that carries it
   Numbers engaged_;                      ///< hold the object or, the last one, take hold of it
   double carry_height_;                  ///< how far objects are lifted above their target to be carried [m]
-  std::deque<Seen> seen_;                ///< the first one is what the operator is aware of
+  std::deque<Percept> percepts_;         ///< the first is old enough for the operator to be aware of it
   Phase phase_ = Phase::choose;
   long moments_ = 0;
   std::size_t next_hand_ = 0;  ///< whose sample comes next

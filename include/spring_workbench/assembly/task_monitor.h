@@ -12,14 +12,13 @@
 
 namespace spring_workbench::assembly {
 
-/// Watches an assembly: which object is in place, and the score of all hands together. It only looks, and changes
-/// nothing.
+/// Observes an assembly without changing it: which objects are in place, and the score of all hands together.
 class TaskMonitor {
  public:
   /// Judges by the targets of `scene`; one without targets has no task, and `observe` does nothing.
   explicit TaskMonitor(const scene::Scene& scene);
 
-  /// Call after each `advance`: what happens between two calls is not seen.
+  /// Call after each `advance`: it compares the states of two successive calls.
   void observe(const simulation::Simulation& simulation);
   /// From the start again.
   void reset();
@@ -33,12 +32,12 @@ class TaskMonitor {
     scene::Body body;
     scene::Target target;
   };
-  /// What was seen of a hand at the last call.
+  /// State of a hand at the last call.
   struct Hand {
     std::optional<Vector3d> p;  ///< none: no sample yet
     std::string held;           ///< empty: nothing
   };
-  /// Of an object that a hand holds, or several.
+  /// State of an object that one or several hands hold.
   struct Carried {
     Vector3d p = Vector3d::Zero();             ///< at the last call
     double since = 0.0;                        ///< [s]
@@ -46,7 +45,7 @@ class TaskMonitor {
   };
 
   void judge(const std::vector<bodies::BodyState>& objects);
-  void add_ways(const simulation::Simulation& simulation);
+  void add_path_lengths(const simulation::Simulation& simulation);
   void note_holds(const simulation::Simulation& simulation);
   void note_contacts(double t, const std::vector<contact::ContactState>& contacts);
   void note_force(const std::string& object, double force);

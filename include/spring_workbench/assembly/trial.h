@@ -16,8 +16,8 @@ struct Trial {
   int steps_rejected = 0;
 };
 
-/// What an operator sees who looks at the simulation and has the tools of its hands.
-OperatorView look_at(const simulation::Simulation& simulation);
+/// Returns what an operator perceives of the simulation: its objects and the tools of the hands.
+OperatorView operator_view(const simulation::Simulation& simulation);
 
 /// The settings with a stylus for each hand of the operator, or more.
 simulation::SimulationSettings with_all_hands(const scene::Scene& scene, simulation::SimulationSettings settings);

@@ -18,8 +18,8 @@ struct RelativeMotion {
   math::Three<S> w_AB;  ///< [rad/s]
 };
 
-/// Returns pose and velocity of the object relative to a frame A.
-RelativeMotion<double> seen_from(const motion::OwnAxesMotion& A, const motion::MotionState& O);
+/// Returns pose and velocity of the object O relative to a frame A.
+RelativeMotion<double> relative_motion(const motion::OwnAxesMotion& A, const motion::MotionState& O);
 
 /// Force [N] and moment about O [N·m] on the object.
 template <typename S>
@@ -60,19 +60,20 @@ class Coupling {
 struct Attached {
   const Coupling* coupling = nullptr;
   const motion::FrameMotion* frame = nullptr;
-  /// Reference handle for `frame`; null: the handle passed to look(). If it is set, A keeps the same pose relative to
-  /// the handle passed to look() as `frame` has relative to this reference handle.
+  /// Reference handle for `frame`; null: the handle passed to find_relative_motions(). If it is set, A keeps the same
+  /// pose relative to the handle passed to find_relative_motions() as `frame` has relative to this reference handle.
   const motion::FrameMotion* handle = nullptr;
 };
 
 /// Couplings of a held body. Keeps pointers to the couplings and motions that are attached.
 class Couplings {
  public:
-  /// Motion of the handle H, seen from each frame A: the first few of any number are not on the heap.
+  /// Motion of the handle H relative to the frame A of each coupling. The first few are not on the heap.
   template <typename S>
-  struct Seen {
-    double distance =
-        0.0;  ///< largest distance of the frames from the origin of the world, which scales their rounding errors [m]
+  // NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): only the first `count` elements are used, in each step
+  struct RelativeMotions {
+    /// Largest distance of the frames from the origin of the world, which scales their rounding errors [m].
+    double distance = 0.0;
     std::size_t count = 0;
     std::array<RelativeMotion<S>, 3> first;
     std::vector<RelativeMotion<S>> more;
@@ -81,8 +82,8 @@ class Couplings {
       count = frames;
       more.resize(frames - std::min(frames, first.size()));
     }
-    RelativeMotion<S>& from(std::size_t i) { return i < first.size() ? first[i] : more[i - first.size()]; }
-    const RelativeMotion<S>& from(std::size_t i) const { return const_cast<Seen*>(this)->from(i); }
+    RelativeMotion<S>& in_frame(std::size_t i) { return i < first.size() ? first[i] : more[i - first.size()]; }
+    const RelativeMotion<S>& in_frame(std::size_t i) const { return const_cast<RelativeMotions*>(this)->in_frame(i); }
   };
 
   /// Attaches these couplings in place of the present ones. Returns whether they, or their laws, differ from those
@@ -92,12 +93,13 @@ class Couplings {
   void detach(std::size_t kept) { attached_.resize(std::min(kept, attached_.size())); }
   bool empty() const { return attached_.empty(); }
 
-  void look(const motion::FrameMotion& handle, double t, Seen<double>& seen) const;
-  void look(const motion::FrameMotion& handle, const math::Pack& t, Seen<math::Pack>& seen) const;
-  static Seen<double> lane(const Seen<math::Pack>& seen, int i);
+  void find_relative_motions(const motion::FrameMotion& handle, double t, RelativeMotions<double>& A_H) const;
+  void find_relative_motions(const motion::FrameMotion& handle, const math::Pack& t,
+                             RelativeMotions<math::Pack>& A_H) const;
+  static RelativeMotions<double> lane(const RelativeMotions<math::Pack>& A_H, int i);
   /// Returns the sum of all pulls, in the axes of H, for the motion of the object in H.
   template <typename S>
-  Pull<S> pull(const S& t, const Seen<S>& seen, const RelativeMotion<S>& H_O) const;
+  Pull<S> pull(const S& t, const RelativeMotions<S>& A_H, const RelativeMotion<S>& H_O) const;
   /// Sum of all springs, in the axes of H. `power` [W]: what the frames put in, less what the dampers dissipate.
   struct Reading {
     Coupling::Springs springs;
@@ -105,7 +107,7 @@ class Couplings {
     double power = 0.0;
   };
   /// `W_H`: the handle in the world, with its velocities in its own axes.
-  Reading read(double t, const Seen<double>& seen, const RelativeMotion<double>& H_O,
+  Reading read(double t, const RelativeMotions<double>& A_H, const RelativeMotion<double>& H_O,
                const RelativeMotion<double>& W_H) const;
 
   void exchange(math::StateArchive& state) { state(keys_); }

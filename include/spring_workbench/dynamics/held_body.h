@@ -28,15 +28,16 @@ struct HandleForcing {
   Vector3d angular_velocity = Vector3d::Zero();  ///< [rad/s]
   Vector3d angular_acceleration = Vector3d::Zero();
   Vector3d acceleration_less_gravity = Vector3d::Zero();  ///< of the origin of H [m/s²]
-  Couplings::Seen<double> seen;                           ///< as many as there are couplings
+  Couplings::RelativeMotions<double> seen;                ///< of H relative to the frames of the couplings
 };
 
 /// Motion of the handle without its pose, at one moment (`S` double) or several.
 template <typename S>
+// NOLINTNEXTLINE(cppcoreguidelines-pro-type-member-init): HeldBody::forcing sets all of it, in each step
 struct ForcingOf {
   S t;
   motion::FrameForcing<S> of_H;
-  Couplings::Seen<S> seen;
+  Couplings::RelativeMotions<S> seen;  ///< of H relative to the frames of the couplings
 };
 
 /// Motion of the handle at several moments, for integrators.
@@ -218,8 +219,8 @@ class HeldBody {
   /// Result of the last tip(): a step asks for pose, Jacobian and mass matrix of one state repeatedly. Not thread-safe.
   struct LastTip {
     bool known = false;
-    std::array<double, rod::max_strain_coordinates> q, q_dot;
-    rod::TipOf<double> tip;
+    std::array<double, rod::max_strain_coordinates> q{}, q_dot{};
+    rod::TipOf<double> tip{};
   };
   mutable LastTip last_tip_;
 };

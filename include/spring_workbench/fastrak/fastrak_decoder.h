@@ -27,11 +27,11 @@ class FastrakDecoder {
   /// `layouts`: of the stations that may report. Without any, only replies are found.
   explicit FastrakDecoder(const std::map<int, FastrakLayout>& layouts = {});
 
-  /// The records that are complete with these bytes, in order.
+  /// Returns the records that are complete with these bytes, in order.
   std::vector<FastrakMessage> decode(std::string_view bytes);
 
-  /// How many bytes were no part of any record, so far.
-  std::size_t bytes_left_out() const { return left_out_; }
+  /// Returns how many bytes so far belonged to no record.
+  std::size_t bytes_skipped() const { return bytes_skipped_; }
 
  private:
   enum class Look { found, unfinished, nothing };
@@ -39,8 +39,8 @@ class FastrakDecoder {
   static Look look_for_reply(std::string_view bytes, std::vector<FastrakMessage>& found, std::size_t& length);
 
   std::array<std::optional<FastrakLayout>, kFastrakStations> layouts_;
-  std::string pending_;  ///< bytes of which it is not clear yet what they are
-  std::size_t left_out_ = 0;
+  std::string pending_;  ///< bytes of a record that may still be incomplete
+  std::size_t bytes_skipped_ = 0;
 };
 
 }  // namespace spring_workbench::fastrak

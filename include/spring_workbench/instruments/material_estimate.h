@@ -58,7 +58,7 @@ class MaterialEstimate {
     double quantile = 0.0;                                   ///< of Student's t, for 95 %
   };
   std::optional<Fit> fit() const;
-  std::optional<Fit> fit_beside(double lag) const;
+  std::optional<Fit> fit_near(double lag) const;  ///< linearised about this time constant
 
   double probe_stiffness_;
   std::deque<Sample> samples_;

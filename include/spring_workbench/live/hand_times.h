@@ -27,10 +27,10 @@ class HandTimes {
   bool knows(std::size_t hand) const { return shifts_.at(hand).has_value(); }
   /// Converts a hand's time `t` [s] to simulation time [s].
   double time_of(std::size_t hand, double t) const { return t + shifts_.at(hand).value_or(0.0); }
-  /// Skips `seconds` [s] of all hands' time: it is not simulated.
-  void leave_out(double seconds);
+  /// Skips `seconds` [s] of all hands' time, which are not simulated.
+  void skip(double seconds);
   /// Returns the time skipped since the last call [s].
-  double take_left_out() { return std::exchange(left_out_, 0.0); }
+  double take_skipped() { return std::exchange(skipped_, 0.0); }
   /// Returns the simulation time of a stamp [ns] [s].
   double time_of_stamp(std::int64_t stamp) const { return 1e-9 * static_cast<double>(stamp - zero_); }
   /// Returns the stamp of a simulation time `t` [s] [ns].
@@ -38,7 +38,7 @@ class HandTimes {
 
  private:
   bool simulated_time_;
-  double left_out_ = 0.0;                      ///< [s]
+  double skipped_ = 0.0;                       ///< [s]
   std::int64_t zero_ = 0;                      ///< epoch of simulation time [ns]
   std::vector<std::optional<double>> shifts_;  ///< to add to a hand's times [s]; none: it has not joined
 };

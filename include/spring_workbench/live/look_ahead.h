@@ -41,7 +41,7 @@ class LookAhead {
   /// Forgets the displayed poses, because the committed simulation was changed.
   void restart();
   /// Allows the displayed time to go back, because time has restarted.
-  void begin_anew() { shown_until_ = -std::numeric_limits<double>::infinity(); }
+  void allow_time_back() { shown_until_ = -std::numeric_limits<double>::infinity(); }
 
  private:
   struct Held {

@@ -59,7 +59,7 @@ struct CycleReport {
   simulation::AdvanceReport advance;
   double wall_time = 0.0;                           ///< [s], by the steady clock
   bool behind = false;                              ///< simulation is slower than the hands: samples are dropped
-  double left_out = 0.0;                            ///< time that is skipped because the hands' time jumped [s]
+  double time_skipped = 0.0;                        ///< time that is skipped because the hands' time jumped [s]
   bool more = false;                                ///< more can be committed at once: call `cycle` again
   PredictionError prediction;                       ///< error of what was displayed for the time that is now committed
   double input_age = 0.0;                           ///< age of the newest sample by its stamp [s]
@@ -78,9 +78,9 @@ struct HandStatistics {
 /// Input of one hand that SimulationRunner keeps.
 struct HandInput {
   HandInput(std::size_t number, double dropout_after) : hand(number), monitor(dropout_after) {}
-  /// What was rejected since the last call, how old the newest sample was, and whether more waits.
-  void tell(CycleReport& report);
-  /// A pose was, at `t` [s].
+  /// Adds to the report what was rejected since the last call, how old the newest sample was, and whether more waits.
+  void add_to(CycleReport& report);
+  /// Records that a pose was used, at `t` [s].
   void used(double t, const StylusPose& pose);
 
   std::size_t hand;
@@ -179,7 +179,7 @@ class SimulationRunner {
   void feed(const hand_input::LocalTime& now);
   void commit(double stop, CycleReport& report);
   std::optional<std::int64_t> stamp() const;
-  void start_anew(const std::string& what, Command::Kind kind);
+  void restart_with(const std::string& what, Command::Kind kind);
   void begin_with(const std::string& what, const Command& command, simulation::Simulation simulation, LookAhead ahead,
                   std::map<std::string, RigidTransform> places);
   void scene_changed();

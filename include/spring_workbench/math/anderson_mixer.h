@@ -14,17 +14,17 @@ template <std::size_t size>
 class AndersonMixer {
  public:
   using Point = std::array<Pack, size>;
-  /// Where an iteration led to, and by how much that differs from where it began.
+  /// Result of an iteration: x = g(x₀), and the change g(x₀) − x₀.
   struct Image {
     Point x, change;
   };
 
   void restart() { count_ = 0; }
-  /// To be filled with the next iteration's image.
+  /// Returns the image of the next iteration, for the caller to fill.
   Image& next() { return images_[++count_ % 3]; }
-  /// The last iteration's.
+  /// Returns the image of the last iteration.
   const Image& last() const { return images_[count_ % 3]; }
-  /// Where the iteration after the one that next() was filled by is to begin; `squared_weight` of each pack.
+  /// Computes the point at which the next iteration begins, from the images so far; `squared_weight` of each pack.
   template <typename Weight>
   SPRING_WORKBENCH_INLINE void mix(const Weight& squared_weight, Point& x) const {
     const Image& now = images_[count_ % 3];
@@ -57,12 +57,13 @@ class AndersonMixer {
   }
 
  private:
-  /// Of the determinant to what it is at most: two differences below this point the same way.
+  /// Smallest ratio of the determinant of the normal equations to its largest possible value; below it, the two
+  /// differences are parallel, and only the last one is used.
   static constexpr double least_independence = 1e-3;
-  /// The most that an image is continued by, of a change: more is an extrapolation from noise.
+  /// Largest sum of the coefficients; beyond it the combination is an extrapolation from noise, and the image is taken.
   static constexpr double most_continued = 3.0;
 
-  Image images_[3];
+  Image images_[3]{};
   std::size_t count_ = 0;
 };
 

@@ -5,8 +5,8 @@
 
 namespace spring_workbench::math {
 
-/// Calls `of(std::integral_constant<int, size>())` for a size of 1 … `most`: what the compiler has to know. A value of
-/// its result's type by default for another size.
+/// Calls `of(std::integral_constant<int, size>())` for a size of 1 … `most` that is known at run time only, and returns
+/// its result; for any other size, a default value of this type.
 template <int most = 6, typename Of>
 auto by_size(int size, const Of& of) -> decltype(of(std::integral_constant<int, 1>())) {
   if (size == most) return of(std::integral_constant<int, most>());

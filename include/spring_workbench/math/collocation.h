@@ -34,7 +34,7 @@ struct Collocation {
   /// Σ_k d_k / third_degree()[k]. A defect of third_degree()[k] at sample k alone has 1 of it.
   static const Row& third_degree();
 
-  /// What one mode needs for a step, `Scalar` real or complex.
+  /// Coefficients of one mode for a step, `Scalar` real or complex.
   template <typename Scalar>
   struct Weights {
     using Column = std::array<Scalar, count>;
@@ -42,9 +42,9 @@ struct Collocation {
     std::array<Column, count> node;    ///< a_j(c_i, z)
     Column sample_constant;            ///< the same at the samples
     std::array<Column, count> sample;  ///< the same at the samples
-    std::array<Column, count> defect;  ///< what a defect at each sample does to each node, on the polynomials above
+    std::array<Column, count> defect;  ///< effect of a defect at each sample on each node, by the polynomials above
   };
-  /// For `z` = h λ.
+  /// Returns the coefficients for `z` = h λ.
   template <typename Scalar>
   static Weights<Scalar> weights(Scalar z);
 };

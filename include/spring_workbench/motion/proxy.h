@@ -4,8 +4,8 @@
 
 namespace spring_workbench::motion {
 
-/// The handle that an object sees while it may be behind the hand: offset · hand, in world (doc/model.md, "When the
-/// fork cannot follow").
+/// The proxy handle, which acts on the object and may lag behind the hand: offset · hand, in world (doc/model.md,
+/// "When the fork cannot follow").
 class Proxy {
  public:
   bool behind() const { return behind_; }
@@ -13,21 +13,21 @@ class Proxy {
 
   /// Sets the offset and its rate of change, as the twist of a frame fixed to the handle, at the origin of world.
   void place(const RigidTransform& offset, const Twist& rate);
-  /// Stays where it is in world, while the hand moves from `before` to `now`.
+  /// Keeps the proxy at rest in world while the hand moves from `before` to `now`.
   void rest(const RigidTransform& before, const MotionState& now);
-  /// An impulse gives it `change`, about the point `p` of world [m].
+  /// Changes the rate by the twist `change` about the point `p` of world [m], as an impulse does.
   void kick(const Twist& change, const Vector3d& p);
 
-  /// The mean rate of an offset that goes from the present one to `offset` in `h` [s], as it moves the handle that is
-  /// then seen of a hand at `hand`.
+  /// Returns the mean rate of an offset that changes from the present one to `offset` in `h` [s], as it moves the proxy
+  /// of a hand that is then at `hand` [m].
   Twist rate_to(const RigidTransform& offset, const Vector3d& hand, double h) const;
-  /// The offset later, if nothing holds it behind and `left` is left of it.
+  /// Returns the offset of which only the fraction `left` is left.
   RigidTransform returned(double left) const;
-  /// The handle's motion from `t` [s] on over `h` [s], until it is at `offset`, which changes at this rate from the
-  /// start on: a proxy has no mass.
+  /// Returns the proxy's motion from `t` [s] on over `h` [s], at the end of which the offset is `offset`. It has this
+  /// rate from the start on, because a proxy has no mass.
   MotionSegment motion(const MotionSegment& hand, double t, double h, const RigidTransform& offset,
                        const Twist& rate) const;
-  /// The handle's motion at present, with its acceleration.
+  /// Returns the proxy's motion at time `t` [s], with its acceleration.
   MotionSegment motion(const MotionSegment& hand, double t) const;
   const Twist& rate() const { return rate_; }
 

@@ -10,8 +10,8 @@ class Slip {
  public:
   bool open() const { return open_; }
   void close() { open_ = false; }
-  /// Begins a slip: the hand's stylus is at `X_WS`, the tool's at `seen`.
-  void begin(const RigidTransform& X_WS, const RigidTransform& seen);
+  /// Begins a slip with the hand's stylus at `X_WS` and the tool's at `X_WS_tool`.
+  void begin(const RigidTransform& X_WS, const RigidTransform& X_WS_tool);
   /// Returns the pose of the tool's stylus when the hand's is at `X_WS`.
   RigidTransform of(const RigidTransform& X_WS) const { return displaced(X_WS, 1.0); }
   /// Returns the motion of the tool's stylus over the next `h` [s], during which it returns towards the hand's.

@@ -15,29 +15,29 @@ struct WallMoment {
   std::int64_t steps = 0;  ///< by how much it has been set since: it shows `now + steps`
 };
 
-/// Takes the steps out of a wall clock: a change against the steady clock by more than 0.1 s between two looks is a
-/// step (the clock was set, or the machine was suspended), a smaller change is followed. Any thread.
+/// Takes the steps out of a wall clock: a change against the steady clock by more than 0.1 s between two readings is
+/// a step (the clock was set, or the machine was suspended), a smaller change is followed. Thread-safe.
 class WallClock {
  public:
-  /// The wall clock shows `wall` while the steady clock shows `steady`, both [ns].
-  WallMoment look(std::int64_t wall, std::int64_t steady);
+  /// Converts a reading of the wall clock, `wall`, made together with one of the steady clock, `steady` [ns].
+  WallMoment read(std::int64_t wall, std::int64_t steady);
 
  private:
   std::mutex mutex_;
-  std::optional<std::int64_t> offset_;  ///< wall less steady at the last look [ns]
+  std::optional<std::int64_t> offset_;  ///< wall less steady at the last reading [ns]
   std::int64_t steps_ = 0;
 };
 
 /// Result of checking a message's stamp by a StreamClock.
-enum class StampVerdict {
+enum class StampResult {
   fits,
-  stepped,          ///< the sender's clock was set: judge again those just before that did not fit, and this one
+  stepped,          ///< the sender's clock was set: check again those just before that did not fit, and this one
   too_old,          ///< by more than `max_age`
   from_the_future,  ///< ahead of the stream by more than 0.1 s
   not_later,        ///< before the stream's newest by more than 0.1 s
 };
 /// The result in words, as in /diagnostics.
-std::string to_string(StampVerdict verdict);
+std::string to_string(StampResult result);
 
 /// The clock of one stream of stamped messages: it keeps the offset between the sender's clock and the local wall clock
 /// without its steps. Slow drift is followed. A step of the sender's clock is a new offset: at once if this host's own
@@ -48,8 +48,8 @@ class StreamClock {
   /// `max_age` [s], > 0: the first message must be no further from now, and no message older.
   explicit StreamClock(double max_age) : max_age_(max_age) {}
 
-  /// A message stamped `stamp` [ns] came at `now`.
-  StampVerdict judge(std::int64_t stamp, const WallMoment& now);
+  /// Checks the stamp [ns] of a message that arrived at `now`.
+  StampResult check(std::int64_t stamp, const WallMoment& now);
   /// Returns the local time [ns] of a message that is used in any case: that of its stamp if it fits, otherwise now.
   std::int64_t local_or_now(std::int64_t stamp, const WallMoment& now);
   /// The stamp by the local wall clock without its steps [ns].
@@ -68,15 +68,15 @@ class StreamClock {
     std::int64_t stamp;
     double age;
   };
-  StampVerdict begin(std::int64_t stamp, const WallMoment& now);
+  StampResult begin(std::int64_t stamp, const WallMoment& now);
   void step_to(std::int64_t offset);
-  bool comes_as_stamped(const Stamped& message);
+  bool arrives_evenly(const Stamped& message);
 
   double max_age_;
   std::int64_t offset_ = 0;             ///< stamps less local ones [ns]
   std::optional<std::int64_t> newest_;  ///< stamp
-  std::int64_t came_ = 0;               ///< when that came [ns]
-  double usual_age_ = 0.0;              ///< the least of late [s]
+  std::int64_t arrival_ = 0;            ///< of that message [ns]
+  double usual_age_ = 0.0;              ///< smallest recent age, growing with clock_drift [s]
   std::deque<Stamped> misfits_;         ///< since the newest that fitted
   std::size_t steps_ = 0;
 };
@@ -87,9 +87,9 @@ class SenderChoice {
   explicit SenderChoice(double patience) : patience_(patience) {}
   /// Whether what this sender sends at local time `now` [s] is to be used.
   bool offers(const std::string& sender, double now) {
-    if (sender != name_ && !name_.empty() && now - came_ <= patience_) return false;
+    if (sender != name_ && !name_.empty() && now - arrival_ <= patience_) return false;
     name_ = sender;
-    came_ = now;
+    arrival_ = now;
     return true;
   }
   /// The one that is followed; empty before the first.
@@ -99,39 +99,40 @@ class SenderChoice {
  private:
   double patience_;
   std::string name_;
-  double came_ = 0.0;
+  double arrival_ = 0.0;
 };
 
-/// A stream of messages by its StreamClock, with those kept that fit only once the sender's clock is seen to be set.
+/// Stream of stamped messages with its StreamClock. Messages that do not fit are kept for a while: if the sender's
+/// clock turns out to have been set, they are used after all.
 template <typename Message>
 class StampedStream {
  public:
   explicit StampedStream(double max_age) : clock_(max_age), max_age_(max_age) {}
 
-  /// A message stamped `stamp` [ns] came at `now`. Calls `use(message, local stamp [ns], age [s])` for each that fits
-  /// now, in order, and `leave_out(message, verdict, age [s])` for each that will not.
-  template <typename Use, typename LeaveOut>
-  void offer(const Message& message, std::int64_t stamp, const WallMoment& now, Use&& use, LeaveOut&& leave_out) {
-    StampVerdict verdict = clock_.judge(stamp, now);
-    const auto let_go = [&](const Kept& kept) { leave_out(kept.message, kept.verdict, kept.age); };
-    if (verdict == StampVerdict::stepped) {
+  /// Takes a message with this stamp [ns] that arrived at `now`. Calls `use(message, local stamp [ns], age [s])` for
+  /// each that fits now, in order, and `reject(message, result, age [s])` for each that will not.
+  template <typename Use, typename Reject>
+  void offer(const Message& message, std::int64_t stamp, const WallMoment& now, Use&& use, Reject&& reject) {
+    StampResult result = clock_.check(stamp, now);
+    const auto reject_kept = [&](const Kept& kept) { reject(kept.message, kept.result, kept.age); };
+    if (result == StampResult::stepped) {
       for (Kept& kept : std::exchange(kept_, {})) {
-        kept.verdict = clock_.judge(kept.stamp, kept.came);
-        if (kept.verdict != StampVerdict::fits) {
-          let_go(kept);
+        kept.result = clock_.check(kept.stamp, kept.arrival);
+        if (kept.result != StampResult::fits) {
+          reject_kept(kept);
         } else {
-          use(kept.message, clock_.local(kept.stamp), clock_.age(kept.stamp, kept.came));
+          use(kept.message, clock_.local(kept.stamp), clock_.age(kept.stamp, kept.arrival));
         }
       }
-      verdict = clock_.judge(stamp, now);
+      result = clock_.check(stamp, now);
     }
-    if (verdict != StampVerdict::fits) {
-      kept_.push_back({message, stamp, now, verdict, clock_.age(stamp, now)});
+    if (result != StampResult::fits) {
+      kept_.push_back({message, stamp, now, result, clock_.age(stamp, now)});
       if (kept_.size() <= most_kept && clock_.has_begun()) return;
-      let_go(kept_.front());
+      reject_kept(kept_.front());
       return kept_.pop_front();
     }
-    for (const Kept& kept : std::exchange(kept_, {})) let_go(kept);
+    for (const Kept& kept : std::exchange(kept_, {})) reject_kept(kept);
     use(message, clock_.local(stamp), clock_.age(stamp, now));
   }
   /// Another sender: its clock is not known.
@@ -146,8 +147,8 @@ class StampedStream {
   struct Kept {
     Message message;
     std::int64_t stamp = 0;
-    WallMoment came;
-    StampVerdict verdict = StampVerdict::fits;
+    WallMoment arrival;
+    StampResult result = StampResult::fits;
     double age = 0.0;
   };
   StreamClock clock_;

@@ -26,6 +26,6 @@ constexpr double jump_patience = 1.0;
 constexpr double own_api_patience = 0.5;
 /// [s] between two log lines of one reason to leave input out. Less: the log is flooded. Test:
 /// machine_link_test.py::test_what_cannot_be_used_is_told_and_changes_nothing at 0.
-constexpr double told_again_after = 5.0;
+constexpr double log_period = 5.0;
 
 }  // namespace spring_workbench::ros_common

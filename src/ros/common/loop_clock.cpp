@@ -65,7 +65,7 @@ hand_input::LocalTime local_time() {
 motion::WallMoment wall_moment() {
   static motion::WallClock clock;
   const Reading reading = read_clocks();
-  return ros::Time::isSimTime() ? motion::WallMoment{reading.ros, 0} : clock.look(reading.ros, reading.steady);
+  return ros::Time::isSimTime() ? motion::WallMoment{reading.ros, 0} : clock.read(reading.ros, reading.steady);
 }
 
 ros::Time stamp_of(const std::optional<std::int64_t>& stamp) {

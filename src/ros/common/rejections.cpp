@@ -10,9 +10,9 @@ namespace spring_workbench::ros_common {
 void Rejections::add(const std::string& reason, const std::string& line) {
   ++counts_[reason];
   const double now = steady_time();
-  const auto told = told_.find(reason);
-  if (told != told_.end() && now - told->second < told_again_after) return;
-  told_[reason] = now;
+  const auto last = last_logged_.find(reason);
+  if (last != last_logged_.end() && now - last->second < log_period) return;
+  last_logged_[reason] = now;
   ROS_WARN_STREAM(line << "; rejected");
 }
 

@@ -26,7 +26,7 @@ Checkpoint::~Checkpoint() {
   if (handed_over_) return;
   try {
     if (file_) file_->remove();
-  } catch (const std::exception&) {  // told already: it could not be written either
+  } catch (const std::exception&) {  // logged before: it could not be written either
   }
   master_.deleteParam(kKey);
 }
@@ -39,14 +39,14 @@ void Checkpoint::keep_in_file() {
   try {
     in_file_.keep([this](const std::string& text) {
       file_->write(text);
-      tell("");
+      set_file_error("");
     });
   } catch (const std::exception& error) {
-    tell(error.what());
+    set_file_error(error.what());
   }
 }
 
-void Checkpoint::tell(const std::string& file_error) {
+void Checkpoint::set_file_error(const std::string& file_error) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (file_error == file_error_) return;
   file_error_ = file_error;
@@ -76,7 +76,7 @@ void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
     ROS_WARN_STREAM("resuming from the state of the node that was killed (" << where << "); nothing is held");
   } catch (const std::exception& error) {  // a broken one must not keep the node from starting
     ROS_WARN_STREAM("the checkpoint is ignored: " << validation::one_line(error.what()));
-    if (from_file && text.empty()) file_error_ = error.what();  // what is not ours stays, and is not told again
+    if (from_file && text.empty()) file_error_ = error.what();  // what is not ours stays, and is not logged again
     if (from_file && !text.empty()) file_->set_aside();         // another run may need it
   }
 }

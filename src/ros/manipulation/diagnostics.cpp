@@ -110,7 +110,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
       .add("largest bound of a run's error [m]", loop.advance.error_bound)
       .add("steps without such a bound", loop.advance.steps_unbounded)
       .add("stops at the end of the fork's range", loop.advance.stops)
-      .add("time skipped [s]", loop.left_out)
+      .add("time skipped [s]", loop.time_skipped)
       .add("cycles behind the hands", loop.cycles_behind)
       .add("longest cycle [s]", loop.longest_cycle)
       .add("waits for unsent messages", loop.waits)
@@ -127,7 +127,7 @@ DiagnosticStatus ManipulationDiagnostics::report_loop(const LoopStatistics& loop
   }
   if (loop.deadlines_missed > last_loop_.deadlines_missed) status.raise(DiagnosticStatus::WARN, "deadlines missed");
   if (loop.waits > last_loop_.waits) status.raise(DiagnosticStatus::WARN, "the loop waits: its messages take too long");
-  if (loop.left_out > last_loop_.left_out) status.raise(DiagnosticStatus::WARN, "time was skipped");
+  if (loop.time_skipped > last_loop_.time_skipped) status.raise(DiagnosticStatus::WARN, "time was skipped");
   if (loop.cycles_behind > last_loop_.cycles_behind)
     status.raise(DiagnosticStatus::WARN, "behind: simulation is slower than the motion of the hands");
   return status.status();

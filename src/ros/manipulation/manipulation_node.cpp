@@ -119,12 +119,12 @@ bool ManipulationNode::run_step(double begin) {
 }
 
 void ManipulationNode::count(const live::CycleReport& report, bool deadline_missed) {
-  if (report.left_out > 0.0) ROS_WARN("skipped %.3g s without input", report.left_out);
+  if (report.time_skipped > 0.0) ROS_WARN("skipped %.3g s without input", report.time_skipped);
   const std::lock_guard<std::mutex> lock(loop_mutex_);
   ++loop_.cycles;
   loop_.deadlines_missed += deadline_missed ? 1 : 0;
   loop_.advance.add(report.advance);
-  loop_.left_out += report.left_out;
+  loop_.time_skipped += report.time_skipped;
   loop_.cycles_behind += report.behind ? 1 : 0;
   loop_.longest_cycle = std::max(loop_.longest_cycle, report.wall_time);
 }

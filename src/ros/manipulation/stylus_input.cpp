@@ -77,7 +77,7 @@ void StylusInput::on_transforms(const ros::MessageEvent<const tf2_msgs::TFMessag
       if (is_followed(event.getPublisherName())) on_simulated_time(transform, *now);
     } else {
       early_poses_.keep(transform);
-      start_anew_when_due();
+      restart_when_due();
     }
   }
 }
@@ -100,8 +100,8 @@ void StylusInput::on_wall_time(const geometry_msgs::TransformStamped& transform)
   wall_poses_.offer(
       transform, ros_common::nanoseconds_of(transform.header.stamp), ros_common::wall_moment(),
       [&](const geometry_msgs::TransformStamped& one, std::int64_t stamp, double age) { use(one, stamp, age); },
-      [&](const geometry_msgs::TransformStamped& one, motion::StampVerdict verdict, double age) {
-        reject_stamp(one, motion::to_string(verdict), age);
+      [&](const geometry_msgs::TransformStamped& one, motion::StampResult result, double age) {
+        reject_stamp(one, motion::to_string(result), age);
       });
   if (wall_poses_.clock().steps() == steps) return;
   ++statistics_.clock_steps;
@@ -168,7 +168,7 @@ void StylusInput::on_joy(const sensor_msgs::JoyConstPtr& message) {
   if (const std::optional<ros::Time> now = clock_.moment_of(message->header.stamp, buttons_, parameters_.max_age))
     return on_simulated_time(*message, *now);
   early_buttons_.keep(*message);
-  start_anew_when_due();
+  restart_when_due();
 }
 
 void StylusInput::on_simulated_time(const sensor_msgs::Joy& message, const ros::Time& now) {
@@ -202,8 +202,8 @@ void StylusInput::go_on_to(const ros::Time& stamp, SimulatedClock::Stream& strea
   early.clear();
 }
 
-/// Starts anew unless a stream that there is has not come to the jump yet.
-void StylusInput::start_anew_when_due() {
+/// Restarts, unless a present stream has not reached the time jump yet.
+void StylusInput::restart_when_due() {
   const bool poses_awaited = !poses_.newest.isZero() && early_poses_.empty();
   const bool buttons_awaited = !buttons_.newest.isZero() && early_buttons_.empty();
   if (clock_.is_patient() && (poses_awaited || buttons_awaited)) return;

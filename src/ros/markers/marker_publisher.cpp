@@ -10,19 +10,19 @@ MarkerPublisher::MarkerPublisher(ros::NodeHandle private_node, const std::string
                                  double rate)
     : period_(1.0 / rate),
       all_(fork_curve, fork_diameter, std::max(shortest_marker_lifetime, 3.0 / rate)),
-      beside_displays_(fork_curve, fork_diameter, std::max(shortest_marker_lifetime, 3.0 / rate),
-                       Drawn::beside_displays),
+      display_markers_(fork_curve, fork_diameter, std::max(shortest_marker_lifetime, 3.0 / rate),
+                       Drawn::not_in_displays),
       all_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("markers", 5)),
-      beside_displays_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("display/markers", 5)) {}
+      display_publisher_(private_node.advertise<visualization_msgs::MarkerArray>("display/markers", 5)) {}
 
 bool MarkerPublisher::publish(const live::View& view, const std_msgs::Header& header, double now) {
   const bool wait = now < next_ && now > next_ - period_;  // a clock that went back waits not
   const bool all = all_publisher_.getNumSubscribers() > 0;
-  const bool beside_displays = beside_displays_publisher_.getNumSubscribers() > 0;
-  if (wait || (!all && !beside_displays)) return false;
+  const bool for_displays = display_publisher_.getNumSubscribers() > 0;
+  if (wait || (!all && !for_displays)) return false;
   next_ = now < next_ + period_ && now >= next_ ? next_ + period_ : now + period_;
   if (all) all_publisher_.publish(all_.build(view, header));
-  if (beside_displays) beside_displays_publisher_.publish(beside_displays_.build(view, header));
+  if (for_displays) display_publisher_.publish(display_markers_.build(view, header));
   return true;
 }
 

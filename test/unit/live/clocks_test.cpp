@@ -74,7 +74,7 @@ class Session {
   Vector3d hand() const {
     return runner_.locked([](const auto& s) { return s.fork().X_WH.translation(); });
   }
-  double left_out = 0.0, stepped = 0.0;
+  double time_skipped = 0.0, stepped = 0.0;
   Vector3d true_hand() const {
     return grip + moves * Vector3d(0.1 * std::sin(3.0 * t_), 0.0, 0.05 * std::sin(5.0 * t_));
   }
@@ -87,7 +87,7 @@ class Session {
 
  private:
   motion::WallMoment host() {
-    return wall_.look(wall_begin + nanoseconds(t_) + nanoseconds(host_set_), nanoseconds(t_));
+    return wall_.read(wall_begin + nanoseconds(t_) + nanoseconds(host_set_), nanoseconds(t_));
   }
   void send() {
     const std::int64_t stamp = wall_begin + nanoseconds(t_ - 0.002) + nanoseconds(sender_set_);
@@ -117,7 +117,7 @@ class Session {
     }
     waiting_.clear();
     CycleReport report = runner_.cycle(events, arrival);
-    left_out += report.left_out;
+    time_skipped += report.time_skipped;
     while (report.more) report = runner_.cycle({}, arrival);
     const double force = runner_.locked([](const auto& s) { return s.fork().handle_wrench_H.force.norm(); });
     strongest_ = std::max(strongest_, force);
@@ -173,7 +173,7 @@ TEST(Clocks, AStepIsAnOffsetAndNothingMovesForIt) {
       EXPECT_LT(lag, 0.05) << fault.name << fault.host << fault.sender;
       EXPECT_EQ(plain.held(), holds);
       EXPECT_EQ(faulty.held(), holds);
-      EXPECT_EQ(faulty.left_out, 0.0);
+      EXPECT_EQ(faulty.time_skipped, 0.0);
       EXPECT_EQ(faulty.stepped, fault.sender != 0.0 ? 1.0 : 0.0);
     }
   }
@@ -205,7 +205,7 @@ TEST(Clocks, ALeapIsLeftOutAndNothingMoves) {
         ASSERT_LT((session.box().translation() - before.translation()).norm(), 1e-3) << stopped;
       }
       EXPECT_EQ(session.held(), holds);
-      EXPECT_EQ(session.left_out > 0.0, stopped > 6.0) << stopped;
+      EXPECT_EQ(session.time_skipped > 0.0, stopped > 6.0) << stopped;
       EXPECT_EQ(session.stepped, 0.0);
       EXPECT_LT(std::abs(session.stamp_lag()), 0.05);
       // It follows again, at a bounded speed where it was away for long.
@@ -225,7 +225,7 @@ TEST(Senders, AStampThatIsOffMovesNothing) {
     EXPECT_LT(std::abs(session.stamp_lag()), 0.05) << ahead;
     session.run(0.5);
     EXPECT_LT((session.box().translation() - before.translation()).norm(), 1e-6);
-    EXPECT_EQ(session.stepped + session.left_out, 0.0);
+    EXPECT_EQ(session.stepped + session.time_skipped, 0.0);
     EXPECT_LT(std::abs(session.stamp_lag()), 0.05) << ahead;
   }
 }

@@ -20,22 +20,22 @@ struct Line {
   StreamClock clock{1.0};
   std::mt19937 random{7};
   std::int64_t steady = 5 * ms, here_set = 0, sender_set = 0;
-  std::vector<StampVerdict> verdicts;
+  std::vector<StampResult> results;
   std::vector<std::int64_t> times;  ///< local ones of those that fit, less their true one
 
-  WallMoment now() { return here.look(begin + steady + here_set, steady); }
+  WallMoment now() { return here.read(begin + steady + here_set, steady); }
   void judge(std::int64_t stamp, const WallMoment& at, std::int64_t sent) {
-    const StampVerdict verdict = clock.judge(stamp, at);
-    if (verdict == StampVerdict::fits) times.push_back(clock.local(stamp) - begin - sent);
+    const StampResult result = clock.check(stamp, at);
+    if (result == StampResult::fits) times.push_back(clock.local(stamp) - begin - sent);
   }
   /// A message sent `late` before it comes [ns].
-  StampVerdict send(std::int64_t late, std::int64_t ahead = 0) {
+  StampResult send(std::int64_t late, std::int64_t ahead = 0) {
     const std::int64_t stamp = begin + steady - late + sender_set + ahead;
-    const StampVerdict verdict = clock.judge(stamp, now());
-    verdicts.push_back(verdict);
-    if (verdict == StampVerdict::stepped) judge(stamp, now(), steady - late);
-    if (verdict == StampVerdict::fits) times.push_back(clock.local(stamp) - begin - (steady - late));
-    return verdict;
+    const StampResult result = clock.check(stamp, now());
+    results.push_back(result);
+    if (result == StampResult::stepped) judge(stamp, now(), steady - late);
+    if (result == StampResult::fits) times.push_back(clock.local(stamp) - begin - (steady - late));
+    return result;
   }
   void run(int messages) {
     for (int k = 0; k < messages; ++k) {
@@ -89,8 +89,8 @@ TEST(StreamClock, AMessageAloneMovesNothing) {
   for (const double ahead : {0.9, -0.5, 5.0, -50.0, 0.2}) {
     Line line;
     line.run(50);
-    EXPECT_NE(line.send(0, nanoseconds(ahead)), StampVerdict::fits) << ahead;
-    EXPECT_NE(line.send(0, nanoseconds(ahead)), StampVerdict::stepped);
+    EXPECT_NE(line.send(0, nanoseconds(ahead)), StampResult::fits) << ahead;
+    EXPECT_NE(line.send(0, nanoseconds(ahead)), StampResult::stepped);
     line.run(50);
     EXPECT_EQ(line.times.size(), 100u);
     EXPECT_EQ(line.clock.steps(), 0u);
@@ -141,7 +141,7 @@ TEST(StreamClock, AStreamBeginsNearNow) {
     line.sender_set = nanoseconds(off);
     for (int k = 0; k < 100; ++k) {
       line.steady += 8 * ms;
-      EXPECT_EQ(line.send(ms), off > 0.0 ? StampVerdict::from_the_future : StampVerdict::too_old);
+      EXPECT_EQ(line.send(ms), off > 0.0 ? StampResult::from_the_future : StampResult::too_old);
     }
   }
   Line late;  // it begins after this host's clock was set

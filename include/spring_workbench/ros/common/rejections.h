@@ -15,7 +15,7 @@ class Rejections {
 
  private:
   std::map<std::string, std::size_t> counts_;
-  std::map<std::string, double> told_;  ///< when a reason was last logged [s]
+  std::map<std::string, double> last_logged_;  ///< when a reason was last logged [s]
 };
 
 }  // namespace spring_workbench::ros_common

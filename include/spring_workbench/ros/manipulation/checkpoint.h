@@ -37,7 +37,7 @@ class Checkpoint {
   void resume(const std::vector<std::string>& scene_roots);
   void keep_on_master();
   void keep_in_file();
-  void tell(const std::string& file_error);
+  void set_file_error(const std::string& file_error);
 
   ros::NodeHandle master_;
   XmlRpc::XmlRpcValue parameters_;  ///< of the node, at its start

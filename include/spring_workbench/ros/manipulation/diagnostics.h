@@ -11,13 +11,13 @@
 
 namespace spring_workbench::manipulation {
 
-/// What the physics loop did so far.
+/// Statistics of the physics loop since its start.
 struct LoopStatistics {
   std::size_t cycles = 0;
   std::size_t deadlines_missed = 0;   ///< by the cycle or by its messages
   std::size_t waits = 0;              ///< for states whose messages are unsent (Outbox)
   simulation::AdvanceReport advance;  ///< all steps together
-  double left_out = 0.0;              ///< of time, since the process stood or time leapt [s]
+  double time_skipped = 0.0;          ///< because the process was stopped or time jumped [s]
   std::size_t cycles_behind = 0;      ///< in which simulated time was slower than the hands'
   double longest_cycle = 0.0;         ///< wall time in the simulation [s]
   double master_silence = 0.0;        ///< since the ROS master last answered [s]
@@ -26,7 +26,7 @@ struct LoopStatistics {
   double prediction_error = 0.0;      ///< see LookAhead::position_error_99() [m]
 };
 
-/// What came of one stylus, and what became of the hand.
+/// Input of one stylus, and what the simulation made of it.
 struct TrackerInput {
   InputStatistics input;
   live::HandStatistics hand;
@@ -34,15 +34,15 @@ struct TrackerInput {
 };
 
 /// Why no sample of the stylus is used, and what to do about it: one line, empty where samples are used.
-/// `senders`: the nodes that the master says publish /tf, this one left out.
+/// `senders`: the other nodes that, according to the master, publish /tf.
 std::string hint_for_silence(const TrackerInput& tracker, const std::vector<std::string>& senders,
                              const std::string& stylus_frame);
 
-/// Watches the counters and says once a second how tracker input and physics loop are doing: WARN when something went
-/// wrong since the last time, STALE when no sample came at all. A further stylus is told of once something came of it.
+/// Reports the state of tracker input and physics loop once a second, from their counters: WARN if something went wrong
+/// since the last report, STALE without any sample. A further stylus is reported once it has sent something.
 class ManipulationDiagnostics {
  public:
-  /// `name`: of the node. `dropout_after` [s]: silence of the tracker longer than this is told.
+  /// `name`: of the node. `dropout_after` [s]: a longer silence of the tracker is reported.
   ManipulationDiagnostics(const std::string& name, double dropout_after) : name_(name), dropout_after_(dropout_after) {}
 
   /// `styluses`: of each, always as many; `now` [s]: local time.

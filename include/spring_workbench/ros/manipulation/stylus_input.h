@@ -26,38 +26,38 @@ namespace spring_workbench::manipulation {
 using ros_common::EarlyMessages;
 using ros_common::SimulatedClock;
 
-/// What came in so far.
+/// Statistics of the input so far.
 struct InputStatistics {
-  std::size_t messages = 0;                     ///< on /tf, those of this node left out
+  std::size_t messages = 0;                     ///< on /tf, except those of this node
   std::set<std::string> frames;                 ///< child frames in them
   std::size_t restarts = 0;                     ///< times simulated time jumped back
   std::size_t clock_steps = 0;                  ///< times the sender's clock was set
   std::string sender;                           ///< the node whose stylus is followed; empty before the first
-  std::string other_sender;                     ///< one that sends the same stylus, too, and is left out; or empty
+  std::string other_sender;                     ///< another node that sends the same stylus and is ignored; or empty
   std::map<std::string, std::size_t> rejected;  ///< by reason
   double newest_offer_age = 0.0;                ///< age by its stamp of the newest sample, used or not [s]
 };
 
-/// The reasons to leave out what a second node sends, and what comes while the loop stands.
+/// Reasons to reject messages: of a second sender, and while the loop is stalled.
 constexpr char another_sender[] = "another sender", loop_stands[] = "the loop stands";
 
-/// One stylus: listens to /tf, /tf_static and its buttons, and keeps what came, in order, until it is taken. What
-/// cannot be used is left out, counted by reason and told in one throttled line. Poses go on as they came: the gate is
-/// in the Feed.
+/// Input of one stylus: subscribes to /tf, /tf_static and its buttons, and queues the events until they are taken.
+/// Unusable messages are rejected, counted by reason and logged in one throttled line. Poses are not filtered here: the
+/// gate is in the Feed.
 class StylusInput {
  public:
   /// Listens to the child frame `stylus` and to `stylus/joy`, or those of a further `hand` (button 0 grasps while it is
-  /// down, 1 takes the next tool). `wake` is called when something has come.
+  /// down, 1 takes the next tool). `wake` is called after each event.
   StylusInput(ros::NodeHandle node, const ManipulationParameters& parameters, std::size_t hand,
               std::function<void()> wake);
 
-  /// What came since the last call. The first event ever, and the first after simulated time has jumped back,
+  /// Returns the events since the last call. The first event ever, and the first after simulated time has jumped back,
   /// is a live::NewEpoch.
   std::vector<live::StylusEvent> take_events();
-  /// Counts and tells what the gate did not let through.
+  /// Counts and logs the poses that the gate rejected.
   void count_rejected(const std::vector<live::RejectedPose>& poses);
   InputStatistics statistics() const;
-  /// Whether /tf_static said where the workbench is.
+  /// Returns whether the pose of the workbench is known from /tf_static.
   bool workbench_known() const;
 
  private:
@@ -72,7 +72,7 @@ class StylusInput {
   void on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp);
   template <typename Message>
   void go_on_to(const ros::Time& stamp, SimulatedClock::Stream& stream, EarlyMessages<Message>& early);
-  void start_anew_when_due();
+  void restart_when_due();
   double seconds(std::int64_t stamp);
   void reject_stamp(const geometry_msgs::TransformStamped& transform, const std::string& reason, double age);
 

@@ -21,8 +21,8 @@ class MarkerPublisher {
  private:
   double period_;  ///< [s]
   double next_ = 0.0;
-  MarkerBuilder all_, beside_displays_;
-  ros::Publisher all_publisher_, beside_displays_publisher_;
+  MarkerBuilder all_, display_markers_;
+  ros::Publisher all_publisher_, display_publisher_;
 };
 
 }  // namespace spring_workbench::markers

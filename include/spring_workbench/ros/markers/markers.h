@@ -16,8 +16,8 @@ namespace spring_workbench::markers {
 class LoadScale;
 class MarkerList;
 
-/// What to draw: everything, or what the displays `Objects` and `SpringFork` leave out.
-enum class Drawn { everything, beside_displays };
+/// What to draw: everything, or only what rviz' displays `Objects` and `SpringFork` do not draw.
+enum class Drawn { everything, not_in_displays };
 
 /// Draws the simulation for rviz: bodies, targets, shadows on the bench, the deformed fork in the colour of its load
 /// with a legend, force and moment at the tip of each as arrows and text, contact points with their normals. Nothing
