@@ -46,9 +46,9 @@ std::size_t OperatorHands::nearest(const Vector3d& p_W, const Numbers& others) c
 }
 
 double OperatorHands::arrival(const Hand& hand, const RigidTransform& X_WH, double t_from) {
-  const Vector3d way = X_WH.translation() - hand.X_WH_to.translation();
+  const Vector3d path = X_WH.translation() - hand.X_WH_to.translation();
   const double turn = math::log_so3(hand.X_WH_to.linear().transpose() * X_WH.linear()).norm();
-  return t_from + 0.1 + fitts_slope * std::log2(1.0 + std::hypot(way.norm(), lever * turn) / fitts_width);
+  return t_from + 0.1 + fitts_slope * std::log2(1.0 + std::hypot(path.norm(), lever * turn) / fitts_width);
 }
 
 double OperatorHands::reach(const Numbers& hands, const std::function<RigidTransform(std::size_t)>& X_WH,
@@ -58,8 +58,8 @@ double OperatorHands::reach(const Numbers& hands, const std::function<RigidTrans
   for (const std::size_t number : hands) {
     Hand& hand = hands_[number];
     RigidTransform X_WH_to = X_WH(number);
-    const double way = (X_WH_to.translation() - hand.X_WH_to.translation()).norm();
-    X_WH_to.translation() += settings_.aim_scatter * way * random_.next_vector();
+    const double distance = (X_WH_to.translation() - hand.X_WH_to.translation()).norm();
+    X_WH_to.translation() += settings_.aim_scatter * distance * random_.next_vector();
     hand.X_WH_from = t_from < hand.t_to - time_slack ? hand.X_WH : hand.X_WH_to;
     hand.X_WH_to = X_WH_to;
     hand.t_from = t_from;

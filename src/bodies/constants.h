@@ -4,9 +4,9 @@
 
 namespace spring_workbench::bodies {
 
-/// [rad] of a free rotation in one piece of the Runge–Kutta method. Larger: a tumbling body gains or loses energy.
+/// [rad] of a free rotation in one substep of the Runge–Kutta method. Larger: a tumbling body gains or loses energy.
 /// Test: FreeRotation.KeepsItsEnergyAndIsOfOrderFour at 1.
-constexpr double most_turn_per_piece = 0.1;
+constexpr double most_turn_per_substep = 0.1;
 /// Pieces of a step, however fast a body spins. Test: none: no value tried makes one fail.
 constexpr int most_substeps = 1000;
 

@@ -38,10 +38,10 @@ bool FreeBody::advance(double h, const Wrench& contact_W) {
   next.velocity += h * acceleration;
   // The momentum is exact; the attitude follows by a Runge–Kutta method of rotations of order four [CMO03].
   const double turn = h * angular_velocity(state_.X_WO.linear(), state_.angular_momentum).norm();
-  const int pieces = 1 + static_cast<int>(std::min(turn / most_turn_per_piece, static_cast<double>(most_substeps)));
-  const double dt = h / pieces;
+  const int substeps = 1 + static_cast<int>(std::min(turn / most_turn_per_substep, static_cast<double>(most_substeps)));
+  const double dt = h / substeps;
   Matrix3d R = state_.X_WO.linear();
-  for (int i = 0; i < pieces; ++i) {
+  for (int i = 0; i < substeps; ++i) {
     const Vector3d L0 = state_.angular_momentum + i * dt * contact_W.moment;
     const Vector3d L1 = L0 + 0.5 * dt * contact_W.moment, L2 = L0 + dt * contact_W.moment;
     const auto turned = [&](const Vector3d& w, const Matrix3d& from) { return Matrix3d(math::exp_so3(dt * w) * from); };

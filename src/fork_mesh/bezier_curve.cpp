@@ -43,8 +43,8 @@ class Bezier {
   }
   double length() const {
     double sum = 0.0;
-    for (int i = 0; i < bezier_pieces; ++i)
-      sum += length(static_cast<double>(i) / bezier_pieces, (i + 1.0) / bezier_pieces);
+    for (int i = 0; i < bezier_segments; ++i)
+      sum += length(static_cast<double>(i) / bezier_segments, (i + 1.0) / bezier_segments);
     return sum;
   }
 
@@ -80,17 +80,17 @@ double arm_for(const RigidTransform& begin, const RigidTransform& end, double ar
 
 /// The curve's parameters at evenly spaced arc lengths after the first.
 std::vector<double> even_parameters(const Bezier& curve) {
-  std::array<double, bezier_pieces + 1> until{};  // arc length up to each piece
-  for (int i = 0; i < bezier_pieces; ++i) {
+  std::array<double, bezier_segments + 1> until{};  // arc length up to each segment
+  for (int i = 0; i < bezier_segments; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    until[k + 1] = until[k] + curve.length(static_cast<double>(i) / bezier_pieces, (i + 1.0) / bezier_pieces);
+    until[k + 1] = until[k] + curve.length(static_cast<double>(i) / bezier_segments, (i + 1.0) / bezier_segments);
   }
   std::vector<double> parameters;
   for (int i = 1; i + 1 < fork_curve_stations; ++i) {
     const double s = until.back() * i / (fork_curve_stations - 1);
     const auto after = std::upper_bound(until.begin() + 1, until.end() - 1, s);
     const auto k = static_cast<double>(after - until.begin() - 1);
-    const double from = k / bezier_pieces, to = (k + 1.0) / bezier_pieces, s_from = *(after - 1);
+    const double from = k / bezier_segments, to = (k + 1.0) / bezier_segments, s_from = *(after - 1);
     double t = from + (to - from) * (s - s_from) / std::max(*after - s_from, 1e-300);
     for (int newton = 0; newton < 5; ++newton) {
       const double speed = curve.rate(t).norm();

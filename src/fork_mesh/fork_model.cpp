@@ -62,7 +62,7 @@ ForkModel::ForkModel(const ForkLook& look) : look_(look) {
   make_end();
   if (look.spring == ForkLook::Spring::coil) {
     make_wire(look.turns, look.turns * look.points_per_turn, coil_radius);
-    make_wire(0, seam_pieces, coil_radius);
+    make_wire(0, seam_segments, coil_radius);
   }
   if (look.spring == ForkLook::Spring::beam) make_wire(0, 2, 0.0);
 }
@@ -110,7 +110,7 @@ void ForkModel::make_end() {
 }
 
 /// Adds the surface that the profile's points (radius, z), from back to front, sweep about the line x = `centre`, to
-/// the shaft or the end. Edges are sharp: each piece of the profile has its own vertices and normals.
+/// the shaft or the end. Edges are sharp: each segment of the profile has its own vertices and normals.
 void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double centre, Vertices& part) {
   const int sides = look_.round_sides;
   for (std::size_t k = 0; k + 1 < profile.size(); ++k) {
@@ -132,14 +132,14 @@ void ForkModel::revolve(const std::vector<Eigen::Vector2d>& profile, double cent
   }
 }
 
-/// A wire in so many pieces around the axis, at that radius [diameters] from it: the coil; without turns a seam along
+/// A wire of so many segments around the axis, at this radius [diameters]: the coil or, without turns, a seam along
 /// the spring, which twist makes a spiral, or a beam.
-void ForkModel::make_wire(int turns, int pieces, double radius) {
-  const int sides = look_.wire_sides, rings = pieces + 1;
+void ForkModel::make_wire(int turns, int segments, double radius) {
+  const int sides = look_.wire_sides, rings = segments + 1;
   const int first = static_cast<int>(shaft_.size() + end_.size()) + sides * static_cast<int>(wire_.size());
   const double phi_rate = 2.0 * M_PI * turns;
   const auto ring = [&](int k, double cap) {
-    const double share = static_cast<double>(k) / pieces;
+    const double share = static_cast<double>(k) / segments;
     wire_.push_back({radius, phi_rate * share, phi_rate, share, cap});
   };
   ring(0, -1.0);

@@ -45,7 +45,7 @@ ContactProblem::Result ContactProblem::solve(double share, double enough) {
     const double met = contacts.iterate();
     if (met <= wanted) break;
     if (result.iterations % most_iterations != 0) continue;
-    go_on = met < converging * before;
+    go_on = met < worthwhile_reduction * before;
     before = met;
   }
   result.residual = contacts.residual();

@@ -29,18 +29,18 @@ class Acceleration {
   VectorXd next(const VectorXd& point, const VectorXd& step) {
     if (any_) {
       if (count_ == 0) {
-        points_.resize(point.size(), remembered);
-        steps_.resize(point.size(), remembered);
+        points_.resize(point.size(), anderson_depth);
+        steps_.resize(point.size(), anderson_depth);
       }
-      points_.col(count_ % remembered) = point - point_;
-      steps_.col(count_ % remembered) = step - step_;
+      points_.col(count_ % anderson_depth) = point - point_;
+      steps_.col(count_ % anderson_depth) = step - step_;
       ++count_;
     }
     any_ = true;
     point_ = point;
     step_ = step;
     if (count_ == 0) return point + step;
-    const auto known = std::min<Index>(count_, remembered);
+    const auto known = std::min<Index>(count_, anderson_depth);
     const auto S = steps_.leftCols(known);
     MatrixXd gram = S.transpose() * S;
     gram.diagonal().array() += 1e-12 * gram.trace();
@@ -57,7 +57,7 @@ class Acceleration {
 
 /// The load of a contact by Coulomb's law: presses only, and across at most friction times the normal load. `slope`:
 /// its derivative by x, which is not symmetric.
-Vector3d by_coulomb(const Vector3d& x, double friction, Matrix3d* slope) {
+Vector3d project_by_coulomb(const Vector3d& x, double friction, Matrix3d* slope) {
   if (slope != nullptr) slope->setZero();
   if (!(x[0] > 0.0)) return Vector3d::Zero();
   const double across = x.tail<2>().norm();
@@ -139,13 +139,13 @@ VectorXd JointSolution::direction(const Alternation& at, VectorXd& reduced) cons
   return step;
 }
 
-bool JointSolution::reweigh(Alternation& at, const VectorXd& last_motion, const VectorXd& lacking) {
+bool JointSolution::adapt_penalty(Alternation& at, const VectorXd& last_motion, const VectorXd& lacking) {
   VectorXd moved = VectorXd::Zero(contacts_->size());
   each([&](const auto& c, Index i) {
     contacts_->apply(c, at.penalty * Vector3d(at.z.template segment<3>(i) - last_motion.segment<3>(i)), moved);
   });
   const double ratio = std::sqrt(lacking.norm() / std::max(moved.norm(), std::numeric_limits<double>::min()));
-  if (ratio < out_of_balance && ratio > 1.0 / out_of_balance) return false;
+  if (ratio < penalty_imbalance && ratio > 1.0 / penalty_imbalance) return false;
   const double factor = std::clamp(ratio, 0.01, 100.0);
   each([&](const auto& c, Index i) {
     const Vector3d w = at.w.segment<3>(i), load = into_cone(-w, c.friction);
@@ -155,7 +155,9 @@ bool JointSolution::reweigh(Alternation& at, const VectorXd& last_motion, const 
   return true;
 }
 
-double JointSolution::most_wanted(int alternation) const { return alternation < most_alternations ? wanted_ : enough_; }
+double JointSolution::target_residual(int alternation) const {
+  return alternation < most_alternations ? wanted_ : enough_;
+}
 
 void JointSolution::alternate() {
   Alternation at;
@@ -170,7 +172,7 @@ void JointSolution::alternate() {
   Acceleration acceleration;
   VectorXd plain, last_motion = at.z, reduced;
   double last = infinity;
-  for (int k = 0; k < most_alternations_in_need && result_->residual > most_wanted(k); ++k) {
+  for (int k = 0; k < most_alternations_unsolved && result_->residual > target_residual(k); ++k) {
     ++result_->iterations;
     each([&](const auto& c, Index i) {
       at.z.segment<3>(i) = at.w.segment<3>(i) + into_cone(-at.w.segment<3>(i), c.friction);
@@ -178,7 +180,7 @@ void JointSolution::alternate() {
     const VectorXd step = direction(at, reduced);
     const double size = step.norm();
     if (!(size < infinity)) return;
-    if (size > astray * last) {
+    if (size > divergence_ratio * last) {
       at.w = plain;
       acceleration.forget();
       last = infinity;
@@ -186,7 +188,7 @@ void JointSolution::alternate() {
     }
     last = size;
     plain = at.w + step;
-    if (k % look_every == look_every - 1) {
+    if (k % check_every == check_every - 1) {
       VectorXd loads = VectorXd::Zero(plain.size());
       each([&](const auto& c, Index i) {
         loads.segment<3>(i) = at.penalty * into_cone(-plain.segment<3>(i), c.friction);
@@ -194,8 +196,8 @@ void JointSolution::alternate() {
       offer(loads);
     }
     at.w.swap(plain);
-    const bool weigh = k % weigh_every == weigh_every - 1;
-    if (weigh && reweigh(at, last_motion, step)) {
+    const bool adapts = k % penalty_every == penalty_every - 1;
+    if (adapts && adapt_penalty(at, last_motion, step)) {
       if (!factorize(at.penalty)) return;
       acceleration.forget();
       last = infinity;
@@ -209,22 +211,22 @@ void JointSolution::alternate() {
 
 // --- Newton's method on v = Jᵀ λ(v), where λ is by Coulomb's law of loads_ − penalty · u(v) [AC91].
 
-VectorXd JointSolution::missing(const VectorXd& reduced, VectorXd& loads, std::vector<Matrix3d>* slopes) const {
+VectorXd JointSolution::newton_residual(const VectorXd& reduced, VectorXd& loads, std::vector<Matrix3d>* slopes) const {
   VectorXd missing = reduced;
   each([&](const auto& c, Index i) {
     const Vector3d x = loads_.segment<3>(i) - penalty_ * contacts_->motion(c, reduced);
     Matrix3d* slope = slopes == nullptr ? nullptr : &(*slopes)[static_cast<std::size_t>(i / 3)];
-    loads.segment<3>(i) = by_coulomb(x, c.friction, slope);
+    loads.segment<3>(i) = project_by_coulomb(x, c.friction, slope);
     contacts_->apply(c, -loads.segment<3>(i), missing);
     if (slope != nullptr) *slope *= penalty_;
   });
   return missing;
 }
 
-bool JointSolution::follow_newton(VectorXd& reduced, VectorXd& loads) {
+bool JointSolution::iterate_newton(VectorXd& reduced, VectorXd& loads) {
   std::vector<Matrix3d> slopes(contacts_->contacts().size(), Matrix3d::Zero());
   for (int k = 0; k < most_newton_iterations; ++k) {
-    const VectorXd rest = missing(reduced, loads, &slopes);
+    const VectorXd rest = newton_residual(reduced, loads, &slopes);
     const double size = rest.norm();
     if (!(size < infinity)) return false;
     if (size <= 1e-13 * reduced.norm()) return true;
@@ -232,37 +234,37 @@ bool JointSolution::follow_newton(VectorXd& reduced, VectorXd& loads) {
     if (!factor_.factorize_nonsymmetric(*contacts_, slopes)) return false;
     const VectorXd step = factor_.solve_nonsymmetric(rest);
     VectorXd nearest = reduced - step;
-    double least = missing(nearest, loads, nullptr).norm(), share = 1.0;
+    double least = newton_residual(nearest, loads, nullptr).norm(), share = 1.0;
     for (int half = 0; half < most_halvings && !(least <= (1.0 - 0.1 * share) * size); ++half) {
       share *= 0.5;
       const VectorXd tried = reduced - share * step;
-      const double size_tried = missing(tried, loads, nullptr).norm();
+      const double size_tried = newton_residual(tried, loads, nullptr).norm();
       if (!(size_tried < least)) continue;
       least = size_tried;
       nearest = tried;
     }
     reduced = nearest;
   }
-  missing(reduced, loads, nullptr);
+  newton_residual(reduced, loads, nullptr);
   return true;
 }
 
 void JointSolution::linearise() {
   loads_ = best_;
   penalty_ = first_penalty;
-  int vain = 0;
-  for (int k = 0; k < most_rounds && vain < most_vain_rounds && result_->residual > enough_; ++k) {
+  int stalled = 0;
+  for (int k = 0; k < most_rounds && stalled < most_stalled_rounds && result_->residual > enough_; ++k) {
     const double before = result_->residual;
     contacts_->set_loads(loads_);
     VectorXd reduced = contacts_->reduced(), loads = VectorXd::Zero(loads_.size());
-    if (!follow_newton(reduced, loads)) return;
+    if (!iterate_newton(reduced, loads)) return;
     if (offer(loads) <= 2.0 * result_->residual) {
       loads_ = loads;
       penalty_ = std::min(penalty_growth * penalty_, largest_penalty);
     } else {
       penalty_ /= penalty_growth;
     }
-    vain = result_->residual > no_progress * before ? vain + 1 : 0;
+    stalled = result_->residual > stalled_ratio * before ? stalled + 1 : 0;
   }
 }
 

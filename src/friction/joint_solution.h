@@ -17,17 +17,17 @@ class JointSolution {
   struct Alternation;
   /// Takes the loads if they are better than the best so far; returns their residual.
   double offer(const Eigen::VectorXd& loads);
-  double most_wanted(int alternation) const;
+  double target_residual(int alternation) const;
   bool factorize(double penalty);
   void alternate();
   Eigen::VectorXd direction(const Alternation& at, Eigen::VectorXd& reduced) const;
-  bool reweigh(Alternation& at, const Eigen::VectorXd& last_motion, const Eigen::VectorXd& reduced);
+  bool adapt_penalty(Alternation& at, const Eigen::VectorXd& last_motion, const Eigen::VectorXd& reduced);
 
   /// Coulomb's law by Newton's method; the loads are what the penalty makes of what is missing, added to `loads_`.
   void linearise();
-  Eigen::VectorXd missing(const Eigen::VectorXd& reduced, Eigen::VectorXd& loads,
-                          std::vector<Eigen::Matrix3d>* slopes) const;
-  bool follow_newton(Eigen::VectorXd& reduced, Eigen::VectorXd& loads);
+  Eigen::VectorXd newton_residual(const Eigen::VectorXd& reduced, Eigen::VectorXd& loads,
+                                  std::vector<Eigen::Matrix3d>* slopes) const;
+  bool iterate_newton(Eigen::VectorXd& reduced, Eigen::VectorXd& loads);
 
   template <typename Function>
   void each(const Function& function) const;

@@ -8,7 +8,7 @@
 namespace spring_workbench::geometry {
 namespace {
 
-/// Up to which f ≤ longest a + b f − ½ c f² is not negative; c ≥ 0.
+/// Returns the largest f ≤ `longest` up to which a + b f − ½ c f² is not negative; c ≥ 0.
 double positive_until(double a, double b, double c, double longest) {
   if (a + longest * (b - 0.5 * c * longest) >= 0.0 && a >= 0.0) return longest;
   if (a <= 0.0) return 0.0;

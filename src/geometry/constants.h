@@ -6,12 +6,12 @@
 
 namespace spring_workbench::geometry {
 
-/// [m] by which two edges have to be further apart than two faces to be the contact: those of flush faces are as far.
-/// Larger: crossed edges are taken for faces. Test: none: no value tried makes one fail.
+/// [m] by which the gap between two edges must exceed that between two faces for the edges to be the contact: for flush
+/// faces both are equal. Larger: crossed edges are taken for faces. Test: none: no value tried makes one fail.
 constexpr double edges_by = 1e-5;
-/// Of the faces' gap, likewise. Test: none: no value tried makes one fail.
+/// The same as a fraction of the gap between the faces. Test: none: no value tried makes one fail.
 constexpr double edges_by_share = 0.05;
-/// [m] by which a contact is deeper than the four that are kept, to take the place of one. Test: none: none that was
+/// [m] by which a contact must be deeper than one of the four that are kept to replace it. Test: none: none that was
 /// tried fails.
 constexpr double stands_out = 1e-6;
 /// cosine of the angle between two triangles below which their edge is drawn smooth. Greater: round meshes have facets.

@@ -4,43 +4,44 @@ namespace spring_workbench::hand_input {
 
 // Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
-/// [s] from rest to the full speed of catching up. Longer: gentler. Test:
+/// [s] in which the re-acquisition speeds up from rest to its full speed. Longer: gentler. Test:
 /// Reacquisition.ComesInOverItsRampAndArrivesWithItsTimeConstant.
 constexpr double ramp_time = 0.2;
-/// [s] time constant of the arrival, and of a hand that leaves its dead band. Longer: gentler. Test:
-/// Reacquisition.ComesInOverItsRampAndArrivesWithItsTimeConstant.
+/// [s] time constant with which the re-acquisition arrives, and with which a hand leaves its dead band. Longer:
+/// gentler. Test: Reacquisition.ComesInOverItsRampAndArrivesWithItsTimeConstant.
 constexpr double tail_time = 0.1;
-/// [s] for which a hand stays within the dead band until it rests. Shorter: a slow hand stops and goes. Test:
-/// DeadBand.WhatATremblingHandHoldsSleepsWhileTheHandRests at 2.
+/// [s] that a hand must stay within the dead band before it counts as at rest. Shorter: a slow hand stops and goes.
+/// Test: DeadBand.WhatATremblingHandHoldsSleepsWhileTheHandRests at 2.
 constexpr double still_time = 0.3;
-/// [m] where the rest of the way is made in one step. More: the arrival jumps. Test:
+/// [m] from the goal, at which the re-acquisition ends in one step. More: the arrival jumps. Test:
 /// Reacquisition.ComesInOverItsRampAndArrivesWithItsTimeConstant.
 constexpr double near = 1e-5;
-/// [rad] the same of turning. Test: Reacquisition.ComesInOverItsRampAndArrivesWithItsTimeConstant.
+/// [rad] likewise, for the rotation. Test: Reacquisition.ComesInOverItsRampAndArrivesWithItsTimeConstant.
 constexpr double near_angle = 1e-4;
-/// [s] half of what ROS time resolves, as PoseTrack has it: stamps this close are the same. More: samples are lost.
+/// [s] half of the resolution of ROS time, as in PoseTrack: stamps this close count as equal. More: samples are lost.
 /// Test: SampleGate.WhatAHandCanAlwaysHaveDone.
 constexpr double same_time = 0.5e-9;
-/// [Hz] of the low-pass of the velocities. Lower: the filter opens later. Test: PoseFilter.OpensWithTheLowPassedSpeed.
+/// [Hz] cut-off of the low-pass of the velocities. Lower: the filter opens later. Test:
+/// PoseFilter.OpensWithTheLowPassedSpeed.
 constexpr double velocity_cutoff = 8.0;
-/// [m] a step below is never an outlier: noise of a tracker. Less: noise of close stamps is left out. Test:
-/// SampleGate.WhatAHandCanAlwaysHaveDone.
+/// [m] a step shorter than this is never an outlier: it may be noise of the tracker. Less: noise between close stamps
+/// is rejected. Test: SampleGate.WhatAHandCanAlwaysHaveDone.
 constexpr double free_distance = 5e-3;
-/// [rad] the same of turning. Test: SampleGate.WhatAHandCanAlwaysHaveDone.
+/// [rad] likewise, for the rotation. Test: SampleGate.WhatAHandCanAlwaysHaveDone.
 constexpr double free_angle = 0.05;
-/// [s] after the last sample, in which a burst says no velocity. Less: velocities of bursts. Test:
-/// SampleGate.WhatAHandCanAlwaysHaveDone.
+/// [s] shortest interval between stamps from which a velocity is computed: a burst has none. Less: velocities of
+/// bursts. Test: SampleGate.WhatAHandCanAlwaysHaveDone.
 constexpr double closest = 5e-5;
-/// of the usual interval, likewise. Test: SampleGate.WhatAHandCanAlwaysHaveDone.
+/// The same as a fraction of the usual interval. Test: SampleGate.WhatAHandCanAlwaysHaveDone.
 constexpr double closest_share = 0.25;
-/// times origin_radius; a hand that was nearer may have come to the origin by itself. Test:
+/// Multiple of origin_radius: a hand that was nearer than this may have moved to the origin by itself. Test:
 /// SampleGate.WhatAHandCanAlwaysHaveDone.
 constexpr double away_from_origin = 10.0;
-/// of an interval in the usual one: smooths over some ten samples. More: it follows jitter. Test:
+/// Weight of a new interval in the smoothed one: an average over some ten samples. More: it follows jitter. Test:
 /// PlayoutClock.SmoothsTheIntervalAndWaitsForSilence.
 constexpr double share_of_new = 0.1;
-/// [s] of attended time without a message. Shorter: a bag played quickly counts as stopped. Test:
-/// PlayoutClock.SmoothsTheIntervalAndWaitsForSilence.
+/// [s] of attended time without a message after which a hand counts as silent. Shorter: so does a bag that is played
+/// quickly. Test: PlayoutClock.SmoothsTheIntervalAndWaitsForSilence.
 constexpr double shortest_silence = 0.2;
 
 }  // namespace spring_workbench::hand_input

@@ -109,7 +109,7 @@ void Feed::follow(const motion::PoseSample& sample, GateResult result, const Rig
     note(Accepted::Kind::pose, hand, followed.t, followed.X);
   }
   has_sample_ |= input.has_sample;
-  input.playout.sample(sample.t, arrival);  // a late one, too: what is under way is waited for
+  input.playout.sample(sample.t, arrival);  // a late one, too: what may still arrive is waited for
 }
 
 void Feed::heard(const LocalTime& arrival, std::size_t hand) { hands_.at(hand).playout.heard(arrival); }

@@ -13,9 +13,9 @@ namespace {
 /// From 0 to 1 while u goes there, with level ends.
 double smooth_step(double u) { return u >= 1.0 ? 1.0 : u * u * (3.0 - 2.0 * u); }
 
-/// How much of a way that long is made in dt.
-double share(double way, double speed, double dt) {
-  return way > 0.0 ? std::min(1.0, dt * std::min(speed / way, 1.0 / tail_time)) : 0.0;
+/// Fraction of a path of this length that is covered in `dt`.
+double share(double path, double speed, double dt) {
+  return path > 0.0 ? std::min(1.0, dt * std::min(speed / path, 1.0 / tail_time)) : 0.0;
 }
 
 }  // namespace
@@ -53,13 +53,13 @@ RigidTransform Reacquisition::catch_up(const motion::PoseSample& sample) {
   RigidTransform X = newest_->X;  // first with the tracked hand ...
   X.translation() += ramp * (sample.X.translation() - tracked_.X.translation());
   X.linear() = X.linear() * math::exp_so3(ramp * math::log_so3(tracked_.X.linear().transpose() * sample.X.linear()));
-  const Vector3d way = sample.X.translation() - X.translation();  // ... then towards it
+  const Vector3d path = sample.X.translation() - X.translation();  // ... then towards it
   const Vector3d turn = math::log_so3(X.linear().transpose() * sample.X.linear());
-  if (way.norm() < near && turn.norm() < near_angle) {
+  if (path.norm() < near && turn.norm() < near_angle) {
     catching_up_ = false;
     return sample.X;
   }
-  X.translation() += ramp * share(way.norm(), settings_.reacquisition_speed, dt) * way;
+  X.translation() += ramp * share(path.norm(), settings_.reacquisition_speed, dt) * path;
   const Matrix3d R =
       X.linear() * math::exp_so3(ramp * share(turn.norm(), settings_.reacquisition_turn_rate, dt) * turn);
   X.linear() = Quaterniond(R).normalized().toRotationMatrix();  // rounding does not add up

@@ -6,46 +6,49 @@
 
 namespace spring_workbench::instruments {
 
-/// Of the heaviest object's weight to the lightest's, from which on colours go by the logarithm of the load. Test:
-/// LoadScale.EveryWeightOfTheMiniWorldHasItsPlace.
+/// Ratio of the heaviest object's weight to the lightest's above which the colours follow the logarithm of the load.
+/// Test: LoadScale.EveryWeightOfTheMiniWorldHasItsPlace.
 constexpr double one_decade = 10.0;
-/// Of the lightest object's weight: where logarithmic colours begin. More: the lightest one looks like no load. Test:
-/// LoadScale.EveryWeightOfTheMiniWorldHasItsPlace.
+/// Fraction of the lightest object's weight at which logarithmic colours begin. More: the lightest object looks like no
+/// load. Test: LoadScale.EveryWeightOfTheMiniWorldHasItsPlace.
 constexpr double below_lightest = 0.5;
-/// [s] of one part of an average. Shorter: what swings slower than that makes the uncertainty too small. Test:
-/// ReadingAverage.CoversTheTruthAsOftenAsItSays at 0.01.
+/// [s] length of the intervals whose means are averaged. Shorter: oscillations slower than this make the uncertainty
+/// too small. Test: ReadingAverage.CoversTheTruthAsOftenAsItSays at 0.01.
 constexpr double reading_part = 0.1;
-/// Parts of an average. More: it is slower. Test: ReadingAverage.IsOfTheLastSecond at 20.
+/// Number of these intervals in an average. More: the reading reacts more slowly. Test:
+/// ReadingAverage.IsOfTheLastSecond at 20.
 constexpr std::size_t reading_parts = 10;
-/// [N·s] of a strike that is felt with full intensity, in real units. Less: weak ones feel like strong ones. Test:
-/// Vibration.AStrikeIsFeltInProportionInRealUnitsAndDiesAway.
+/// [N·s] impulse, in real units, of an impact that vibrates with full intensity. Less: weak impacts feel like strong
+/// ones. Test: Vibration.AStrikeIsFeltInProportionInRealUnitsAndDiesAway.
 constexpr double full_strike = 0.5;
-/// [N/s]; a force that changes so fast is felt with full intensity. Less: a hand that only moves feels it. Test:
+/// [N/s] rate of the force that vibrates with full intensity. Less: it vibrates when a hand only moves. Test:
 /// Vibration.AJoltIsTheRateOfTheForce.
 constexpr double full_jolt = 2000.0;
-/// [s] in which what is felt goes down to 1/e. Longer: strikes blur into one. Test:
+/// [s] in which a vibration decays to 1/e. Longer: impacts blur into one. Test:
 /// Vibration.AStrikeIsFeltInProportionInRealUnitsAndDiesAway.
 constexpr double vibration_time = 0.05;
-/// Intensity below which nothing is felt, so that it ends. More: weak strikes are not felt. Test:
+/// Intensity below which a vibration ends. More: weak impacts are not felt. Test:
 /// Vibration.AStrikeIsFeltInProportionInRealUnitsAndDiesAway at 0.
 constexpr double least_vibration = 0.02;
 
-/// Samples of a touch that the material is identified from: ten seconds of a tracker at 50 Hz. Fewer: wider intervals.
+/// Samples of a touch from which the material is identified: ten seconds of a tracker at 50 Hz. Fewer: wider intervals.
 /// Test: MaterialEstimate.ForgetsTheOldestSamples.
 constexpr std::size_t touch_samples = 500;
-/// Samples beyond the unknowns, at least. Fewer: no noise is seen. Test: MaterialEstimate.SaysNothingBeforeItCan.
+/// Smallest number of samples beyond the number of unknowns. Fewer: the noise cannot be estimated. Test:
+/// MaterialEstimate.SaysNothingBeforeItCan.
 constexpr int fewest_to_spare = 2;
-/// Of the intervals. Test: MaterialEstimate.CoversTheTruthAsOftenAsItSays.
+/// Confidence level of the intervals. Test: MaterialEstimate.CoversTheTruthAsOftenAsItSays.
 constexpr double confidence = 0.95;
-/// Gauss–Newton iterations of a time constant; two or three are usual. Fewer: no reading of a strongly damped
-/// touch. Test: MaterialEstimate.FindsTheDampingThatIsThere at 1.
+/// Largest number of Gauss–Newton iterations for the time constant; two or three are usual. Fewer: no reading of a
+/// strongly damped touch. Test: MaterialEstimate.FindsTheDampingThatIsThere at 1.
 constexpr int most_refits = 30;
-/// Of the compliance of a touch: a material that yields less is rigid. Test:
+/// Fraction of the compliance of a touch below which the material counts as rigid. Test:
 /// Probe.WhatIsRigidReadsAsInfinite at 0.
-constexpr double no_give = 1e-9;
-/// Of its standard deviation: a change of the time constant that is none. Test: none: means nothing.
-constexpr double settled = 1e-3;
-/// [s] likewise, where there is no noise. More: a fit stops too early. Test:
+constexpr double rigid_compliance = 1e-9;
+/// Fraction of its standard deviation: a smaller change of the time constant ends the iteration. Test: none: means
+/// nothing.
+constexpr double converged_change = 1e-3;
+/// [s] likewise, for data without noise. More: the fit ends too early. Test:
 /// MaterialEstimate.FindsTheDampingThatIsThere at 1.
 constexpr double no_lag = 1e-9;
 

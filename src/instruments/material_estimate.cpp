@@ -95,7 +95,7 @@ std::optional<MaterialEstimate::Fit> MaterialEstimate::fit() const {
     const std::optional<Fit> fit = fit_near(lag);
     if (!fit || !(fit->compliance > 0.0)) return std::nullopt;
     const double next = std::max(fit->lag, 0.0);
-    if (std::abs(next - lag) <= settled * fit->lag_deviation + no_lag) return fit;
+    if (std::abs(next - lag) <= converged_change * fit->lag_deviation + no_lag) return fit;
     lag = next;
   }
   return std::nullopt;
@@ -108,7 +108,7 @@ std::optional<MaterialReading> MaterialEstimate::reading() const {
   const double interval = fit->quantile * fit->compliance_deviation;
   reading.touch = inverse(fit->compliance, interval);
   const double of_material = fit->compliance - 1.0 / probe_stiffness_;
-  const bool gives = of_material > no_give * fit->compliance;
+  const bool gives = of_material > rigid_compliance * fit->compliance;
   reading.material = inverse(gives ? of_material : 0.0, interval);
   reading.material_deviation = gives ? fit->compliance_deviation / (of_material * of_material) : 0.0;
   const double stiffness = reading.touch.value, around = fit->quantile * stiffness * fit->lag_deviation;

@@ -63,7 +63,7 @@ Scaling scaling(const Vector3d& x, const Vector3d& y) {
   return s;
 }
 
-/// The same problem with every cone's slope, every contact's answer, and the largest rate 1.
+/// The same problem with every cone's slope, every response of a contact and the largest rate 1.
 class ScaledProblem {
  public:
   ScaledProblem(const MatrixXd& A, const VectorXd& b, const std::vector<double>& friction)
@@ -99,9 +99,9 @@ class ScaledProblem {
         best = error;
         solution_ = x_;
       }
-      if (error < solved || !iterate(gap, missing)) break;
+      if (error < residual_tolerance || !iterate(gap, missing)) break;
     }
-    return best < acceptable;
+    return best < acceptable_residual;
   }
 
   VectorXd impulses() const { return largest_ * solution_.cwiseQuotient(by_); }
@@ -147,7 +147,8 @@ class ScaledProblem {
     direction([](const Scaling& s, Index) -> Vector3d { return -product(s.at, s.at); });
     const double rest = 1.0 - std::min(1.0, longest(dx, dy));
     // Not nearer to the cones' edges than the slip is to the one that was assumed: else it comes to rest too slowly.
-    const double centre = std::max(gap * rest * rest * rest, std::min(gap, slip_share * missing.cwiseAbs().maxCoeff()));
+    const double centre =
+        std::max(gap * rest * rest * rest, std::min(gap, least_centring * missing.cwiseAbs().maxCoeff()));
     const VectorXd towards_x = dx, towards_y = dy;
     direction([&](const Scaling& s, Index i) -> Vector3d {
       return centre * Vector3d::UnitX() - product(s.at, s.at) -

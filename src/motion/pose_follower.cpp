@@ -8,20 +8,20 @@
 namespace spring_workbench::motion {
 namespace {
 
-/// Which part of a way of this length is gone in `dt`.
-double share(double way, double dt, double max_rate) {
+/// Fraction of a path of this length that is covered in `dt`.
+double share(double path, double dt, double max_rate) {
   const double free = -std::expm1(-dt / PoseFollower::time_constant);
-  return way * free > max_rate * dt ? max_rate * dt / way : free;
+  return path * free > max_rate * dt ? max_rate * dt / path : free;
 }
 
 }  // namespace
 
 const RigidTransform& PoseFollower::advance(double dt) {
-  const Vector3d way = goal_.translation() - X_.translation();
+  const Vector3d path = goal_.translation() - X_.translation();
   const Vector3d turn = math::turn_between(X_, goal_);
-  if (way.norm() < arrived && turn.norm() < arrived) return X_ = goal_;
+  if (path.norm() < arrived && turn.norm() < arrived) return X_ = goal_;
   const Quaterniond q(X_.linear() * math::exp_so3(share(turn.norm(), dt, max_turn_rate) * turn));
-  X_ = make_transform(q, X_.translation() + share(way.norm(), dt, max_speed) * way);
+  X_ = make_transform(q, X_.translation() + share(path.norm(), dt, max_speed) * path);
   return X_;
 }
 

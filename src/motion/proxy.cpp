@@ -66,11 +66,11 @@ MotionSegment Proxy::motion(const MotionSegment& hand, double t, double h, const
 
 MotionSegment Proxy::motion(const MotionSegment& hand, double t) const {
   if (!behind_) return hand;
-  const Vector3d turn = glance * rate_.angular;
+  const Vector3d turn = difference_time * rate_.angular;
   RigidTransform by = RigidTransform::Identity();
   by.linear() = math::exp_so3(turn);
-  by.translation() = glance * (rate_.linear + 0.5 * turn.cross(rate_.linear));
-  return motion(hand, t, glance, by * offset_, rate_);
+  by.translation() = difference_time * (rate_.linear + 0.5 * turn.cross(rate_.linear));
+  return motion(hand, t, difference_time, by * offset_, rate_);
 }
 
 bool Proxy::operator==(const Proxy& other) const {

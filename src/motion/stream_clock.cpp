@@ -76,8 +76,8 @@ void StreamClock::step_to(std::int64_t offset) {
   ++steps_;
 }
 
-/// Whether this one, and those before it that did not fit either, come as evenly as they are stamped: what waited
-/// somewhere and comes at once does not.
+/// Returns whether this message, and those before it that did not fit either, arrive as evenly as they are stamped.
+/// Messages that waited in a queue and arrive at once do not.
 bool StreamClock::arrives_evenly(const Stamped& message) {
   if (!misfits_.empty() && message.stamp <= misfits_.back().stamp) misfits_.clear();
   misfits_.push_back(message);

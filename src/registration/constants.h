@@ -8,7 +8,7 @@ namespace spring_workbench::registration {
 
 /// [m] RMS distance of the landmarks from a line. Less: the turn about that line is a guess. Test:
 /// Registration.WhatCannotTellThePoseIsRefused.
-constexpr double thinnest = 0.01;
+constexpr double least_extent = 0.01;
 /// landmarks of which every order is tried. More: minutes; fewer: a wrong order passes. Test:
 /// Registration.EveryWrongOrderIsRefused.
 constexpr int most_permuted = 7;

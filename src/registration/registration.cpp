@@ -55,9 +55,9 @@ void check_shape(const std::vector<Landmark>& landmarks, const Points& to) {
   }
   const Points centred = to.colwise() - Vector3d(to.rowwise().mean());
   const Vector3d spread = Eigen::JacobiSVD<Eigen::MatrixXd>(centred).singularValues().head<3>();
-  if (const double off_line = spread[1] / std::sqrt(static_cast<double>(to.cols())); off_line < thinnest) {
+  if (const double off_line = spread[1] / std::sqrt(static_cast<double>(to.cols())); off_line < least_extent) {
     validation::refuse(kWhere, "landmarks", millimetres(off_line),
-                       "at least " + millimetres(thinnest) + " off a common line");
+                       "at least " + millimetres(least_extent) + " off a common line");
   }
 }
 

@@ -92,7 +92,7 @@ std::vector<geometry::BoxContact> contacts_above(const btCollisionObjectWrapper&
   return contacts_of_points(body, n_W, height, reach);
 }
 
-/// From how far [m] two are seen by each other: what comes near in a step.
+/// Contact margin of two bodies [m]: at least their approach in a step.
 double reach_of(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double h) {
   double speed = 0.0;
   for (const btCollisionObjectWrapper* w : {&a, &b}) {
@@ -103,7 +103,7 @@ double reach_of(const btCollisionObjectWrapper& a, const btCollisionObjectWrappe
     body->getCollisionShape()->getBoundingSphere(centre, radius);
     speed += body->getLinearVelocity().length() + body->getAngularVelocity().length() * (centre.length() + radius);
   }
-  return std::max(seen_from, h * speed);
+  return std::max(contact_margin, h * speed);
 }
 
 /// Contacts of boxes with each other, and of a box, a cylinder or a mesh with a plane, in either order, found anew in
@@ -177,14 +177,14 @@ class BoxContacts final : public btActivatingCollisionAlgorithm {
 
 }  // namespace
 
-void SeenBox::getAabb(const btTransform& X_WS, btVector3& least, btVector3& most) const {
+void MarginBox::getAabb(const btTransform& X_WS, btVector3& least, btVector3& most) const {
   btBoxShape::getAabb(X_WS, least, most);
-  const btVector3 more(0.5 * seen_from, 0.5 * seen_from, 0.5 * seen_from);
+  const btVector3 more(0.5 * contact_margin, 0.5 * contact_margin, 0.5 * contact_margin);
   least -= more;
   most += more;
 }
 
-btCollisionAlgorithmCreateFunc* BoxesSeenEarly::getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) {
+btCollisionAlgorithmCreateFunc* BoxContactConfiguration::getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) {
   const auto with_plane = [](int a, int b) {
     return b == STATIC_PLANE_PROXYTYPE && (a == BOX_SHAPE_PROXYTYPE || a == CYLINDER_SHAPE_PROXYTYPE ||
                                            a == CONVEX_HULL_SHAPE_PROXYTYPE || a == GIMPACT_SHAPE_PROXYTYPE);
@@ -198,9 +198,8 @@ btCollisionAlgorithmCreateFunc* BoxesSeenEarly::getCollisionAlgorithmCreateFunc(
   return btDefaultCollisionConfiguration::getCollisionAlgorithmCreateFunc(as_fixed(proxy_a), as_fixed(proxy_b));
 }
 
-btCollisionAlgorithm* BoxesSeenEarly::Create::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
-                                                                       const btCollisionObjectWrapper* a,
-                                                                       const btCollisionObjectWrapper* b) {
+btCollisionAlgorithm* BoxContactConfiguration::Create::CreateCollisionAlgorithm(
+    btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b) {
   return new (info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(BoxContacts))) BoxContacts(info, a, b);
 }
 

@@ -4,11 +4,9 @@
 
 namespace spring_workbench::rigid_bodies {
 
-/// Boxes are seen by each other and by planes from so far [m], so that what comes near fast is stopped where it
-/// touches. Bullet's own boxes see each other where they overlap.
-
-/// A box that Bullet looks at before it overlaps anything.
-class SeenBox final : public btBoxShape {
+/// A box with a larger bounding box, by contact_margin, so that Bullet asks for its contacts before it overlaps
+/// anything.
+class MarginBox final : public btBoxShape {
  public:
   using btBoxShape::btBoxShape;
   void getAabb(const btTransform& X_WS, btVector3& least, btVector3& most) const override;
@@ -16,7 +14,7 @@ class SeenBox final : public btBoxShape {
 
 /// Bullet's configuration, but for contacts of boxes with boxes and planes, which are those of `box_contacts`, and
 /// those of cylinders and meshes with planes, which are exact, too. A mesh's shape has the mesh for its user pointer.
-class BoxesSeenEarly final : public btDefaultCollisionConfiguration {
+class BoxContactConfiguration final : public btDefaultCollisionConfiguration {
  public:
   btCollisionAlgorithmCreateFunc* getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) override;
 

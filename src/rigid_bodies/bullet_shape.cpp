@@ -44,7 +44,7 @@ void BulletShape::add(const geometry::Shape& shape, bool movable, const btTransf
       [&](const auto& g) {
         using G = std::decay_t<decltype(g)>;
         if constexpr (std::is_same_v<G, geometry::Box>) {
-          keep(std::make_unique<SeenBox>(to_bullet(Vector3d(0.5 * g.size + Vector3d::Constant(contact_skin)))));
+          keep(std::make_unique<MarginBox>(to_bullet(Vector3d(0.5 * g.size + Vector3d::Constant(contact_skin)))));
         } else if constexpr (std::is_same_v<G, geometry::Sphere>) {
           keep(std::make_unique<btSphereShape>(g.radius + contact_skin));
         } else if constexpr (std::is_same_v<G, geometry::Cylinder>) {

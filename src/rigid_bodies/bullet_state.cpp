@@ -33,7 +33,7 @@ int index_of(const btBroadphaseProxy& proxy) {
   return static_cast<const btCollisionObject*>(proxy.m_clientObject)->getUserIndex();
 }
 
-/// What tells a manifold from the others of its two bodies: the parts of their shapes that it is between.
+/// Identifies a manifold among those of its two bodies: the parts of their shapes between which it is.
 std::array<int, 4> key_of(const btPersistentManifold& manifold) {
   std::array<int, 4> key{manifold.getBody0()->getUserIndex(), manifold.getBody1()->getUserIndex(),
                          manifold.m_companionIdA, manifold.m_companionIdB};
@@ -47,9 +47,9 @@ std::array<int, 4> key_of(const btPersistentManifold& manifold) {
 /// Two bodies whose boxes overlap, by user index.
 struct Pair {
   int a = 0, b = 0;
-  bool looked_at = false;
+  bool has_algorithm = false;
   int parts = 0;
-  void exchange(math::StateArchive& state) { state(a, b, looked_at, parts); }
+  void exchange(math::StateArchive& state) { state(a, b, has_algorithm, parts); }
 };
 
 /// How many pairs of parts of the two bodies' shapes are near each other, or may have contacts.
@@ -59,7 +59,7 @@ int parts_of(const btBroadphasePair& pair) {
   return manifolds.size();
 }
 
-/// Of the box around it, in world.
+/// Centre of the box around it, in world.
 btVector3 centre_of(const btCollisionObject& object) {
   btVector3 least, most;
   object.getCollisionShape()->getAabb(object.getWorldTransform(), least, most);
@@ -112,7 +112,7 @@ void BulletWorld::exchange_body(math::StateArchive& state, int index) {
   int activation = body.getActivationState();
   double slow_for = body.getDeactivationTime();
   state(body.getWorldTransform(), body.getInterpolationWorldTransform(), v, w, v_next, w_next, activation, slow_for);
-  if (index >= 0) state(items_[static_cast<std::size_t>(index)].X_seen);
+  if (index >= 0) state(items_[static_cast<std::size_t>(index)].X_at_query);
   if (!state.sets()) return;
   body.clearForces();
   body.setLinearVelocity(v);
@@ -142,31 +142,31 @@ void BulletWorld::exchange_pairs(math::StateArchive& state, const std::vector<in
   }
   state(pairs);
   if (!state.sets()) return;
-  // The contacts between shapes' parts are made anew where the bodies were when they were looked at last.
+  // The contacts between parts of shapes are found again, at the poses of the last query.
   std::vector<btTransform> X_now;
   for (const int index : objects) {
     X_now.push_back(object(index).getWorldTransform());
-    if (index >= 0) object(index).setWorldTransform(items_[static_cast<std::size_t>(index)].X_seen);
+    if (index >= 0) object(index).setWorldTransform(items_[static_cast<std::size_t>(index)].X_at_query);
   }
   for (const Pair& pair : pairs) {
     btBroadphasePair* added = cache.addOverlappingPair(&proxy_of(object(pair.a)), &proxy_of(object(pair.b)));
     if (added == nullptr) throw std::out_of_range("contact pair of bodies that cannot collide");
-    if (pair.looked_at) look_at(*added, pair.parts);
+    if (pair.has_algorithm) find_contacts_of(*added, pair.parts);
   }
   for (std::size_t i = 0; i < objects.size(); ++i) object(objects[i]).setWorldTransform(X_now[i]);
 }
 
-void BulletWorld::look_at(btBroadphasePair& pair, int parts) {
+void BulletWorld::find_contacts_of(btBroadphasePair& pair, int parts) {
   const auto look = [&] { dispatcher_.getNearCallback()(pair, dispatcher_, world_.getDispatchInfo()); };
   look();
   if (parts_of(pair) >= parts) return;
   // Parts that have come near are kept a little longer than it takes to come near: bring the bodies together before.
   btCollisionObject& a = *static_cast<btCollisionObject*>(pair.m_pProxy0->m_clientObject);
   btCollisionObject& b = *static_cast<btCollisionObject*>(pair.m_pProxy1->m_clientObject);
-  const btTransform X_seen = b.getWorldTransform();
-  b.getWorldTransform().setOrigin(X_seen.getOrigin() + centre_of(a) - centre_of(b));
+  const btTransform X_at_query = b.getWorldTransform();
+  b.getWorldTransform().setOrigin(X_at_query.getOrigin() + centre_of(a) - centre_of(b));
   look();
-  b.setWorldTransform(X_seen);
+  b.setWorldTransform(X_at_query);
   look();
 }
 

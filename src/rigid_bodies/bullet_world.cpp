@@ -22,9 +22,9 @@ using Extent = Eigen::AlignedBox3d;
 
 btDbvtVolume volume(const Extent& box) { return btDbvtVolume::FromMM(to_bullet(box.min()), to_bullet(box.max())); }
 
-/// See blind_way_of_free. On a shorter way, boxes around other shapes tell no more than that it is short.
-double blind_on(double way) {
-  return way < blind_way_of_free ? std::numeric_limits<double>::infinity() : blind_way_of_free;
+/// See unswept_of_free: a shorter path is not restricted by the boxes around shapes other than boxes.
+double unswept_on(double path) {
+  return path < unswept_of_free ? std::numeric_limits<double>::infinity() : unswept_of_free;
 }
 
 }  // namespace
@@ -265,7 +265,7 @@ void BulletWorld::step(double h, std::vector<DrivenBody>& driven) {
   begin_step();
   begin_driving(driven, h);
   enter_what_is_near(h);
-  for (const std::size_t i : in_world_) items_[i].X_seen = items_[i].bullet->getWorldTransform();
+  for (const std::size_t i : in_world_) items_[i].X_at_query = items_[i].bullet->getWorldTransform();
   world_.stepSimulation(h, 0);
   take_states();
   take_contacts();
@@ -343,22 +343,22 @@ RigidTransform BulletWorld::pose_before_step(std::size_t body) const {
   return found == before_step_.end() ? items_[body].X_WO : found->X_WO;
 }
 
-double BulletWorld::part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
-                                bool untouched, double blind) const {
+double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
+                                  bool untouched, double may_go_unswept) const {
   const Item& item = items_[body];
   if (item.leaf == nullptr) return 1.0;
   double part = 1.0;
   // Of a pair whose shapes are not both boxes, only what the boxes around them say is known.
   const auto by_extent = [&](const geometry::BoxGap& gap, const geometry::StraightMotion& path) {
     const double left = gap.gap - 2.0 * contact_skin;
-    const bool near = left < blind;
+    const bool near = left < may_go_unswept;
     const double turned = item.radius * (near ? path.turn_W : gap.n_W.cross(path.turn_W)).norm();
     const double approach = (near ? path.move_W.norm() : -gap.n_W.dot(path.move_W)) + turned;
-    const double allowed = std::max(left, untouched ? 0.0 : blind);
+    const double allowed = std::max(left, untouched ? 0.0 : may_go_unswept);
     if (allowed < part * approach) part = allowed / approach;
   };
   const auto tolerance = [&](const geometry::BoxGap& gap) {
-    return untouched ? 0.0 : std::max(deepest_way, -gap.gap * (1.0 + 1e-9) + 1e-12);
+    return untouched ? 0.0 : std::max(deepest_on_path, -gap.gap * (1.0 + 1e-9) + 1e-12);
   };
   const auto path_between = [](const RigidTransform& X0, const RigidTransform& X1) {
     const Vector3d turned = X0.linear() * math::turn_between(X0, X1);
@@ -402,9 +402,9 @@ double BulletWorld::admissible_fraction_of_free() const {
   for (const BeforeStep& before : before_step_) {
     const Item& item = items_[before.body];
     const double turned = item.radius * math::turn_between(before.X_WO, item.X_WO).norm();
-    const double way = (item.X_WO.translation() - before.X_WO.translation()).norm() + turned;
-    if (way < deepest_way) continue;
-    part = std::min(part, part_of_way(before.body, before.X_WO, item.X_WO, false, blind_on(way)));
+    const double path = (item.X_WO.translation() - before.X_WO.translation()).norm() + turned;
+    if (path < deepest_on_path) continue;
+    part = std::min(part, free_fraction(before.body, before.X_WO, item.X_WO, false, unswept_on(path)));
   }
   return part;
 }

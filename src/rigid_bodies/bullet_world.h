@@ -16,7 +16,7 @@
 
 namespace spring_workbench::rigid_bodies {
 
-/// Finds the contacts of sleeping bodies, too: or what is hit would be pushed into what it lies on before that is seen.
+/// Finds the contacts of sleeping bodies, too: otherwise a body that is hit would be pushed into its support first.
 class DispatcherForSleepers final : public btCollisionDispatcher {
  public:
   using btCollisionDispatcher::btCollisionDispatcher;
@@ -62,14 +62,14 @@ class BulletWorld final : public RigidWorld {
                  double margin) const override;
   double collision_free_fraction(std::size_t body, const RigidTransform& X0_WO,
                                  const RigidTransform& X1_WO) const override {
-    return part_of_way(body, X0_WO, X1_WO, true, blind_way);
+    return free_fraction(body, X0_WO, X1_WO, true, unswept);
   }
   double admissible_fraction(std::size_t body, const RigidTransform& X0_WO,
                              const RigidTransform& X1_WO) const override {
-    return std::min(part_of_way(body, X0_WO, X1_WO, false, blind_way), solver_.residual() > small_miss ? 0.5 : 1.0);
+    return std::min(free_fraction(body, X0_WO, X1_WO, false, unswept), solver_.residual() > solved_to ? 0.5 : 1.0);
   }
   double admissible_fraction_of_free() const override;
-  bool solved() const override { return solver_.residual() <= small_miss && solver_.deepest() <= blind_way_of_free; }
+  bool solved() const override { return solver_.residual() <= solved_to && solver_.deepest() <= unswept_of_free; }
   const std::vector<WorldContact>& contacts() const override { return contacts_; }
   const std::vector<std::size_t>& bodies_near() const override { return in_world_; }
   void exchange(math::StateArchive& state) override;
@@ -88,9 +88,9 @@ class BulletWorld final : public RigidWorld {
     std::unique_ptr<BulletShape> shape;                ///< these two are made when something first comes near
     std::unique_ptr<btRigidBody> bullet;
     bool in_world = false;
-    bool driven = false;                              ///< in the present step
-    long near_at = 0;                                 ///< step in which something awake was last near
-    btTransform X_seen = btTransform::getIdentity();  ///< of `bullet`, when contacts were last looked for
+    bool driven = false;                                  ///< in the present step
+    long near_at = 0;                                     ///< step in which something awake was last near
+    btTransform X_at_query = btTransform::getIdentity();  ///< of `bullet`, when contacts were last looked for
   };
 
   /// Where the last step found a body.
@@ -114,9 +114,9 @@ class BulletWorld final : public RigidWorld {
   Eigen::AlignedBox3d path_of(std::size_t index, double h) const;
   Eigen::AlignedBox3d swept(const Item& item, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
                             double margin) const;
-  /// `blind` [m]: how far it may go towards what is near, of another shape than a box.
-  double part_of_way(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, bool untouched,
-                     double blind) const;
+  /// Fraction of the path on which the body is free; `untouched`: of contact, too. `may_go_unswept`: see unswept.
+  double free_fraction(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO, bool untouched,
+                       double may_go_unswept) const;
   RigidTransform pose_before_step(std::size_t body) const;
   void begin_step();
   void begin_driving(std::vector<DrivenBody>& driven, double h);
@@ -127,8 +127,8 @@ class BulletWorld final : public RigidWorld {
   // Parts of exchange(); `objects` by user index, in Bullet's order.
   void exchange_body(math::StateArchive& state, int index);
   void exchange_pairs(math::StateArchive& state, const std::vector<int>& objects);
-  /// Finds the contacts of a pair, of whose shapes so many parts were near.
-  void look_at(btBroadphasePair& pair, int parts);
+  /// Finds the contacts of a pair of bodies, with at least `parts` pairs of parts of their shapes.
+  void find_contacts_of(btBroadphasePair& pair, int parts);
   void exchange_manifolds(math::StateArchive& state);
   void exchange_broadphase(math::StateArchive& state, const std::vector<int>& objects);
   void exchange_tree(math::StateArchive& state, btDbvt& tree, const std::vector<int>& objects);
@@ -140,7 +140,7 @@ class BulletWorld final : public RigidWorld {
   std::vector<Item> items_;            ///< parallel to the scene's bodies
   btDbvt tree_;                        ///< of all of them
   std::vector<std::size_t> in_world_;  ///< those that Bullet has to look at
-  BoxesSeenEarly configuration_;
+  BoxContactConfiguration configuration_;
   DispatcherForSleepers dispatcher_{&configuration_};
   BroadphaseOfAnyMemory broadphase_;
   DrivenSolver solver_;

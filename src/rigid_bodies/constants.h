@@ -6,52 +6,53 @@
 
 namespace spring_workbench::rigid_bodies {
 
-/// [m], or as far as they come in a step, from which boxes and planes see what they know the shape of, so that what
-/// comes near fast is stopped where it touches. Bullet's own boxes see each other where they overlap. Test:
+/// [m] gap below which contacts of boxes and of planes are found (or the approach over a step, if that is more), so
+/// that a fast body is stopped where it touches. Bullet's own boxes have contacts only when they overlap. Test:
 /// RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother at 0.
-constexpr double seen_from = 3e-3;
-/// Of a face, against a plane, that touches it with all its sides. Smaller: what lands tilted by more lands with one
-/// point; larger: those of the sides above are taken for it. Test: Drops.WithoutRestitutionNothingLeavesTheBench at 0.
+constexpr double contact_margin = 3e-3;
+/// Largest slope between a face and a plane on which it lands with all its corners. Smaller: a body that lands more
+/// tilted touches with one corner; larger: other faces count, too. Test: Drops.WithoutRestitutionNothingLeavesTheBench
+/// at 0.
 constexpr double slope_of_landing = 0.1;
-/// [m] by which every shape is larger all round; contact is closed where two overlap by twice as much: so that the
-/// solver sees it before. Larger: spheres roll on a larger radius. Test:
+/// [m] by which every shape is enlarged; a contact is closed when two shapes overlap by twice as much, so that the
+/// solver knows it before. Larger: spheres roll on a larger radius. Test:
 /// RigidWorld.SphereRollsAtFiveSeventhsOfItsSpeed.
 constexpr double contact_skin = 1e-4;
-/// [m]; what comes nearer than this to an awake body enters Bullet's world. Contact mode `dynamic` itself looks for
-/// what is touched from 0.5 mm: no reason known. Test: RigidWorld.SleepersCostNothingAndStay at 0.2.
+/// [m] distance from an awake body within which bodies enter Bullet's world. Contact mode `dynamic` itself uses 0.5 mm:
+/// no reason known. Test: RigidWorld.SleepersCostNothingAndStay at 0.2.
 constexpr double margin_near = 2e-3;
-/// Without anything awake near, after which a sleeper leaves Bullet's world. Fewer: it goes and comes; more: it costs
-/// longer. Test: RigidWorld.SleepersCostNothingAndStay at 5000.
+/// Number of steps without an awake body near after which a sleeping body leaves Bullet's world. Fewer: it enters and
+/// leaves repeatedly; more: it costs longer. Test: RigidWorld.SleepersCostNothingAndStay at 5000.
 constexpr int steps_until_left = 50;
 /// [s] for which a body is slow before it sleeps. With contact mode `stop` 0.2 s: no reason known. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 5.
 constexpr double asleep_after = 0.5;
-/// Of a penetration that is undone in a step, where that pushes free bodies. Larger: piles tremble. Test:
+/// Fraction of a penetration between free bodies that is corrected in a step. Larger: piles tremble. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 2.
 constexpr double penetration_share = 0.2;
-/// [m] that a body may go towards what is near, where the shapes are not boxes. Larger: deeper; smaller: held back.
-/// Test: none: no value tried makes one fail.
-constexpr double blind_way = 2e-4;
-/// [m], likewise of a body that nobody holds, on a way that is not shorter. Larger: thrown things go through thin ones;
-/// smaller: what flies and rolls among movable bodies costs more. Test: LooseThrows.ALooseThinWallIsNotGoneThrough at
-/// 0.02.
-constexpr double blind_way_of_free = 1e-3;
-/// [m]; no deeper goes a box into another, and what nobody holds is not looked at on a shorter way. Smaller: held
-/// bodies are held back more often. Test: RigidWorld.AWayEndsWhereItTouches.
-constexpr double deepest_way = 5e-5;
-/// [m]; a contact without impulse is told while its gap is smaller. Test: none: no value tried makes one fail.
+/// [m] that a body may move towards shapes other than boxes without a sweep. Larger: deeper penetration; smaller:
+/// blocked more often. Test: none: no value tried makes one fail.
+constexpr double unswept = 2e-4;
+/// [m] likewise for a body that is not held, and that moves at least as far in the step. Larger: thrown bodies pass
+/// through thin ones; smaller: bodies that fly and roll among movable ones cost more. Test:
+/// LooseThrows.ALooseThinWallIsNotGoneThrough at 0.02.
+constexpr double unswept_of_free = 1e-3;
+/// [m] largest penetration of two boxes on a path; shorter paths of bodies that are not held are not swept. Smaller:
+/// held bodies are blocked more often. Test: RigidWorld.AWayEndsWhereItTouches.
+constexpr double deepest_on_path = 5e-5;
+/// [m] gap below which a contact without impulse is reported. Test: none: no value tried makes one fail.
 constexpr double closed_gap = 1e-5;
-/// [m]; a step in which no contact misses its law by more is solved. Test: none: no value tried makes one fail.
-constexpr double small_miss = 1e-6;
-/// Of the largest motion without loads, to which contacts are solved if that takes few iterations. Test:
+/// [m] largest residual of the contacts of a solved step. Test: none: no value tried makes one fail.
+constexpr double solved_to = 1e-6;
+/// The same as a fraction of the largest motion without loads, if it takes few iterations to get there. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 0.1.
-constexpr double small_share = 1e-4;
-/// [m]; a contact with a smaller gap is stopped by an impulse. Test: none: no value tried makes one fail.
+constexpr double solved_share = 1e-4;
+/// [m] gap below which a contact is stopped by an impulse. Test: none: no value tried makes one fail.
 constexpr double closed = 5e-5;
-/// [s] in which a penetration by a driven body is undone. Shorter: it becomes a speed. With contact mode `stop` 5 ms:
-/// no reason known. Test: none: no value tried makes one fail.
+/// [s] in which a penetration by a driven body is corrected. Shorter: the correction becomes a velocity. Contact mode
+/// `stop` uses 5 ms: no reason known. Test: none: no value tried makes one fail.
 constexpr double recovery_time = 2e-3;
-/// [m/s]; a slower approach of a driven body is none. Test: none: no value tried makes one fail.
+/// [m/s] approach speed of a driven body below which it counts as none. Test: none: no value tried makes one fail.
 constexpr double slow = 1e-7;
 
 }  // namespace spring_workbench::rigid_bodies

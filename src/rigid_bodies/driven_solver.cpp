@@ -92,7 +92,7 @@ double DrivenSolver::missing_along_normal(const Contact& contact, double by_bull
     return -motion(contact, false)[0] - (contact.gap < 0.0 ? undone : 1.0) * left;
   }
   // Deeper than a path leads, between triangles that push to both sides: bounces off both have no end.
-  if (contact.gap < -blind_way_of_free) return -motion(contact, false)[0];
+  if (contact.gap < -unswept_of_free) return -motion(contact, false)[0];
   if (left > 0.0 && restitution > 0.0) {
     // Bullet lets a body bounce before it is there, and then loses the bounce on the rest of the path.
     const double approach = (by_bullet + left) / (1.0 + restitution);
@@ -110,7 +110,7 @@ std::vector<Vector6d> DrivenSolver::solve(std::vector<Contact>& contacts, bool i
       if (pushes(body) || driven_of(body) != nullptr) problem_.add_part(static_cast<std::size_t>(body), *J);
     }
   }
-  residual_ = std::max(residual_, h_ * problem_.solve(small_share, small_miss / h_).residual);
+  residual_ = std::max(residual_, h_ * problem_.solve(solved_share, solved_to / h_).residual);
   for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].impulse = problem_.load(i);
   std::vector<Vector6d> change(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), Vector6d::Zero());
   for (std::size_t i = 0; i < change.size(); ++i) {

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <utility>
 
-#include "piece_rotation.h"
+#include "segment_rotation.h"
 #include "spring_workbench/math/quadrature.h"
 
 namespace spring_workbench::rod {
 namespace {
 
-constexpr int most_nodes = 8;            ///< of the quadrature on a piece
-constexpr double angle_per_piece = 2.5;  ///< [rad]; the quadrature is exact to 1e-10 there
-constexpr double wave_of_six = 2.4;      ///< as wave(); six nodes are as exact up to there
-constexpr double wave_of_five = 1.3;     ///< and five up to here
-constexpr double most_turned = 64.0;     ///< [rad]; a rod wound up further is refused
-constexpr double least_stretch = 0.02;   ///< of the rest length; a rod compressed further is refused
+constexpr int most_nodes = 8;              ///< of the quadrature on a segment
+constexpr double angle_per_segment = 2.5;  ///< [rad]; the quadrature is exact to 1e-10 there
+constexpr double wave_of_six = 2.4;        ///< as wave(); six nodes are as exact up to there
+constexpr double wave_of_five = 1.3;       ///< and five up to here
+constexpr double most_turned = 64.0;       ///< [rad]; a rod wound up further is refused
+constexpr double least_stretch = 0.02;     ///< of the rest length; a rod compressed further is refused
 
 template <int nodes>
 const math::GaussLegendre<nodes>& rule() {
@@ -59,7 +59,7 @@ SPRING_WORKBENCH_INLINE double StrainRod::wave(const LinearStrain<S>& k, double 
 }
 
 int StrainRod::segments(double angle) const {  // of NaN the most, as of what is too large
-  return 1 + static_cast<int>(std::min(most_turned, angle) / angle_per_piece);
+  return 1 + static_cast<int>(std::min(most_turned, angle) / angle_per_segment);
 }
 
 template <int nodes, typename S>
@@ -71,7 +71,7 @@ SPRING_WORKBENCH_INLINE void StrainRod::integrate(const S* q, const S* q_dot, in
   const math::GaussLegendre<nodes>& gauss = rule<nodes>();
   const math::Three<S> zero = math::none<S>();
 
-  // Integrals from the handle to the start of the piece, then to the tip. Velocities in the axes of H.
+  // Integrals from the handle to the start of the segment, then to the tip. Velocities in the axes of H.
   QuaternionOf<S> turned{zero, S{} + 1.0};
   math::Three<S> p = zero;  // ∫ d3 (position at unit stretch)
   math::Three<S> w = zero;  // ∫ R k̇

@@ -41,7 +41,7 @@ class StrainRod final : public ShapeModel {
   void tip_of(const S* q, const S* q_dot, TipOf<S>& out) const;
   void one_tip(const double* q, const double* q_dot, TipOf<double>& out) const;
   void tips(const math::Pack* q, const math::Pack* q_dot, TipOf<math::Pack>& out) const;
-  /// The tip by `count` pieces of the rod with so many nodes each; `angle`: as turned_angle().
+  /// The tip by `count` segments of the rod with `nodes` nodes each; `angle`: as turned_angle().
   template <int nodes, typename S>
   void integrate(const S* q, const S* q_dot, int count, double angle, TipOf<S>& out) const;
   int segments(double angle) const;

@@ -11,17 +11,19 @@ namespace {
 constexpr int n = max_strain_coordinates;
 constexpr int most_iterations = 60;
 constexpr int most_fit_halvings = 12;
-/// Of the way that is missing: if the slope leads no further at once, the rod is as near as it comes.
+/// Fraction of the remaining distance that a step must promise; otherwise the rod is as close to the pose as it gets.
 constexpr double least_progress = 1e-3;
-constexpr double to_the_end = 1e-9;  ///< of a change that the end of the rod's range cuts short
-/// Newton's method converges quadratically: a last change of this size, of the rod's length or a radian, leaves none.
+constexpr double to_the_end = 1e-9;  ///< relative precision of a change that the end of the rod's range cuts short
+/// Change of the last iteration, relative to the rod's length or in radians. Newton's method converges quadratically,
+/// so no error is left after it.
 constexpr double last_change = 3e-8;
-/// So far the pose is approached at once, of the rod's length or in radians: each pose on the way is near the last.
+/// Largest step towards the pose, relative to the rod's length or in radians.
 constexpr double farthest = 0.5;
-/// Of the change that the slope foretells: by how much another may differ from it and still be of the same solution.
-constexpr double foretold = 0.5;
-/// Least motion of the tip by a strain of one over the length, which a straight rod compressed to its end still has (a
-/// rod that is not: a tenth). In a direction in which the tip moves less, the rod is at the end of what it can do.
+/// Largest deviation of a change from the one that the Jacobian predicts, relative to it; a larger one may lead to
+/// another solution.
+constexpr double most_nonlinearity = 0.5;
+/// Smallest singular value of the scaled Jacobian of a regular rod: that of a straight rod compressed to the end of its
+/// range (uncompressed: 0.1). In a direction in which the tip moves less, the rod is at the end of what it can do.
 constexpr double least_motion = 1e-3;
 
 /// The rotation vector of each lane.
@@ -120,14 +122,14 @@ struct Away {
   }
 };
 
-/// A strain of the rod's range with its tip, on the way to a pose.
-struct OnTheWay {
+/// A strain within the range of the rod, with its tip and the distance to the wanted pose.
+struct Candidate {
   Vector6d q;
   TipOf<double> tip;
   Away<double> away;
 
-  OnTheWay(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
-           const Vector6d& strain)
+  Candidate(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
+            const Vector6d& strain)
       : q(strain), tip(tip_of(shape, strain)), away(tip, R_HE, p_HE, shape.length()) {}
   static TipOf<double> tip_of(const ShapeModel& shape, const Vector6d& q) {
     const double zero[n] = {};
@@ -159,11 +161,11 @@ bool stay_in_range(const ShapeModel& shape, const Vector6d& q, Vector6d& change)
   return false;
 }
 
-/// From `q` on to the pose, or as near to it as the rod's range and its slope lead: on one solution, by steps so short
-/// that the slope foretells the change. Returns how far from it that is.
+/// Moves `q` to the pose, or as close to it as range and Jacobian of the rod allow: on one solution, by steps so short
+/// that the Jacobian predicts the change. Returns the remaining squared distance.
 double approach(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
                 Vector6d& q) {
-  OnTheWay at(shape, R_HE, p_HE, q);
+  Candidate at(shape, R_HE, p_HE, q);
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
     const bool last = !(at.away.squared > last_change * last_change);
     const Slope slope(Columns<double>(at.tip, shape.length()), 0, shape.length());
@@ -171,10 +173,10 @@ double approach(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE,
     bool went = false, on = true;
     for (int halving = 0; halving < most_fit_halvings && !went; ++halving, change *= 0.5) {
       if (!stay_in_range(shape, at.q, change)) break;
-      const OnTheWay next(shape, R_HE, p_HE, at.q + change);
+      const Candidate next(shape, R_HE, p_HE, at.q + change);
       const Vector6d moves = slope.times(change);
       const double error = (next.away.vector() - at.away.vector() + moves).norm();
-      went = last || (error <= foretold * moves.norm() && next.away.squared < at.away.squared);
+      went = last || (error <= most_nonlinearity * moves.norm() && next.away.squared < at.away.squared);
       on = moves.squaredNorm() > least_progress * least_progress * at.away.squared;
       if (went) at = next;
     }
@@ -184,7 +186,7 @@ double approach(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE,
   return at.away.squared;
 }
 
-/// On the solution of `q`, or where that ends on the one of the straight rod; else the nearer to the pose of both.
+/// Fits on the solution branch of `start` or, if that fails, of the straight rod, whichever comes closer to the pose.
 Vector6d fit(const ShapeModel& shape, const math::ThreeByThree<double>& R_HE, const math::Three<double>& p_HE,
              const Vector6d& start) {
   Vector6d from_start = start, from_straight = Vector6d::Zero();
@@ -257,7 +259,7 @@ bool TipFit<S>::follow_slope(const math::ThreeByThree<S>& R_HE, const math::Thre
     for (int l = 0; l < math::lanes<S>; ++l) {
       const double moves = math::lane(part, l) * math::lane(part, l) * math::lane(away.squared, l);
       const bool there = math::lane(away.squared, l) <= last_change * last_change;
-      if (!there && !(math::lane(error, l) <= foretold * foretold * moves)) return false;
+      if (!there && !(math::lane(error, l) <= most_nonlinearity * most_nonlinearity * moves)) return false;
     }
     away = next;
   }

@@ -4,17 +4,17 @@ namespace spring_workbench::rviz_plugin {
 
 // Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
-/// [s] without a message after which panel and fork say so. Longer: a dead node seems alive. Test:
+/// [s] without a message after which panel and fork report it. Longer: a dead node seems alive. Test:
 /// rviz_recovery_test.py::test_fork_of_the_display.
 constexpr double longest_silence = 2.0;
-/// [s] until the answer to a hand's change is in the state. Shorter: what was set jumps back for a moment. Test: none:
-/// a look.
+/// [s] until a change made by hand shows in the received state. Shorter: the control jumps back for a moment. Test:
+/// none: a look.
 constexpr double settling = 0.7;
-/// [s] of cycles on the plot. Test: none: a look.
+/// [s] of cycles shown in the plot. Test: none: a look.
 constexpr double kept_for = 10.0;
-/// of a logarithmic slider. Fewer: coarser values. Test: none: a look.
+/// Number of positions of a logarithmic slider. Fewer: coarser values. Test: none: a look.
 constexpr int slider_positions = 1000;
-/// looks in a second whether rviz ends. Fewer: it ends later. Test: none: rviz ends later.
+/// Checks per second whether rviz is ending. Fewer: it ends later. Test: none: rviz ends later.
 constexpr int master_slices = 10;
 /// [s] from the end of rviz' windows until it ends without the ROS master's leave. Longer: with a master that hangs,
 /// rviz is there for longer; much shorter: it ends while it still frees things. Test:

@@ -2,8 +2,8 @@
 
 namespace spring_workbench::rviz_plugin {
 
-ServiceCaller::ServiceCaller(std::function<void(const std::string&)> tell)
-    : tell_(std::move(tell)), thread_([this] { run(); }) {}
+ServiceCaller::ServiceCaller(std::function<void(const std::string&)> report)
+    : report_(std::move(report)), thread_([this] { run(); }) {}
 
 ServiceCaller::~ServiceCaller() {
   {
@@ -44,7 +44,7 @@ void ServiceCaller::run() {
     const Job job = std::move(waiting_.front().second);
     waiting_.pop_front();
     lock.unlock();
-    tell_(job());
+    report_(job());
   }
 }
 

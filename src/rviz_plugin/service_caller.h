@@ -18,8 +18,8 @@ namespace spring_workbench::rviz_plugin {
 /// calls with one key, only the newest is made.
 class ServiceCaller {
  public:
-  /// `tell` is called in that thread with one line about each call that was made.
-  explicit ServiceCaller(std::function<void(const std::string&)> tell);
+  /// `report` is called in that thread with one line about each call that was made.
+  explicit ServiceCaller(std::function<void(const std::string&)> report);
   ~ServiceCaller();
 
   template <class Service>
@@ -44,7 +44,7 @@ class ServiceCaller {
   void run();
 
   ros::NodeHandle node_;
-  const std::function<void(const std::string&)> tell_;
+  const std::function<void(const std::string&)> report_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::list<std::pair<std::string, Job>> waiting_;

@@ -9,10 +9,10 @@
 namespace spring_workbench::rviz_plugin {
 
 StepFigures::StepFigures(QWidget* parent)
-    : QWidget(parent), figures_(new QLabel(this)), left_out_(new QLabel(this)), plot_(new ErrorPlot(this)) {
+    : QWidget(parent), figures_(new QLabel(this)), skipped_(new QLabel(this)), plot_(new ErrorPlot(this)) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
-  for (QLabel* label : {figures_, left_out_}) {
+  for (QLabel* label : {figures_, skipped_}) {
     label->setWordWrap(true);
     layout->addWidget(label);
   }
@@ -34,7 +34,7 @@ void StepFigures::refresh(double now) {
   plot_->refresh(now);
   if (!steps_) {
     figures_->setText("no figures");
-    left_out_->clear();
+    skipped_->clear();
     return;
   }
   const bool bounded = steps_->steps > 0 && steps_->steps_unbounded == 0;
@@ -44,7 +44,7 @@ void StepFigures::refresh(double now) {
                         .arg(bounded ? QString(", of the run at most %1 m").arg(steps_->error_bound, 0, 'g', 2) : "")
                         .arg(missed_));
   const QString skipped = QString::fromStdString(validation::join(steps_->skipped));
-  left_out_->setText("skipped: " + (skipped.isEmpty() ? "nothing" : skipped));
+  skipped_->setText("skipped: " + (skipped.isEmpty() ? "nothing" : skipped));
 }
 
 }  // namespace spring_workbench::rviz_plugin

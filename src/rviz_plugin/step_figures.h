@@ -26,7 +26,7 @@ class StepFigures : public QWidget {
  private:
   StepReportConstPtr steps_;
   std::size_t missed_ = 0;  ///< deadlines
-  QLabel *figures_, *left_out_;
+  QLabel *figures_, *skipped_;
   ErrorPlot* plot_;
 };
 

@@ -150,7 +150,7 @@ bool can_be_parsed(const std::string& xml) {
     document.Parse(xml.c_str());
     return std::string();
   };
-  return std::count(xml.begin(), xml.end(), '<') < tried_from ||
+  return std::count(xml.begin(), xml.end(), '<') < elements_parsed_in_child ||
          validation::run_in_child(parse, {5.0, std::uint64_t{1} << 30});
 }
 

@@ -6,14 +6,14 @@
 
 namespace spring_workbench::simulation {
 
-/// [m] of a rigid tool, whose length means nothing but to be there. Test: Tools.DirectAndRayAreRigid at 0.
+/// [m] length of a rigid tool, which has no effect but must be positive. Test: Tools.DirectAndRayAreRigid at 0.
 constexpr double least_length = 1e-4;
-/// [m] that the ray reaches. Test: Tools.DirectAndRayAreRigid at 0.2.
+/// [m] reach of the tool `ray`. Test: Tools.DirectAndRayAreRigid at 0.2.
 constexpr double longest_ray = 2.0;
-/// Times as far as the present object another one must be to be taken instead. 1: a tip that trembles between two
-/// changes all the time. Test: Overlapping.OneIsTakenAndTheOtherOnlyWhenItIsNearerByAFifth.
+/// Ratio of distances below which another object replaces the highlighted one. 1: a trembling tip alternates between
+/// two objects. Test: Overlapping.OneIsTakenAndTheOtherOnlyWhenItIsNearerByAFifth.
 constexpr double another_is_nearer = 0.8;
-/// Hexadecimal digits of a word of a state's text. Test: State.RestoredAfterAnythingGivesTheSameFuture.
+/// Hexadecimal digits per word in the text of a state. Test: State.RestoredAfterAnythingGivesTheSameFuture.
 constexpr std::size_t word_digits = 16;
 
 }  // namespace spring_workbench::simulation

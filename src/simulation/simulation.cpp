@@ -135,7 +135,8 @@ struct Simulation::Impl {
     validation::refuse("simulation", "hand", std::to_string(index), "less than " + std::to_string(hands.size()));
   }
   double in_world(double t) const { return settings.hand_time_scale * t; }
-  /// Of the hand; exactly what was asked for where that is meant, so that to ask for it again changes nothing.
+  /// Converts world time to the hand's: exactly the requested time if that is meant, so that asking again changes
+  /// nothing.
   double of_hand(double t) const { return t == in_world(asked_for) ? asked_for : t / settings.hand_time_scale; }
   /// That hand, or each.
   std::vector<Hand*> chosen(std::optional<std::size_t> index) {

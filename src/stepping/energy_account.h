@@ -4,7 +4,7 @@
 
 namespace spring_workbench::stepping {
 
-/// How much further a state is than another one at the same moment.
+/// Difference between two states at the same time.
 struct Difference {
   double position = 0.0, angle = 0.0;  ///< of the object [m], [rad]
   double energy = 0.0;                 ///< of body, fork and couplings, less the work of a constant contact load [J]
@@ -19,8 +19,8 @@ double energy_added(const dynamics::HeldBody& body, const motion::FrameMotion& h
                     const dynamics::StrainState& begin, const dynamics::StrainState& end);
 
 /// Energy of springs and motion in the frame of the handle, and of couplings with frames at rest in it, after a step to
-/// the moment of `handle` less what there was before and what the weight, the handle's acceleration and the contact, as
-/// they are then, did on the way [J]: not above 0 for implicit Euler on a fork that is linear.
+/// the moment of `handle`, less the energy before and the work of weight, handle's acceleration and contact as they are
+/// at the end [J]: not above 0 for implicit Euler on a fork that is linear.
 double energy_gained(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle,
                      const dynamics::StrainState& begin, const dynamics::StrainState& end);
 

@@ -18,11 +18,11 @@ dynamics::Integrator::Response LoadResponse::response(dynamics::Integrator& inte
     r.q = h * r.q_dot;
   }
   for (Eigen::Index i = 0; i < stops_.cols(); ++i) {
-    const rod::StrainVector out = stops_.col(i), way = r.q * out;
-    if (!(out.dot(way) > 0.0)) continue;
-    const rod::StrainVector stop = r.q.transpose() * out / out.dot(way);  // its force, by load
+    const rod::StrainVector out = stops_.col(i), path = r.q * out;
+    if (!(out.dot(path) > 0.0)) continue;
+    const rod::StrainVector stop = r.q.transpose() * out / out.dot(path);  // its force, by load
     r.q_dot -= r.q_dot * out * stop.transpose();
-    r.q -= way * stop.transpose();
+    r.q -= path * stop.transpose();
   }
   return r;
 }
@@ -30,8 +30,8 @@ dynamics::Integrator::Response LoadResponse::response(dynamics::Integrator& inte
 void LoadResponse::correct(dynamics::Integrator& integrator, const dynamics::HeldBody& body,
                            const dynamics::HandleForcing& handle, double h, const rod::StrainVector& change,
                            dynamics::StrainState& state) {
-  const dynamics::Integrator::Response answer = response(integrator, body, handle, h, state);
-  dynamics::StrainState next{state.q + answer.q * change, state.q_dot + answer.q_dot * change};
+  const dynamics::Integrator::Response response_now = response(integrator, body, handle, h, state);
+  dynamics::StrainState next{state.q + response_now.q * change, state.q_dot + response_now.q_dot * change};
   if (!body.shape().admissible(body.full_state(handle.t, next).q)) {
     stop_at_range(body, handle, h, state, next);
     // Compression has nothing in common with turning, whose slope turns with it.

@@ -113,9 +113,9 @@ StepControl::Tried StepControl::try_step(const Span& span, double t, double h,
   tried.solved = tried.estimate.converged && usable(tried.state);
   if (!tried.solved) return tried;
   const dynamics::HandleForcing end = body.forcing(span.handle, t + h);
-  const dynamics::StrainState truth{tried.state.q - tried.estimate.q_error,
-                                    tried.state.q_dot - tried.estimate.q_dot_error};
-  const Difference error = difference(body, end, tried.state, truth);
+  const dynamics::StrainState corrected{tried.state.q - tried.estimate.q_error,
+                                        tried.state.q_dot - tried.estimate.q_dot_error};
+  const Difference error = difference(body, end, tried.state, corrected);
   tried.position_error = error.position;
   tried.angle_error = error.angle;
   tried.energy_error = std::abs(error.energy);
@@ -128,7 +128,7 @@ void StepControl::weigh(const Span& span, double t, double h, const dynamics::St
   const dynamics::HeldBody& body = span.body;
   if (body.returning() || !tried.in_range) return;
   tried.energy_added = energy_added(body, span.handle, t, h, state, tried.state);
-  // What is seen to be gained is an error, whatever the method's estimate.
+  // An energy gain of the motion is an error, whatever the estimate of the method.
   if (!body.loaded() && !body.coupled()) tried.energy_error = std::max(tried.energy_error, *tried.energy_added);
 }
 
@@ -151,8 +151,8 @@ void StepControl::take(Span& span, double t, double h, const Tried& tried, dynam
   span.report.angle_error = std::max(span.report.angle_error, tried.angle_error);
   span.report.energy_error += tried.energy_error;
   const double energy = std::max(tried.energy, std::exchange(span.memory.energy, tried.energy));
-  const double spent = tried.energy_error / std::max(energy_share * energy, 1e-300);
-  span.memory.energy_saved = std::clamp(span.memory.energy_saved + h - spent, -most_saved, most_saved);
+  const double spent = tried.energy_error / std::max(energy_drift_rate * energy, 1e-300);
+  span.memory.energy_saved = std::clamp(span.memory.energy_saved + h - spent, -energy_reserve, energy_reserve);
   const double known = tried.estimate.omega_dt;
   span.report.omega_dt = std::max(span.report.omega_dt, known > 0.0 ? known : span.memory.stiffest_omega * h);
 }
@@ -169,7 +169,7 @@ void StepControl::begin_bound(const Span& span, double t, const dynamics::Strain
   memory.spread = dynamics::RunError::Moments::Zero(2 * n, 2 * n);
 }
 
-/// What follows is told from here on; in this span it is no bound.
+/// Restarts the bound at this state; in this span there is none.
 void StepControl::forget_error(Memory& memory, const dynamics::StrainState& state) {
   memory.exact = state;
   memory.spread.setZero();
@@ -239,8 +239,8 @@ void StepControl::step_in_halves(Span& span, double t, double h, int level, dyna
   const bool shortest = level == most_halvings || !integrator_->stiffly_stable();
   const double energy = std::max(span.memory.energy, tried.energy);
   // The shortest may run into debt, which later ones pay: what comes in its place errs by far more.
-  const double saved = span.memory.energy_saved, credit = shortest ? saved + most_saved : std::max(saved, 0.0);
-  const double share = energy_share * (h + credit) * energy;
+  const double saved = span.memory.energy_saved, credit = shortest ? saved + energy_reserve : std::max(saved, 0.0);
+  const double share = energy_drift_rate * (h + credit) * energy;
   const auto fine = [&] {
     if (integrator_->energy() == dynamics::Integrator::Energy::kept) return tried.energy_error <= share;
     return integrator_->energy() != dynamics::Integrator::Energy::dissipated ||

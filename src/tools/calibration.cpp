@@ -108,9 +108,9 @@ rod::PerDof world_stiffness(const rod::ForkSettings& fork, const WorldLoad& load
   const double g = weighing_gravity(gravity), L = fork.length;
   const auto rod = rod::make_shape_model(fork.shape, L, fork.slope_stiffness);
   const Matrix3d inertia = load.lever * load.lever * Matrix3d::Identity();
-  dynamics::BodyInertia centred{1.0, inertia, RigidTransform::Identity()}, beside = centred;
-  beside.X_OE.translation().y() = -load.lever;
-  Weighed down(rod, centred, g, hanging), across(rod, centred, g, level), twisted(rod, beside, g, level);
+  dynamics::BodyInertia centred{1.0, inertia, RigidTransform::Identity()}, off_centre = centred;
+  off_centre.X_OE.translation().y() = -load.lever;
+  Weighed down(rod, centred, g, hanging), across(rod, centred, g, level), twisted(rod, off_centre, g, level);
   const rod::PerDof first{g / (goal.stretch * L), g / (goal.bend * L), g * load.lever / goal.twist};
   return scaled(load.mass, fit(first, [&](const rod::PerDof& k) {
                   down.settle(k);

@@ -4,40 +4,40 @@
 
 namespace spring_workbench::tools {
 
-/// [m] of the tool `spring`, which has a direction then. Test: none: no value tried makes one fail.
+/// [m] rest length of the tool `spring`, so that it has a direction. Test: none: no value tried makes one fail.
 constexpr double least_rest_length = 1e-4;
-/// [m]; a shorter span of the tool `spring` has no direction. Test: none: no value tried makes one fail.
+/// [m] length below which the tool `spring` has no direction. Test: none: no value tried makes one fail.
 constexpr double no_length = 1e-12;
-/// Of the fork's length: radius of gyration of a point mass. Larger: it is no point. Test:
+/// Radius of gyration of a point mass as a fraction of the fork's length. Larger: it is no point. Test:
 /// Simulation.PointMassOnTheAxisDoesNotTwistAndOffItDoes at 0.1.
 constexpr double point_mass_radius = 1e-2;
-/// Of the fork's length; a point mass so near to the fork's axis cannot twist it. Test:
+/// Fraction of the fork's length; a point mass that is closer to the axis cannot twist the fork. Test:
 /// Simulation.PointMassOnTheAxisDoesNotTwistAndOffItDoes at 0.1.
 constexpr double on_the_axis = 1e-3;
-/// [s] on which the proxy comes back to the hand. Shorter: the object catches up faster. Test:
+/// [s] time constant with which the proxy returns to the hand. Shorter: the object catches up faster. Test:
 /// StopContact.AForkThatCannotFollowPressesAsItsRuleSaysAndHoldsNothingBack at 5.
 constexpr double return_time = 0.05;
-/// [s]; squared over the object's mass, how the proxy gives way at rest. Longer: what cannot follow presses less. Test:
-/// StopContact.AForkThatCannotFollowPressesAsItsRuleSaysAndHoldsNothingBack.
-constexpr double give_time = 5e-3;
-/// [m/s], and of a turning times the fork's length, below which an object on a hand at rest stops (the paper's
-/// threshold, section 3.3). Test: HeldAtRest.CostsNothing at 0.
+/// [s]; its square over the object's mass is the static compliance of the proxy. Longer: a tool that cannot follow
+/// presses less. Test: StopContact.AForkThatCannotFollowPressesAsItsRuleSaysAndHoldsNothingBack.
+constexpr double compliance_time = 5e-3;
+/// [m/s], and times the fork's length for the rotation: an object on a hand at rest that is slower is stopped (the
+/// paper's threshold, section 3.3). Test: HeldAtRest.CostsNothing at 0.
 constexpr double still_speed = 1e-7;
 /// [m/s²], likewise. Test: none: no value tried makes one fail.
 constexpr double still_acceleration = 1e-6;
-/// [m] from the origin; a step of a hand farther away is rejected. Test: none: no value tried makes one fail.
+/// [m] from the origin; a step of a hand that is farther away is rejected. Test: none: no value tried makes one fail.
 constexpr double largest_distance = 1e6;
-/// Of the generalised force that the springs exert after a regrasp: its largest error. Test:
+/// Largest relative error of the generalised force that the springs exert after a regrasp. Test:
 /// TwoHands.HandoverMovesTheObjectLessThanAMillimetre at 0.
-constexpr double exact_pull = 1e-12;
-/// [rad/s] with which the object would swing on what is off in a fork that another tool leads. Smaller: it yields
-/// under the object's weight. Larger: contact, solved to a micrometre, cannot say what two such forks are to carry.
-/// Test: SharedLaw.WhatIsOffInBothForksSharesThePressOnTheBench at 1e4, 30.
+constexpr double regrasp_tolerance = 1e-12;
+/// [rad/s] at which the object would oscillate on the DOFs that are off in a fork that follows another tool. Smaller:
+/// these DOFs yield under the object's weight. Larger: contact, solved to a micrometre, does not determine how two such
+/// forks share a load. Test: SharedLaw.WhatIsOffInBothForksSharesThePressOnTheBench at 1e4, 30.
 constexpr double rigid_rate = 1e3;
-/// [m] from the frame at rest to an object that nothing holds. Test: none: means nothing.
+/// [m] from an object that no tool holds to the frame at rest that stands in for its tool. Test: none: means nothing.
 constexpr double frame_distance = 1.0;
-/// [kg/m³]: objects of another density have a larger or smaller tool than their size asks. Larger: smaller tools. Test:
-/// Calibration.LengthGrowsWithTheObjectAndWithItsWeight.
+/// [kg/m³] density for which the size of a calibrated tool depends on the object's size alone. Larger: smaller tools.
+/// Test: Calibration.LengthGrowsWithTheObjectAndWithItsWeight.
 constexpr double density_of_water = 1000.0;
 
 }  // namespace spring_workbench::tools

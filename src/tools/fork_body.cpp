@@ -78,21 +78,21 @@ Matrix6d ForkBody::rigid_mobility() const {
 }
 
 Matrix6d ForkBody::proxy_compliance(double h) const {
-  return give_time * give_time * (1.0 - std::exp(-h / return_time)) * rigid_mobility();
+  return compliance_time * compliance_time * (1.0 - std::exp(-h / return_time)) * rigid_mobility();
 }
 
-RigidTransform ForkBody::given_way(double h, const Wrench& contact_W) const {
-  const Vector6d way = proxy_compliance(h) * to_vector(contact_W);
+RigidTransform ForkBody::proxy_response(double h, const Wrench& contact_W) const {
+  const Vector6d motion = proxy_compliance(h) * to_vector(contact_W);
   const Vector3d centre = object().X.translation();
   RigidTransform X = RigidTransform::Identity();
-  X.linear() = math::exp_so3(way.tail<3>());
-  X.translation() = centre - X.linear() * centre + way.head<3>();
+  X.linear() = math::exp_so3(motion.tail<3>());
+  X.translation() = centre - X.linear() * centre + motion.head<3>();
   return X;
 }
 
 RigidTransform ForkBody::next_offset(double h, const Wrench& contact_W) const {
   const RigidTransform returned = state_.proxy.returned(std::exp(-h / return_time));
-  return yields_everywhere() || is_zero(contact_W) ? returned : given_way(h, contact_W) * returned;
+  return yields_everywhere() || is_zero(contact_W) ? returned : proxy_response(h, contact_W) * returned;
 }
 
 bool ForkBody::advance(double h, const Wrench& contact_W) {
@@ -179,7 +179,7 @@ bodies::SteppedBody::Response ForkBody::response(double h) const {
 void ForkBody::correct(double h, const Wrench& change_W) {
   motion::Proxy proxy = state_.proxy;
   if (!yields_everywhere()) {
-    const RigidTransform offset = given_way(h, change_W) * proxy.offset();
+    const RigidTransform offset = proxy_response(h, change_W) * proxy.offset();
     const Twist more = proxy.rate_to(offset, hand_pose().translation(), h);
     proxy.place(offset, to_twist(to_vector(proxy.rate()) + to_vector(more)));
   }

@@ -58,7 +58,7 @@ class ForkBody : public ToolHold {
   double length() const override { return held_.shape().length(); }
   double elastic_energy() const override;
 
-  dynamics::HandleForcing handle() const;  ///< the handle that the object sees, at present
+  dynamics::HandleForcing handle() const;  ///< the proxy handle at present
   RigidTransform hand_pose() const;        ///< the handle as the hand has it
   /// Acceleration of the object at present.
   motion::MotionState object_with_acceleration() const;
@@ -104,22 +104,23 @@ class ForkBody : public ToolHold {
   bool yields_everywhere() const {
     return held_.size() == rod::max_strain_coordinates && load_response_.stops().cols() == 0;
   }
-  /// Of mobility(): what the strain does of it, and the rest, in the directions in which the strain cannot move.
+  /// The parts of mobility() in the directions in which the strain can move the object, and in the other ones.
   Matrix6d strain_mobility() const;
   Matrix6d rigid_mobility() const;
   /// Compliance of the proxy to a wrench at the centre of mass over a step, in the directions that the coordinates
   /// cannot follow: that of a spring and a damper in parallel (doc/model.md, "When the fork cannot follow").
   Matrix6d proxy_compliance(double h) const;
-  /// How the proxy gives way to a wrench over a step: a rotation about the object's centre of mass and a translation.
-  RigidTransform given_way(double h, const Wrench& contact_W) const;
+  /// Displacement of the proxy under a wrench over a step: a rotation about the object's centre of mass and a
+  /// translation.
+  RigidTransform proxy_response(double h, const Wrench& contact_W) const;
   /// The offset of the proxy at the end of a step under a wrench.
   RigidTransform next_offset(double h, const Wrench& contact_W) const;
   rod::StrainMatrix inverse_mass() const;
-  /// What the rod does to the object at its centre, world axes: its change of momentum less gravity and contact.
+  /// Wrench of the rod on the object at its centre, world axes: the rate of its momentum less gravity and contact.
   Wrench rod_load(const motion::MotionState& object) const;
   Wrench pull() const { return state_.pull_W ? *state_.pull_W : rod_load(object_with_acceleration()); }
-  /// The strain with which the springs do `pull_W` to the object, turned as `R_WO`; the present one where none is
-  /// found.
+  /// Returns the strain with which the springs exert `pull_W` on the object in the attitude `R_WO`; the present one if
+  /// none is found.
   rod::StrainVector strain_under(const Wrench& pull_W, const Matrix3d& R_WO) const;
   using Jacobian = Eigen::Matrix<double, 6, Eigen::Dynamic, 0, 6, rod::max_strain_coordinates>;
   Jacobian jacobian_W() const { return jacobian_W(handle().X_WH.linear(), state_.t); }
@@ -129,7 +130,7 @@ class ForkBody : public ToolHold {
   dynamics::HeldBody held_;
   ForkCoupling coupling_;  ///< where another tool leads
   stepping::StepControl control_;
-  RigidTransform X_SH_;         ///< from one grip to the next
+  RigidTransform X_SH_;         ///< constant until a regrasp
   motion::MotionSegment hand_;  ///< of the handle as the hand has it
   State state_;
   /// The object as object() found it last, of this hand, and where that was.
@@ -145,7 +146,7 @@ class ForkBody : public ToolHold {
   double added_ = 0.0;  ///< energy by the last advance(), which may turn out to have been a trial [J]
   stepping::StepEstimates trial_,
       estimates_;  ///< the same of what steps say: of that advance(); of those that were none
-  /// What a sleeper's rest rests on.
+  /// Conditions under which an object at rest stays at rest.
   struct Sleep {
     long version = -1;  ///< of the equations; −1: awake
     RigidTransform X_WH = RigidTransform::Identity();

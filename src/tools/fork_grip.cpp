@@ -36,9 +36,9 @@ rod::StrainVector ForkBody::strain_under(const Wrench& pull_W, const Matrix3d& R
     }
     return f;
   };
-  const double small = exact_pull * (missing(rod::StrainVector::Zero(present.size())).norm() + 1e-300);
+  const double small = regrasp_tolerance * (missing(rod::StrainVector::Zero(present.size())).norm() + 1e-300);
   const rod::StrainVector q = stepping::find_strain(held_, state_.t, missing, present, small);
-  return missing(q).norm() < 1e-6 * small / exact_pull ? q : present;
+  return missing(q).norm() < 1e-6 * small / regrasp_tolerance ? q : present;
 }
 
 void ForkBody::regrasp(const RigidTransform& X_WO, const Wrench& pull_W) {

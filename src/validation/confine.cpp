@@ -18,7 +18,7 @@
 namespace spring_workbench::validation {
 namespace {
 
-/// Of the calls' numbers; 0: of a processor for which there is no filter here.
+/// Architecture of the system call numbers; 0: a processor for which there is no filter here.
 std::uint32_t processor() {
 #if defined(__x86_64__)
   return AUDIT_ARCH_X86_64;

@@ -81,7 +81,7 @@ class ForkModel {
 
   void make_shaft();
   void make_end();
-  void make_wire(int turns, int pieces, double radius);
+  void make_wire(int turns, int segments, double radius);
   void revolve(const std::vector<Eigen::Vector2d>& profile, double centre, Vertices& part);
   void add_ring(const WireRing& ring, const ForkCurve& curve, double wire_end, double diameter, ForkMesh& mesh) const;
 

@@ -4,7 +4,8 @@ namespace spring_workbench::contact_sound {
 
 // Each with its unit, what changing it does, and the test that notices (scripts/mutate).
 
-/// [s] between pieces of sound. Longer: sound comes later after the contact. Test: none: the file has the same sound.
+/// [s] length of the blocks in which sound is rendered. Longer: sound comes later after the contact. Test: none: the
+/// file has the same sound.
 constexpr double render_period = 0.02;
 /// [s] of sound that is made up for after the process stood still. Longer: a longer burst. Test: none: only a stopped
 /// process meets it.

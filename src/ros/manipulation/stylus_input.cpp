@@ -118,7 +118,7 @@ void StylusInput::on_simulated_time(const geometry_msgs::TransformStamped& trans
   }
 }
 
-/// `stamp`: the transform's, as local time has it [ns]. False: left out.
+/// `stamp`: that of the transform in local time [ns]. Returns whether it was used.
 bool StylusInput::use(const geometry_msgs::TransformStamped& transform, std::int64_t stamp, double age) {
   statistics_.newest_offer_age = age;
   const std::string& parent = transform.header.frame_id;
@@ -179,7 +179,7 @@ void StylusInput::on_simulated_time(const sensor_msgs::Joy& message, const ros::
   on_buttons(message, ros_common::nanoseconds_of(usable_stamp ? stamp : now));
 }
 
-/// `stamp`: when the buttons were so, as local time has it [ns].
+/// `stamp`: that of the message in local time [ns].
 void StylusInput::on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp) {
   const double t = seconds(stamp);
   using motion::Press;
@@ -194,7 +194,7 @@ void StylusInput::on_buttons(const sensor_msgs::Joy& message, std::int64_t stamp
   wake_();
 }
 
-/// A stream that goes on shows that what was kept of it was out of order, and not after a jump.
+/// If a stream continues, its kept messages were out of order, and did not follow a time jump.
 template <typename Message>
 void StylusInput::go_on_to(const ros::Time& stamp, SimulatedClock::Stream& stream, EarlyMessages<Message>& early) {
   if (stamp <= stream.newest) return;
@@ -224,7 +224,7 @@ void StylusInput::restart_when_due() {
   }
 }
 
-/// Of a moment in local time [ns], since the epoch.
+/// Converts a moment of local time [ns] to seconds since the epoch.
 double StylusInput::seconds(std::int64_t stamp) {
   if (zero_ == 0) {
     // In simulated time a whole second: a bag played again gives the same times to the bit, whatever comes first.

@@ -8,7 +8,7 @@ namespace spring_workbench::markers {
 constexpr double shortest_arrow = 1e-3;
 /// [m] arrows of force and moment are cut to it. Test: none: a look.
 constexpr double longest_arrow = 1.0;
-/// [m] between the hand and the seen handle from which on a line is drawn. Less: it flickers with rounding. Test: none:
+/// [m] between the hand and the proxy handle above which a line is drawn. Less: it flickers with rounding. Test: none:
 /// a look.
 constexpr double smallest_gap = 1e-5;
 /// [m] above the bench from which on an object throws a shadow. Less: those at rest flicker. Test:

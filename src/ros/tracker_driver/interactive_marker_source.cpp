@@ -85,7 +85,7 @@ class InteractiveMarkerSource final : public MessageSource {
   }
 
   motion::SourceHealth health() const override {
-    return {true, "moved by the marker under stylus/marker", {{"drags", drags_}, {"poses rejected", left_out_}}};
+    return {true, "moved by the marker under stylus/marker", {{"drags", drags_}, {"poses rejected", rejected_}}};
   }
 
  private:
@@ -118,7 +118,7 @@ class InteractiveMarkerSource final : public MessageSource {
   }
 
   void refuse_pose(const std::string& reason) {
-    ++left_out_;
+    ++rejected_;
     ROS_WARN_STREAM_THROTTLE(5.0, "stylus/marker/feedback: " << reason << "; rejected");
     server_.setPose(marker_name, ros_common::to_pose(follower_.goal()));
     server_.applyChanges();
@@ -147,7 +147,7 @@ class InteractiveMarkerSource final : public MessageSource {
   ros::ServiceServer grasp_service_;
   bool grasp_ = false;
   double tool_button_for_ = 0.0;  ///< how much longer the button for the next tool is down [s]
-  std::size_t drags_ = 0, left_out_ = 0;
+  std::size_t drags_ = 0, rejected_ = 0;
 };
 
 }  // namespace

@@ -143,7 +143,7 @@ class BagReader {
   }
 
   /// Reports each renamed field of our messages in the bag once, with its new name.
-  void tell_renamed(const rosbag::MessageInstance& message) {
+  void warn_of_renamed(const rosbag::MessageInstance& message) {
     if (message.getDataType().rfind("spring_workbench/", 0) != 0 || !own_types_.insert(message.getDataType()).second)
       return;
     for (const auto& [before, now] : validation::renamed()) {
@@ -154,7 +154,7 @@ class BagReader {
   }
 
   void take(const rosbag::MessageInstance& message) {
-    tell_renamed(message);
+    warn_of_renamed(message);
     const std::string topic = bare(message.getTopic());
     if (topic == "tf_static") return;
     if (message.getDataType() == "sensor_msgs/Joy") {

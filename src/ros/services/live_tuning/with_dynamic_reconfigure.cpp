@@ -73,15 +73,15 @@ class Reconfigure final : public LiveTuning {
       ROS_WARN_STREAM(error.what());
     }
     runner_.locked([&](const simulation::Simulation& simulation) { take_from(simulation, config); });
-    told_ = config;
+    published_ = config;
   }
 
   /// Reports changes that did not come from here.
   void follow() {
-    ManipulationConfig now = told_;
+    ManipulationConfig now = published_;
     runner_.locked([&](const simulation::Simulation& simulation) { take_from(simulation, now); });
-    if (same(now, told_)) return;
-    told_ = now;
+    if (same(now, published_)) return;
+    published_ = now;
     server_.updateConfig(now);
   }
 
@@ -89,7 +89,7 @@ class Reconfigure final : public LiveTuning {
   ros::NodeHandle node_;
   boost::recursive_mutex mutex_;
   dynamic_reconfigure::Server<ManipulationConfig> server_;
-  ManipulationConfig told_;
+  ManipulationConfig published_;
   ros::SteadyTimer follow_timer_;
 };
 

@@ -29,13 +29,13 @@ SPRING_WORKBENCH_INLINE math::ThreeByThree<S> rotation_matrix(const QuaternionOf
   return math::symmetric_and_skew(S(S{} + 2.0), S(1.0 - 2.0 * dot(q.v, q.v)), S(2.0 * q.w), q.v);
 }
 
-/// The rotation along a piece of a rod whose strain is linear in the arc length, as a power series of its quaternion
-/// about the middle. The series of q' = ½ q (a + b u) converges for every strain; pieces that turn by less than 2.5 rad
-/// leave 1e-13.
+/// The rotation along a segment of a rod whose strain is linear in the arc length, as a power series of its quaternion
+/// about the middle. The series of q' = ½ q (a + b u) converges for every strain; segments that turn by less than 2.5
+/// rad leave 1e-13.
 template <typename S>
 class SegmentRotation {
  public:
-  /// The strain over the piece of length h is (a + b u) / h for u = −½ … ½. `angle`: a bound of |a| + |b| / 2 [rad].
+  /// The strain over the segment of length h is (a + b u) / h for u = −½ … ½. `angle`: a bound of |a| + |b| / 2 [rad].
   SPRING_WORKBENCH_INLINE SegmentRotation(const math::Three<S>& a, const math::Three<S>& b, double angle) {
     pairs_ = angle < 0.5 ? 7 : angle < 1.2 ? 8 : most_pairs;
     c_[0] = {math::none<S>(), S{} + 1.0};
@@ -50,7 +50,7 @@ class SegmentRotation {
   struct Two {
     QuaternionOf<S> before, after;
   };
-  /// Rotation from the piece's middle to −u and u.
+  /// Rotation from the middle of the segment to −u and u.
   SPRING_WORKBENCH_INLINE Two at(double u) const {
     const double t = u * u;
     QuaternionOf<S> even = c_[2 * pairs_ - 2], odd = c_[2 * pairs_ - 1];
