@@ -14,6 +14,10 @@ if(SPRING_WORKBENCH_LIMITED_RANGE)
   list(APPEND SPRING_WORKBENCH_ARITHMETIC -fcx-limited-range)
 endif()
 
+# For plugins that only pass on what the modules compute. Not for what is linked with these: inline functions of the
+# headers would come from either.
+set(SPRING_WORKBENCH_COLD $<$<CONFIG:Release>:-O1>)
+
 # Packs of four numbers are passed by reference only, or inlined: the calling convention for them does not matter.
 add_compile_options(-Wno-psabi)
 
@@ -60,6 +64,7 @@ function(add_module name)
     target_link_libraries(${target} INTERFACE ${MODULE_DEPENDS} ${MODULE_LIBRARIES})
     return()
   endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)   # all sources together: headers read once
   target_include_directories(${target} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
   target_include_directories(${target} SYSTEM PRIVATE ${MODULE_INCLUDES})

@@ -16,8 +16,8 @@ endif()
 file(GLOB sources CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/src/rviz_plugin/*.cpp
   ${PROJECT_SOURCE_DIR}/src/rviz_plugin/*.h)
 add_library(spring_workbench_rviz SHARED ${sources})
-set_target_properties(spring_workbench_rviz PROPERTIES AUTOMOC ON)
-target_compile_options(spring_workbench_rviz PRIVATE ${SPRING_WORKBENCH_WARNINGS})
+set_target_properties(spring_workbench_rviz PROPERTIES AUTOMOC ON UNITY_BUILD_BATCH_SIZE 0)
+target_compile_options(spring_workbench_rviz PRIVATE ${SPRING_WORKBENCH_WARNINGS} ${SPRING_WORKBENCH_COLD})
 target_compile_definitions(spring_workbench_rviz PRIVATE QT_NO_KEYWORDS)
 target_include_directories(spring_workbench_rviz SYSTEM PUBLIC
   ${catkin_INCLUDE_DIRS} ${rviz_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})

@@ -21,10 +21,14 @@ rod::StrainMatrix modal_damping(const rod::StrainMatrix& M, const rod::StrainVec
   }
   if (stiff == 0) return root;
   root.conservativeResize(n, stiff);
-  const rod::StrainMatrix of_modes = M.llt().matrixL().solve(root);
-  const Eigen::JacobiSVD<rod::StrainMatrix> modes(of_modes, Eigen::ComputeFullV);
-  return 2.0 * ratio * root * modes.matrixV() * modes.singularValues().cwiseInverse().asDiagonal() *
-         modes.matrixV().transpose() * root.transpose();
+  // Filled up with zeros to 6 × 6, because Eigen compiles a decomposition of a fixed square much faster: the largest
+  // singular values, which come first, are those of the block, and so are their vectors.
+  Matrix6d of_modes = Matrix6d::Zero();
+  of_modes.topLeftCorner(n, stiff) = M.llt().matrixL().solve(root);
+  const Eigen::JacobiSVD<Matrix6d> modes(of_modes, Eigen::ComputeFullV);
+  const rod::StrainMatrix V = modes.matrixV().topLeftCorner(stiff, stiff);
+  const rod::StrainVector frequencies = modes.singularValues().head(stiff);
+  return 2.0 * ratio * root * V * frequencies.cwiseInverse().asDiagonal() * V.transpose() * root.transpose();
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 #include "spring_workbench/rod/static_deformation.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "spring_workbench/math/spatial.h"
+#include "spring_workbench/math/symmetric_modes.h"
 
 namespace spring_workbench::rod {
 namespace {
@@ -28,14 +28,14 @@ struct StaticDeformation::Slope {
   StrainMatrix A;      ///< of the scaled force by the scaled coordinates
   StrainVector scale;  ///< 1 / √K
   StrainVector moves;  ///< the tip, per unit of q; the stretch, which is linear, counts as none
-  Eigen::SelfAdjointEigenSolver<StrainMatrix> modes;
+  math::SymmetricModes modes;
 
-  bool is_stable() const { return modes.eigenvalues().minCoeff() > flat * largest(); }
-  double largest() const { return modes.eigenvalues().cwiseAbs().maxCoeff(); }
+  bool is_stable() const { return modes.values.minCoeff() > flat * largest(); }
+  double largest() const { return modes.values.cwiseAbs().maxCoeff(); }
   /// With every mode's stiffness taken as positive: downhill at a maximum and a saddle, too.
   StrainMatrix inverse() const {
-    const StrainVector d = modes.eigenvalues().cwiseAbs().cwiseMax(flat * largest()).cwiseInverse();
-    return modes.eigenvectors() * d.asDiagonal() * modes.eigenvectors().transpose();
+    const StrainVector d = modes.values.cwiseAbs().cwiseMax(flat * largest()).cwiseInverse();
+    return modes.vectors * d.asDiagonal() * modes.vectors.transpose();
   }
   StrainVector change(const StrainVector& imbalance) const {
     const StrainVector force = scale.cwiseProduct(imbalance);
@@ -83,7 +83,7 @@ StaticDeformation::Slope StaticDeformation::slope(const StrainVector& q, const B
     for (int i = 0; i < b.count; ++i) s.A(i, j) = s.scale[i] * s.scale[j] * rise[b.index[i]] / step + (i == j);
     s.moves[j] = c == shape_.stretch().begin ? 0.0 : moved;
   }
-  s.modes.compute(0.5 * (s.A + s.A.transpose()));
+  s.modes = math::symmetric_modes(0.5 * (s.A + s.A.transpose()));
   return s;
 }
 

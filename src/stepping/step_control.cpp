@@ -1,6 +1,5 @@
 #include "spring_workbench/stepping/step_control.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +12,7 @@
 #include "range_stop.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/spatial.h"
+#include "spring_workbench/math/symmetric_modes.h"
 
 namespace spring_workbench::stepping {
 namespace {
@@ -25,11 +25,11 @@ bool usable(const dynamics::StrainState& state) {
 void set_modes(const dynamics::HeldBody& body, const dynamics::HandleForcing& handle, const rod::StrainVector& q,
                StepControl::Memory& memory) {
   const rod::StrainMatrix M = body.mass_matrix(handle.t, q);
-  const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> modes(body.springs(handle, q).K, M);
-  const rod::StrainVector omega = modes.eigenvalues().cwiseMax(0.0).cwiseSqrt();
+  const math::SymmetricModes modes = math::symmetric_modes(body.springs(handle, q).K, M);
+  const rod::StrainVector omega = modes.values.cwiseMax(0.0).cwiseSqrt();
   memory.stiffest_omega = omega.maxCoeff();
-  memory.swing = modes.eigenvectors() * omega.cwiseMax(1.0 / longest_swing).cwiseInverse().asDiagonal() *
-                 modes.eigenvectors().transpose() * M;
+  memory.swing =
+      modes.vectors * omega.cwiseMax(1.0 / longest_swing).cwiseInverse().asDiagonal() * modes.vectors.transpose() * M;
 }
 
 }  // namespace

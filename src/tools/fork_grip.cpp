@@ -1,5 +1,5 @@
 // Regrasping: the hand takes the fork at another pose while the fork holds an object.
-#include <Eigen/QR>
+#include <Eigen/SVD>
 #include <cmath>
 
 #include "constants.h"
@@ -18,8 +18,12 @@ Wrench ForkBody::spring_pull() const {
   if (held_.size() == 0) return springs;
   // Of all wrenches that the dampers' generalised force may be the smallest: with six coordinates there is but one.
   const rod::StrainVector dampers = held_.damping() * state_.strain.q_dot;
-  const Eigen::MatrixXd onto_coordinates = jacobian_W().transpose();
-  const Vector6d damping = onto_coordinates.completeOrthogonalDecomposition().solve(-dampers);
+  Matrix6d onto_coordinates = Matrix6d::Zero();  // a fixed square: Eigen compiles it much faster
+  onto_coordinates.topRows(held_.size()) = jacobian_W().transpose();
+  Vector6d generalised = Vector6d::Zero();
+  generalised.head(held_.size()) = -dampers;
+  const Eigen::JacobiSVD<Matrix6d> svd(onto_coordinates, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Vector6d damping = svd.solve(generalised);
   return to_wrench(to_vector(springs) - damping);
 }
 

@@ -1,0 +1,18 @@
+// The only source with Eigen's symmetric solvers for these sizes: each other one would take seconds longer to compile.
+#include "spring_workbench/math/symmetric_modes.h"
+
+#include <Eigen/Eigenvalues>
+
+namespace spring_workbench::math {
+
+SymmetricModes symmetric_modes(const SymmetricModes::Matrix& A) {
+  const Eigen::SelfAdjointEigenSolver<SymmetricModes::Matrix> solver(A);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+SymmetricModes symmetric_modes(const SymmetricModes::Matrix& K, const SymmetricModes::Matrix& M) {
+  const Eigen::GeneralizedSelfAdjointEigenSolver<SymmetricModes::Matrix> solver(K, M);
+  return {solver.eigenvalues(), solver.eigenvectors()};
+}
+
+}  // namespace spring_workbench::math
