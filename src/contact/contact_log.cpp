@@ -69,6 +69,15 @@ void ContactLog::take(std::size_t object, const ContactLog& from, std::size_t it
   if (!touching_[object].empty()) with_contacts_.insert(object);
 }
 
+void ContactLog::exchange(math::StateArchive& state) {
+  for (const std::size_t object : with_contacts_) {
+    if (state.sets()) touching_[object].clear();
+  }
+  state(with_contacts_);
+  for (const std::size_t object : with_contacts_) state(touching_.at(object));
+  state(ended_, told_);
+}
+
 std::vector<ContactState> ContactLog::all() const {
   std::vector<ContactState> list;
   for (const std::size_t object : with_contacts_) {

@@ -105,14 +105,14 @@ std::optional<Shown> SimulationRunner::show(double latency, const hand_input::Lo
   const simulation::Simulation& shown = ahead_.shown();
   const Moment at = moment_at(shown.time(), feed_.has_sample());
   if (!wanted(at)) return std::nullopt;
-  return Shown{{at, view_of(shown, scene_)}, beyond};
+  return Shown{{at, view_of(shown, scene_, shown_objects_)}, beyond};
 }
 
 std::optional<Committed> SimulationRunner::committed(const Wanted& wanted) const {
   const Lock lock(mutex_);
   const Moment at = moment_at(simulation_.time(), std::isfinite(feed_.committed()));
   if (!wanted(at)) return std::nullopt;
-  return Committed{{at, view_of(simulation_, scene_)}, task_.placements(), task_.score()};
+  return Committed{{at, view_of(simulation_, scene_, objects_)}, task_.placements(), task_.score()};
 }
 
 bool SimulationRunner::joins(const HandInput& input, const NewEpoch& epoch) const {
@@ -241,8 +241,7 @@ void SimulationRunner::keep_journal(bool keep) {
 
 void SimulationRunner::note_state() {
   const Lock lock(mutex_);
-  if (!keeps_journal_) return;
-  journal_.note(feed_.committed(), stamp(), comparison_of(simulation_));
+  if (keeps_journal_) journal_.note(feed_.committed(), stamp(), comparison_of(simulation_));
 }
 
 std::optional<std::int64_t> SimulationRunner::stamp() const {

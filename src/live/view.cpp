@@ -4,9 +4,10 @@
 
 namespace spring_workbench::live {
 
-View view_of(const simulation::Simulation& simulation, std::shared_ptr<const scene::Scene> scene) {
-  View view{std::move(scene),        simulation.settings(), simulation.time(),
-            simulation.world_time(), simulation.objects(),  {},
+View view_of(const simulation::Simulation& simulation, std::shared_ptr<const scene::Scene> scene,
+             SharedStates& objects) {
+  objects.follow(simulation);
+  View view{std::move(scene),     simulation.settings(), simulation.time(), simulation.world_time(), objects, {},
             simulation.contacts()};
   for (std::size_t hand = 0; hand < simulation.hands(); ++hand) view.tools.push_back(simulation.fork(hand));
   return view;

@@ -31,13 +31,16 @@ void FreeObjects::put_back() {
 }
 
 void FreeObjects::begin(double now) {
-  for (const std::size_t object : free_) objects_[object].slow_since = now;
+  for (const std::size_t object : free_) {
+    changes_.note(object);
+    objects_[object].slow_since = now;
+  }
 }
 
 bool FreeObjects::any_free() const { return !free_.empty() || (dynamic_stepper_ && dynamic_stepper_->others_awake()); }
 
 void FreeObjects::take_state(std::size_t object, const motion::MotionState& s) {
-  states_[object].X_WO = s.X;
+  state(object).X_WO = s.X;
   states_[object].V_WO_W = s.velocity;
   if (collision_) collision_->set_pose(scene_index(object), s.X);
 }
@@ -66,7 +69,7 @@ void FreeObjects::wake_what_lies_on(std::size_t object, double now) {
 }
 
 void FreeObjects::let_fly(std::size_t object, double now) {
-  bodies::BodyState& o = states_[object];
+  bodies::BodyState& o = state(object);
   if (massless(object)) {
     o.asleep = true;
     if (dynamic_stepper_) dynamic_stepper_->world().place(scene_index(object), o.X_WO, Twist(), false);
@@ -76,7 +79,7 @@ void FreeObjects::let_fly(std::size_t object, double now) {
 }
 
 void FreeObjects::set_free(std::size_t object, const Twist& V_WO_W, double now) {
-  states_[object].asleep = false;
+  state(object).asleep = false;
   if (dynamic_stepper_) dynamic_stepper_->world().place(scene_index(object), states_[object].X_WO, V_WO_W, false);
   objects_[object].free_body = std::make_unique<bodies::FreeBody>(scene_index(object), body(object), scene_.gravity,
                                                                   states_[object].X_WO, V_WO_W);
@@ -122,7 +125,7 @@ bool FreeObjects::touches_what_moves(std::size_t object) const {
 }
 
 void FreeObjects::put_to_sleep_if_slow(std::size_t object, double now) {
-  bodies::BodyState& o = states_[object];
+  bodies::BodyState& o = state(object);
   o.asleep = false;
   const double speed =
       o.V_WO_W.linear.norm() + o.V_WO_W.angular.norm() * geometry::bounding_radius(body(object).collision);

@@ -12,12 +12,11 @@ ObjectList::ObjectList(const scene::Scene& scene) : scene_(scene) {
 }
 
 void ObjectList::put_back() {
-  states_.assign(in_scene_.size(), bodies::BodyState());
+  states_.clear();
+  for (std::size_t i = 0; i < in_scene_.size(); ++i) states_.push_back(bodies::at_start(body(i)));
   highlighted_.clear();
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    states_[i].name = body(i).name;
-    states_[i].X_WO = body(i).X_WO;
-  }
+  changes_.reset(states_.size());
+  put_back_ = changes_.now();
 }
 
 std::optional<std::size_t> ObjectList::find(const std::string& name) const {
@@ -26,7 +25,7 @@ std::optional<std::size_t> ObjectList::find(const std::string& name) const {
 }
 
 void ObjectList::clear_highlights() {
-  for (const std::size_t object : highlighted_) states_[object].highlighted = false;
+  for (const std::size_t object : highlighted_) state(object).highlighted = false;
   highlighted_.clear();
 }
 

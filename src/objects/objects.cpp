@@ -33,10 +33,9 @@ void Objects::continue_from(const Objects& before, double now) {
     const Object& was = before.objects_[*same];
     objects_[i].free_body.reset();
     free_.erase(i);
-    states_[i] = before.states_[*same];
-    states_[i].highlighted = false;
+    bodies::BodyState& o = state(i) = before.states_[*same];
+    o.highlighted = false;
     objects_[i].grasping = was.grasping;
-    const bodies::BodyState& o = states_[i];
     take_state(i, {o.X_WO, o.V_WO_W, {}});
     if (!o.asleep && !o.held) {
       let_fly(i, now);
@@ -53,7 +52,7 @@ void Objects::hold(std::size_t object, Grip grip, double now) {
   ++(grip == Grip::grasp ? objects_[object].grasping : objects_[object].pushing);
   objects_[object].free_body.reset();
   free_.erase(object);
-  bodies::BodyState& o = states_[object];
+  bodies::BodyState& o = state(object);
   o.held = objects_[object].grasping > 0;
   if (o.held) o.highlighted = false;
   o.asleep = false;
@@ -63,7 +62,7 @@ void Objects::hold(std::size_t object, Grip grip, double now) {
 void Objects::let_go(std::size_t object, Grip grip, bool thrown, double now) {
   Object& carried = objects_[object];
   --(grip == Grip::grasp ? carried.grasping : carried.pushing);
-  bodies::BodyState& o = states_[object];
+  bodies::BodyState& o = state(object);
   o.held = carried.grasping > 0;
   if (carried.grasping + carried.pushing > 0) return;
   if (!thrown || massless(object)) o.V_WO_W = Twist();
@@ -97,7 +96,7 @@ void Objects::step_among_movable(const std::vector<Carried>& held, double now, d
   for (const Carried& c : carried) {
     if (gone.count(c.object) > 0) continue;
     Object& object = objects_[c.object];
-    const bodies::BodyState& o = states_[c.object];
+    const bodies::BodyState& o = state(c.object);
     std::vector<std::size_t> near;
     const auto among_fixed = [&](const RigidTransform& X0_WO, const RigidTransform& X1_WO) {
       near = world.movable_near(scene_index(c.object), X0_WO, X1_WO, h, moving, scene_.bodies.size());
@@ -210,7 +209,7 @@ void Objects::note_world_contacts(double h) {
   }
   for (auto& [object, of_object] : rows) {
     if (of_object.empty() && states_[object].asleep) continue;
-    states_[object].in_contact = !of_object.empty();
+    state(object).in_contact = !of_object.empty();
     contacts_.note(object, states_[object], of_object, h);
     if (of_object.empty()) {
       in_contact_.erase(object);
@@ -221,23 +220,50 @@ void Objects::note_world_contacts(double h) {
   }
 }
 
-void Objects::exchange(math::StateArchive& state) {
-  for (std::size_t i = 0; i < states_.size(); ++i) {
-    Object& object = objects_[i];
+std::vector<std::size_t> Objects::Archive::moved() const {
+  std::vector<std::size_t> moved;
+  for (std::size_t i = 0; i < of_.states_.size(); ++i) {
+    if (!of_.changes_.since(of_.put_back_, i)) continue;
+    const Object& object = of_.objects_[i];
+    const bool as_put_back = !object.free_body && object.rows.empty() && !object.carried() &&
+                             object.slow_since == 0.0 && same_bits(of_.states_[i], bodies::at_start(of_.body(i)));
+    if (!as_put_back) moved.push_back(i);
+  }
+  return moved;
+}
+
+void Objects::Archive::exchange(math::StateArchive& state) {
+  const std::vector<std::size_t> present = moved();
+  std::vector<std::size_t> kept = present;
+  state(kept);
+  for (std::size_t k = 0; state.sets() && k < present.size(); ++k) {
+    of_.objects_[present[k]] = Object();
+    of_.take_state(present[k], {of_.body(present[k]).X_WO, Twist(), {}});
+    of_.states_[present[k]] = bodies::at_start(of_.body(present[k]));
+  }
+  exchange(state, kept);
+}
+
+void Objects::Archive::exchange(math::StateArchive& state, const std::vector<std::size_t>& some) {
+  for (const std::size_t i : some) {
+    Object& object = of_.objects_.at(i);
     bool flies = object.free_body != nullptr;
-    state(states_[i], object.rows, object.grasping, object.pushing, object.slow_since, flies);
+    state(of_.states_[i], object.rows, object.grasping, object.pushing, object.slow_since, flies);
     if (state.sets()) {
-      const bodies::BodyState& o = states_[i];
-      if (collision_) collision_->set_pose(scene_index(i), o.X_WO);
-      object.free_body =
-          !flies ? nullptr
-                 : std::make_unique<bodies::FreeBody>(scene_index(i), body(i), scene_.gravity, o.X_WO, o.V_WO_W);
+      const bodies::BodyState& o = of_.state(i);
+      of_.take_state(i, {o.X_WO, o.V_WO_W, {}});
+      object.free_body = nullptr;
+      if (flies) {
+        object.free_body =
+            std::make_unique<bodies::FreeBody>(of_.scene_index(i), of_.body(i), of_.scene_.gravity, o.X_WO, o.V_WO_W);
+      }
     }
     if (flies) state(*object.free_body);
   }
-  state(contacts_, highlighted_, free_, in_contact_);
-  if (dynamic_stepper_) state(*dynamic_stepper_);
+  state(of_.contacts_, of_.highlighted_, of_.free_, of_.in_contact_);
+  if (of_.dynamic_stepper_) state(*of_.dynamic_stepper_);
 }
+
 bool Objects::rests(std::size_t object) const { return dynamic_stepper_ ? !any_free() : !touches_what_moves(object); }
 
 }  // namespace spring_workbench::objects

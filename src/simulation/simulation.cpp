@@ -171,8 +171,9 @@ struct Simulation::Impl {
   bool beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go);
   void carry(double h, const Slipping& slipping, AdvanceReport& report);
   void step(double end, AdvanceReport& report);
-  void exchange(math::StateArchive& state);
-  void set(const math::StateArchive::Words& words);
+  /// `some`: of the objects, these alone; null: all.
+  void exchange(math::StateArchive& state, const std::vector<std::size_t>* some = nullptr);
+  void set(const math::StateArchive::Words& words, const std::vector<std::size_t>* some = nullptr);
   double elastic_energy() const;
   void move(const ObjectEdit& edit);
   /// Takes over the state of `before`, whose scene is the same but for `edit`.
@@ -375,15 +376,17 @@ void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
   fill_parts(report);
 }
 
-void Simulation::Impl::exchange(math::StateArchive& state) {
+void Simulation::Impl::exchange(math::StateArchive& state, const std::vector<std::size_t>* some) {
   state(edits, now, started, settings.dynamics.integrator, settings.dynamics.step, settings.dynamics.tolerance,
-        settings.dynamics.error_bound, objects);
+        settings.dynamics.error_bound);
+  objects::Objects::Archive of_objects(objects);
+  some != nullptr ? of_objects.exchange(state, *some) : of_objects.exchange(state);
   for (Hand& hand : hands) hand.exchange(state, now);
 }
 
-void Simulation::Impl::set(const math::StateArchive::Words& words) {
+void Simulation::Impl::set(const math::StateArchive::Words& words, const std::vector<std::size_t>* some) {
   math::StateArchive state(words);
-  exchange(state);
+  exchange(state, some);
   if (!state.at_end()) throw std::out_of_range("data left over at the end");
 }
 
@@ -660,13 +663,16 @@ void Simulation::restore(const SimulationState& state) {
 
 void Simulation::follow(const Simulation& other) {
   if (other.impl_->origin != impl_->origin || !(other.impl_->edits == impl_->edits)) return restore(other.save());
-  math::StateArchive archive(impl_->words_of_state);
-  other.impl_->exchange(archive);
-  impl_->set(archive.taken());
-  impl_->words_of_state = archive.taken().size();
+  math::Changes &own = impl_->objects.changes(), &others = other.impl_->objects.changes();
+  const std::vector<std::size_t> differing = own.differing(others);
+  math::StateArchive archive;
+  other.impl_->exchange(archive, &differing);
+  impl_->set(archive.taken(), &differing);
+  own.followed(others);
 }
 
 const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->objects.states(); }
+const math::Changes& Simulation::object_changes() const { return impl_->objects.changes(); }
 const std::vector<contact::ContactState>& Simulation::contacts() const { return impl_->objects.contacts().told(); }
 tools::ToolState Simulation::fork(std::size_t hand) const { return impl_->hand(hand).state(impl_->now); }
 

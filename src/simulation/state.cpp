@@ -10,7 +10,7 @@
 namespace spring_workbench::simulation {
 namespace {
 
-const std::string format = "spring_workbench state 1";
+const std::string format = "spring_workbench state 2";
 const char* const hexadecimal = "0123456789abcdef";
 
 void append_hex(std::string& text, std::uint64_t word) {

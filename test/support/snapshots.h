@@ -8,7 +8,8 @@ namespace spring_workbench {
 
 /// What can be seen of a simulation now.
 inline live::View view_of(const simulation::Simulation& simulation) {
-  return live::view_of(simulation, std::make_shared<const scene::Scene>(simulation.scene()));
+  live::SharedStates objects;
+  return live::view_of(simulation, std::make_shared<const scene::Scene>(simulation.scene()), objects);
 }
 
 /// Wants a snapshot of every moment.

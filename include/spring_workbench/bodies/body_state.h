@@ -3,6 +3,7 @@
 #include <string>
 
 #include "spring_workbench/math/state_archive.h"
+#include "spring_workbench/scene/scene.h"
 
 namespace spring_workbench::bodies {
 
@@ -18,5 +19,10 @@ struct BodyState {
 
   void exchange(math::StateArchive& state) { state(X_WO, V_WO_W, held, highlighted, in_contact, asleep); }
 };
+
+/// Whether all numbers are the same, bit by bit.
+bool same_bits(const BodyState& a, const BodyState& b);
+/// The state of a body of a scene to begin with: asleep.
+BodyState at_start(const scene::Body& body);
 
 }  // namespace spring_workbench::bodies

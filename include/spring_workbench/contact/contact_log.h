@@ -33,7 +33,7 @@ class ContactLog {
   const std::vector<ContactState>& told() const { return told_; }
 
   /// Between two calls of `advance`.
-  void exchange(math::StateArchive& state) { state(touching_, with_contacts_, ended_, told_); }
+  void exchange(math::StateArchive& state);
 
  private:
   std::vector<ContactState> all() const;

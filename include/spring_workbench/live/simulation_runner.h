@@ -126,13 +126,16 @@ class SimulationRunner {
   /// the scene.
   void resume(const scene::Scene& scene, const simulation::SimulationState& state);
 
-  /// How many hands there are.
-  std::size_t hands() const { return inputs_.size(); }
+  std::size_t hands() const { return inputs_.size(); }  ///< how many there are
   /// Calls `use(const Simulation&)` with exclusive access to the simulation.
   template <typename Use>
   auto locked(Use&& use) const {
     const Lock lock(mutex_);
     return use(simulation_);
+  }
+  /// The present scene with all edits.
+  std::shared_ptr<const scene::Scene> scene() const {
+    return locked([this](const auto&) { return scene_; });
   }
   /// Makes a change of the present scene, which the journal calls `what`. Throws as perform().
   simulation::ChangeReport change(const std::string& what, const Command& command);
@@ -189,6 +192,7 @@ class SimulationRunner {
   hand_input::Feed feed_;
   LookAhead ahead_;
   std::shared_ptr<const scene::Scene> scene_;
+  mutable SharedStates objects_, shown_objects_;  ///< in the last views
   assembly::TaskMonitor task_;
   std::vector<HandInput> inputs_;
   bool simulated_time_;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "spring_workbench/bodies/body_state.h"
+#include "spring_workbench/math/changes.h"
 #include "spring_workbench/scene/scene.h"
 
 namespace spring_workbench::objects {
@@ -17,14 +18,20 @@ class ObjectList {
   explicit ObjectList(const scene::Scene& scene);
 
   const std::vector<bodies::BodyState>& states() const { return states_; }
-  bodies::BodyState& state(std::size_t object) { return states_[object]; }
+  /// To be changed.
+  bodies::BodyState& state(std::size_t object) {
+    changes_.note(object);
+    return states_[object];
+  }
+  /// Of the objects' states, and of what else is kept of each.
+  math::Changes& changes() { return changes_; }
   std::size_t scene_index(std::size_t object) const { return in_scene_[object]; }
   const scene::Body& body(std::size_t object) const { return scene_.bodies[in_scene_[object]]; }
   bool massless(std::size_t object) const { return !(body(object).mass_properties.mass > 0.0); }
   std::optional<std::size_t> find(const std::string& name) const;
   void clear_highlights();
   void highlight(std::size_t object) {
-    states_[object].highlighted = true;
+    state(object).highlighted = true;
     highlighted_.push_back(object);
   }
   bool with_contact() const { return scene_.contact != scene::ContactMode::none; }
@@ -35,6 +42,8 @@ class ObjectList {
 
   const scene::Scene& scene_;
   std::vector<bodies::BodyState> states_;
+  math::Changes changes_;
+  math::Changes::Moment put_back_;
   std::vector<std::size_t> object_of_;    ///< object by index in the scene; valid for movable bodies
   std::vector<std::size_t> highlighted_;  ///< the objects that are highlighted
 

@@ -46,8 +46,18 @@ class Objects : public FreeObjects {
   /// been slow for long enough falls asleep.
   void step(const std::vector<Carried>& held, double now, double h, StepCounts& counts);
 
-  /// Between two calls of `advance`.
-  void exchange(math::StateArchive& state);
+  /// Exchanges the state between two calls of `advance`. Of an object that is as reset() puts it, nothing is kept.
+  class Archive {
+   public:
+    explicit Archive(Objects& of) : of_(of) {}
+    void exchange(math::StateArchive& state);
+    /// Of these objects, and what is of no object alone.
+    void exchange(math::StateArchive& state, const std::vector<std::size_t>& some);
+
+   private:
+    std::vector<std::size_t> moved() const;
+    Objects& of_;
+  };
 
  private:
   /// Contact mode `dynamic`: objects that have only fixed bodies near them are carried as in mode `stop`, all others

@@ -21,8 +21,10 @@ ToolOutput::ToolOutput(ros::NodeHandle private_node, const std::string& frame_pr
 
 void ToolOutput::read(const live::View& view, tools::ToolState& tool) {
   RigidTransform X_WT = RigidTransform::Identity();
-  for (const bodies::BodyState& object : view.objects) {
-    if (!tool.touched.empty() && object.name == tool.touched) X_WT = object.X_WO;
+  if (!tool.touched.empty()) {
+    for (const bodies::BodyState& object : view.objects) {
+      if (object.name == tool.touched) X_WT = object.X_WO;
+    }
   }
   average_.take(view.world_time, tool, X_WT);
 }

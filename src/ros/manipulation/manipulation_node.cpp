@@ -82,7 +82,7 @@ ManipulationNode::~ManipulationNode() {
   alarm_.ring();
   physics_.join();
   // What their callbacks use is destroyed next.
-  for (CallbackThread* thread : {&input_thread_, &master_thread_, &disk_thread_}) thread->stop();
+  for (ros_common::CallbackThread* thread : {&input_thread_, &master_thread_, &disk_thread_}) thread->stop();
 }
 
 void ManipulationNode::run_physics() {
@@ -157,13 +157,7 @@ void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
   diagnostics_publisher_.publish(message);
 }
 
-/// The message is made outside of the lock: meshes are shared.
-void ManipulationNode::describe_scene() {
-  const auto changed = runner_.locked([this](const simulation::Simulation& simulation) {
-    return scene_publisher_.is_new(simulation.scene()) ? std::make_optional(simulation.scene()) : std::nullopt;
-  });
-  if (changed) scene_publisher_.publish(*changed);
-}
+void ManipulationNode::describe_scene() { scene_publisher_.keep(runner_.scene()); }
 
 /// In a thread of its own: it takes as long as the master does, and nothing waits for it.
 void ManipulationNode::ask_master() {

@@ -7,20 +7,17 @@
 
 namespace spring_workbench::manipulation {
 
-void write(const std::vector<bodies::BodyState>& objects, ObjectStates& message) {
-  message.objects.resize(objects.size());
-  auto next = message.objects.begin();
-  for (const bodies::BodyState& object : objects) {
-    ObjectState& state = *next++;
-    state.name = object.name;
-    state.pose = ros_common::to_pose(object.X_WO);
-    state.twist.linear = ros_common::to_vector(object.V_WO_W.linear);
-    state.twist.angular = ros_common::to_vector(object.V_WO_W.angular);
-    state.held = object.held;
-    state.highlighted = object.highlighted;
-    state.in_contact = object.in_contact;
-    state.asleep = object.asleep;
-  }
+ObjectState to_message(const bodies::BodyState& object) {
+  ObjectState message;
+  message.name = object.name;
+  message.pose = ros_common::to_pose(object.X_WO);
+  message.twist.linear = ros_common::to_vector(object.V_WO_W.linear);
+  message.twist.angular = ros_common::to_vector(object.V_WO_W.angular);
+  message.held = object.held;
+  message.highlighted = object.highlighted;
+  message.in_contact = object.in_contact;
+  message.asleep = object.asleep;
+  return message;
 }
 
 ForkState to_message(const tools::ToolState& tool, double fork_diameter) {

@@ -6,7 +6,7 @@
 #include "spring_workbench/Change.h"
 #include "spring_workbench/Contacts.h"
 #include "spring_workbench/ForkState.h"
-#include "spring_workbench/ObjectStates.h"
+#include "spring_workbench/ObjectState.h"
 #include "spring_workbench/StepReport.h"
 #include "spring_workbench/TaskState.h"
 #include "spring_workbench/assembly/task_monitor.h"
@@ -15,8 +15,7 @@
 namespace spring_workbench::manipulation {
 
 // What the core says as messages: same frames, same units.
-/// Into a message that may have been used before: that of as many objects again allocates nothing.
-void write(const std::vector<bodies::BodyState>& objects, ObjectStates& message);
+ObjectState to_message(const bodies::BodyState& object);
 /// `fork_diameter`: of the coil, as a fraction of the rest length.
 ForkState to_message(const tools::ToolState& tool, double fork_diameter);
 TaskState to_message(const std::vector<assembly::Placement>& placements, const assembly::TaskScore& score);

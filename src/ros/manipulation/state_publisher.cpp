@@ -4,7 +4,6 @@
 
 #include "constants.h"
 #include "messages.h"
-#include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/publishing.h"
 #include "spring_workbench/validation/names.h"
@@ -15,14 +14,14 @@ using ros_common::publish_made;
 
 StatePublisher::StatePublisher(ros::NodeHandle private_node, const ManipulationParameters& parameters)
     : world_frame_(parameters.world_frame),
-      frame_prefix_(parameters.frame_prefix),
       fork_diameter_(parameters.fork_diameter),
       markers_(private_node, parameters.fork_curve, parameters.fork_diameter, parameters.markers_rate),
-      objects_publisher_(private_node.advertise<ObjectStates>("objects", state_queue)),
+      frames_(private_node, parameters.world_frame, parameters.frame_prefix),
+      objects_{private_node.advertise<ObjectStates>("objects", state_queue), {}},
+      shown_objects_{private_node.advertise<ObjectStates>("display/objects", 5), {}},
       contacts_publisher_(private_node.advertise<Contacts>("contacts", state_queue)),
       steps_publisher_(private_node.advertise<StepReport>("steps", state_queue)),
       task_publisher_(private_node.advertise<TaskState>("task", state_queue)),
-      shown_objects_publisher_(private_node.advertise<ObjectStates>("display/objects", 5)),
       accepted_publisher_(private_node.advertise<Accepted>("accepted", state_queue)),
       changes_publisher_(private_node.advertise<Change>("changes", state_queue)) {
   for (int k = 0; k < parameters.simulation.styluses; ++k) {
@@ -57,7 +56,7 @@ void StatePublisher::publish_journal(live::SimulationRunner& runner) {
 void StatePublisher::publish(const CommittedState& state, double publish_time) {
   const live::View& view = state.committed.view;
   const std_msgs::Header header = header_at(state.stamp);
-  publish_objects(view, objects_publisher_, header);
+  objects_.publish(view, header);
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) publish_hand(hand, view, header);
   publish_contacts(view, header);
   publish_made(task_publisher_, header, [&] { return to_message(state.committed.placements, state.committed.score); });
@@ -82,8 +81,8 @@ void StatePublisher::publish(const ShownState& state) {
   horizon_ = state.shown.horizon;
   const live::View& view = state.shown.view;
   const std_msgs::Header header = header_at(state.stamp);
-  publish_transforms(view, state.stamp);
-  publish_objects(view, shown_objects_publisher_, header);
+  frames_.publish(view, state.stamp);
+  shown_objects_.publish(view, header);
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
     const tools::ToolState& tool = view.tools[hand];
     if (hand == 0 || tool.present)
@@ -92,12 +91,11 @@ void StatePublisher::publish(const ShownState& state) {
   markers_were_built_ = markers_.publish(view, header, state.local_time);
 }
 
-void StatePublisher::publish_objects(const live::View& view, const ros::Publisher& publisher,
-                                     const std_msgs::Header& header) {
+void StatePublisher::ObjectsTopic::publish(const live::View& view, const std_msgs::Header& header) {
   if (publisher.getNumSubscribers() == 0) return;
-  write(view.objects, objects_);
-  objects_.header = header;
-  publisher.publish(objects_);
+  message.header = header;
+  message.write(view.objects);
+  publisher.publish(message);
 }
 
 void StatePublisher::publish_hand(std::size_t hand, const live::View& view, const std_msgs::Header& header) {
@@ -108,40 +106,10 @@ void StatePublisher::publish_hand(std::size_t hand, const live::View& view, cons
   hands_[hand].output.publish(view, tool, header);
 }
 
-void StatePublisher::publish_transforms(const live::View& view, const ros::Time& stamp) {
-  if (stamp.isZero() || stamp == last_transforms_) return;
-  last_transforms_ = stamp;
-  std::vector<geometry_msgs::TransformStamped> transforms;
-  for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
-    const tools::ToolState& tool = view.tools[hand];
-    if (hand > 0 && !tool.present) continue;
-    const std::string number = ros_common::hand_suffix(hand);
-    transforms.push_back(
-        ros_common::to_transform(tool.X_WH, world_frame_, frame_prefix_ + "fork_handle" + number, stamp));
-    transforms.push_back(ros_common::to_transform(tool.X_WE, world_frame_, frame_prefix_ + "fork_tip" + number, stamp));
-  }
-  const double steady = ros_common::steady_time();
-  const bool all = steady >= all_transforms_ + repeat_after || sent_X_.size() != view.objects.size();
-  if (all) all_transforms_ = steady;
-  sent_X_.resize(view.objects.size(), RigidTransform::Identity());
-  auto sent = sent_X_.begin();
-  view.for_each_object([&](const bodies::BodyState& object, const scene::Body& body) {
-    RigidTransform& last = *sent++;
-    if (!all && last.matrix() == object.X_WO.matrix()) return;
-    last = object.X_WO;
-    transforms.push_back(
-        ros_common::to_transform(object.X_WO * body.X_OL, world_frame_, frame_prefix_ + object.name, stamp));
-  });
-  transforms_.sendTransform(transforms);
-}
-
 void StatePublisher::publish_contacts(const live::View& view, const std_msgs::Header& header) {
   const bool has_contacts = !view.contacts.empty();
-  if (has_contacts || had_contacts_) {
-    Contacts message = to_message(view.contacts);
-    message.header = header;
-    contacts_publisher_.publish(message);
-  }
+  if (has_contacts || had_contacts_)
+    publish_made(contacts_publisher_, header, [&] { return to_message(view.contacts); });
   had_contacts_ = has_contacts;
 }
 

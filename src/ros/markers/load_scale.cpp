@@ -45,6 +45,7 @@ LoadScale::LoadScale(const live::View& view)
   if (view.settings.grasp.calibrate == tools::Calibration::world) {
     stretch_stiffness_ = view.settings.fork.stiffness.stretch;
   }
+  marks_ = marks();
 }
 
 double LoadScale::height(double place) const { return (0.5 + place * (legend_steps - 1)) * legend_edge; }
@@ -60,18 +61,16 @@ std::string LoadScale::label(double weight) const {
 }
 
 /// The heaviest, the lightest, then the others, as far as there is room for their letters.
-void LoadScale::draw_marks(MarkerList& markers) const {
+std::vector<LoadScale::Mark> LoadScale::marks() const {
   std::vector<double> in_order = range_.weights();
   if (in_order.size() > 1) std::rotate(in_order.begin() + 1, in_order.end() - 1, in_order.end());
-  std::vector<double> taken;
+  std::vector<Mark> marks;
   for (const double weight : in_order) {
     const double z = height(range_.place(weight));
-    const auto near = [&](double other) { return std::abs(other - z) < 0.9 * legend_letters; };
-    if (std::any_of(taken.begin(), taken.end(), near)) continue;
-    taken.push_back(z);
-    markers.add_text("legend marks", static_cast<int>(taken.size()), foot_ + Vector3d(6.0 * legend_letters, 0.0, z),
-                     legend_letters, label(weight), legend_color);
+    const auto near = [&](const Mark& other) { return std::abs(other.height - z) < 0.9 * legend_letters; };
+    if (std::none_of(marks.begin(), marks.end(), near)) marks.push_back({z, label(weight)});
   }
+  return marks;
 }
 
 void LoadScale::draw_legend(MarkerList& markers) const {
@@ -87,7 +86,11 @@ void LoadScale::draw_legend(MarkerList& markers) const {
   std::snprintf(full, sizeof full, "%.4g N = %.3g vkg", range_.full(), range_.full() / gravity_);
   const Vector3d above(6.0 * legend_letters, 0.0, legend_steps * legend_edge + 1.6 * legend_letters);
   markers.add_text("legend", 2, foot_ + above, legend_letters, full, legend_color);
-  draw_marks(markers);
+  int id = 0;
+  for (const auto& [z, label] : marks_) {
+    markers.add_text("legend marks", ++id, foot_ + Vector3d(6.0 * legend_letters, 0.0, z), legend_letters, label,
+                     legend_color);
+  }
 }
 
 void LoadScale::draw_load(const tools::ToolState& tool, const std::string& number, MarkerList& markers) const {

@@ -9,6 +9,7 @@ namespace spring_workbench::markers {
 /// The legend of how much a tool carries, in the colours of fork_mesh::load_color over the scene's LoadRange.
 class LoadScale {
  public:
+  /// Holds for all views of this scene.
   explicit LoadScale(const live::View& view);
 
   /// A column of the colours at the scene's left back corner: what its end means in N and vkg, and a mark for each
@@ -18,7 +19,11 @@ class LoadScale {
   void draw_load(const tools::ToolState& tool, const std::string& number, MarkerList& markers) const;
 
  private:
-  void draw_marks(MarkerList& markers) const;
+  struct Mark {
+    double height;  ///< in the column [m]
+    std::string label;
+  };
+  std::vector<Mark> marks() const;
   double height(double place) const;  ///< of the column [m]
   std::string label(double weight) const;
 
@@ -26,6 +31,7 @@ class LoadScale {
   double gravity_;                  ///< that tells a weight from a mass [m/s²]
   double stretch_stiffness_ = 0.0;  ///< of the fork that is calibrated to the world [N/m]; 0: it is not
   Vector3d foot_;                   ///< of the column
+  std::vector<Mark> marks_;         ///< of objects' weights
 };
 
 /// Of a spring whose load is at `place` in the range.

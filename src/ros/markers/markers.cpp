@@ -4,6 +4,7 @@
 #include "load_scale.h"
 #include "marker_list.h"
 #include "scene_markers.h"
+#include "shadows.h"
 #include "spring_workbench/validation/names.h"
 
 namespace spring_workbench::markers {
@@ -14,22 +15,27 @@ using visualization_msgs::MarkerArray;
 MarkerBuilder::MarkerBuilder(std::string fork_curve, double fork_diameter, double lifetime, Drawn drawn)
     : fork_curve_(std::move(fork_curve)), fork_diameter_(fork_diameter), lifetime_(lifetime), drawn_(drawn) {}
 
+MarkerBuilder::~MarkerBuilder() = default;
+
 MarkerArray MarkerBuilder::build(const live::View& view, const std_msgs::Header& header) {
-  const scene::Scene& scene = *view.scene;
-  const LoadScale scale(view);
+  if (view.scene != scene_) {
+    scene_ = view.scene;
+    scale_ = std::make_unique<LoadScale>(view);
+    shadows_ = std::make_unique<Shadows>();
+  }
   MarkerList list(header, lifetime_);
   if (drawn_ == Drawn::everything) draw_bodies(view, list);
-  draw_targets(scene, list);
-  scale.draw_legend(list);
-  for (std::size_t hand = 0; hand < view.tools.size(); ++hand) draw_hand(view, scale, hand, list);
-  draw_shadows(view, forks_W_, list);
+  draw_targets(*scene_, list);
+  scale_->draw_legend(list);
+  for (std::size_t hand = 0; hand < view.tools.size(); ++hand) draw_hand(view, hand, list);
+  shadows_->draw(view, forks_W_, list);
   draw_contacts(view.contacts, view.tools.front().length, list);
   MarkerArray markers = list.take();
   delete_what_is_gone(header, markers);
   return markers;
 }
 
-void MarkerBuilder::draw_hand(const live::View& view, const LoadScale& scale, std::size_t hand, MarkerList& list) {
+void MarkerBuilder::draw_hand(const live::View& view, std::size_t hand, MarkerList& list) {
   if (hand == 0) forks_W_.clear();
   const tools::ToolState& tool = view.tools[hand];
   if (hand > 0 && !tool.present) return;
@@ -39,7 +45,7 @@ void MarkerBuilder::draw_hand(const live::View& view, const LoadScale& scale, st
   if (drawn_ == Drawn::everything) draw_fork(model, fork_mesh_, load_color(tool.load), number, list);
   draw_gap(tool, number, list);
   draw_load(*view.scene, tool, number, list);
-  if (!tool.held_object.empty()) scale.draw_load(tool, number, list);
+  if (!tool.held_object.empty()) scale_->draw_load(tool, number, list);
 }
 
 const fork_mesh::ForkModel& MarkerBuilder::deform(const tools::ToolState& tool) {

@@ -1,13 +1,9 @@
 #include "scene_markers.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "constants.h"
 #include "file_colors.h"
 #include "spring_workbench/fork_mesh/constants.h"
 #include "spring_workbench/fork_mesh/load_color.h"
-#include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/ros/common/conversions.h"
 
 namespace spring_workbench::markers {
@@ -16,7 +12,6 @@ namespace {
 using visualization_msgs::Marker;
 
 const Color contact_color(1.0, 0.25, 0.05, 1.0);
-const Color shadow_color(0.0, 0.0, 0.0, 0.45);
 
 /// A mesh by its file where it has one: rviz reads it once, and a message is small.
 void set_mesh(const geometry::TriangleMesh& mesh, Marker& marker) {
@@ -63,59 +58,6 @@ void draw_body(const scene::Body& body, const RigidTransform& X_WO, bool highlig
   }
 }
 
-/// Points of a shape's surface, in W, whose shadow is the shape's; of a mesh, its box.
-void add_outline(const geometry::Shape& shape, const RigidTransform& X_WO, std::vector<Vector3d>& points_W) {
-  const RigidTransform X_WS = X_WO * shape.X_OS;
-  const auto add_circle = [&](double radius, double z, const RigidTransform& X) {
-    for (int i = 0; i < outline_sides; ++i) {
-      const double angle = 2.0 * M_PI * i / outline_sides;
-      points_W.push_back(X * Vector3d(radius * std::cos(angle), radius * std::sin(angle), z));
-    }
-  };
-  if (const auto* sphere = std::get_if<geometry::Sphere>(&shape.geometry)) {
-    RigidTransform X_W = RigidTransform::Identity();
-    X_W.translation() = X_WS.translation();
-    add_circle(sphere->radius, 0.0, X_W);
-    points_W.push_back(X_WS.translation() - Vector3d(0.0, 0.0, sphere->radius));  // says how high it is
-  } else if (const auto* cylinder = std::get_if<geometry::Cylinder>(&shape.geometry)) {
-    add_circle(cylinder->radius, -0.5 * cylinder->length, X_WS);
-    add_circle(cylinder->radius, 0.5 * cylinder->length, X_WS);
-  } else {
-    const Eigen::AlignedBox3d box = geometry::bounding_box(shape.geometry);
-    for (int i = 0; i < 8; ++i) points_W.push_back(X_WS * box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
-  }
-}
-
-/// Convex hull of the points seen from above, counter-clockwise (Andrew's monotone chain).
-std::vector<Vector3d> hull_from_above(std::vector<Vector3d> points, double z) {
-  for (Vector3d& p : points) p.z() = z;
-  std::sort(points.begin(), points.end(),
-            [](const Vector3d& a, const Vector3d& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
-  std::vector<Vector3d> hull;
-  for (int pass = 0; pass < 2; ++pass) {
-    const std::size_t first = hull.size();
-    for (const Vector3d& p : points) {
-      while (hull.size() >= first + 2 && (hull.back() - hull[hull.size() - 2]).cross(p - hull.back()).z() <= 0.0) {
-        hull.pop_back();
-      }
-      hull.push_back(p);
-    }
-    hull.pop_back();  // the other pass begins with it
-    std::reverse(points.begin(), points.end());
-  }
-  return hull;
-}
-
-void draw_shadow(int id, const std::vector<Vector3d>& points_W, double bench_height, MarkerList& markers) {
-  double lowest = std::numeric_limits<double>::infinity();
-  for (const Vector3d& p : points_W) lowest = std::min(lowest, p.z());
-  if (!std::isfinite(lowest) || lowest < bench_height + least_shadow_height) return;
-  const std::vector<Vector3d> hull = hull_from_above(points_W, bench_height + shadow_above_bench);
-  std::vector<Vector3d> corners;
-  for (std::size_t i = 1; i + 1 < hull.size(); ++i) corners.insert(corners.end(), {hull[0], hull[i], hull[i + 1]});
-  if (!corners.empty()) markers.add_points("shadow", id, Marker::TRIANGLE_LIST, corners, shadow_color);
-}
-
 }  // namespace
 
 void draw_bodies(const live::View& view, MarkerList& markers) {
@@ -138,17 +80,6 @@ void draw_targets(const scene::Scene& scene, MarkerList& markers) {
       draw_shape("target " + name, id++, shape, target.X_WL * body.X_OL.inverse(), color, markers);
     }
   }
-}
-
-void draw_shadows(const live::View& view, const std::vector<std::vector<Vector3d>>& forks_W, MarkerList& markers) {
-  const scene::Scene& scene = *view.scene;
-  int id = 0;
-  view.for_each_object([&](const bodies::BodyState& object, const scene::Body& body) {
-    std::vector<Vector3d> outline;
-    for (const geometry::Shape& shape : body.visual) add_outline(shape, object.X_WO, outline);
-    draw_shadow(id++, outline, scene.bench_height, markers);
-  });
-  for (const std::vector<Vector3d>& fork_W : forks_W) draw_shadow(id++, fork_W, scene.bench_height, markers);
 }
 
 void draw_contacts(const std::vector<contact::ContactState>& contacts, double fork_length, MarkerList& markers) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "file_colors.h"
 #include "marker_list.h"
@@ -94,6 +95,12 @@ bool same_body(const scene::Body& a, const scene::Body& b) {
          same_shapes(a.collision, b.collision);
 }
 
+bool same_scene(const scene::Scene& a, const scene::Scene& b) {
+  const auto values = [](const scene::Scene& s) { return std::tie(s.name, s.path, s.gravity, s.force_scale); };
+  return values(a) == values(b) &&
+         std::equal(a.bodies.begin(), a.bodies.end(), b.bodies.begin(), b.bodies.end(), same_body);
+}
+
 }  // namespace
 
 bool has_file_colors(const geometry::Shape& shape) {
@@ -119,15 +126,11 @@ ScenePublisher::ScenePublisher(ros::NodeHandle private_node, std::string world_f
     : world_frame_(std::move(world_frame)),
       publisher_(private_node.advertise<SceneDescription>("scene_description", 1, true)) {}
 
-bool ScenePublisher::is_new(const scene::Scene& scene) const {
-  const auto values = [](const scene::Scene& s) { return std::tie(s.name, s.path, s.gravity, s.force_scale); };
-  return values(scene) != values(sent_) ||
-         !std::equal(scene.bodies.begin(), scene.bodies.end(), sent_.bodies.begin(), sent_.bodies.end(), same_body);
-}
-
-void ScenePublisher::publish(const scene::Scene& scene) {
+void ScenePublisher::keep(const std::shared_ptr<const scene::Scene>& scene) {
+  const bool is_new = scene != std::exchange(seen_, scene) && (!sent_ || !same_scene(*scene, *sent_));
+  if (!is_new) return;
   sent_ = scene;
-  SceneDescription message = describe(scene);
+  SceneDescription message = describe(*scene);
   message.header.frame_id = world_frame_;
   message.header.stamp = ros::Time::now();
   publisher_.publish(message);

@@ -33,7 +33,8 @@ HandEvents hand(int k) {
 }
 
 /// All that a node says of it.
-std::vector<double> readings(double time, const scene::Scene& scene, const std::vector<bodies::BodyState>& objects,
+template <typename Objects>
+std::vector<double> readings(double time, const scene::Scene& scene, const Objects& objects,
                              const tools::ToolState& tool, const std::vector<contact::ContactState>& contacts) {
   std::vector<double> all{time, static_cast<double>(scene.bodies.size())};
   const auto add = [&all](const auto& matrix) {

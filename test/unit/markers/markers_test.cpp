@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <tuple>
@@ -97,6 +99,26 @@ TEST_F(MarkersOfALift, WhatIsGoneIsDeletedOnceAndByName) {
   }
   EXPECT_TRUE(force_was_drawn);
   EXPECT_EQ(shown.count({"force", 0}), 0u);
+}
+
+/// What is kept from one message to the next is as if it were drawn anew.
+TEST_F(MarkersOfALift, WhatWasDrawnBeforeChangesNothing) {
+  const auto scene = std::make_shared<const scene::Scene>(simulation_.scene());
+  live::SharedStates objects;
+  std::set<std::size_t> shadows;
+  for (double t = 0.5; t < 4.0; t += 0.1) {
+    go_to(t);
+    if (t > 3.5) simulation_.release();
+    const live::View view = live::view_of(simulation_, scene, objects);
+    MarkerArray markers = builder_.build(view, std_msgs::Header());
+    const auto deletes = [](const Marker& marker) { return marker.action == Marker::DELETE; };
+    markers.markers.erase(std::remove_if(markers.markers.begin(), markers.markers.end(), deletes),
+                          markers.markers.end());
+    EXPECT_EQ(markers, MarkerBuilder("rod", fork_mesh::usual_diameter, 2.0).build(view, std_msgs::Header())) << t;
+    shadows.insert(static_cast<std::size_t>(std::count_if(markers.markers.begin(), markers.markers.end(),
+                                                          [](const Marker& m) { return m.ns == "shadow"; })));
+  }
+  EXPECT_EQ(shadows, (std::set<std::size_t>{0, 1, 2}));  // of the fork over the bench, and of the raised box
 }
 
 /// Sum of the triangles' areas.

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
@@ -12,6 +11,7 @@
 #include <vector>
 
 #include "spring_workbench/live/simulation_runner.h"
+#include "spring_workbench/ros/common/callback_thread.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/lost_messages.h"
 #include "spring_workbench/ros/machine_link/wrench_input.h"
@@ -26,23 +26,6 @@
 #include "spring_workbench/ros/services/services.h"
 
 namespace spring_workbench::manipulation {
-
-/// A queue of callbacks with a thread of its own, which nothing else keeps waiting.
-class CallbackThread {
- public:
-  CallbackThread() : spinner_(1, &queue_) { spinner_.start(); }
-  /// Its callbacks come from the queue.
-  ros::NodeHandle handle(ros::NodeHandle node) {
-    node.setCallbackQueue(&queue_);
-    return node;
-  }
-  /// Waits for the callback that runs; none runs after that.
-  void stop() { spinner_.stop(); }
-
- private:
-  ros::CallbackQueue queue_;
-  ros::AsyncSpinner spinner_;
-};
 
 /// The node `manipulation`: tf and buttons in; physics in its own thread, woken by samples, on the steady clock or,
 /// under `use_sim_time`, on ROS time; states, markers and reports out, by another thread. Call the callbacks of the
@@ -69,7 +52,7 @@ class ManipulationNode {
   const ManipulationParameters parameters_;
   live::SimulationRunner runner_;
   ros_common::Alarm alarm_;
-  CallbackThread input_thread_, master_thread_, disk_thread_;
+  ros_common::CallbackThread input_thread_, master_thread_, disk_thread_;
   std::deque<StylusInput> inputs_;
   machine_link::WrenchInput wrenches_;
   StatePublisher publisher_;

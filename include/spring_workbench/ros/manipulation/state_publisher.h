@@ -1,15 +1,15 @@
 #pragma once
 
 #include <ros/ros.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include <string>
 #include <vector>
 
-#include "spring_workbench/ObjectStates.h"
 #include "spring_workbench/live/simulation_runner.h"
 #include "spring_workbench/ros/machine_link/tool_output.h"
+#include "spring_workbench/ros/manipulation/frame_publisher.h"
 #include "spring_workbench/ros/manipulation/manipulation_parameters.h"
+#include "spring_workbench/ros/manipulation/objects_message.h"
 #include "spring_workbench/ros/markers/marker_publisher.h"
 
 namespace spring_workbench::manipulation {
@@ -49,25 +49,25 @@ class StatePublisher {
     ros::Publisher fork, shown_fork;
     machine_link::ToolOutput output;
   };
-  void publish_objects(const live::View& view, const ros::Publisher& publisher, const std_msgs::Header& header);
+  /// What is sent of all objects; of what was sent before, what has not changed since is still there.
+  struct ObjectsTopic {
+    ros::Publisher publisher;
+    ObjectsMessage message;
+    void publish(const live::View& view, const std_msgs::Header& header);
+  };
   void publish_hand(std::size_t hand, const live::View& view, const std_msgs::Header& header);
-  void publish_transforms(const live::View& view, const ros::Time& stamp);
   void publish_contacts(const live::View& view, const std_msgs::Header& header);
   std_msgs::Header header_at(const ros::Time& stamp) const;
 
-  std::string world_frame_, frame_prefix_;
-  ros::Time last_transforms_;
-  double all_transforms_ = -1.0;        ///< when all were sent last [s], by the steady clock
-  std::vector<RigidTransform> sent_X_;  ///< of the objects
+  std::string world_frame_;
   double horizon_ = 0.0;
   bool had_contacts_ = false;
   bool markers_were_built_ = false;  ///< with the last shown state
   double fork_diameter_;
-  ObjectStates objects_;  ///< that was sent last
   markers::MarkerPublisher markers_;
-  tf2_ros::TransformBroadcaster transforms_;
-  ros::Publisher objects_publisher_, contacts_publisher_, steps_publisher_, task_publisher_, shown_objects_publisher_,
-      accepted_publisher_, changes_publisher_;
+  FramePublisher frames_;
+  ObjectsTopic objects_, shown_objects_;
+  ros::Publisher contacts_publisher_, steps_publisher_, task_publisher_, accepted_publisher_, changes_publisher_;
   std::vector<HandTopics> hands_;
   std::uint32_t journal_listeners_ = 0;
 };

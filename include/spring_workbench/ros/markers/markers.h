@@ -3,6 +3,7 @@
 #include <visualization_msgs/MarkerArray.h>
 
 #include <map>
+#include <memory>
 #include <set>
 #include <string>
 #include <utility>
@@ -15,6 +16,7 @@ namespace spring_workbench::markers {
 
 class LoadScale;
 class MarkerList;
+class Shadows;
 
 /// What to draw: everything, or only what rviz' displays `Objects` and `SpringFork` do not draw.
 enum class Drawn { everything, not_in_displays };
@@ -28,6 +30,7 @@ class MarkerBuilder {
   /// `fork_curve`: one of fork_curve_names(); `fork_diameter`: of the coil, as a fraction of the rest length.
   /// `lifetime` [s] of a marker that is not sent again.
   MarkerBuilder(std::string fork_curve, double fork_diameter, double lifetime, Drawn drawn = Drawn::everything);
+  ~MarkerBuilder();
 
   visualization_msgs::MarkerArray build(const live::View& view, const std_msgs::Header& header);
 
@@ -35,13 +38,16 @@ class MarkerBuilder {
   using MarkerKey = std::pair<std::string, int>;
 
   /// The tool of a hand and what it carries.
-  void draw_hand(const live::View& view, const LoadScale& scale, std::size_t hand, MarkerList& list);
+  void draw_hand(const live::View& view, std::size_t hand, MarkerList& list);
   const fork_mesh::ForkModel& deform(const tools::ToolState& tool);
   void delete_what_is_gone(const std_msgs::Header& header, visualization_msgs::MarkerArray& markers);
 
   std::string fork_curve_;
   double fork_diameter_, lifetime_;
   Drawn drawn_;
+  std::shared_ptr<const scene::Scene> scene_;           ///< of the last view
+  std::unique_ptr<LoadScale> scale_;                    ///< of this scene
+  std::unique_ptr<Shadows> shadows_;                    ///< likewise
   std::map<tools::Tool, fork_mesh::ForkModel> models_;  ///< of the tools that were drawn
   fork_mesh::ForkMesh fork_mesh_;
   std::vector<std::vector<Vector3d>> forks_W_;  ///< corners of each hand's fork

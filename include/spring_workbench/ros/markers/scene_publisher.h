@@ -2,8 +2,8 @@
 
 #include <ros/node_handle.h>
 
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "spring_workbench/SceneDescription.h"
 #include "spring_workbench/scene/scene.h"
@@ -18,13 +18,12 @@ class ScenePublisher {
  public:
   ScenePublisher(ros::NodeHandle private_node, std::string world_frame);
 
-  /// Whether the scene is another than the one that was sent last.
-  bool is_new(const scene::Scene& scene) const;
-  void publish(const scene::Scene& scene);
+  /// Sends it if it is another than the one that was sent last.
+  void keep(const std::shared_ptr<const scene::Scene>& scene);
 
  private:
   std::string world_frame_;
-  scene::Scene sent_;  ///< meshes are shared, not copied
+  std::shared_ptr<const scene::Scene> seen_, sent_;
   ros::Publisher publisher_;
 };
 

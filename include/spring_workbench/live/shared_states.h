@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "spring_workbench/simulation/simulation.h"
+
+namespace spring_workbench::live {
+
+/// The states of a simulation's movable objects at one moment: a value, whose parts of 32 objects are shared with the
+/// values from before in which they were the same. So it costs as much as has changed, and who has looked at one before
+/// need not look at the same part again.
+class SharedStates {
+ public:
+  using Part = std::vector<bodies::BodyState>;
+  using Parts = std::vector<std::shared_ptr<const Part>>;
+
+  /// Takes over what has changed since the last call.
+  void follow(const simulation::Simulation& simulation);
+
+  std::size_t size() const { return size_; }
+  bool empty() const { return size_ == 0; }
+  const bodies::BodyState& operator[](std::size_t object) const {
+    return (*parts_[object / part_size])[object % part_size];
+  }
+  /// All parts have the same number of objects, but the last.
+  const Parts& parts() const { return parts_; }
+  /// Whether a part is that of `other`, in which nothing has changed.
+  bool shares(std::size_t part, const SharedStates& other) const {
+    return part < other.parts_.size() && parts_[part] == other.parts_[part];
+  }
+  /// Index of the first object of a part.
+  static std::size_t begin_of(std::size_t part) { return part * part_size; }
+  /// The part that an object is in.
+  static std::size_t part_of(std::size_t object) { return object / part_size; }
+
+  class Iterator {
+   public:
+    Iterator(const SharedStates& of, std::size_t object) : of_(&of), object_(object) {}
+    const bodies::BodyState& operator*() const { return (*of_)[object_]; }
+    const bodies::BodyState* operator->() const { return &(*of_)[object_]; }
+    Iterator& operator++() {
+      ++object_;
+      return *this;
+    }
+    bool operator!=(const Iterator& other) const { return object_ != other.object_; }
+
+   private:
+    const SharedStates* of_;
+    std::size_t object_;
+  };
+  Iterator begin() const { return {*this, 0}; }
+  Iterator end() const { return {*this, size_}; }
+
+ private:
+  enum : std::size_t { part_size = 32 };
+
+  Parts parts_;
+  std::size_t size_ = 0;
+  math::Changes::Moment at_;  ///< in the simulation that it follows
+};
+
+}  // namespace spring_workbench::live
