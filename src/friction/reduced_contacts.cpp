@@ -17,8 +17,8 @@ using Eigen::VectorXd;
 
 Vector3d into_cone(const Vector3d& x, double friction) {
   const double across = x.tail<2>().norm();
+  if (friction * across <= -x[0]) return Vector3d::Zero();  // first: without friction both hold on the axis
   if (across <= friction * x[0]) return x;
-  if (friction * across <= -x[0]) return Vector3d::Zero();
   const double normal = (x[0] + friction * across) / (1.0 + friction * friction);
   if (friction == 0.0) return {normal, 0.0, 0.0};
   return {normal, friction * normal / across * x[1], friction * normal / across * x[2]};

@@ -209,6 +209,17 @@ TEST(ContactProblem, WithoutFrictionItAgreesWithTheInteriorPointMethod) {
   }
 }
 
+TEST(ContactProblem, WithoutFrictionNothingPullsWhatLeavesAlongTheNormal) {
+  for (const double friction : {0.0, 0.5}) {
+    ContactProblem problem;
+    const std::size_t body = problem.add_body(MatrixXd::Identity(6, 6));
+    const std::size_t contact = problem.add_contact(friction, Vector3d(2.0, 0.0, 0.0), Vector3d::Zero());
+    problem.add_part(body, MatrixXd::Identity(3, 6));
+    EXPECT_EQ(problem.solve(1e-4, 1e-6).residual, 0.0);
+    EXPECT_EQ(problem.load(contact), Vector3d::Zero());
+  }
+}
+
 TEST(ContactProblem, SticksBelowTheAngleOfFrictionAndSlidesAbove) {
   const double friction = 0.5, angle = std::atan(friction);
   for (const double beyond : {-0.2, -0.01, 0.01, 0.2}) {
