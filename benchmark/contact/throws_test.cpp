@@ -40,6 +40,12 @@ TEST(LooseThrows, ALooseThinWallIsNotGoneThrough) {
   }
 }
 
+TEST(LooseThrows, AmongOthersNothingGainsEnergy) {
+  for (unsigned seed = 0; seed < 60; ++seed) {
+    EXPECT_LT(run(Throw{scene::ContactMode::dynamic, seed, true, true}).energy_gained, 1e-5) << seed;
+  }
+}
+
 // What goes deep among several bodies is counted, and what does not is not.
 TEST(LooseThrows, WhatGoesDeepIsCounted) {
   int deep = 0;

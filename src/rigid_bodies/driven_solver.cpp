@@ -23,23 +23,26 @@ void DrivenSolver::set_driven(std::vector<Driven> driven, double h) {
   h_ = h;
 }
 
-const DrivenSolver::Driven* DrivenSolver::driven_of(int solver_body) const {
-  const btRigidBody* bullet = m_tmpSolverBodyPool[solver_body].m_originalBody;
+const DrivenSolver::Driven* DrivenSolver::driven_of(std::size_t solver_body) const {
+  const btRigidBody* bullet = m_tmpSolverBodyPool[static_cast<int>(solver_body)].m_originalBody;
   const auto found = std::find_if(driven_.begin(), driven_.end(), [&](const Driven& d) { return d.bullet == bullet; });
   return bullet == nullptr || found == driven_.end() ? nullptr : &*found;
 }
 
-bool DrivenSolver::pushes(int solver_body) const {
-  return driven_of(solver_body) == nullptr && !m_tmpSolverBodyPool[solver_body].internalGetInvMass().isZero();
+bool DrivenSolver::drives(const Contact& c) const { return driven_of(c.a) != nullptr || driven_of(c.b) != nullptr; }
+
+bool DrivenSolver::pushes(std::size_t solver_body) const {
+  return driven_of(solver_body) == nullptr &&
+         !m_tmpSolverBodyPool[static_cast<int>(solver_body)].internalGetInvMass().isZero();
 }
 
-Eigen::MatrixXd DrivenSolver::response(int solver_body, bool impact) const {
+Eigen::MatrixXd DrivenSolver::response(std::size_t solver_body, bool impact) const {
   // An impulse p spread over the step is a wrench p / h, which moves the body on by compliance · p / h in h.
   if (const Driven* driven = driven_of(solver_body)) {
     return impact ? driven->body->mobility : Matrix6d(driven->body->compliance / (h_ * h_));
   }
   if (!pushes(solver_body)) return Eigen::MatrixXd(0, 0);
-  const btSolverBody& body = m_tmpSolverBodyPool[solver_body];
+  const btSolverBody& body = m_tmpSolverBodyPool[static_cast<int>(solver_body)];
   Matrix6d response = Matrix6d::Zero();
   response.diagonal().head<3>() = from_bullet(body.internalGetInvMass());
   const btMatrix3x3& inverse_inertia = body.m_originalBody->getInvInertiaTensorWorld();
@@ -47,8 +50,8 @@ Eigen::MatrixXd DrivenSolver::response(int solver_body, bool impact) const {
   return response;
 }
 
-Vector6d DrivenSolver::velocity(int solver_body, bool at_start) const {
-  const btSolverBody& body = m_tmpSolverBodyPool[solver_body];
+Vector6d DrivenSolver::velocity(std::size_t solver_body, bool at_start) const {
+  const btSolverBody& body = m_tmpSolverBodyPool[static_cast<int>(solver_body)];
   if (at_start) {
     if (const Driven* driven = driven_of(solver_body)) return to_vector(driven->body->V_WO_W);
     return both(body.m_linearVelocity, body.m_angularVelocity);
@@ -65,8 +68,8 @@ DrivenSolver::Contact DrivenSolver::make_contact(int index, const btContactSolve
   const btSolverConstraint& along = m_tmpSolverContactConstraintPool[index];
   Contact contact;
   contact.point = static_cast<btManifoldPoint*>(along.m_originalContactPoint);
-  contact.a = along.m_solverBodyIdA;
-  contact.b = along.m_solverBodyIdB;
+  contact.a = static_cast<std::size_t>(along.m_solverBodyIdA);
+  contact.b = static_cast<std::size_t>(along.m_solverBodyIdB);
   for (int k = 0; k < 3; ++k) {
     const btSolverConstraint& c =
         k == 0 ? along : m_tmpSolverContactFrictionConstraintPool[along.m_frictionIndex + k - 1];
@@ -78,45 +81,64 @@ DrivenSolver::Contact DrivenSolver::make_contact(int index, const btContactSolve
                      contact.point->m_appliedImpulseLateral2};  // where the search starts
   contact.friction = along.m_friction;
   contact.gap = contact.point->getDistance() + info.m_linearSlop;
-  contact.missing[0] = missing_along_normal(contact, contact.missing[0], info);
+  contact.motion = motion(contact, false);
+  // Bullet's own is by Newton's law of restitution.
+  const bool by_bullet = !drives(contact) && !(contact.point->m_combinedRestitution > 0.0);
+  if (!by_bullet) contact.missing[0] = missing_along_normal(contact, info);
+  contact.restitution = restitution(contact);
   return contact;
 }
 
-double DrivenSolver::missing_along_normal(const Contact& contact, double by_bullet,
-                                          const btContactSolverInfo& info) const {
-  const double left = contact.gap / h_, restitution = contact.point->m_combinedRestitution;
-  if (driven_of(contact.a) != nullptr || driven_of(contact.b) != nullptr) {
-    // A driven body's velocity is its path over the step. A penetration is undone slowly, or it would become a speed.
-    const double undone =
-        (pushes(contact.a) || pushes(contact.b) ? info.m_erp2 : 1.0) * std::min(1.0, h_ / recovery_time);
-    return -motion(contact, false)[0] - (contact.gap < 0.0 ? undone : 1.0) * left;
-  }
-  // Deeper than a path leads, between triangles that push to both sides: bounces off both have no end.
-  if (contact.gap < -unswept_of_free) return -motion(contact, false)[0];
-  if (left > 0.0 && restitution > 0.0) {
-    // Bullet lets a body bounce before it is there, and then loses the bounce on the rest of the path.
-    const double approach = (by_bullet + left) / (1.0 + restitution);
-    return approach > left ? by_bullet + left : approach - left;
-  }
-  return by_bullet;
+double DrivenSolver::missing_along_normal(const Contact& contact, const btContactSolverInfo& info) const {
+  const double left = contact.gap / h_;
+  if (!drives(contact)) return -contact.motion[0] - std::max(0.0, left);  // a penetration is undone by Bullet
+  // A driven body's velocity is its path over the step. A penetration is undone slowly, or it would become a speed.
+  const double undone =
+      (pushes(contact.a) || pushes(contact.b) ? info.m_erp2 : 1.0) * std::min(1.0, h_ / recovery_time);
+  return -contact.motion[0] - (contact.gap < 0.0 ? undone : 1.0) * left;
 }
 
-std::vector<Vector6d> DrivenSolver::solve(std::vector<Contact>& contacts, bool impact) {
+double DrivenSolver::restitution(const Contact& contact) const {
+  // Driven bodies bounce where they are stopped. What is deeper than a path leads, between triangles that push to both
+  // sides, does not: bounces off both have no end.
+  if (drives(contact) || contact.gap < -unswept_of_free) return 0.0;
+  const double approach = -motion(contact, true)[0];
+  return approach > std::max(scene::rest_speed, contact.gap / h_) ? contact.point->m_combinedRestitution : 0.0;
+}
+
+void DrivenSolver::solve_once(std::vector<Contact>& contacts, bool impact, bool bounces,
+                              std::vector<Vector6d>& change) {
   problem_.clear();
-  for (int i = 0; i < m_tmpSolverBodyPool.size(); ++i) problem_.add_body(response(i, impact));
+  const auto bodies = static_cast<std::size_t>(m_tmpSolverBodyPool.size());
+  for (std::size_t i = 0; i < bodies; ++i) problem_.add_body(response(i, impact));
   for (const Contact& c : contacts) {
-    problem_.add_contact(c.friction, -c.missing, c.impulse);
+    Vector3d rest = c.by(change) - c.missing;
+    if (bounces && c.restitution > 0.0) rest[0] = c.by(change)[0] + c.motion[0];
+    problem_.add_contact(c.friction, rest, bounces ? c.impulse : Vector3d::Zero());
     for (const auto& [body, J] : {std::pair(c.a, &c.J_a), std::pair(c.b, &c.J_b)}) {
-      if (pushes(body) || driven_of(body) != nullptr) problem_.add_part(static_cast<std::size_t>(body), *J);
+      if (pushes(body) || driven_of(body) != nullptr) problem_.add_part(body, *J);
     }
   }
   residual_ = std::max(residual_, h_ * problem_.solve(solved_share, solved_to / h_).residual);
-  for (std::size_t i = 0; i < contacts.size(); ++i) contacts[i].impulse = problem_.load(i);
-  std::vector<Vector6d> change(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), Vector6d::Zero());
-  for (std::size_t i = 0; i < change.size(); ++i) {
-    if (pushes(static_cast<int>(i)) || driven_of(static_cast<int>(i)) != nullptr) change[i] = problem_.change(i);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    contacts[i].impulse = (bounces ? Vector3d::Zero() : contacts[i].impulse) + problem_.load(i);
   }
-  return change;
+  for (std::size_t i = 0; i < bodies; ++i) {
+    if (pushes(i) || driven_of(i) != nullptr) change[i] += problem_.change(i);
+  }
+}
+
+void DrivenSolver::solve(std::vector<Contact>& contacts, bool impact, std::vector<Vector6d>& change) {
+  const std::vector<Vector6d> before = change;
+  solve_once(contacts, impact, true, change);
+  if (std::none_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.restitution > 0.0; })) return;
+  std::vector<Eigen::MatrixXd> responses;
+  for (std::size_t i = 0; i < change.size(); ++i) responses.push_back(response(i, impact));
+  for (Contact& c : contacts) c.motion += c.by(before);
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] -= before[i];
+  give_back(responses, contacts, change);
+  for (std::size_t i = 0; i < change.size(); ++i) change[i] += before[i];
+  solve_once(contacts, impact, false, change);
 }
 
 std::vector<Vector6d> DrivenSolver::stop_approaches(const std::vector<Contact>& contacts) {
@@ -125,22 +147,22 @@ std::vector<Vector6d> DrivenSolver::stop_approaches(const std::vector<Contact>& 
   for (const Contact& contact : contacts) {
     if (contact.gap > closed) continue;
     Contact c = contact;
-    c.missing = -motion(contact, true);
+    c.motion = motion(contact, true);
+    c.missing = -c.motion;
     c.impulse.setZero();
-    const bool drives = driven_of(c.a) != nullptr || driven_of(c.b) != nullptr;
-    approach = approach || (drives && c.missing[0] > slow);
-    if (c.missing[0] > scene::rest_speed) c.missing[0] *= 1.0 + c.point->m_combinedRestitution;
+    approach = approach || (drives(c) && c.missing[0] > slow);
+    c.restitution = c.missing[0] > scene::rest_speed ? c.point->m_combinedRestitution : 0.0;
     closed_ones.push_back(c);
   }
   std::vector<Vector6d> change(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), Vector6d::Zero());
   if (!approach) return change;
-  change = solve(closed_ones, true);
+  solve(closed_ones, true, change);
   for (const Contact& c : closed_ones) {
     impacts_.push_back({c.point, c.J_a.leftCols<3>().transpose() * c.impulse});
     load_driven(c, c.impulse, &DrivenBody::impact_W);
   }
   for (std::size_t i = 0; i < change.size(); ++i) {
-    const Driven* driven = driven_of(static_cast<int>(i));
+    const Driven* driven = driven_of(i);
     if (driven == nullptr) continue;
     change[i] = driven->body->displacement_by_impulse * to_vector(driven->body->impact_W) / h_;
   }
@@ -178,11 +200,7 @@ btScalar DrivenSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bod
   for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) contacts.push_back(make_contact(i, info));
   for (const Contact& c : contacts) deepest_ = std::max(deepest_, -c.gap);
   std::vector<Vector6d> change = stop_approaches(contacts);
-  for (Contact& c : contacts) {
-    c.missing -= c.J_a * change[static_cast<std::size_t>(c.a)] + c.J_b * change[static_cast<std::size_t>(c.b)];
-  }
-  const std::vector<Vector6d> by_loads = solve(contacts, false);
-  for (std::size_t i = 0; i < change.size(); ++i) change[i] += by_loads[i];
+  solve(contacts, false, change);
   hand_back(contacts, change);
   return 0.0;
 }

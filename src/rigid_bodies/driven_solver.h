@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "bullet_types.h"
+#include "solver_contact.h"
 #include "spring_workbench/friction/contact_problem.h"
 #include "spring_workbench/rigid_bodies/rigid_world.h"
 
@@ -37,25 +38,21 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
                                              btTypedConstraint** constraints, int constraint_count,
                                              const btContactSolverInfo& info, btIDebugDraw* debug) override;
 
-  using Jacobian = Eigen::Matrix<double, 3, 6>;
-  struct Contact {
-    btManifoldPoint* point = nullptr;
-    int a = 0, b = 0;   ///< solver bodies
-    Jacobian J_a, J_b;  ///< motion [normal, across, across] = J_a · V_a + J_b · V_b
-    Vector3d missing;   ///< motion that its law asks for, before any impulse of this solve [m/s]
-    Vector3d impulse;   ///< [N·s]
-    double friction = 0.0, gap = 0.0;
-  };
+  using Contact = SolverContact;
   Contact make_contact(int index, const btContactSolverInfo& info) const;
-  double missing_along_normal(const Contact& contact, double by_bullet, const btContactSolverInfo& info) const;
-  Vector6d velocity(int solver_body, bool at_start) const;
+  double missing_along_normal(const Contact& contact, const btContactSolverInfo& info) const;
+  double restitution(const Contact& contact) const;
+  Vector6d velocity(std::size_t solver_body, bool at_start) const;
   Vector3d motion(const Contact& contact, bool at_start) const;
-  const Driven* driven_of(int solver_body) const;
-  bool pushes(int solver_body) const;  ///< whether it moves and is not driven
+  const Driven* driven_of(std::size_t solver_body) const;
+  bool drives(const Contact& c) const;
+  bool pushes(std::size_t solver_body) const;  ///< whether it moves and is not driven
   /// Response of a body's velocity to an impulse: now, if it is an impact, or spread over the step.
-  Eigen::MatrixXd response(int solver_body, bool impact) const;
-  /// Solves the contacts; returns the changes of the bodies' velocities.
-  std::vector<Vector6d> solve(std::vector<Contact>& contacts, bool impact);
+  Eigen::MatrixXd response(std::size_t solver_body, bool impact) const;
+  /// Solves the contacts, and lets them bounce, after a change of the bodies' velocities, to which it adds its own.
+  void solve(std::vector<Contact>& contacts, bool impact, std::vector<Vector6d>& change);
+  /// The same once; `bounces`: those that are to bounce end their approach though they are open yet.
+  void solve_once(std::vector<Contact>& contacts, bool impact, bool bounces, std::vector<Vector6d>& change);
   /// Stops what approaches; returns what that does to the bodies' velocities over the step.
   std::vector<Vector6d> stop_approaches(const std::vector<Contact>& contacts);
   /// Adds what `load` along the axes of a contact does to those of its bodies that are driven.

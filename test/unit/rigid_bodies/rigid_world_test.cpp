@@ -139,6 +139,35 @@ TEST(RigidWorld, BallBouncesToTheSquareOfItsRestitution) {
   EXPECT_NEAR(world.pose(0).translation().z() - 0.05, 0.64, 0.01);
 }
 
+// A rod that lands on an edge, in the plane: the impulse (x, z) that ends the motion of the edge; then, of it, a share
+// along z, and what along x keeps the edge from slipping.
+TEST(RigidWorld, ARodThatBouncesOnAnEdgeKeepsPoissonsLaw) {
+  const double restitution = 0.5, tilt = 0.6, height = 1.5e-3;
+  const Vector3d size(0.3, 0.02, 0.02), v0(0.3, 0.0, -1.0);
+  scene::Body rod = box("rod", size, 0.5, Vector3d::Zero(), 10.0);
+  rod.material.restitution = restitution;
+  rod.X_WO.linear() = Eigen::AngleAxisd(tilt, Vector3d::UnitY()).toRotationMatrix();
+  const Vector3d lever = rod.X_WO.linear() * Vector3d(0.5 * size.x(), 0.0, -0.5 * size.z());
+  rod.X_WO.translation().z() = height - lever.z();
+  scene::Scene s = scene_of({rod}, scene::ContactMode::dynamic, 10.0);
+  s.bench_material.restitution = restitution;
+  s.gravity = 0.0;
+  const std::unique_ptr<RigidWorld> owner = make_rigid_world(s);
+  RigidWorld& world = *owner;
+  world.place(0, world.pose(0), moving(v0), true);
+  run(world, 5e-3);  // it comes down in the second step
+
+  const double m = rod.mass_properties.mass, I = rod.mass_properties.inertia_O(1, 1);
+  const Eigen::Vector2d turns(lever.z(), -lever.x());  // spin about y by an impulse, times I
+  const Eigen::Matrix2d W = Eigen::Matrix2d::Identity() / m + turns * turns.transpose() / I;
+  const Eigen::Vector2d stops = -(W.inverse() * Eigen::Vector2d(v0.x(), v0.z()));
+  const double back = restitution * stops[1];
+  const Eigen::Vector2d impulse = stops + back * Eigen::Vector2d(-W(0, 1) / W(0, 0), 1.0);
+  EXPECT_NEAR(world.velocity(0).linear.x(), v0.x() + impulse[0] / m, 5e-3);
+  EXPECT_NEAR(world.velocity(0).linear.z(), v0.z() + impulse[1] / m, 5e-3);
+  EXPECT_NEAR(world.velocity(0).angular.y(), turns.dot(impulse) / I, 0.05);
+}
+
 TEST(RigidWorld, AWayEndsWhereItTouches) {
   const std::unique_ptr<RigidWorld> owner = make_rigid_world(scene_of(
       {box("b", Vector3d(0.1, 0.1, 0.1), 1.0, Vector3d(0, 0, 0.15)), box("wall", {0.001, 1, 1}, 0.0, {0.2505, 0, 0.5})},
