@@ -54,7 +54,6 @@ set(SPRING_WORKBENCH_HEADERS
   hand_input/reacquisition.h
   hand_input/sample_gate.h
   hand_input/settings.h
-  math/changes.h
   math/pack.h
   math/rigid_transform.h
   math/state_archive.h

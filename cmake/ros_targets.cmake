@@ -1,5 +1,5 @@
 # The ROS side of the package: the modules under src/ros, the nodes, and what is installed beside them.
-add_module(ros_common FOLDER ros/common DEPENDS hand_input LIBRARIES ${catkin_LIBRARIES})
+add_module(ros_common FOLDER ros/common DEPENDS hand_input LIBRARIES ${catkin_LIBRARIES} log4cxx)
 target_include_directories(spring_workbench_ros_common SYSTEM PUBLIC
   ${catkin_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 add_dependencies(spring_workbench_ros_common ${PROJECT_NAME}_generate_messages_cpp)

@@ -40,7 +40,7 @@ SPRING_WORKBENCH_INLINE HeldBody::Rigid<S> HeldBody::without_strain_acceleration
                                                                                  const S* q_dot,
                                                                                  const S* q_ddot) const {
   const motion::FrameForcing<S>& h = handle.of_H;
-  Rigid<S> r;
+  Rigid<S> r;  // NOLINT(cppcoreguidelines-pro-type-member-init): all of it is set below
   r.r_EO = tip.R_HE * math::three(p_EO_);
   r.R_HO = tip.R_HE * math::three_by_three(R_EO_);
   r.p_HO = tip.p_HE + r.r_EO;
@@ -90,7 +90,7 @@ SPRING_WORKBENCH_INLINE void HeldBody::accelerate(const ForcingOf<S>& handle, co
       for (int i = 0; i < n; ++i) springs[i] -= D_modal_(i, j) * q_dot[j];
     }
   }
-  rod::TipOf<S> tip;
+  rod::TipOf<S> tip;  // NOLINT(cppcoreguidelines-pro-type-member-init): tip() sets all of it
   shape_->tip(q_all, q_dot_all, tip);
   const Rigid<S> rigid = without_strain_acceleration(handle, tip, q_dot_all, q_ddot_all);
   math::Three<S> linear[n], angular[n], momentum[n];  // of O: axes of H and of O
@@ -179,7 +179,7 @@ rod::StrainVector HeldBody::acceleration(const HandleForcing& h, const rod::Stra
 
 EnergyBalance HeldBody::energy_balance(const HandleForcings& h, const math::Pack* q, const math::Pack* q_dot) const {
   EnergyBalance all = math::by_size(size(), [&](auto size) {
-    EnergyBalance out;
+    EnergyBalance out;  // NOLINT(cppcoreguidelines-pro-type-member-init): balance() sets all of it
     balance<decltype(size)::value>(h, q, q_dot, out);
     return out;
   });

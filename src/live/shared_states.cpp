@@ -6,7 +6,7 @@ namespace spring_workbench::live {
 
 void SharedStates::follow(const simulation::Simulation& simulation) {
   const std::vector<bodies::BodyState>& states = simulation.objects();
-  const math::Changes& changes = simulation.object_changes();
+  const bodies::Changes& changes = simulation.object_changes();
   size_ = states.size();
   parts_.resize((size_ + part_size - 1) / part_size);
   for (std::size_t part = 0; part < parts_.size(); ++part) {

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <thread>
 
+#include "spring_workbench/ros/common/background_log.h"
 #include "spring_workbench/ros/manipulation/manipulation_node.h"
 #include "spring_workbench/validation/input_error.h"
 
@@ -37,12 +38,15 @@ void end_in_order() {
 /// Tools, spring-fork dynamics and collision behind ROS topics and services. Exit status 2: bad parameters or scene.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "manipulation", ros::init_options::NoSigintHandler);
+  spring_workbench::ros_common::log_in_background();
   end_in_order();
   std::thread([] {
     while (!end_asked) std::this_thread::sleep_for(std::chrono::milliseconds(50));
     std::this_thread::sleep_for(longest_end);  // a master that is gone or hangs does not keep the node from its end
-    std::cerr << "shutdown has taken longer than 1.5 s, probably because the ROS master does not answer; exiting now"
-              << std::endl;
+    if (spring_workbench::ros_common::error_output_takes_more()) {
+      std::cerr << "shutdown has taken longer than 1.5 s, probably because the ROS master does not answer; exiting now"
+                << std::endl;
+    }
     std::_Exit(0);
   }).detach();
   try {

@@ -663,7 +663,7 @@ void Simulation::restore(const SimulationState& state) {
 
 void Simulation::follow(const Simulation& other) {
   if (other.impl_->origin != impl_->origin || !(other.impl_->edits == impl_->edits)) return restore(other.save());
-  math::Changes &own = impl_->objects.changes(), &others = other.impl_->objects.changes();
+  bodies::Changes &own = impl_->objects.changes(), &others = other.impl_->objects.changes();
   const std::vector<std::size_t> differing = own.differing(others);
   math::StateArchive archive;
   other.impl_->exchange(archive, &differing);
@@ -672,7 +672,7 @@ void Simulation::follow(const Simulation& other) {
 }
 
 const std::vector<bodies::BodyState>& Simulation::objects() const { return impl_->objects.states(); }
-const math::Changes& Simulation::object_changes() const { return impl_->objects.changes(); }
+const bodies::Changes& Simulation::object_changes() const { return impl_->objects.changes(); }
 const std::vector<contact::ContactState>& Simulation::contacts() const { return impl_->objects.contacts().told(); }
 tools::ToolState Simulation::fork(std::size_t hand) const { return impl_->hand(hand).state(impl_->now); }
 

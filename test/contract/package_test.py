@@ -25,7 +25,12 @@ KEYS = {
     "urdfdom_headers": "liburdfdom-headers-dev",
     "spring_workbench": "",
 }
-LINKED = {"console_bridge": "libconsole-bridge-dev", "tinyxml": "tinyxml", "urdfdom_model": "liburdfdom-dev"}
+LINKED = {
+    "console_bridge": "libconsole-bridge-dev",
+    "log4cxx": "log4cxx",
+    "tinyxml": "tinyxml",
+    "urdfdom_model": "liburdfdom-dev",
+}
 # Only the report needs these (benchmark/README.md).
 OPTIONAL = {"DART", "ODE", "SUNDIALS", "SPRING_WORKBENCH_MUJOCO_INCLUDE", "SPRING_WORKBENCH_MUJOCO_LIBRARY"}
 FOUND = re.compile(r"(?:find_package|pkg_check_modules|find_path|find_library)\((\w[\w-]*)(?=[\s)])(.*?)\)", re.S)

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The stack while things go wrong: nodes killed and started again, a master started anew, a subscriber that does not
 read, a full disk, a stopped processor, a flood of service calls. The hand owns the ROS clock (stack.Hand)."""
+import ctypes
 import io
 import os
 import re
@@ -53,6 +54,7 @@ from stack import (
 )
 
 BOX = os.path.join(rospkg.RosPack().get_path("spring_workbench"), "scenes", "single_box.urdf")
+LIBC = ctypes.CDLL(None, use_errno=True)
 NODE = roslib.packages.find_node("spring_workbench", "manipulation")[0]
 SCENE = "scene:=package://spring_workbench/scenes/single_box.urdf"
 STACK = ["workbench.launch", SCENE, "tracker:=false", "rviz:=false", "calibrate:=none", "respawn:=true"]
@@ -90,36 +92,42 @@ class Written(TFMessage):
 
 
 class UnreadLog:
-    """A log: who writes to its `end` waits once it is full, until it is drained."""
+    """A log that is full and that nobody reads: who writes to its `end` waits."""
 
     def __init__(self):
-        folder = tempfile.TemporaryDirectory()
-        path = os.path.join(folder.name, "log")
-        os.mkfifo(path)
-        self.begin = os.open(path, os.O_RDONLY | os.O_NONBLOCK)
-        self.end = open(path, "wb")
-        self.filler = os.open(path, os.O_WRONLY | os.O_NONBLOCK)
-        folder.cleanup()
-
-    def fill(self):
+        self.begin, end = os.pipe()
+        os.set_blocking(end, False)
         for size in (4096, 1):
             try:
                 while True:
-                    os.write(self.filler, b"." * size)
+                    os.write(end, b"." * size)
             except BlockingIOError:
                 pass
+        os.set_blocking(end, True)
+        self.end = open(end, "wb")
 
-    def drain(self):
-        """Reads what there is, and all that comes."""
-        self.end.close()
-        os.close(self.filler)
-        os.set_blocking(self.begin, True)
 
-        def read():
-            while os.read(self.begin, 65536):
-                pass
+class StoppedThread:
+    """Stops one thread of a child process, as a debugger does, until it is let go."""
 
-        threading.Thread(target=read, daemon=True).start()
+    SEIZE, INTERRUPT, DETACH, ALL = 0x4206, 0x4207, 17, 0x40000000
+
+    def __init__(self, pid, name):
+        def name_of(thread):
+            with open("/proc/%d/task/%s/comm" % (pid, thread)) as file:
+                return file.read().strip()
+
+        (self.thread,) = [int(t) for t in os.listdir("/proc/%d/task" % pid) if name_of(t) == name]
+        self.ask(self.SEIZE)
+        self.ask(self.INTERRUPT)
+        os.waitpid(self.thread, self.ALL)
+
+    def ask(self, request):
+        if LIBC.ptrace(request, self.thread, None, None) != 0:
+            raise OSError(ctypes.get_errno(), "ptrace")
+
+    def let_go(self):
+        self.ask(self.DETACH)
 
 
 class Faults(unittest.TestCase):
@@ -309,49 +317,73 @@ class Faults(unittest.TestCase):
         )
         self.assertEqual(sum(m.steps_rejected for m in self.steps.messages[seen:]), 0)
 
+    def second_node(self, log):
+        """Another node, whose /tf is /second/tf, with its poses; the hand moves it instead of the first."""
+        poses = Listener("/second/manipulation/objects", ObjectStates)
+        self.addCleanup(poses.subscriber.unregister)
+        command = [NODE, "__ns:=/second", "/tf:=/second/tf", "_scene:=" + BOX]
+        node = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=log)
+        self.addCleanup(node.wait)
+        self.addCleanup(node.kill)
+        transforms = ["/second/tf", "tf2_msgs/TFMessage"]
+        wait_for(lambda: transforms in rospy.get_published_topics(), "the second node's connection with itself")
+        self.hand.tf = rospy.Publisher("/second/tf", TFMessage, queue_size=None, tcp_nodelay=True)  # it loses nothing
+        wait_for(lambda: self.hand.tf.get_num_connections() > 0, "the second node to listen")
+        return node, poses
+
+    def end(self, node):
+        node.send_signal(signal.SIGINT)
+        self.assertEqual(node.wait(DEADLINE), 0)
+
+    def follow(self, poses):
+        """Moves on until poses of now come from a node."""
+        begin, end = self.hand.now(), time.monotonic() + DEADLINE
+        while not (poses.last and poses.last.header.stamp > begin):
+            self.assertLess(time.monotonic(), end, "the second node follows no hand")
+            self.hand.run(0.3)
+
+    def warn(self):
+        """Makes the second node log a warning."""
+        unknown = stylus_transform(self.hand.now(), (0.0, 0.0, 0.4), DOWN)
+        unknown.header.frame_id = "nowhere"
+        self.hand.tf.publish(TFMessage([unknown]))
+
+    def test_a_log_that_nobody_reads_holds_nobody_up(self):
+        """As at a terminal that was stopped by Ctrl-S: the hand is followed, and the node can be ended."""
+        log = UnreadLog()
+        node, poses = self.second_node(log.end)
+        for _ in range(3):
+            self.warn()
+            self.follow(poses)
+        self.end(node)
+
     def test_messages_lost_at_a_full_queue_are_counted(self):
-        """A second node, the thread of whose callbacks waits for a log that nobody reads: what comes meanwhile is lost
-        but for the newest, and each is counted."""
+        """While the thread of its callbacks stands, what comes is lost but for the newest, and each is counted."""
         count = 10000
         diagnostics = diagnostics_listener()
         self.addCleanup(diagnostics.subscriber.unregister)
-        poses = Listener("/second/manipulation/objects", ObjectStates)
-        self.addCleanup(poses.subscriber.unregister)
-        log = UnreadLog()
-        node = subprocess.Popen([NODE, "__ns:=/second", "_scene:=" + BOX], stdout=subprocess.DEVNULL, stderr=log.end)
-        self.addCleanup(node.wait)
-        self.addCleanup(node.terminate)
+        node, poses = self.second_node(subprocess.DEVNULL)
 
         def told():
-            return diagnostic_values(diagnostics.messages, "/second/manipulation: messages lost").get("/tf")
+            return diagnostic_values(diagnostics.messages, "/second/manipulation: messages lost").get("/second/tf")
 
         def heard():
-            """Messages of /tf, and how many of them were lost, as the node itself says."""
-            connections = dict(slave_api("/second/manipulation").getBusStats("/faults")[1])["/tf"]
-            return [sum(connection[i] for connection in connections) for i in (2, 3)]
+            """Messages of its /tf, and how many of them were lost, as the node itself says of its newest connection."""
+            return dict(slave_api("/second/manipulation").getBusStats("/faults")[1])["/second/tf"][0][2:4]
 
-        self.hand.tf.unregister()
-        self.hand.tf = flood = rospy.Publisher("/tf", TFMessage, queue_size=None, tcp_nodelay=True)  # loses nothing
-        wait_for(lambda: flood.get_num_connections() > 1, "both nodes to listen")
-        end = time.monotonic() + DEADLINE
-        while not (poses.last and poses.last.header.stamp.to_sec() > 0.0 and told() == "0"):
-            self.assertLess(time.monotonic(), end, "the second node follows no hand")
-            self.hand.run(0.3)
+        self.follow(poses)
+        wait_for(lambda: told() == "0", "nothing to be lost yet")
         before = heard()[0]
-        log.fill()
-        unknown = stylus_transform(self.hand.now(), (0.0, 0.0, 0.4), DOWN)
-        unknown.header.frame_id = "nowhere"
-        flood.publish(TFMessage([unknown]))  # which the node warns of
+        callbacks = StoppedThread(node.pid, "input")
         noise = Written(TFMessage([TransformStamped(child_frame_id="noise")]))
         for _ in range(count):
-            flood.publish(noise)
-        wait_for(lambda: heard()[0] > before + count, "all to arrive")
+            self.hand.tf.publish(noise)
+        wait_for(lambda: heard()[0] >= before + count, "all to arrive")
         self.assertGreater(heard()[1], count // 2)
-        log.drain()
+        callbacks.let_go()
         wait_for(lambda: told() == str(heard()[1]), "the lost messages to be counted")
-        self.keep_going()
-        node.send_signal(signal.SIGINT)
-        self.assertEqual(node.wait(DEADLINE), 0)
+        self.follow(poses)
+        self.end(node)
 
     def test_a_full_disk_under_a_recording(self):
         with tempfile.TemporaryDirectory() as folder:

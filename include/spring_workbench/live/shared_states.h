@@ -58,7 +58,7 @@ class SharedStates {
 
   Parts parts_;
   std::size_t size_ = 0;
-  math::Changes::Moment at_;  ///< in the simulation that it follows
+  bodies::Changes::Moment at_;  ///< in the simulation that it follows
 };
 
 }  // namespace spring_workbench::live

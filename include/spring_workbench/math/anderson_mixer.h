@@ -34,7 +34,7 @@ class AndersonMixer {
     const Image* first = count_ > 2 ? &images_[(count_ + 1) % 3] : nullptr;
     Pack dd{}, dn{}, de{}, ee{}, en{};  // of d = change less the last, e = the last less the one before, n = change
     for (std::size_t m = 0; m < size; ++m) {
-      const Pack w = squared_weight[m] + Pack{}, n = now.change[m], d = n - before.change[m];
+      const Pack w = squared_weight[static_cast<Eigen::Index>(m)] + Pack{}, n = now.change[m], d = n - before.change[m];
       dd += w * d * d;
       dn += w * d * n;
       if (first == nullptr) continue;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "spring_workbench/bodies/body_state.h"
-#include "spring_workbench/math/changes.h"
 #include "spring_workbench/scene/scene.h"
 
 namespace spring_workbench::objects {
@@ -24,7 +23,7 @@ class ObjectList {
     return states_[object];
   }
   /// Of the objects' states, and of what else is kept of each.
-  math::Changes& changes() { return changes_; }
+  bodies::Changes& changes() { return changes_; }
   std::size_t scene_index(std::size_t object) const { return in_scene_[object]; }
   const scene::Body& body(std::size_t object) const { return scene_.bodies[in_scene_[object]]; }
   bool massless(std::size_t object) const { return !(body(object).mass_properties.mass > 0.0); }
@@ -42,8 +41,8 @@ class ObjectList {
 
   const scene::Scene& scene_;
   std::vector<bodies::BodyState> states_;
-  math::Changes changes_;
-  math::Changes::Moment put_back_;
+  bodies::Changes changes_;
+  bodies::Changes::Moment put_back_;
   std::vector<std::size_t> object_of_;    ///< object by index in the scene; valid for movable bodies
   std::vector<std::size_t> highlighted_;  ///< the objects that are highlighted
 

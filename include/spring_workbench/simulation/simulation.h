@@ -9,7 +9,6 @@
 
 #include "spring_workbench/bodies/body_state.h"
 #include "spring_workbench/contact/contact_state.h"
-#include "spring_workbench/math/changes.h"
 #include "spring_workbench/math/state_archive.h"
 #include "spring_workbench/motion/stylus_source.h"
 #include "spring_workbench/scene/scene.h"
@@ -179,7 +178,7 @@ class Simulation {
   ChangeReport calibrate(std::optional<std::size_t> hand = std::nullopt);
 
   const std::vector<bodies::BodyState>& objects() const;       ///< the movable objects, in the scene's order
-  const math::Changes& object_changes() const;                 ///< of these
+  const bodies::Changes& object_changes() const;               ///< of these
   tools::ToolState fork(std::size_t hand = 0) const;           ///< state of the tool in a hand, also if it is no fork
   const std::vector<contact::ContactState>& contacts() const;  ///< present ones, and those that ended in the last call
 

@@ -96,7 +96,7 @@ class ContactSound {
   std::unique_ptr<sound::AudioOutput> output_;
   std::map<std::string, sound::SoundingBody> bodies_;
   double played_until_, last_contacts_ = 0.0;  ///< [s], by the steady clock
-  ros_common::CallbackThread contacts_thread_;
+  ros_common::CallbackThread contacts_thread_{"contacts"};
   ros::Subscriber subscriber_, scene_subscriber_;
   ros::SteadyTimer timer_;
 };

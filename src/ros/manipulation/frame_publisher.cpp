@@ -13,12 +13,12 @@ namespace spring_workbench::manipulation {
 
 FramePublisher::FramePublisher(ros::NodeHandle node, std::string world_frame, std::string frame_prefix)
     : world_frame_(std::move(world_frame)), frame_prefix_(std::move(frame_prefix)) {
-  const auto count = [this](const ros::SingleSubscriberPublisher& subscriber, std::uint32_t more) {
-    if (subscriber.getSubscriberName() == ros::this_node::getName()) own_subscriptions_ += more;
+  const auto count = [this](const ros::SingleSubscriberPublisher& subscriber, bool more) {
+    if (subscriber.getSubscriberName() == ros::this_node::getName()) more ? ++own_subscriptions_ : --own_subscriptions_;
   };
   publisher_ = node.advertise<tf2_msgs::TFMessage>(
-      "/tf", 100, [count](const auto& subscriber) { count(subscriber, 1); },
-      [count](const auto& subscriber) { count(subscriber, -1); });
+      "/tf", 100, [count](const auto& subscriber) { count(subscriber, true); },
+      [count](const auto& subscriber) { count(subscriber, false); });
 }
 
 void FramePublisher::publish(const live::View& view, const ros::Time& stamp) {
@@ -28,7 +28,7 @@ void FramePublisher::publish(const live::View& view, const ros::Time& stamp) {
   message_ = boost::make_shared<tf2_msgs::TFMessage>();
   add_tools(view);
   add_objects(view);
-  publisher_.publish(std::move(message_));  // shared with the subscription of this node
+  publisher_.publish(message_);  // shared with the subscription of this node
 }
 
 void FramePublisher::name_frames(const live::View& view) {

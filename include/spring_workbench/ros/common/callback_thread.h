@@ -3,12 +3,15 @@
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 
+#include <string>
+
 namespace spring_workbench::ros_common {
 
 /// A queue of callbacks with a thread of its own, which nothing else keeps waiting.
 class CallbackThread {
  public:
-  CallbackThread() : spinner_(1, &queue_) { spinner_.start(); }
+  /// `name`: of the thread, as `top -H` shows it; at most 15 characters.
+  explicit CallbackThread(const std::string& name);
   /// Its callbacks come from the queue.
   ros::NodeHandle handle(ros::NodeHandle node) {
     node.setCallbackQueue(&queue_);

@@ -52,7 +52,7 @@ class ManipulationNode {
   const ManipulationParameters parameters_;
   live::SimulationRunner runner_;
   ros_common::Alarm alarm_;
-  ros_common::CallbackThread input_thread_, master_thread_, disk_thread_;
+  ros_common::CallbackThread input_thread_{"input"}, master_thread_{"master"}, disk_thread_{"disk"};
   std::deque<StylusInput> inputs_;
   machine_link::WrenchInput wrenches_;
   StatePublisher publisher_;

@@ -1,0 +1,26 @@
+#include "spring_workbench/ros/common/background_log.h"
+
+#include <log4cxx/asyncappender.h>
+#include <log4cxx/logger.h>
+#include <poll.h>
+#include <ros/console.h>
+#include <unistd.h>
+
+namespace spring_workbench::ros_common {
+
+void log_in_background() {
+  ROSCONSOLE_AUTOINIT;  // which makes the appender that writes to the terminal
+  const log4cxx::LoggerPtr logger = log4cxx::Logger::getLogger(ROSCONSOLE_ROOT_LOGGER_NAME);
+  const log4cxx::AsyncAppenderPtr queue(new log4cxx::AsyncAppender);
+  queue->setBlocking(false);
+  for (const log4cxx::AppenderPtr& appender : logger->getAllAppenders()) queue->addAppender(appender);
+  logger->removeAllAppenders();
+  logger->addAppender(queue);
+}
+
+bool error_output_takes_more() {
+  pollfd output{STDERR_FILENO, POLLOUT, 0};
+  return poll(&output, 1, 0) == 1;
+}
+
+}  // namespace spring_workbench::ros_common
