@@ -128,8 +128,8 @@ void bind_report(py::module_& module) {
                     "Time during which a body did not follow its equation of motion [s].")
       .def_readonly("steps_rejected", &AdvanceReport::steps_rejected,
                     "Number of steps rejected because their result was not finite or bounded.")
-      .def_readonly("active", &AdvanceReport::active, "Names of the subsystems that ran.")
-      .def_readonly("skipped", &AdvanceReport::skipped, "Names of the subsystems that were not needed.");
+      .def_property_readonly("active", &AdvanceReport::active, "Names of the subsystems that ran.")
+      .def_property_readonly("skipped", &AdvanceReport::skipped, "Names of the subsystems that were not needed.");
 }
 
 }  // namespace

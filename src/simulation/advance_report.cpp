@@ -5,14 +5,14 @@
 namespace spring_workbench::simulation {
 namespace {
 
-bool has(const std::vector<std::string>& words, const std::string& word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
-}
-
-void add_missing(const std::vector<std::string>& more, std::vector<std::string>& words) {
-  for (const std::string& word : more) {
-    if (!has(words, word)) words.push_back(word);
+std::vector<std::string> names_where(const decltype(AdvanceReport::ran)& set) {
+  const char* const names[] = {"stretch", "bend",        "torsion",   "error_bound",
+                               "gravity", "free_bodies", "collision", "movable_neighbours"};
+  std::vector<std::string> found;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    if (set[i]) found.emplace_back(names[i]);
   }
+  return found;
 }
 
 }  // namespace
@@ -54,10 +54,10 @@ void AdvanceReport::add(const AdvanceReport& later) {
   time_lost += later.time_lost;
   steps_rejected += later.steps_rejected;
   wrench_timeouts += later.wrench_timeouts;
-  add_missing(later.active, active);
-  add_missing(later.skipped, skipped);
-  skipped.erase(std::remove_if(skipped.begin(), skipped.end(), [&](const auto& part) { return has(active, part); }),
-                skipped.end());
+  ran |= later.ran;
 }
+
+std::vector<std::string> AdvanceReport::active() const { return names_where(ran); }
+std::vector<std::string> AdvanceReport::skipped() const { return names_where(~ran); }
 
 }  // namespace spring_workbench::simulation

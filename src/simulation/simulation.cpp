@@ -169,6 +169,8 @@ struct Simulation::Impl {
   double end_of_step(double t_end) const;
   using Slipping = std::map<Hand*, Wrench>;  ///< what these may do to what they hold
   bool beyond_limits(Slipping& slipping, std::vector<Hand*>& let_go);
+  std::vector<objects::Carried> carried;  ///< of one step, kept for its memory, as `together`
+  std::vector<Hand*> together;            ///< on one object
   void carry(double h, const Slipping& slipping, AdvanceReport& report);
   void step(double end, AdvanceReport& report);
   /// `some`: of the objects, these alone; null: all.
@@ -180,7 +182,7 @@ struct Simulation::Impl {
   void continue_from(Impl& before, const ObjectEdit& edit);
   void check_place(const std::string& name, const RigidTransform& X_WO) const;
   void check(const ForkChange& of_fork, const DynamicsChange& of_dynamics) const;
-  void fill_parts(AdvanceReport& report) const;
+  void fill_subsystems(AdvanceReport& report) const;
 };
 
 double Simulation::Impl::first_sample() const {
@@ -273,31 +275,34 @@ Wrench Simulation::Impl::measured_load(std::size_t object, const std::vector<Han
 
 /// An object that one tool holds is that tool's.
 void Simulation::Impl::carry(double h, const Slipping& slipping, AdvanceReport& report) {
-  std::map<std::size_t, std::vector<Hand*>> tools_on;
-  for (Hand& hand : hands) {
-    if (const auto object = hand.carried()) tools_on[*object].push_back(&hand);
-  }
-  std::vector<objects::Carried> carried;
   std::map<std::size_t, tools::Sharing> shared;
-  for (const auto& [object, on_it] : tools_on) {
-    if (const auto slip = slipping.find(on_it.front()); slip != slipping.end()) {
+  carried.clear();
+  for (Hand& hand : hands) {
+    const auto object = hand.carried();
+    if (!object) continue;
+    together.clear();
+    for (Hand& other : hands) {
+      if (other.carried() == object) together.push_back(&other);
+    }
+    if (together.front() != &hand) continue;
+    if (const auto slip = slipping.find(&hand); slip != slipping.end()) {
       Wrench at_tip_W = slip->second;
-      const Hand& hand = *slip->first;
       if (hand.stylus().wrench()) at_tip_W += instruments::measured_at_tip(*hand.stylus().wrench(), hand.state(now));
-      carried.push_back({object, on_it.front()->begin_slip(at_tip_W)});
+      carried.push_back({*object, hand.begin_slip(at_tip_W)});
       continue;
     }
-    const Wrench load_W = measured_load(object, on_it);
-    if (on_it.size() == 1 && on_it.front()->holds()) {
-      if (bodies::SteppedBody* body = on_it.front()->begin_step(now, h, load_W)) carried.push_back({object, body});
+    const Wrench load_W = measured_load(*object, together);
+    if (together.size() == 1 && hand.holds()) {
+      if (bodies::SteppedBody* body = hand.begin_step(now, h, load_W)) carried.push_back({*object, body});
       continue;
     }
     std::vector<tools::ToolOnObject> tools;
-    for (Hand* hand : on_it) tools.push_back(hand->begin_shared_step(now));
-    tools::Sharing sharing(tools, [this, first = on_it.front()] { return first->make_unheld(now); });
+    for (Hand* other : together) tools.push_back(other->begin_shared_step(now));
+    tools::Sharing sharing(tools, [this, &hand] { return hand.make_unheld(now); });
     sharing.body()->set_load(load_W);
-    carried.push_back({object, shared.emplace(object, std::move(sharing)).first->second.body()});
+    carried.push_back({*object, shared.emplace(*object, std::move(sharing)).first->second.body()});
   }
+  std::sort(carried.begin(), carried.end(), [](const auto& a, const auto& b) { return a.object < b.object; });
   objects::StepCounts counts;
   objects.step(carried, now, h, counts);
   report.steps += counts.steps;
@@ -373,7 +378,7 @@ void Simulation::Impl::advance(double t_end, AdvanceReport& report) {
   }
   objects.contacts().end_call();
   report.simulated_time = now - begin;
-  fill_parts(report);
+  fill_subsystems(report);
 }
 
 void Simulation::Impl::exchange(math::StateArchive& state, const std::vector<std::size_t>* some) {
@@ -396,23 +401,17 @@ double Simulation::Impl::elastic_energy() const {
   return energy;
 }
 
-void Simulation::Impl::fill_parts(AdvanceReport& report) const {
-  report.active.reserve(8);
-  report.skipped.reserve(8);
-  const auto part = [&](const char* name, bool runs) { (runs ? report.active : report.skipped).emplace_back(name); };
+void Simulation::Impl::fill_subsystems(AdvanceReport& report) const {
   rod::ForkDofs run{false, false, false};
   for (const Hand& hand : hands) {
     const rod::ForkDofs of_hand = hand.dofs_run();
     run = {run.stretch || of_hand.stretch, run.bend || of_hand.bend, run.torsion || of_hand.torsion};
   }
-  part("stretch", run.stretch);
-  part("bend", run.bend);
-  part("torsion", run.torsion);
-  part("error_bound", settings.dynamics.error_bound && report.steps > 0);
-  part("gravity", scene.gravity > 0.0 && report.steps > 0);
-  part("free_bodies", objects.any_free());
-  part("collision", objects.with_contact() && report.steps > 0);
-  part("movable_neighbours", report.steps_among_movable > 0);
+  const bool stepped = report.steps > 0, bound = settings.dynamics.error_bound && stepped;
+  const bool gravity = scene.gravity > 0.0 && stepped, collision = objects.with_contact() && stepped;
+  const bool movable = report.steps_among_movable > 0;
+  const bool ran[] = {run.stretch, run.bend, run.torsion, bound, gravity, objects.any_free(), collision, movable};
+  for (std::size_t i = 0; i < report.ran.size(); ++i) report.ran[i] = ran[i];
 }
 
 Simulation::Simulation(const scene::Scene& scene, const SimulationSettings& settings)

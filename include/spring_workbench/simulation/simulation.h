@@ -1,5 +1,6 @@
 #pragma once
 
+#include <bitset>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -74,10 +75,11 @@ struct AdvanceReport {
   double time_lost = 0.0;     ///< time during which a body did not follow its equation [s]
   int steps_rejected = 0;     ///< steps rejected because the result was not finite or bounded
   int wrench_timeouts = 0;    ///< times an external wrench went to zero because no next one came in time
-  std::vector<std::string> active;  ///< e.g. "stretch", "gravity", "collision"
-  std::vector<std::string> skipped;
+  std::bitset<8> ran;         ///< which subsystems ran, in the order of active()
 
-  /// Adds a later report: sums, largest errors, the subsystems that were active in either and those that never were.
+  std::vector<std::string> active() const;   ///< names of the subsystems that ran
+  std::vector<std::string> skipped() const;  ///< names of those that were not needed
+  /// Adds a later report: sums, largest errors, the subsystems that ran in either.
   void add(const AdvanceReport& later);
 };
 

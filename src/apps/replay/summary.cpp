@@ -81,8 +81,8 @@ std::string Summary::json() const {
       << ", \"time_lost\": " << number(advance.time_lost) << ", \"steps_rejected\": " << advance.steps_rejected
       << ", \"changes\": " << changes.made_again + changes.given << ", \"changes_made_again\": " << changes.made_again
       << ", \"changes_mismatched\": " << changes.mismatches.size() << ", \"state_hash\": \""
-      << simulation::to_hex(state_hash) << "\", \"active\": " << list_of(advance.active)
-      << ", \"skipped\": " << list_of(advance.skipped) << "}";
+      << simulation::to_hex(state_hash) << "\", \"active\": " << list_of(advance.active())
+      << ", \"skipped\": " << list_of(advance.skipped()) << "}";
   return out.str();
 }
 

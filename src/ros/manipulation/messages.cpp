@@ -158,8 +158,8 @@ StepReport to_message(const simulation::AdvanceReport& report) {
   message.steps_unsolved = static_cast<uint32_t>(report.steps_unsolved);
   message.time_lost = report.time_lost;
   message.steps_rejected = static_cast<uint32_t>(report.steps_rejected);
-  message.active = report.active;
-  message.skipped = report.skipped;
+  message.active = report.active();
+  message.skipped = report.skipped();
   return message;
 }
 

@@ -194,7 +194,7 @@ TEST(ManyHands, ThatAreNotUsedChangeNothing) {
   EXPECT_EQ(distance(one.simulation.objects()[0], many.simulation.objects()[0]), 0.0);
   EXPECT_EQ(of_one.steps, of_many.steps);
   EXPECT_EQ(of_one.collision_queries, of_many.collision_queries);
-  EXPECT_EQ(of_one.active, of_many.active);
+  EXPECT_EQ(of_one.ran, of_many.ran);
   EXPECT_FALSE(many.simulation.fork(254).present);
 }
 

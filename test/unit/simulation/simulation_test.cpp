@@ -22,6 +22,11 @@ scene::Scene box_scene(const Vector3d& centre, scene::ContactMode contact = scen
   return scene_of({box("box", {0.1, 0.06, 0.04}, 1.0, centre, friction)}, contact, friction);
 }
 
+bool skipped(const AdvanceReport& report, const std::string& subsystem) {
+  const std::vector<std::string> all = report.skipped();
+  return std::find(all.begin(), all.end(), subsystem) != all.end();
+}
+
 SimulationSettings settings() { return SimulationSettings(); }
 
 const Vector3d above(0.0, 0.0, 0.22);  // the tip of a 0.2 m fork is in the middle of a box on the bench
@@ -441,7 +446,7 @@ TEST(Simulation, WithoutContactNoCollisionRuns) {
   simulation.push_button(0.0, true);
   const AdvanceReport report = simulation.advance(1.0);
   EXPECT_EQ(report.collision_queries, 0);
-  EXPECT_NE(std::find(report.skipped.begin(), report.skipped.end(), "collision"), report.skipped.end());
+  EXPECT_TRUE(skipped(report, "collision"));
   EXPECT_LT(simulation.objects()[0].X_WO.translation().z(), 0.0);
 }
 
@@ -605,7 +610,7 @@ class HeldAtRest : public testing::Test {
     EXPECT_TRUE(simulation.objects()[0].held);
     EXPECT_EQ(simulation.objects()[0].V_WO_W.linear.norm(), 0.0);
     EXPECT_EQ(simulation.objects()[0].X_WO.matrix(), before.matrix());
-    EXPECT_NE(std::find(report.skipped.begin(), report.skipped.end(), "bend"), report.skipped.end());
+    EXPECT_TRUE(skipped(report, "bend"));
   }
   /// It is awake over the next moment, starts from where it was, and falls asleep again somewhere else.
   void expect_awake() {
