@@ -11,9 +11,9 @@ namespace spring_workbench::rod {
 namespace {
 
 constexpr int most_nodes = 8;              ///< of the quadrature on a segment
-constexpr double angle_per_segment = 2.5;  ///< [rad]; the quadrature is exact to 1e-10 there
-constexpr double wave_of_six = 2.4;        ///< as wave(); six nodes are as exact up to there
-constexpr double wave_of_five = 1.3;       ///< and five up to here
+constexpr double angle_per_segment = 2.5;  ///< [rad]; tip and Jacobian are exact to 1e-10 there
+constexpr double wave_of_six = 1.6;        ///< as wave(); six nodes are as exact up to there
+constexpr double wave_of_five = 0.8;       ///< and five up to here
 constexpr double most_turned = 64.0;       ///< [rad]; a rod wound up further is refused
 constexpr double least_stretch = 0.02;     ///< of the rest length; a rod compressed further is refused
 

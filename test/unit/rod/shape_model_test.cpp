@@ -180,6 +180,28 @@ TEST(Bushing, AnEndMomentTurnsItAsItDoesTheRod) {
   }
 }
 
+/// The quadrature's nodes change with the strain: where they do, force and energy must not jump.
+TEST(StrainRod, TheJacobianIsTheSlopeOfTheTipWithAnyNumberOfNodes) {
+  const auto shape = rod::make_shape_model(ShapeKind::linear, L);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> uniform(0.0, 1.0);
+  for (int trial = 0; trial < 2000; ++trial) {
+    StrainVector q = random_strain(*shape, random, 1.0) * std::pow(10.0, uniform(random) - 1.0);
+    TipKinematics tip;
+    shape->tip(q, zero(*shape), tip);
+    for (int i = 0; i < q.size(); ++i) {
+      const double h = 3e-4 / L;
+      const auto end = [&](double moved) {
+        StrainVector other = q;
+        other[i] += moved;
+        return Vector3d(shape->section(other, L).translation());  // eight nodes
+      };
+      const Vector3d slope = (8.0 * (end(h) - end(-h)) - end(2.0 * h) + end(-2.0 * h)) / (12.0 * h);
+      EXPECT_LT((tip.linear.col(i) - slope).norm(), 1e-10 * L * (i + 1 < q.size() ? L : 1.0)) << q.transpose();
+    }
+  }
+}
+
 TEST(StrainRod, EndMomentRollsItIntoAFullCircle) {
   for (const ShapeKind kind : {ShapeKind::constant, ShapeKind::linear}) {
     const auto shape = rod::make_shape_model(kind, L);
