@@ -9,7 +9,9 @@
 #include "benchmark/contact/pegs.h"
 #include "benchmark/contact/piles.h"
 #include "benchmark/contact/product_map.h"
+#include "benchmark/contact/rings.h"
 #include "benchmark/contact/same_bits.h"
+#include "benchmark/contact/wedge.h"
 
 namespace spring_workbench::benchmark::trials_test {
 namespace {
@@ -82,6 +84,22 @@ TEST(ContactTrials, APegOfABoxGoesInWithATenthOfAMillimetre) {
     EXPECT_LE(run.measured().deepest.depth, 1e-5);
     EXPECT_LE(run.pose("held").translation().z() - run.start()[0].X_WO.translation().z(), -0.03);
   }
+}
+
+// Meshes that touch in several places at once, where both are hollow.
+TEST(ContactTrials, AChainHangsTogether) {
+  TrialRun run(swung_chain(0));
+  while (run.time() < 0.2 && run.advance()) continue;
+  const Measured m = run.measured();
+  EXPECT_LE(m.deepest.depth, 1e-4) << m.deepest.first << " in " << m.deepest.second;
+  EXPECT_EQ(m.steps_blocked, 0);
+}
+
+TEST(ContactTrials, AWedgeIsSqueezedOut) {
+  TrialRun run(squeezed_wedge(0.05));
+  while (run.advance()) continue;
+  expect_sound(run);
+  EXPECT_LE(run.measured().deepest.depth, 1e-5);
 }
 
 TEST(ContactTrials, TheMapHasEveryPairOfValues) {

@@ -29,8 +29,5 @@ constexpr double as_good = 0.1;
 /// That FCL may give of two boxes, of which there are eight. Fewer: faces lose corners. Test:
 /// Pairs.FlushBoxesGivePointsThatSpanTheCommonFace at 1.
 constexpr std::size_t most_box_points = 16;
-/// Of the prism that stands for a cylinder among triangles. Fewer: less round; more: slower. Test:
-/// Pairs.AFlushCylinderStandsOnThePointsOfItsRim at 0.
-constexpr int cylinder_sides = 48;
 
 }  // namespace spring_workbench::collision

@@ -13,7 +13,8 @@ namespace {
 /// together.
 class Patches {
  public:
-  Patches(const Surface& own, const Surface& other, const std::vector<std::pair<int, int>>& sorted_pairs)
+  Patches(const geometry::Surface& own, const geometry::Surface& other,
+          const std::vector<std::pair<int, int>>& sorted_pairs)
       : pairs_(sorted_pairs), parent_(sorted_pairs.size()) {
     std::iota(parent_.begin(), parent_.end(), std::size_t{0});
     for (std::size_t i = 0; i < pairs_.size(); ++i) {

@@ -49,7 +49,7 @@ double way_out(const geometry::Box& box, const Vector3d& q, const Vector3d& n) {
 }  // namespace
 
 void NarrowPhase::Solid::make_surface_and_triangles() {
-  surface = make_surface(geometry);
+  surface = geometry::make_surface(geometry);
   if (surface) triangles = make_triangles(*surface->mesh);
 }
 
@@ -107,7 +107,7 @@ double NarrowPhase::clear_way(std::size_t own, const RigidTransform& X_WA, std::
     const BesideCylinder side = solids_[own].beside(cylinder, X_WA.inverse() * X_WB);
     beside = std::max(0.0, tolerance + side.gap());
     if (side.is_between_ends()) return beside;
-    rounded_off = cylinder.radius * (1.0 - std::cos(M_PI / cylinder_sides));
+    rounded_off = with_triangles(other).surface->rounded_off;
   }
   fcl::DistanceResultd result;
   const Triangles* a = with_triangles(own).triangles.get();

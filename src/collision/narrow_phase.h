@@ -38,7 +38,7 @@ class NarrowPhase {
  private:
   struct Solid {
     geometry::Geometry geometry;
-    std::shared_ptr<const Surface> surface;  ///< none for a sphere
+    std::shared_ptr<const geometry::Surface> surface;  ///< none for a sphere
     std::unique_ptr<Triangles> triangles;
     std::unique_ptr<TriangleTree> tree;  ///< of a mesh beside a cylinder
 

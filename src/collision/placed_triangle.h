@@ -4,13 +4,13 @@
 #include <array>
 #include <vector>
 
-#include "surface.h"
+#include "spring_workbench/geometry/surface.h"
 
 namespace spring_workbench::collision {
 
 /// A surface placed in the world.
 struct PlacedSurface {
-  const Surface& surface;
+  const geometry::Surface& surface;
   const RigidTransform& X_WS;
 };
 

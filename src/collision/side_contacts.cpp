@@ -41,7 +41,7 @@ double distance_from_axis(const Corners& c) {
 
 /// The surface as the cylinder's axis sees it.
 struct View {
-  const Surface& surface;
+  const geometry::Surface& surface;
   const RigidTransform& X_CM;
 
   Corners corners(int triangle) const {
@@ -77,7 +77,7 @@ struct Near {
 
 }  // namespace
 
-std::unique_ptr<TriangleTree> make_tree(const Surface& surface) {
+std::unique_ptr<TriangleTree> make_tree(const geometry::Surface& surface) {
   std::vector<int> triangles;
   std::vector<Eigen::AlignedBox3d> boxes;
   for (std::size_t i = 0; i < surface.normals.size(); ++i) {
@@ -93,8 +93,8 @@ std::unique_ptr<TriangleTree> make_tree(const Surface& surface) {
   return std::make_unique<TriangleTree>(triangles.begin(), triangles.end(), boxes.begin(), boxes.end());
 }
 
-BesideCylinder::BesideCylinder(const Surface& surface, const TriangleTree& tree, const geometry::Cylinder& cylinder,
-                               const RigidTransform& X_MC)
+BesideCylinder::BesideCylinder(const geometry::Surface& surface, const TriangleTree& tree,
+                               const geometry::Cylinder& cylinder, const RigidTransform& X_MC)
     : surface_(surface), tree_(tree), cylinder_(cylinder), X_CM_(X_MC.inverse()) {}
 
 double BesideCylinder::gap() const {

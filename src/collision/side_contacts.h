@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "spring_workbench/collision/collision_world.h"
-#include "surface.h"
+#include "spring_workbench/geometry/surface.h"
 
 namespace spring_workbench::collision {
 
 /// The triangles of a surface, by their indices, in a tree of boxes in its frame.
 using TriangleTree = Eigen::KdBVH<double, 3, int>;
-std::unique_ptr<TriangleTree> make_tree(const Surface& surface);
+std::unique_ptr<TriangleTree> make_tree(const geometry::Surface& surface);
 
 /// A mesh beside a cylinder, where the cylinder's ends are not in play: exact, as what comes nearest to the axis of a
 /// cylinder is a point of an edge, unless the axis goes through a triangle.
 class BesideCylinder {
  public:
   /// `X_MC`: the cylinder in the frame of the surface. All are kept by reference.
-  BesideCylinder(const Surface& surface, const TriangleTree& tree, const geometry::Cylinder& cylinder,
+  BesideCylinder(const geometry::Surface& surface, const TriangleTree& tree, const geometry::Cylinder& cylinder,
                  const RigidTransform& X_MC);
 
   /// The gap to the cylinder if it had no ends [m]; negative where an edge is in it, −radius where its axis goes
@@ -36,7 +36,7 @@ class BesideCylinder {
   bool is_between_ends() const;
 
  private:
-  const Surface& surface_;
+  const geometry::Surface& surface_;
   const TriangleTree& tree_;
   const geometry::Cylinder& cylinder_;
   RigidTransform X_CM_;

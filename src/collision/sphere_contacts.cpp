@@ -34,7 +34,7 @@ bool is_inside(const std::vector<Candidate>& candidates, double rounding) {
 }
 
 /// Whether a neighbour that the point also belongs to comes nearer to the centre: the point is then on a seam.
-bool is_on_seam(const Surface& surface, const Candidate& candidate, const std::vector<Candidate>& all,
+bool is_on_seam(const geometry::Surface& surface, const Candidate& candidate, const std::vector<Candidate>& all,
                 double rounding) {
   return std::any_of(all.begin(), all.end(), [&](const Candidate& other) {
     if (!(other.distance < candidate.distance - rounding)) return false;
@@ -54,7 +54,7 @@ void append_sphere_contact(double radius, const Vector3d& centre_W, const geomet
   if (depth > tolerance) contacts.push_back({0, X_WS * nearest.p, X_WS.linear() * nearest.n, depth});
 }
 
-void append_sphere_triangle_contacts(double radius, const Vector3d& centre_W, const Surface& other,
+void append_sphere_triangle_contacts(double radius, const Vector3d& centre_W, const geometry::Surface& other,
                                      const RigidTransform& X_WS, const std::vector<int>& triangles, double tolerance,
                                      std::vector<ContactPoint>& contacts) {
   if (triangles.empty()) return;

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "spring_workbench/collision/collision_world.h"
-#include "surface.h"
+#include "spring_workbench/geometry/surface.h"
 
 namespace spring_workbench::collision {
 
@@ -13,7 +13,7 @@ void append_sphere_contact(double radius, const Vector3d& centre_W, const geomet
 
 /// Appends the contacts of a sphere with those `triangles` of a surface that it may touch: one for each face, edge or
 /// corner that is nearest to the centre among its neighbours, so that seams within a flat face do not count.
-void append_sphere_triangle_contacts(double radius, const Vector3d& centre_W, const Surface& other,
+void append_sphere_triangle_contacts(double radius, const Vector3d& centre_W, const geometry::Surface& other,
                                      const RigidTransform& X_WS, const std::vector<int>& triangles, double tolerance,
                                      std::vector<ContactPoint>& contacts);
 

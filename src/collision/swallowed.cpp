@@ -26,7 +26,7 @@ bool is_inside(const geometry::Geometry& inner, const RigidTransform& X_WI, cons
 }
 
 /// The point of the surface that is nearest to `q`, and its triangle.
-std::pair<Vector3d, int> nearest_point(const Surface& surface, const Vector3d& q) {
+std::pair<Vector3d, int> nearest_point(const geometry::Surface& surface, const Vector3d& q) {
   std::pair<Vector3d, int> nearest{Vector3d::Constant(std::numeric_limits<double>::infinity()), 0};
   for (int t = 0; t < static_cast<int>(surface.normals.size()); ++t) {
     const Vector3d p = nearest_on_triangle(surface.corner(t, 0), surface.corner(t, 1), surface.corner(t, 2), q);

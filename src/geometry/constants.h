@@ -14,6 +14,19 @@ constexpr double edges_by_share = 0.05;
 /// [m] by which a contact must be deeper than one of the four that are kept to replace it. Test: none: none that was
 /// tried fails.
 constexpr double stands_out = 1e-6;
+/// [m]; two contacts of solids that are nearer to each other, with one normal, are one. Smaller: what touches a seam
+/// within a face is found twice. Test: Solids.FlushFacesTouchWithTheirCornersOnce at 0.
+constexpr double same_place = 1e-7;
+/// Sine of the angle at an edge, below which it is a seam within a face and touches nothing. Test:
+/// Solids.SeamsAndGroovesAreNoEdges at 1.
+constexpr double flat_edge = 1e-6;
+/// Largest slope between two faces that come to lie on each other with all their corners. Smaller: a body that lands
+/// more tilted touches with one corner; larger: other faces count, too. Test:
+/// Drops.WithoutRestitutionNothingLeavesTheBench at 0.
+constexpr double slope_of_flush = 0.1;
+/// Of the prism that stands for a cylinder among triangles. Fewer: less round; more: slower. Test:
+/// Pairs.AFlushCylinderStandsOnThePointsOfItsRim at 0.
+constexpr int cylinder_sides = 48;
 /// cosine of the angle between two triangles below which their edge is drawn smooth. Greater: round meshes have facets.
 /// Test: Meshes.AreSmoothBelowTheCrease.
 constexpr float crease_cosine = 0.7F;

@@ -1,12 +1,9 @@
 #include "bullet_shape.h"
 
-#include <BulletCollision/Gimpact/btGImpactShape.h>
-
 #include <algorithm>
-#include <type_traits>
 #include <variant>
 
-#include "bullet_boxes.h"
+#include "bullet_contacts.h"
 #include "constants.h"
 
 namespace spring_workbench::rigid_bodies {
@@ -31,59 +28,68 @@ bool is_convex(const geometry::TriangleMesh& mesh) {
 
 BulletShape::BulletShape(const scene::Body& body, const RigidTransform& X_OB) {
   for (const geometry::Shape& shape : body.collision) {
-    add(shape, body.movable, to_bullet(RigidTransform(X_OB.inverse() * shape.X_OS)));
+    parts_.push_back(part_of(shape.geometry));
+    compound_.addChildShape(to_bullet(RigidTransform(X_OB.inverse() * shape.X_OS)), parts_.back().get());
+    if (std::holds_alternative<geometry::Sphere>(shape.geometry)) continue;
+    solids_.push_back(std::make_unique<const geometry::Solid>(shape.geometry));
+    parts_.back()->setUserPointer(const_cast<geometry::Solid*>(solids_.back().get()));  // is only read
   }
 }
 
-void BulletShape::add(const geometry::Shape& shape, bool movable, const btTransform& X_BS) {
-  const auto keep = [&](std::unique_ptr<btCollisionShape> part) {
-    compound_.addChildShape(X_BS, part.get());
-    parts_.push_back(std::move(part));
-  };
-  std::visit(
-      [&](const auto& g) {
-        using G = std::decay_t<decltype(g)>;
-        if constexpr (std::is_same_v<G, geometry::Box>) {
-          keep(std::make_unique<MarginBox>(to_bullet(Vector3d(0.5 * g.size + Vector3d::Constant(contact_skin)))));
-        } else if constexpr (std::is_same_v<G, geometry::Sphere>) {
-          keep(std::make_unique<btSphereShape>(g.radius + contact_skin));
-        } else if constexpr (std::is_same_v<G, geometry::Cylinder>) {
-          const double r = g.radius + contact_skin;
-          keep(std::make_unique<btCylinderShapeZ>(btVector3(r, r, 0.5 * g.length + contact_skin)));
-        } else {
-          add_mesh(*g, movable, X_BS);
-        }
-      },
-      shape.geometry);
+double BulletShape::depth(const BulletShape& a, const RigidTransform& X_WA, const BulletShape& b,
+                          const RigidTransform& X_WB, double deepest) {
+  double depth = 0.0;
+  for (int i = 0; i < a.compound_.getNumChildShapes(); ++i) {
+    for (int k = 0; k < b.compound_.getNumChildShapes(); ++k) {
+      const btCollisionShape &own = *a.compound_.getChildShape(i), &other = *b.compound_.getChildShape(k);
+      const auto* own_solid = static_cast<const geometry::Solid*>(own.getUserPointer());
+      const auto* other_solid = static_cast<const geometry::Solid*>(other.getUserPointer());
+      const bool alike = own.getShapeType() == other.getShapeType() && !own.isConcave() && !own.isPolyhedral();
+      const bool boxes = own.getShapeType() == BOX_SHAPE_PROXYTYPE && other.getShapeType() == BOX_SHAPE_PROXYTYPE;
+      if (own_solid == nullptr || other_solid == nullptr || alike || boxes) continue;
+      for (const geometry::BoxContact& c :
+           geometry::solid_contacts(*own_solid, X_WA * from_bullet(a.compound_.getChildTransform(i)), *other_solid,
+                                    X_WB * from_bullet(b.compound_.getChildTransform(k)), 0.0, deepest)) {
+        depth = std::max(depth, -c.gap);
+      }
+    }
+  }
+  return depth;
 }
 
-void BulletShape::add_mesh(const geometry::TriangleMesh& mesh, bool movable, const btTransform& X_BS) {
+std::unique_ptr<btCollisionShape> BulletShape::part_of(const geometry::Geometry& geometry) {
+  if (const auto* box = std::get_if<geometry::Box>(&geometry)) {
+    const Vector3d half = 0.5 * box->size + Vector3d::Constant(contact_skin);
+    return std::make_unique<WithMargin<btBoxShape>>(to_bullet(half));
+  }
+  if (const auto* sphere = std::get_if<geometry::Sphere>(&geometry)) {
+    return std::make_unique<btSphereShape>(sphere->radius + contact_skin);
+  }
+  if (const auto* cylinder = std::get_if<geometry::Cylinder>(&geometry)) {
+    const double r = cylinder->radius + contact_skin;
+    return std::make_unique<WithMargin<btCylinderShapeZ>>(btVector3(r, r, 0.5 * cylinder->length + contact_skin));
+  }
+  return part_of(*std::get<geometry::MeshPtr>(geometry));
+}
+
+std::unique_ptr<btCollisionShape> BulletShape::part_of(const geometry::TriangleMesh& mesh) {
   std::unique_ptr<btCollisionShape> part;
   if (is_convex(mesh)) {
-    auto hull = std::make_unique<btConvexHullShape>();
+    auto hull = std::make_unique<WithMargin<btConvexHullShape>>();
     for (const Vector3d& v : mesh.vertices) hull->addPoint(to_bullet(v), false);
     hull->recalcLocalAabb();
     hull->optimizeConvexHull();
     part = std::move(hull);
   } else {
-    auto triangles = std::make_unique<btTriangleMesh>();
+    meshes_.push_back(std::make_unique<btTriangleMesh>());
     for (const Eigen::Vector3i& t : mesh.triangles) {
-      triangles->addTriangle(to_bullet(mesh.corner(t, 0)), to_bullet(mesh.corner(t, 1)), to_bullet(mesh.corner(t, 2)));
+      meshes_.back()->addTriangle(to_bullet(mesh.corner(t, 0)), to_bullet(mesh.corner(t, 1)),
+                                  to_bullet(mesh.corner(t, 2)));
     }
-    if (movable) {
-      auto concave = std::make_unique<btGImpactMeshShape>(triangles.get());
-      concave->setMargin(contact_skin);
-      concave->updateBound();
-      part = std::move(concave);
-    } else {
-      part = std::make_unique<btBvhTriangleMeshShape>(triangles.get(), true);
-    }
-    meshes_.push_back(std::move(triangles));
+    part = std::make_unique<WithMargin<btBvhTriangleMeshShape>>(meshes_.back().get(), true);
   }
   part->setMargin(contact_skin);
-  part->setUserPointer(const_cast<geometry::TriangleMesh*>(&mesh));  // is only read
-  compound_.addChildShape(X_BS, part.get());
-  parts_.push_back(std::move(part));
+  return part;
 }
 
 }  // namespace spring_workbench::rigid_bodies

@@ -4,12 +4,10 @@
 #include <vector>
 
 #include "bullet_types.h"
+#include "spring_workbench/geometry/solid_contacts.h"
 #include "spring_workbench/scene/scene.h"
 
 namespace spring_workbench::rigid_bodies {
-
-/// Every shape is larger by this all round [m], and contact is closed where two of them overlap by twice as much: so
-/// that the solver sees a contact before it closes.
 
 /// A body's collision shapes as Bullet's, in a frame B that `X_OB` places in the object frame.
 class BulletShape {
@@ -17,14 +15,19 @@ class BulletShape {
   BulletShape(const scene::Body& body, const RigidTransform& X_OB);
 
   btCollisionShape* get() { return &compound_; }
+  /// Returns how deep the solids of two bodies, placed in frames B, are in each other [m], up to `deepest`; without
+  /// pairs of boxes and pairs of cylinders.
+  static double depth(const BulletShape& a, const RigidTransform& X_WA, const BulletShape& b,
+                      const RigidTransform& X_WB, double deepest);
 
  private:
-  void add(const geometry::Shape& shape, bool movable, const btTransform& X_BS);
-  void add_mesh(const geometry::TriangleMesh& mesh, bool movable, const btTransform& X_BS);
+  std::unique_ptr<btCollisionShape> part_of(const geometry::Geometry& geometry);
+  std::unique_ptr<btCollisionShape> part_of(const geometry::TriangleMesh& mesh);
 
   btCompoundShape compound_;
   std::vector<std::unique_ptr<btCollisionShape>> parts_;
   std::vector<std::unique_ptr<btTriangleMesh>> meshes_;
+  std::vector<std::unique_ptr<const geometry::Solid>> solids_;  ///< the parts' user pointers; none of a sphere
 };
 
 }  // namespace spring_workbench::rigid_bodies

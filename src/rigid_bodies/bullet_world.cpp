@@ -1,7 +1,5 @@
 #include "bullet_world.h"
 
-#include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
-
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -33,12 +31,6 @@ BulletWorld::BulletWorld(const scene::Scene& scene)
     : scene_(scene), bench_shape_(btVector3(0, 0, 1), scene.bench_height + contact_skin) {
   static const double set_once = gDeactivationTime = asleep_after;  // worlds may be made in several threads
   static_cast<void>(set_once);
-  btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
-  for (const int other : {STATIC_PLANE_PROXYTYPE, BOX_SHAPE_PROXYTYPE, SPHERE_SHAPE_PROXYTYPE, CYLINDER_SHAPE_PROXYTYPE,
-                          CONVEX_HULL_SHAPE_PROXYTYPE}) {
-    for (const auto& [a, b] : {std::pair<int, int>(GIMPACT_SHAPE_PROXYTYPE, other), {other, GIMPACT_SHAPE_PROXYTYPE}})
-      dispatcher_.registerCollisionCreateFunc(a, b, configuration_.getCollisionAlgorithmCreateFunc(a, b));
-  }
   configuration_.setPlaneConvexMultipointIterations(4, 4);  // a flush face touches with its corners at once
   configuration_.setConvexConvexMultipointIterations(4, 4);
   world_.setGravity(btVector3(0.0, 0.0, -scene_.gravity));
@@ -50,7 +42,6 @@ BulletWorld::BulletWorld(const scene::Scene& scene)
   info.m_restitutionVelocityThreshold = scene::rest_speed;
   info.m_solverMode = SOLVER_USE_2_FRICTION_DIRECTIONS | SOLVER_DISABLE_VELOCITY_DEPENDENT_FRICTION_DIRECTION;
   world_.setForceUpdateAllAabbs(false);
-
   bench_body_ = std::make_unique<btRigidBody>(btRigidBody::btRigidBodyConstructionInfo(0.0, nullptr, &bench_shape_));
   bench_body_->setFriction(std::sqrt(scene_.bench_material.friction));
   bench_body_->setRestitution(std::sqrt(scene_.bench_material.restitution));
@@ -348,7 +339,7 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
   const Item& item = items_[body];
   if (item.leaf == nullptr) return 1.0;
   double part = 1.0;
-  // Of a pair whose shapes are not both boxes, only what the boxes around them say is known.
+  // Of a pair whose shapes are not both boxes, what the boxes around them say; and how deep they are at the end.
   const auto by_extent = [&](const geometry::BoxGap& gap, const geometry::StraightMotion& path) {
     const double left = gap.gap - 2.0 * contact_skin;
     const bool near = left < may_go_unswept;
@@ -393,6 +384,12 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
         }
       }
     }
+    if (untouched || part < 1.0 || !item.shape || !other.shape) continue;
+    const auto depth = [&](const RigidTransform& X_own, const RigidTransform& X_other) {
+      return BulletShape::depth(*item.shape, X_own * item.X_OB, *other.shape, X_other * other.X_OB, unswept_of_free);
+    };
+    const double end = depth(X1_WO, other.X_WO);
+    if (end > deepest_on_path && end > depth(X0_WO, X_before) * (1.0 + 1e-9) + 1e-12) part = 0.5;
   }
   return part;
 }

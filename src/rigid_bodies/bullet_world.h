@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "bullet_boxes.h"
+#include "bullet_contacts.h"
 #include "bullet_shape.h"
 #include "constants.h"
 #include "driven_solver.h"
@@ -66,7 +66,8 @@ class BulletWorld final : public RigidWorld {
   }
   double admissible_fraction(std::size_t body, const RigidTransform& X0_WO,
                              const RigidTransform& X1_WO) const override {
-    return std::min(free_fraction(body, X0_WO, X1_WO, false, unswept), solver_.residual() > solved_to ? 0.5 : 1.0);
+    return std::min(free_fraction(body, X0_WO, X1_WO, false, unswept_of_free),
+                    solver_.residual() > solved_to ? 0.5 : 1.0);
   }
   double admissible_fraction_of_free() const override;
   bool solved() const override { return solver_.residual() <= solved_to && solver_.deepest() <= unswept_of_free; }
@@ -140,7 +141,7 @@ class BulletWorld final : public RigidWorld {
   std::vector<Item> items_;            ///< parallel to the scene's bodies
   btDbvt tree_;                        ///< of all of them
   std::vector<std::size_t> in_world_;  ///< those that Bullet has to look at
-  BoxContactConfiguration configuration_;
+  ContactConfiguration configuration_;
   DispatcherForSleepers dispatcher_{&configuration_};
   BroadphaseOfAnyMemory broadphase_;
   DrivenSolver solver_;

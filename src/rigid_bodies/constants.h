@@ -10,10 +10,6 @@ namespace spring_workbench::rigid_bodies {
 /// that a fast body is stopped where it touches. Bullet's own boxes have contacts only when they overlap. Test:
 /// RigidWorld.DrivenBodyPushesANeighbourAndCarriesAnother at 0.
 constexpr double contact_margin = 3e-3;
-/// Largest slope between a face and a plane on which it lands with all its corners. Smaller: a body that lands more
-/// tilted touches with one corner; larger: other faces count, too. Test: Drops.WithoutRestitutionNothingLeavesTheBench
-/// at 0.
-constexpr double slope_of_landing = 0.1;
 /// [m] by which every shape is enlarged; a contact is closed when two shapes overlap by twice as much, so that the
 /// solver knows it before. Larger: spheres roll on a larger radius. Test:
 /// RigidWorld.SphereRollsAtFiveSeventhsOfItsSpeed.
@@ -35,11 +31,17 @@ constexpr double penetration_share = 0.2;
 constexpr double unswept = 2e-4;
 /// [m] likewise for a body that is not held, and that moves at least as far in the step. Larger: thrown bodies pass
 /// through thin ones; smaller: bodies that fly and roll among movable ones cost more. Test:
-/// LooseThrows.ALooseThinWallIsNotGoneThrough at 0.02.
+/// LooseThrows.AmongOthersNothingGoesDeepOrGainsEnergy at 0.02.
 constexpr double unswept_of_free = 1e-3;
 /// [m] largest penetration of two boxes on a path; shorter paths of bodies that are not held are not swept. Smaller:
 /// held bodies are blocked more often. Test: RigidWorld.AWayEndsWhereItTouches.
 constexpr double deepest_on_path = 5e-5;
+/// Cosine of the angle between normals of contacts of two shapes that share a manifold. Smaller: curved shapes lose
+/// contacts. Test: RigidWorld.ABoxStopsInANotchWithBothItsFaces at -1.
+constexpr double one_normal = 0.99;
+/// Manifolds of four contacts for a pair of shapes other than boxes. Fewer: it is not stopped in all directions. Test:
+/// RigidWorld.ABoxStopsInANotchWithBothItsFaces at 1.
+constexpr std::size_t most_manifolds = 8;
 /// [m] gap below which a contact without impulse is reported. Test: none: no value tried makes one fail.
 constexpr double closed_gap = 1e-5;
 /// [m] largest residual of the contacts of a solved step. Test: none: no value tried makes one fail.

@@ -59,6 +59,44 @@ struct OnSpring {
   }
 };
 
+/// A prism along y over a profile in x and z with a notch of 90° from z = 0.1 down to z = 0.
+geometry::MeshPtr notched_block() {
+  auto mesh = std::make_shared<geometry::TriangleMesh>();
+  for (const double y : {-0.1, 0.1}) {
+    for (const auto& [x, z] : {std::pair(-0.1, -0.02), {0.1, -0.02}, {0.1, 0.1}, {0.0, 0.0}, {-0.1, 0.1}}) {
+      mesh->vertices.emplace_back(x, y, z);
+    }
+  }
+  mesh->triangles = {{0, 1, 3}, {1, 2, 3}, {0, 3, 4}, {5, 8, 6}, {6, 8, 7}, {5, 9, 8}};
+  for (int i = 0; i < 5; ++i) {
+    const int j = (i + 1) % 5;
+    mesh->triangles.emplace_back(i, i + 5, j + 5);
+    mesh->triangles.emplace_back(i, j + 5, j);
+  }
+  return mesh;
+}
+
+// All contacts of a pair of shapes, whichever way they push, stop it together.
+TEST(RigidWorld, ABoxStopsInANotchWithBothItsFaces) {
+  const RigidTransform X = make_transform(Quaterniond(Eigen::AngleAxisd(0.25 * M_PI, Vector3d::UnitY())),
+                                          Vector3d(0.0, 0.0, 0.02 * std::sqrt(2.0) + 1e-5));
+  scene::Body block = box("block", Vector3d::Ones(), 1.0, Vector3d::Zero(), 0.0);
+  block.movable = false;
+  block.collision[0].geometry = notched_block();
+  scene::Body falling = box("falling", Vector3d(0.04, 0.04, 0.04), 1.0, X.translation(), 0.0);
+  falling.X_WO = X;
+  scene::Scene scene = scene_of({falling, block}, scene::ContactMode::dynamic);
+  scene.bench_height = -1.0;
+  const std::unique_ptr<RigidWorld> world = make_rigid_world(scene);
+  world->place(0, X, moving(Vector3d(0.0, 0.0, -1.0)), true);
+  for (int i = 0; i < 3; ++i) {
+    run(*world, 1e-3);
+    EXPECT_NEAR(world->pose(0).translation().z(), 0.02 * std::sqrt(2.0), 2e-6);
+    EXPECT_NEAR(world->pose(0).translation().x(), 0.0, 2e-6);
+    EXPECT_LT((world->pose(0).linear() - X.linear()).norm(), 1e-4);
+  }
+}
+
 TEST(RigidWorld, SleepersCostNothingAndStay) {
   std::vector<scene::Body> bodies;
   for (int i = 0; i < 1000; ++i) {

@@ -1,4 +1,4 @@
-#include "surface.h"
+#include "spring_workbench/geometry/surface.h"
 
 #include <cmath>
 #include <map>
@@ -6,28 +6,28 @@
 #include "constants.h"
 #include "spring_workbench/geometry/shape_queries.h"
 
-namespace spring_workbench::collision {
+namespace spring_workbench::geometry {
 namespace {
 
-void add_quad(geometry::TriangleMesh& mesh, int a, int b, int c, int d) {
+void add_quad(TriangleMesh& mesh, int a, int b, int c, int d) {
   mesh.triangles.emplace_back(a, b, c);
   mesh.triangles.emplace_back(a, c, d);
 }
 
-geometry::MeshPtr box_mesh(const geometry::Box& box) {
-  geometry::TriangleMesh mesh;
-  for (const Vector3d& corner : geometry::corners(0.5 * box.size)) mesh.vertices.push_back(corner);
+MeshPtr box_mesh(const Box& box) {
+  TriangleMesh mesh;
+  for (const Vector3d& corner : corners(0.5 * box.size)) mesh.vertices.push_back(corner);
   add_quad(mesh, 0, 4, 6, 2);
   add_quad(mesh, 1, 3, 7, 5);
   add_quad(mesh, 0, 1, 5, 4);
   add_quad(mesh, 2, 6, 7, 3);
   add_quad(mesh, 0, 2, 3, 1);
   add_quad(mesh, 4, 5, 7, 6);
-  return std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
+  return std::make_shared<const TriangleMesh>(std::move(mesh));
 }
 
-geometry::MeshPtr cylinder_mesh(const geometry::Cylinder& cylinder) {
-  geometry::TriangleMesh mesh;
+MeshPtr cylinder_mesh(const Cylinder& cylinder) {
+  TriangleMesh mesh;
   const double half = 0.5 * cylinder.length;
   mesh.vertices = {Vector3d(0.0, 0.0, -half), Vector3d(0.0, 0.0, half)};
   for (int i = 0; i < cylinder_sides; ++i) {
@@ -42,17 +42,17 @@ geometry::MeshPtr cylinder_mesh(const geometry::Cylinder& cylinder) {
     mesh.triangles.emplace_back(0, next_low, low);
     mesh.triangles.emplace_back(1, low + 1, next_low + 1);
   }
-  return std::make_shared<const geometry::TriangleMesh>(std::move(mesh));
+  return std::make_shared<const TriangleMesh>(std::move(mesh));
 }
 
-geometry::MeshPtr triangles_of(const geometry::Geometry& geometry) {
-  if (const auto* box = std::get_if<geometry::Box>(&geometry)) return box_mesh(*box);
-  if (const auto* cylinder = std::get_if<geometry::Cylinder>(&geometry)) return cylinder_mesh(*cylinder);
-  if (const auto* mesh = std::get_if<geometry::MeshPtr>(&geometry)) return *mesh;
+MeshPtr triangles_of(const Geometry& geometry) {
+  if (const auto* box = std::get_if<Box>(&geometry)) return box_mesh(*box);
+  if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) return cylinder_mesh(*cylinder);
+  if (const auto* mesh = std::get_if<MeshPtr>(&geometry)) return *mesh;
   return nullptr;
 }
 
-void find_neighbours(const geometry::TriangleMesh& mesh, std::vector<std::array<int, 3>>& neighbours) {
+void find_neighbours(const TriangleMesh& mesh, std::vector<std::array<int, 3>>& neighbours) {
   std::map<std::pair<int, int>, std::pair<int, int>> triangle_at;  // directed edge → triangle and its edge
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     const Eigen::Vector3i& t = mesh.triangles[i];
@@ -68,7 +68,7 @@ void find_neighbours(const geometry::TriangleMesh& mesh, std::vector<std::array<
 
 }  // namespace
 
-std::shared_ptr<const Surface> make_surface(const geometry::Geometry& geometry) {
+std::shared_ptr<const Surface> make_surface(const Geometry& geometry) {
   auto surface = std::make_shared<Surface>();
   surface->mesh = triangles_of(geometry);
   if (!surface->mesh) return nullptr;
@@ -77,8 +77,11 @@ std::shared_ptr<const Surface> make_surface(const geometry::Geometry& geometry) 
     const Vector3d& a = surface->corner(t, 0);
     surface->normals.push_back((surface->corner(t, 1) - a).cross(surface->corner(t, 2) - a).normalized());
   }
+  if (const auto* cylinder = std::get_if<Cylinder>(&geometry)) {
+    surface->rounded_off = cylinder->radius * (1.0 - std::cos(M_PI / cylinder_sides));
+  }
   find_neighbours(*surface->mesh, surface->neighbours);
   return surface;
 }
 
-}  // namespace spring_workbench::collision
+}  // namespace spring_workbench::geometry

@@ -3,7 +3,7 @@
 #pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
 #endif
 
-#include "bullet_boxes.h"
+#include "bullet_contacts.h"
 
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
 
@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "constants.h"
-#include "spring_workbench/geometry/box_contacts.h"
+#include "spring_workbench/geometry/solid_contacts.h"
 
 namespace spring_workbench::rigid_bodies {
 namespace {
@@ -26,22 +26,12 @@ bool is_plane(const btCollisionObjectWrapper& object) {
   return object.getCollisionShape()->getShapeType() == STATIC_PLANE_PROXYTYPE;
 }
 
-/// The point of a cylinder or a mesh that lies furthest along a direction, both in the shape's frame.
-Vector3d furthest(const btCollisionShape& shape, const Vector3d& along_S) {
-  if (shape.getShapeType() == CYLINDER_SHAPE_PROXYTYPE) {
-    const Vector3d half = from_bullet(static_cast<const btCylinderShapeZ&>(shape).getHalfExtentsWithMargin());
-    const double size = along_S.head<2>().norm();
-    Vector3d p(0.0, 0.0, std::copysign(half.z() - contact_skin, along_S.z()));
-    if (size > 0.0) p.head<2>() = (half.x() - contact_skin) / size * along_S.head<2>();
-    return p;
-  }
-  const auto& mesh = *static_cast<const geometry::TriangleMesh*>(shape.getUserPointer());
-  return *std::max_element(mesh.vertices.begin(), mesh.vertices.end(),
-                           [&](const Vector3d& a, const Vector3d& b) { return a.dot(along_S) < b.dot(along_S); });
+const geometry::Solid& solid_of(const btCollisionObjectWrapper& object) {
+  return *static_cast<const geometry::Solid*>(object.getCollisionShape()->getUserPointer());
 }
 
-/// Up to four of the contacts with a plane: the deepest, the one furthest from it, and on either side of the line
-/// between them the one furthest from that.
+/// Up to four of the contacts with about one normal: the deepest, the one furthest from it, and on either side of the
+/// line between them the one furthest from that.
 std::vector<geometry::BoxContact> spanning(const std::vector<geometry::BoxContact>& all) {
   const auto best_by = [&](const auto& score) {
     return *std::max_element(all.begin(), all.end(), [&](const auto& a, const auto& b) { return score(a) < score(b); });
@@ -62,22 +52,34 @@ std::vector<geometry::BoxContact> spanning(const std::vector<geometry::BoxContac
   return kept;
 }
 
-/// Contacts of a cylinder or a mesh above the half-space `n · x < height`: of the points that lie furthest down, and
-/// furthest down with a slope to one of eight sides. So what lands almost flush lands with all of its face.
+/// Contacts of a cylinder or a mesh above the half-space `n · x < height`.
 std::vector<geometry::BoxContact> contacts_of_points(const btCollisionObjectWrapper& body, const Vector3d& n_W,
                                                      double height, double reach) {
   const RigidTransform X_WS = from_bullet(body.getWorldTransform());
-  const Vector3d u_W = X_WS.linear().col(std::abs(n_W.dot(X_WS.linear().col(0))) < 0.7 ? 0 : 1).cross(n_W).normalized();
   std::vector<geometry::BoxContact> found;
-  for (int i = 0; i <= 8; ++i) {
-    const double turn = 0.25 * M_PI * i;
-    const Vector3d side_W = std::cos(turn) * u_W + std::sin(turn) * n_W.cross(u_W);
-    const Vector3d along_W = i < 8 ? Vector3d(slope_of_landing * side_W - n_W) : Vector3d(-n_W);
-    const Vector3d p_W = X_WS * furthest(*body.getCollisionShape(), X_WS.linear().transpose() * along_W);
+  for (const Vector3d& p_S : geometry::lowest_points(solid_of(body), X_WS.linear().transpose() * n_W)) {
+    const Vector3d p_W = X_WS * p_S;
     const double gap = n_W.dot(p_W) - height;
     if (gap < reach) found.push_back({p_W - gap * n_W, n_W, gap});
   }
   return spanning(found);
+}
+
+/// Contacts by their normals, those with the least gap first.
+std::vector<std::vector<geometry::BoxContact>> by_normal(std::vector<geometry::BoxContact> contacts) {
+  std::stable_sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
+  std::vector<std::vector<geometry::BoxContact>> groups;
+  for (const geometry::BoxContact& c : contacts) {
+    const auto same = std::find_if(groups.begin(), groups.end(),
+                                   [&](const auto& group) { return group.front().n_W.dot(c.n_W) > one_normal; });
+    if (same != groups.end()) {
+      same->push_back(c);
+    } else if (groups.size() < most_manifolds) {
+      groups.push_back({c});
+    }
+  }
+  for (std::vector<geometry::BoxContact>& group : groups) group = spanning(group);
+  return groups;
 }
 
 std::vector<geometry::BoxContact> contacts_above(const btCollisionObjectWrapper& body,
@@ -106,51 +108,73 @@ double reach_of(const btCollisionObjectWrapper& a, const btCollisionObjectWrappe
   return std::max(contact_margin, h * speed);
 }
 
-/// Contacts of boxes with each other, and of a box, a cylinder or a mesh with a plane, in either order, found anew in
-/// every step; each begins with the impulses of the one before that is nearest to it.
-class BoxContacts final : public btActivatingCollisionAlgorithm {
+bool is_box(const btCollisionObjectWrapper& object) {
+  return object.getCollisionShape()->getShapeType() == BOX_SHAPE_PROXYTYPE;
+}
+
+/// Contacts of shapes other than spheres with each other and with a plane, in either order, found anew in every step;
+/// each begins with the impulses of the one before that is nearest to it. Contacts with about one normal share a
+/// manifold.
+class SolidContacts final : public btActivatingCollisionAlgorithm {
  public:
-  BoxContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
-              const btCollisionObjectWrapper* b)
-      : btActivatingCollisionAlgorithm(info, a, b),
-        manifold_(m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject())) {
-    manifold_->m_companionIdA = a->m_index;
-    manifold_->m_companionIdB = b->m_index;
+  SolidContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
+                const btCollisionObjectWrapper* b)
+      : btActivatingCollisionAlgorithm(info, a, b) {
+    const bool one_normal = is_plane(*a) || is_plane(*b) || (is_box(*a) && is_box(*b));
+    for (std::size_t i = 0; i < (one_normal ? 1 : most_manifolds); ++i) {
+      manifolds_.push_back(m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject()));
+      manifolds_.back()->m_companionIdA = a->m_index;
+      manifolds_.back()->m_companionIdB = b->m_index;
+    }
   }
-  ~BoxContacts() override { m_dispatcher->releaseManifold(manifold_); }
+  ~SolidContacts() override {
+    for (btPersistentManifold* manifold : manifolds_) m_dispatcher->releaseManifold(manifold);
+  }
 
   void processCollision(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
                         const btDispatcherInfo& info, btManifoldResult* result) override {
     std::vector<btManifoldPoint> before;
-    for (int i = 0; i < manifold_->getNumContacts(); ++i) before.push_back(manifold_->getContactPoint(i));
-    manifold_->clearManifold();
-    result->setPersistentManifold(manifold_);
+    for (btPersistentManifold* manifold : manifolds_) {
+      for (int i = 0; i < manifold->getNumContacts(); ++i) before.push_back(manifold->getContactPoint(i));
+      manifold->clearManifold();
+    }
+    result->setPersistentManifold(manifolds_.front());
     // Not by the result's own addContactPoint(), which takes near ones for one.
-    for (const geometry::BoxContact& c : find(*a, *b, reach_of(*a, *b, info.m_timeStep))) {
-      btManifoldPoint point = made(c, *a->getCollisionObject(), *b->getCollisionObject());
-      point.m_index0 = a->m_index;
-      point.m_index1 = b->m_index;
-      take_impulses(before, point);
-      manifold_->addManifoldPoint(point);
+    const auto found = find(*a, *b, reach_of(*a, *b, info.m_timeStep));
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      for (const geometry::BoxContact& c : found[i]) {
+        btManifoldPoint point = made(c, *a->getCollisionObject(), *b->getCollisionObject());
+        point.m_index0 = a->m_index;
+        point.m_index1 = b->m_index;
+        take_impulses(before, point);
+        manifolds_[i]->addManifoldPoint(point);
+      }
     }
   }
   btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
                                  btManifoldResult*) override {
     return 1.0;  // of Bullet's continuous mode, which is not used
   }
-  void getAllContactManifolds(btManifoldArray& all) override { all.push_back(manifold_); }
+  void getAllContactManifolds(btManifoldArray& all) override {
+    for (btPersistentManifold* manifold : manifolds_) all.push_back(manifold);
+  }
 
  private:
-  static std::vector<geometry::BoxContact> find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
-                                                double reach) {
-    if (is_plane(b)) return contacts_above(a, b, reach);
-    if (!is_plane(a)) return geometry::box_contacts(outline_of(a), outline_of(b), reach);
+  /// For each manifold.
+  static std::vector<std::vector<geometry::BoxContact>> find(const btCollisionObjectWrapper& a,
+                                                             const btCollisionObjectWrapper& b, double reach) {
+    if (is_plane(b)) return {contacts_above(a, b, reach)};
+    if (is_box(a) && is_box(b)) return {geometry::box_contacts(outline_of(a), outline_of(b), reach)};
+    if (!is_plane(a)) {
+      return by_normal(geometry::solid_contacts(solid_of(a), from_bullet(a.getWorldTransform()), solid_of(b),
+                                                from_bullet(b.getWorldTransform()), reach, unswept_of_free));
+    }
     std::vector<geometry::BoxContact> contacts = contacts_above(b, a, reach);
     for (geometry::BoxContact& c : contacts) {
       c.p_W += c.gap * c.n_W;
       c.n_W = -c.n_W;
     }
-    return contacts;
+    return {contacts};
   }
   static btManifoldPoint made(const geometry::BoxContact& c, const btCollisionObject& a, const btCollisionObject& b) {
     const btVector3 on_b = to_bullet(c.p_W), on_a = to_bullet(Vector3d(c.p_W + c.gap * c.n_W));
@@ -172,35 +196,26 @@ class BoxContacts final : public btActivatingCollisionAlgorithm {
     point.m_appliedImpulseLateral2 = nearest->m_appliedImpulseLateral2;
     before.erase(nearest);
   }
-  btPersistentManifold* manifold_;
+  std::vector<btPersistentManifold*> manifolds_;
 };
 
 }  // namespace
 
-void MarginBox::getAabb(const btTransform& X_WS, btVector3& least, btVector3& most) const {
-  btBoxShape::getAabb(X_WS, least, most);
-  const btVector3 more(0.5 * contact_margin, 0.5 * contact_margin, 0.5 * contact_margin);
-  least -= more;
-  most += more;
+btCollisionAlgorithmCreateFunc* ContactConfiguration::getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) {
+  const auto is_solid = [](int proxy) {
+    return proxy == BOX_SHAPE_PROXYTYPE || proxy == CYLINDER_SHAPE_PROXYTYPE || proxy == CONVEX_HULL_SHAPE_PROXYTYPE ||
+           proxy == TRIANGLE_MESH_SHAPE_PROXYTYPE;
+  };
+  const auto is_known = [&](int proxy) { return is_solid(proxy) || proxy == STATIC_PLANE_PROXYTYPE; };
+  const bool round = proxy_a == CYLINDER_SHAPE_PROXYTYPE && proxy_b == CYLINDER_SHAPE_PROXYTYPE;
+  if (is_known(proxy_a) && is_known(proxy_b) && (is_solid(proxy_a) || is_solid(proxy_b)) && !round) return &create_;
+  return btDefaultCollisionConfiguration::getCollisionAlgorithmCreateFunc(proxy_a, proxy_b);
 }
 
-btCollisionAlgorithmCreateFunc* BoxContactConfiguration::getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) {
-  const auto with_plane = [](int a, int b) {
-    return b == STATIC_PLANE_PROXYTYPE && (a == BOX_SHAPE_PROXYTYPE || a == CYLINDER_SHAPE_PROXYTYPE ||
-                                           a == CONVEX_HULL_SHAPE_PROXYTYPE || a == GIMPACT_SHAPE_PROXYTYPE);
-  };
-  const bool boxes = proxy_a == BOX_SHAPE_PROXYTYPE && proxy_b == BOX_SHAPE_PROXYTYPE;
-  if (boxes || with_plane(proxy_a, proxy_b) || with_plane(proxy_b, proxy_a)) return &create_;
-  // A movable mesh meets what is convex like a fixed one, triangle by triangle.
-  const auto as_fixed = [](int proxy) {
-    return proxy == GIMPACT_SHAPE_PROXYTYPE ? static_cast<int>(TRIANGLE_MESH_SHAPE_PROXYTYPE) : proxy;
-  };
-  return btDefaultCollisionConfiguration::getCollisionAlgorithmCreateFunc(as_fixed(proxy_a), as_fixed(proxy_b));
-}
-
-btCollisionAlgorithm* BoxContactConfiguration::Create::CreateCollisionAlgorithm(
-    btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b) {
-  return new (info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(BoxContacts))) BoxContacts(info, a, b);
+btCollisionAlgorithm* ContactConfiguration::Create::CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                                             const btCollisionObjectWrapper* a,
+                                                                             const btCollisionObjectWrapper* b) {
+  return new (info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(SolidContacts))) SolidContacts(info, a, b);
 }
 
 }  // namespace spring_workbench::rigid_bodies

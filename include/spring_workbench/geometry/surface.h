@@ -4,15 +4,16 @@
 #include <memory>
 #include <vector>
 
-#include "spring_workbench/scene/scene.h"
+#include "spring_workbench/geometry/shapes.h"
 
-namespace spring_workbench::collision {
+namespace spring_workbench::geometry {
 
 /// Triangles of a shape with what contact between triangles needs: normals and neighbours.
 struct Surface {
-  geometry::MeshPtr mesh;
+  MeshPtr mesh;
   std::vector<Vector3d> normals;               ///< unit, outward; one per triangle
   std::vector<std::array<int, 3>> neighbours;  ///< triangle across the edge k → k+1, or −1
+  double rounded_off = 0.0;                    ///< how far the shape may reach beyond its triangles [m]
 
   const Vector3d& corner(int triangle, int k) const {
     return mesh->corner(mesh->triangles[static_cast<std::size_t>(triangle)], k);
@@ -22,6 +23,6 @@ struct Surface {
 
 /// The surface of a box, a cylinder (as a prism of `cylinder_sides` sides through its rims' points) or a mesh.
 /// Nothing for a sphere.
-std::shared_ptr<const Surface> make_surface(const geometry::Geometry& geometry);
+std::shared_ptr<const Surface> make_surface(const Geometry& geometry);
 
-}  // namespace spring_workbench::collision
+}  // namespace spring_workbench::geometry

@@ -1,0 +1,303 @@
+#include "spring_workbench/geometry/solid_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "constants.h"
+#include "spring_workbench/geometry/shape_queries.h"
+#include "spring_workbench/geometry/surface.h"
+
+namespace spring_workbench::geometry {
+namespace {
+
+void add_edges(const Surface& surface, int t, std::vector<Solid::Edge>& edges) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int neighbour = surface.neighbours[static_cast<std::size_t>(t)][k];
+    if (neighbour < t) continue;  // none, or looked at with it
+    const Vector3d& start = surface.corner(t, static_cast<int>(k));
+    const Vector3d along = surface.corner(t, static_cast<int>((k + 1) % 3)) - start;
+    const Vector3d into_left = surface.normal(t).cross(along).normalized();
+    const Vector3d into_right = along.cross(surface.normal(neighbour)).normalized();
+    if (into_right.dot(surface.normal(t)) < -flat_edge) edges.push_back({start, along, into_left, into_right});
+  }
+}
+
+/// Which points of `a` may touch the faces of `b`, as seen from `b`.
+struct View {
+  const Solid &a, &b;
+  const RigidTransform& X_BA;
+  double reach, deepest;
+  std::vector<BoxContact>& found;  ///< in the frame of `b`
+
+  void add(const Vector3d& p, const Vector3d& n, double gap) const {
+    for (const BoxContact& c : found) {
+      if ((c.p_W - p).squaredNorm() < same_place * same_place && c.n_W.dot(n) > 1.0 - same_place) return;
+    }
+    found.push_back({p, n, gap});
+  }
+  Vector3d n_A(const Vector3d& n_B) const { return X_BA.linear().transpose() * n_B; }
+  /// Whether nothing that edges join with the corner lies much lower.
+  bool is_low(std::size_t corner, const Vector3d& n_B) const {
+    const Vector3d n = n_A(n_B);
+    return std::all_of(a.next[corner].begin(), a.next[corner].end(), [&](int other) {
+      const Vector3d along = a.corners[static_cast<std::size_t>(other)] - a.corners[corner];
+      return n.dot(along) >= -slope_of_flush * along.norm();
+    });
+  }
+};
+
+/// How far beyond a face or an edge a contact with this gap may be: where two meet in a groove, what is as deep in both
+/// is before neither.
+double beyond(double gap) { return same_place + std::max(0.0, -gap); }
+
+/// Pairs of parts of `a` and `b` whose boxes are near enough to each other: corners and edges may be behind what they
+/// touch.
+std::vector<std::pair<std::size_t, std::size_t>> pairs_near(const View& view, const PartTree& a, const PartTree& b) {
+  struct Near {
+    const View& view;
+    const PartTree &a, &b;
+    std::vector<std::pair<std::size_t, std::size_t>> found;
+    bool intersectVolumeVolume(const Eigen::AlignedBox3d& own, const Eigen::AlignedBox3d& other) const {
+      return grown(bounding_box(own, view.X_BA), std::max(view.reach, view.deepest)).intersects(other);
+    }
+    bool intersectVolumeObject(const Eigen::AlignedBox3d& own, int other) const {
+      return intersectVolumeVolume(own, b.boxes[static_cast<std::size_t>(other)]);
+    }
+    bool intersectObjectVolume(int own, const Eigen::AlignedBox3d& other) const {
+      return intersectVolumeVolume(a.boxes[static_cast<std::size_t>(own)], other);
+    }
+    bool intersectObjectObject(int own, int other) {
+      if (intersectVolumeObject(a.boxes[static_cast<std::size_t>(own)], other)) found.emplace_back(own, other);
+      return false;
+    }
+  } near{view, a, b, {}};
+  if (a.tree && b.tree) Eigen::BVIntersect(*a.tree, *b.tree, near);
+  return near.found;
+}
+
+bool over(const Solid::Face& face, const Vector3d& p, double beyond) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d along = face.corners[(k + 1) % 3] - face.corners[k];
+    if (face.n.cross(along).dot(p - face.corners[k]) < -beyond * along.norm()) return false;
+  }
+  return true;
+}
+
+double distance(const Solid::Face& face, const Vector3d& p) {
+  if (over(face, p, 0.0)) return std::abs(face.n.dot(p - face.corners[0]));
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vector3d along = face.corners[(k + 1) % 3] - face.corners[k], from = p - face.corners[k];
+    const double s = std::clamp(from.dot(along) / along.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (from - s * along).norm());
+  }
+  return nearest;
+}
+
+/// A point of `a` with a face of `b`: before it; or behind it, if there is no nearer face that it is before, or through
+/// which it came. `is_low`: whether the point is one with which `a` can touch a face with that normal.
+template <typename IsLow>
+void point_and_face(const View& view, const Vector3d& p, const Solid::Face& face, const IsLow& is_low) {
+  const double gap = face.n.dot(p - face.corners[0]);
+  if (!(gap < view.reach && gap > -view.deepest) || !over(face, p, beyond(gap)) || !is_low(face.n)) return;
+  const auto is_nearer = [&](const Solid::Face& other) {
+    return distance(other, p) < -gap - same_place && (other.n.dot(p - other.corners[0]) > 0.0 || is_low(other.n));
+  };
+  if (gap < 0.0 && std::any_of(view.b.faces.begin(), view.b.faces.end(), is_nearer)) return;
+  view.add(p - gap * face.n, face.n, gap);
+}
+
+/// The same with the side and the ends of a cylinder.
+template <typename IsLow>
+void point_and_cylinder(const View& view, const Vector3d& p, const IsLow& is_low) {
+  const Cylinder& c = *view.b.cylinder;
+  const double across = p.head<2>().norm();
+  const double side = across - c.radius, end = std::abs(p.z()) - 0.5 * c.length;
+  const Vector3d n_side(p.x() / across, p.y() / across, 0.0), n_end(0.0, 0.0, std::copysign(1.0, p.z()));
+  const bool of_side = across > 0.0 && end < 0.0 && is_low(n_side), of_end = side < 0.0 && is_low(n_end);
+  const bool nearer_side = of_side && !(of_end && end > side);
+  const double gap = nearer_side ? side : end;
+  if (!(of_side || of_end) || !(gap < view.reach && gap > -view.deepest)) return;
+  const Vector3d& n = nearer_side ? n_side : n_end;
+  view.add(p - gap * n, n, gap);
+}
+
+/// Whether a face reaches to an end of the cylinder `a`, where all its lowest points are.
+bool is_near_rims(const View& view, const Solid::Face& face) {
+  const double end = 0.5 * view.a.cylinder->length + view.reach;
+  double least = end, most = -end;
+  for (const Vector3d& corner : face.corners) {
+    const double z = view.X_BA.linear().col(2).dot(corner - view.X_BA.translation());
+    least = std::min(least, z);
+    most = std::max(most, z);
+  }
+  return most >= end - 2.0 * view.reach || least <= 2.0 * view.reach - end;
+}
+
+void points_and_faces(const View& view) {
+  for (const auto& [corner, face] : pairs_near(view, view.a.corner_tree, view.b.face_tree)) {
+    const auto is_low = [&view, i = corner](const Vector3d& n) { return view.is_low(i, n); };
+    point_and_face(view, view.X_BA * view.a.corners[corner], view.b.faces[face], is_low);
+  }
+  if (view.b.cylinder) {
+    const Eigen::AlignedBox3d near = grown(view.b.extent, view.reach);
+    for (std::size_t i = 0; i < view.a.corners.size(); ++i) {
+      const Vector3d p = view.X_BA * view.a.corners[i];
+      if (near.contains(p)) point_and_cylinder(view, p, [&](const Vector3d& n) { return view.is_low(i, n); });
+    }
+  }
+  for (const Solid::Face& face : view.b.faces) {
+    if (!view.a.cylinder || !is_near_rims(view, face)) continue;
+    for (const Vector3d& p : lowest_points(view.a, view.n_A(face.n))) {
+      point_and_face(view, view.X_BA * p, face, [](const Vector3d&) { return true; });
+    }
+  }
+}
+
+/// Whether the edge's solid lies on the side of the edge that `n` points away from, but for the slope of what is flush.
+bool is_extreme(const Vector3d& into_left, const Vector3d& into_right, const Vector3d& n) {
+  return n.dot(into_left) <= slope_of_flush && n.dot(into_right) <= slope_of_flush;
+}
+
+void edge_and_edge(const View& view, const Solid::Edge& a, const Solid::Edge& b) {
+  const Vector3d start = view.X_BA * a.start, along = view.X_BA.linear() * a.along;
+  const Vector3d cross = along.cross(b.along);
+  const double size = cross.norm();
+  if (!(size > 1e-6 * along.norm() * b.along.norm())) return;
+  const Vector3d between = b.start - start;
+  const double s = between.cross(b.along).dot(cross) / (size * size);
+  const double t = between.cross(along).dot(cross) / (size * size);
+  const auto outside = [](double at, double length) { return std::max(-at, at - 1.0) * length; };
+  const double out = std::max(outside(s, along.norm()), outside(t, b.along.norm()));
+  for (const double sign : {1.0, -1.0}) {
+    const Vector3d n = sign / size * cross;
+    const double gap = -between.dot(n);
+    if (!(gap < view.reach && gap > -view.deepest) || out > beyond(gap)) continue;
+    if (!is_extreme(b.into_left, b.into_right, n)) continue;
+    const Vector3d n_A = view.n_A(n);
+    if (is_extreme(a.into_left, a.into_right, -n_A)) view.add(b.start + t * b.along, n, gap);
+  }
+}
+
+/// An edge with a cylinder's side, where it is nearest to the axis.
+void edge_and_side(const View& view, const Solid::Edge& edge) {
+  const Cylinder& c = *view.b.cylinder;
+  const Vector3d start = view.X_BA * edge.start, along = view.X_BA.linear() * edge.along;
+  const double size = along.head<2>().squaredNorm();
+  if (!(size > 0.0)) return;
+  const double s = -start.head<2>().dot(along.head<2>()) / size;
+  const Vector3d p = start + s * along;
+  const double across = p.head<2>().norm(), gap = across - c.radius;
+  if (std::max(-s, s - 1.0) * along.norm() > beyond(gap)) return;
+  if (!(gap < view.reach && gap > -view.deepest) || across == 0.0 || std::abs(p.z()) > 0.5 * c.length) return;
+  const Vector3d n(p.x() / across, p.y() / across, 0.0), n_A = view.n_A(n);
+  if (is_extreme(edge.into_left, edge.into_right, -n_A)) view.add(p - gap * n, n, gap);
+}
+
+void edges_and_edges(const View& view) {
+  for (const auto& [a, b] : pairs_near(view, view.a.edge_tree, view.b.edge_tree)) {
+    edge_and_edge(view, view.a.edges[a], view.b.edges[b]);
+  }
+}
+
+void edges_and_side(const View& view) {
+  if (!view.b.cylinder || view.a.cylinder) return;
+  for (const Solid::Edge& edge : view.a.edges) edge_and_side(view, edge);
+}
+
+void append(const std::vector<BoxContact>& found, const RigidTransform& X, bool turned,
+            std::vector<BoxContact>& contacts) {
+  for (const BoxContact& c : found) {
+    const Vector3d n = X.linear() * c.n_W;
+    contacts.push_back({X * Vector3d(turned ? c.p_W + c.gap * c.n_W : c.p_W), turned ? Vector3d(-n) : n, c.gap});
+  }
+}
+
+}  // namespace
+
+void PartTree::build() {
+  if (boxes.empty()) return;
+  std::vector<int> parts(boxes.size());
+  std::iota(parts.begin(), parts.end(), 0);
+  std::vector<Eigen::AlignedBox3d> around = boxes;
+  if (parts.size() == 1) {  // Eigen's tree has no root for one
+    parts.push_back(0);
+    around.push_back(around[0]);
+  }
+  tree = std::make_unique<const Eigen::KdBVH<double, 3, int>>(parts.begin(), parts.end(), around.begin(), around.end());
+}
+
+Solid::Solid(const Geometry& geometry) : extent(bounding_box(geometry)) {
+  if (const auto* round = std::get_if<Cylinder>(&geometry)) cylinder = *round;
+  const std::shared_ptr<const Surface> surface = make_surface(geometry);
+  for (std::size_t i = 0; i < surface->normals.size(); ++i) {
+    const int t = static_cast<int>(i);
+    if (!surface->normals[i].allFinite() || surface->normals[i].isZero(0.5)) continue;  // no area
+    const std::size_t before = edges.size();
+    add_edges(*surface, t, edges);
+    if (!cylinder) {
+      faces.push_back({{surface->corner(t, 0), surface->corner(t, 1), surface->corner(t, 2)}, surface->normals[i]});
+      continue;
+    }
+    const auto along_axis = [](const Edge& e) { return std::abs(e.along.z()) > 0.0; };
+    edges.erase(std::remove_if(edges.begin() + static_cast<std::ptrdiff_t>(before), edges.end(), along_axis),
+                edges.end());
+  }
+  for (const Edge& edge : edges) {
+    edge_tree.boxes.emplace_back(edge.start).extend(Vector3d(edge.start + edge.along));
+  }
+  edge_tree.build();
+  if (cylinder) return;
+  for (const Face& face : faces) {
+    face_tree.boxes.emplace_back(face.corners[0]).extend(face.corners[1]).extend(face.corners[2]);
+  }
+  face_tree.build();
+  corners = surface->mesh->vertices;
+  for (const Vector3d& corner : corners) corner_tree.boxes.emplace_back(corner);
+  corner_tree.build();
+  next.resize(corners.size());
+  for (const Eigen::Vector3i& t : surface->mesh->triangles) {
+    for (int k = 0; k < 3; ++k) next[static_cast<std::size_t>(t[k])].push_back(t[(k + 1) % 3]);
+  }
+}
+
+Vector3d furthest(const Solid& solid, const Vector3d& along_S) {
+  if (!solid.cylinder) {
+    return *std::max_element(solid.corners.begin(), solid.corners.end(),
+                             [&](const Vector3d& a, const Vector3d& b) { return a.dot(along_S) < b.dot(along_S); });
+  }
+  const double size = along_S.head<2>().norm();
+  Vector3d p(0.0, 0.0, std::copysign(0.5 * solid.cylinder->length, along_S.z()));
+  if (size > 0.0) p.head<2>() = solid.cylinder->radius / size * along_S.head<2>();
+  return p;
+}
+
+std::vector<Vector3d> lowest_points(const Solid& solid, const Vector3d& n_S) {
+  const Vector3d u = Vector3d::Unit(std::abs(n_S.x()) < 0.7 ? 0 : 1).cross(n_S).normalized();
+  std::vector<Vector3d> points;
+  for (int i = 0; i <= 8; ++i) {
+    const double turn = 0.25 * M_PI * i;
+    const Vector3d side = std::cos(turn) * u + std::sin(turn) * n_S.cross(u);
+    points.push_back(furthest(solid, i < 8 ? Vector3d(slope_of_flush * side - n_S) : Vector3d(-n_S)));
+  }
+  return points;
+}
+
+std::vector<BoxContact> solid_contacts(const Solid& a, const RigidTransform& X_WA, const Solid& b,
+                                       const RigidTransform& X_WB, double reach, double deepest) {
+  const RigidTransform X_BA = X_WB.inverse() * X_WA, X_AB = X_BA.inverse();
+  std::vector<BoxContact> of_a, of_b, contacts;
+  const View from_b{a, b, X_BA, reach, deepest, of_a}, from_a{b, a, X_AB, reach, deepest, of_b};
+  points_and_faces(from_b);
+  points_and_faces(from_a);
+  edges_and_edges(from_b);
+  edges_and_side(from_b);
+  edges_and_side(from_a);
+  append(of_a, X_WB, false, contacts);
+  append(of_b, X_WA, true, contacts);
+  return contacts;
+}
+
+}  // namespace spring_workbench::geometry

@@ -1,0 +1,38 @@
+#pragma once
+
+#include "bullet_types.h"
+#include "constants.h"
+
+namespace spring_workbench::rigid_bodies {
+
+/// A shape with a larger bounding box, by contact_margin, so that Bullet asks for its contacts before it overlaps
+/// anything.
+template <typename Shape>
+class WithMargin final : public Shape {
+ public:
+  using Shape::Shape;
+  void getAabb(const btTransform& X_WS, btVector3& least, btVector3& most) const override {
+    Shape::getAabb(X_WS, least, most);
+    const btVector3 more(0.5 * contact_margin, 0.5 * contact_margin, 0.5 * contact_margin);
+    least -= more;
+    most += more;
+  }
+};
+
+/// Bullet's configuration, but for contacts of boxes, which are those of `box_contacts`, and of boxes, cylinders and
+/// meshes with each other and with planes, which are those of `solid_contacts`. Only spheres and two cylinders are left
+/// to Bullet. Such a shape has its `geometry::Solid` for its user pointer.
+class ContactConfiguration final : public btDefaultCollisionConfiguration {
+ public:
+  btCollisionAlgorithmCreateFunc* getCollisionAlgorithmCreateFunc(int proxy_a, int proxy_b) override;
+
+ private:
+  struct Create final : btCollisionAlgorithmCreateFunc {
+    btCollisionAlgorithm* CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo& info,
+                                                   const btCollisionObjectWrapper* a,
+                                                   const btCollisionObjectWrapper* b) override;
+  };
+  Create create_;
+};
+
+}  // namespace spring_workbench::rigid_bodies
