@@ -343,10 +343,10 @@ class Exponential::CoreOf final : public Core {
   struct {
     HandleForcings forcing;
     Strain q0, q_dot0;
-    NodeStrains residual;
-    NodeModes x;
+    NodeStrains residual{};
+    NodeModes x{};
   } done_;
-  NodeModes defect_;
+  NodeModes defect_{};
 };
 
 Exponential::Exponential() = default;

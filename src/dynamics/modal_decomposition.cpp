@@ -50,7 +50,7 @@ void set_forces(const HeldBody& body, double t, const rod::StrainVector& q, Moda
 }  // namespace
 
 ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
-  const int n = body.size();
+  const int n = body.size(), count = 2 * n;
   ModalDecomposition part;
   part.q_reference = q;
   const rod::StrainMatrix M = body.mass_matrix(handle.t, q);
@@ -63,7 +63,7 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
   // motions stand side by side without loss of digits.
   const HeldBody::Springs springs = body.springs(handle, q);
   const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> undamped(springs.K, M);
-  const rod::StrainMatrix shapes = undamped.eigenvectors();
+  const rod::StrainMatrix& shapes = undamped.eigenvectors();
   const rod::StrainMatrix to_shapes = part.to_undamped = shapes.transpose() * M;
   // A free mode has no two eigenvectors, and free modes none of their own: the frozen part gets the stiffness of 1, 2,
   // … rad/s, and the rest takes it back.
@@ -79,7 +79,7 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
   for (int attempt = 0; attempt < most_attempts; ++attempt) {
     part.damping = part.inverse_mass * springs.D;
     for (int i = 0; i < n; ++i) part.damping.col(i) *= 1.0 + off_critical * (i + 1);
-    ModeMatrix A = ModeMatrix::Zero(2 * n, 2 * n);
+    ModeMatrix A = ModeMatrix::Zero(count, count);
     A.topRightCorner(n, n).diagonal() = scale;
     A.bottomLeftCorner(n, n) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());
     A.bottomRightCorner(n, n) = -(to_shapes * part.damping * shapes);
@@ -88,13 +88,13 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
     off_critical = off_critical == 0.0 ? 1e-8 : 10.0 * off_critical;
   }
   part.pairs = modes.pairs;
-  for (int i = 0; i < 2 * n; ++i) part.rates[static_cast<std::size_t>(i)] = modes.rates[i];
+  for (int i = 0; i < count; ++i) part.rates[static_cast<std::size_t>(i)] = modes.rates[i];
   part.fastest = modes.rates.cwiseAbs().maxCoeff();
 
-  part.from_modes.resize(2 * n, 2 * n);
+  part.from_modes.resize(count, count);
   part.from_modes.topRows(n) = shapes * scale.cwiseInverse().asDiagonal() * modes.vectors.topRows(n);
   part.from_modes.bottomRows(n) = shapes * modes.vectors.bottomRows(n);
-  part.to_modes.resize(2 * n, 2 * n);
+  part.to_modes.resize(count, count);
   part.to_modes.leftCols(n) = modes.inverse.leftCols(n) * (scale.asDiagonal() * to_shapes);
   part.to_modes.rightCols(n) = modes.inverse.rightCols(n) * to_shapes;
   return part;

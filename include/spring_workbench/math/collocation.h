@@ -52,9 +52,9 @@ struct Collocation {
 template <typename Scalar>
 Collocation::Weights<Scalar> Collocation::weights(Scalar z) {
   Weights<Scalar> w{};
-  const auto row = [z](double c, const auto& phi, Scalar& constant, std::array<Scalar, count>& values) {
+  const auto row = [](double c, const auto& phi, Scalar& constant, std::array<Scalar, count>& values) {
     // ∫₀ᶜ e^{(c−s)z} sᵏ ds = k! c^{k+1} φ_{k+1}(c z)
-    std::array<Scalar, count> integral;
+    std::array<Scalar, count> integral{};
     double factor = c;
     for (std::size_t k = 0; k < count; ++k) {
       integral[k] = factor * phi[k + 1];

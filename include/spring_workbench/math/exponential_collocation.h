@@ -21,7 +21,7 @@ class ExponentialCollocation {
   using Strain = Eigen::Matrix<double, n, 1>;
   using Modes = Eigen::Matrix<double, 2 * n, 1>;
   using Square = Eigen::Matrix<double, n, n>;
-  using NodeModes = std::array<Pack, 2 * n>;
+  using NodeModes = std::array<Pack, static_cast<std::size_t>(2 * n)>;
   using NodeStrains = std::array<Pack, n>;
 
   /// Takes another linear part.

@@ -10,7 +10,7 @@ namespace spring_workbench::math {
 /// std::complex<double>.
 template <std::size_t most, typename Scalar>
 std::array<Scalar, most + 1> phi_functions(Scalar z) {
-  std::array<Scalar, most + 1> phi;
+  std::array<Scalar, most + 1> phi{};
   phi[0] = std::exp(z);
   std::array<double, most + 1> inverse_factorial{1.0};
   for (std::size_t k = 1; k <= most; ++k) inverse_factorial[k] = inverse_factorial[k - 1] / static_cast<double>(k);

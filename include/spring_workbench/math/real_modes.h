@@ -25,7 +25,7 @@ struct RealModes {
     vectors.setConstant(std::numeric_limits<double>::quiet_NaN());
     inverse = vectors;
     if (solver.info() != Eigen::Success) return;
-    const auto values = solver.eigenvalues();
+    const auto& values = solver.eigenvalues();
     const auto of_values = solver.eigenvectors().eval();
     Matrix B = Matrix::Zero(A.rows(), A.rows());
     Eigen::Index at = 0;
