@@ -85,13 +85,14 @@ class Master(unittest.TestCase):
         return answer
 
     def check(self, outage):
-        count, largest = self.ask("run")
-        print("with a master: %s pictures, largest lag %s s" % (count, largest))
+        count, before = self.ask("run")
+        print("with a master: %s pictures, largest lag %s s" % (count, before))
         outage()
         count, largest = self.ask("run")
         print("without: %s pictures, largest lag %s s" % (count, largest))
         self.assertGreater(int(count), 0.5 * OUTAGE / PERIOD)
-        self.assertLess(float(largest), 0.4)  # a node that waits for its master stands still for seconds
+        # A node that waits for its master stands still for seconds; on a busy machine pictures are late with one, too.
+        self.assertLess(float(largest), 0.4 + 2.0 * float(before))
         self.assertEqual(self.ask("service"), ["True"])
         self.assertEqual(self.ask("diagnostics"), ["True"])
         begin = time.monotonic()
