@@ -45,6 +45,7 @@ void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, 
   std::vector<collision::ContactPoint> found;
   collision_.find_contacts(body, X_WO, tolerance, found);
   ++outcome.queries;
+  rows.reserve(rows.size() + found.size());
   // Of those that count as one, the deepest comes last and is the one.
   std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; });
   for (const collision::ContactPoint& point : found) {
@@ -62,8 +63,10 @@ void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<Contac
   if (rows.empty()) return;
   std::vector<ContactRow> before = std::move(rows);
   rows.clear();
+  rows.reserve(before.size());
   const RigidTransform X_WO = body.object().X;
   std::vector<Vector3d> directions;
+  std::vector<ContactRow> seen;
   for (const ContactRow& row : before) {
     const Vector3d& n = row.point.n_W;
     const bool known =
@@ -72,7 +75,7 @@ void ContactStepper::refresh(const bodies::SteppedBody& body, std::vector<Contac
     directions.push_back(n);
     RigidTransform pushed = X_WO;
     pushed.translation() -= depth * n;
-    std::vector<ContactRow> seen;
+    seen.clear();
     add_contacts(body.index(), pushed, touching, seen, outcome);
     for (ContactRow& row_seen : seen) {
       if (row_seen.point.n_W.dot(n) < 0.9) continue;
