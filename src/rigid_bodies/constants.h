@@ -29,8 +29,8 @@ constexpr double penetration_share = 0.2;
 /// [m] that a body may move towards shapes other than boxes without a sweep. Larger: deeper penetration; smaller:
 /// blocked more often. Test: none: no value tried makes one fail.
 constexpr double unswept = 2e-4;
-/// [m] likewise for a body that is not held, and that moves at least as far in the step. Larger: thrown bodies pass
-/// through thin ones; smaller: bodies that fly and roll among movable ones cost more. Test:
+/// [m] likewise for a path on which contact is allowed, and largest depth of a contact of solids. Larger: thrown bodies
+/// pass through thin ones; smaller: bodies that fly and roll among movable ones cost more. Test:
 /// LooseThrows.AmongOthersNothingGoesDeepOrGainsEnergy at 0.02.
 constexpr double unswept_of_free = 1e-3;
 /// [m] largest penetration of two boxes on a path; shorter paths of bodies that are not held are not swept. Smaller:
