@@ -24,7 +24,7 @@ int main(int argc, char** argv) {
     for (int i = 0; i <= 150; ++i) {
       simulation.push_stylus({0.02 * i, make_transform(down, {0.0, 0.0, height(0.02 * i)})});
     }
-    simulation.push_button(0.2, true);  // takes what the tip is in
+    simulation.push_button(0.2, true);  // grasps the object that the tip is in
 
     std::printf("time [s]  hand [m]  box [m]  stretch [mm]  weight [kg]\n");
     for (int i = 0; i <= 15; ++i) {

@@ -1,5 +1,6 @@
-// An integrator of one's own, Heun's method, beside the library's: how far a swinging box is from where it is with very
-// short steps. A method of order two is four times closer with half the step.
+// Registers an integrator of our own, Heun's method, and measures its order: how far a swinging box ends from the
+// position that the library's integrator gives with very short steps. For a method of order two, half the step gives a
+// quarter of the error.
 // Usage: own_integrator SCENE.urdf
 #include <spring_workbench/spring_workbench.h>
 
@@ -24,7 +25,8 @@ class Heun : public dynamics::Integrator {
     const rod::StrainVector a_euler = body.acceleration(body.forcing(handle, t + h), q_euler, q_dot_euler);
     state.q = begin.q + 0.5 * h * (begin.q_dot + q_dot_euler);
     state.q_dot = begin.q_dot + 0.5 * h * (a + a_euler);
-    // What Heun's method corrects of Euler's is the error of the latter: more than the error of this one.
+    // The difference between Heun's and Euler's result estimates the error of Euler's method, so it is larger than the
+    // error of Heun's.
     dynamics::StepEstimate estimate;
     estimate.q_error = state.q - q_euler;
     estimate.q_dot_error = state.q_dot - q_dot_euler;
@@ -32,8 +34,8 @@ class Heun : public dynamics::Integrator {
   }
 };
 
-/// Where the box is after a second [m], with steps of at most `step` [s]: the hand holds it from the first moment on
-/// and goes to and fro sideways.
+/// Returns the position of the box after a second [m], with steps of at most `step` [s]. The hand holds it from the
+/// start and moves back and forth sideways.
 Vector3d position_after(dynamics::IntegratorKind integrator, double step, const scene::Scene& scene) {
   simulation::SimulationSettings settings;
   settings.contact = scene::ContactMode::none;
@@ -59,12 +61,12 @@ int main(int argc, char** argv) {
     const dynamics::IntegratorKind heun =
         dynamics::register_integrator("heun", [] { return std::make_unique<Heun>(); });
     const scene::Scene scene = scene::load_scene(argc > 1 ? argv[1] : "../01_lift_a_box/box.urdf");
-    const Vector3d truth = position_after(dynamics::IntegratorKind::exponential, 1e-4, scene);
+    const Vector3d reference = position_after(dynamics::IntegratorKind::exponential, 1e-4, scene);
 
     std::printf("step [ms]  error of heun [m]  observed order\n");
     double last = 0.0;
     for (double step = 1e-3; step > 1e-4; step /= 2.0) {
-      const double error = (position_after(heun, step, scene) - truth).norm();
+      const double error = (position_after(heun, step, scene) - reference).norm();
       std::printf("%9.4f  %17.3e", 1e3 * step, error);
       if (last > 0.0) std::printf("  %14.2f", std::log2(last / error));
       std::printf("\n");

@@ -1,5 +1,6 @@
-// A recorded hand (lines of `t x y z qx qy qz qw [button]`) or a scripted one (YAML) at work in a scene, as CSV; last,
-// a hash of the whole state: the same input gives the same bits. Usage: replay_a_motion SCENE.urdf MOTION > run.csv
+// Replays a recorded hand (lines of `t x y z qx qy qz qw [button]`) or a scripted one (YAML) in a scene, and writes the
+// objects as CSV. The last line is a hash of the whole state: equal input gives bit-identical results.
+// Usage: replay_a_motion SCENE.urdf MOTION > run.csv
 #include <spring_workbench/spring_workbench.h>
 
 #include <cstdio>
@@ -14,8 +15,8 @@ int main(int argc, char** argv) {
   }
   try {
     simulation::Simulation simulation(scene::load_scene(argv[1]), {});
-    // What comes from a tracker goes through a feed: it leaves out what no hand can have done, and lets go when the
-    // hand is lost.
+    // Samples of a tracker pass through a feed. It rejects samples that no hand can have made, and can release the
+    // object if the hand is lost.
     hand_input::Feed feed(simulation, {});
     const std::unique_ptr<motion::StylusSource> hand = motion_files::open_motion(argv[2]);
     bool pressed = false;

@@ -20,7 +20,7 @@ END = 1.0  # [s]
 
 
 def simulation_of(scene, integrator, step):
-    """The box in a hand that goes to and fro sideways, 50 samples a second."""
+    """The box in a hand that moves back and forth sideways, with 50 samples a second."""
     settings = {
         "contact": "none",
         "grasp.object": "box",
@@ -65,13 +65,13 @@ def work_precision(scene):
         simulation.advance(END)
         return time.perf_counter() - started, simulation.poses[0, :3, 3]
 
-    _, truth = run("exponential", 1e-4)
+    _, reference = run("exponential", 1e-4)
     table = {}
     for integrator in sw.integrators():
         rows = []
         for step in 0.02 / 2.0 ** np.arange(2, 7):
             seconds, position = run(integrator, step)
-            rows.append((step, seconds, np.linalg.norm(position - truth)))
+            rows.append((step, seconds, np.linalg.norm(position - reference)))
         table[integrator] = np.array(rows)
     return table
 
