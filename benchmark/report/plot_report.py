@@ -34,6 +34,7 @@ TIME_LABEL = "run time [µs per simulated second]"
 OURS = ["#d62728", "#1f77b4", "#2ca02c", "#9467bd", "#8c564b", "#e377c2", "#17becf", "#bcbd22"]
 PEERS = ["#ff7f0e", "#7f7f7f", "#2ca02c", "#1f77b4", "#9467bd", "#8c564b", "#17becf", "#bcbd22"]
 DEFAULT = "exponential"
+PAPER = "paper"
 MARKERS = "s^vD<>pPX*hd"
 
 def read(path):
@@ -158,7 +159,8 @@ def load_name(mass):
 
 
 def rod_panel(axes, rows, name):
-    """The default method and the general ones on a rod under a tracked hand."""
+    """The default method and the general ones on a rod under a tracked hand; the paper's, which does not solve the
+    equation of motion, at most so far from it: its error against its own limit plus that limit's."""
     here = [row for row in rows if row["scene"] == name and row["shape"] == "linear"]
     line = points([row for row in here if row["method"] == DEFAULT], "error_over_largest_deflection")
     draw_line(axes, line, color=OURS[0], marker="o", linewidth=3, markersize=5, zorder=3, label=f"ours ({DEFAULT})")
@@ -166,6 +168,12 @@ def rod_panel(axes, rows, name):
         line = points([row for row in here if row["method"] == method], "error_over_largest_deflection")
         look = dict(color=PEERS[i % len(PEERS)], marker=MARKERS[i], linewidth=1.2, markersize=5, zorder=2)
         draw_line(axes, line, label=method[len(SOLVERS) :].replace("_", " "), **look)
+    paper = [
+        (float(r[TIME]), (float(r["error"]) + float(r["model_error"])) / float(r["largest_deflection"]))
+        for r in here
+        if r["method"] == PAPER
+    ]
+    draw_line(axes, paper, color="black", marker="*", linewidth=1.2, markersize=6, linestyle=":", label=PAPER)
     factor, mass = float(here[0]["stiffness_factor"]), float(here[0]["mass"])
     fork = "default fork" if factor == 1.0 else f"{power_of_ten(factor)} times as stiff"
     log_axes(axes, title=f"{fork}, {load_name(mass)}", ylim=(1e-11, 10.0))
@@ -218,7 +226,8 @@ def overview(table, picture, drags):
     for axes, x, columns in ((panels[0][0], 0.33, 4), (panels[0][2], 0.805, 2)):
         place = dict(loc="upper center", bbox_to_anchor=(x, 0.165), ncol=columns, frameon=False, columnspacing=1.2)
         figure.legend(*axes.get_legend_handles_labels(), fontsize=9.5, **place)
-    figure.text(0.33, 0.085, "run time; steps or tolerances become finer along a line", ha="center", fontsize=9.5)
+    notes = "run time; steps or tolerances become finer along a line\npaper: with its model error"
+    figure.text(0.33, 0.055, notes, ha="center", fontsize=9.5)
     figure.text(0.805, 0.015, "processor time; dotted: a box that cannot turn", ha="center", fontsize=9.5)
     figure.savefig(picture, dpi=140)
 
