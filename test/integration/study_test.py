@@ -59,9 +59,10 @@ class Study(unittest.TestCase):
         with open(self.path("out/" + name), encoding="utf-8", newline="") as file:
             return list(csv.DictReader(file))
 
-    def start(self):
-        command = [os.path.join(PACKAGE, "scripts/study"), "--participant", "2", "--plan", self.path("plan.yaml")]
-        command += ["--out", self.path("out"), "--operator", "--tlx", self.path("tlx.yaml"), "rviz:=false"]
+    def start(self, participant="2", operator=("--operator",)):
+        command = [os.path.join(PACKAGE, "scripts/study"), "--participant", participant, *operator]
+        command += ["--plan", self.path("plan.yaml"), "--out", self.path("out")]
+        command += ["--tlx", self.path("tlx.yaml"), "rviz:=false"]
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
     def end(self, process):
@@ -120,11 +121,28 @@ class Study(unittest.TestCase):
         )
         self.assertEqual(glob.glob(self.path("out/*.csv")), [])
 
+    def test_from_start_to_analysis_by_one_command(self):
+        """Two simulated participants, in opposite orders, and what their records say."""
+        status, out, err = self.end(self.start("1-2"))
+        self.assertEqual((status, err), (0, ""))
+        orders = [[row["condition"] for row in self.rows(f"participant_00{k}.csv")] for k in (1, 2)]
+        self.assertEqual(orders, [["rigid", "bending"], ["bending", "rigid"]])
+        with open(self.path("out/analysis.md"), encoding="utf-8") as file:
+            report = file.read()
+        self.assertIn("2 participants", report)
+        for text in ("## time [s]", "## raw NASA-TLX", "| rigid - bending |".replace("-", "−")):
+            self.assertIn(text, report)
+        self.assertTrue(os.path.exists(self.path("out/analysis.png")))
+
     def test_bad_input_is_refused_in_one_line(self):
         self.write("plan.yaml", PLAN % 0)
-        status, out, err = self.end(self.start())
-        self.assertEqual((status, out, len(err.splitlines())), (2, "", 1), err)
-        self.assertIn("time_limit", err)
+        for participant, word in (("2", "time_limit"), ("0", "between 1 and 999"), ("3-2", "between 3 and 999")):
+            status, out, err = self.end(self.start(participant))
+            self.assertEqual((status, out, len(err.splitlines())), (2, "", 1), err)
+            self.assertIn(word, err)
+        status, out, err = self.end(self.start("1-2", operator=()))
+        self.assertEqual((status, out), (2, ""))
+        self.assertIn("--participant: must be a number or, with --operator, FIRST-LAST, got 1-2", err)
 
 
 if __name__ == "__main__":
