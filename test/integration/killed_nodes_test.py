@@ -1,9 +1,7 @@
 #!/usr/bin/python3
 """Nodes beside manipulation are killed while it is at work, and come back: it goes on meanwhile, and does not
 notice."""
-import os
 import shutil
-import subprocess
 import sys
 import tempfile
 import unittest
@@ -13,6 +11,7 @@ import rospy
 import rostest
 from spring_workbench.msg import ForkState, StepReport
 
+from screen import screen
 from stack import Launched, Listener, kill_and_wait, pid_of, wait_for
 
 STACK = ["workbench.launch", "scene:=package://spring_workbench/scenes/single_box.urdf", "respawn:=true"]
@@ -62,17 +61,10 @@ class KilledNodes(unittest.TestCase):
 
     @unittest.skipUnless(shutil.which("Xvfb") and shutil.which("rviz"), "no rviz or no virtual display (xvfb)")
     def test_rviz(self):
-        reader, writer = os.pipe()
-        server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "800x600x24", "+extension", "GLX"],
-            pass_fds=[writer],
-            stderr=subprocess.DEVNULL,
-        )
-        self.addCleanup(server.wait)
-        self.addCleanup(server.terminate)
-        screen = {"DISPLAY": ":" + os.read(reader, 16).decode().strip(), "LIBGL_ALWAYS_SOFTWARE": "1"}
         shown = lambda: any(name.startswith("/rviz") for name in subscribers("/manipulation/display/objects"))
-        with Launched(*STACK, *MOVING, "rviz:=true", "respawn_rviz:=true", environment=screen):
+        with screen(800, 600) as display, Launched(
+            *STACK, *MOVING, "rviz:=true", "respawn_rviz:=true", environment=display
+        ):
             wait_for(shown, "rviz to show the fork")
             self.kill("/rviz")
             wait_for(shown, "the new rviz to show the fork")

@@ -20,6 +20,7 @@ import yaml
 from rosgraph_msgs.msg import Log
 from spring_workbench.msg import Change, ForkState, ObjectStates, StepReport, TaskState
 
+from screen import screen
 from stack import Launched, Listener, make_bag, wait_for
 
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
@@ -125,22 +126,10 @@ class LaunchFiles(unittest.TestCase):
         if not shutil.which("Xvfb"):
             self.skipTest("Xvfb is not installed")
         rospy.set_param("/use_sim_time", False)
-        reader, writer = os.pipe()
-        server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "800x600x24", "+extension", "GLX"],
-            pass_fds=[writer],
-            stderr=subprocess.DEVNULL,
-        )
-        os.environ["DISPLAY"] = ":" + os.read(reader, 16).decode().strip()
-        os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
-        try:
-            with Launched("workbench.launch"):
-                subscribers = lambda: dict(rosgraph.Master("/test").getSystemState()[1])
-                shown = lambda: "/rviz" in subscribers().get("/manipulation/display/objects", [])
-                wait_for(shown, "rviz to show the objects")
-        finally:
-            server.terminate()
-            server.wait()
+        with screen(800, 600) as display, Launched("workbench.launch", environment=display):
+            subscribers = lambda: dict(rosgraph.Master("/test").getSystemState()[1])
+            shown = lambda: "/rviz" in subscribers().get("/manipulation/display/objects", [])
+            wait_for(shown, "rviz to show the objects")
 
     def test_every_argument_has_a_doc(self):
         for file in glob.glob(PACKAGE + "/launch/*.launch"):

@@ -3,6 +3,7 @@
 displays, markers and panel are there again when the node, rviz or the ROS master is started anew, or another scene
 loaded. Needs the setup file sourced; where rviz' plugins or a program for a virtual display are missing it is skipped
 (exit status 77). Usage: rviz_recovery_test.py DEVEL_SPACE"""
+import contextlib
 import os
 import shutil
 import signal
@@ -15,6 +16,8 @@ import unittest
 from xmlrpc.client import ServerProxy
 
 import yaml
+
+from screen import pixels, screen
 
 SKIPPED = 77
 DEVEL = sys.argv[1]
@@ -46,17 +49,10 @@ class Stack:
 
     def __init__(self, folder):
         self.folder = folder
-        reader, writer = os.pipe()
-        self.server = subprocess.Popen(
-            ["Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % SIZE, "+extension", "GLX", "-noreset"],
-            pass_fds=[writer],
-            stderr=subprocess.DEVNULL,
-        )
+        self.display = contextlib.ExitStack()
         self.port = free_port()
         self.environment = dict(
-            os.environ,
-            DISPLAY=":" + os.read(reader, 16).decode().strip(),
-            LIBGL_ALWAYS_SOFTWARE="1",
+            self.display.enter_context(screen(*SIZE)),
             ROS_MASTER_URI="http://localhost:%d" % self.port,
             ROS_HOME=folder,
         )
@@ -116,9 +112,7 @@ class Stack:
         return self.start("rviz", "-d", path)
 
     def pixels(self):
-        raw = subprocess.run(
-            ["import", "-window", "root", "-depth", "8", "rgb:-"], check=True, capture_output=True, env=self.environment
-        ).stdout
+        raw = pixels(self.environment)
         return [raw[i : i + 3] for i in range(0, len(raw), 3)]
 
     def until(self, condition, what):
@@ -133,8 +127,7 @@ class Stack:
     def close(self):
         for process in reversed(self.processes):
             self.stop(process)
-        self.server.terminate()
-        self.server.wait()
+        self.display.close()
 
 
 class Recovery(unittest.TestCase):
@@ -152,16 +145,11 @@ class Recovery(unittest.TestCase):
         return drawn, sum(max(p) < 60 for p in left) - self.grey
 
     def start_rviz(self, kind, shows):
-        """rviz, once it shows what it should. On a virtual display it sometimes ends, or stays black, while it starts;
-        then it is started again."""
-        for _ in range(4):
-            rviz = self.stack.rviz(kind)
-            patience = time.monotonic() + DEADLINE / 2
-            self.stack.until(lambda: shows() or rviz.poll() is not None or time.monotonic() > patience, "rviz")
-            if shows():
-                return rviz
-            self.stack.stop(rviz)
-        self.fail("rviz does not show what it should")
+        """rviz, once it shows what it should."""
+        rviz = self.stack.rviz(kind)
+        self.stack.until(lambda: rviz.poll() is not None or shows(), "rviz to show what it should")
+        self.assertIsNone(rviz.poll(), "rviz ended")
+        return rviz
 
     def open_rviz(self, kind):
         """rviz without anything in it; where its view is."""

@@ -17,7 +17,8 @@ import yaml
 from sensor_msgs.msg import Joy
 from spring_workbench.msg import ForkState, ObjectStates
 
-from stack import Launched, Listener, wait_for
+from screen import pixels, screen
+from stack import DEADLINE, Launched, Listener, wait_for
 
 PACKAGE = rospkg.RosPack().get_path("spring_workbench")
 PLUGINS = os.environ["CMAKE_PREFIX_PATH"].split(":")[0] + "/lib/libspring_workbench_rviz.so"
@@ -28,7 +29,7 @@ FOCUS, DISTANCE = 0.25, 1.0  # height [m] that the camera looks at, along +y, an
 
 
 def xdotool(*arguments):
-    subprocess.run(["xdotool", *[str(a) for a in arguments]], check=True)
+    subprocess.run(["xdotool", *[str(a) for a in arguments]], check=True, timeout=DEADLINE)
 
 
 def config(folder):
@@ -46,22 +47,13 @@ def config(folder):
 
 
 @contextlib.contextmanager
-def display():
-    reader, writer = os.pipe()
-    server = subprocess.Popen(
-        ["Xvfb", "-displayfd", str(writer), "-screen", "0", "%dx%dx24" % SIZE, "+extension", "GLX"],
-        pass_fds=[writer],
-        stderr=subprocess.DEVNULL,
-    )
-    os.environ["DISPLAY"] = ":" + os.read(reader, 16).decode().strip()
-    os.environ["LIBGL_ALWAYS_SOFTWARE"] = "1"
+def window_manager():
     windows = subprocess.Popen(["openbox"], stderr=subprocess.DEVNULL)
     try:
         yield
     finally:
-        for process in [windows, server]:
-            process.terminate()
-            process.wait()
+        windows.terminate()
+        windows.wait(DEADLINE)
 
 
 class Picture:
@@ -69,10 +61,8 @@ class Picture:
 
     def __init__(self):
         width, height = SIZE
-        pixels = subprocess.run(
-            ["import", "-window", "root", "-depth", "8", "rgb:-"], check=True, capture_output=True
-        ).stdout
-        rows = [pixels[3 * width * y : 3 * width * (y + 1)] for y in range(height)]
+        shown = pixels(os.environ)
+        rows = [shown[3 * width * y : 3 * width * (y + 1)] for y in range(height)]
         wide = [y for y, row in enumerate(rows) if row.count(BACKGROUND) > width // 4]
         self.rows = rows
         self.ready = bool(wide)
@@ -106,10 +96,12 @@ class Rviz(unittest.TestCase):
         rospy.set_param("/use_sim_time", False)
         self.fork, self.joy = Listener("manipulation/fork", ForkState), Listener("stylus/joy", Joy)
         self.objects = Listener("manipulation/objects", ObjectStates)
-        self.stack = contextlib.ExitStack()
-        folder = self.stack.enter_context(tempfile.TemporaryDirectory())
-        self.stack.enter_context(display())
-        self.stack.enter_context(
+        stack = contextlib.ExitStack()
+        self.addCleanup(stack.close)
+        folder = stack.enter_context(tempfile.TemporaryDirectory())
+        os.environ.update(stack.enter_context(screen(*SIZE)))
+        stack.enter_context(window_manager())
+        stack.enter_context(
             Launched(
                 "workbench.launch",
                 "input:=mouse",
@@ -123,9 +115,6 @@ class Rviz(unittest.TestCase):
         self.picture = wait_for(lambda: (lambda p: p.ready and p)(Picture()), "rviz to show the scene")
         wait_for(lambda: self.fork.messages, "the hand")
         wait_for(lambda: Picture().colour(self.arrow()) != BACKGROUND, "the marker to be drawn")
-
-    def tearDown(self):
-        self.stack.close()
 
     def hand(self):
         return self.fork.last.handle.position
