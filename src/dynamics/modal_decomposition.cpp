@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "spring_workbench/math/real_modes.h"
@@ -88,8 +89,10 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
     off_critical = off_critical == 0.0 ? 1e-8 : 10.0 * off_critical;
   }
   part.pairs = modes.pairs;
-  for (int i = 0; i < count; ++i) part.rates[static_cast<std::size_t>(i)] = modes.rates[i];
-  part.fastest = modes.rates.cwiseAbs().maxCoeff();
+  for (int i = 0; i < count; ++i) {
+    part.rates[static_cast<std::size_t>(i)] = modes.rates[i];
+    part.fastest = std::max(part.fastest, abs(modes.rates[i]));
+  }
 
   part.from_modes.resize(count, count);
   part.from_modes.topRows(n) = shapes * scale.cwiseInverse().asDiagonal() * modes.vectors.topRows(n);

@@ -1,14 +1,14 @@
 #pragma once
 
 #include <array>
-#include <complex>
 
 #include "spring_workbench/dynamics/held_body.h"
+#include "spring_workbench/math/general_complex.h"
 
 namespace spring_workbench::dynamics {
 
 /// The linear part of the equation of motion about a strain at rest, `q̈ = −stiffness q − damping q̇ + …`, and its modes:
-/// in `x = to_modes · (q, q̇)` it falls apart into single real modes, `ẋ = rate x`, and pairs.
+/// in `x = to_modes · (q, q̇)` it falls apart into single real modes, `ẋ = rate x`, and pairs (math::RealModes).
 struct ModalDecomposition {
   static constexpr int most_modes = 2 * rod::max_strain_coordinates;
   using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
@@ -25,9 +25,9 @@ struct ModalDecomposition {
   /// the handle's acceleration less gravity and its angular acceleration.
   Eigen::Matrix<double, Eigen::Dynamic, 6, 0, rod::max_strain_coordinates, 6> by_wrench, by_handle;
   ModeMatrix to_modes, from_modes;  ///< inverse of each other; not finite where the equation overflows and has no modes
-  /// The first 2 `pairs` modes are pairs (x₀, x₁) of which z = x₀ − i x₁ follows ż = rate z; the rest has real rates.
+  /// The first 2 `pairs` modes are pairs, of rates a + b j: ẋ₀ = a x₀ + b x₁, ẋ₁ = a x₁ + j² b x₀.
   int pairs = 0;
-  std::array<std::complex<double>, most_modes> rates;  ///< [1/s]; a pair has its rate twice
+  std::array<math::GeneralComplex, most_modes> rates;  ///< [1/s]; a pair has its rate twice
   double fastest = 0.0;                                ///< largest |rate|
 
   void exchange(math::StateArchive& state) {

@@ -34,7 +34,7 @@ struct Collocation {
   /// Σ_k d_k / third_degree()[k]. A defect of third_degree()[k] at sample k alone has 1 of it.
   static const Row& third_degree();
 
-  /// Coefficients of one mode for a step, `Scalar` real or complex.
+  /// Coefficients of one mode for a step, `Scalar` real or GeneralComplex.
   template <typename Scalar>
   struct Weights {
     using Column = std::array<Scalar, count>;

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <complex>
 
 #include "spring_workbench/math/collocation.h"
+#include "spring_workbench/math/general_complex.h"
 #include "spring_workbench/math/state_archive.h"
 
 namespace spring_workbench::math {
@@ -13,7 +13,7 @@ namespace spring_workbench::math {
 /// Variation of constants for the linear part of `n` coordinates over a step, as deviations from the state at its
 /// start: with y = (q − q₀, q̇ − q̇₀), ẏ = A y + (q̇₀, r), where the residual r = q̈ + S (q − q₀) + D (q̇ − q̇₀) is the
 /// cubic through its values at the nodes of Collocation. Taken from the start, y is no larger than what the step
-/// changes, and so is its rounding, however close to critical the damping is (when A has hardly any eigenvectors).
+/// changes, and so is its rounding.
 /// Lane i of a pack belongs to node i, or to sample i. The linear part comes as `ModalDecomposition` (of dynamics).
 template <int n, typename ModalDecomposition>
 class ExponentialCollocation {
@@ -43,7 +43,7 @@ class ExponentialCollocation {
     if (std::abs(h - h_) <= same_length * h) return;
     h_ = h;
     for (int m = 0; m < 2 * n; ++m) {
-      const double weight = 1.0 / std::max(1.0 / h, std::abs(modes_.rates[at(m)]));
+      const double weight = 1.0 / std::max(1.0 / h, abs(modes_.rates[at(m)]));
       squared_weight_[m] = weight * weight;
     }
     const auto take = [this, h](int m, const auto& w) {
@@ -59,7 +59,7 @@ class ExponentialCollocation {
       }
     };
     for (int m = 0; m < 2 * modes_.pairs; m += 2) take(m, Collocation::weights(h * modes_.rates[at(m)]));
-    for (int m = 2 * modes_.pairs; m < 2 * n; ++m) take(m, Collocation::weights(h * modes_.rates[at(m)].real()));
+    for (int m = 2 * modes_.pairs; m < 2 * n; ++m) take(m, Collocation::weights(h * modes_.rates[at(m)].re));
   }
 
   /// Squared weights of the modes: a displacement counts as it is, a velocity times what is left of it over the step.
@@ -150,9 +150,8 @@ class ExponentialCollocation {
   SPRING_WORKBENCH_INLINE NodeModes carried_in_modes(const Modes& x) const {  // e^{hλ} = 1 + λ h φ₁(hλ)
     Modes rate;
     for (int m = 0; m < 2 * n; ++m) {
-      const std::complex<double> z = modes_.rates[at(m)];
-      const bool pair = m < 2 * modes_.pairs;
-      rate[m] = z.real() * x[m] + (pair ? (m % 2 == 0 ? z.imag() : -z.imag()) * x[m ^ 1] : 0.0);
+      const GeneralComplex& z = modes_.rates[at(m)];
+      rate[m] = z.re * x[m] + (m % 2 == 0 ? 1.0 : z.square) * z.im * x[m ^ 1];
     }
     NodeModes y;
     for (int m = 0; m < 2 * n; ++m) {
@@ -196,10 +195,10 @@ class ExponentialCollocation {
     o.own[at(m)][lane] = value;
     o.other[at(m)][lane] = 0.0;
   }
-  static void set(Operator& o, std::size_t lane, int m, std::complex<double> value) {  // z = x₀ − i x₁
-    o.own[at(m)][lane] = o.own[at(m + 1)][lane] = value.real();
-    o.other[at(m)][lane] = value.imag();
-    o.other[at(m + 1)][lane] = -value.imag();
+  static void set(Operator& o, std::size_t lane, int m, const GeneralComplex& value) {
+    o.own[at(m)][lane] = o.own[at(m + 1)][lane] = value.re;
+    o.other[at(m)][lane] = value.im;
+    o.other[at(m + 1)][lane] = value.square * value.im;
   }
   SPRING_WORKBENCH_INLINE static void drive(const std::array<Operator, count>& by, const NodeModes& from,
                                             const NodeModes& residual, NodeModes& x) {

@@ -1,20 +1,21 @@
 #pragma once
 
 #include <array>
-#include <complex>
+#include <cmath>
 
 namespace spring_workbench::math {
 
 /// The φ-functions of exponential integrators, φ₀ … φ_most: φ₀ = eᶻ, φ_{k+1} = (φ_k − 1/k!) / z, or
-/// φ_{k+1}(z) = ∫₀¹ e^{(1−c)z} cᵏ/k! dc. Up to φ₅ exact to rounding, also near z = 0. `Scalar` is double or
-/// std::complex<double>.
+/// φ_{k+1}(z) = ∫₀¹ e^{(1−c)z} cᵏ/k! dc. Up to φ₅ exact to rounding, also near z = 0. `Scalar` is double,
+/// std::complex<double> or GeneralComplex.
 template <std::size_t most, typename Scalar>
 std::array<Scalar, most + 1> phi_functions(Scalar z) {
+  using std::abs, std::exp;
   std::array<Scalar, most + 1> phi{};
-  phi[0] = std::exp(z);
+  phi[0] = exp(z);
   std::array<double, most + 1> inverse_factorial{1.0};
   for (std::size_t k = 1; k <= most; ++k) inverse_factorial[k] = inverse_factorial[k - 1] / static_cast<double>(k);
-  if (std::norm(z) < 1.0) {
+  if (abs(z) < 1.0) {
     // φ_most by its series 1/most! + z/(most + 1)! + …, the others from it upwards without cancellation.
     Scalar sum = 1.0;
     for (int n = static_cast<int>(most) + 15; n > static_cast<int>(most); --n) sum = 1.0 + sum * z * (1.0 / n);

@@ -2,57 +2,150 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <cmath>
 #include <complex>
 #include <limits>
 
+#include "spring_workbench/math/general_complex.h"
+
 namespace spring_workbench::math {
 
-/// The eigenvectors of a real matrix A in real columns: A vectors = vectors B. The first 2 `pairs` columns are the real
-/// and the imaginary part of an eigenvector for each conjugate pair of rates a ± i b, b > 0, where B has the block
-/// ((a, b), (−b, a)); the others belong to real rates.
+/// Two coordinates that are coupled with each other alone, as an oscillator's are: A vectors = vectors B, as RealModes.
+struct OscillatorModes {
+  /// Two real rates are single ones where `square` would be larger; then their eigenvectors are far from parallel.
+  static constexpr double most_square = 0.04;
+
+  Eigen::Matrix2d vectors;  ///< of a pair orthonormal, so also where there is one eigenvector only
+  bool pair = true;         ///< or two single real rates
+  GeneralComplex rates[2];
+
+  explicit OscillatorModes(const Eigen::Matrix2d& A) {
+    const double mean = 0.5 * (A(0, 0) + A(1, 1)), half = 0.5 * (A(0, 0) - A(1, 1));
+    const double symmetric = 0.5 * (A(0, 1) + A(1, 0)), odd = 0.5 * (A(0, 1) - A(1, 0));
+    // Turned by the angle, the diagonal is constant: beside it the symmetric part is ((0, swing), (swing, 0)).
+    const double sign = odd < 0.0 ? -1.0 : 1.0, swing = sign * std::hypot(half, symmetric);
+    const double angle = 0.5 * std::atan2(-sign * half, sign * symmetric);
+    vectors << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
+    const double upper = swing + odd, square = upper == 0.0 ? 0.0 : (swing - odd) / upper;
+    rates[0] = rates[1] = GeneralComplex(mean, upper, square);
+    pair = !(square > most_square);
+    if (pair) return;
+    const double fast = mean + std::copysign(upper * std::sqrt(square), mean);
+    rates[0] = fast;
+    rates[1] = (A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0)) / fast;
+    Eigen::Matrix2d apart;
+    apart << 1.0, 1.0, (fast - mean) / upper, (mean - fast) / upper;
+    vectors *= apart;
+  }
+};
+
+/// The modes of a real matrix A in real columns: A vectors = vectors B. The first 2 `pairs` columns go in pairs: one of
+/// the rate a + b j, j² = square, has the block ((a, b), (square b, a)) in B. A conjugate pair of rates is one, with
+/// the real and the imaginary part of an eigenvector; so are both rates of an oscillator that nothing couples with
+/// others (OscillatorModes), also where they coincide. The other columns belong to single real rates.
 template <typename Matrix>
 struct RealModes {
   Matrix vectors, inverse;
   int pairs = 0;
-  Eigen::Matrix<std::complex<double>, Matrix::RowsAtCompileTime, 1, 0, Matrix::MaxRowsAtCompileTime, 1>
-      rates;  ///< a pair has its rate with b > 0 twice
+  Eigen::Matrix<GeneralComplex, Matrix::RowsAtCompileTime, 1, 0, Matrix::MaxRowsAtCompileTime, 1>
+      rates;  ///< a pair has its rate twice
   /// Of the vectors. Infinity: A has no such vectors, or none were found; NaN, as the vectors: A is not finite.
   double condition = std::numeric_limits<double>::quiet_NaN();
 
   RealModes() = default;
   explicit RealModes(const Matrix& A) : vectors(A), inverse(A), rates(A.rows()) {
-    const Eigen::EigenSolver<Matrix> solver(A);
     vectors.setConstant(std::numeric_limits<double>::quiet_NaN());
     inverse = vectors;
-    if (solver.info() != Eigen::Success) return;
-    const auto& values = solver.eigenvalues();
-    const auto of_values = solver.eigenvectors().eval();
-    Matrix B = Matrix::Zero(A.rows(), A.rows());
-    Eigen::Index at = 0;
-    const auto add = [&](const auto& column, std::complex<double> rate) {
-      rates[at] = rate;
-      B(at, at) = rate.real();
-      vectors.col(at++) = column;
-    };
-    for (Eigen::Index m = 0; m < values.size(); ++m) {
-      if (!(values[m].imag() > 0.0)) continue;
-      add(of_values.col(m).real(), values[m]);
-      add(of_values.col(m).imag(), values[m]);
-      B(at - 2, at - 1) = values[m].imag();
-      B(at - 1, at - 2) = -values[m].imag();
-      ++pairs;
-    }
-    for (Eigen::Index m = 0; m < values.size(); ++m) {
-      if (values[m].imag() == 0.0) add(of_values.col(m).real(), values[m]);
-    }
+    if (!A.allFinite() || !find(A)) return;
     inverse = vectors.partialPivLu().inverse();
     // Of two rates that are equal to the last bit, EigenSolver may take for eigenvectors what is none.
-    const bool found = inverse.allFinite() && (A * vectors - vectors * B).norm() < rounding * A.norm() * vectors.norm();
+    const bool found =
+        inverse.allFinite() && (A * vectors - vectors * blocks()).norm() < rounding * A.norm() * vectors.norm();
     condition = found ? vectors.norm() * inverse.norm() : std::numeric_limits<double>::infinity();
+  }
+
+  Matrix blocks() const {  ///< B
+    Matrix B = Matrix::Zero(vectors.rows(), vectors.rows());
+    for (Eigen::Index i = 0; i < B.rows(); ++i) B(i, i) = rates[i].re;
+    for (Eigen::Index i = 0; i < 2 * pairs; i += 2) {
+      B(i, i + 1) = rates[i].im;
+      B(i + 1, i) = rates[i].square * rates[i].im;
+    }
+    return B;
   }
 
  private:
   static constexpr double rounding = 1e-12;  ///< more than it leaves of A vectors − vectors B
+  static constexpr int most = Matrix::MaxRowsAtCompileTime;
+  using Rows = Eigen::Matrix<Eigen::Index, Eigen::Dynamic, 1, 0, most, 1>;
+  using Part = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
+
+  /// Vectors and rates, or false.
+  bool find(const Matrix& A) {
+    const Rows mate = mates(A), coupled = rows_without(mate);
+    Eigen::EigenSolver<Part> solver(coupled.size());
+    if (coupled.size() > 0 && solver.compute(part(A, coupled)).info() != Eigen::Success) return false;
+    vectors.setZero();
+    Eigen::Index at = 0;
+    const auto add = [&](const Rows& rows, const auto& column, const GeneralComplex& rate) {
+      for (Eigen::Index i = 0; i < rows.size(); ++i) vectors(rows[i], at) = column[i];
+      rates[at++] = rate;
+    };
+    for (const bool paired : {true, false}) {
+      for (Eigen::Index m = 0; m < coupled.size(); ++m) {
+        const std::complex<double> rate = solver.eigenvalues()[m];
+        const auto vector = solver.eigenvectors().col(m).eval();
+        if (paired && rate.imag() > 0.0) {
+          add(coupled, vector.real(), {rate.real(), rate.imag(), -1.0});
+          add(coupled, vector.imag(), {rate.real(), rate.imag(), -1.0});
+        }
+        if (!paired && rate.imag() == 0.0) add(coupled, vector.real(), rate.real());
+      }
+      for (Eigen::Index i = 0; i < mate.size(); ++i) {
+        if (mate[i] <= i) continue;
+        const Rows rows = (Rows(2) << i, mate[i]).finished();
+        const OscillatorModes modes(part(A, rows));
+        if (modes.pair != paired) continue;
+        for (Eigen::Index k = 0; k < 2; ++k) add(rows, modes.vectors.col(k), modes.rates[k]);
+      }
+      if (paired) pairs = static_cast<int>(at / 2);
+    }
+    return true;
+  }
+  static Part part(const Matrix& A, const Rows& rows) {
+    Part own(rows.size(), rows.size());
+    for (Eigen::Index i = 0; i < rows.size(); ++i) {
+      for (Eigen::Index j = 0; j < rows.size(); ++j) own(i, j) = A(rows[i], rows[j]);
+    }
+    return own;
+  }
+  /// Of each row the only one that it is coupled with, if that is coupled with it alone; otherwise itself.
+  static Rows mates(const Matrix& A) {
+    Rows only(A.rows());
+    for (Eigen::Index i = 0; i < A.rows(); ++i) {
+      int count = 0;
+      for (Eigen::Index j = 0; j < A.rows(); ++j) {
+        if (j == i || (A(i, j) == 0.0 && A(j, i) == 0.0)) continue;
+        only[i] = j;
+        ++count;
+      }
+      if (count != 1) only[i] = i;
+    }
+    Rows mate = only;
+    for (Eigen::Index i = 0; i < A.rows(); ++i) {
+      if (only[only[i]] != i) mate[i] = i;
+    }
+    return mate;
+  }
+  static Rows rows_without(const Rows& mate) {
+    Rows rows(mate.size());
+    Eigen::Index count = 0;
+    for (Eigen::Index i = 0; i < mate.size(); ++i) {
+      if (mate[i] == i) rows[count++] = i;
+    }
+    rows.conservativeResize(count);
+    return rows;
+  }
 };
 
 }  // namespace spring_workbench::math

@@ -96,5 +96,67 @@ INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator,
                          testing::ValuesIn(test_support::equation_of_motion_integrator_names()),
                          [](const auto& instance) { return instance.param; });
 
+/// x, ẋ at `t` [s] of ẍ + 2 ζ ω ẋ + ω² x = α + β t from rest at zero, in long double: scaling and squaring.
+Eigen::Matrix<long double, 2, 1> oscillator(long double omega, long double zeta, long double alpha, long double beta,
+                                            long double t) {
+  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+  Matrix A = Matrix::Zero(4, 4);  // of (ω x, ẋ, (α + β t) / ω, β / ω²)
+  A(0, 1) = omega;
+  A(1, 0) = -omega;
+  A(1, 1) = -2.0L * zeta * omega;
+  A(1, 2) = omega;
+  A(2, 3) = omega;
+  A *= t;
+  int halvings = 0;
+  for (; A.norm() > 0.5L; ++halvings) A *= 0.5L;
+  Matrix power = Matrix::Identity(4, 4), sum = power;
+  for (int k = 1; k < 25; ++k) {
+    power = power * A / static_cast<long double>(k);
+    sum += power;
+  }
+  for (; halvings > 0; --halvings) sum = Matrix(sum * sum);
+  const long double a = alpha / omega, b = beta / (omega * omega);
+  return {(sum(0, 2) * a + sum(0, 3) * b) / omega, sum(1, 2) * a + sum(1, 3) * b};
+}
+
+/// Of one coordinate the motion under a hand whose acceleration is linear in time is exact to rounding in any number of
+/// steps, and has no floor where both rates of the mode nearly coincide.
+TEST(Exponential, IsExactInOneCoordinateHoweverCloseToCriticalDamping) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  for (int trial = 0; trial < 200; ++trial) {
+    dynamics::BodyInertia body;
+    body.mass = std::pow(10.0, uniform(random));
+    body.inertia_O = body.mass * Matrix3d::Identity();
+    HeldBody held(rod::make_shape_model(test_support::shape_named("bushing"), 0.2), body, 9.81);
+    const double omega = std::pow(10.0, 1.0 + uniform(random)), k = body.mass * omega * omega;
+    const double off =
+        trial % 10 == 0 ? 0.0 : std::copysign(std::pow(10.0, 8.0 * uniform(random) - 8.0), uniform(random));
+    const double zeta = 1.0 + 0.5 * off;
+    held.set_springs(rod::PerDof{k, k, k}, {zeta, zeta, zeta});
+    held.set_dofs({true, false, false}, 0.0, 0.05, held.zero_state());
+    constexpr double duration = 0.4;
+    motion::PoseSample a, b;
+    b.t = duration;
+    a.X = b.X = RigidTransform::Identity();
+    b.X.translation().z() = 0.1 * uniform(random);
+    const motion::MotionSegment hand(a, Vector3d(0, 0, uniform(random)), Vector3d::Zero(), b,
+                                     Vector3d(0, 0, uniform(random)), Vector3d::Zero());
+    const rod::StrainVector zero = rod::StrainVector::Zero(1);
+    const double alpha = held.acceleration(held.forcing(hand, 0.0), zero, zero)[0],
+                 beta =
+                     (held.acceleration(held.forcing(hand, 0.5 * duration), zero, zero)[0] - alpha) / (0.5 * duration);
+    const auto exact = oscillator(omega, zeta, alpha, beta, duration);
+    const double size = (std::abs(alpha) + duration * std::abs(beta)) / (omega * omega);
+    for (const int steps : {1, 5, 40, 320}) {
+      const Case c{held, hand, omega};
+      const auto integrator = test_support::make_integrator("exponential");
+      const StrainState end = carried(*integrator, c, 0.0, duration / steps, steps, held.zero_state());
+      EXPECT_NEAR(end.q[0], static_cast<double>(exact[0]), 2e-13 * size) << off << " " << omega << " " << steps;
+      EXPECT_NEAR(end.q_dot[0], static_cast<double>(exact[1]), 2e-13 * size * omega) << off << " " << steps;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace spring_workbench::dynamics::integrator_laws_test

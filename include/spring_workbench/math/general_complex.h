@@ -1,0 +1,63 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/math/state_archive.h"
+
+namespace spring_workbench::math {
+
+/// Generalised complex number re + im j with j² = `square`: the common complex numbers for −1, dual ones for 0, split
+/// ones for 1. A function of the real 2×2 matrix re I + im J with J² = square I is that function of the number, also
+/// where the eigenvalues re ± im √square coincide and there is one eigenvector only. Numbers that meet in a sum or a
+/// product have the same `square`, or are real.
+struct GeneralComplex {
+  double re = 0.0, im = 0.0, square = 0.0;
+
+  GeneralComplex() = default;
+  GeneralComplex(double real) : re(real) {}  // NOLINT(google-explicit-constructor): as std::complex
+  GeneralComplex(double real, double imaginary, double j_squared) : re(real), im(imaginary), square(j_squared) {}
+
+  GeneralComplex& operator+=(const GeneralComplex& z) { return *this = *this + z; }
+  friend GeneralComplex operator+(const GeneralComplex& a, const GeneralComplex& b) {
+    return {a.re + b.re, a.im + b.im, common_square(a, b)};
+  }
+  friend GeneralComplex operator-(const GeneralComplex& a, const GeneralComplex& b) { return a + -1.0 * b; }
+  friend GeneralComplex operator*(double a, const GeneralComplex& z) { return {a * z.re, a * z.im, z.square}; }
+  friend GeneralComplex operator*(const GeneralComplex& z, double a) { return a * z; }
+  friend GeneralComplex operator*(const GeneralComplex& a, const GeneralComplex& b) {
+    const double square = common_square(a, b);
+    return {a.re * b.re + square * a.im * b.im, a.re * b.im + a.im * b.re, square};
+  }
+  friend GeneralComplex operator/(double a, const GeneralComplex& z) {
+    const double largest = std::max(std::abs(z.re), std::abs(z.im));
+    const double re = z.re / largest, im = z.im / largest;
+    const double over = a / (largest * (re * re - z.square * im * im));
+    return {over * re, -over * im, z.square};
+  }
+
+  /// Of the larger one of the eigenvalues.
+  friend double abs(const GeneralComplex& z) {
+    const double apart = std::abs(z.im) * std::sqrt(std::abs(z.square));
+    return z.square < 0.0 ? std::hypot(z.re, apart) : std::abs(z.re) + apart;
+  }
+  friend GeneralComplex exp(const GeneralComplex& z) {
+    const double apart = std::abs(z.im) * std::sqrt(std::abs(z.square));  // half of the eigenvalues' distance
+    const auto of = [&](double mean, double difference) {
+      return GeneralComplex{mean, apart > 0.0 ? difference / apart * z.im : mean * z.im, z.square};
+    };
+    if (z.square < 0.0) return of(std::exp(z.re) * std::cos(apart), std::exp(z.re) * std::sin(apart));
+    if (apart < 1.0) return of(std::exp(z.re) * std::cosh(apart), std::exp(z.re) * std::sinh(apart));
+    const double above = std::exp(z.re + apart), below = std::exp(z.re - apart);
+    return of(0.5 * (above + below), 0.5 * (above - below));
+  }
+
+  void exchange(StateArchive& state) { state(re, im, square); }
+
+ private:
+  static double common_square(const GeneralComplex& a, const GeneralComplex& b) {
+    return a.square != 0.0 ? a.square : b.square;
+  }
+};
+
+}  // namespace spring_workbench::math
