@@ -87,7 +87,7 @@ void run_card_houses(bool quick, const TakeRow& take) {
       }
     }
     const Measured m = run.measured();
-    std::vector<Bar> bars{depth_bar(m), blocked_bar(m), rejected_bar(m)};
+    std::vector<Bar> bars{depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m)};
     if (pulled) {
       bars.push_back(at_least("the top falls", 1e3 * dropped, 50.0, "mm"));
     } else {

@@ -74,7 +74,7 @@ void run_marbles(bool quick, const TakeRow& take) {
       lost += p.z() < 0.0 || p.head<2>().cwiseAbs().maxCoeff() > 0.5 * inner_width(marbles) ? 1 : 0;
     }
     const Measured m = run.measured();
-    take(run.row({at_most("lost", lost, 0.0), depth_bar(m), blocked_bar(m), rejected_bar(m),
+    take(run.row({at_most("lost", lost, 0.0), depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m),
                   at_most("mean", 1e3 * m.cpu_mean, 20.0, "ms"), at_most("99 %", 1e3 * m.cpu_99, 40.0, "ms"),
                   at_most("gained", 1e6 * m.gained_height, 3.0, "µm")}));
   }

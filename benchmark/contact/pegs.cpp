@@ -114,7 +114,8 @@ void run_pegs(bool quick, const TakeRow& take) {
       const Measured m = run.measured();
       take(run.row({at_least("in", 1e3 * in, 1e3 * (entered + pushed) - 5.0, "mm"),
                     at_most("ripple", 100.0 * ripple, 1.0, "%"), at_most("depth", 1e6 * m.deepest.depth, 10.0, "µm"),
-                    blocked_bar(m), rejected_bar(m), at_most("gained", 1e6 * m.gained_height, 3.0, "µm")}));
+                    blocked_bar(m), unsolved_bar(m), rejected_bar(m),
+                    at_most("gained", 1e6 * m.gained_height, 3.0, "µm")}));
     }
   }
 }

@@ -100,7 +100,7 @@ void run_piles(bool quick, const TakeRow& take) {
     }
     const Measured m = run.measured();
     const bool many = size.across == 5;
-    take(run.row({depth_bar(m), blocked_bar(m), rejected_bar(m),
+    take(run.row({depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m),
                   at_most("mean", 1e3 * m.cpu_mean, 1e3 * size.mean, "ms"),
                   at_most(many ? "99 %" : "most", 1e3 * (many ? m.cpu_99 : m.cpu_most), 1e3 * size.worst, "ms"),
                   at_most("off a run with a tenth of the step", 100.0 * off, 1.0, "% of the way")}));
@@ -155,8 +155,8 @@ void run_stacks(bool quick, const TakeRow& take) {
     }
     const Measured m = run.measured();
     take(run.row({at_most("drift", 1e3 * most.across, 0.1, "mm"), at_most("sink", 1e6 * most.down, 10.0, "µm"),
-                  depth_bar(m), blocked_bar(m), rejected_bar(m), at_most("mean", 1e3 * m.cpu_mean, 2.0, "ms"),
-                  at_most("gained", 1e6 * m.gained_height, 3.0, "µm")}));
+                  depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m),
+                  at_most("mean", 1e3 * m.cpu_mean, 2.0, "ms"), at_most("gained", 1e6 * m.gained_height, 3.0, "µm")}));
   };
   for (const double ratio : {1.0, 1e3, 1e6}) judge(standing_stack(ratio, quick ? 1.0 : 60.0));
   const std::vector<double> steps = quick ? std::vector<double>{0.02} : std::vector<double>{0.001, 0.005, 0.02, 0.05};

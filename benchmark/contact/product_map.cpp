@@ -128,8 +128,8 @@ void run_map(int count, int first, const TakeRow& take) {
     const Measured m = run.measured();
     const double times_real = m.cpu_mean / 0.02;
     const TrialRow row =
-        run.row({depth_bar(m), blocked_bar(m), rejected_bar(m), at_most("moved", furthest, farthest, "m"),
-                 at_most("times real time", times_real, most_times_real)});
+        run.row({depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m),
+                 at_most("moved", furthest, farthest, "m"), at_most("times real time", times_real, most_times_real)});
     const auto scene = static_cast<std::size_t>(cell.scene);
     take(sums[scene].add(row));
     counts[scene][0] += row.holds() ? 1 : 0;

@@ -93,7 +93,8 @@ void run_rings(int count, int first, const TakeRow& take) {
     }
     lost += off ? 1 : 0;
     const Measured m = run.measured();
-    take(sum.add(run.row({at_most("off the peg", off, 0.0), depth_bar(m), blocked_bar(m), rejected_bar(m)})));
+    take(sum.add(
+        run.row({at_most("off the peg", off, 0.0), depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m)})));
   }
   take(sum.row("wild motions", {at_most("with a ring off the peg", lost, 0.0),
                                 at_most("mean", 1e3 * sum.measured().cpu_mean, 20.0, "ms")}));
@@ -145,7 +146,8 @@ void run_chains(int count, int first, const TakeRow& take) {
     }
     lost += apart ? 1 : 0;
     const Measured m = run.measured();
-    take(sum.add(run.row({at_most("unlinked", apart, 0.0), depth_bar(m), blocked_bar(m), rejected_bar(m)})));
+    take(sum.add(
+        run.row({at_most("unlinked", apart, 0.0), depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m)})));
   }
   take(sum.row("swings", {at_most("unlinked", lost, 0.0), at_most("mean", 1e3 * sum.measured().cpu_mean, 40.0, "ms")}));
 }

@@ -30,6 +30,7 @@ Bar at_least(const std::string& what, double measured, double least, const std::
 }
 Bar depth_bar(const Measured& m, double most) { return at_most("depth", 1e3 * m.deepest.depth, 1e3 * most, "mm"); }
 Bar blocked_bar(const Measured& m) { return at_most("blocked", m.steps_blocked, 0.0); }
+Bar unsolved_bar(const Measured& m) { return at_most("unsolved", m.steps_unsolved, 0.0); }
 Bar rejected_bar(const Measured& m) { return at_most("rejected", m.steps_rejected, 0.0); }
 
 RigidTransform hand_above(const Vector3d& p_WE, double length) {
@@ -87,6 +88,7 @@ bool TrialRun::advance() {
     const simulation::AdvanceReport report = simulation_.advance(time_);
     spent += processor_time() - begin;
     measured_.steps_blocked += report.steps_blocked;
+    measured_.steps_unsolved += report.steps_unsolved;
     measured_.time_lost += report.time_lost;
     measured_.steps_rejected += report.steps_rejected;
     look();
@@ -177,6 +179,7 @@ const TrialRow& TrialSum::add(const TrialRow& row) {
   if (n.deepest.depth > m.deepest.depth) m.deepest = n.deepest;
   m.looks += n.looks;
   m.steps_blocked += n.steps_blocked;
+  m.steps_unsolved += n.steps_unsolved;
   m.time_lost += n.time_lost;
   m.steps_rejected += n.steps_rejected;
   m.cpu_mean += (n.cpu_mean - m.cpu_mean) / count_;
@@ -192,14 +195,14 @@ TrialRow TrialSum::row(const std::string& name, std::vector<Bar> bars) const {
   row.trial += " in all";
   row.name = std::to_string(count_) + ' ' + name;
   row.bars = std::move(bars);
-  for (const Bar& bar : {depth_bar(row.measured), blocked_bar(row.measured), rejected_bar(row.measured)}) {
-    row.bars.push_back(bar);
-  }
+  const Measured& m = row.measured;
+  for (const Bar& bar : {depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m)}) row.bars.push_back(bar);
   return row;
 }
 
 void print_trial_header(std::ostream& out) {
-  out << "trial,case,contact,step_ms,depth_mm,deepest_pair,looks,steps_blocked,time_lost_s,steps_rejected,cpu_ms_mean,"
+  out << "trial,case,contact,step_ms,depth_mm,deepest_pair,looks,steps_blocked,steps_unsolved,time_lost_s,"
+         "steps_rejected,cpu_ms_mean,"
          "cpu_ms_99%,cpu_ms_most,energy_gained_uJ,energy_gained_um,verdict,judged\n";
 }
 
@@ -207,9 +210,9 @@ void print(const TrialRow& row, std::ostream& out) {
   const Measured& m = row.measured;
   out << row.trial << ",\"" << row.name << "\"," << row.contact << ',' << 1e3 * row.step << ',' << 1e3 * m.deepest.depth
       << ',' << m.deepest.first << (m.deepest.first.empty() ? "" : " in ") << m.deepest.second << ',' << m.looks << ','
-      << m.steps_blocked << ',' << m.time_lost << ',' << m.steps_rejected << ',' << 1e3 * m.cpu_mean << ','
-      << 1e3 * m.cpu_99 << ',' << 1e3 * m.cpu_most << ',' << 1e6 * m.energy_gained << ',' << 1e6 * m.gained_height
-      << ',' << (row.holds() ? "PASS" : "FAIL") << ",\"";
+      << m.steps_blocked << ',' << m.steps_unsolved << ',' << m.time_lost << ',' << m.steps_rejected << ','
+      << 1e3 * m.cpu_mean << ',' << 1e3 * m.cpu_99 << ',' << 1e3 * m.cpu_most << ',' << 1e6 * m.energy_gained << ','
+      << 1e6 * m.gained_height << ',' << (row.holds() ? "PASS" : "FAIL") << ",\"";
   if (!m.finite) out << "not finite; ";
   if (!m.to_the_end) out << "given up after " << m.simulated << " s; ";
   for (std::size_t i = 0; i < row.bars.size(); ++i) {

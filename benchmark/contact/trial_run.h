@@ -30,7 +30,7 @@ struct Measured {
   double simulated = 0.0;   ///< of the trial's duration; less where it was given up, [s]
   DeepestPair deepest;
   int looks = 0;
-  int steps_blocked = 0;
+  int steps_blocked = 0, steps_unsolved = 0;
   double time_lost = 0.0;  ///< [s]
   int steps_rejected = 0;
   double cpu_mean = 0.0, cpu_99 = 0.0, cpu_most = 0.0;  ///< processor time per 20 ms [s]
@@ -61,6 +61,7 @@ Bar at_most(const std::string& what, double measured, double most, const std::st
 Bar at_least(const std::string& what, double measured, double least, const std::string& unit = "");
 Bar depth_bar(const Measured& m, double most = 1e-4);
 Bar blocked_bar(const Measured& m);
+Bar unsolved_bar(const Measured& m);
 Bar rejected_bar(const Measured& m);
 
 /// A case that is run sample by sample.

@@ -31,6 +31,7 @@ void expect_sound(const TrialRun& run) {
   EXPECT_TRUE(m.finite && m.to_the_end);
   EXPECT_LE(m.deepest.depth, 1e-4) << m.deepest.first << " in " << m.deepest.second;
   EXPECT_EQ(m.steps_blocked, 0);
+  EXPECT_EQ(m.steps_unsolved, 0);
   EXPECT_EQ(m.time_lost, 0.0);
   EXPECT_EQ(m.steps_rejected, 0);
   EXPECT_LE(m.gained_height, 3e-6);
@@ -93,6 +94,7 @@ TEST(ContactTrials, AChainHangsTogether) {
   const Measured m = run.measured();
   EXPECT_LE(m.deepest.depth, 1e-4) << m.deepest.first << " in " << m.deepest.second;
   EXPECT_EQ(m.steps_blocked, 0);
+  EXPECT_EQ(m.steps_unsolved, 0);
 }
 
 TEST(ContactTrials, AWedgeIsSqueezedOut) {

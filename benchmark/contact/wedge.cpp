@@ -126,7 +126,7 @@ void run_wedges(bool quick, const TakeRow& take) {
         {at_most("force off the exact one", 100.0 * off, 1.0, "%"),
          at_least("goes in", 1e3 * went,
                   1e3 * (speed * (drive_time - 0.5 * ramp_time) - 2.0 * H * steep / drive_stiffness) - 1.0, "mm"),
-         depth_bar(m), blocked_bar(m), rejected_bar(m)}));
+         depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m)}));
   }
   for (const double friction : {0.05, 0.3}) {
     if (quick) continue;
@@ -138,7 +138,8 @@ void run_wedges(bool quick, const TakeRow& take) {
     const bool locks = friction > std::tan(slope);
     const Measured m = run.measured();
     take(run.row({locks ? at_most("rises", 1e3 * rose, 0.1, "mm") : at_least("rises", 1e3 * rose, 5.0, "mm"),
-                  depth_bar(m), blocked_bar(m), rejected_bar(m), at_most("gained", 1e6 * m.gained_height, 3.0, "µm")}));
+                  depth_bar(m), blocked_bar(m), unsolved_bar(m), rejected_bar(m),
+                  at_most("gained", 1e6 * m.gained_height, 3.0, "µm")}));
   }
 }
 

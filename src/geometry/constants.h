@@ -17,9 +17,10 @@ constexpr double stands_out = 1e-6;
 /// [m]; two contacts of solids that are nearer to each other, with one normal, are one. Smaller: what touches a seam
 /// within a face is found twice. Test: Solids.FlushFacesTouchWithTheirCornersOnce at 0.
 constexpr double same_place = 1e-7;
-/// Sine of the angle at an edge, below which it is a seam within a face and touches nothing. Test:
-/// Solids.SeamsAndGroovesAreNoEdges at 1.
-constexpr double flat_edge = 1e-6;
+/// Sine of the angle below which two directions are one: two faces, with an edge between that is a seam and touches
+/// nothing; two edges, which do not cross. Smaller: rounding makes edges of seams. Test:
+/// Solids.SeamsAndGroovesAreNoEdges at 0, 1.
+constexpr double parallel = 1e-6;
 /// Largest slope between two faces that come to lie on each other with all their corners. Smaller: a body that lands
 /// more tilted touches with one corner; larger: other faces count, too. Test:
 /// Drops.WithoutRestitutionNothingLeavesTheBench at 0.

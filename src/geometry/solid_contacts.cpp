@@ -20,7 +20,7 @@ void add_edges(const Surface& surface, int t, std::vector<Solid::Edge>& edges) {
     const Vector3d along = surface.corner(t, static_cast<int>((k + 1) % 3)) - start;
     const Vector3d into_left = surface.normal(t).cross(along).normalized();
     const Vector3d into_right = along.cross(surface.normal(neighbour)).normalized();
-    if (into_right.dot(surface.normal(t)) < -flat_edge) edges.push_back({start, along, into_left, into_right});
+    if (into_right.dot(surface.normal(t)) < -parallel) edges.push_back({start, along, into_left, into_right});
   }
 }
 
@@ -33,7 +33,7 @@ struct View {
 
   void add(const Vector3d& p, const Vector3d& n, double gap) const {
     for (const BoxContact& c : found) {
-      if ((c.p_W - p).squaredNorm() < same_place * same_place && c.n_W.dot(n) > 1.0 - same_place) return;
+      if ((c.p_W - p).norm() < same_place && (c.n_W - n).norm() < parallel) return;
     }
     found.push_back({p, n, gap});
   }
@@ -165,7 +165,7 @@ void edge_and_edge(const View& view, const Solid::Edge& a, const Solid::Edge& b)
   const Vector3d start = view.X_BA * a.start, along = view.X_BA.linear() * a.along;
   const Vector3d cross = along.cross(b.along);
   const double size = cross.norm();
-  if (!(size > 1e-6 * along.norm() * b.along.norm())) return;
+  if (!(size > parallel * along.norm() * b.along.norm())) return;
   const Vector3d between = b.start - start;
   const double s = between.cross(b.along).dot(cross) / (size * size);
   const double t = between.cross(along).dot(cross) / (size * size);
@@ -207,6 +207,58 @@ void edges_and_side(const View& view) {
   for (const Solid::Edge& edge : view.a.edges) edge_and_side(view, edge);
 }
 
+/// Whether a line from `start` to `start + along` goes through a face.
+bool goes_through(const Vector3d& start, const Vector3d& along, const Solid::Face& face) {
+  const double before = face.n.dot(start - face.corners[0]), after = before + face.n.dot(along);
+  return before * after < 0.0 && over(face, start + before / (before - after) * along, 0.0);
+}
+
+/// Where a straight line is inside a cylinder: from the first to the second multiple of `along`.
+std::pair<double, double> inside(const Cylinder& c, const Vector3d& start, const Vector3d& along) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  double from = -infinity, to = infinity;
+  const auto cut = [&](double middle, double half) {
+    from = std::max(from, middle - half);
+    to = std::min(to, middle + half);
+  };
+  if (along.z() != 0.0) cut(-start.z() / along.z(), 0.5 * c.length / std::abs(along.z()));
+  if (along.z() == 0.0 && std::abs(start.z()) > 0.5 * c.length) cut(0.0, -infinity);
+  const Eigen::Vector2d p = start.head<2>(), d = along.head<2>();
+  const double size = d.squaredNorm(), middle = size > 0.0 ? -p.dot(d) / size : 0.0;
+  const double left = c.radius * c.radius - (p + middle * d).squaredNorm();
+  if (left < 0.0) cut(0.0, -infinity);
+  if (size > 0.0 && left >= 0.0) cut(middle, std::sqrt(left / size));
+  return {from, to};
+}
+
+/// Whether an edge of `a`, or the axis of a cylinder, goes into `b`. Where two solids overlap, the hull of what they
+/// have in common has such a place for a corner, or one that is a corner of one of them.
+bool pierces(const View& view) {
+  for (const auto& [e, face] : pairs_near(view, view.a.edge_tree, view.b.face_tree)) {
+    const Solid::Edge& edge = view.a.edges[e];
+    if (goes_through(view.X_BA * edge.start, view.X_BA.linear() * edge.along, view.b.faces[face])) return true;
+  }
+  const auto goes_in = [&](const Vector3d& start, const Vector3d& along) {
+    const Vector3d start_B = view.X_BA * start, along_B = view.X_BA.linear() * along;
+    if (!view.b.cylinder) {
+      return std::any_of(view.b.faces.begin(), view.b.faces.end(),
+                         [&](const Solid::Face& face) { return goes_through(start_B, along_B, face); });
+    }
+    const auto [from, to] = inside(*view.b.cylinder, start_B, along_B);
+    return std::max(from, 0.0) < std::min(to, 1.0);
+  };
+  const double length = view.a.cylinder ? view.a.cylinder->length : 0.0;
+  if (length > 0.0 && goes_in(-0.5 * length * Vector3d::UnitZ(), length * Vector3d::UnitZ())) return true;
+  return view.b.cylinder && std::any_of(view.a.edges.begin(), view.a.edges.end(),
+                                        [&](const Solid::Edge& edge) { return goes_in(edge.start, edge.along); });
+}
+
+/// Whether `a` may be in `b` as a whole, and one point of it is.
+bool is_swallowed(const View& view) {
+  if (!view.b.extent.contains(bounding_box(view.a.extent, view.X_BA))) return false;
+  return contains(view.b.geometry, view.X_BA * furthest(view.a, Vector3d::UnitX()));
+}
+
 void append(const std::vector<BoxContact>& found, const RigidTransform& X, bool turned,
             std::vector<BoxContact>& contacts) {
   for (const BoxContact& c : found) {
@@ -229,12 +281,12 @@ void PartTree::build() {
   tree = std::make_unique<const Eigen::KdBVH<double, 3, int>>(parts.begin(), parts.end(), around.begin(), around.end());
 }
 
-Solid::Solid(const Geometry& geometry) : extent(bounding_box(geometry)) {
-  if (const auto* round = std::get_if<Cylinder>(&geometry)) cylinder = *round;
-  const std::shared_ptr<const Surface> surface = make_surface(geometry);
+Solid::Solid(const Geometry& of) : geometry(of), extent(bounding_box(of)) {
+  if (const auto* round = std::get_if<Cylinder>(&of)) cylinder = *round;
+  const std::shared_ptr<const Surface> surface = make_surface(of);
   for (std::size_t i = 0; i < surface->normals.size(); ++i) {
     const int t = static_cast<int>(i);
-    if (!surface->normals[i].allFinite() || surface->normals[i].isZero(0.5)) continue;  // no area
+    if (!(surface->normals[i].squaredNorm() > 0.0)) continue;  // no area
     const std::size_t before = edges.size();
     add_edges(*surface, t, edges);
     if (!cylinder) {
@@ -275,7 +327,7 @@ Vector3d furthest(const Solid& solid, const Vector3d& along_S) {
 }
 
 std::vector<Vector3d> lowest_points(const Solid& solid, const Vector3d& n_S) {
-  const Vector3d u = Vector3d::Unit(std::abs(n_S.x()) < 0.7 ? 0 : 1).cross(n_S).normalized();
+  const Vector3d u = n_S.unitOrthogonal();
   std::vector<Vector3d> points;
   for (int i = 0; i <= 8; ++i) {
     const double turn = 0.25 * M_PI * i;
@@ -298,6 +350,37 @@ std::vector<BoxContact> solid_contacts(const Solid& a, const RigidTransform& X_W
   append(of_a, X_WB, false, contacts);
   append(of_b, X_WA, true, contacts);
   return contacts;
+}
+
+bool overlap(const Solid& a, const RigidTransform& X_WA, const Solid& b, const RigidTransform& X_WB) {
+  const RigidTransform X_BA = X_WB.inverse() * X_WA, X_AB = X_BA.inverse();
+  std::vector<BoxContact> none;
+  const View from_b{a, b, X_BA, 0.0, 0.0, none}, from_a{b, a, X_AB, 0.0, 0.0, none};
+  return pierces(from_b) || pierces(from_a) || is_swallowed(from_b) || is_swallowed(from_a);
+}
+
+std::optional<BoxContact> way_out(const Solid& solid, const Vector3d& p_S, const Vector3d& n_S, double depth,
+                                  double within) {
+  std::optional<BoxContact> found;
+  const auto offer = [&](double way, const Vector3d& n) {
+    if (!(std::abs(way - depth) <= within)) return;
+    within = std::abs(way - depth);
+    const double gap = -way * n.dot(n_S);
+    found = BoxContact{p_S - gap * n, n, gap};
+  };
+  for (const Solid::Face& face : solid.faces) {
+    const double slope = face.n.dot(n_S);
+    if (!(slope > 0.0)) continue;
+    const double way = face.n.dot(face.corners[0] - p_S) / slope;
+    if (over(face, p_S + way * n_S, same_place)) offer(way, face.n);
+  }
+  if (solid.cylinder) {
+    const double way = inside(*solid.cylinder, p_S, n_S).second;
+    const Vector3d out = p_S + way * n_S;
+    const bool of_end = std::abs(std::abs(out.z()) - 0.5 * solid.cylinder->length) < same_place;
+    offer(way, of_end ? Vector3d(0.0, 0.0, std::copysign(1.0, out.z())) : Vector3d(out.x(), out.y(), 0.0).normalized());
+  }
+  return found;
 }
 
 }  // namespace spring_workbench::geometry

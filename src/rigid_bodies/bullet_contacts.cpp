@@ -8,6 +8,8 @@
 #include <BulletCollision/CollisionDispatch/btActivatingCollisionAlgorithm.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "constants.h"
@@ -65,20 +67,73 @@ std::vector<geometry::BoxContact> contacts_of_points(const btCollisionObjectWrap
   return spanning(found);
 }
 
-/// Contacts by their normals, those with the least gap first.
-std::vector<std::vector<geometry::BoxContact>> by_normal(std::vector<geometry::BoxContact> contacts) {
+using Contacts = std::vector<geometry::BoxContact>;
+
+/// Contacts by their normals, those with the least gap first; some of each.
+std::vector<Contacts> by_normal(Contacts contacts) {
   std::stable_sort(contacts.begin(), contacts.end(), [](const auto& a, const auto& b) { return a.gap < b.gap; });
-  std::vector<std::vector<geometry::BoxContact>> groups;
+  std::vector<Contacts> groups;
   for (const geometry::BoxContact& c : contacts) {
     const auto same = std::find_if(groups.begin(), groups.end(),
                                    [&](const auto& group) { return group.front().n_W.dot(c.n_W) > one_normal; });
     if (same != groups.end()) {
       same->push_back(c);
-    } else if (groups.size() < most_manifolds) {
+    } else {
       groups.push_back({c});
     }
   }
-  for (std::vector<geometry::BoxContact>& group : groups) group = spanning(group);
+  for (Contacts& group : groups) group = spanning(group);
+  return groups;
+}
+
+geometry::BoxContact turned(const geometry::BoxContact& c) { return {c.p_W + c.gap * c.n_W, -c.n_W, c.gap}; }
+
+/// What has become of a contact, if it is deep, and none that was found pushes as far to that side: it goes on where it
+/// is, so that what is deeper than contacts are found is still pushed out where it went in.
+std::optional<geometry::BoxContact> continued(const btManifoldPoint& before, const Contacts& contacts,
+                                              const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b) {
+  const auto placed = [](const btCollisionObjectWrapper& w, const btVector3& p) {
+    return from_bullet(w.getCollisionObject()->getWorldTransform() * p);
+  };
+  const Vector3d on_a = placed(a, before.m_localPointA), on_b = placed(b, before.m_localPointB);
+  const Vector3d n_W = from_bullet(before.m_normalWorldOnB);
+  const double depth = n_W.dot(on_b - on_a);
+  const auto replaces = [&](const geometry::BoxContact& c) {
+    return c.n_W.dot(n_W) > 0.0 && c.gap < deepest_on_path - depth;
+  };
+  if (!(depth > deepest_on_path) || std::any_of(contacts.begin(), contacts.end(), replaces)) return {};
+  const auto out_of = [&](const btCollisionObjectWrapper& object, const Vector3d& p_W, const Vector3d& out_W) {
+    const RigidTransform X_WS = from_bullet(object.getWorldTransform());
+    auto c = geometry::way_out(solid_of(object), X_WS.inverse() * p_W, X_WS.linear().transpose() * out_W, depth,
+                               unswept_of_free);
+    if (c) *c = {X_WS * c->p_W, X_WS.linear() * c->n_W, c->gap};
+    return c;
+  };
+  const auto of_b = out_of(b, on_a, n_W);
+  const auto of_a = out_of(a, on_b, -n_W);
+  if (!of_a || (of_b && std::abs(of_b->gap + depth) <= std::abs(of_a->gap + depth))) return of_b;
+  return turned(*of_a);
+}
+
+/// The contacts of two solids, with what has become of those before. None that touches, though they overlap: as at the
+/// start of a scene; then the least deep normal of all, however deep. `lost`: there is not even that.
+std::vector<Contacts> contacts_between(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b,
+                                       double reach, const std::vector<btManifoldPoint>& before, bool& lost) {
+  const RigidTransform X_WA = from_bullet(a.getWorldTransform()), X_WB = from_bullet(b.getWorldTransform());
+  const auto found = [&](double most, double deepest) {
+    return geometry::solid_contacts(solid_of(a), X_WA, solid_of(b), X_WB, most, deepest);
+  };
+  Contacts contacts = found(reach, unswept_of_free);
+  Contacts deep;
+  for (const btManifoldPoint& point : before) {
+    if (const auto c = continued(point, contacts, a, b)) deep.push_back(*c);
+  }
+  contacts.insert(contacts.end(), deep.begin(), deep.end());
+  const bool touch = std::any_of(contacts.begin(), contacts.end(), [](const auto& c) { return c.gap < closed_gap; });
+  if (touch || !geometry::overlap(solid_of(a), X_WA, solid_of(b), X_WB)) return by_normal(contacts);
+  std::vector<Contacts> groups = by_normal(found(0.0, std::numeric_limits<double>::infinity()));
+  lost = groups.empty();
+  if (groups.size() > 1) groups.erase(groups.begin(), groups.end() - 1);
   return groups;
 }
 
@@ -113,15 +168,14 @@ bool is_box(const btCollisionObjectWrapper& object) {
 }
 
 /// Contacts of shapes other than spheres with each other and with a plane, in either order, found anew in every step;
-/// each begins with the impulses of the one before that is nearest to it. Contacts with about one normal share a
-/// manifold.
+/// each begins with the impulses of the one before that is nearest to it.
 class SolidContacts final : public btActivatingCollisionAlgorithm {
  public:
   SolidContacts(const btCollisionAlgorithmConstructionInfo& info, const btCollisionObjectWrapper* a,
                 const btCollisionObjectWrapper* b)
       : btActivatingCollisionAlgorithm(info, a, b) {
-    const bool one_normal = is_plane(*a) || is_plane(*b) || (is_box(*a) && is_box(*b));
-    for (std::size_t i = 0; i < (one_normal ? 1 : most_manifolds); ++i) {
+    const bool one_face = is_plane(*a) || is_plane(*b) || (is_box(*a) && is_box(*b));
+    for (std::size_t i = 0; i < (one_face ? 1 : most_manifolds); ++i) {
       manifolds_.push_back(m_dispatcher->getNewManifold(a->getCollisionObject(), b->getCollisionObject()));
       manifolds_.back()->m_companionIdA = a->m_index;
       manifolds_.back()->m_companionIdB = b->m_index;
@@ -140,15 +194,19 @@ class SolidContacts final : public btActivatingCollisionAlgorithm {
     }
     result->setPersistentManifold(manifolds_.front());
     // Not by the result's own addContactPoint(), which takes near ones for one.
-    const auto found = find(*a, *b, reach_of(*a, *b, info.m_timeStep));
-    for (std::size_t i = 0; i < found.size(); ++i) {
-      for (const geometry::BoxContact& c : found[i]) {
-        btManifoldPoint point = made(c, *a->getCollisionObject(), *b->getCollisionObject());
-        point.m_index0 = a->m_index;
-        point.m_index1 = b->m_index;
-        take_impulses(before, point);
-        manifolds_[i]->addManifoldPoint(point);
+    for (const geometry::BoxContact& c : find(*a, *b, reach_of(*a, *b, info.m_timeStep), before)) {
+      const auto free = std::find_if(manifolds_.begin(), manifolds_.end(), [](const btPersistentManifold* manifold) {
+        return manifold->getNumContacts() < MANIFOLD_CACHE_SIZE;
+      });
+      if (free == manifolds_.end()) {
+        miss(c.gap < closed_gap);
+        continue;
       }
+      btManifoldPoint point = made(c, *a->getCollisionObject(), *b->getCollisionObject());
+      point.m_index0 = a->m_index;
+      point.m_index1 = b->m_index;
+      take_impulses(before, point);
+      (*free)->addManifoldPoint(point);
     }
   }
   btScalar calculateTimeOfImpact(btCollisionObject*, btCollisionObject*, const btDispatcherInfo&,
@@ -160,21 +218,26 @@ class SolidContacts final : public btActivatingCollisionAlgorithm {
   }
 
  private:
-  /// For each manifold.
-  static std::vector<std::vector<geometry::BoxContact>> find(const btCollisionObjectWrapper& a,
-                                                             const btCollisionObjectWrapper& b, double reach) {
-    if (is_plane(b)) return {contacts_above(a, b, reach)};
-    if (is_box(a) && is_box(b)) return {geometry::box_contacts(outline_of(a), outline_of(b), reach)};
-    if (!is_plane(a)) {
-      return by_normal(geometry::solid_contacts(solid_of(a), from_bullet(a.getWorldTransform()), solid_of(b),
-                                                from_bullet(b.getWorldTransform()), reach, unswept_of_free));
+  Contacts find(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double reach,
+                const std::vector<btManifoldPoint>& before) const {
+    if (is_plane(b)) return contacts_above(a, b, reach);
+    if (is_box(a) && is_box(b)) return geometry::box_contacts(outline_of(a), outline_of(b), reach);
+    Contacts contacts;
+    if (is_plane(a)) {
+      contacts = contacts_above(b, a, reach);
+      for (geometry::BoxContact& c : contacts) c = turned(c);
+      return contacts;
     }
-    std::vector<geometry::BoxContact> contacts = contacts_above(b, a, reach);
-    for (geometry::BoxContact& c : contacts) {
-      c.p_W += c.gap * c.n_W;
-      c.n_W = -c.n_W;
+    bool lost = false;
+    for (const Contacts& group : contacts_between(a, b, reach, before, lost)) {
+      contacts.insert(contacts.end(), group.begin(), group.end());
     }
-    return {contacts};
+    miss(lost);
+    return contacts;
+  }
+  void miss(bool contact) const {
+    auto& dispatcher = static_cast<DispatcherForSleepers&>(*m_dispatcher);
+    dispatcher.contacts_missing = dispatcher.contacts_missing || contact;
   }
   static btManifoldPoint made(const geometry::BoxContact& c, const btCollisionObject& a, const btCollisionObject& b) {
     const btVector3 on_b = to_bullet(c.p_W), on_a = to_bullet(Vector3d(c.p_W + c.gap * c.n_W));

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vector>
+
 #include "bullet_types.h"
 #include "constants.h"
 
@@ -17,6 +19,19 @@ class WithMargin final : public Shape {
     least -= more;
     most += more;
   }
+};
+
+/// Finds the contacts of sleeping bodies, too: otherwise a body that is hit would be pushed into its support first.
+class DispatcherForSleepers final : public btCollisionDispatcher {
+ public:
+  using btCollisionDispatcher::btCollisionDispatcher;
+  bool needsCollision(const btCollisionObject* a, const btCollisionObject* b) override {
+    return a->checkCollideWith(b) && b->checkCollideWith(a);
+  }
+  /// All the manifolds that there are, in this order.
+  void set_order(const std::vector<btPersistentManifold*>& manifolds);
+
+  bool contacts_missing = false;  ///< shapes overlap without a contact, or there was no room for a closed one
 };
 
 /// Bullet's configuration, but for contacts of boxes, which are those of `box_contacts`, and of boxes, cylinders and

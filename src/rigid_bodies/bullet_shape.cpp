@@ -1,26 +1,25 @@
 #include "bullet_shape.h"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 #include "bullet_contacts.h"
 #include "constants.h"
+#include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::rigid_bodies {
 namespace {
 
-/// Whether every vertex lies behind every triangle's plane.
+/// Whether every vertex lies behind every triangle's plane, so that spheres need its hull alone.
 bool is_convex(const geometry::TriangleMesh& mesh) {
-  Eigen::AlignedBox3d box;
-  for (const Vector3d& v : mesh.vertices) box.extend(v);
-  const double tolerance = 1e-6 * box.diagonal().norm();
   return std::all_of(mesh.triangles.begin(), mesh.triangles.end(), [&](const Eigen::Vector3i& t) {
     const Vector3d& a = mesh.corner(t, 0);
     const Vector3d n = (mesh.corner(t, 1) - a).cross(mesh.corner(t, 2) - a);
     if (n.isZero(0.0)) return true;
     const Vector3d unit = n.normalized();
     return std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
-                       [&](const Vector3d& v) { return unit.dot(v - a) <= tolerance; });
+                       [&](const Vector3d& v) { return unit.dot(v - a) <= closed_gap; });
   });
 }
 
@@ -36,8 +35,19 @@ BulletShape::BulletShape(const scene::Body& body, const RigidTransform& X_OB) {
   }
 }
 
+double BulletShape::fraction_before(const BulletShape& a, const RigidTransform& X0_WA, const RigidTransform& X1_WA,
+                                    double radius, const BulletShape& b, const RigidTransform& X_WB, double allowed) {
+  const Vector3d turn = math::turn_between(X0_WA, X1_WA);
+  const double path = (X1_WA.translation() - X0_WA.translation()).norm() + radius * turn.norm();
+  const double looks = std::max(1.0, std::ceil(path / unswept));
+  for (double look = 1.0; look <= looks; ++look) {
+    if (depth(a, math::between(X0_WA, X1_WA, turn, look / looks), b, X_WB) > allowed) return (look - 0.5) / looks;
+  }
+  return 1.0;
+}
+
 double BulletShape::depth(const BulletShape& a, const RigidTransform& X_WA, const BulletShape& b,
-                          const RigidTransform& X_WB, double deepest) {
+                          const RigidTransform& X_WB) {
   double depth = 0.0;
   for (int i = 0; i < a.compound_.getNumChildShapes(); ++i) {
     for (int k = 0; k < b.compound_.getNumChildShapes(); ++k) {
@@ -49,7 +59,7 @@ double BulletShape::depth(const BulletShape& a, const RigidTransform& X_WA, cons
       if (own_solid == nullptr || other_solid == nullptr || alike || boxes) continue;
       for (const geometry::BoxContact& c :
            geometry::solid_contacts(*own_solid, X_WA * from_bullet(a.compound_.getChildTransform(i)), *other_solid,
-                                    X_WB * from_bullet(b.compound_.getChildTransform(k)), 0.0, deepest)) {
+                                    X_WB * from_bullet(b.compound_.getChildTransform(k)), 0.0, unswept_of_free)) {
         depth = std::max(depth, -c.gap);
       }
     }

@@ -15,12 +15,14 @@ class BulletShape {
   BulletShape(const scene::Body& body, const RigidTransform& X_OB);
 
   btCollisionShape* get() { return &compound_; }
-  /// Returns how deep the solids of two bodies, placed in frames B, are in each other [m], up to `deepest`; without
-  /// pairs of boxes and pairs of cylinders.
-  static double depth(const BulletShape& a, const RigidTransform& X_WA, const BulletShape& b,
-                      const RigidTransform& X_WB, double deepest);
+  /// Fraction of the straight path of the solids of `a`, none of which is further from its origin than `radius`, before
+  /// they are deeper than `allowed` in those of `b`, or 1; without pairs of boxes and pairs of cylinders. [m]
+  static double fraction_before(const BulletShape& a, const RigidTransform& X0_WA, const RigidTransform& X1_WA,
+                                double radius, const BulletShape& b, const RigidTransform& X_WB, double allowed);
 
  private:
+  static double depth(const BulletShape& a, const RigidTransform& X_WA, const BulletShape& b,
+                      const RigidTransform& X_WB);
   std::unique_ptr<btCollisionShape> part_of(const geometry::Geometry& geometry);
   std::unique_ptr<btCollisionShape> part_of(const geometry::TriangleMesh& mesh);
 

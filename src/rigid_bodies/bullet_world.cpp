@@ -25,6 +25,19 @@ double unswept_on(double path) {
   return path < unswept_of_free ? std::numeric_limits<double>::infinity() : unswept_of_free;
 }
 
+geometry::StraightMotion path_between(const RigidTransform& X0, const RigidTransform& X1) {
+  return {X0.translation(), X1.translation() - X0.translation(), X0.linear() * math::turn_between(X0, X1)};
+}
+
+/// Of two bodies in each other, by their contacts [m].
+double depth_between(std::size_t a, std::size_t b, const std::vector<WorldContact>& contacts) {
+  double depth = 0.0;
+  for (const WorldContact& c : contacts) {
+    if ((c.body == a && c.other == b) || (c.body == b && c.other == a)) depth = std::max(depth, c.depth);
+  }
+  return depth;
+}
+
 }  // namespace
 
 BulletWorld::BulletWorld(const scene::Scene& scene)
@@ -87,7 +100,7 @@ void BulletWorld::make_bullet(std::size_t index) {
   item.shape = std::make_unique<BulletShape>(body, item.X_OB);
   btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, item.shape->get(), principal);
   info.m_linearSleepingThreshold = scene::asleep_speed;
-  info.m_angularSleepingThreshold = scene::asleep_speed / std::max(item.radius, 1e-9);
+  info.m_angularSleepingThreshold = scene::asleep_speed / item.radius;
   item.bullet = std::make_unique<btRigidBody>(info);
   item.bullet->setFriction(std::sqrt(body.material.friction));
   item.bullet->setRestitution(std::sqrt(body.material.restitution));
@@ -269,6 +282,7 @@ void BulletWorld::step(double h, std::vector<DrivenBody>& driven) {
 
 void BulletWorld::begin_step() {
   ++steps_;
+  dispatcher_.contacts_missing = false;
   before_step_.clear();
   for (const std::size_t i : in_world_) {
     const Item& item = items_[i];
@@ -339,7 +353,7 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
   const Item& item = items_[body];
   if (item.leaf == nullptr) return 1.0;
   double part = 1.0;
-  // Of a pair whose shapes are not both boxes, what the boxes around them say; and how deep they are at the end.
+  // Of a pair whose shapes are not both boxes, what the boxes around them say.
   const auto by_extent = [&](const geometry::BoxGap& gap, const geometry::StraightMotion& path) {
     const double left = gap.gap - 2.0 * contact_skin;
     const bool near = left < may_go_unswept;
@@ -349,11 +363,7 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
     if (allowed < part * approach) part = allowed / approach;
   };
   const auto tolerance = [&](const geometry::BoxGap& gap) {
-    return untouched ? 0.0 : std::max(deepest_on_path, -gap.gap * (1.0 + 1e-9) + 1e-12);
-  };
-  const auto path_between = [](const RigidTransform& X0, const RigidTransform& X1) {
-    const Vector3d turned = X0.linear() * math::turn_between(X0, X1);
-    return geometry::StraightMotion{X0.translation(), X1.translation() - X0.translation(), turned};
+    return untouched ? 0.0 : std::max(deepest_on_path, same_depth - gap.gap);
   };
   const geometry::StraightMotion path = path_between(X0_WO, X1_WO);
   const std::vector<std::size_t> near = inside(swept(item, X0_WO, X1_WO, 2.0 * contact_skin));
@@ -371,7 +381,8 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
     const Item& other = items_[i];
     const RigidTransform X_before = untouched ? other.X_WO : pose_before_step(i);
     // As seen from the other, which stays where it was before.
-    const geometry::StraightMotion relative = path_between(X0_WO, X_before * other.X_WO.inverse() * X1_WO);
+    const RigidTransform X1_seen = X_before * other.X_WO.inverse() * X1_WO;
+    const geometry::StraightMotion relative = path_between(X0_WO, X1_seen);
     for (const geometry::OutlineBox& own : item.outline_O) {
       const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
       for (const geometry::OutlineBox& box : other.outline_O) {
@@ -385,11 +396,9 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
       }
     }
     if (untouched || part < 1.0 || !item.shape || !other.shape) continue;
-    const auto depth = [&](const RigidTransform& X_own, const RigidTransform& X_other) {
-      return BulletShape::depth(*item.shape, X_own * item.X_OB, *other.shape, X_other * other.X_OB, unswept_of_free);
-    };
-    const double end = depth(X1_WO, other.X_WO);
-    if (end > deepest_on_path && end > depth(X0_WO, X_before) * (1.0 + 1e-9) + 1e-12) part = 0.5;
+    const double allowed = std::max(deepest_on_path, depth_between(body, i, contacts_)) + same_depth;
+    part = BulletShape::fraction_before(*item.shape, X0_WO * item.X_OB, X1_seen * item.X_OB, item.radius, *other.shape,
+                                        X_before * other.X_OB, allowed);
   }
   return part;
 }

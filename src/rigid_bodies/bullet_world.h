@@ -16,17 +16,6 @@
 
 namespace spring_workbench::rigid_bodies {
 
-/// Finds the contacts of sleeping bodies, too: otherwise a body that is hit would be pushed into its support first.
-class DispatcherForSleepers final : public btCollisionDispatcher {
- public:
-  using btCollisionDispatcher::btCollisionDispatcher;
-  bool needsCollision(const btCollisionObject* a, const btCollisionObject* b) override {
-    return a->checkCollideWith(b) && b->checkCollideWith(a);
-  }
-  /// All the manifolds that there are, in this order.
-  void set_order(const std::vector<btPersistentManifold*>& manifolds);
-};
-
 /// Bullet turns its trees by where their nodes lie in memory, and the order of new pairs goes with it. Here they are
 /// left as they are, as long as they have less than 200 leaves: the same calls give the same bits in any memory.
 class BroadphaseOfAnyMemory final : public btDbvtBroadphase {
@@ -70,7 +59,9 @@ class BulletWorld final : public RigidWorld {
                     solver_.residual() > solved_to ? 0.5 : 1.0);
   }
   double admissible_fraction_of_free() const override;
-  bool solved() const override { return solver_.residual() <= solved_to && solver_.deepest() <= unswept_of_free; }
+  bool solved() const override {
+    return solver_.residual() <= solved_to && solver_.deepest() <= deepest_solved && !dispatcher_.contacts_missing;
+  }
   const std::vector<WorldContact>& contacts() const override { return contacts_; }
   const std::vector<std::size_t>& bodies_near() const override { return in_world_; }
   void exchange(math::StateArchive& state) override;

@@ -26,25 +26,33 @@ constexpr double asleep_after = 0.5;
 /// Fraction of a penetration between free bodies that is corrected in a step. Larger: piles tremble. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 2.
 constexpr double penetration_share = 0.2;
-/// [m] that a body may move towards shapes other than boxes without a sweep. Larger: deeper penetration; smaller:
-/// blocked more often. Test: none: no value tried makes one fail.
+/// [m] that a body may move towards shapes other than boxes without a sweep; on a path on which contact is allowed,
+/// between two looks at how deep they are. Larger: deeper penetration; smaller: blocked more often, and slower. Test:
+/// none: no value tried makes one fail.
 constexpr double unswept = 2e-4;
-/// [m] likewise for a path on which contact is allowed, and largest depth of a contact of solids. Larger: thrown bodies
-/// pass through thin ones; smaller: bodies that fly and roll among movable ones cost more. Test:
+/// [m] likewise for a path on which contact is allowed, and depth beyond which contacts of solids are only continued.
+/// Larger: thrown bodies pass through thin ones; smaller: bodies that fly and roll among movable ones cost more. Test:
 /// LooseThrows.AmongOthersNothingGoesDeepOrGainsEnergy at 0.02.
 constexpr double unswept_of_free = 1e-3;
 /// [m] largest penetration of two boxes on a path; shorter paths of bodies that are not held are not swept. Smaller:
 /// held bodies are blocked more often. Test: RigidWorld.AWayEndsWhereItTouches.
 constexpr double deepest_on_path = 5e-5;
-/// Cosine of the angle between normals of contacts of two shapes that share a manifold. Smaller: curved shapes lose
+/// [m] penetration by which one must be deeper to count so; of rounding. Larger: deeper penetration. Test:
+/// RigidWorld.AWayEndsWhereItTouches at 1e-3.
+constexpr double same_depth = 1e-10;
+/// [m] depth of the deepest contact of a solved step, at its start. Larger: deeper ones are not reported. Test:
+/// RigidWorld.WhatOverlapsAtTheStartComesOutAndCounts at 1.
+constexpr double deepest_solved = 1e-4;
+/// Cosine of the angle between normals of contacts of two shapes of which four are kept. Smaller: curved shapes lose
 /// contacts. Test: RigidWorld.ABoxStopsInANotchWithBothItsFaces at -1.
 constexpr double one_normal = 0.99;
-/// Manifolds of four contacts for a pair of shapes other than boxes. Fewer: it is not stopped in all directions. Test:
-/// RigidWorld.ABoxStopsInANotchWithBothItsFaces at 1.
+/// Manifolds of four contacts for a pair of shapes other than boxes. Fewer: it is not stopped in all directions, which
+/// counts. Test: RigidWorld.ABoxStopsInANotchWithBothItsFaces at 1.
 constexpr std::size_t most_manifolds = 8;
 /// [m] gap below which a contact without impulse is reported. Test: none: no value tried makes one fail.
 constexpr double closed_gap = 1e-5;
-/// [m] largest residual of the contacts of a solved step. Test: none: no value tried makes one fail.
+/// [m] largest residual of the contacts of a solved step. Larger: friction is as much less exact. Test:
+/// RigidWorld.StackOfTenStandsAndSleeps at 1e-3.
 constexpr double solved_to = 1e-6;
 /// The same as a fraction of the largest motion without loads, if it takes few iterations to get there. Test:
 /// RigidWorld.StackOfTenStandsAndSleeps at 0.1.

@@ -30,8 +30,9 @@ struct Solid {
     Vector3d start, along;
     Vector3d into_left, into_right;  ///< unit, across the edge, into its two faces
   };
-  explicit Solid(const Geometry& geometry);
+  explicit Solid(const Geometry& of);
 
+  Geometry geometry;
   std::optional<Cylinder> cylinder;
   std::vector<Vector3d> corners;       ///< none of a cylinder
   std::vector<std::vector<int>> next;  ///< to each corner those that edges join with it
@@ -53,5 +54,14 @@ std::vector<Vector3d> lowest_points(const Solid& solid, const Vector3d& n_S);
 /// with each other.
 std::vector<BoxContact> solid_contacts(const Solid& a, const RigidTransform& X_WA, const Solid& b,
                                        const RigidTransform& X_WB, double reach, double deepest);
+
+/// Whether two solids have a part in common, however deep.
+bool overlap(const Solid& a, const RigidTransform& X_WA, const Solid& b, const RigidTransform& X_WB);
+
+/// The contact of a point inside the solid, in its frame, with the surface where the line from there along `n_S`
+/// leaves it; none if that is not after `depth` [m], but for `within`. What is between is not looked at: a point that
+/// has gone through a thin part comes back where it went in.
+std::optional<BoxContact> way_out(const Solid& solid, const Vector3d& p_S, const Vector3d& n_S, double depth,
+                                  double within);
 
 }  // namespace spring_workbench::geometry

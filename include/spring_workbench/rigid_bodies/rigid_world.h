@@ -86,8 +86,8 @@ class RigidWorld {
   /// Fraction (0 … 1) of the last step over which the free bodies have certainly not passed through anything 1 mm
   /// thick.
   virtual double admissible_fraction_of_free() const = 0;
-  /// Returns whether the contacts of the last step were solved to 1 µm, and none was deeper than 1 mm, where nothing
-  /// bounces.
+  /// Returns whether the contacts of the last step were solved to 1 µm, none was deeper than 0.1 mm at its start, and
+  /// none is known to be missing.
   virtual bool solved() const = 0;
 
   /// Contacts of the last step that carried a load or were closed.

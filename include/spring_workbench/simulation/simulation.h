@@ -71,7 +71,7 @@ struct AdvanceReport {
   double energy_error = 0.0;  ///< sum of the steps' estimated errors in energy [J]
   int steps_blocked = 0;      ///< steps in which no admissible motion of a body was found, so that it stayed
   int steps_unsolved = 0;     ///< steps near other movable objects that were taken although a contact missed its law by
-                              ///< more than 1 µm, was deeper than 1 mm, or a free body may have gone too deep
+                              ///< more than 1 µm, was deeper than 0.1 mm, or a free body may have gone too deep
   double time_lost = 0.0;     ///< time during which a body did not follow its equation [s]
   int steps_rejected = 0;     ///< steps rejected because the result was not finite or bounded
   int wrench_timeouts = 0;    ///< times an external wrench went to zero because no next one came in time

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 
+#include "spring_workbench/geometry/surface.h"
 #include "spring_workbench/math/so3.h"
 
 namespace spring_workbench::geometry::solid_contacts_test {
@@ -43,6 +44,14 @@ Geometry star() {
 
 TEST(Solids, SeamsAndGroovesAreNoEdges) {
   EXPECT_EQ(cube.edges.size(), 12U);
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1.0, 1.0);
+  for (int i = 0; i < 20; ++i) {  // also where rounding makes two normals of one face
+    TriangleMesh turned = *make_surface(Box{Vector3d::Constant(0.1)})->mesh;
+    const Matrix3d R = math::exp_so3(Vector3d(unit(random), unit(random), unit(random)));
+    for (Vector3d& vertex : turned.vertices) vertex = R * vertex;
+    EXPECT_EQ(Solid(std::make_shared<const TriangleMesh>(std::move(turned))).edges.size(), 12U);
+  }
   EXPECT_EQ(cube.corners.size(), 8U);
   EXPECT_EQ(Solid(star()).edges.size(), 4U + 16U);
 }
@@ -105,6 +114,61 @@ TEST(Solids, ThroughAThinPlateNothingIsFelt) {
   const auto contacts = solid_contacts(cube, above, plate, RigidTransform::Identity(), 1e-3, 1e-3);
   EXPECT_EQ(contacts.size(), 4U);
   for (const BoxContact& c : contacts) EXPECT_NEAR(c.gap, 1e-4, 1e-12);
+}
+
+RigidTransform at(double x, double y, double z) { return make_transform(Quaterniond::Identity(), Vector3d(x, y, z)); }
+
+TEST(Solids, OverlapHoweverTheyMeet) {
+  const RigidTransform here = RigidTransform::Identity();
+  const Solid bar{Box{{0.3, 0.01, 0.01}}}, across{Box{{0.01, 0.3, 0.01}}}, plate{Box{{0.3, 0.3, 0.002}}};
+  const Solid rod{Cylinder{0.01, 0.3}}, coin{Cylinder{0.01, 0.002}}, small{Box{Vector3d::Constant(0.01)}},
+      pointed(star());
+  struct Case {
+    const Solid &a, &b;
+    RigidTransform X;
+    bool expected;
+  };
+  const RigidTransform flat =
+      make_transform(Quaterniond(Eigen::AngleAxisd(0.5 * M_PI, Vector3d::UnitY())), Vector3d(0.0, 0.0, 0.01));
+  const std::vector<Case> cases{{bar, across, at(0.0, 0.0, 0.005), true},  // edges alone
+                                {bar, across, at(0.0, 0.0, 0.011), false},
+                                {small, cube, at(0.01, 0.02, 0.0), true},  // as a whole
+                                {small, cube, at(0.0, 0.0, 0.06), false},
+                                {rod, plate, here, true},  // through the middle of a face
+                                {rod, plate, at(0.0, 0.0, 0.152), false},
+                                {coin, plate, at(0.0, 0.0, 0.001), true},
+                                {rod, bar, here, true},
+                                {rod, bar, flat * Eigen::Translation3d(0.0, 0.0, 0.0), true},
+                                {rod, bar, at(0.0, 0.0, 0.16), false},
+                                {coin, cube, at(0.0, 0.0, 0.02), true},
+                                {small, rod, at(0.0, 0.0, 0.1), true},
+                                {small, pointed, at(0.025, 0.025, 0.0), false},  // between two tips
+                                {small, pointed, at(0.015, 0.015, 0.0), true}};
+  for (std::size_t i = 0; i < cases.size(); ++i) {
+    const Case& c = cases[i];
+    EXPECT_EQ(overlap(c.a, c.X, c.b, here), c.expected) << i;
+    EXPECT_EQ(overlap(c.b, here, c.a, c.X), c.expected) << i;
+  }
+}
+
+TEST(Solids, WhatIsDeepComesOutWhereItWentIn) {
+  const Vector3d up = Vector3d::UnitZ();
+  const Solid plate{Box{{0.3, 0.3, 5e-4}}}, rod{Cylinder{0.02, 0.1}};
+  const auto below = way_out(plate, Vector3d(0.02, 0.03, 2.5e-4 - 3e-3), up, 3.2e-3, 1e-3);  // and out on the far side
+  ASSERT_TRUE(below);
+  EXPECT_NEAR(below->gap, -3e-3, 1e-12);
+  EXPECT_NEAR(below->p_W.z(), 2.5e-4, 1e-12);
+  EXPECT_EQ(below->n_W, up);
+  EXPECT_FALSE(way_out(plate, Vector3d(0.2, 0.0, -1e-3), up, 1.25e-3, 1e-3));  // beside it
+  EXPECT_FALSE(way_out(cube, Vector3d(0.0, 0.0, 0.03), up, 2e-3, 1e-3));       // not there
+  const auto side = way_out(rod, Vector3d(0.018, 0.0, 0.0), Vector3d::UnitX(), 2e-3, 1e-3);
+  ASSERT_TRUE(side);
+  EXPECT_NEAR(side->gap, -2e-3, 1e-12);
+  EXPECT_NEAR(side->n_W.x(), 1.0, 1e-12);
+  const auto end = way_out(rod, Vector3d(0.018, 0.0, -0.048), -up, 2e-3, 1e-3);
+  ASSERT_TRUE(end);
+  EXPECT_NEAR(end->gap, -2e-3, 1e-12);
+  EXPECT_NEAR(end->n_W.z(), -1.0, 1e-12);
 }
 
 TEST(Solids, ACylinderTouchesWithSideAndRims) {

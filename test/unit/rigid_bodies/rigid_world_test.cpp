@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "spring_workbench/geometry/surface.h"
 #include "support/bodies.h"
 
 namespace spring_workbench::rigid_bodies {
@@ -95,6 +96,51 @@ TEST(RigidWorld, ABoxStopsInANotchWithBothItsFaces) {
     EXPECT_NEAR(world->pose(0).translation().x(), 0.0, 2e-6);
     EXPECT_LT((world->pose(0).linear() - X.linear()).norm(), 1e-4);
   }
+}
+
+/// A flat box that is no box to the world.
+geometry::MeshPtr hull(const Vector3d& size) { return geometry::make_surface(geometry::Box{size})->mesh; }
+
+/// A box of 2 cm that stands on a fixed hull, its lower face at `z`.
+scene::Scene on_hull(const Vector3d& size, double z) {
+  scene::Body block = box("block", Vector3d::Ones(), 1.0, Vector3d(0.0, 0.0, -0.5 * size.z()), 0.3);
+  block.movable = false;
+  block.collision[0].geometry = hull(size);
+  scene::Scene scene = scene_of({box("above", Vector3d::Constant(0.02), 0.1, Vector3d(0.0, 0.0, 0.01 + z), 0.3), block},
+                                scene::ContactMode::dynamic);
+  scene.bench_height = -1.0;
+  return scene;
+}
+
+// Contacts ended where they were a millimetre deep: what was deeper fell through, and nobody was told.
+TEST(RigidWorld, WhatOverlapsAtTheStartComesOutAndCounts) {
+  for (const double depth : {1.5e-3, 5e-3}) {
+    const scene::Scene scene = on_hull({0.1, 0.1, 0.1}, -depth);
+    const std::unique_ptr<RigidWorld> world = make_rigid_world(scene);
+    world->place(0, scene.bodies[0].X_WO, Twist(), true);
+    run(*world, 1e-3);
+    EXPECT_FALSE(world->solved()) << depth;
+    run(*world, 0.1);
+    EXPECT_TRUE(world->solved()) << depth;
+    EXPECT_NEAR(world->pose(0).translation().z(), 0.01, 1e-6) << depth;
+    EXPECT_LT(world->velocity(0).linear.norm(), 1e-2) << depth;
+  }
+}
+
+TEST(RigidWorld, WhatHasGoneThroughAThinPartComesBackWhereItWentIn) {
+  const scene::Scene scene = on_hull({0.1, 0.1, 5e-4}, 1e-5);
+  const std::unique_ptr<RigidWorld> world = make_rigid_world(scene);
+  world->place(0, scene.bodies[0].X_WO, Twist(), true);
+  run(*world, 0.02);
+  RigidTransform X = world->pose(0);
+  EXPECT_TRUE(world->solved());
+  X.translation().z() -= 2e-3;
+  world->place(0, X, Twist(), true);
+  run(*world, 1e-3);
+  EXPECT_FALSE(world->solved());
+  run(*world, 0.1);
+  EXPECT_TRUE(world->solved());
+  EXPECT_NEAR(world->pose(0).translation().z(), 0.01, 1e-6);
 }
 
 TEST(RigidWorld, SleepersCostNothingAndStay) {
@@ -218,6 +264,7 @@ TEST(RigidWorld, AWayEndsWhereItTouches) {
   };
   EXPECT_NEAR(world.collision_free_fraction(0, world.pose(0), to(0, -0.2)), 0.5, 1e-9);
   EXPECT_NEAR(world.admissible_fraction(0, world.pose(0), to(0, -0.2)), (0.1 + 5e-5) / 0.2, 1e-9);
+  EXPECT_NEAR(world.admissible_fraction(0, to(0, -0.1), to(0, -0.3)), 5e-5 / 0.2, 1e-9);
   EXPECT_NEAR(world.collision_free_fraction(0, world.pose(0), to(0.8, 0)), 0.25, 1e-9);  // through a wall of 1 mm
   EXPECT_EQ(world.collision_free_fraction(0, world.pose(0), to(0.2, 0)), 1.0);
   EXPECT_EQ(world.collision_free_fraction(0, world.pose(0), to(-0.8, 0.5)), 1.0);
