@@ -135,13 +135,15 @@ class InMesh {
     if (crossed.empty()) return false;
     any_ = true;
     double in_since = 0.0;
-    bool inside = !crossed.front().second;
+    // A crossing of an edge that lies along a face may be missed at a seam: the winding number decides.
+    bool inside = !crossed.front().second && geometry::contains(own(), p);
     inside_[edge.first] = inside_[edge.first] || inside;
     for (const auto& [at, goes_in] : crossed) {
       if (inside && !goes_in) look_between(p, q, in_since, at);
       inside = goes_in;
       in_since = at;
     }
+    inside = inside && geometry::contains(own(), q);
     if (inside) look_between(p, q, in_since, 1.0);
     inside_[edge.second] = inside_[edge.second] || inside;
     return true;

@@ -52,29 +52,42 @@ struct View {
 /// is before neither.
 double beyond(double gap) { return same_place + std::max(0.0, -gap); }
 
-/// Pairs of parts of `a` and `b` whose boxes are near enough to each other: corners and edges may be behind what they
-/// touch.
-std::vector<std::pair<std::size_t, std::size_t>> pairs_near(const View& view, const PartTree& a, const PartTree& b) {
+using Extent = Eigen::AlignedBox3d;
+
+/// Pairs of parts of `a`, by what is around them seen from `b`, and of `b` that are near enough to each other: corners
+/// and edges may be behind what they touch.
+template <typename Part, typename ExtentOf>
+std::vector<std::pair<std::size_t, std::size_t>> pairs_near(const View& view, const std::vector<Part>& a,
+                                                            const ExtentOf& extent_of, const PartTree& b) {
   struct Near {
-    const View& view;
-    const PartTree &a, &b;
-    std::vector<std::pair<std::size_t, std::size_t>> found;
-    bool intersectVolumeVolume(const Eigen::AlignedBox3d& own, const Eigen::AlignedBox3d& other) const {
-      return grown(bounding_box(own, view.X_BA), std::max(view.reach, view.deepest)).intersects(other);
-    }
-    bool intersectVolumeObject(const Eigen::AlignedBox3d& own, int other) const {
-      return intersectVolumeVolume(own, b.boxes[static_cast<std::size_t>(other)]);
-    }
-    bool intersectObjectVolume(int own, const Eigen::AlignedBox3d& other) const {
-      return intersectVolumeVolume(a.boxes[static_cast<std::size_t>(own)], other);
-    }
-    bool intersectObjectObject(int own, int other) {
-      if (intersectVolumeObject(a.boxes[static_cast<std::size_t>(own)], other)) found.emplace_back(own, other);
+    const PartTree& b;
+    Extent own;
+    std::vector<std::size_t> found;
+    bool intersectVolume(const Extent& other) const { return own.intersects(other); }
+    bool intersectObject(int other) {
+      const auto i = static_cast<std::size_t>(other);
+      if (own.intersects(b.boxes[i])) found.push_back(i);
       return false;
     }
-  } near{view, a, b, {}};
-  if (a.tree && b.tree) Eigen::BVIntersect(*a.tree, *b.tree, near);
-  return near.found;
+  } near{b, {}, {}};
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < a.size() && b.tree; ++i) {
+    near.own = grown(extent_of(a[i]), std::max(view.reach, view.deepest));
+    if (!near.own.intersects(view.b.extent)) continue;
+    near.found.clear();
+    Eigen::BVIntersect(*b.tree, near);
+    for (const std::size_t k : near.found) pairs.emplace_back(i, k);
+  }
+  return pairs;
+}
+
+std::vector<std::pair<std::size_t, std::size_t>> edges_near(const View& view, const PartTree& b) {
+  return pairs_near(
+      view, view.a.edges,
+      [&view](const Solid::Edge& e) {
+        return Extent(view.X_BA * e.start).extend(Vector3d(view.X_BA * Vector3d(e.start + e.along)));
+      },
+      b);
 }
 
 bool over(const Solid::Face& face, const Vector3d& p, double beyond) {
@@ -137,7 +150,8 @@ bool is_near_rims(const View& view, const Solid::Face& face) {
 }
 
 void points_and_faces(const View& view) {
-  for (const auto& [corner, face] : pairs_near(view, view.a.corner_tree, view.b.face_tree)) {
+  const auto at = [&view](const Vector3d& p) { return Extent(view.X_BA * p); };
+  for (const auto& [corner, face] : pairs_near(view, view.a.corners, at, view.b.face_tree)) {
     const auto is_low = [&view, i = corner](const Vector3d& n) { return view.is_low(i, n); };
     point_and_face(view, view.X_BA * view.a.corners[corner], view.b.faces[face], is_low);
   }
@@ -163,19 +177,17 @@ bool is_extreme(const Vector3d& into_left, const Vector3d& into_right, const Vec
 
 void edge_and_edge(const View& view, const Solid::Edge& a, const Solid::Edge& b) {
   const Vector3d start = view.X_BA * a.start, along = view.X_BA.linear() * a.along;
-  const Vector3d cross = along.cross(b.along);
-  const double size = cross.norm();
-  if (!(size > parallel * along.norm() * b.along.norm())) return;
-  const Vector3d between = b.start - start;
-  const double s = between.cross(b.along).dot(cross) / (size * size);
-  const double t = between.cross(along).dot(cross) / (size * size);
-  const auto outside = [](double at, double length) { return std::max(-at, at - 1.0) * length; };
-  const double out = std::max(outside(s, along.norm()), outside(t, b.along.norm()));
+  const Vector3d cross = along.cross(b.along), between = b.start - start;
+  const double size2 = cross.squaredNorm(), far = std::max(view.reach, view.deepest), off = between.dot(cross);
+  if (!(off * off < far * far * size2)) return;  // most of them
+  if (!(size2 > parallel * parallel * along.squaredNorm() * b.along.squaredNorm())) return;
   for (const double sign : {1.0, -1.0}) {
-    const Vector3d n = sign / size * cross;
+    const Vector3d n = sign / std::sqrt(size2) * cross;
     const double gap = -between.dot(n);
-    if (!(gap < view.reach && gap > -view.deepest) || out > beyond(gap)) continue;
-    if (!is_extreme(b.into_left, b.into_right, n)) continue;
+    if (!(gap < view.reach && gap > -view.deepest) || !is_extreme(b.into_left, b.into_right, n)) continue;
+    const double s = between.cross(b.along).dot(cross) / size2, t = between.cross(along).dot(cross) / size2;
+    const auto outside = [](double at, double length) { return std::max(-at, at - 1.0) * length; };
+    if (std::max(outside(s, along.norm()), outside(t, b.along.norm())) > beyond(gap)) continue;
     const Vector3d n_A = view.n_A(n);
     if (is_extreme(a.into_left, a.into_right, -n_A)) view.add(b.start + t * b.along, n, gap);
   }
@@ -197,7 +209,7 @@ void edge_and_side(const View& view, const Solid::Edge& edge) {
 }
 
 void edges_and_edges(const View& view) {
-  for (const auto& [a, b] : pairs_near(view, view.a.edge_tree, view.b.edge_tree)) {
+  for (const auto& [a, b] : edges_near(view, view.b.edge_tree)) {
     edge_and_edge(view, view.a.edges[a], view.b.edges[b]);
   }
 }
@@ -234,7 +246,7 @@ std::pair<double, double> inside(const Cylinder& c, const Vector3d& start, const
 /// Whether an edge of `a`, or the axis of a cylinder, goes into `b`. Where two solids overlap, the hull of what they
 /// have in common has such a place for a corner, or one that is a corner of one of them.
 bool pierces(const View& view) {
-  for (const auto& [e, face] : pairs_near(view, view.a.edge_tree, view.b.face_tree)) {
+  for (const auto& [e, face] : edges_near(view, view.b.face_tree)) {
     const Solid::Edge& edge = view.a.edges[e];
     if (goes_through(view.X_BA * edge.start, view.X_BA.linear() * edge.along, view.b.faces[face])) return true;
   }
@@ -307,8 +319,6 @@ Solid::Solid(const Geometry& of) : geometry(of), extent(bounding_box(of)) {
   }
   face_tree.build();
   corners = surface->mesh->vertices;
-  for (const Vector3d& corner : corners) corner_tree.boxes.emplace_back(corner);
-  corner_tree.build();
   next.resize(corners.size());
   for (const Eigen::Vector3i& t : surface->mesh->triangles) {
     for (int k = 0; k < 3; ++k) next[static_cast<std::size_t>(t[k])].push_back(t[(k + 1) % 3]);

@@ -149,18 +149,32 @@ std::vector<geometry::BoxContact> contacts_above(const btCollisionObjectWrapper&
   return contacts_of_points(body, n_W, height, reach);
 }
 
-/// Contact margin of two bodies [m]: at least their approach in a step.
+/// Contact margin of two bodies [m]: at least the approach of their points in a step, as seen from the other.
 double reach_of(const btCollisionObjectWrapper& a, const btCollisionObjectWrapper& b, double h) {
-  double speed = 0.0;
-  for (const btCollisionObjectWrapper* w : {&a, &b}) {
-    const btRigidBody* body = btRigidBody::upcast(w->getCollisionObject());
-    if (body == nullptr || body->isStaticObject()) continue;
+  struct Moving {
+    Vector3d p = Vector3d::Zero(), v = p, w = p;
+    double radius = std::numeric_limits<double>::infinity();
+  };
+  const auto moving = [](const btCollisionObjectWrapper& object) {
+    const btCollisionObject& body = *object.getCollisionObject();
+    Moving m;
+    if (is_plane(object)) return m;
     btVector3 centre;
-    btScalar radius = 0.0;
-    body->getCollisionShape()->getBoundingSphere(centre, radius);
-    speed += body->getLinearVelocity().length() + body->getAngularVelocity().length() * (centre.length() + radius);
-  }
-  return std::max(contact_margin, h * speed);
+    body.getCollisionShape()->getBoundingSphere(centre, m.radius);
+    m.radius += centre.length();
+    m.p = from_bullet(body.getWorldTransform().getOrigin());
+    const btRigidBody* rigid = btRigidBody::upcast(&body);
+    if (rigid == nullptr || rigid->isStaticObject()) return m;
+    m.v = from_bullet(rigid->getLinearVelocity());
+    m.w = from_bullet(rigid->getAngularVelocity());
+    return m;
+  };
+  const auto approach = [](const Moving& x, const Moving& y) {
+    const Vector3d w = x.w - y.w;
+    return (x.v - y.v - y.w.cross(x.p - y.p)).norm() + (w.isZero(0.0) ? 0.0 : x.radius * w.norm());
+  };
+  const Moving of_a = moving(a), of_b = moving(b);
+  return std::max(contact_margin, h * std::min(approach(of_a, of_b), approach(of_b, of_a)));
 }
 
 bool is_box(const btCollisionObjectWrapper& object) {
@@ -232,6 +246,7 @@ class SolidContacts final : public btActivatingCollisionAlgorithm {
     for (const Contacts& group : contacts_between(a, b, reach, before, lost)) {
       contacts.insert(contacts.end(), group.begin(), group.end());
     }
+    std::stable_sort(contacts.begin(), contacts.end(), [](const auto& x, const auto& y) { return x.gap < y.gap; });
     miss(lost);
     return contacts;
   }

@@ -36,10 +36,9 @@ BulletShape::BulletShape(const scene::Body& body, const RigidTransform& X_OB) {
 }
 
 double BulletShape::fraction_before(const BulletShape& a, const RigidTransform& X0_WA, const RigidTransform& X1_WA,
-                                    double radius, const BulletShape& b, const RigidTransform& X_WB, double allowed) {
+                                    double moved, const BulletShape& b, const RigidTransform& X_WB, double allowed) {
   const Vector3d turn = math::turn_between(X0_WA, X1_WA);
-  const double path = (X1_WA.translation() - X0_WA.translation()).norm() + radius * turn.norm();
-  const double looks = std::max(1.0, std::ceil(path / unswept));
+  const double looks = std::max(1.0, std::ceil(moved / unswept));
   for (double look = 1.0; look <= looks; ++look) {
     if (depth(a, math::between(X0_WA, X1_WA, turn, look / looks), b, X_WB) > allowed) return (look - 0.5) / looks;
   }

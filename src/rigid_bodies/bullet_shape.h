@@ -15,10 +15,10 @@ class BulletShape {
   BulletShape(const scene::Body& body, const RigidTransform& X_OB);
 
   btCollisionShape* get() { return &compound_; }
-  /// Fraction of the straight path of the solids of `a`, none of which is further from its origin than `radius`, before
-  /// they are deeper than `allowed` in those of `b`, or 1; without pairs of boxes and pairs of cylinders. [m]
+  /// Fraction of the straight path of the solids of `a`, of which no point that may touch moves more than `moved`,
+  /// before they are deeper than `allowed` in those of `b`, or 1; without pairs of boxes and pairs of cylinders. [m]
   static double fraction_before(const BulletShape& a, const RigidTransform& X0_WA, const RigidTransform& X1_WA,
-                                double radius, const BulletShape& b, const RigidTransform& X_WB, double allowed);
+                                double moved, const BulletShape& b, const RigidTransform& X_WB, double allowed);
 
  private:
   static double depth(const BulletShape& a, const RigidTransform& X_WA, const BulletShape& b,

@@ -29,6 +29,26 @@ geometry::StraightMotion path_between(const RigidTransform& X0, const RigidTrans
   return {X0.translation(), X1.translation() - X0.translation(), X0.linear() * math::turn_between(X0, X1)};
 }
 
+/// How far from a body's origin it can touch what is within `radius` of a point [m].
+double reach(const geometry::StraightMotion& motion, const Vector3d& p_W, double radius) {
+  return (p_W - motion.p_WO).norm() + motion.move_W.norm() + radius;
+}
+
+/// How far a point of a box can be from the origin, along each axis [m].
+Vector3d furthest(const Extent& box) { return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()); }
+
+/// How far a body's points can go that are no further from its origin than `most_O`, along its own axes: in any
+/// direction, and along one [m].
+double way(const geometry::StraightMotion& motion, const Matrix3d& R_OW, const Vector3d& most_O) {
+  const Vector3d a = (R_OW * motion.turn_W).cwiseAbs(), &r = most_O;
+  const Vector3d arc(a.y() * r.z() + a.z() * r.y(), a.z() * r.x() + a.x() * r.z(), a.x() * r.y() + a.y() * r.x());
+  return motion.move_W.norm() + arc.norm();
+}
+double way_along(const Vector3d& n_W, const geometry::StraightMotion& motion, const Matrix3d& R_OW,
+                 const Vector3d& most_O) {
+  return n_W.dot(motion.move_W) + (R_OW * n_W.cross(motion.turn_W)).cwiseAbs().dot(most_O);
+}
+
 /// Of two bodies in each other, by their contacts [m].
 double depth_between(std::size_t a, std::size_t b, const std::vector<WorldContact>& contacts) {
   double depth = 0.0;
@@ -353,12 +373,13 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
   const Item& item = items_[body];
   if (item.leaf == nullptr) return 1.0;
   double part = 1.0;
+  const Matrix3d R_OW = X0_WO.linear().transpose();
+  const Vector3d extent_O = furthest(item.box_O);
   // Of a pair whose shapes are not both boxes, what the boxes around them say.
-  const auto by_extent = [&](const geometry::BoxGap& gap, const geometry::StraightMotion& path) {
+  const auto by_extent = [&](const geometry::BoxGap& gap, const auto& path, const Vector3d& most_O) {
     const double left = gap.gap - 2.0 * contact_skin;
     const bool near = left < may_go_unswept;
-    const double turned = item.radius * (near ? path.turn_W : gap.n_W.cross(path.turn_W)).norm();
-    const double approach = (near ? path.move_W.norm() : -gap.n_W.dot(path.move_W)) + turned;
+    const double approach = near ? way(path, R_OW, most_O) : way_along(-gap.n_W, path, R_OW, most_O);
     const double allowed = std::max(left, untouched ? 0.0 : may_go_unswept);
     if (allowed < part * approach) part = allowed / approach;
   };
@@ -366,23 +387,23 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
     return untouched ? 0.0 : std::max(deepest_on_path, same_depth - gap.gap);
   };
   const geometry::StraightMotion path = path_between(X0_WO, X1_WO);
-  const std::vector<std::size_t> near = inside(swept(item, X0_WO, X1_WO, 2.0 * contact_skin));
   for (const geometry::OutlineBox& own : item.outline_O) {
     const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
     const geometry::BoxGap above = geometry::gap_above(here, scene_.bench_height);
     if (own.exact) {
       part = geometry::clear_above(here, path, {Vector3d::UnitZ(), scene_.bench_height}, tolerance(above), part);
     } else {
-      by_extent(above, path);
+      by_extent(above, path, extent_O);
     }
   }
-  for (const std::size_t i : near) {
+  for (const std::size_t i : inside(swept(item, X0_WO, X1_WO, 2.0 * contact_skin))) {
     if (i == body) continue;
     const Item& other = items_[i];
     const RigidTransform X_before = untouched ? other.X_WO : pose_before_step(i);
     // As seen from the other, which stays where it was before.
     const RigidTransform X1_seen = X_before * other.X_WO.inverse() * X1_WO;
     const geometry::StraightMotion relative = path_between(X0_WO, X1_seen);
+    const Vector3d most_O = extent_O.cwiseMin(reach(relative, X_before.translation(), other.radius));
     for (const geometry::OutlineBox& own : item.outline_O) {
       const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
       for (const geometry::OutlineBox& box : other.outline_O) {
@@ -391,13 +412,14 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
         if (own.exact && box.exact) {
           part = geometry::clear_of(here, relative, there, tolerance(gap), part);
         } else {
-          by_extent(gap, relative);
+          by_extent(gap, relative, most_O);
         }
       }
     }
     if (untouched || part < 1.0 || !item.shape || !other.shape) continue;
     const double allowed = std::max(deepest_on_path, depth_between(body, i, contacts_)) + same_depth;
-    part = BulletShape::fraction_before(*item.shape, X0_WO * item.X_OB, X1_seen * item.X_OB, item.radius, *other.shape,
+    const double moved = way(relative, R_OW, most_O);
+    part = BulletShape::fraction_before(*item.shape, X0_WO * item.X_OB, X1_seen * item.X_OB, moved, *other.shape,
                                         X_before * other.X_OB, allowed);
   }
   return part;

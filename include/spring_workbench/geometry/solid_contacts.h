@@ -38,7 +38,7 @@ struct Solid {
   std::vector<std::vector<int>> next;  ///< to each corner those that edges join with it
   std::vector<Face> faces;             ///< none of a cylinder
   std::vector<Edge> edges;
-  PartTree corner_tree, face_tree, edge_tree;
+  PartTree face_tree, edge_tree;
   Eigen::AlignedBox3d extent;
 };
 
