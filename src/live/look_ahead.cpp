@@ -9,11 +9,12 @@ namespace spring_workbench::live {
 
 void LookAhead::show(const simulation::Simulation& committed, const hand_input::Feed& feed, double t) {
   copy_.follow(committed);
+  has_followed_ = true;
   if (feed.has_sample()) {
     feed.predict(t, copy_);
     copy_.advance(t);
   }
-  for (const Held& one : held(copy_)) shown_.push_back(one);
+  for (const Held& one : held_in_copy_.of(copy_)) shown_.push_back(one);
 }
 
 double LookAhead::show_newest(const simulation::Simulation& committed, const hand_input::Feed& feed, double horizon,
@@ -31,7 +32,7 @@ double LookAhead::show_newest(const simulation::Simulation& committed, const han
 }
 
 PredictionError LookAhead::compare(const simulation::Simulation& committed) {
-  const std::vector<Held> now = held(committed);
+  const std::vector<Held> now = held_in_committed_.of(committed);
   PredictionError worst;
   while (!shown_.empty() && shown_.front().at.t <= committed.time()) {
     const Held shown = shown_.front();
@@ -64,16 +65,22 @@ double LookAhead::position_error_99() const {
 }
 
 void LookAhead::restart() {
+  has_followed_ = false;
   shown_.clear();
   before_.clear();
 }
 
-std::vector<LookAhead::Held> LookAhead::held(const simulation::Simulation& simulation) {
-  std::vector<Held> result;
-  for (std::size_t i = 0; i < simulation.objects().size(); ++i) {
-    const bodies::BodyState& object = simulation.objects()[i];
-    if (object.held) result.push_back({i, {simulation.time(), object.X_WO}, object.V_WO_W});
+std::vector<LookAhead::Held> LookAhead::HeldObjects::of(const simulation::Simulation& simulation) {
+  const std::vector<bodies::BodyState>& objects = simulation.objects();
+  const bodies::Changes& changes = simulation.object_changes();
+  if (at_.of != changes.now().of) held_.clear();
+  for (const std::size_t i : changes.since(at_)) {
+    held_.erase(i);
+    if (objects[i].held) held_.insert(i);
   }
+  at_ = changes.now();
+  std::vector<Held> result;
+  for (const std::size_t i : held_) result.push_back({i, {simulation.time(), objects[i].X_WO}, objects[i].V_WO_W});
   return result;
 }
 

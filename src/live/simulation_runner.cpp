@@ -104,7 +104,7 @@ std::optional<Shown> SimulationRunner::show(double latency, const hand_input::Lo
   const double beyond = ahead_.show_newest(simulation_, feed_, horizon, pace_);
   const simulation::Simulation& shown = ahead_.shown();
   const Moment at = moment_at(shown.time(), feed_.has_sample());
-  if (!wanted(at)) return std::nullopt;
+  if (!ahead_.has_followed() || !wanted(at)) return std::nullopt;
   return Shown{{at, view_of(shown, scene_, shown_objects_)}, beyond};
 }
 

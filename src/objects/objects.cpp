@@ -222,8 +222,7 @@ void Objects::note_world_contacts(double h) {
 
 std::vector<std::size_t> Objects::Archive::moved() const {
   std::vector<std::size_t> moved;
-  for (std::size_t i = 0; i < of_.states_.size(); ++i) {
-    if (!of_.changes_.since(of_.put_back_, i)) continue;
+  for (const std::size_t i : of_.changes_.since(of_.put_back_)) {
     const Object& object = of_.objects_[i];
     const bool as_put_back = !object.free_body && object.rows.empty() && !object.carried() &&
                              object.slow_since == 0.0 && same_bits(of_.states_[i], bodies::at_start(of_.body(i)));

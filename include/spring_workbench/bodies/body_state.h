@@ -29,8 +29,8 @@ bool same_bits(const BodyState& a, const BodyState& b);
 /// The state of a body of a scene to begin with: asleep.
 BodyState at_start(const scene::Body& body);
 
-/// Which of many objects have changed since when, so that a copy of them takes over no more than these. It is no part
-/// of their state: it only saves work.
+/// Which of many objects have changed since when, so that a copy of them takes over no more than these; asking costs as
+/// much as has changed. It is no part of their state: it only saves work.
 class Changes {
  public:
   /// A moment in the history of these objects; the default is before it.
@@ -39,26 +39,20 @@ class Changes {
     std::uint64_t count = 0;
   };
 
-  Changes() = default;
+  Changes() { reset(0); }
   Changes(const Changes&) = delete;
   Changes& operator=(const Changes&) = delete;
 
   /// There are so many objects, and all of them have changed.
-  void reset(std::size_t objects) { at_.assign(objects, ++count_); }
-  void note(std::size_t object) { at_[object] = ++count_; }
+  void reset(std::size_t objects);
+  void note(std::size_t object);
   Moment now() const { return {self_, count_}; }
-  /// Whether the object has changed since `then`; true if that is of other objects.
-  bool since(const Moment& then, std::size_t object) const { return then.of != self_ || at_[object] > then.count; }
+  /// The objects that have changed since `then`, in ascending order; all if that is of other objects.
+  std::vector<std::size_t> since(const Moment& then) const;
 
   /// The objects that may differ from the same ones of `other`: those that have changed, here or there, since the last
-  /// followed(other).
-  std::vector<std::size_t> differing(const Changes& other) const {
-    std::vector<std::size_t> objects;
-    for (std::size_t i = 0; i < at_.size(); ++i) {
-      if (since(own_, i) || other.since(others_, i)) objects.push_back(i);
-    }
-    return objects;
-  }
+  /// followed(other). In ascending order.
+  std::vector<std::size_t> differing(const Changes& other) const;
   /// All objects are now as those of `other`.
   void followed(const Changes& other) {
     own_ = now();
@@ -66,10 +60,16 @@ class Changes {
   }
 
  private:
+  /// An object in the ring of all in the order in which they have changed, the newest first.
+  struct Link {
+    std::uint64_t at = 0;  ///< the count when it changed last
+    std::size_t newer = 0, older = 0;
+  };
+
   std::shared_ptr<const void> self_ = std::make_shared<char>();
   std::uint64_t count_ = 0;
-  std::vector<std::uint64_t> at_;  ///< the count when it changed last, by object
-  Moment own_, others_;            ///< of the last followed()
+  std::vector<Link> links_;  ///< by object; the last one is no object: the newest is older than it
+  Moment own_, others_;      ///< of the last followed()
 };
 
 }  // namespace spring_workbench::bodies

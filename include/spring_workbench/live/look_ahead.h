@@ -4,6 +4,7 @@
 #include <deque>
 #include <limits>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "spring_workbench/hand_input/feed.h"
@@ -32,6 +33,9 @@ class LookAhead {
   double show_newest(const simulation::Simulation& committed, const hand_input::Feed& feed, double horizon,
                      const Pace& pace);
   const simulation::Simulation& shown() const { return copy_; }
+  /// Whether the copy has followed the committed simulation since the last restart(): before, it may have other
+  /// objects.
+  bool has_followed() const { return has_followed_; }
 
   /// Compares the displayed poses of held objects with those in `committed`, which has advanced since. Returns the
   /// largest errors.
@@ -49,9 +53,19 @@ class LookAhead {
     motion::PoseSample at;
     Twist V_WO_W;
   };
-  static std::vector<Held> held(const simulation::Simulation& simulation);
+  /// The held objects of one simulation. It looks at those that have changed since it looked last.
+  class HeldObjects {
+   public:
+    std::vector<Held> of(const simulation::Simulation& simulation);
+
+   private:
+    bodies::Changes::Moment at_;
+    std::set<std::size_t> held_;
+  };
 
   simulation::Simulation copy_;
+  HeldObjects held_in_copy_, held_in_committed_;
+  bool has_followed_ = false;
   double shown_until_ = -std::numeric_limits<double>::infinity();  ///< [s]
   std::deque<Held> shown_;
   std::vector<Held> before_;  ///< where the committed simulation was at the last comparison

@@ -22,13 +22,13 @@ class SharedStates {
   std::size_t size() const { return size_; }
   bool empty() const { return size_ == 0; }
   const bodies::BodyState& operator[](std::size_t object) const {
-    return (*parts_[object / part_size])[object % part_size];
+    return (*parts()[object / part_size])[object % part_size];
   }
   /// All parts have the same number of objects, but the last.
-  const Parts& parts() const { return parts_; }
+  const Parts& parts() const { return *parts_; }
   /// Whether a part is that of `other`, in which nothing has changed.
   bool shares(std::size_t part, const SharedStates& other) const {
-    return part < other.parts_.size() && parts_[part] == other.parts_[part];
+    return part < other.parts().size() && parts()[part] == other.parts()[part];
   }
   /// Index of the first object of a part.
   static std::size_t begin_of(std::size_t part) { return part * part_size; }
@@ -56,7 +56,7 @@ class SharedStates {
  private:
   enum : std::size_t { part_size = 32 };
 
-  Parts parts_;
+  std::shared_ptr<const Parts> parts_ = std::make_shared<Parts>();  ///< shared by copies
   std::size_t size_ = 0;
   bodies::Changes::Moment at_;  ///< in the simulation that it follows
 };

@@ -33,29 +33,27 @@ void FramePublisher::publish(const live::View& view, const ros::Time& stamp) {
 
 void FramePublisher::name_frames(const live::View& view) {
   scene_ = view.scene;
-  names_.clear();
+  frames_.clear();
   X_OL_.clear();
   view.for_each_object([this](const bodies::BodyState& object, const scene::Body& body) {
-    names_.push_back(frame_prefix_ + object.name);
     X_OL_.push_back(body.X_OL);
+    frames_.push_back(ros_common::to_transform(object.X_WO * body.X_OL, world_frame_, frame_prefix_ + object.name, {}));
   });
-  sent_ = live::SharedStates();
-  sent_X_.assign(names_.size(), RigidTransform::Identity());
+  sent_ = view.objects;
   next_ = 0;
-  turns_due_ = static_cast<double>(names_.size());
-}
-
-void FramePublisher::add(const RigidTransform& X_WF, const std::string& name) {
-  message_->transforms.push_back(ros_common::to_transform(X_WF, world_frame_, name, stamp_));
+  turns_due_ = static_cast<double>(frames_.size());
 }
 
 void FramePublisher::add_tools(const live::View& view) {
+  const auto add = [this](const RigidTransform& X_WF, const std::string& name) {
+    message_->transforms.push_back(ros_common::to_transform(X_WF, world_frame_, frame_prefix_ + name, stamp_));
+  };
   for (std::size_t hand = 0; hand < view.tools.size(); ++hand) {
     const tools::ToolState& tool = view.tools[hand];
     if (hand > 0 && !tool.present) continue;
     const std::string number = ros_common::hand_suffix(hand);
-    add(tool.X_WH, frame_prefix_ + "fork_handle" + number);
-    add(tool.X_WE, frame_prefix_ + "fork_tip" + number);
+    add(tool.X_WH, "fork_handle" + number);
+    add(tool.X_WE, "fork_tip" + number);
   }
 }
 
@@ -71,13 +69,17 @@ void FramePublisher::add_objects(const live::View& view) {
   const live::SharedStates& objects = view.objects;
   const std::size_t count = objects.size(), turns = this->turns(count);
   const auto in_turn = [&](std::size_t object) { return (object + count - next_) % count < turns; };
-  const auto send = [&](std::size_t object) { add(objects[object].X_WO * X_OL_[object], names_[object]); };
+  const auto send = [&](std::size_t object) {
+    message_->transforms.push_back(frames_[object]);
+    message_->transforms.back().header.stamp = stamp_;
+  };
+  message_->transforms.reserve(message_->transforms.size() + turns);
   for (std::size_t part = 0; part < objects.parts().size(); ++part) {
     if (objects.shares(part, sent_)) continue;
     const std::size_t begin = live::SharedStates::begin_of(part);
     for (std::size_t i = begin; i < begin + objects.parts()[part]->size(); ++i) {
-      if (sent_X_[i].matrix() == objects[i].X_WO.matrix()) continue;
-      sent_X_[i] = objects[i].X_WO;
+      if (sent_[i].X_WO.matrix() == objects[i].X_WO.matrix()) continue;
+      frames_[i].transform = ros_common::to_transform(objects[i].X_WO * X_OL_[i], {}, {}, {}).transform;
       if (!in_turn(i)) send(i);
     }
   }

@@ -93,8 +93,7 @@ void StatePublisher::publish(const ShownState& state) {
 
 void StatePublisher::ObjectsTopic::publish(const live::View& view, const std_msgs::Header& header) {
   if (publisher.getNumSubscribers() == 0) return;
-  message.header = header;
-  message.write(view.objects);
+  message.write(header, view.objects);
   publisher.publish(message);
 }
 

@@ -2,70 +2,136 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <deque>
+#include <random>
+#include <set>
 #include <string>
+#include <utility>
 
 #include "spring_workbench/ros/common/conversions.h"
 #include "support/bench_scenes.h"
+#include "support/temporary_folder.h"
 
 namespace spring_workbench::manipulation::objects_message_test {
 namespace {
 
-scene::Scene row(std::size_t count) {
+scene::Scene row(std::size_t count, const std::string& name) {
   std::vector<scene::Body> boxes;
   for (std::size_t i = 0; i < count; ++i) {
     const Vector3d p(0.1 * (static_cast<double>(i) - 0.5 * static_cast<double>(count)), 0.0, 0.02);
-    boxes.push_back(box("box" + std::to_string(i), Vector3d(0.04, 0.04, 0.04), 0.1, p));
+    boxes.push_back(box(name + std::to_string(i), Vector3d(0.04, 0.04, 0.04), 0.1, p));
   }
   return scene_of(boxes, scene::ContactMode::none);
 }
 
-/// As a subscriber gets it.
-ObjectStates received(const ObjectsMessage& message) {
-  const ros::SerializedMessage sent = ros::serialization::serializeMessage(message);
-  ObjectStates result;
-  ros::serialization::deserializeMessage(sent, result);
-  EXPECT_EQ(ros::serialization::serializationLength(result) + 4, sent.num_bytes);
-  return result;
-}
-
-void expect_same(const ObjectStates& message, const std::vector<bodies::BodyState>& objects) {
-  ASSERT_EQ(message.objects.size(), objects.size());
-  for (std::size_t i = 0; i < objects.size(); ++i) {
-    const ObjectState& is = message.objects[i];
-    const bodies::BodyState& must = objects[i];
-    EXPECT_EQ(is.name, must.name);
-    EXPECT_EQ(is.pose, ros_common::to_pose(must.X_WO)) << must.name;
-    EXPECT_EQ(is.twist.linear, ros_common::to_vector(must.V_WO_W.linear)) << must.name;
-    EXPECT_EQ(is.twist.angular, ros_common::to_vector(must.V_WO_W.angular)) << must.name;
-    EXPECT_EQ(is.held != 0, must.held);
-    EXPECT_EQ(is.highlighted != 0, must.highlighted);
-    EXPECT_EQ(is.in_contact != 0, must.in_contact);
-    EXPECT_EQ(is.asleep != 0, must.asleep);
+/// A simulation to which anything may happen.
+class Story {
+ public:
+  explicit Story(unsigned seed) : random_(seed) {
+    folder_.write("brick.urdf",
+                  "<robot name='brick'><link name='brick'><inertial><mass value='0.1'/><inertia ixx='1e-4' iyy='1e-4' "
+                  "izz='1e-4' ixy='0' ixz='0' iyz='0'/></inertial></link></robot>");
   }
+  void go_on() {
+    const std::size_t what = random(12), any = random(std::max<std::size_t>(simulation_.objects().size(), 1));
+    const bool none = simulation_.objects().empty();
+    const std::string name = none ? "" : simulation_.objects()[any].name;
+    const auto pose = make_transform(Quaterniond::Identity(), {0.1 * static_cast<double>(random(10)), 0.0, 0.5});
+    if (what == 0) begin();
+    if (what == 1) simulation_.reset();
+    if (what == 2) edit({Action::add, std::string(1 + random(20), 'b') + std::to_string(added_++), brick(), pose});
+    if (what == 3 && !none) edit({Action::remove, name, "", std::nullopt});
+    if (what == 4 && !none && !simulation_.objects()[any].held) edit({Action::move, name, "", pose});
+    if (what == 5) simulation_.push_button(t_, pressed_ = !pressed_);
+    if (what < 6) return;
+    t_ += 0.01;
+    simulation_.push_stylus({t_, pointing_down({0.05 * std::sin(3.0 * t_), 0.0, 0.22})});
+    simulation_.advance(t_);
+  }
+  const simulation::Simulation& simulation() const { return simulation_; }
+  std::size_t random(std::size_t below) { return random_() % below; }
+
+ private:
+  using Action = simulation::ObjectEdit::Action;
+  void begin() {
+    constexpr std::size_t counts[] = {0, 1, 32, 33, 100};
+    simulation_ = simulation::Simulation(row(counts[random(5)], random(2) == 0 ? "box" : "another box "), {});
+    t_ = 0.0;
+    pressed_ = false;
+  }
+  void edit(const simulation::ObjectEdit& edit) { simulation_.edit(edit); }
+  std::string brick() const { return folder_.path("brick.urdf"); }
+
+  std::mt19937 random_;
+  test_support::TemporaryFolder folder_;
+  simulation::Simulation simulation_{row(70, "box"), {}};
+  std::size_t added_ = 0;
+  double t_ = 0.0;
+  bool pressed_ = false;
+};
+
+ros::SerializedMessage made_anew(const std_msgs::Header& header, const std::vector<bodies::BodyState>& objects) {
+  ObjectStates message;
+  message.header = header;
+  for (const bodies::BodyState& object : objects) {
+    ObjectState state;
+    state.name = object.name;
+    state.pose = ros_common::to_pose(object.X_WO);
+    state.twist.linear = ros_common::to_vector(object.V_WO_W.linear);
+    state.twist.angular = ros_common::to_vector(object.V_WO_W.angular);
+    state.held = object.held;
+    state.highlighted = object.highlighted;
+    state.in_contact = object.in_contact;
+    state.asleep = object.asleep;
+    message.objects.push_back(state);
+  }
+  return ros::serialization::serializeMessage(message);
 }
 
-/// Also of other scenes: with more objects, fewer, and other names.
-TEST(ObjectsMessage, IsReadAsTheStatesOfAllObjects) {
-  ObjectsMessage message;
-  message.header.frame_id = "world";
-  for (const std::size_t count : {100, 33, 0, 1, 1200}) {
-    simulation::Simulation simulation(row(count), {});
+std::vector<std::uint8_t> bytes_of(const ros::SerializedMessage& message) {
+  return {message.buf.get(), message.buf.get() + message.num_bytes};
+}
+
+/// Objects move, are added, removed, and named otherwise; the frame of the header has another name. Messages that
+/// roscpp has not sent yet stay as they are, whatever is written after them.
+TEST(ObjectsMessage, HasTheBytesOfOneThatIsMadeAnew) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    Story story(seed);
+    ObjectsMessage message;
     live::SharedStates states;
-    for (int k = 0; k < 100; ++k) {
-      const double t = 0.01 * k;
-      simulation.push_stylus({t, pointing_down({0.05 * std::sin(3.0 * t), 0.0, 0.22})});
-      if (k == 20 || k == 70) simulation.push_button(t, k == 20);
-      if (k == 90 && count > 50) simulation.edit({simulation::ObjectEdit::Action::remove, "box7", "", std::nullopt});
-      simulation.advance(t);
-      if (k % 9 != 0) continue;
-      states.follow(simulation);
-      message.write(states);
-      const ObjectStates seen = received(message);
-      EXPECT_EQ(seen.header.frame_id, "world");
-      expect_same(seen, simulation.objects());
+    std::deque<std::pair<ros::SerializedMessage, std::vector<std::uint8_t>>> unsent;
+    for (unsigned k = 0; k < 200; ++k) {
+      story.go_on();
+      states.follow(story.simulation());
+      std_msgs::Header header;
+      header.frame_id = k / 50 % 2 == 0 ? "world" : "another world";
+      header.stamp.fromSec(0.01 * k);
+      message.write(header, states);
+      const ros::SerializedMessage sent = ros::serialization::serializeMessage(message);
+      const ros::SerializedMessage must = made_anew(header, story.simulation().objects());
+      ASSERT_EQ(bytes_of(sent), bytes_of(must)) << "seed " << seed << ", message " << k;
+      EXPECT_EQ(sent.message_start - sent.buf.get(), must.message_start - must.buf.get());
+      header.seq = k;  // as roscpp writes it
+      ros::serialization::OStream stream(sent.message_start, static_cast<std::uint32_t>(sent.num_bytes) - 4);
+      stream.next(header);
+      unsent.emplace_back(sent, bytes_of(sent));
+      for (std::size_t most = story.random(8); unsent.size() > most; unsent.pop_front())
+        EXPECT_EQ(bytes_of(unsent.front().first), unsent.front().second) << "seed " << seed << ", message " << k;
     }
   }
+}
+
+TEST(ObjectsMessage, IsWrittenOverOnesThatAreSent) {
+  Story story(1);
+  ObjectsMessage message;
+  live::SharedStates states;
+  states.follow(story.simulation());
+  std::set<const std::uint8_t*> buffers;
+  for (int k = 0; k < 20; ++k) {
+    message.write({}, states);
+    buffers.insert(ros::serialization::serializeMessage(message).buf.get());
+  }
+  EXPECT_EQ(buffers.size(), 3u);
 }
 
 }  // namespace

@@ -25,7 +25,6 @@ class FramePublisher {
   void publish(const live::View& view, const ros::Time& stamp);
 
  private:
-  void add(const RigidTransform& X_WF, const std::string& name);
   void add_tools(const live::View& view);
   void add_objects(const live::View& view);
   void name_frames(const live::View& view);
@@ -38,9 +37,8 @@ class FramePublisher {
   boost::shared_ptr<tf2_msgs::TFMessage> message_;  ///< that is being made
   ros::Time stamp_;
   std::shared_ptr<const scene::Scene> scene_;
-  std::vector<std::string> names_;      ///< of the objects' frames in this scene
-  std::vector<RigidTransform> X_OL_;    ///< of their frames, which are those of their links
-  std::vector<RigidTransform> sent_X_;  ///< of the objects
+  std::vector<geometry_msgs::TransformStamped> frames_;  ///< of the objects of this scene, as they are in `sent_`
+  std::vector<RigidTransform> X_OL_;                     ///< of their frames, which are those of their links
   live::SharedStates sent_;
   std::size_t next_ = 0;                      ///< object in turn
   double turned_at_ = 0.0, turns_due_ = 0.0;  ///< [s], by the steady clock; with the fraction of a turn that is left

@@ -3,8 +3,9 @@
 #include <ros/message_traits.h>
 #include <ros/serialization.h>
 
+#include <array>
 #include <cstdint>
-#include <cstring>
+#include <memory>
 #include <vector>
 
 #include "spring_workbench/ObjectStates.h"
@@ -12,20 +13,23 @@
 
 namespace spring_workbench::manipulation {
 
-/// An ObjectStates message, its objects in the bytes that go over the line. They are kept from one message to the next,
-/// and only those of objects that have changed are written again.
+/// ObjectStates messages in the bytes that go over the line. The bytes of the last messages are kept, and once roscpp
+/// has sent them, the header and the objects that have changed since are written over them: nothing else is copied.
 class ObjectsMessage {
  public:
-  std_msgs::Header header;
-
-  void write(const live::SharedStates& objects);
-  /// Of the field `objects`.
-  const std::vector<std::uint8_t>& bytes() const { return bytes_; }
+  void write(const std_msgs::Header& header, const live::SharedStates& objects);
+  /// As serializeMessage() gives it, without a copy.
+  ros::SerializedMessage serialised() const;
 
  private:
-  live::SharedStates written_;
-  std::vector<std::uint8_t> bytes_;
-  std::vector<std::size_t> ends_;  ///< of the parts' bytes
+  struct Bytes {
+    std::shared_ptr<std::vector<std::uint8_t>> all = std::make_shared<std::vector<std::uint8_t>>();
+    live::SharedStates written;
+    std::vector<std::size_t> ends;  ///< of the parts' bytes
+    void write(const std_msgs::Header& header, const live::SharedStates& objects);
+  };
+  std::array<Bytes, 3> kept_;
+  std::size_t newest_ = 0;
 };
 
 }  // namespace spring_workbench::manipulation
@@ -54,17 +58,8 @@ struct DataType<ObjectsMessage> {
 namespace ros::serialization {
 
 template <>
-struct Serializer<spring_workbench::manipulation::ObjectsMessage> {
-  using ObjectsMessage = spring_workbench::manipulation::ObjectsMessage;
-  template <typename Stream>
-  static void write(Stream& stream, const ObjectsMessage& message) {
-    stream.next(message.header);
-    const std::vector<std::uint8_t>& bytes = message.bytes();
-    std::memcpy(stream.advance(static_cast<std::uint32_t>(bytes.size())), bytes.data(), bytes.size());
-  }
-  static std::uint32_t serializedLength(const ObjectsMessage& message) {
-    return serializationLength(message.header) + static_cast<std::uint32_t>(message.bytes().size());
-  }
-};
+inline SerializedMessage serializeMessage(const spring_workbench::manipulation::ObjectsMessage& message) {
+  return message.serialised();
+}
 
 }  // namespace ros::serialization
