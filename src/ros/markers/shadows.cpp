@@ -75,24 +75,29 @@ void draw_shadow(int id, const std::vector<Vector3d>& corners, MarkerList& marke
 }  // namespace
 
 void Shadows::follow(const live::View& view) {
-  corners_.resize(view.objects.size());
-  std::size_t object = 0;
+  if (bodies_.empty())
+    view.for_each_object([this](const bodies::BodyState&, const scene::Body& body) { bodies_.push_back(&body); });
+  const live::SharedStates::Parts& parts = view.objects.parts();
   std::vector<Vector3d> outline;
-  for (const scene::Body& body : view.scene->bodies) {
-    if (!body.movable) continue;
-    const std::size_t i = object++;
-    if (view.objects.shares(live::SharedStates::part_of(i), drawn_)) continue;
-    outline.clear();
-    for (const geometry::Shape& shape : body.visual) add_outline(shape, view.objects[i].X_WO, outline);
-    corners_[i] = corners_of(outline, view.scene->bench_height);
+  for (std::size_t part = 0; part < parts.size(); ++part) {
+    if (view.objects.shares(part, drawn_)) continue;
+    std::size_t i = live::SharedStates::begin_of(part);
+    for (const bodies::BodyState& object : *parts[part]) {
+      outline.clear();
+      for (const geometry::Shape& shape : bodies_[i]->visual) add_outline(shape, object.X_WO, outline);
+      std::vector<Vector3d> corners = corners_of(outline, view.scene->bench_height);
+      corners_.erase(i);
+      if (!corners.empty()) corners_.emplace(i, std::move(corners));
+      ++i;
+    }
   }
   drawn_ = view.objects;
 }
 
 void Shadows::draw(const live::View& view, const std::vector<std::vector<Vector3d>>& forks_W, MarkerList& markers) {
   follow(view);
-  int id = 0;
-  for (const std::vector<Vector3d>& corners : corners_) draw_shadow(id++, corners, markers);
+  for (const auto& [object, corners] : corners_) draw_shadow(static_cast<int>(object), corners, markers);
+  int id = static_cast<int>(bodies_.size());
   for (const std::vector<Vector3d>& fork_W : forks_W)
     draw_shadow(id++, corners_of(fork_W, view.scene->bench_height), markers);
 }

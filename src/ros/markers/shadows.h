@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <vector>
 
 #include "marker_list.h"
@@ -11,14 +12,15 @@ namespace spring_workbench::markers {
 /// objects that have not moved are kept.
 class Shadows {
  public:
-  /// All views are of one scene. `forks_W`: corners of each hand's fork.
+  /// All views are of one scene, which must outlive this. `forks_W`: corners of each hand's fork.
   void draw(const live::View& view, const std::vector<std::vector<Vector3d>>& forks_W, MarkerList& markers);
 
  private:
   void follow(const live::View& view);
 
   live::SharedStates drawn_;
-  std::vector<std::vector<Vector3d>> corners_;  ///< of the triangles of each object's shadow
+  std::vector<const scene::Body*> bodies_;                ///< of the objects
+  std::map<std::size_t, std::vector<Vector3d>> corners_;  ///< of the triangles of the shadows that there are, by object
 };
 
 }  // namespace spring_workbench::markers
