@@ -6,9 +6,16 @@
 #include "constants.h"
 
 namespace spring_workbench::instruments {
+namespace {
+
+const std::string& carried_by(const tools::ToolState& tool) {
+  return tool.held_object.empty() ? tool.touched : tool.held_object;
+}
+
+}  // namespace
 
 void ReadingAverage::take_down(double t, const tools::ToolState& tool) {
-  const std::string& carried = tool.held_object.empty() ? tool.touched : tool.held_object;
+  const std::string& carried = carried_by(tool);
   if (carried.empty() || (last_ && (t < last_->t || last_->carried != carried))) {
     last_.reset();
     present_ = Part();
@@ -62,10 +69,16 @@ void ReadingAverage::touch(double t, const tools::ToolState& tool, const RigidTr
 void ReadingAverage::take(double t, tools::ToolState& tool, const RigidTransform& X_WT) {
   take_down(t, tool);
   touch(t, tool, X_WT);
-  tool.material_stiffness = material_ ? material_->material.value : 0.0;
-  tool.material_stiffness_uncertainty = material_ ? material_->material_deviation : 0.0;
-  tool.weight_average = average(&Part::weight, tool.weight);
-  tool.torque_average = average(&Part::torque, tool.torque);
+  fill_in(tool);
+}
+
+void ReadingAverage::fill_in(tools::ToolState& tool) const {
+  const bool known = material_ && touch_->touched == tool.touched;
+  tool.material_stiffness = known ? material_->material.value : 0.0;
+  tool.material_stiffness_uncertainty = known ? material_->material_deviation : 0.0;
+  const bool same = last_ && last_->carried == carried_by(tool);
+  tool.weight_average = same ? average(&Part::weight, tool.weight) : tools::Reading{tool.weight};
+  tool.torque_average = same ? average(&Part::torque, tool.torque) : tools::Reading{tool.torque};
 }
 
 }  // namespace spring_workbench::instruments

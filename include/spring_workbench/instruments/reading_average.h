@@ -19,6 +19,9 @@ class ReadingAverage {
   /// present reading with an unknown uncertainty. A time before the last one, or another object, starts a new average.
   /// `X_WT`: of the object that the probe touches, if it is one that can move.
   void take(double t, tools::ToolState& tool, const RigidTransform& X_WT = RigidTransform::Identity());
+  /// Fills in the averages of what was taken last, if `tool` carries or touches the same; otherwise its own reading
+  /// with an unknown uncertainty.
+  void fill_in(tools::ToolState& tool) const;
   /// Returns what the present touch of the probe shows; none without one.
   const std::optional<MaterialReading>& material() const { return material_; }
   std::vector<MaterialEstimate::CurvePoint> force_over_depth() const {

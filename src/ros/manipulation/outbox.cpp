@@ -65,11 +65,11 @@ void Outbox::run() {
     bell_.wait_for(lock, std::chrono::duration<double>(repeat_after),
                    [this] { return stop_ || shown_ || !committed_.empty(); });
     stop = stop_;
-    const std::optional<ShownState> shown = std::exchange(shown_, std::nullopt);
+    std::optional<ShownState> shown = std::exchange(shown_, std::nullopt);
     const std::vector<CommittedState> committed = committed_.take();
     lock.unlock();
     const double begin = ros_common::steady_time();
-    if (shown) publisher_.publish(*shown);
+    if (shown) publisher_.publish(std::move(*shown));
     for (const CommittedState& state : committed) {
       publisher_.publish(state, publish_time);
       if (ros_common::loop_time() > state.deadline) ++deadlines_missed_;

@@ -77,14 +77,15 @@ void StatePublisher::publish(const CommittedState& state, double publish_time) {
   });
 }
 
-void StatePublisher::publish(const ShownState& state) {
+void StatePublisher::publish(ShownState state) {
   horizon_ = state.shown.horizon;
-  const live::View& view = state.shown.view;
+  live::View& view = state.shown.view;
   const std_msgs::Header header = header_at(state.stamp);
   frames_.publish(view, state.stamp);
   shown_objects_.publish(view, header);
   for (std::size_t hand = 0; hand < hands_.size(); ++hand) {
-    const tools::ToolState& tool = view.tools[hand];
+    tools::ToolState& tool = view.tools[hand];
+    hands_[hand].output.show(tool);
     if (hand == 0 || tool.present)
       publish_made(hands_[hand].shown_fork, header, [&] { return to_message(tool, fork_diameter_); });
   }

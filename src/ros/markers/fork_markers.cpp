@@ -1,6 +1,7 @@
 #include "fork_markers.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "constants.h"
@@ -38,16 +39,36 @@ void draw_arrow(const std::string& ns, const tools::ToolState& tool, const Vecto
   markers.add_arrow(ns, 0, begin, begin + arrow * std::min(1.0, longest_arrow / length), 0.03 * tool.length, color);
 }
 
+std::string printed(const char* format, double a, double b, double c = 0.0) {
+  char text[100];
+  std::snprintf(text, sizeof text, format, a, b, c);
+  return text;
+}
+
+/// The second line: the tool as an instrument. The letters of rviz are those of ASCII.
+std::string reading(const tools::ToolState& tool, double force_scale) {
+  if (!tool.touched.empty()) {
+    if (tool.material_stiffness <= 0.0) return "";
+    if (std::isinf(tool.material_stiffness)) return "\nmaterial: rigid";
+    return printed("\nmaterial: %.3g +- %.1g N/m", tool.material_stiffness, tool.material_stiffness_uncertainty);
+  }
+  std::string text = "\n";
+  if (std::isfinite(tool.weight_average.uncertainty))
+    text += printed("mean %.3f +- %.1g vkg   ", tool.weight_average.mean, tool.weight_average.uncertainty);
+  constexpr double degree = M_PI / 180.0;
+  return text + printed("%.1f N along   %.1f N across   %.0f deg", tool.stretching_force / force_scale,
+                        tool.bending_force / force_scale, tool.force_angle / degree);
+}
+
 void draw_readout(const scene::Scene& scene, const tools::ToolState& tool, const std::string& number,
                   MarkerList& markers) {
   const double force = tool.tip_wrench_W.force.norm();
   const double size =
       fork_mesh::drawn_diameter(validation::name_of(tool.tool), tool.length) / fork_mesh::usual_diameter;
-  char text[100];
-  std::snprintf(text, sizeof text, "%.2f vkg   %.2f N   %.3f N m", virtual_kilograms(force, scene),
-                force / scene.force_scale, tool.tip_wrench_W.moment.norm() / scene.force_scale);
-  const Vector3d place = tool.X_WH_proxy * Vector3d(0.0, 0.0, -0.5 * size) + 0.35 * size * Vector3d::UnitZ();
-  markers.add_text("readout" + number, 0, place, 0.13 * size, text, readout_color);
+  const std::string load = printed("%.2f vkg   %.2f N   %.3f N m", virtual_kilograms(force, scene),
+                                   force / scene.force_scale, tool.tip_wrench_W.moment.norm() / scene.force_scale);
+  const Vector3d place = tool.X_WH_proxy * Vector3d(0.0, 0.0, -0.5 * size) + 0.4 * size * Vector3d::UnitZ();
+  markers.add_text("readout" + number, 0, place, 0.13 * size, load + reading(tool, scene.force_scale), readout_color);
 }
 
 }  // namespace

@@ -43,6 +43,23 @@ TEST(ReadingAverage, IsOfTheLastSecond) {
   EXPECT_EQ(tool.weight, 2.0);
 }
 
+/// What is shown is another state of the same tool, predicted from what was read.
+TEST(ReadingAverage, FillsInAToolThatCarriesTheSame) {
+  ReadingAverage average;
+  tools::ToolState tool;
+  for (int i = 0; i <= 60; ++i) average.take(0.02 * i, tool = carrying(2.0, 0.5));
+  tools::ToolState shown = carrying(2.7, 0.9);
+  average.fill_in(shown);
+  EXPECT_EQ(shown.weight_average.mean, tool.weight_average.mean);
+  EXPECT_EQ(shown.weight_average.uncertainty, tool.weight_average.uncertainty);
+  EXPECT_EQ(shown.torque_average.mean, tool.torque_average.mean);
+  for (const std::string other : {"ball", ""}) {
+    average.fill_in(shown = carrying(2.7, 0.9, other));
+    EXPECT_EQ(shown.weight_average.mean, 2.7);
+    EXPECT_TRUE(std::isinf(shown.torque_average.uncertainty));
+  }
+}
+
 TEST(ReadingAverage, StartsAnewWithAnotherObjectAndWhenTimeGoesBack) {
   ReadingAverage average;
   tools::ToolState tool;

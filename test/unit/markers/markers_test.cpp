@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <memory>
 #include <set>
@@ -199,6 +200,31 @@ TEST_F(MarkersOfALift, TheProbeHasAReadoutWhileItTouches) {
   std::snprintf(force, sizeof force, " %.2f N ", tool.tip_wrench_W.force.norm());
   EXPECT_GT(tool.tip_wrench_W.force.norm(), 1.0);
   EXPECT_NE(find(build(), "readout", 0)->text.find(force), std::string::npos);
+}
+
+/// The second line: the scale's mean, the force along and across the tool and its angle; of a probe, the material.
+TEST_F(MarkersOfALift, ReadingsAreToldBelowTheLoad) {
+  go_to(8.0);
+  live::View view = view_of(simulation_);
+  tools::ToolState& tool = view.tools[0];
+  const auto second_line = [&] {
+    const MarkerArray markers = builder_.build(view, std_msgs::Header());
+    const std::string text = find(markers, "readout", 0)->text;
+    return text.find('\n') == std::string::npos ? "" : text.substr(text.find('\n') + 1);
+  };
+  EXPECT_EQ(second_line(), "9.8 N along   0.0 N across   0 deg");
+  tool.weight_average = {1.0004, 0.002};
+  tool.force_angle = M_PI / 6.0;
+  tool.bending_force = 4.9;
+  EXPECT_EQ(second_line(), "mean 1.000 +- 0.002 vkg   9.8 N along   4.9 N across   30 deg");
+  tool.held_object.clear();
+  tool.touched = "box";
+  EXPECT_EQ(second_line(), "");
+  tool.material_stiffness = 1234.0;
+  tool.material_stiffness_uncertainty = 20.0;
+  EXPECT_EQ(second_line(), "material: 1.23e+03 +- 2e+01 N/m");
+  tool.material_stiffness = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(second_line(), "material: rigid");
 }
 
 TEST_F(MarkersOfALift, TheDrawnProngEndsWhereTheSimulatedTipPoints) {

@@ -25,6 +25,8 @@ class ToolOutput {
 
   /// Reads the tool of this hand in the simulation as the instrument that it is, and fills its averages in.
   void read(const live::View& view, tools::ToolState& tool);
+  /// Fills in what was read last, for a tool that is shown.
+  void show(tools::ToolState& tool) const { average_.fill_in(tool); }
   /// `tool`: that of this hand, as it was read; `header`: the state's stamp, and the world frame.
   void publish(const live::View& view, const tools::ToolState& tool, const std_msgs::Header& header);
 

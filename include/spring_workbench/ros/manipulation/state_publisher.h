@@ -39,7 +39,7 @@ class StatePublisher {
 
   /// `publish_time` [s]: how long the messages before these took.
   void publish(const CommittedState& state, double publish_time);
-  void publish(const ShownState& state);
+  void publish(ShownState state);
   /// The journal, while both of its topics have a subscriber.
   void publish_journal(live::SimulationRunner& runner);
 
