@@ -4,6 +4,7 @@ import glob
 import json
 import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -30,9 +31,14 @@ class LaunchFiles(unittest.TestCase):
     def test_demo_assembles_all_objects(self):
         rospy.set_param("/use_sim_time", False)
         tasks, forks = Listener("manipulation/task", TaskState), Listener("manipulation/fork", ForkState)
-        with Launched("demo.launch", "rviz:=false", "pause:=1"):
+        with tempfile.TemporaryDirectory() as folder, Launched("demo.launch", "rviz:=false", "pause:=1"):
+            command = [PACKAGE + "/scripts/demo_report", folder + "/demo.png", folder + "/score.csv"]
+            report = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
             tasks.next(lambda m: m.placed >= 1, "the first object in place")
             wait_for(lambda: tasks.last.complete, "all objects in place", deadline=240.0)
+            told = report.communicate(timeout=60.0)[0]
+        self.assertEqual(report.returncode, 0, told)
+        self.tells_the_order_of_weights(told)
         done = tasks.last
         self.assertEqual(done.targets, 7)
         self.assertTrue(all(p.in_place for p in done.placements))
@@ -42,6 +48,23 @@ class LaunchFiles(unittest.TestCase):
         self.assertGreater(max(abs(m.torsion) for m in carried), math.radians(10))
         self.assertGreater(max(math.hypot(*m.bend) for m in carried), 0.05)
         self.assertGreater(max(m.stretch for m in carried), 0.05)
+
+    def tells_the_order_of_weights(self, report):
+        """The largest mean stretch of each object, as it is printed: in the order of their masses, and with the leaning
+        fork in proportion to them, but for the acceleration of the hand."""
+        masses = [
+            ("red_box", 0.1),
+            ("purple_sphere", 0.3),
+            ("white_sphere", 0.5),
+            ("green_box", 1.0),
+            ("yellow_box", 3.0),
+            ("steel_sphere", 10.0),
+            ("orange_box", 30.0),
+        ]
+        stretch = dict(re.findall(r"(?m)^  (\w+) +(\S+) mm$", report))
+        self.assertEqual(list(stretch), [name for name, _ in masses], report)
+        per_mass = [float(stretch[name]) / mass for name, mass in masses]
+        self.assertLess(max(per_mass), 1.3 * min(per_mass), report)
 
     def test_the_operator_works_with_two_hands(self):
         """It carries a bar with both, and one hands a box over to the other."""
