@@ -2,19 +2,25 @@
 """The tools of `manipulation` and its second stylus, by topics and services: scenes/single_box, hands on their own
 clock."""
 import math
+import os
+import subprocess
 import sys
+import tempfile
 import unittest
 
+import rosgraph
+import rospkg
 import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
 from sensor_msgs.msg import Joy
 from spring_workbench.msg import ForkState, ObjectStates, ProbeReading
-from spring_workbench.srv import Calibrate, Release, SelectTool, SetClutch, SetForkStiffness
+from spring_workbench.srv import Calibrate, Release, SelectTool, SetClutch, SetForkDamping, SetForkStiffness
 from std_srvs.srv import Trigger
 from tf2_msgs.msg import TFMessage
 
 from stack import (
+    DEADLINE,
     DOWN,
     Hand,
     Listener,
@@ -25,6 +31,7 @@ from stack import (
     wait_for,
 )
 
+PACKAGE = rospkg.RosPack().get_path("spring_workbench")
 LENGTH, WEIGHT, FORCE_SCALE = 0.2, 9.81, 4.0
 IN_BOX, LIFTED, AWAY = (0.02, 0.0, 0.02 + LENGTH), (0.02, 0.0, 0.30 + LENGTH), (0.02, 0.3, 0.30 + LENGTH)
 
@@ -61,6 +68,7 @@ class Tools(unittest.TestCase):
             {
                 "select_tool": SelectTool,
                 "set_stiffness": SetForkStiffness,
+                "set_damping": SetForkDamping,
                 "reset": Trigger,
                 "calibrate": Calibrate,
                 "release": Release,
@@ -70,6 +78,7 @@ class Tools(unittest.TestCase):
         cls.objects = Listener("manipulation/objects", ObjectStates)
         cls.fork = Listener("manipulation/fork", ForkState)
         cls.probe = Listener("manipulation/probe", ProbeReading)
+        cls.shown_fork = Listener("manipulation/display/fork", ForkState)
         cls.fork_2 = Listener("manipulation/fork_2", ForkState)
         cls.wrench_2 = Listener("manipulation/wrench_2", WrenchStamped)
         cls.wrench = Listener("manipulation/wrench", WrenchStamped)
@@ -174,6 +183,9 @@ class Tools(unittest.TestCase):
         self.assertAlmostEqual(fork.tip_wrench.force.z, WEIGHT, delta=0.01)
         self.assertAlmostEqual(wrench.wrench.force.z, WEIGHT / FORCE_SCALE, delta=0.05 * WEIGHT / FORCE_SCALE)
         self.assertLess(abs(fork.torque), 1e-3)  # held upright, the box does not twist it
+        for averaged in (fork, self.shown_fork.next()):
+            self.assertAlmostEqual(averaged.weight_mean, 1.0, delta=1e-3)
+            self.assertLess(averaged.weight_uncertainty, 1e-3)
         before = self.box().pose.position.z
         self.call("calibrate")
         self.hand.run(2.0)
@@ -186,6 +198,12 @@ class Tools(unittest.TestCase):
 
     def test_probe_presses_the_box_on_the_bench(self):
         self.call("select_tool", "spring_probe", 1)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        picture = os.path.join(folder.name, "curve.png")
+        curve = subprocess.Popen([PACKAGE + "/scripts/probe_curve", picture], stdout=subprocess.PIPE, text=True)
+        listeners = lambda: dict(rosgraph.Master("/test").getSystemState()[1]).get("/manipulation/probe", [])
+        wait_for(lambda: any("probe_curve" in name for name in listeners()), "probe_curve to listen")
         self.hand.position = (0.02, 0.0, 0.4)
         self.hand.run(0.2)
         self.hand.move((0.02, 0.0, 0.04 + LENGTH + 0.005), DOWN, 0.5)
@@ -205,6 +223,13 @@ class Tools(unittest.TestCase):
         self.assertEqual(len(reading.depths), len(reading.forces))
         self.assertAlmostEqual(reading.forces[-1], reading.force, delta=0.05 * reading.force)
         self.assertAlmostEqual(reading.depths[-1], 0.02, delta=1e-3)
+        self.hand.move((0.02, 0.0, 0.4), DOWN, 1.0)
+        self.hand.run(0.5)
+        told = curve.communicate(timeout=DEADLINE)[0]
+        self.assertEqual(curve.returncode, 0, told)
+        self.assertRegex(told, r"^box: .*(N/m|rigid)")
+        with open(picture, "rb") as file:
+            self.assertEqual(file.read(4), b"\x89PNG")
 
     def test_second_stylus_takes_the_object_over(self):
         self.lift()
@@ -228,6 +253,36 @@ class Tools(unittest.TestCase):
         self.assertEqual(felt.header.frame_id, "fork_handle_2")
         self.assertAlmostEqual(felt.wrench.force.z, WEIGHT / FORCE_SCALE, delta=0.05 * WEIGHT / FORCE_SCALE)
         self.assertIn("box", self.call("release").message)
+
+    def test_each_hand_has_settings_of_its_own(self):
+        """Both carry the box, each with its own springs. To set for both what is set already moves nothing."""
+        self.lift()
+        self.hand.second = (-0.03, 0.0, LIFTED[2])
+        self.hand.run(0.3)
+        self.hand.second_pressed = True
+        self.hand.run(0.5)
+        self.call("set_stiffness", 700.0, 300.0, 2.0, 2)
+        springs = lambda fork: (fork.stretch_stiffness, fork.bend_stiffness, fork.torsion_stiffness)
+        self.hand.move((LIFTED[0], LIFTED[1], LIFTED[2] - 0.003), DOWN, 0.3)  # both carry a share
+        self.hand.run(6.0)
+        self.assertEqual(springs(self.fork.next()), (2000.0, 500.0, 5.0))
+        self.assertEqual(springs(self.fork_2.next()), (700.0, 300.0, 2.0))
+        self.assertEqual((self.fork.last.held_object, self.fork_2.last.held_object), ("box", "box"))
+        self.assertGreater(min(self.fork.last.stretch, self.fork_2.last.stretch), 1e-3)
+
+        def numbers(pose):
+            return [getattr(pose.position, a) for a in "xyz"] + [getattr(pose.orientation, a) for a in "xyzw"]
+
+        before = numbers(self.box().pose)
+        for stylus in (0, 1, 2):
+            self.call("set_damping", 1.0, 1.0, 1.0, "", stylus)
+            seen = len(self.objects.messages)
+            self.hand.run(1.0)
+            for message in self.objects.messages[seen:]:
+                for a, b in zip(numbers(message.objects[0].pose), before):
+                    self.assertAlmostEqual(a, b, delta=1e-9)
+            self.assertEqual(springs(self.fork.next()), (2000.0, 500.0, 5.0))
+            self.assertEqual(springs(self.fork_2.next()), (700.0, 300.0, 2.0))
 
     def test_both_start_anew_when_time_jumps_back(self):
         self.lift()
