@@ -397,10 +397,10 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
     }
   }
   for (const std::size_t i : inside(swept(item, X0_WO, X1_WO, 2.0 * contact_skin))) {
-    if (i == body) continue;
     const Item& other = items_[i];
+    // The end of a driven one may not be known yet: the pair is judged with that.
+    if (i == body || (!untouched && solver_.drove(other.bullet.get()) && !solver_.drove(item.bullet.get()))) continue;
     const RigidTransform X_before = untouched ? other.X_WO : pose_before_step(i);
-    // As seen from the other, which stays where it was before.
     const RigidTransform X1_seen = X_before * other.X_WO.inverse() * X1_WO;
     const geometry::StraightMotion relative = path_between(X0_WO, X1_seen);
     const Vector3d most_O = extent_O.cwiseMin(reach(relative, X_before.translation(), other.radius));

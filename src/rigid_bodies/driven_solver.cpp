@@ -24,7 +24,10 @@ void DrivenSolver::set_driven(std::vector<Driven> driven, double h) {
 }
 
 const DrivenSolver::Driven* DrivenSolver::driven_of(std::size_t solver_body) const {
-  const btRigidBody* bullet = m_tmpSolverBodyPool[static_cast<int>(solver_body)].m_originalBody;
+  return driven_of(m_tmpSolverBodyPool[static_cast<int>(solver_body)].m_originalBody);
+}
+
+const DrivenSolver::Driven* DrivenSolver::driven_of(const btRigidBody* bullet) const {
   const auto found = std::find_if(driven_.begin(), driven_.end(), [&](const Driven& d) { return d.bullet == bullet; });
   return bullet == nullptr || found == driven_.end() ? nullptr : &*found;
 }

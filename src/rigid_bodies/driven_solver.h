@@ -29,6 +29,8 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   const std::vector<Impact>& impacts() const { return impacts_; }
   /// Largest distance of a contact of the last step from its law [m]; see friction::ContactProblem.
   double residual() const { return residual_; }
+  /// Whether a body was driven in it.
+  bool drove(const btRigidBody* bullet) const { return driven_of(bullet) != nullptr; }
   /// Depth of its deepest contact, at its start [m].
   double deepest() const { return deepest_; }
 
@@ -45,6 +47,7 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   Vector6d velocity(std::size_t solver_body, bool at_start) const;
   Vector3d motion(const Contact& contact, bool at_start) const;
   const Driven* driven_of(std::size_t solver_body) const;
+  const Driven* driven_of(const btRigidBody* bullet) const;
   bool drives(const Contact& c) const;
   bool pushes(std::size_t solver_body) const;  ///< whether it moves and is not driven
   /// Response of a body's velocity to an impulse: now, if it is an impact, or spread over the step.
