@@ -65,8 +65,8 @@ class Study(unittest.TestCase):
         command += ["--tlx", self.path("tlx.yaml"), "rviz:=false"]
         return subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
-    def end(self, process):
-        out, err = process.communicate(timeout=DEADLINE)
+    def end(self, process, deadline=DEADLINE):
+        out, err = process.communicate(timeout=deadline)
         return process.returncode, out, err
 
     def test_broken_off_and_continued(self):
@@ -123,7 +123,7 @@ class Study(unittest.TestCase):
 
     def test_from_start_to_analysis_by_one_command(self):
         """Two simulated participants, in opposite orders, and what their records say."""
-        status, out, err = self.end(self.start("1-2"))
+        status, out, err = self.end(self.start("1-2"), 3 * DEADLINE)
         self.assertEqual((status, err), (0, ""))
         orders = [[row["condition"] for row in self.rows(f"participant_00{k}.csv")] for k in (1, 2)]
         self.assertEqual(orders, [["rigid", "bending"], ["bending", "rigid"]])
