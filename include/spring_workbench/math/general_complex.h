@@ -19,10 +19,12 @@ struct GeneralComplex {
   GeneralComplex(double real, double imaginary, double j_squared) : re(real), im(imaginary), square(j_squared) {}
 
   GeneralComplex& operator+=(const GeneralComplex& z) { return *this = *this + z; }
+  friend GeneralComplex operator+(const GeneralComplex& z, double a) { return a + z; }
   friend GeneralComplex operator+(const GeneralComplex& a, const GeneralComplex& b) {
     return {a.re + b.re, a.im + b.im, common_square(a, b)};
   }
-  friend GeneralComplex operator-(const GeneralComplex& a, const GeneralComplex& b) { return a + -1.0 * b; }
+  friend GeneralComplex operator+(double a, const GeneralComplex& z) { return {a + z.re, z.im, z.square}; }
+  friend GeneralComplex operator-(const GeneralComplex& z, double a) { return {z.re - a, z.im, z.square}; }
   friend GeneralComplex operator*(double a, const GeneralComplex& z) { return {a * z.re, a * z.im, z.square}; }
   friend GeneralComplex operator*(const GeneralComplex& z, double a) { return a * z; }
   friend GeneralComplex operator*(const GeneralComplex& a, const GeneralComplex& b) {
@@ -36,6 +38,12 @@ struct GeneralComplex {
     return {over * re, -over * im, z.square};
   }
 
+  /// Square of the larger one of the eigenvalues.
+  friend double norm(const GeneralComplex& z) {
+    if (z.square < 0.0) return z.re * z.re - z.square * z.im * z.im;
+    const double size = abs(z);
+    return size * size;
+  }
   /// Of the larger one of the eigenvalues.
   friend double abs(const GeneralComplex& z) {
     const double apart = std::abs(z.im) * std::sqrt(std::abs(z.square));

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <complex>
 
 namespace spring_workbench::math {
 
@@ -10,12 +11,12 @@ namespace spring_workbench::math {
 /// std::complex<double> or GeneralComplex.
 template <std::size_t most, typename Scalar>
 std::array<Scalar, most + 1> phi_functions(Scalar z) {
-  using std::abs, std::exp;
+  using std::exp, std::norm;
   std::array<Scalar, most + 1> phi{};
   phi[0] = exp(z);
   std::array<double, most + 1> inverse_factorial{1.0};
   for (std::size_t k = 1; k <= most; ++k) inverse_factorial[k] = inverse_factorial[k - 1] / static_cast<double>(k);
-  if (abs(z) < 1.0) {
+  if (norm(z) < 1.0) {
     // φ_most by its series 1/most! + z/(most + 1)! + …, the others from it upwards without cancellation.
     Scalar sum = 1.0;
     for (int n = static_cast<int>(most) + 15; n > static_cast<int>(most); --n) sum = 1.0 + sum * z * (1.0 / n);
