@@ -69,6 +69,32 @@ TEST(OurMethods, EachConvergesToTheReferencesWithItsOrder) {
   }
 }
 
+/// At critical damping, where both rates of a mode are one: from 20 to 0.6 ms, to rounding.
+TEST(OurMethods, ExponentialHasNoFloorAtCriticalDamping) {
+  for (const Scenario& scene : {stretch_scene(1e2), torsion_scene(1.0)}) {
+    const double amplitude = hand_amplitude(scene);
+    double error = integrator_error("exponential", scene, 1) / amplitude;
+    for (const int steps : {2, 4, 8, 16, 32}) {
+      const double finer = integrator_error("exponential", scene, steps) / amplitude;
+      EXPECT_LT(finer, std::max(error, 1e-13)) << scene.name << " " << steps;
+      error = finer;
+    }
+    EXPECT_LT(error, 1e-13) << scene.name;
+  }
+}
+
+/// From 100 to 5 ms.
+TEST(OurMethods, TheErrorOfExponentialFallsWithEachOfTwentySteps) {
+  Scenario scene = six_dof_scene(1.0);
+  scene.output_interval = 0.1;
+  double error = integrator_error("exponential", scene, 1);
+  for (int steps = 2; steps <= 20; ++steps) {
+    const double finer = integrator_error("exponential", scene, steps);
+    EXPECT_LT(finer, error) << steps;
+    error = finer;
+  }
+}
+
 TEST(OurMethods, ThoseOfHighOrderHaveItToo) {
   // From 20 to 5 ms; what the hand's jerk sets off at the start costs part of an order.
   const Scenario scene = six_dof_scene(1.0);
