@@ -67,7 +67,7 @@ struct RealModes {
   Matrix blocks() const {  ///< B
     Matrix B = Matrix::Zero(vectors.rows(), vectors.rows());
     for (Eigen::Index i = 0; i < B.rows(); ++i) B(i, i) = rates[i].re;
-    for (Eigen::Index i = 0; i < 2 * pairs; i += 2) {
+    for (int i = 0; i < 2 * pairs; i += 2) {
       B(i, i + 1) = rates[i].im;
       B(i + 1, i) = rates[i].square * rates[i].im;
     }
