@@ -209,6 +209,8 @@ class Tools(unittest.TestCase):
         self.hand.move((0.02, 0.0, 0.04 + LENGTH + 0.005), DOWN, 0.5)
         self.hand.run(0.5)
         self.hand.move((0.02, 0.0, 0.04 + LENGTH - 0.02), DOWN, 2.0)
+        self.hand.followed_by = (self.fork,)  # until it has pressed all the way, however slow the node is
+        self.addCleanup(setattr, self.hand, "followed_by", ())
         self.hand.run(1.0)
         fork = self.fork.next()
         self.assertEqual((fork.touched, fork.held_object), ("box", ""))
