@@ -1,4 +1,4 @@
-# Room rviz_plugin: panel, display and view of rviz. Built only where rviz and Qt 5 are found.
+# Module rviz_plugin: panel, display and view of rviz. Built only where rviz and Qt 5 are found.
 option(SPRING_WORKBENCH_WITH_RVIZ "Plugins for rviz, where it is found" ON)
 if(NOT SPRING_WORKBENCH_WITH_RVIZ)
   # of a build that had it
@@ -23,7 +23,8 @@ target_include_directories(spring_workbench_rviz SYSTEM PUBLIC
   ${catkin_INCLUDE_DIRS} ${rviz_INCLUDE_DIRS} ${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 add_library(spring_workbench_rviz_plugin ALIAS spring_workbench_rviz)   # the module's name, for its tests
 target_link_libraries(spring_workbench_rviz PUBLIC
-  spring_workbench_fork_mesh spring_workbench_tools ${catkin_LIBRARIES} ${rviz_LIBRARIES} Qt5::Widgets)
+  spring_workbench_fork_mesh spring_workbench_ros_common spring_workbench_tools
+  ${catkin_LIBRARIES} ${rviz_LIBRARIES} Qt5::Widgets)
 # The thread that ends rviz must not come back to code that is gone.
 target_link_options(spring_workbench_rviz PRIVATE LINKER:-z,nodelete)
 add_dependencies(spring_workbench_rviz ${PROJECT_NAME}_generate_messages_cpp)

@@ -4,11 +4,13 @@
 
 #include <iostream>
 
+#include "spring_workbench/ros/common/end_in_time.h"
 #include "spring_workbench/validation/input_error.h"
 
 /// Contacts as sound. Exit status 2: bad parameters, or nowhere to play.
 int main(int argc, char** argv) {
   ros::init(argc, argv, "contact_sound");
+  spring_workbench::ros_common::end_in_time(ros::isShuttingDown);
   try {
     spring_workbench::contact_sound::run(ros::NodeHandle(), ros::NodeHandle("~"));
   } catch (const spring_workbench::validation::InputError& error) {

@@ -3,20 +3,16 @@
 #include <ros/xmlrpc_manager.h>
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <iostream>
-#include <thread>
 
 #include "spring_workbench/ros/common/background_log.h"
+#include "spring_workbench/ros/common/end_in_time.h"
 #include "spring_workbench/ros/manipulation/manipulation_node.h"
 #include "spring_workbench/validation/input_error.h"
 
 namespace {
 
-/// Which the line to the master may take at the end. Noticed by `master_test.py`.
-constexpr std::chrono::milliseconds longest_end(1500);
 std::atomic<bool> end_asked{false};
 
 void ask_for_end(int) { end_asked = true; }
@@ -40,15 +36,7 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "manipulation", ros::init_options::NoSigintHandler);
   spring_workbench::ros_common::log_in_background();
   end_in_order();
-  std::thread([] {
-    while (!end_asked) std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    std::this_thread::sleep_for(longest_end);  // a master that is gone or hangs does not keep the node from its end
-    if (spring_workbench::ros_common::error_output_takes_more()) {
-      std::cerr << "shutdown has taken longer than 1.5 s, probably because the ROS master does not answer; exiting now"
-                << std::endl;
-    }
-    std::_Exit(0);
-  }).detach();
+  spring_workbench::ros_common::end_in_time([] { return end_asked.load(); });
   try {
     const spring_workbench::manipulation::ManipulationNode node(ros::NodeHandle(), ros::NodeHandle("~"));
     while (ros::ok() && !end_asked) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));

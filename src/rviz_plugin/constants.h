@@ -14,8 +14,6 @@ constexpr double settling = 0.7;
 constexpr double kept_for = 10.0;
 /// Number of positions of a logarithmic slider. Fewer: coarser values. Test: none: a look.
 constexpr int slider_positions = 1000;
-/// Checks per second whether rviz is ending. Fewer: it ends later. Test: none: rviz ends later.
-constexpr int master_slices = 10;
 /// [s] from the end of rviz' windows until it ends without the ROS master's leave. Longer: with a master that hangs,
 /// rviz is there for longer; much shorter: it ends while it still frees things. Test:
 /// rviz_recovery_test.py::test_rviz_ends_while_the_master_hangs at 600.

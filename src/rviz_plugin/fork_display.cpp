@@ -27,7 +27,7 @@ void ForkDisplay::setTopic(const QString& topic, const QString&) { topic_->setSt
 void ForkDisplay::subscribe() {
   if (!initialized()) return;
   forks_.clear();
-  seen_.reset();
+  last_answer_.reset();
   if (!isEnabled() || topic_->getTopicStd().empty()) return;
   setStatus(StatusProperty::Warn, "Topic", "No message yet");
   listen(update_nh_.resolveName(topic_->getTopicStd()));
@@ -53,10 +53,10 @@ void ForkDisplay::listen(const std::string& topic) {
 
 /// The topic's name is the first of those that begin with it.
 void ForkDisplay::listen_to_all() {
-  const auto topics = master_->topics();
-  if (forks_.empty() || topics == std::exchange(seen_, topics)) return;
+  const auto answer = shared_master_watch().answer();
+  if (forks_.empty() || answer == std::exchange(last_answer_, answer)) return;
   const std::string begin = forks_.begin()->first + "_";
-  for (const std::string& topic : *topics) {
+  for (const auto& [topic, publishers] : answer->publishers) {
     const bool has_number = topic.find_first_not_of("0123456789", begin.size()) == std::string::npos;
     if (topic.size() > begin.size() && topic.rfind(begin, 0) == 0 && has_number) listen(topic);
   }

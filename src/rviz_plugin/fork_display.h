@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "drawn_fork.h"
-#include "master_watch.h"
+#include "shared_master_watch.h"
 #endif
 
 namespace rviz {
@@ -32,7 +32,7 @@ class ForkDisplay : public rviz::Display {
   void setTopic(const QString& topic, const QString& datatype) override;
 
  protected:
-  void onInitialize() override { master_ = MasterWatch::shared(); }
+  void onInitialize() override { shared_master_watch(); }
   void onEnable() override { subscribe(); }
   void onDisable() override { forks_.clear(); }
 
@@ -50,9 +50,8 @@ class ForkDisplay : public rviz::Display {
   void draw(Fork& fork);
 
   rviz::RosTopicProperty* topic_;
-  std::shared_ptr<MasterWatch> master_;
-  std::map<std::string, Fork> forks_;                     ///< by topic
-  std::shared_ptr<const std::vector<std::string>> seen_;  ///< what the master said of topics
+  std::map<std::string, Fork> forks_;                                   ///< by topic
+  std::shared_ptr<const ros_common::MasterWatch::Answer> last_answer_;  ///< whose topics are listened to
 };
 
 }  // namespace spring_workbench::rviz_plugin

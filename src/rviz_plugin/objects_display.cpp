@@ -11,6 +11,7 @@
 #include <string>
 
 #include "constants.h"
+#include "shared_master_watch.h"
 #include "spring_workbench/validation/input_error.h"
 #include "world_frame.h"
 
@@ -32,7 +33,7 @@ ObjectsDisplay::~ObjectsDisplay() { unsubscribe(); }
 
 void ObjectsDisplay::onInitialize() {
   objects_ = std::make_unique<SceneObjects>(scene_manager_, scene_node_);
-  master_ = MasterWatch::shared();
+  shared_master_watch();
 }
 
 void ObjectsDisplay::onEnable() { subscribe(); }

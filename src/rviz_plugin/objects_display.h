@@ -7,7 +7,6 @@
 #include <memory>
 #include <string>
 
-#include "master_watch.h"
 #include "scene_objects.h"
 #include "spring_workbench/ObjectStates.h"
 #include "spring_workbench/SceneDescription.h"
@@ -47,7 +46,6 @@ class ObjectsDisplay : public rviz::Display {
 
   rviz::RosTopicProperty *topic_, *scene_topic_;
   ros::Subscriber objects_subscriber_, scene_subscriber_;
-  std::shared_ptr<MasterWatch> master_;
   SceneDescriptionConstPtr scene_;  ///< not yet built
   ObjectStatesConstPtr newest_;     ///< not yet drawn
   std::string frame_;               ///< of the poses; empty: nothing is shown

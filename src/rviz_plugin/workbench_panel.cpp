@@ -18,6 +18,7 @@
 #include "constants.h"
 #include "dof_controls.h"
 #include "log_slider.h"
+#include "shared_master_watch.h"
 #include "spring_workbench/Calibrate.h"
 #include "spring_workbench/LoadScene.h"
 #include "spring_workbench/Release.h"
@@ -157,7 +158,7 @@ void WorkbenchPanel::onInitialize() {
   fork_subscriber_ = handle.subscribe(node + "fork", 1, &WorkbenchPanel::on_fork, this);
   steps_subscriber_ = handle.subscribe(node + "steps", 200, &WorkbenchPanel::on_steps, this);
   joy_subscriber_ = handle.subscribe("stylus/joy", 1, &WorkbenchPanel::on_joy, this);
-  master_ = MasterWatch::shared();
+  shared_master_watch();
   auto* timer = new QTimer(this);
   connect(timer, &QTimer::timeout, this, &WorkbenchPanel::refresh);
   timer->start(100);

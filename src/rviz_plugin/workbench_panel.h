@@ -7,7 +7,6 @@
 
 #include <memory>
 
-#include "master_watch.h"
 #include "service_caller.h"
 #include "spring_workbench/ForkState.h"
 #include "spring_workbench/StepReport.h"
@@ -52,7 +51,6 @@ class WorkbenchPanel : public rviz::Panel {
   template <typename Service>  // switches and choices wait for what comes of it
   void ask(const std::string& service, const typename Service::Request& request);
 
-  std::shared_ptr<MasterWatch> master_;
   ros::Subscriber fork_subscriber_, steps_subscriber_, joy_subscriber_;
   ForkStateConstPtr fork_;
   double fork_received_ = -1e9;  ///< [s]

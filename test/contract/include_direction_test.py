@@ -30,7 +30,7 @@ WITHOUT_YAML = set(
     "math validation geometry motion rod fork_mesh dynamics stepping bodies tools contact objects".split()
 )
 EXECUTABLES = {  # folders of executables, which have no module of their own: what they may use
-    "rviz_plugin": {"fork_mesh", "tools"},
+    "rviz_plugin": {"fork_mesh", "ros_common", "tools"},
     "nodes": NODES,
     "apps": {"live", "motion_files", "simulated_fastrak", "assembly"},
 }

@@ -10,12 +10,14 @@ import tempfile
 import threading
 import unittest
 
+import roslib.packages
 import rostest
 import yaml
 
-from master_test import MANIPULATION, SCENE, free_port
+from master_test import SCENE, free_port
 from stack import DEADLINE, wait_for
 
+MANIPULATION = roslib.packages.find_node("spring_workbench", "manipulation")
 OTHER_SCENE = os.path.join(os.path.dirname(SCENE), "mini_world.urdf")
 
 

@@ -1,5 +1,6 @@
 #include "spring_workbench/ros/contact_sound/contact_sound.h"
 
+#include <ros/callback_queue.h>
 #include <ros/ros.h>
 
 #include <algorithm>
@@ -15,6 +16,7 @@
 #include "spring_workbench/config/yaml_fields.h"
 #include "spring_workbench/ros/common/callback_thread.h"
 #include "spring_workbench/ros/common/loop_clock.h"
+#include "spring_workbench/ros/common/master_watch.h"
 #include "spring_workbench/ros/common/parameters.h"
 #include "spring_workbench/sound/audio_output.h"
 #include "spring_workbench/sound/contact_synthesizer.h"
@@ -38,7 +40,12 @@ class ContactSound {
     scene_subscriber_ = heard.subscribe("scene_description", 1, &ContactSound::on_scene, this);
     timer_ = node.createSteadyTimer(ros::WallDuration(render_period), &ContactSound::play, this);
   }
-  ~ContactSound() { contacts_thread_.stop(); }
+  ~ContactSound() {
+    contacts_thread_.stop();
+    timer_.stop();
+    output_.reset();        // completes the file
+    master_thread_.stop();  // may have to wait for the master
+  }
   ContactSound(const ContactSound&) = delete;
   ContactSound& operator=(const ContactSound&) = delete;
 
@@ -96,7 +103,8 @@ class ContactSound {
   std::unique_ptr<sound::AudioOutput> output_;
   std::map<std::string, sound::SoundingBody> bodies_;
   double played_until_, last_contacts_ = 0.0;  ///< [s], by the steady clock
-  ros_common::CallbackThread contacts_thread_{"contacts"};
+  ros_common::CallbackThread contacts_thread_{"contacts"}, master_thread_{"master"};
+  ros_common::MasterWatch master_watch_{master_thread_.handle(ros::NodeHandle())};
   ros::Subscriber subscriber_, scene_subscriber_;
   ros::SteadyTimer timer_;
 };
@@ -105,7 +113,8 @@ class ContactSound {
 
 void run(ros::NodeHandle node, const ros::NodeHandle& private_node) {
   const ContactSound sound(node, private_node);
-  ros::spin();
+  // Not ros::spin(), which would go on until the master has answered that this node is gone.
+  while (ros::ok() && !ros::isShuttingDown()) ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.1));
 }
 
 }  // namespace spring_workbench::contact_sound

@@ -13,7 +13,6 @@ Checkpoint::Checkpoint(const ros::NodeHandle& master, const ros::NodeHandle& dis
                        const std::vector<std::string>& scene_roots)
     : master_(master), on_master_(runner, given_scene), in_file_(runner, given_scene) {
   if (!file.empty()) file_.emplace(file);
-  master_.getParam(master_.getNamespace(), parameters_);
   resume(scene_roots);
   const ros::WallDuration period(checkpoint_period);
   master_timer_ = master_.createSteadyTimer(period, [this](const ros::SteadyTimerEvent&) { keep_on_master(); });
@@ -23,7 +22,6 @@ Checkpoint::Checkpoint(const ros::NodeHandle& master, const ros::NodeHandle& dis
 Checkpoint::~Checkpoint() {
   master_timer_.stop();
   file_timer_.stop();
-  if (handed_over_) return;
   try {
     if (file_) file_->remove();
   } catch (const std::exception&) {  // logged before: it could not be written either
@@ -54,23 +52,21 @@ void Checkpoint::set_file_error(const std::string& file_error) {
   ROS_WARN_STREAM("the checkpoint's file is " << now);
 }
 
-void Checkpoint::hand_over() {
-  handed_over_ = true;
-  master_timer_.stop();
-  master_.setParam(master_.getNamespace(), parameters_);
-  on_master_.forget();  // the new master knows nothing of it
+void Checkpoint::keep_on_new_master() {
+  on_master_.forget();
   keep_on_master();
 }
 
 void Checkpoint::resume(const std::vector<std::string>& scene_roots) {
-  const bool from_file = !parameters_.hasMember(kKey);
+  XmlRpc::XmlRpcValue kept;
+  const bool from_file = !master_.getParam(kKey, kept);
   if (from_file && !file_) return;
   const std::string where = from_file ? "checkpoint_file" : "~" + kKey;
   std::string text;
   try {
-    if (!from_file && parameters_[kKey].getType() != XmlRpc::XmlRpcValue::TypeString)
+    if (!from_file && kept.getType() != XmlRpc::XmlRpcValue::TypeString)
       throw validation::InputError(where + ": must be a text that this node wrote");
-    text = from_file ? file_->read() : static_cast<std::string>(parameters_[kKey]);
+    text = from_file ? file_->read() : static_cast<std::string>(kept);
     if (text.empty()) return;
     on_master_.resume(text, where, scene_roots);
     ROS_WARN_STREAM("resuming from the state of the node that was killed (" << where << "); nothing is held");

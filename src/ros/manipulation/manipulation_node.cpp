@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <optional>
 
 #include "constants.h"
 #include "spring_workbench/ros/common/conversions.h"
@@ -14,17 +13,11 @@
 namespace spring_workbench::manipulation {
 namespace {
 
-/// The nodes that the master says publish /tf, this one left out; nothing where there is no master.
-std::optional<std::vector<std::string>> senders_of_tf() {
-  XmlRpc::XmlRpcValue request, response, state;
-  request[0] = ros::this_node::getName();
-  std::vector<std::string> senders;
-  if (!ros::master::execute("getSystemState", request, response, state, false)) return std::nullopt;
-  XmlRpc::XmlRpcValue& topics = state[0];
-  for (int i = 0; i < topics.size(); ++i) {
-    if (std::string(topics[i][0]) != "/tf") continue;
-    for (int k = 0; k < topics[i][1].size(); ++k) senders.push_back(topics[i][1][k]);
-  }
+/// The nodes that publish /tf, without this one.
+std::vector<std::string> senders_of_tf(const ros_common::MasterWatch::Answer& answer) {
+  const auto found = answer.publishers.find("/tf");
+  if (found == answer.publishers.end()) return {};
+  std::vector<std::string> senders = found->second;
   senders.erase(std::remove(senders.begin(), senders.end(), ros::this_node::getName()), senders.end());
   return senders;
 }
@@ -57,11 +50,9 @@ ManipulationNode::ManipulationNode(ros::NodeHandle node, const ros::NodeHandle& 
       diagnostics_(private_node.getNamespace(), parameters_.simulation.dropout_after),
       diagnostics_publisher_(node.advertise<diagnostic_msgs::DiagnosticArray>("/diagnostics", 10)),
       every_second_(node.createSteadyTimer(ros::WallDuration(1.0), &ManipulationNode::on_every_second, this)),
-      asks_master_(master_thread_.handle(node).createSteadyTimer(
-          ros::WallDuration(1.0), [this](const ros::SteadyTimerEvent&) { ask_master(); })),
       describes_scene_(node.createSteadyTimer(ros::WallDuration(scene_period),
                                               [this](const ros::SteadyTimerEvent&) { describe_scene(); })),
-      master_answered_(ros_common::steady_time()),
+      master_watch_(master_thread_.handle(node), [this] { checkpoint_.keep_on_new_master(); }),
       show_times_(1.0 / parameters_.rate),
       physics_([this] { run_physics(); }) {
   runner_.locked([](const simulation::Simulation& simulation) {
@@ -145,11 +136,9 @@ void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
   std::vector<TrackerInput> all;
   for (const StylusInput& input : inputs_) all.push_back({input.statistics(), runner_.hand_statistics(all.size()), ""});
   std::string& hint = all.front().hint;
-  {
-    const std::lock_guard<std::mutex> lock(master_mutex_);
-    hint = hint_for_silence(all.front(), senders_of_tf_, parameters_.stylus_frame);
-    loop.master_silence = ros_common::steady_time() - master_answered_;
-  }
+  const auto answer = master_watch_.answer();
+  hint = hint_for_silence(all.front(), senders_of_tf(*answer), parameters_.stylus_frame);
+  loop.master_silence = ros_common::steady_time() - answer->received;
   if (!hint.empty()) ROS_WARN_STREAM_DELAYED_THROTTLE(hint_patience, "no sample of the stylus yet: " << hint);
   message.status = diagnostics_.report(all, loop, ros_common::loop_time());
   wrenches_.report(loop.advance.wrench_timeouts, message.status);
@@ -158,27 +147,6 @@ void ManipulationNode::on_every_second(const ros::SteadyTimerEvent&) {
 }
 
 void ManipulationNode::describe_scene() { scene_publisher_.keep(runner_.scene()); }
-
-/// In a thread of its own: it takes as long as the master does, and nothing waits for it.
-void ManipulationNode::ask_master() {
-  end_with_its_master();
-  const std::optional<std::vector<std::string>> senders = senders_of_tf();
-  if (!senders) return;
-  const std::lock_guard<std::mutex> lock(master_mutex_);
-  senders_of_tf_ = *senders;
-  master_answered_ = ros_common::steady_time();
-}
-
-/// A master that was started anew knows nothing of this node, and nothing brings it back but a new start.
-void ManipulationNode::end_with_its_master() {
-  XmlRpc::XmlRpcValue request, response, payload;
-  request[0] = request[1] = ros::this_node::getName();
-  if (!ros::master::check() || ros::master::execute("lookupNode", request, response, payload, false)) return;
-  ROS_FATAL(
-      "the ROS master was restarted and does not know this node, so the node exits; with respawn it resumes its state");
-  checkpoint_.hand_over();
-  ros::shutdown();
-}
 
 void ManipulationNode::place_workbench() {
   if (workbench_placed_ || parameters_.workbench_frame == parameters_.world_frame) return;

@@ -25,8 +25,8 @@ class Checkpoint {
   Checkpoint(const Checkpoint&) = delete;
   Checkpoint& operator=(const Checkpoint&) = delete;
 
-  /// Writes the node's parameters and the checkpoint to a master that was restarted, for the node's successor.
-  void hand_over();
+  /// Writes the checkpoint to a master that was restarted. Call it in the thread of `master`.
+  void keep_on_new_master();
   /// Returns why the file is not up to date; empty: it is, or there is none.
   std::string file_error() const {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -40,12 +40,10 @@ class Checkpoint {
   void set_file_error(const std::string& file_error);
 
   ros::NodeHandle master_;
-  XmlRpc::XmlRpcValue parameters_;  ///< of the node, at its start
   live::Checkpoint on_master_, in_file_;
   std::optional<live::CheckpointFile> file_;
   mutable std::mutex mutex_;
   std::string file_error_;
-  bool handed_over_ = false;
   ros::SteadyTimer master_timer_, file_timer_;
 };
 

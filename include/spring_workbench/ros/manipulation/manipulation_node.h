@@ -14,6 +14,7 @@
 #include "spring_workbench/ros/common/callback_thread.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/lost_messages.h"
+#include "spring_workbench/ros/common/master_watch.h"
 #include "spring_workbench/ros/machine_link/wrench_input.h"
 #include "spring_workbench/ros/manipulation/checkpoint.h"
 #include "spring_workbench/ros/manipulation/diagnostics.h"
@@ -46,8 +47,6 @@ class ManipulationNode {
   void on_every_second(const ros::SteadyTimerEvent&);
   void place_workbench();
   void describe_scene();
-  void ask_master();
-  void end_with_its_master();
 
   const ManipulationParameters parameters_;
   live::SimulationRunner runner_;
@@ -68,11 +67,9 @@ class ManipulationNode {
   bool workbench_placed_ = false;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   ros::Publisher diagnostics_publisher_;
-  ros::SteadyTimer every_second_, asks_master_, describes_scene_;
-  std::mutex master_mutex_;
-  std::vector<std::string> senders_of_tf_;  ///< by the master's last answer
-  double master_answered_;                  ///< when that came [s], by the steady clock
-  live::ShowTimes show_times_;              ///< while there is more to commit, by the steady clock
+  ros::SteadyTimer every_second_, describes_scene_;
+  ros_common::MasterWatch master_watch_;
+  live::ShowTimes show_times_;  ///< while there is more to commit, by the steady clock
   std::atomic<bool> stop_{false};
   std::atomic<int> realtime_priority_{0};
   std::thread physics_;

@@ -1,0 +1,26 @@
+#include "spring_workbench/ros/common/end_in_time.h"
+
+#include <chrono>
+#include <cstdlib>
+#include <iostream>
+#include <thread>
+#include <utility>
+
+#include "constants.h"
+#include "spring_workbench/ros/common/background_log.h"
+
+namespace spring_workbench::ros_common {
+
+void end_in_time(std::function<bool()> ends) {
+  std::thread([ends = std::move(ends)] {
+    while (!ends()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    std::this_thread::sleep_for(std::chrono::duration<double>(longest_end));
+    if (error_output_takes_more()) {
+      std::cerr << "shutdown has taken longer than 1.5 s, probably because the ROS master does not answer; exiting now"
+                << std::endl;
+    }
+    std::_Exit(0);
+  }).detach();
+}
+
+}  // namespace spring_workbench::ros_common
