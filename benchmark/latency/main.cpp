@@ -2,16 +2,18 @@
 #include <ros/ros.h>
 
 #include <algorithm>
-#include <atomic>
+#include <array>
 #include <exception>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "benchmark/latency/pixel_observer.h"
@@ -19,12 +21,12 @@
 #include "spring_workbench/ForkState.h"
 #include "spring_workbench/ObjectStates.h"
 
-// End-to-end latency: from the first byte of a record on the serial line to the arrival of the message from which on
-// the held object has gone as far as that record says, of `manipulation/objects` (committed) and of
-// `manipulation/display/objects` (displayed). The device of this program moves the hands evenly along x, the fork is
-// rigid, so the object's x tells which record a message knows of; no clock but this process' own is asked. Beside it,
-// the way of a message of the same rate to a node that does nothing but send it back. With ~pixel, the object is a
-// ruler that rviz shows from above on the X display of this process, whose pixels are watched. doc/tracker.md,
+// End-to-end latency: from the first byte of a record on the serial line to the arrival of the first object poses that
+// are computed from it, on `manipulation/objects` (committed) and on `manipulation/display/objects` (displayed). The
+// device of this program moves the hands uniformly along x, so the x of the handle on the topic `fork` of the same
+// stamp says which record a message knows of; only this process' own clock is read. For comparison, the time that a
+// message of the same rate takes to a node that only sends it back. With ~pixel, the fork is rigid and the object a
+// ruler, which rviz shows from above on the X display of this process; a thread reads the pixels. doc/tracker.md,
 // "Latency".
 
 namespace {
@@ -47,27 +49,55 @@ simulated_fastrak::PlayedMotion way(double length) {
   return simulated_fastrak::PlayedMotion(samples);
 }
 
-/// When and where the object was seen.
+/// When object poses arrived, and where the handles were of which they were computed.
 class Observer {
  public:
-  Observer(ros::NodeHandle& node, const std::string& topic)
-      : subscriber_(node.subscribe(topic, 10000, &Observer::take, this, ros::TransportHints().tcpNoDelay())) {}
-  std::vector<Moment> seen() const {
+  /// `prefix`: of the topics `objects`, `fork` and `fork_2`.
+  Observer(ros::NodeHandle& node, const std::string& prefix) {
+    const ros::TransportHints hints = ros::TransportHints().tcpNoDelay();
+    subscribers_.push_back(node.subscribe(prefix + "objects", 10000, &Observer::take_objects, this, hints));
+    for (const int hand : {1, 2}) {
+      const boost::function<void(const ForkState::ConstPtr&)> take = [this, hand](const ForkState::ConstPtr& fork) {
+        take_fork(hand, *fork);
+      };
+      const std::string topic = prefix + (hand == 1 ? "fork" : "fork_2");
+      subscribers_.push_back(node.subscribe<ForkState>(topic, 10000, take, {}, hints));
+    }
+  }
+  /// The hand, 1 or 2, that holds the object; 0: none yet.
+  int holder() const {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return seen_;
+    return holder_;
+  }
+  /// The handle's x at the arrival of the poses with the same stamp.
+  std::vector<Moment> seen(int hand) const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    std::vector<Moment> moments;
+    for (const auto& [stamp, x] : handles_.at(static_cast<std::size_t>(hand - 1))) {
+      const auto arrival = arrivals_.find(stamp);
+      if (arrival != arrivals_.end()) moments.push_back({arrival->second, x});
+    }
+    return moments;
   }
 
  private:
-  void take(const ObjectStates::ConstPtr& message) {
+  void take_objects(const ObjectStates::ConstPtr& message) {
     const double t = steady_now();
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!message->objects.empty() && message->objects[0].held)
-      seen_.push_back({t, message->objects[0].pose.position.x});
+    arrivals_.emplace(message->header.stamp, t);
+  }
+  void take_fork(int hand, const ForkState& fork) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (fork.held_object.empty()) return;
+    holder_ = hand;
+    handles_.at(static_cast<std::size_t>(hand - 1)).emplace_back(fork.header.stamp, fork.handle.position.x);
   }
 
   mutable std::mutex mutex_;
-  std::vector<Moment> seen_;
-  ros::Subscriber subscriber_;
+  int holder_ = 0;
+  std::map<ros::Time, double> arrivals_;  ///< of the first poses with a stamp [s]
+  std::array<std::vector<std::pair<ros::Time, double>>, 2> handles_;
+  std::vector<ros::Subscriber> subscribers_;
 };
 
 /// Messages to a relay and back: two connections, as from tracker_driver over manipulation to the observer.
@@ -119,11 +149,11 @@ void add_row(std::ostream& out, const std::string& run, const std::string& end, 
   out << std::endl;
 }
 
-/// From the records to what was seen of the object; throws std::runtime_error if it did not go with the hand.
+/// From the records to what was seen of them; throws std::runtime_error if that did not go with the hand.
 std::vector<double> latencies_of(const std::vector<Moment>& written, const std::vector<Moment>& seen, double length) {
   const double way = kSpeed * length;  // [m]
   if (seen.empty() || seen.back().x - seen.front().x < 0.9 * way)
-    throw std::runtime_error("the object did not go with the hand");
+    throw std::runtime_error("what was seen did not go with the hand");
   return latencies(written, seen, seen.back().x - (0.3 + way));  // in the end all are at rest
 }
 
@@ -162,37 +192,29 @@ int main(int argc, char** argv) {
   const int hands = parameters.param("hands", 1), stations = parameters.param("stations", 1);
   ros::AsyncSpinner spinner(1);
   spinner.start();
-  const Observer committed(node, "manipulation/objects"), displayed(node, "manipulation/display/objects");
+  const Observer committed(node, "manipulation/"), displayed(node, "manipulation/display/");
   const BareLoop bare(node, rate);
   const simulated_fastrak::PlayedMotion motion = way(length);
   const std::vector<simulated_fastrak::PlayedMotion> motions(static_cast<std::size_t>(stations), motion);
   simulated_fastrak::FastrakSimulator simulator(simulated_fastrak::FastrakDevice(motions, {1, 2}),
                                                 simulated_fastrak::LineFaults(), port);
   Playing playing{rate, stations, 1, kSettle, kSettle + length, 2.0 * kSettle + length};
-  std::atomic<int> holder{1};  // the hand that is there first has the box
-  const boost::function<void(const ForkState::ConstPtr&)> take_holder = [&](const ForkState::ConstPtr& fork) {
-    if (!fork->held_object.empty()) holder = 1;
-  };
-  const boost::function<void(const ForkState::ConstPtr&)> take_second = [&](const ForkState::ConstPtr& fork) {
-    if (!fork->held_object.empty()) holder = 2;
-  };
-  ros::Subscriber fork = node.subscribe<ForkState>("manipulation/fork", 10, take_holder);
-  ros::Subscriber second = node.subscribe<ForkState>("manipulation/fork_2", 10, take_second);
   const double latest = steady_now() + kPatience;
   try {
     const auto pixels = parameters.param("pixel", false) ? std::make_unique<PixelObserver>(Ruler()) : nullptr;
     const auto held = [&] {
-      playing.counted = holder;
+      const int holder = committed.holder();  // the hand that is there first
+      if (holder > 0) playing.counted = holder;
       const bool shown = !pixels || !pixels->seen().empty() || steady_now() > latest;
-      return !ros::ok() || (shown && !committed.seen().empty() && !displayed.seen().empty());
+      return !ros::ok() || (shown && holder > 0 && displayed.holder() == holder);
     };
     const std::vector<Moment> written = play(simulator, motion, playing, held);
     std::ofstream out(parameters.param<std::string>("out", "/dev/stdout"), std::ios::app);
     std::ostringstream run;
     run << rate << "," << hands << "," << stations;
     add_row(out, run.str(), "bare loop", bare.latencies());
-    if (!pixels) add_row(out, run.str(), "committed", latencies_of(written, committed.seen(), length));
-    add_row(out, run.str(), "displayed", latencies_of(written, displayed.seen(), length));
+    if (!pixels) add_row(out, run.str(), "committed", latencies_of(written, committed.seen(playing.counted), length));
+    add_row(out, run.str(), "displayed", latencies_of(written, displayed.seen(playing.counted), length));
     if (pixels) add_pixels(out, run.str(), written, pixels->seen(), length);
     return 0;
   } catch (const std::exception& error) {
