@@ -3,13 +3,13 @@
 
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <limits>
 #include <sstream>
 
 #include "mesh_file.h"
 #include "scene_file.h"
+#include "spring_workbench/config/output_file.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/scene/editing.h"
 #include "spring_workbench/validation/names.h"
@@ -186,31 +186,17 @@ std::string yaml_of(const Scene& scene) {
   return std::string(text.c_str()) + "\n";
 }
 
-/// All of the text, or no file.
-void write(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (file) return;
-  std::error_code error;
-  fs::remove(path, error);
-  validation::refuse("save_scene", "path", path.string(), "where a file can be written");
-}
-
 }  // namespace
 
 std::string save_scene(const Scene& scene, const std::string& path, const std::vector<std::string>& roots) {
   const fs::path urdf = resolve_new_file(path, roots, "save_scene", "path");
   if (urdf.extension() != ".urdf") validation::refuse("save_scene", "path", path, "one that ends in .urdf");
   const fs::path yaml = fs::path(urdf).replace_extension(".yaml");
-  const fs::path new_urdf = urdf.string() + ".new", new_yaml = yaml.string() + ".new";
-  const std::string urdf_text = urdf_of(scene), yaml_text = yaml_of(scene);
-  write(new_urdf, urdf_text);
-  write(new_yaml, yaml_text);
-  std::error_code of_urdf, of_yaml;
-  fs::rename(new_yaml, yaml, of_yaml);
-  fs::rename(new_urdf, urdf, of_urdf);
-  if (of_urdf || of_yaml) validation::refuse("save_scene", "path", path, "where a file can be written");
+  config::OutputFile new_urdf(urdf.string()), new_yaml(yaml.string());
+  new_urdf.write(urdf_of(scene));
+  new_yaml.write(yaml_of(scene));
+  new_yaml.commit();
+  new_urdf.commit();
   return urdf.string();
 }
 

@@ -13,6 +13,7 @@ from stack import Listener, diagnostic_values, diagnostics_listener, wait_for
 
 RATE = 30.0  # [Hz] of each of four stations
 COUNT = 150
+LATENCY = 0.25  # [s] of the parameter
 
 
 class Fastrak(unittest.TestCase):
@@ -20,11 +21,18 @@ class Fastrak(unittest.TestCase):
         tf, joy, diagnostics = Listener("/tf", TFMessage), Listener("stylus/joy", Joy), diagnostics_listener()
         second_joy, statics = Listener("stylus_2/joy", Joy), Listener("/tf_static", TFMessage)
 
+        ages = []  # of each message of /tf when it arrives [s]
+        arrivals = rospy.Subscriber(
+            "/tf", TFMessage, lambda m: ages.append((rospy.Time.now() - m.transforms[0].header.stamp).to_sec())
+        )
+
         def of(frame):
             return [t for m in tf.messages for t in m.transforms if t.child_frame_id == frame]
 
         frames = ["stylus", "stylus_2", "head", "head_2"]
         wait_for(lambda: min(len(of(frame)) for frame in frames) >= COUNT, "the device's poses")
+        arrivals.unregister()
+        self.assertGreaterEqual(min(ages), LATENCY - 0.5 / RATE)  # an even stamp may lie half a gap after the receipt
         for frame in frames:
             transforms = of(frame)[:COUNT]
             stamps = [t.header.stamp.to_sec() for t in transforms]

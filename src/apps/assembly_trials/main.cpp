@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
@@ -7,21 +6,17 @@
 #include "options.h"
 #include "spring_workbench/assembly/trial.h"
 #include "spring_workbench/config/command_line.h"
+#include "spring_workbench/config/output_file.h"
 #include "table.h"
 #include "tools.h"
 
 namespace spring_workbench::assembly_trials {
 namespace {
 
-void expect_written(bool written, const std::string& path) {
-  if (!written) throw validation::InputError(path + ": cannot be written; give a writable path");
-}
-
 void write_file(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary | std::ios::trunc);
-  file << text;
-  file.close();
-  expect_written(file.good(), path);
+  config::OutputFile file(path);
+  file.write(text);
+  file.commit();
 }
 
 /// A hand as a motion file (doc/reference.md): to 10 µm and 10 µrad, less than the tracker's noise.
@@ -52,7 +47,7 @@ void run(const Options& options) {
   const scene::Scene scene = scene::load_scene(options.scene);
   if (scene.targets.empty()) validation::refuse(scene.path, "targets", "none", "at least one");
   for (const std::string& path : {options.out, options.table, options.record}) {  // before hours of trials
-    if (!path.empty()) expect_written(std::ofstream(path, std::ios::app).good(), path);
+    if (!path.empty()) const config::OutputFile can_be_made(path);
   }
   for (const std::string& warning : scene.warnings) std::cerr << "warning: " << warning << "\n";
   std::string csv = csv_header() + "\n";

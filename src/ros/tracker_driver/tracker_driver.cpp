@@ -23,10 +23,12 @@
 #include "spring_workbench/fastrak/station_stream.h"
 #include "spring_workbench/motion_files/motion_file.h"
 #include "spring_workbench/motion_files/scripted_source.h"
+#include "spring_workbench/ros/common/callback_thread.h"
 #include "spring_workbench/ros/common/conversions.h"
 #include "spring_workbench/ros/common/diagnostic_status.h"
 #include "spring_workbench/ros/common/loop_clock.h"
 #include "spring_workbench/ros/common/lost_messages.h"
+#include "spring_workbench/ros/common/master_watch.h"
 #include "spring_workbench/ros/common/parameters.h"
 #include "spring_workbench/ros/common/publishing.h"
 #include "spring_workbench/ros/tracker_driver/tracker_parameters.h"
@@ -84,6 +86,10 @@ class TrackerDriver {
     if (!first) throw validation::InputError(parameters_.file + ": must have at least one sample, got none");
     if (parameters_.X_BS_first) X_BT_ = *parameters_.X_BS_first * first->X.inverse();
   }
+
+  ~TrackerDriver() { master_thread_.stop(); }
+  TrackerDriver(const TrackerDriver&) = delete;
+  TrackerDriver& operator=(const TrackerDriver&) = delete;
 
   void run() {
     send_eyes();
@@ -192,10 +198,10 @@ class TrackerDriver {
 
   void send(const motion::StationSample& sample) {
     Station& station = stations_.try_emplace(sample.station, parameters_).first->second;
-    const double t = station.stream.stamp(sample.received);
+    const double t = station.stream.stamp(sample.received) - parameters_.latency;
     if (joy_publishers_.count(sample.station) > 0) {
       send_buttons(sample.station, {sample.button, sample.next_tool, sample.clutch},
-                   ros_common::ros_time(sample.received));
+                   ros_common::ros_time(sample.received - parameters_.latency));
     }
     const double shortest = parameters_.rate > 0.0 ? 1.0 / parameters_.rate : 0.0;
     std::string reason = why_not_sent(sample, parameters_.source);
@@ -313,6 +319,8 @@ class TrackerDriver {
   std::map<int, ros::Publisher> joy_publishers_;  ///< by station
   ros_common::LostMessages lost_messages_;
   ros::Publisher diagnostics_publisher_;
+  ros_common::CallbackThread master_thread_{"master"};
+  ros_common::MasterWatch master_watch_{master_thread_.handle(ros::NodeHandle())};
 };
 
 }  // namespace

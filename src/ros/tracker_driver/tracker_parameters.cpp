@@ -14,7 +14,7 @@ std::vector<std::string> keys_of(const std::string& source) {
                                 "head_frame", "head", "interpupillary_distance", "dropout_after"};
   const auto add = [&](const std::vector<std::string>& more) { keys.insert(keys.end(), more.begin(), more.end()); };
   if (source == "fastrak") {
-    add({"offset", "tip", "even_stamps", "head_stations"});
+    add({"offset", "tip", "even_stamps", "latency", "head_stations"});
     add(fastrak::fastrak_keys());
   } else if (source == "mouse" || source == "joy") {
     add({"start"});
@@ -99,6 +99,7 @@ TrackerParameters read_tracker_parameters(const YAML::Node& parameters, const st
   number("dropout_after", validation::positive(), result.dropout_after);
   if (parameters["even_stamps"])
     result.even_stamps = config::read_bool(parameters["even_stamps"], where, "even_stamps");
+  number("latency", validation::between(0.0, 1.0), result.latency);
   if (parameters["offset"]) result.X_BT = config::read_pose(parameters["offset"], where, "offset");
   if (parameters["start"]) {
     if (parameters["offset"]) throw validation::InputError(where + ": start: must not be given together with offset");

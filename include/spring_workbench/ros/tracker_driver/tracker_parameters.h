@@ -47,6 +47,8 @@ struct TrackerParameters {
   double interpupillary_distance = 0.063;  ///< `interpupillary_distance` [m], 0 … 0.2: between eye_left and eye_right
   double dropout_after = 0.5;              ///< `dropout_after` [s], > 0: rate and jitter leave longer gaps out
   bool even_stamps = true;                 ///< `even_stamps`: stamp a device's samples by its cadence, not by receipt
+  double latency =
+      0.0;  ///< `latency` [s], 0 … 1: of a FASTRAK, from the moment of measuring to the first byte received
   fastrak::FastrakSettings fastrak;  ///< read_fastrak_settings; in place of file, speed, loop, pause, start and grasp_*
   JoySettings joy;                   ///< read_joy_settings
 };
