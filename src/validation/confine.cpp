@@ -50,6 +50,8 @@ constexpr std::uint32_t refused[] = {
     SYS_execve,
     SYS_execveat,
     SYS_kill,
+    SYS_tkill,
+    SYS_tgkill,
     SYS_ptrace,
     SYS_process_vm_readv,
     SYS_process_vm_writev,
@@ -64,7 +66,10 @@ constexpr std::uint32_t refused[] = {
     SYS_mknodat,
     SYS_truncate,
     SYS_mount,
-    SYS_bpf};
+    SYS_bpf,
+    SYS_io_uring_setup,  // whose operations no filter judges
+    SYS_pidfd_open,
+    SYS_pidfd_send_signal};
 
 constexpr std::uint32_t writing = O_WRONLY | O_RDWR | O_CREAT | O_TRUNC;
 
@@ -119,6 +124,9 @@ void keep_alone(int file) {
   }
 }
 
-bool confine() { return processor() != 0 && prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0 && Filter().install(); }
+bool confine() {
+  const bool no_new_privileges = prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0) == 0;
+  return no_new_privileges && processor() != 0 && Filter().install();
+}
 
 }  // namespace spring_workbench::validation

@@ -6,8 +6,8 @@ namespace spring_workbench::validation {
 void keep_alone(int file);
 
 /// From now on this process opens no socket, writes no file, starts no program and touches no other process: these
-/// calls fail with EPERM. Returns false, and does nothing, where the kernel or the processor's kind offers no such
-/// filter.
+/// calls fail with EPERM. Returns false if the kernel or the processor's kind offers no such filter; the process then
+/// only gains no privileges (PR_SET_NO_NEW_PRIVS).
 [[nodiscard]] bool confine();
 
 }  // namespace spring_workbench::validation
