@@ -19,9 +19,9 @@ constexpr double interval = 0.008;  // [s] between samples
 
 const Vector3d grip(0.0, 0.0, 0.22);  // handle: the tip is in the box
 
-scene::Scene one_box() {
+scene::Scene one_box(double mass) {
   const Vector3d size(0.1, 0.06, 0.04);
-  return scene_of({box("box", size, 1.0, Vector3d(0.0, 0.0, 0.02))}, scene::ContactMode::none);
+  return scene_of({box("box", size, mass, Vector3d(0.0, 0.0, 0.02))}, scene::ContactMode::none);
 }
 
 std::int64_t nanoseconds(double s) { return std::llround(1e9 * s); }
@@ -29,7 +29,17 @@ std::int64_t nanoseconds(double s) { return std::llround(1e9 * s); }
 /// A hand with a sender and a host of its own clocks, which somebody sets.
 class Session {
  public:
-  explicit Session(bool holds) : holds_(holds) {}
+  /// The hand grasps the box and carries it off, so that a scene that began again would show; `holds`: or lets go
+  /// (of a box without mass, which stays where it is released).
+  explicit Session(bool holds) : runner_(one_box(holds ? 1.0 : 0.0), {}, {}, false) {
+    run(0.5);
+    for (int k = 0; k < 50; ++k) {
+      carried_ += Vector3d(0.002, 0.0, 0.001);
+      run(interval);
+    }
+    releases_ = !holds;
+    run(1.5);
+  }
 
   /// Samples for so long; `heard`: whether this process looks at them before the end.
   void run(double seconds, bool heard = true) {
@@ -76,7 +86,7 @@ class Session {
   }
   double time_skipped = 0.0, stepped = 0.0;
   Vector3d true_hand() const {
-    return grip + moves * Vector3d(0.1 * std::sin(3.0 * t_), 0.0, 0.05 * std::sin(5.0 * t_));
+    return grip + carried_ + moves * Vector3d(0.1 * std::sin(3.0 * t_), 0.0, 0.05 * std::sin(5.0 * t_));
   }
   /// Stamp of the committed time less that of the newest sample, by the host's clock [s].
   double stamp_lag() {
@@ -108,8 +118,10 @@ class Session {
             pose.arrival = arrival;
             pose.age = age;
             pose.X_WP = X_WP_;
-            if (!pressed_ && holds_) events[0].push_back(StylusButton{pose.sample.t, motion::Press::grasp});
-            pressed_ = pressed_ || holds_;
+            if (!pressed_) events[0].push_back(StylusButton{pose.sample.t, motion::Press::grasp});
+            pressed_ = true;
+            if (std::exchange(releases_, false))
+              events[0].push_back(StylusButton{pose.sample.t, motion::Press::release});
             events[0].push_back(pose);
           },
           [](const auto&...) {});
@@ -124,11 +136,12 @@ class Session {
     runner_.show(0.0, arrival, always);
   }
 
-  SimulationRunner runner_{one_box(), simulation::SimulationSettings(), hand_input::InputSettings(), false};
+  SimulationRunner runner_;
   motion::WallClock wall_;
   motion::StampedStream<Vector3d> stream_{1.0};
   std::vector<std::pair<std::int64_t, Vector3d>> waiting_;
-  bool holds_, pressed_ = false;
+  bool pressed_ = false, releases_ = false;
+  Vector3d carried_ = Vector3d::Zero();
   double t_ = 0.0, attended_ = 0.0, host_set_ = 0.0, sender_set_ = 0.0;
   double strongest_ = 0.0;
   std::int64_t zero_ = 0;

@@ -84,6 +84,7 @@ class StylusInput {
   motion::SenderChoice sender_;
   // Of wall time.
   motion::StampedStream<geometry_msgs::TransformStamped> wall_poses_;
+  std::int64_t host_steps_ = 0;  ///< of this host's wall clock at the newest message [ns]
   motion::StreamClock wall_buttons_;
   live::Inbox<live::StylusEvent> events_;
   InputStatistics statistics_;
