@@ -65,7 +65,10 @@ void announce_publishers(const std::string& topic, XmlRpcValue publishers) {
 }  // namespace
 
 MasterWatch::MasterWatch(const ros::NodeHandle& node, std::function<void()> on_new_master)
-    : on_new_master_(std::move(on_new_master)) {
+    : on_new_master_(std::move(on_new_master)),
+      own_uri_(ros::XMLRPCManager::instance()->getServerURI()),
+      services_uri_("rosrpc://" + ros::network::getHost() + ":" +
+                    std::to_string(ros::ConnectionManager::instance()->getTCPPort())) {
   Answer none;
   none.received = steady_time();
   answer_ = std::make_shared<const Answer>(std::move(none));
@@ -94,7 +97,7 @@ void MasterWatch::look() {
     if (std::find(nodes.begin(), nodes.end(), ros::this_node::getName()) != nodes.end()) services.push_back(service);
   }
   if (services.empty() && !services_.empty()) {
-    register_with_new_master();
+    if (!ros::isShuttingDown()) register_with_new_master();  // otherwise this node has unregistered them
   } else {
     services_ = services;
     learn_types();
@@ -114,9 +117,6 @@ void MasterWatch::learn_types() {
 
 /// The services come last: if the master goes away in between, the next look begins again.
 void MasterWatch::register_with_new_master() {
-  const std::string uri = ros::XMLRPCManager::instance()->getServerURI();
-  const std::string service_uri =
-      "rosrpc://" + ros::network::getHost() + ":" + std::to_string(ros::ConnectionManager::instance()->getTCPPort());
   XmlRpcValue payload;
   ros::V_string topics;
   ros::this_node::getAdvertisedTopics(topics);
@@ -124,20 +124,20 @@ void MasterWatch::register_with_new_master() {
   on_new_master_();
   for (const std::string& topic : topics) {
     const auto type = types_.find(topic);
-    call_master("registerPublisher", {topic, type == types_.end() ? "*" : type->second, uri}, payload);
+    call_master("registerPublisher", {topic, type == types_.end() ? "*" : type->second, own_uri_}, payload);
   }
-  for (const std::string& service : services_) call_master("registerService", {service, service_uri, uri}, payload);
+  for (const std::string& service : services_)
+    call_master("registerService", {service, services_uri_, own_uri_}, payload);
   subscribers_due_ = subscribers_later;
   ROS_WARN("new ROS master: registered again");
 }
 
 bool MasterWatch::register_subscribers() const {
-  const std::string uri = ros::XMLRPCManager::instance()->getServerURI();
   ros::V_string topics;
   ros::this_node::getSubscribedTopics(topics);
   for (const std::string& topic : topics) {
     XmlRpcValue publishers;
-    if (!call_master("registerSubscriber", {topic, "*", uri}, publishers)) return false;
+    if (!call_master("registerSubscriber", {topic, "*", own_uri_}, publishers)) return false;
     announce_publishers(topic, publishers);
   }
   return true;

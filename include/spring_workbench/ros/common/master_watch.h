@@ -39,10 +39,11 @@ class MasterWatch {
   bool register_subscribers() const;
 
   const std::function<void()> on_new_master_;
+  const std::string own_uri_, services_uri_;
   XmlRpc::XmlRpcValue parameters_;
   std::vector<std::string> services_;         ///< of this process
   std::map<std::string, std::string> types_;  ///< of its publishers' topics
-  int subscribers_due_ = 0;            ///< looks until they are registered again; 0: they are
+  int subscribers_due_ = 0;                   ///< looks until they are registered again; 0: they are
   mutable std::mutex mutex_;
   std::shared_ptr<const Answer> answer_;
   ros::SteadyTimer timer_;
