@@ -1,8 +1,8 @@
 # What others link: the modules up to a hand and its recordings in one shared library, and the contact engines that it
 # opens. find_package(spring_workbench) gives the target spring_workbench::core.
 set(objects)
-foreach(module math friction validation config geometry motion rod dynamics stepping scene bodies tools instruments
-    contact objects simulation hand_input motion_files)
+foreach(module math exponential friction validation config geometry motion rod dynamics stepping scene bodies tools
+    instruments contact objects simulation hand_input motion_files)
   list(APPEND objects $<TARGET_OBJECTS:spring_workbench_${module}>)
 endforeach()
 add_library(spring_workbench_core SHARED ${objects})

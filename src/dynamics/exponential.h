@@ -6,20 +6,23 @@
 
 namespace spring_workbench::dynamics {
 
-/// Exponential collocation: the coupled linear part, frozen near a recent state, in closed form through its modes
-/// (math/exponential_collocation.h), with what it leaves of the acceleration, the residual, as the cubic through four
-/// Radau nodes of the step. The residual is found by fixed-point iteration with Anderson's acceleration
-/// (math/anderson_mixer.h) from the last step's, to a fiftieth of what the cubic misses, as the rate of convergence
-/// says (Hairer and Wanner II, IV.8, equation (8.10)). Order seven where the step resolves every mode, five where it
-/// does not; exact for linear systems whose handle accelerates as a cubic of time; no stiffness limits its step. The
-/// estimate of the local error is the defect of the step's own interpolant, sampled. Where the iteration does not
-/// converge, the linear part is taken at the step's start, once; then the step is not solved.
+/// Exponential collocation. The coupled linear part, frozen near a recent state, is solved in closed form through its
+/// modes (exponential/linear_part.h); the nonlinear residual of the acceleration is approximated by the collocation
+/// polynomial through its values at four Radau nodes of the step (exponential/exponential_collocation.h). These come
+/// from a fixed-point iteration with Anderson acceleration (exponential/anderson_mixer.h) that starts from the last
+/// step's polynomial (exponential/extrapolation.h) and ends when further iterations would change a fraction of the
+/// collocation error (exponential/convergence.h). If it does not converge, the linear part is recomputed at the start
+/// of the step, once; if that does not help, the step is not solved. The linear part is also recomputed when that pays
+/// (exponential/refactorisation.h).
+/// Order seven if the step resolves every mode, otherwise five; exact for linear systems under a handle whose
+/// acceleration is a cubic in time; no stiffness limits the step. The estimate of the local error is the sampled defect
+/// of the step's own interpolant.
 class Exponential final : public Integrator {
  public:
   Exponential();
   ~Exponential() override;
 
-  int order() const override { return 5; }  // at least: of a mode that the step does not resolve
+  int order() const override { return 5; }  // of a mode that the step does not resolve; otherwise more
   bool stiffly_stable() const override { return true; }
   Energy energy() const override { return Energy::kept; }
   StepEstimate step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
@@ -37,7 +40,7 @@ class Exponential final : public Integrator {
   class CoreOf;
   Core& core(int n);
 
-  std::unique_ptr<Core> core_;  ///< made anew when the number of coordinates changes
+  std::unique_ptr<Core> core_;  ///< replaced when the number of coordinates changes
   int n_ = 0;
 };
 

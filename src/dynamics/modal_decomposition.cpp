@@ -5,22 +5,22 @@
 #include <algorithm>
 #include <cmath>
 
-#include "spring_workbench/math/real_modes.h"
+#include "spring_workbench/exponential/real_modes.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/math/spatial.h"
 
 namespace spring_workbench::dynamics {
 namespace {
 
-/// Eigenvectors may be worse conditioned than this only where the damping is critical to the last bit; then the linear
-/// part is taken with slightly other damping, and the difference goes to the remainder.
-constexpr double worst_condition = 1e5;
-constexpr int most_attempts = 6;
+/// Eigenvectors of coupled modes that are worse conditioned belong to critical damping: the linear part then gets a
+/// slightly different damping, and the difference is left to the nonlinear residual.
+constexpr double max_condition = 1e5;
+constexpr int max_attempts = 6;
 
 using ModeMatrix = ModalDecomposition::ModeMatrix;
 
-/// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences, where the springs'
-/// own part is linear.
+/// M⁻¹ times the stiffness of springs and loads together: −∂q̈/∂q at rest, by central differences, which are exact for
+/// the springs.
 rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q) {
   const int n = body.size();
   rod::StrainMatrix stiffness(n, n);
@@ -35,13 +35,13 @@ rod::StrainMatrix stiffness_at_rest(const HeldBody& body, const HandleForcing& h
   return stiffness;
 }
 
-/// The accelerations by a wrench and by the handle's.
+/// Sets the accelerations by a wrench and by the handle's.
 void set_forces(const HeldBody& body, double t, const rod::StrainVector& q, ModalDecomposition& part) {
   part.by_wrench = part.inverse_mass * body.object_jacobian(t, q).transpose();
   HandleForcing at_origin;
   at_origin.t = t;
   const RigidTransform X_HO = body.object(at_origin, {q, rod::StrainVector::Zero(q.size())}).X;
-  Matrix6d inertia = Matrix6d::Zero();  // of the object, for motions of the handle
+  Matrix6d inertia = Matrix6d::Zero();  // of the object; columns: motions of the handle
   inertia.topLeftCorner<3, 3>().diagonal().setConstant(body.body().mass);
   inertia.topRightCorner<3, 3>() = -body.body().mass * math::skew(X_HO.translation());
   inertia.bottomRightCorner<3, 3>() = X_HO.linear() * body.body().inertia_O * X_HO.linear().transpose();
@@ -60,32 +60,33 @@ ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing
   set_forces(body, handle.t, q, part);
   part.stiffness = stiffness_at_rest(body, handle, q);
 
-  // Undamped modes of the springs first: in them, with displacements scaled by their frequencies, stiff and soft
-  // motions stand side by side without loss of digits.
+  // First the undamped modes of the springs: if their displacements are scaled by their frequencies, stiff and soft
+  // modes can be combined without loss of digits.
   const HeldBody::Springs springs = body.springs(handle, q);
   const Eigen::GeneralizedSelfAdjointEigenSolver<rod::StrainMatrix> undamped(springs.K, M);
   const rod::StrainMatrix& shapes = undamped.eigenvectors();
   const rod::StrainMatrix to_shapes = part.to_undamped = shapes.transpose() * M;
-  // A free mode has no two eigenvectors, and free modes none of their own: the frozen part gets the stiffness of 1, 2,
-  // … rad/s, and the rest takes it back.
-  const rod::StrainVector least = rod::StrainVector::LinSpaced(n, 1.0, n).cwiseAbs2();
-  const rod::StrainVector scale = undamped.eigenvalues().cwiseMax(least).cwiseSqrt();
-  part.swing_rates = (scale.cwiseAbs2() + (shapes.transpose() * springs.D * shapes).diagonal().cwiseAbs2()).cwiseSqrt();
-  const rod::StrainVector missing = (least - undamped.eigenvalues()).cwiseMax(0.0);
+  // A free mode has only one eigenvector, and those of several free modes are arbitrary: the frozen part gets the
+  // stiffness of 1, 2, … rad/s, and the nonlinear residual takes it back.
+  const rod::StrainVector smallest = rod::StrainVector::LinSpaced(n, 1.0, n).cwiseAbs2();
+  const rod::StrainVector scale = undamped.eigenvalues().cwiseMax(smallest).cwiseSqrt();
+  part.amplitude_rates =
+      (scale.cwiseAbs2() + (shapes.transpose() * springs.D * shapes).diagonal().cwiseAbs2()).cwiseSqrt();
+  const rod::StrainVector missing = (smallest - undamped.eigenvalues()).cwiseMax(0.0);
   part.stiffness += shapes * missing.asDiagonal() * to_shapes;
   const rod::StrainMatrix modal_stiffness = to_shapes * part.stiffness * shapes;
 
-  math::RealModes<ModeMatrix> modes;
+  exponential::RealModes<ModeMatrix> modes;
   double off_critical = 0.0;
-  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+  for (int attempt = 0; attempt < max_attempts; ++attempt) {
     part.damping = part.inverse_mass * springs.D;
     for (int i = 0; i < n; ++i) part.damping.col(i) *= 1.0 + off_critical * (i + 1);
     ModeMatrix A = ModeMatrix::Zero(count, count);
     A.topRightCorner(n, n).diagonal() = scale;
     A.bottomLeftCorner(n, n) = -(modal_stiffness * scale.cwiseInverse().asDiagonal());
     A.bottomRightCorner(n, n) = -(to_shapes * part.damping * shapes);
-    modes = math::RealModes<ModeMatrix>(A);
-    if (!(modes.condition > worst_condition)) break;
+    modes = exponential::RealModes<ModeMatrix>(A);
+    if (!(modes.condition > max_condition)) break;
     off_critical = off_critical == 0.0 ? 1e-8 : 10.0 * off_critical;
   }
   part.pairs = modes.pairs;

@@ -3,40 +3,39 @@
 #include <array>
 
 #include "spring_workbench/dynamics/held_body.h"
-#include "spring_workbench/math/general_complex.h"
+#include "spring_workbench/exponential/general_complex.h"
 
 namespace spring_workbench::dynamics {
 
-/// The linear part of the equation of motion about a strain at rest, `q̈ = −stiffness q − damping q̇ + …`, and its modes:
-/// in `x = to_modes · (q, q̇)` it falls apart into single real modes, `ẋ = rate x`, and pairs (math::RealModes).
+/// The linear part of the equation of motion at rest about a strain, `q̈ = −stiffness q − damping q̇ + …`, and its modes:
+/// in `x = to_modes · (q, q̇)` it separates into single real modes, `ẋ = rate x`, and pairs (exponential::RealModes).
 struct ModalDecomposition {
-  static constexpr int most_modes = 2 * rod::max_strain_coordinates;
-  using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most_modes, most_modes>;
+  static constexpr int max_modes = 2 * rod::max_strain_coordinates;
+  using ModeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_modes, max_modes>;
 
   rod::StrainVector q_reference;
-  rod::StrainMatrix stiffness, damping;  ///< M⁻¹ K with the loads' own stiffness, and M⁻¹ D
+  rod::StrainMatrix stiffness, damping;  ///< M⁻¹ K, geometric stiffness of the loads included, and M⁻¹ D
   rod::StrainMatrix inverse_mass;
-  rod::StrainVector mass;  ///< diagonal of M
-  /// To the modes without damping, in which M is the unit matrix; and what velocities there swing or run out to, which
-  /// is at most the velocity over this rate [1/s], > 0.
-  rod::StrainMatrix to_undamped;
-  rod::StrainVector swing_rates;
+  rod::StrainVector mass;         ///< diagonal of M
+  rod::StrainMatrix to_undamped;  ///< to the undamped modes, in which M is the unit matrix
+  /// A velocity v of an undamped mode leads to an amplitude of v / rate at most [1/s], > 0.
+  rod::StrainVector amplitude_rates;
   /// Acceleration of the coordinates by a wrench [force; moment] on the object at its centre of mass, axes of H; and by
   /// the handle's acceleration less gravity and its angular acceleration.
   Eigen::Matrix<double, Eigen::Dynamic, 6, 0, rod::max_strain_coordinates, 6> by_wrench, by_handle;
-  ModeMatrix to_modes, from_modes;  ///< inverse of each other; not finite where the equation overflows and has no modes
-  /// The first 2 `pairs` modes are pairs, of rates a + b j: ẋ₀ = a x₀ + b x₁, ẋ₁ = a x₁ + j² b x₀.
+  ModeMatrix to_modes, from_modes;  ///< inverses of each other; not finite if the equation overflows and has no modes
+  /// The first 2 `pairs` modes form pairs of rates a + b j: ẋ₀ = a x₀ + b x₁, ẋ₁ = a x₁ + j² b x₀.
   int pairs = 0;
-  std::array<math::GeneralComplex, most_modes> rates;  ///< [1/s]; a pair has its rate twice
-  double fastest = 0.0;                                ///< largest |rate|
+  std::array<exponential::GeneralComplex, max_modes> rates;  ///< [1/s]; that of a pair is listed twice
+  double fastest = 0.0;                                      ///< largest |rate|
 
   void exchange(math::StateArchive& state) {
-    state(q_reference, stiffness, damping, inverse_mass, mass, to_undamped, swing_rates, by_wrench, by_handle, to_modes,
-          from_modes, pairs, rates, fastest);
+    state(q_reference, stiffness, damping, inverse_mass, mass, to_undamped, amplitude_rates, by_wrench, by_handle,
+          to_modes, from_modes, pairs, rates, fastest);
   }
 };
 
-/// About `state.q`, under the handle's acceleration and the loads of the moment.
+/// Computes it about the strain `q`, under the handle's present acceleration and the present loads.
 ModalDecomposition modal_decomposition(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q);
 
 }  // namespace spring_workbench::dynamics

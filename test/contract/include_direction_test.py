@@ -27,7 +27,7 @@ EXTERNAL = [  # headers, modules that may use them, whether their public headers
 ]
 YAML = re.compile(r"^yaml-cpp/")
 WITHOUT_YAML = set(
-    "math validation geometry motion rod fork_mesh dynamics stepping bodies tools contact objects".split()
+    "math exponential validation geometry motion rod fork_mesh dynamics stepping bodies tools contact objects".split()
 )
 EXECUTABLES = {  # folders of executables, which have no module of their own: what they may use
     "rviz_plugin": {"fork_mesh", "ros_common", "tools"},

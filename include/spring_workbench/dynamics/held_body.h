@@ -179,25 +179,29 @@ class HeldBody {
   /// Computes the tip for strain and strain rates of all coordinates, or returns the last result if it was for the same
   /// ones. Without `needs_rates`, only what depends on the strain alone is valid.
   const rod::TipOf<double>& tip(const double* q, const double* q_dot, bool needs_rates) const;
-  template <int n, typename S>
-  void accelerate(const ForcingOf<S>& handle, const S* q, const S* q_dot, S* q_ddot,
-                  EnergyBalance* balance = nullptr) const;
-  template <int n>
-  void balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot, EnergyBalance& out) const;
   template <typename S>
-  struct Rigid;  ///< the object's inertial and contact wrench for q̈ = 0
+  struct Rigid;  // src/dynamics/equation_of_motion.h
   template <typename S>
   Rigid<S> without_strain_acceleration(const ForcingOf<S>& handle, const rod::TipOf<S>& tip, const S* q_dot,
                                        const S* q_ddot) const;
-  /// For the strain of all coordinates.
+  template <typename S>
+  Rigid<S> rigid(const ForcingOf<S>& handle, const S* q, const S* q_dot, rod::TipOf<S>& tip) const;
+  /// Forces of springs and dampers along the active coordinates.
+  template <int n, typename S>
+  void spring_forces(const S* q, const S* q_dot, S* forces) const;
+  template <int n, typename S>
+  void accelerate(const ForcingOf<S>& handle, const S* q, const S* q_dot, S* q_ddot) const;
+  template <int n>
+  void balance(const HandleForcings& handle, const math::Pack* q, const math::Pack* q_dot, EnergyBalance& out) const;
+  /// Returns the kinematics for the strain of all coordinates.
   Kinematics kinematics(const StrainState& full) const;
-  /// For the strain `q` of the active ones at time `t`.
+  /// Returns the kinematics for the strain `q` of the active coordinates at time `t`.
   Kinematics kinematics(double t, const rod::StrainVector& q) const;
   rod::StrainMatrix mass_matrix(const Kinematics& k, Matrix3d& I_H) const;
-  /// Coefficients of the DOFs' dampers for these damping ratios.
+  /// Returns the coefficients of the DOFs' dampers for these damping ratios.
   rod::PerDof damping_of(const rod::PerDof& stiffness, const rod::PerDof& ratio) const;
   void changed();
-  void set_modal_damping();  ///< from what is active
+  void set_modal_damping();  ///< of the active coordinates
 
   std::shared_ptr<const rod::ShapeModel> shape_;
   BodyInertia body_;

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <complex>
 #include <cstdint>
 #include <cstring>
 #include <deque>
@@ -115,7 +114,6 @@ class StateArchive {
   void exchange(RigidTransform& X) { exchange(X.matrix()); }
   void exchange(Twist& V) { (*this)(V.linear, V.angular); }
   void exchange(Wrench& F) { (*this)(F.force, F.moment); }
-  void exchange(std::complex<double>& z) { exchange_numbers(reinterpret_cast<double*>(&z), 2); }
   void exchange(Pack& p) { exchange_numbers(reinterpret_cast<double*>(&p), pack_size); }
   template <typename T, std::size_t n>
   void exchange(std::array<T, n>& list) {

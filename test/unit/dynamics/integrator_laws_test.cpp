@@ -6,6 +6,7 @@
 
 #include "spring_workbench/dynamics/integrator.h"
 #include "support/held_cases.h"
+#include "support/matrix_exponential.h"
 #include "support/named.h"
 
 namespace spring_workbench::dynamics::integrator_laws_test {
@@ -96,27 +97,18 @@ INSTANTIATE_TEST_SUITE_P(Integrators, EveryIntegrator,
                          testing::ValuesIn(test_support::equation_of_motion_integrator_names()),
                          [](const auto& instance) { return instance.param; });
 
-/// x, ẋ at `t` [s] of ẍ + 2 ζ ω ẋ + ω² x = α + β t from rest at zero, in long double: scaling and squaring.
+/// x, ẋ at `t` [s] of ẍ + 2 ζ ω ẋ + ω² x = α + β t from rest at zero, in long double.
 Eigen::Matrix<long double, 2, 1> oscillator(long double omega, long double zeta, long double alpha, long double beta,
                                             long double t) {
-  using Matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-  Matrix A = Matrix::Zero(4, 4);  // of (ω x, ẋ, (α + β t) / ω, β / ω²)
+  test_support::LongMatrix A = test_support::LongMatrix::Zero(4, 4);  // of (ω x, ẋ, (α + β t) / ω, β / ω²)
   A(0, 1) = omega;
   A(1, 0) = -omega;
   A(1, 1) = -2.0L * zeta * omega;
   A(1, 2) = omega;
   A(2, 3) = omega;
-  A *= t;
-  int halvings = 0;
-  for (; A.norm() > 0.5L; ++halvings) A *= 0.5L;
-  Matrix power = Matrix::Identity(4, 4), sum = power;
-  for (int k = 1; k < 25; ++k) {
-    power = power * A / static_cast<long double>(k);
-    sum += power;
-  }
-  for (; halvings > 0; --halvings) sum = Matrix(sum * sum);
+  const test_support::LongMatrix to_end = test_support::exponential(A * t);
   const long double a = alpha / omega, b = beta / (omega * omega);
-  return {(sum(0, 2) * a + sum(0, 3) * b) / omega, sum(1, 2) * a + sum(1, 3) * b};
+  return {(to_end(0, 2) * a + to_end(0, 3) * b) / omega, to_end(1, 2) * a + to_end(1, 3) * b};
 }
 
 /// Of one coordinate the motion under a hand whose acceleration is linear in time is exact to rounding in any number of

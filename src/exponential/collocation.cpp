@@ -1,6 +1,6 @@
-#include "spring_workbench/math/collocation.h"
+#include "spring_workbench/exponential/collocation.h"
 
-namespace spring_workbench::math {
+namespace spring_workbench::exponential {
 namespace {
 
 constexpr auto& c = Collocation::nodes;
@@ -52,9 +52,9 @@ Collocation::Row Collocation::interpolated(double at) {
   return row;
 }
 
-const std::array<Pack, count>& Collocation::at_samples() {
+const std::array<math::Pack, count>& Collocation::at_samples() {
   static const auto rows = [] {
-    std::array<Pack, count> r{};
+    std::array<math::Pack, count> r{};
     for (std::size_t k = 0; k < count; ++k) {
       for (std::size_t j = 0; j < count; ++j) r[j][k] = interpolated(s[k])[j];
     }
@@ -80,4 +80,4 @@ const Collocation::Row& Collocation::third_degree() {
   return row;
 }
 
-}  // namespace spring_workbench::math
+}  // namespace spring_workbench::exponential

@@ -5,12 +5,12 @@
 
 #include "spring_workbench/math/state_archive.h"
 
-namespace spring_workbench::math {
+namespace spring_workbench::exponential {
 
-/// Generalised complex number re + im j with j² = `square`: the common complex numbers for −1, dual ones for 0, split
-/// ones for 1. A function of the real 2×2 matrix re I + im J with J² = square I is that function of the number, also
-/// where the eigenvalues re ± im √square coincide and there is one eigenvector only. Numbers that meet in a sum or a
-/// product have the same `square`, or are real.
+/// Generalised complex number re + im j with j² = `square`: a complex number for −1, a dual number for 0, a split one
+/// for 1. A function of the real 2×2 matrix re I + im J with J² = square I is that function of the number, even if the
+/// eigenvalues re ± im √square coincide and there is only one eigenvector. The operands of a sum or a product have the
+/// same `square`, or one of them is real.
 struct GeneralComplex {
   double re = 0.0, im = 0.0, square = 0.0;
 
@@ -38,13 +38,13 @@ struct GeneralComplex {
     return {over * re, -over * im, z.square};
   }
 
-  /// Square of the larger one of the eigenvalues.
+  /// Square of the larger absolute value of the eigenvalues.
   friend double norm(const GeneralComplex& z) {
     if (z.square < 0.0) return z.re * z.re - z.square * z.im * z.im;
     const double size = abs(z);
     return size * size;
   }
-  /// Of the larger one of the eigenvalues.
+  /// Larger absolute value of the eigenvalues.
   friend double abs(const GeneralComplex& z) {
     const double apart = std::abs(z.im) * std::sqrt(std::abs(z.square));
     return z.square < 0.0 ? std::hypot(z.re, apart) : std::abs(z.re) + apart;
@@ -60,7 +60,7 @@ struct GeneralComplex {
     return of(0.5 * (above + below), 0.5 * (above - below));
   }
 
-  void exchange(StateArchive& state) { state(re, im, square); }
+  void exchange(math::StateArchive& state) { state(re, im, square); }
 
  private:
   static double common_square(const GeneralComplex& a, const GeneralComplex& b) {
@@ -68,4 +68,4 @@ struct GeneralComplex {
   }
 };
 
-}  // namespace spring_workbench::math
+}  // namespace spring_workbench::exponential

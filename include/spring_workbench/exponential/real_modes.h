@@ -6,50 +6,23 @@
 #include <complex>
 #include <limits>
 
-#include "spring_workbench/math/general_complex.h"
+#include "spring_workbench/exponential/general_complex.h"
+#include "spring_workbench/exponential/oscillator_modes.h"
 
-namespace spring_workbench::math {
+namespace spring_workbench::exponential {
 
-/// Two coordinates that are coupled with each other alone, as an oscillator's are: A vectors = vectors B, as RealModes.
-struct OscillatorModes {
-  /// Two real rates are single ones where `square` would be larger; then their eigenvectors are far from parallel.
-  static constexpr double most_square = 0.04;
-
-  Eigen::Matrix2d vectors;  ///< of a pair orthonormal, so also where there is one eigenvector only
-  bool pair = true;         ///< or two single real rates
-  GeneralComplex rates[2];
-
-  explicit OscillatorModes(const Eigen::Matrix2d& A) {
-    const double mean = 0.5 * (A(0, 0) + A(1, 1)), half = 0.5 * (A(0, 0) - A(1, 1));
-    const double symmetric = 0.5 * (A(0, 1) + A(1, 0)), odd = 0.5 * (A(0, 1) - A(1, 0));
-    // Turned by the angle, the diagonal is constant: beside it the symmetric part is ((0, swing), (swing, 0)).
-    const double sign = odd < 0.0 ? -1.0 : 1.0, swing = sign * std::hypot(half, symmetric);
-    const double angle = 0.5 * std::atan2(-sign * half, sign * symmetric);
-    vectors << std::cos(angle), -std::sin(angle), std::sin(angle), std::cos(angle);
-    const double upper = swing + odd, square = upper == 0.0 ? 0.0 : (swing - odd) / upper;
-    rates[0] = rates[1] = GeneralComplex(mean, upper, square);
-    pair = !(square > most_square);
-    if (pair) return;
-    const double fast = mean + std::copysign(upper * std::sqrt(square), mean);
-    rates[0] = fast;
-    rates[1] = (A(0, 0) * A(1, 1) - A(0, 1) * A(1, 0)) / fast;
-    Eigen::Matrix2d apart;
-    apart << 1.0, 1.0, (fast - mean) / upper, (mean - fast) / upper;
-    vectors *= apart;
-  }
-};
-
-/// The modes of a real matrix A in real columns: A vectors = vectors B. The first 2 `pairs` columns go in pairs: one of
-/// the rate a + b j, j² = square, has the block ((a, b), (square b, a)) in B. A conjugate pair of rates is one, with
-/// the real and the imaginary part of an eigenvector; so are both rates of an oscillator that nothing couples with
-/// others (OscillatorModes), also where they coincide. The other columns belong to single real rates.
+/// The modes of a real matrix A in real columns: A vectors = vectors B. The first 2 `pairs` columns form pairs: a pair
+/// of rate a + b j, j² = square, has the block ((a, b), (square b, a)) in B. Two conjugate rates form a pair, with the
+/// real and the imaginary part of an eigenvector as columns; so do the two rates of an oscillator that is coupled with
+/// no other coordinate (OscillatorModes), even if they coincide. The other columns belong to single real rates.
 template <typename Matrix>
 struct RealModes {
   Matrix vectors, inverse;
   int pairs = 0;
   Eigen::Matrix<GeneralComplex, Matrix::RowsAtCompileTime, 1, 0, Matrix::MaxRowsAtCompileTime, 1>
-      rates;  ///< a pair has its rate twice
-  /// Of the vectors. Infinity: A has no such vectors, or none were found; NaN, as the vectors: A is not finite.
+      rates;  ///< the rate of a pair is listed twice
+  /// Condition number of the vectors. Infinity: A has no such vectors, or none were found. NaN: A is not finite; nor
+  /// are the vectors.
   double condition = std::numeric_limits<double>::quiet_NaN();
 
   RealModes() = default;
@@ -58,7 +31,7 @@ struct RealModes {
     inverse = vectors;
     if (!A.allFinite() || !find(A)) return;
     inverse = vectors.partialPivLu().inverse();
-    // Of two rates that are equal to the last bit, EigenSolver may take for eigenvectors what is none.
+    // If two rates are bit-identical, EigenSolver may return vectors that are no eigenvectors.
     const bool found =
         inverse.allFinite() && (A * vectors - vectors * blocks()).norm() < rounding * A.norm() * vectors.norm();
     condition = found ? vectors.norm() * inverse.norm() : std::numeric_limits<double>::infinity();
@@ -75,12 +48,12 @@ struct RealModes {
   }
 
  private:
-  static constexpr double rounding = 1e-12;  ///< more than it leaves of A vectors − vectors B
-  static constexpr int most = Matrix::MaxRowsAtCompileTime;
-  using Rows = Eigen::Matrix<Eigen::Index, Eigen::Dynamic, 1, 0, most, 1>;
-  using Part = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most>;
+  static constexpr double rounding = 1e-12;  ///< relative; larger than the rounding errors of A vectors − vectors B
+  static constexpr int max_size = Matrix::MaxRowsAtCompileTime;
+  using Rows = Eigen::Matrix<Eigen::Index, Eigen::Dynamic, 1, 0, max_size, 1>;
+  using Part = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, max_size, max_size>;
 
-  /// Vectors and rates, or false.
+  /// Sets vectors and rates. Returns false if there are none.
   bool find(const Matrix& A) {
     const Rows mate = mates(A), coupled = rows_without(mate);
     Eigen::EigenSolver<Part> solver(coupled.size());
@@ -119,7 +92,7 @@ struct RealModes {
     }
     return own;
   }
-  /// Of each row the only one that it is coupled with, if that is coupled with it alone; otherwise itself.
+  /// For each row, the one other row that it is coupled with, if there is no further coupling; otherwise itself.
   static Rows mates(const Matrix& A) {
     Rows only(A.rows());
     for (Eigen::Index i = 0; i < A.rows(); ++i) {
@@ -148,4 +121,4 @@ struct RealModes {
   }
 };
 
-}  // namespace spring_workbench::math
+}  // namespace spring_workbench::exponential

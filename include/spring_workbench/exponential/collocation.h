@@ -3,35 +3,36 @@
 #include <array>
 #include <cstddef>
 
+#include "spring_workbench/exponential/phi_functions.h"
 #include "spring_workbench/math/pack.h"
-#include "spring_workbench/math/phi_functions.h"
 
-namespace spring_workbench::math {
+namespace spring_workbench::exponential {
 
-/// Exponential collocation at the four Radau nodes of a step: in ẋ = λ x + N(t), N is the cubic p through its values at
-/// the nodes, so that `x(c h) = e^{c h λ} x₀ + h Σ_j a_j(c, hλ) N_j` (Hochbruck and Ostermann, Acta Numerica 2010,
-/// section 2.1; the nodes: Hairer and Wanner, Solving Ordinary Differential Equations II, IV.5). Of order seven where
-/// the step resolves λ. What the cubic misses, its defect, is sampled at four more moments.
+/// Exponential collocation at the four Radau nodes of a step: in ẋ = λ x + N(t), N is replaced by the cubic through its
+/// values at the nodes, the collocation polynomial, so that `x(c h) = e^{c h λ} x₀ + h Σ_j a_j(c, hλ) N_j` (Hochbruck
+/// and Ostermann, Acta Numerica 2010, section 2.1; the nodes: Hairer and Wanner, Solving Ordinary Differential
+/// Equations II, IV.5). Of order seven if the step resolves λ. The defect, N minus that polynomial, is sampled at four
+/// more moments.
 struct Collocation {
   static constexpr std::size_t count = 4;
   /// The zeros of c⁴ − 16/7 c³ + 12/7 c² − 16/35 c + 1/35.
   static constexpr std::array<double, count> nodes{0.08858795951270395, 0.40946686444073471, 0.78765946176084706, 1.0};
-  /// Where the defect is sampled: the start, and the extremes of that polynomial between the nodes.
+  /// Moments at which the defect is sampled: the start, and the extremes of that polynomial between the nodes.
   static constexpr std::array<double, count> samples{0.0, 0.21234054, 0.59053314, 0.91141204};
 
   using Row = std::array<double, count>;
-  /// `power[k][j]`: coefficient of cᵏ in the cubic that is 1 at node j and 0 at the others.
+  /// `power()[k][j]`: coefficient of cᵏ in the cubic that is 1 at node j and 0 at the others.
   static const std::array<Row, count>& power();
-  /// The cubic through values at the nodes, at `c`: its value is Σ_j row[j] N_j.
+  /// Weights of the values at the nodes in the collocation polynomial at `c`: it is Σ_j row[j] N_j.
   static Row interpolated(double c);
-  /// Lane k of pack j: that cubic of node j at sample k.
-  static const std::array<Pack, count>& at_samples();
+  /// Lane k of pack j: weight of node j in the collocation polynomial at sample k.
+  static const std::array<math::Pack, count>& at_samples();
   /// `defect_power()[k]`: coefficients of the polynomial of degree seven that vanishes at the nodes, is 1 at sample k
   /// and 0 at the others.
   static const std::array<std::array<double, 2 * count>, count>& defect_power();
 
-  /// A defect, over the polynomial that vanishes at the nodes, is a cubic through the samples; its third degree is
-  /// Σ_k d_k / third_degree()[k]. A defect of third_degree()[k] at sample k alone has 1 of it.
+  /// A defect d, divided by the polynomial that vanishes at the nodes, is a cubic through the samples, whose
+  /// coefficient of the third degree is Σ_k d_k / third_degree()[k].
   static const Row& third_degree();
 
   /// Coefficients of one mode for a step, `Scalar` real or GeneralComplex.
@@ -84,4 +85,4 @@ Collocation::Weights<Scalar> Collocation::weights(Scalar z) {
   return w;
 }
 
-}  // namespace spring_workbench::math
+}  // namespace spring_workbench::exponential

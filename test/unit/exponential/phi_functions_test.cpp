@@ -1,4 +1,4 @@
-#include "spring_workbench/math/phi_functions.h"
+#include "spring_workbench/exponential/phi_functions.h"
 
 #include <gtest/gtest.h>
 
@@ -6,17 +6,17 @@
 #include <complex>
 #include <random>
 
-#include "spring_workbench/math/general_complex.h"
+#include "spring_workbench/exponential/general_complex.h"
 #include "spring_workbench/math/quadrature.h"
 
-namespace spring_workbench::math::phi_functions_test {
+namespace spring_workbench::exponential::phi_functions_test {
 namespace {
 
 using Complex = std::complex<double>;
 
 TEST(PhiFunctions, AreTheirIntegrals) {
-  // φ_{k+1}(z) = ∫₀¹ e^{(1−c)z} cᵏ/k! dc, by Gauss quadrature over eight pieces.
-  const GaussLegendre<8> gauss;
+  // φ_{k+1}(z) = ∫₀¹ e^{(1−c)z} cᵏ/k! dc, by Gauss quadrature over eight parts.
+  const math::GaussLegendre<8> gauss;
   for (const double length : {0.0, 1e-9, 1e-3, 0.3, 0.999, 1.001, 3.0, 20.0}) {
     for (const double angle : {M_PI, 2.5, 0.5 * M_PI, -2.0}) {
       const Complex z = std::polar(length, angle);
@@ -25,9 +25,9 @@ TEST(PhiFunctions, AreTheirIntegrals) {
       for (int k = 0; k < 5; ++k) {
         if (k > 0) factorial *= k;
         Complex integral = 0.0;
-        for (int piece = 0; piece < 8; ++piece) {
+        for (int part = 0; part < 8; ++part) {
           for (int i = 0; i < 8; ++i) {
-            const double c = (piece + gauss.nodes[i]) / 8.0;
+            const double c = (part + gauss.nodes[i]) / 8.0;
             integral += gauss.weights[i] / 8.0 * std::exp((1.0 - c) * z) * std::pow(c, k) / factorial;
           }
         }
@@ -86,4 +86,4 @@ TEST(PhiFunctions, OfDualNumbersAreDerivatives) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::math::phi_functions_test
+}  // namespace spring_workbench::exponential::phi_functions_test

@@ -1,5 +1,5 @@
 // The modes of a matrix: A V = V B, or none.
-#include "spring_workbench/math/real_modes.h"
+#include "spring_workbench/exponential/real_modes.h"
 
 #include <gtest/gtest.h>
 
@@ -8,9 +8,10 @@
 #include <limits>
 #include <random>
 
-#include "spring_workbench/math/phi_functions.h"
+#include "spring_workbench/exponential/phi_functions.h"
+#include "support/matrix_exponential.h"
 
-namespace spring_workbench::math::real_modes_test {
+namespace spring_workbench::exponential::real_modes_test {
 namespace {
 
 using Matrix4 = Eigen::Matrix4d;
@@ -23,22 +24,12 @@ Matrix4 oscillators(double omega, double zeta, double other_omega, double other_
   return mixed * A * mixed.inverse();
 }
 
-/// φ₀(A) … φ₅(A) by scaling and squaring, in long double: the blocks of the first row of the exponential of A with unit
-/// matrices above the diagonal.
-using LongMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-LongMatrix exponentials(const Eigen::Matrix2d& A) {
-  LongMatrix C = LongMatrix::Zero(12, 12);
+/// φ₀(A) … φ₅(A): the blocks of the first row of the exponential of A with unit matrices above the diagonal.
+test_support::LongMatrix phi_functions_of(const Eigen::Matrix2d& A) {
+  test_support::LongMatrix C = test_support::LongMatrix::Zero(12, 12);
   C.topLeftCorner(2, 2) = A.cast<long double>();
   C.topRightCorner(10, 10).setIdentity();
-  int halvings = 0;
-  for (; C.norm() > 0.5L; ++halvings) C *= 0.5L;
-  LongMatrix power = LongMatrix::Identity(12, 12), sum = power;
-  for (int k = 1; k < 25; ++k) {
-    power = power * C / static_cast<long double>(k);
-    sum += power;
-  }
-  for (; halvings > 0; --halvings) sum = LongMatrix(sum * sum);
-  return sum;
+  return test_support::exponential(C);
 }
 
 TEST(RealModes, MakeTheMatrixAgain) {
@@ -98,7 +89,7 @@ TEST(RealModes, OfOneOscillatorGiveItsExponential) {
     A << 0.0, omega, apart > 0.0 ? -omega * (1.0 + apart) : -omega * (1.0 + apart * apart),
         apart > 0.0 ? -omega * (2.0 + apart) : -2.0 * omega;
     const RealModes<Eigen::Matrix2d> modes(A);
-    const LongMatrix exact = exponentials(A);
+    const test_support::LongMatrix exact = phi_functions_of(A);
     std::array<Eigen::Matrix2d, 6> of_blocks;
     if (modes.pairs > 0) {
       const auto phi = phi_functions<5>(modes.rates[0]);
@@ -173,4 +164,4 @@ TEST(RealModes, OfWhatIsNotFiniteAreNaN) {
 }
 
 }  // namespace
-}  // namespace spring_workbench::math::real_modes_test
+}  // namespace spring_workbench::exponential::real_modes_test

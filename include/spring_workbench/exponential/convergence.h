@@ -1,0 +1,86 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/math/state_archive.h"
+
+namespace spring_workbench::exponential {
+
+/// Judges a fixed-point iteration: how much further iterations would still change, from the rate of convergence (Hairer
+/// and Wanner, Solving Ordinary Differential Equations II, IV.8, equation (8.10)), compared with the collocation error
+/// of the step, which no iteration reduces. Sizes are those of a norm, squared.
+class Convergence {
+ public:
+  /// Assumes nothing about the next step from those before.
+  void restart() {
+    rate_ = 1.0;
+    squared_error_ = 0.0;
+  }
+  void begin_step() {
+    iterations_ = 0;
+    squared_before_ = left_ = 0.0;
+    present_rate_ = std::min(1.0, rate_ * rate_growth);
+    ended_ = converged_ = cancelled_ = false;
+  }
+  /// Takes the change by an iteration: its squared size at all nodes and at the end of the step, and that of the
+  /// rounding errors of the result. `cancelled_rounding` returns that of terms that cancel, at most; it is asked for
+  /// only if the iteration stalls.
+  template <typename CancelledRounding>
+  void add(double squared_change, double squared_change_at_end, double squared_rounding,
+           const CancelledRounding& cancelled_rounding) {
+    ++iterations_;
+    if (iterations_ > 1) present_rate_ = std::sqrt(squared_change / squared_before_);
+    if (iterations_ == 2) rate_ = present_rate_;
+    squared_before_ = squared_change;
+    const bool slow = iterations_ > 2 && present_rate_ > slow_rate && squared_change > squared_rounding;
+    cancelled_ = slow && squared_change <= cancelled_rounding();
+    ended_ = cancelled_ || (slow && iterations_ > iterations_to_judge) || iterations_ == max_iterations;
+    left_ = cancelled_ ? 1.0 : left_at(present_rate_);  // 1: the next iteration changes as much again
+    squared_left_ = left_ * left_ * squared_change_at_end;
+    squared_rounding_ = squared_rounding;
+  }
+  /// Whether the iteration should end, judged by the collocation error of the last step.
+  bool may_end() const { return ended_ || is_below(fraction_to_end); }
+  /// Takes the squared collocation error of this step, which decides whether the iteration has converged.
+  void set_error(double squared_error) {
+    squared_error_ = squared_error;
+    converged_ = cancelled_ || is_below(max_fraction);
+    ended_ = ended_ || converged_;
+  }
+  bool ended() const { return ended_; }
+  bool converged() const { return converged_; }
+  int iterations() const { return iterations_; }
+  /// All further changes over the last one.
+  double left() const { return left_; }
+  /// All changes after the first iteration over the change by that one.
+  double left_after_first() const { return left_at(rate_); }
+
+  void exchange(math::StateArchive& state) { state(rate_, squared_error_); }
+
+  static constexpr int max_iterations = 12;
+  /// Fraction of the collocation error of the last step that further iterations may change for the iteration to end,
+  /// and of that of this step for it to have converged.
+  static constexpr double fraction_to_end = 0.02, max_fraction = 0.1;
+
+ private:
+  /// An iteration with a higher number that leaves more than slow_rate of the last change ends the step.
+  static constexpr int iterations_to_judge = 5;
+  static constexpr double slow_rate = 0.7;
+  static constexpr double rate_growth = 1.3;      ///< assumed, from one step to the next
+  static constexpr double left_at_unknown = 1e3;  ///< left() at an unknown rate, or without convergence
+
+  static double left_at(double rate) { return rate < 1.0 ? rate / (1.0 - rate) : left_at_unknown; }
+  bool is_below(double fraction) const {
+    return squared_left_ <= std::max(fraction * fraction * squared_error_, squared_rounding_);
+  }
+
+  double rate_ = 1.0;           ///< from the first to the second iteration of the last step that had two
+  double squared_error_ = 0.0;  ///< collocation error of the last step
+  // Of the present step.
+  int iterations_ = 0;
+  double present_rate_ = 1.0, squared_before_ = 0.0, left_ = 0.0, squared_left_ = 0.0, squared_rounding_ = 0.0;
+  bool ended_ = false, converged_ = false, cancelled_ = false;
+};
+
+}  // namespace spring_workbench::exponential

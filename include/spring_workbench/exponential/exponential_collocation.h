@@ -1,0 +1,149 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "spring_workbench/exponential/collocation.h"
+#include "spring_workbench/exponential/linear_part.h"
+#include "spring_workbench/exponential/modal_operators.h"
+#include "spring_workbench/math/state_archive.h"
+
+namespace spring_workbench::exponential {
+
+/// Variation of constants over a step: the modes of a LinearPart of `n` coordinates under the collocation polynomial of
+/// the residual (Collocation). Lane i of a pack belongs to node i, or to sample i.
+template <int n, typename ModalDecomposition>
+class ExponentialCollocation {
+ public:
+  using Part = LinearPart<n, ModalDecomposition>;
+  using Strain = typename Part::Strain;
+  using Modes = typename Part::Modes;
+  using Square = typename Part::Square;
+  using NodeModes = typename Part::NodeModes;
+  using NodeStrains = typename Part::NodeStrains;
+  static constexpr std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+  /// Replaces the linear part.
+  void set(const ModalDecomposition& modes) {
+    part_.set(modes);
+    h_ = 0.0;
+  }
+  const Part& part() const { return part_; }
+  const ModalDecomposition& modes() const { return part_.modes(); }
+
+  /// Computes the operators for steps of `h` [s].
+  void prepare(double h) {
+    if (std::abs(h - h_) <= same_length * h) return;
+    h_ = h;
+    for (int m = 0; m < 2 * n; ++m) {
+      const double weight = 1.0 / std::max(1.0 / h, abs(modes().rates[at(m)]));
+      squared_weight_[m] = weight * weight;
+    }
+    operators_.compute(h, modes().rates, modes().pairs);
+  }
+  double h() const { return h_; }  ///< step prepared for [s]; 0: none
+
+  /// Squared weights of the modes in sizes: that of a displacement is 1, of a rate min(h, 1/|rate of its mode|)².
+  const Modes& squared_weight() const { return squared_weight_; }
+  SPRING_WORKBENCH_INLINE double squared_size(const Modes& x) const { return squared_weight_.dot(x.cwiseAbs2()); }
+  /// Upper bound of the squared size of the change over a step by terms of this size in the acceleration.
+  double squared_effect(const Strain& accelerations) const {
+    const Modes rates = part_.bound_in_modes(accelerations);
+    return squared_size(rates.cwiseProduct(squared_weight_.cwiseSqrt()));
+  }
+  SPRING_WORKBENCH_INLINE static Modes at_end(const NodeModes& x) {
+    Modes end;
+    for (int m = 0; m < 2 * n; ++m) end[m] = x[at(m)][Collocation::count - 1];
+    return end;
+  }
+
+  /// Modes at the nodes, and at the samples, for the rate q̇₀ alone.
+  SPRING_WORKBENCH_INLINE void begin(const Strain& q_dot, NodeModes& nodes, NodeModes& samples) const {
+    const Modes rate = part_.rate_in_modes(q_dot);
+    for (int m = 0; m < 2 * n; ++m) {
+      nodes[at(m)] = operators_.constant.apply(m, rate);
+      samples[at(m)] = operators_.sample_constant.apply(m, rate);
+    }
+  }
+  /// Modes at the nodes under the collocation polynomial of a residual, in modes; `from` begin().
+  SPRING_WORKBENCH_INLINE void drive(const NodeModes& from, const NodeModes& residual, NodeModes& x) const {
+    Operators::drive(operators_.node, from, residual, x);
+  }
+  /// The same at the samples.
+  SPRING_WORKBENCH_INLINE void drive_samples(const NodeModes& from, const NodeModes& residual, NodeModes& x) const {
+    Operators::drive(operators_.sample, from, residual, x);
+  }
+
+  /// Effect of a defect of the residual at the samples, in modes, on the modes at the end.
+  SPRING_WORKBENCH_INLINE Modes end_effect(const NodeModes& defect) const {
+    Modes e;
+    for (int m = 0; m < 2 * n; ++m) e[m] = math::sum(operators_.end_defect.apply(m, defect));
+    return e;
+  }
+  /// The same on the modes at the nodes.
+  SPRING_WORKBENCH_INLINE NodeModes effect(const NodeModes& defect) const {
+    NodeModes e;
+    Operators::drive(operators_.defect, NodeModes{}, defect, e);
+    return e;
+  }
+  /// Effect of the highest degree of a defect on the modes at the end; lane k: if the defect at sample k causes all of
+  /// it. One more sample could change the defect by about as much.
+  SPRING_WORKBENCH_INLINE NodeModes effect_of_highest_degree(const NodeModes& defect) const {
+    const auto& row = Collocation::third_degree();
+    const math::Pack third{row[0], row[1], row[2], row[3]};
+    NodeModes alone, e;
+    for (int m = 0; m < 2 * n; ++m) alone[at(m)] = math::sum(defect[at(m)] / third) * third;
+    for (int m = 0; m < 2 * n; ++m) e[at(m)] = operators_.end_defect.apply(m, alone);
+    return e;
+  }
+
+  /// Carries a small deviation of strain and rate, in modes, from the start to the nodes along the linear part.
+  SPRING_WORKBENCH_INLINE NodeModes carried_in_modes(const Modes& x) const {  // e^{hλ} = 1 + λ h φ₁(hλ)
+    Modes rate;
+    for (int m = 0; m < 2 * n; ++m) {
+      const GeneralComplex& z = modes().rates[at(m)];
+      rate[m] = z.re * x[m] + (m % 2 == 0 ? 1.0 : z.square) * z.im * x[m ^ 1];
+    }
+    NodeModes y;
+    for (int m = 0; m < 2 * n; ++m) {
+      y[at(m)] = x[m] + operators_.constant.own[at(m)] * rate[m] + operators_.constant.other[at(m)] * rate[m ^ 1];
+    }
+    return y;
+  }
+  /// The same of strain and rate, to the end.
+  Modes carried(const Modes& deviation) const {
+    return part_.deviation(at_end(carried_in_modes(part_.deviation_in_modes(deviation))));
+  }
+  /// Strain and rate at the end of the step by constant accelerations, one per column.
+  Eigen::Matrix<double, 2 * n, n> response(const Square& acceleration) const {
+    const Eigen::Matrix<double, 2 * n, n> force = part_.in_modes(acceleration);
+    Eigen::Matrix<double, 2 * n, n> x;
+    constexpr std::size_t end = Collocation::count - 1;
+    for (int m = 0; m < 2 * n; ++m) {
+      x.row(m) =
+          operators_.constant.own[at(m)][end] * force.row(m) + operators_.constant.other[at(m)][end] * force.row(m ^ 1);
+    }
+    return part_.deviation(x);
+  }
+
+  /// Exchanges linear part and step; the operators follow from them.
+  void exchange(math::StateArchive& state) {
+    double h = h_;
+    state(part_, h);
+    if (!state.sets()) return;
+    h_ = 0.0;
+    if (h > 0.0) prepare(h);
+  }
+
+ private:
+  using Operators = ModalOperators<2 * n>;
+  /// Steps whose lengths differ by a smaller fraction are equal: the difference is the rounding of times.
+  static constexpr double same_length = 1e-11;
+
+  Part part_;
+  double h_ = 0.0;  ///< what the operators are for
+  Modes squared_weight_ = Modes::Zero();
+  Operators operators_;
+};
+
+}  // namespace spring_workbench::exponential
