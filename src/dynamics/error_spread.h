@@ -20,23 +20,12 @@ class ErrorSpread {
   using NodeModes = typename Steps::NodeModes;
   using NodeStrains = typename Steps::NodeStrains;
 
-  /// Takes another linear part.
-  void set(const ModalDecomposition& modes) {
-    amplitude_rates_ = modes.amplitude_rates;
-    mass_ = modes.mass;
-    to_undamped_ = modes.to_undamped;
-    const Square back = modes.inverse_mass * modes.to_undamped.transpose();
-    ball_.setZero();
-    ball_.template topLeftCorner<n, n>() = back * back.transpose();
-    ball_.template bottomRightCorner<n, n>() = back * amplitude_rates_.cwiseAbs2().asDiagonal() * back.transpose();
-    h_ = 0.0;
-  }
-
   /// Propagates the run's error over the last step, and adds that step's own. The estimate goes along the equation of
   /// motion, by its linear part and one iteration; the spread grows by the uncertainty of the step's estimate.
   SPRING_WORKBENCH_INLINE void follow(const Equation& equation, const Steps& steps, RunError& run) {
     const Propagator& propagator = steps.propagator();
     const typename Steps::Done& done = steps.done();
+    if (revision_ != propagator.revision()) set(propagator);
     Modes begin;
     begin << run.estimate.q, run.estimate.q_dot;
     const NodeModes missed_at_nodes = propagator.effect(done.defect);
@@ -55,7 +44,7 @@ class ErrorSpread {
     const double missed = amplitude(propagator, missed_at_nodes)[last], changed = amplitude(propagator, e)[last];
     run.unsure = missed + math::largest(amplitude(propagator, propagator.effect_of_highest_degree(done.defect))) +
                  fraction_of_iterations * steps.convergence().left_after_first() * (missed + changed);
-    carry(propagator, run);
+    carry(run);
   }
 
  private:
@@ -64,6 +53,20 @@ class ErrorSpread {
   static constexpr std::size_t at(int i) { return Propagator::at(i); }
   /// Part of the change by further iterations that the bound allows for.
   static constexpr double fraction_of_iterations = 0.5;
+
+  /// Derives from the linear part and the step.
+  void set(const Propagator& propagator) {
+    revision_ = propagator.revision();
+    const ModalDecomposition& modes = propagator.modes();
+    amplitude_rates_ = modes.amplitude_rates;
+    mass_ = modes.mass;
+    to_undamped_ = modes.to_undamped;
+    const Square back = modes.inverse_mass * modes.to_undamped.transpose();
+    ball_.setZero();
+    ball_.template topLeftCorner<n, n>() = back * back.transpose();
+    ball_.template bottomRightCorner<n, n>() = back * amplitude_rates_.cwiseAbs2().asDiagonal() * back.transpose();
+    for (int m = 0; m < 2 * n; ++m) transition_.col(m) = propagator.carried(Modes::Unit(m));
+  }
 
   /// Amplitude at which deviations, one in each lane, swing or run out, all modes together [m √kg].
   SPRING_WORKBENCH_INLINE math::Pack amplitude(const Propagator& propagator, const NodeModes& x) const {
@@ -84,11 +87,7 @@ class ErrorSpread {
 
   /// Carries the spread over the step and adds a ball of the amplitude `run.unsure`: the smallest ellipsoid, by its
   /// trace, that contains their sum.
-  SPRING_WORKBENCH_INLINE void carry(const Propagator& propagator, RunError& run) {
-    if (h_ != propagator.h()) {
-      for (int m = 0; m < 2 * n; ++m) transition_.col(m) = propagator.carried(Modes::Unit(m));
-      h_ = propagator.h();
-    }
+  SPRING_WORKBENCH_INLINE void carry(RunError& run) {
     Moments moments = transition_ * Moments(run.spread) * transition_.transpose();
     const double size = std::sqrt(std::max(0.0, mass_.dot(moments.diagonal().template head<n>())) /
                                   mass_.dot(ball_.diagonal().template head<n>()));
@@ -99,8 +98,8 @@ class ErrorSpread {
   typename Propagator::Strain amplitude_rates_, mass_;
   Square to_undamped_;
   Moments ball_;        ///< of deviations of amplitude 1
-  Moments transition_;  ///< over a step of h_
-  double h_ = 0.0;      ///< [s]
+  Moments transition_;  ///< over the step
+  long revision_ = 0;   ///< of the propagator that all this is of
 };
 
 }  // namespace spring_workbench::dynamics

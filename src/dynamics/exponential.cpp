@@ -43,10 +43,10 @@ class Exponential::CoreOf final : public Core {
   const Response* response(const HeldBody& body, double h) override {
     if (version_ != body.version()) return nullptr;
     steps_.prepare(h);
-    if (response_h_ != steps_.propagator().h()) {
+    if (response_revision_ != steps_.propagator().revision()) {
       const Eigen::Matrix<double, 2 * n, n> end = steps_.propagator().response(modes().inverse_mass);
       response_ = {end.template topRows<n>(), end.template bottomRows<n>()};
-      response_h_ = steps_.propagator().h();
+      response_revision_ = steps_.propagator().revision();
     }
     return &response_;
   }
@@ -64,8 +64,6 @@ class Exponential::CoreOf final : public Core {
     state(version_);
     if (version_ < 0) return;  // nothing has been derived from the equations yet
     state(steps_, refactorisation_);
-    if (state.sets()) spread_.set(modes());
-    response_h_ = 0.0;
   }
 
  private:
@@ -81,9 +79,7 @@ class Exponential::CoreOf final : public Core {
     const ModalDecomposition found = modal_decomposition(body, handle, q);
     if (version_ == body.version() && !(found.to_modes.allFinite() && found.from_modes.allFinite())) return;
     steps_.set(found);
-    spread_.set(found);
     version_ = body.version();
-    response_h_ = 0.0;
   }
 
   SPRING_WORKBENCH_WIDE StepEstimate iterate(const HeldBody& body, const motion::FrameMotion& handle, double t,
@@ -103,8 +99,8 @@ class Exponential::CoreOf final : public Core {
   Steps steps_;
   exponential::Refactorisation<n> refactorisation_;
   ErrorSpread<n> spread_;
-  Response response_;        ///< of the linear part
-  double response_h_ = 0.0;  ///< step that the response is for [s]; 0: none
+  Response response_;           ///< of the linear part to constant forces over a step
+  long response_revision_ = 0;  ///< of the propagator that it is of
 };
 
 Exponential::Exponential() = default;

@@ -27,21 +27,28 @@ class ExponentialCollocation {
   void set(const ModalDecomposition& modes) {
     part_.set(modes);
     h_ = 0.0;
+    known_ = false;
   }
   const Part& part() const { return part_; }
   const ModalDecomposition& modes() const { return part_.modes(); }
 
-  /// Computes the operators for steps of `h` [s].
+  /// Computes the operators for steps of `h` [s], if they are not known yet.
   void prepare(double h) {
-    if (std::abs(h - h_) <= same_length * h) return;
-    h_ = h;
+    if (std::abs(h - h_) > same_length * h) {
+      h_ = h;
+      known_ = false;
+    }
+    if (known_) return;
+    known_ = true;
+    ++revision_;
     for (int m = 0; m < 2 * n; ++m) {
-      const double weight = 1.0 / std::max(1.0 / h, abs(modes().rates[at(m)]));
+      const double weight = 1.0 / std::max(1.0 / h_, abs(modes().rates[at(m)]));
       squared_weight_[m] = weight * weight;
     }
-    operators_.compute(h, modes().rates, modes().pairs);
+    operators_.compute(h_, modes().rates, modes().pairs);
   }
-  double h() const { return h_; }  ///< step prepared for [s]; 0: none
+  /// Changes whenever the operators do; what has been derived from them is valid for one value.
+  long revision() const { return revision_; }
 
   /// Squared weights of the modes in sizes: that of a displacement is 1, of a rate min(h, 1/|rate of its mode|)².
   const Modes& squared_weight() const { return squared_weight_; }
@@ -126,13 +133,10 @@ class ExponentialCollocation {
     return part_.deviation(x);
   }
 
-  /// Exchanges linear part and step; the operators follow from them.
+  /// Exchanges linear part and step; the operators follow from them, when they are needed.
   void exchange(math::StateArchive& state) {
-    double h = h_;
-    state(part_, h);
-    if (!state.sets()) return;
-    h_ = 0.0;
-    if (h > 0.0) prepare(h);
+    state(part_, h_);
+    if (state.sets()) known_ = false;
   }
 
  private:
@@ -141,7 +145,9 @@ class ExponentialCollocation {
   static constexpr double same_length = 1e-11;
 
   Part part_;
-  double h_ = 0.0;  ///< what the operators are for
+  double h_ = 0.0;      ///< the step that the operators are for [s]; 0: none
+  bool known_ = false;  ///< whether they have been computed
+  long revision_ = 0;
   Modes squared_weight_ = Modes::Zero();
   Operators operators_;
 };
