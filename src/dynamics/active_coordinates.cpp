@@ -3,8 +3,8 @@
 namespace spring_workbench::dynamics {
 namespace {
 
-/// After this many time constants a critically damped return is over: exp(−45) is below the rounding of its start.
-constexpr double return_is_over = 45.0;
+/// Duration of a critically damped return in time constants: exp(−45) is below the rounding error of its start.
+constexpr double return_duration = 45.0;
 
 }  // namespace
 
@@ -43,7 +43,7 @@ bool ActiveCoordinates::drop_finished_returns(double t) {
   const int before = returning_;
   for (std::size_t c = 0; c < mode_.size(); ++c) {
     const Return& r = return_[c];
-    if (mode_[c] == Mode::returning && t - r.t0 > return_is_over * r.time_constant) mode_[c] = Mode::off;
+    if (mode_[c] == Mode::returning && t - r.t0 > return_duration * r.time_constant) mode_[c] = Mode::off;
   }
   take_modes();
   return returning_ != before;

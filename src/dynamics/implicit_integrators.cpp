@@ -8,10 +8,10 @@
 namespace spring_workbench::dynamics {
 namespace {
 
-constexpr double time_difference = 1e-4;  ///< of the step
-constexpr int most_newton_steps = 10;
-constexpr double newton_done = 1e-13;     ///< change of the strain against the step's own
-constexpr double newton_rounding = 1e-6;  ///< of the first change: one that grows again below this is rounding
+constexpr double time_difference = 1e-4;  ///< for derivatives by time, in units of the step
+constexpr int max_newton_steps = 10;
+constexpr double newton_tolerance = 1e-13;  ///< change of the rates, relative to that over the step
+constexpr double newton_rounding = 1e-6;    ///< relative to the first change: one that grows again below it is rounding
 
 }  // namespace
 
@@ -25,7 +25,7 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
   const ImplicitMatrix matrix(motion, h);
   double last_change = 0.0, first_change = 0.0;
   bool converged = false;
-  for (int i = 0; i < most_newton_steps && !converged; ++i) {
+  for (int i = 0; i < max_newton_steps && !converged; ++i) {
     // q̇ is the unknown, q = q₀ + h q̇: residual q̇ − q̇₀ − h q̈.
     const rod::StrainVector off_q = state.q + h * next.q_dot - next.q;  // of the first iterate only
     const rod::StrainVector change =
@@ -35,14 +35,14 @@ StepEstimate ImplicitEuler::step(const HeldBody& body, const motion::FrameMotion
     a = body.acceleration(end, next.q, next.q_dot);
     const double size = change.norm();
     if (i == 0) first_change = size;
-    converged = size <= newton_done * (first_change + next.q_dot.norm() + next.q.norm() / h);
+    converged = size <= newton_tolerance * (first_change + next.q_dot.norm() + next.q.norm() / h);
     if (i > 0 && !(size < last_change)) {
       converged = converged || size < newton_rounding * first_change;
       break;
     }
     last_change = size;
   }
-  // What the exact motion, with an acceleration linear in time, leaves over in the two equations of the rule.
+  // Residuals of the rule's two equations for the exact motion, if its acceleration is linear in time.
   const rod::StrainVector left_q = -h * h / 6.0 * (a_begin + 2.0 * a);
   const rod::StrainVector left_v = -0.5 * h * (a - a_begin);
   const rod::StrainVector error_v = matrix.solve(h * (motion.K * left_q) - motion.M * left_v);
@@ -100,7 +100,7 @@ void rodas_step(const LinearisedMotion& motion, double h, const Acceleration& ac
   }
 }
 
-/// What a step from one state to the next needs to know of the equations at its begin.
+/// Forcing, acceleration and linearised motion at the start of a step.
 struct StepStart {
   HandleForcing forcing;
   rod::StrainVector q_ddot;
@@ -130,7 +130,7 @@ StrainState rodas_step(const HeldBody& body, const motion::FrameMotion& handle, 
 
 StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                               StrainState& state) {
-  // Between 2⁴ − 1 of smooth motions and the 2 − 1 of the stiffest.
+  // A compromise between 2⁴ − 1, right for smooth motions, and 2 − 1, right for the stiffest.
   constexpr double finer_by = 10.0;
   const StepStart begin(body, handle, t, state);
   const StrainState whole = rodas_step(body, handle, t, h, state, begin);
@@ -146,7 +146,7 @@ StepEstimate Rosenbrock::step(const HeldBody& body, const motion::FrameMotion& h
 
 namespace {
 
-/// Deviations under constant generalised forces, a column each.
+/// Carries deviations over a step under constant generalised forces, one per column.
 void carry_linear(const LinearisedMotion& motion, double h, const rod::StrainMatrix& force, rod::StrainMatrix& q,
                   rod::StrainMatrix& v) {
   const Eigen::LLT<rod::StrainMatrix> M(motion.M);

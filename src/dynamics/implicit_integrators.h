@@ -16,7 +16,7 @@ class ImplicitEuler final : public Integrator {
 
 /// Rosenbrock method of order four, stiffly accurate and L-stable, without loss of order in stiff forced systems:
 /// RODASP (Steinebach 1995; Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7, equation (7.25)
-/// for the form used). Each step is done as two halves; against one whole it gives the error estimate.
+/// for the form used). Each step is taken as two halves; their difference from one whole step gives the error estimate.
 class Rosenbrock final : public Integrator {
  public:
   int order() const override { return 4; }

@@ -21,7 +21,7 @@ std::unique_ptr<Integrator> make() {
   return std::make_unique<OurOwn>();
 }
 
-/// By IntegratorKind: ours in its order, then those registered.
+/// Names and makers by IntegratorKind: our own in its order, then those registered.
 struct Known {
   std::vector<std::string> names = {"exponential", "rosenbrock",          "implicit_euler",
                                     "paper",       "semi_implicit_euler", "rk4"};
@@ -110,7 +110,7 @@ struct QuinticPoint {
   rod::StrainVector q, q_dot, q_ddot;
 };
 
-/// The quintic through state and acceleration at both ends of a step of `h` [s], at `u` = 0 … 1 of it.
+/// The quintic through state and acceleration at both ends of a step of `h` [s], at its fraction `u`, 0 … 1.
 QuinticPoint quintic(const StrainState& begin, const rod::StrainVector& a_begin, const StrainState& end,
                      const rod::StrainVector& a_end, double h, double u) {
   // q₀ + u (h v₀ + u (h² a₀ / 2 + u (c₃ + u (c₄ + u c₅)))).
@@ -132,8 +132,8 @@ struct StepEnd {
   const rod::StrainVector& q_ddot;
 };
 
-/// The error at the end of a step of a method of order up to four, from how far the quintic through both ends is from
-/// obeying the equation of motion at a quarter and at three quarters of the step.
+/// Estimates the error at the end of a step of a method of order up to four: from the defect of the quintic through
+/// both ends at a quarter and at three quarters of the step.
 StepEstimate end_error(const HeldBody& body, const motion::FrameMotion& handle, double t, double h,
                        const StepEnd& begin, const StepEnd& end) {
   // The quintic's second derivative by an end that is off by (e, h ė = g): (H'' e + G'' g) / h², H and G its shapes.

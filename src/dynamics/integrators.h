@@ -4,7 +4,7 @@
 
 namespace spring_workbench::dynamics {
 
-/// Keeps the acceleration at the end of a step for the start of the next, where nothing has changed between.
+/// Keeps the acceleration at the end of a step for the start of the next, if nothing has changed in between.
 class LastAcceleration {
  public:
   rod::StrainVector get(const HeldBody& body, const HandleForcing& handle, const StrainState& state);
@@ -22,8 +22,8 @@ class LastAcceleration {
   rod::StrainVector q_ddot_;
 };
 
-/// What simple simulators do: q̇ += h q̈(q, q̇), q += h q̇. First order; unstable for ω h > 2, with explicit damping
-/// sooner.
+/// Semi-implicit Euler, as in game engines: q̇ += h q̈(q, q̇), q += h q̇. First order; unstable for ω h > 2, with
+/// damping for less.
 class SemiImplicitEuler final : public Integrator {
  public:
   int order() const override { return 1; }

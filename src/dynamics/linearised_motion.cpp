@@ -3,10 +3,10 @@
 namespace spring_workbench::dynamics {
 namespace {
 
-// Of one-sided differences: half the digits are left. With larger ones methods that take the slopes for exact lose
-// their order where steps are short.
-constexpr double strain_difference = 3e-8;  ///< over the length
-constexpr double rate_difference = 3e-7;    ///< over the length [1/s]
+// Of one-sided differences, which leave half of the digits. With larger ones, methods that treat the derivatives as
+// exact lose their order if steps are short.
+constexpr double strain_difference = 3e-8;  ///< times the inverse length
+constexpr double rate_difference = 3e-7;    ///< times the inverse length [1/s]
 
 }  // namespace
 

@@ -44,7 +44,7 @@ class SpringDampers {
   rod::StrainVector unit_;
 };
 
-/// The object as a rigid fork would carry it.
+/// The object's motion if the fork were rigid.
 struct Carried {
   HandleForcing handle;
   motion::MotionState object;
@@ -56,7 +56,7 @@ struct Carried {
     I_W = object.X.linear() * body.body().inertia_O * object.X.linear().transpose();
   }
   Vector3d angular_momentum() const { return I_W * object.velocity.angular; }
-  /// What the fork has to carry, axes of H, for changes of velocity [m/s²] and angular momentum [N·m].
+  /// Returns the load on the fork, axes of H, for given rates of velocity [m/s²] and angular momentum [N·m].
   Wrench load(const HeldBody& body, const Vector3d& a, const Vector3d& moment) const {
     const Matrix3d R_HW = handle.X_WH.linear().transpose();
     return {-body.body().mass * (R_HW * (a + body.gravity() * Vector3d::UnitZ())), -(R_HW * moment)};
@@ -67,8 +67,8 @@ struct Carried {
   }
 };
 
-/// The collision check (section 5): what the object touches on its way to the candidate cuts it back by halvings. The
-/// last that touches is taken, so that the object comes to the contact, which then carries its load.
+/// The collision check (section 5): if the object touches something on its path to the target, halvings cut the target
+/// back. The last one that touches is used, so that the object reaches the contact, which then carries its load.
 rod::StrainVector cut_back(const HeldBody& body, const Carried& begin, const Carried& end, const StrainState& state,
                            const rod::StrainVector& target) {
   const auto pose = [&](const HandleForcing& handle, const rod::StrainVector& q) {
@@ -98,23 +98,23 @@ StepEstimate Paper::step(const HeldBody& body, const motion::FrameMotion& handle
   for (int i = 0; i < body.size(); ++i) active[static_cast<std::size_t>(body.coordinates()[i])] = true;
   const rod::StaticDeformation deformation(body.shape(), body.shape().stiffness(body.dof_stiffness()), active,
                                            body.body().X_OE.inverse().translation(), load);
-  // A step that is tried again looks from where it did before.
+  // A step that is repeated starts its search where it did before.
   if (version_ != body.version()) from_ = state.q;
   if (version_ == body.version() && t != t_) from_ = target_;
   t_ = t;
   const rod::RestStrain rest = deformation.under_load(body.full_state(t + h, {from_, 0.0 * from_}).q);
   target_ = body.coordinates().gather(rest.q);
-  version_ = target_.allFinite() ? body.version() : -1;  // of an absurd state: not one to go on from
+  version_ = target_.allFinite() ? body.version() : -1;  // otherwise the next search must not start there
 
   const SpringDampers dampers(body, h);
   const StrainState from = state;
   const rod::StrainVector candidate = body.path_check() ? cut_back(body, begin, end, from, target_) : target_;
-  // Contact acts on the spring-dampers; so does the load where there is no spring that it could deform.
+  // Contact acts on the spring-dampers; so does the load on a coordinate without stiffness.
   const Matrix3d R_HW = end.handle.X_WH.linear().transpose();
   const Wrench contact{R_HW * body.external_wrench().force, R_HW * body.external_wrench().moment};
   const rod::StrainVector pushed = body.object_jacobian(t + h, from.q).transpose() * to_vector(contact);
   const rod::StrainVector free = body.coordinates().gather(deformation.force(rest.q));
-  // What is off: the load, which goes from one moment's to the other's, is taken as one; and the target.
+  // Errors: one constant load stands for one that changes over the step; and the target's equilibrium is approximate.
   const Vector6d of_step = to_vector(load), first = to_vector(begin.load(body)), last = to_vector(end.load(body));
   rod::StrainMatrix off(rest.q.size(), 2);
   off.col(0) = deformation.force(rest.q, of_step - (2.0 * first + last) / 3.0) + rest.imbalance;

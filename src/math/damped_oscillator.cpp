@@ -5,7 +5,7 @@
 namespace spring_workbench::math {
 namespace {
 
-/// ∫₀ᵗ s / t² by the Taylor series in t, for a = α t and w = ω₀² t² much less than 1.
+/// (∫₀ᵗ s dt) / t² by the Taylor series in t, for a = α t and w = ω₀² t² much smaller than 1.
 double short_time_integral(double a, double w) {
   double before = 0.0, derivative = 1.0, factorial = 2.0, sum = 0.0;
   for (int n = 2; n < 13; ++n) {

@@ -35,18 +35,17 @@ Vector3d quotient(const Vector3d& b, const Vector3d& a) {
   return {first, (b[1] - first * a[1]) / a[0], (b[2] - first * a[2]) / a[0]};
 }
 
-/// How often `d` may be added to `v` in its cone.
+/// Largest multiple of `d` that can be added to `v` without leaving its cone.
 double longest_step(const Vector3d& v, const Vector3d& d) {
   const double a = determinant(d), b = v.dot(mirrored(d)), c = determinant(v);
-  const double over =
-      std::sqrt(std::max(0.0, b * b - a * c)) - b;  // the root is of what cannot be negative but by rounding
+  const double over = std::sqrt(std::max(0.0, b * b - a * c)) - b;  // negative under the root: rounding
   return over > 0.0 ? c / over : std::numeric_limits<double>::infinity();
 }
 
-/// What takes the impulse to where the rate is by its inverse, and is symmetric.
+/// Nesterov and Todd's scaling: symmetric, W x = W⁻¹ y for an impulse x and a rate y.
 struct Scaling {
   Eigen::Matrix3d W, inverse;
-  Vector3d at;  ///< W times the impulse, and the inverse times the rate
+  Vector3d at;  ///< W x = W⁻¹ y
 };
 
 Scaling scaling(const Vector3d& x, const Vector3d& y) {
@@ -63,19 +62,19 @@ Scaling scaling(const Vector3d& x, const Vector3d& y) {
   return s;
 }
 
-/// The same problem with every cone's slope, every response of a contact and the largest rate 1.
+/// The problem, scaled so that the slope of every cone, the response of every contact and the largest rate are 1.
 class ScaledProblem {
  public:
   ScaledProblem(const MatrixXd& A, const VectorXd& b, const std::vector<double>& friction)
       : count_(static_cast<Index>(friction.size())), by_(b.size()) {
     VectorXd response(count_);  // of a contact, to an impulse in its cone
     for (Index i = 0; i < count_; ++i) {
-      const double slope = std::max(friction[static_cast<std::size_t>(i)], least_friction);
+      const double slope = std::max(friction[static_cast<std::size_t>(i)], min_friction);
       by_.segment<3>(3 * i) << slope, 1.0, 1.0;
       response[i] =
           std::sqrt(A.diagonal().segment<3>(3 * i).cwiseQuotient(by_.segment<3>(3 * i).cwiseAbs2()).sum() / 3.0);
     }
-    const double least = least_response * response.maxCoeff();
+    const double least = min_response * response.maxCoeff();
     for (Index i = 0; i < count_; ++i) by_.segment<3>(3 * i) *= std::max(response[i], least);
     A_ = by_.cwiseInverse().asDiagonal() * A * by_.cwiseInverse().asDiagonal();
     b_ = b.cwiseQuotient(by_);
@@ -87,10 +86,10 @@ class ScaledProblem {
 
   bool possible() const { return largest_ > 0.0 && by_.allFinite() && by_.minCoeff() > 0.0; }
 
-  /// True where impulses and rates came to fulfil the law.
+  /// Returns whether impulses and rates fulfil the law.
   bool solve() {
     double best = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < most_iterations; ++i) {
+    for (int i = 0; i < max_iterations; ++i) {
       const double gap = x_.dot(y_) / static_cast<double>(count_);
       const VectorXd missing = law() - y_;
       const double error = std::max(gap, missing.cwiseAbs().maxCoeff());
@@ -109,8 +108,8 @@ class ScaledProblem {
  private:
   Vector3d of(const VectorXd& v, Index i) const { return v.segment<3>(3 * i); }
 
-  /// The rates that the impulses make, each normal one with the slip added: so the law is that they lie in the cone,
-  /// too.
+  /// Returns the rates caused by the impulses, with the slip added to each normal rate (De Saxcé): Coulomb's law
+  /// requires them to lie in the cone, too.
   VectorXd law() const {
     VectorXd y = A_ * x_ + b_;
     for (Index i = 0; i < count_; ++i) y[3 * i] += std::hypot(y[3 * i + 1], y[3 * i + 2]);
@@ -146,9 +145,9 @@ class ScaledProblem {
     };
     direction([](const Scaling& s, Index) -> Vector3d { return -product(s.at, s.at); });
     const double rest = 1.0 - std::min(1.0, longest(dx, dy));
-    // Not nearer to the cones' edges than the slip is to the one that was assumed: else it comes to rest too slowly.
+    // No closer to the boundary of the cones than the error of the assumed slip: otherwise the iteration stalls there.
     const double centre =
-        std::max(gap * rest * rest * rest, std::min(gap, least_centring * missing.cwiseAbs().maxCoeff()));
+        std::max(gap * rest * rest * rest, std::min(gap, min_centring * missing.cwiseAbs().maxCoeff()));
     const VectorXd towards_x = dx, towards_y = dy;
     direction([&](const Scaling& s, Index i) -> Vector3d {
       return centre * Vector3d::UnitX() - product(s.at, s.at) -

@@ -1,4 +1,4 @@
-// The only source with Eigen's symmetric solvers for these sizes: each other one would take seconds longer to compile.
+// The only source that instantiates Eigen's symmetric solvers for these sizes, which takes seconds to compile.
 #include "spring_workbench/math/symmetric_modes.h"
 
 #include <Eigen/Eigenvalues>

@@ -6,18 +6,17 @@
 
 namespace spring_workbench::dynamics {
 
-/// The equation of motion about one state: `M δq̈ = −K δq − D δq̇`, geometric stiffness, loads and gyroscopic terms
-/// included. The springs' and dampers' own parts enter exactly, so that no stiffness costs digits; the rest is by
-/// differences.
+/// The equation of motion about one state: `M δq̈ = −K δq − D δq̇`. Springs and dampers enter exactly, so that no
+/// stiffness costs digits; geometric stiffness, loads and gyroscopic terms by finite differences.
 struct LinearisedMotion {
   rod::StrainMatrix M, K, D;
   LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const StrainState& state,
                    const rod::StrainVector& q_ddot);
-  /// Springs and dampers alone.
+  /// With springs and dampers alone.
   LinearisedMotion(const HeldBody& body, const HandleForcing& handle, const rod::StrainVector& q);
 };
 
-/// Solves `(M + d D + d² K) x = b`, equilibrated, for light and heavy coordinates side by side.
+/// Solves `(M + d D + d² K) x = b`, scaled to unit diagonal, so that light and heavy coordinates can be combined.
 class ImplicitMatrix {
  public:
   ImplicitMatrix(const LinearisedMotion& motion, double d);

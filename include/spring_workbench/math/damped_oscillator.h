@@ -9,8 +9,8 @@ struct OscillatorStep {
   double vx, vv, vg;
 };
 
-/// `alpha` ≥ 0 [1/s] (damping ratio times ω₀), `omega_squared` ≥ 0 [1/s²], `t` ≥ 0 [s]. Without division at critical
-/// damping (alpha² = omega_squared), at omega_squared = 0 and at t = 0.
+/// `alpha` ≥ 0 [1/s] is the damping ratio times ω₀, `omega_squared` ≥ 0 [1/s²], `t` ≥ 0 [s]. Does not divide by zero at
+/// critical damping (alpha² = omega_squared), at omega_squared = 0 or at t = 0.
 OscillatorStep damped_oscillator(double alpha, double omega_squared, double t);
 
 }  // namespace spring_workbench::math

@@ -5,9 +5,9 @@
 
 namespace spring_workbench::math {
 
-/// Impulses `x` of contacts, three for each [normal, across, across], that keep Coulomb's law with the rates `y = A x +
-/// b`: a contact that presses does not move along its normal, one that slides opposes its slip with `friction` times
-/// the normal impulse, and no contact closes. `A` is symmetric and positive semidefinite, 3 n × 3 n.
+/// Computes impulses `x` of contacts, three for each [normal, tangent, tangent], that fulfil Coulomb's law with the
+/// rates `y = A x + b`: a contact that presses does not move along its normal, one that slides opposes its slip with
+/// `friction` times the normal impulse, and no contact closes. `A` is symmetric and positive semidefinite, 3 n × 3 n.
 ///
 /// A primal-dual interior point method on the friction cones (Nesterov and Todd's scaling, Mehrotra's corrector), with
 /// De Saxcé's shift of the normal rate by the slip. It solves some 20 systems of equations, whatever the ratio of the

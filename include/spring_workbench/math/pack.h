@@ -2,7 +2,7 @@
 
 #include "spring_workbench/math/rigid_transform.h"
 
-// Arithmetic on several numbers side by side: code written once for a scalar `S` works for `double` and for `Pack`.
+// Arithmetic on several numbers at once: code written once for a scalar `S` works for `double` and for `Pack`.
 
 #define SPRING_WORKBENCH_INLINE inline __attribute__((always_inline))
 
@@ -37,9 +37,9 @@ SPRING_WORKBENCH_INLINE void set_lane(S& p, int i, double x) {
 }
 template <typename S>
 SPRING_WORKBENCH_INLINE double largest(const S& p) {
-  double most = lane(p, 0);
-  for (int i = 1; i < lanes<S>; ++i) most = lane(p, i) > most ? lane(p, i) : most;
-  return most;
+  double result = lane(p, 0);
+  for (int i = 1; i < lanes<S>; ++i) result = lane(p, i) > result ? lane(p, i) : result;
+  return result;
 }
 
 SPRING_WORKBENCH_INLINE double sum(const Pack& p) { return (p[0] + p[1]) + (p[2] + p[3]); }

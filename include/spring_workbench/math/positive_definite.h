@@ -4,8 +4,8 @@
 
 namespace spring_workbench::math {
 
-/// Replaces `b` by `x` with `M x = b` for a small symmetric positive definite `M`, of which the lower triangle is read,
-/// by rows, and lost: L D Lᵀ without roots or pivots. For one system or, with packs, several.
+/// Solves `M x = b` for a small symmetric positive definite `M` and overwrites `b` by `x`: L D Lᵀ without roots or
+/// pivots. Reads and overwrites the lower triangle of `M`, stored by rows. One system or, with packs, several.
 template <int n, typename S>
 SPRING_WORKBENCH_INLINE void solve_positive_definite(S* M, S* b) {
   S inverse[n];

@@ -22,7 +22,7 @@ using So3Coefficients = So3CoefficientsOf<double>;
 
 namespace so3_detail {
 
-/// From `terms` terms of the Taylor series of e = (1/2 − b) / t and g = (1/6 − c) / t: from these two all coefficients
+/// From `terms` terms of the Taylor series of e = (1/2 − b) / t and g = (1/6 − c) / t, from which all coefficients
 /// follow without cancellation.
 template <int terms, typename S>
 SPRING_WORKBENCH_INLINE So3CoefficientsOf<S> from_series(const S& t) {
@@ -46,14 +46,14 @@ SPRING_WORKBENCH_INLINE So3CoefficientsOf<S> from_series(const S& t) {
 
 }  // namespace so3_detail
 
-/// For a large angle.
+/// The coefficients of a large angle.
 So3Coefficients so3_coefficients_of_angle(double t);
 
 template <typename S>
 SPRING_WORKBENCH_INLINE So3CoefficientsOf<S> so3_coefficients(const S& t) {
-  const double most = largest(t);
-  if (most < 1e-2) return so3_detail::from_series<4>(t);
-  if (most < 1.0) return so3_detail::from_series<8>(t);
+  const double max_t = largest(t);
+  if (max_t < 1e-2) return so3_detail::from_series<4>(t);
+  if (max_t < 1.0) return so3_detail::from_series<8>(t);
   So3CoefficientsOf<S> f;
   for (int i = 0; i < lanes<S>; ++i) {
     const double t_i = lane(t, i);
@@ -81,7 +81,8 @@ Matrix3d skew(const Vector3d& v);
 /// zero.
 Matrix3d exp_so3(const Vector3d& theta);
 
-/// Rotation vector [rad] of length 0 … π with `exp_so3(log_so3(R)) = R`. At a half turn the axis' sign is free.
+/// Rotation vector [rad] of length 0 … π with `exp_so3(log_so3(R)) = R`. At half a turn the sign of the axis is
+/// arbitrary.
 Vector3d log_so3(const Matrix3d& R);
 
 /// Rotation vector [rad] from `X0` to `X1`, in the axes of `X0`.
@@ -89,8 +90,8 @@ inline Vector3d turn_between(const RigidTransform& X0, const RigidTransform& X1)
   return log_so3(X0.linear().transpose() * X1.linear());
 }
 
-/// The pose after a `fraction` of the way from `X0` to `X1`: straight, and evenly about one axis by `turn`, which is
-/// turn_between() of both.
+/// The pose at a `fraction` of the motion from `X0` to `X1` along a straight line and about one axis, both at constant
+/// speed; `turn` is turn_between() of both.
 RigidTransform between(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& turn, double fraction);
 
 /// Right Jacobian of SO(3): for `R = exp_so3(theta)`, the body rate is `J_r(theta) theta_dot`.

@@ -6,8 +6,8 @@
 
 namespace spring_workbench::math {
 
-/// A small regular matrix as Q R (modified Gram–Schmidt, column by column), to solve with it and with its transpose;
-/// for one matrix (`S` double) or, with packs, several.
+/// QR decomposition of a small regular matrix (modified Gram–Schmidt, column by column), which solves systems with it
+/// and with its transpose. One matrix (`S` double) or, with packs, several.
 template <int n, typename S>
 class SquareSystem {
  public:
@@ -27,7 +27,7 @@ class SquareSystem {
     }
   }
 
-  /// x with A x = b.
+  /// Solves A x = b.
   SPRING_WORKBENCH_INLINE void solve(const S (&b)[n], S (&x)[n]) const {
     for (int j = n - 1; j >= 0; --j) {
       x[j] = product(Q_[j], b);
@@ -35,7 +35,7 @@ class SquareSystem {
       x[j] = inverse_[j] * x[j];
     }
   }
-  /// x with Aᵀ x = b.
+  /// Solves Aᵀ x = b.
   SPRING_WORKBENCH_INLINE void solve_transposed(const S (&b)[n], S (&x)[n]) const {
     S y[n];
     for (int j = 0; j < n; ++j) {

@@ -105,11 +105,11 @@ class StateArchive {
   }
   template <typename T>
   static bool fits(Eigen::Index rows, Eigen::Index columns) {
-    const auto at_most = [](Eigen::Index size, int fixed, int most) {
-      return fixed == Eigen::Dynamic ? size >= 0 && (most == Eigen::Dynamic || size <= most) : size == fixed;
+    const auto is_allowed = [](Eigen::Index size, int fixed, int max) {
+      return fixed == Eigen::Dynamic ? size >= 0 && (max == Eigen::Dynamic || size <= max) : size == fixed;
     };
-    return at_most(rows, T::RowsAtCompileTime, T::MaxRowsAtCompileTime) &&
-           at_most(columns, T::ColsAtCompileTime, T::MaxColsAtCompileTime);
+    return is_allowed(rows, T::RowsAtCompileTime, T::MaxRowsAtCompileTime) &&
+           is_allowed(columns, T::ColsAtCompileTime, T::MaxColsAtCompileTime);
   }
   void exchange(RigidTransform& X) { exchange(X.matrix()); }
   void exchange(Twist& V) { (*this)(V.linear, V.angular); }
