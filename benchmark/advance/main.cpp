@@ -1,4 +1,5 @@
-// A fork at work step by step, for counting what Simulation::advance does: scripts/count_instructions runs it.
+// A fork at work step by step, for counting the instructions of Simulation::advance, or of a copy that looks ahead:
+// scripts/count_instructions runs it.
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -14,11 +15,12 @@ constexpr double interval = 0.02;  ///< [s] between samples of the hand; a step 
 constexpr int steps_before = 100;  ///< until the object has come where it is to be
 
 constexpr char usage[] =
-    "advance_steps SCENE.urdf none|free|pressed STEPS\n\n"
+    "advance_steps SCENE.urdf none|free|pressed|ahead STEPS\n\n"
     "Carries the scene's object `box` with the default fork on a hand sampled at 50 Hz, by one call of\n"
     "Simulation::advance for each of STEPS samples after the first 100. none: without contact; free: contact mode\n"
-    "`stop` with nothing near; pressed: on the bench, pressed down by about 2 N beyond its weight and dragged. Prints\n"
-    "the steps taken, and those with contacts, of the last STEPS.\n";
+    "`stop` with nothing near; pressed: on the bench, pressed down by about 2 N beyond its weight and dragged; ahead:\n"
+    "as free, and a copy, as for the display, follows each step and advances 12 ms beyond it. Prints the steps taken,\n"
+    "and those with contacts, of the last STEPS.\n";
 
 /// A smooth hand that draws a slanted figure of 0.1 m; `height` [m] is that of its fork's tip, which it keeps if
 /// `level`.
@@ -29,6 +31,14 @@ RigidTransform hand_at(double t, double height, bool level) {
   return make_transform(R, Vector3d(0.1 * std::sin(4.0 * t), 0.05 * std::sin(6.0 * t), height + 0.2 + rises));
 }
 
+/// Takes over the state of `simulation` and advances to `t` [s], where the hand is known up to the sample `next`.
+[[gnu::noinline]] void look_ahead(simulation::Simulation& copy, const simulation::Simulation& simulation,
+                                  const motion::PoseSample& next, double t) {
+  copy.follow(simulation);
+  copy.push_stylus(next);
+  copy.advance(t);
+}
+
 int run(const std::string& path, const std::string& name, int steps) {
   const bool pressed = name == "pressed";
   simulation::SimulationSettings settings;
@@ -36,7 +46,7 @@ int run(const std::string& path, const std::string& name, int steps) {
   settings.grasp.object = "box";
   settings.grasp.X_OE = make_transform(Quaterniond(0.0, 1.0, 0.0, 0.0), Vector3d::Zero());
   settings.grasp.start_follow = true;
-  simulation::Simulation simulation(scene::load_scene(path), settings);
+  simulation::Simulation simulation(scene::load_scene(path), settings), copy(scene::load_scene(path), settings);
   const double held = simulation.objects().front().X_WO.translation().z();
   int taken = 0, touching = 0;
   for (int i = 0; i < steps_before + steps + 2; ++i) {
@@ -45,6 +55,8 @@ int run(const std::string& path, const std::string& name, int steps) {
     simulation.push_stylus({t, hand_at(t, height, pressed)});
     if (i < 2) continue;  // the hand is known two samples ahead
     const simulation::AdvanceReport report = simulation.advance((i - 1) * interval);
+    if (name == "ahead")
+      look_ahead(copy, simulation, {t + interval, hand_at(t + interval, height, pressed)}, t - 0.4 * interval);
     if (i < steps_before + 2) continue;
     taken += report.steps;
     touching += simulation.objects().front().in_contact ? 1 : 0;
@@ -56,7 +68,7 @@ int run(const std::string& path, const std::string& name, int steps) {
 int run(int count, char** arguments) {
   const std::string name = count == 4 ? arguments[2] : "";
   const int steps = count == 4 ? std::atoi(arguments[3]) : -1;
-  if ((name != "none" && name != "free" && name != "pressed") || steps < 0 || steps > 1000000) {
+  if ((name != "none" && name != "free" && name != "pressed" && name != "ahead") || steps < 0 || steps > 1000000) {
     std::cerr << usage;
     return 2;
   }
