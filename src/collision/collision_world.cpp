@@ -158,24 +158,24 @@ struct CollisionWorld::Impl {
 
   /// Contacts of one piece placed at `X_WS`, appended to `found`. With `first_only` it ends with the first piece in
   /// contact.
-  void find(const Part& part, const RigidTransform& X_WS, double tolerance, bool first_only) {
+  void find(const Part& part, const RigidTransform& X_WS, const Tolerance& tolerance, bool first_only) {
     const Eigen::AlignedBox3d box = part.box_at(X_WS);
-    if (bench_height - box.min().z() > tolerance) {
+    if (bench_height - box.min().z() > tolerance.in(bench)) {
       const std::size_t first = found.size();
-      append_bench_contacts(part.geometry, X_WS, bench_height, tolerance, found);
+      append_bench_contacts(part.geometry, X_WS, bench_height, tolerance.in(bench), found);
       if (first_only && found.size() > first) return;
       if (found.size() - first > most_bench_points) reduce_manifold(first, found);
     }
-    find_near(part.body, geometry::grown(box, std::max(0.0, -tolerance)));
+    find_near(part.body, geometry::grown(box, std::max(0.0, -tolerance.depth())));
     for (const std::size_t i : near) {
       const std::size_t first = found.size();
-      narrow.append_contacts(part.solid, X_WS, parts[i].solid, parts[i].X_WS, tolerance, found);
+      narrow.append_contacts(part.solid, X_WS, parts[i].solid, parts[i].X_WS, tolerance.in(parts[i].body), found);
       for (std::size_t k = first; k < found.size(); ++k) found[k].other = parts[i].body;
       if (first_only && found.size() > first) return;
     }
   }
 
-  void find_all(std::size_t body, const RigidTransform& X_WO, double tolerance, bool first_only) {
+  void find_all(std::size_t body, const RigidTransform& X_WO, const Tolerance& tolerance, bool first_only) {
     found.clear();
     for (std::size_t i = bodies[body].begin; i < bodies[body].end; ++i) {
       find(parts[i], X_WO * parts[i].X_OS, tolerance, first_only);
@@ -188,7 +188,7 @@ struct CollisionWorld::Impl {
   /// stay apart as long as their corners do not cross a plane between them; if the boxes around other shapes overlap,
   /// the gap between their surfaces counts.
   double clear_way(std::size_t body, const RigidTransform& X_WO, const Vector3d& move_W, const Vector3d& turn_O,
-                   double tolerance, double longest) {
+                   const Tolerance& tolerance, double longest) {
     const geometry::StraightMotion path{X_WO.translation(), move_W, X_WO.linear() * turn_O};
     const double fastest = move_W.norm() + bodies[body].radius * turn_O.norm();
     double clear = longest;
@@ -196,19 +196,20 @@ struct CollisionWorld::Impl {
       const RigidTransform X_WS = X_WO * parts[i].X_OS;
       const geometry::OutlineBox own = parts[i].outline(X_WS);
       const Eigen::AlignedBox3d box = parts[i].box_at(X_WS);
-      const double by_corners =
-          geometry::clear_above(own, path, {Vector3d::UnitZ(), bench_height}, own.exact ? tolerance : 0.0, clear);
+      const double by_corners = geometry::clear_above(own, path, {Vector3d::UnitZ(), bench_height},
+                                                      own.exact ? tolerance.in(bench) : 0.0, clear);
       clear = std::max(by_corners, std::min(clear, (box.min().z() - bench_height) / fastest));
       find_near(body, geometry::grown(box, fastest * clear));
       for (const std::size_t other : near) {
         const geometry::OutlineBox others = parts[other].outline(parts[other].X_WS);
         const bool exact = own.exact && others.exact;
-        const double boxes = geometry::clear_of(own, path, others, exact ? tolerance : 0.0, clear);
+        const double depth = tolerance.in(parts[other].body);
+        const double boxes = geometry::clear_of(own, path, others, exact ? depth : 0.0, clear);
         if (exact || boxes >= clear) {
           clear = boxes;
         } else {
           const double surfaces =
-              narrow.clear_way(parts[i].solid, X_WS, parts[other].solid, parts[other].X_WS, tolerance) / fastest;
+              narrow.clear_way(parts[i].solid, X_WS, parts[other].solid, parts[other].X_WS, depth) / fastest;
           clear = std::max(boxes, std::min(clear, surfaces));
         }
       }
@@ -257,29 +258,30 @@ std::vector<std::size_t> CollisionWorld::near(const Eigen::AlignedBox3d& box_W) 
   return bodies;
 }
 
-bool CollisionWorld::touches(std::size_t body, const RigidTransform& X_WO, double tolerance) const {
+bool CollisionWorld::touches(std::size_t body, const RigidTransform& X_WO, const Tolerance& tolerance) const {
   impl_->find_all(body, X_WO, tolerance, true);
   return !impl_->found.empty();
 }
 
-void CollisionWorld::find_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance,
+void CollisionWorld::find_contacts(std::size_t body, const RigidTransform& X_WO, const Tolerance& tolerance,
                                    std::vector<ContactPoint>& contacts) const {
   impl_->find_all(body, X_WO, tolerance, false);
   contacts.insert(contacts.end(), impl_->found.begin(), impl_->found.end());
 }
 
 SweepResult CollisionWorld::sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
-                                  double tolerance, double resolution, int levels) const {
+                                  const Tolerance& tolerance, double resolution, int levels) const {
   const Vector3d turn = math::turn_between(X0_WO, X1_WO);
   const Vector3d move = X1_WO.translation() - X0_WO.translation();
   const double path = move.norm() + impl_->bodies[body].radius * turn.norm();
   if (!(resolution > 0.0) || !std::isfinite(path))
     throw std::invalid_argument("sweep: the resolution must be > 0 and the poses finite");
-  if (!may_touch(body, X0_WO, X1_WO, std::max(0.0, -tolerance))) return {};
+  if (!may_touch(body, X0_WO, X1_WO, std::max(0.0, -tolerance.depth()))) return {};
   const auto at = [&](double fraction) { return math::between(X0_WO, X1_WO, turn, fraction); };
   const auto touching_at = [&](double fraction) { return touches(body, at(fraction), tolerance); };
   const auto clear_from = [&](double fraction, double until) {
-    return tolerance < 0.0 ? 0.0 : impl_->clear_way(body, at(fraction), move, turn, tolerance, until - fraction);
+    return tolerance.depth() < 0.0 ? 0.0
+                                   : impl_->clear_way(body, at(fraction), move, turn, tolerance, until - fraction);
   };
   if (touching_at(0.0)) return {true, 0.0, 0.0};
   const double least = std::min(1.0, resolution / std::max(path, resolution));

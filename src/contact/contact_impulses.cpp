@@ -1,29 +1,37 @@
 // The impulses of `ContactStepper`: what takes effect at once, between two pieces of a step.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "constants.h"
+#include "contact_rows.h"
 #include "impact.h"
 #include "spring_workbench/contact/contact_stepper.h"
 #include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::contact {
-void ContactStepper::collide(bodies::SteppedBody& body, std::vector<ContactRow>& rows, Bounce bounce, double h) const {
+
+void ContactStepper::collide(bodies::SteppedBody& body, std::vector<ContactRow>& rows, Bounce bounce, double h,
+                             double substep) const {
   const motion::MotionState s = body.object();
   std::vector<ContactRow> contacts = rows;
   std::vector<double> restitution;
+  std::vector<bool> hits;
   bool approach = false;
   for (ContactRow& row : contacts) {
     row.lever_W = row.point.p_W - s.X.translation();
     const Vector3d v = s.velocity.linear + s.velocity.angular.cross(row.lever_W);
     const double speed = -v.dot(row.point.n_W), may_approach = std::max(0.0, row.gap) / h;
-    const bool bounces = bounce == Bounce::of_materials && speed > std::max(scene::rest_speed, may_approach);
+    hits.push_back(speed > std::max(scene::rest_speed, may_approach));
     const double of_both = material(body.index()).restitution * material(row.point.other).restitution;
-    restitution.push_back(bounces ? std::sqrt(of_both) : 0.0);
+    restitution.push_back(bounce == Bounce::of_materials && hits.back() ? std::sqrt(of_both) : 0.0);
     approach = approach || speed > may_approach;
   }
   if (!approach) return;
-  body.add_impulse(impact(body.mobility(), to_vector(s.velocity), contacts, restitution, h));
+  const Matrix6d mobility = body.mobility();
+  const bool massless = mobility.isZero(0.0);  // takes no impulse, however long the substep
+  let_yield(contacts, hits, massless ? std::numeric_limits<double>::infinity() : substep, restitution);
+  body.add_impulse(impact(mobility, to_vector(s.velocity), contacts, restitution, h));
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].impulse_W += contacts[i].load_W;
 }
 
@@ -37,6 +45,7 @@ void ContactStepper::settle(bodies::SteppedBody& body, std::vector<ContactRow>& 
     if (!rolls) impulse.lever_W = of_point;
     const Vector3d v = s.velocity.linear + s.velocity.angular.cross(impulse.lever_W);
     impulse.load_W *= h;
+    impulse.compliance /= h * h;
     impulse.gap = v.dot(n) + std::max(0.0, impulse.gap) / h;
     impulse.slip_W = v - n * v.dot(n);
   }

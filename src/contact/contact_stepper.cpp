@@ -6,31 +6,12 @@
 #include <utility>
 
 #include "constants.h"
+#include "contact_rows.h"
 #include "spring_workbench/geometry/shape_queries.h"
 #include "spring_workbench/math/so3.h"
 #include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::contact {
-namespace {
-
-/// Where a row's point of the body, fixed in the object frame at `X0`, is when the body is at `X1`.
-Vector3d moved(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& p_W) {
-  return X1 * (X0.inverse() * p_W);
-}
-
-/// How far a point of a body goes between two poses, at most [m].
-double extent(const RigidTransform& X0, const RigidTransform& X1, double radius) {
-  return (X1.translation() - X0.translation()).norm() + radius * math::turn_between(X0, X1).norm();
-}
-
-bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b, double within = same_point) {
-  return a.other == b.other && a.n_W.dot(b.n_W) > 0.99 && (a.p_W - b.p_W).norm() < within;
-}
-
-bool has_given(const ContactRow& row) { return row.impulse_W != Vector3d::Zero(); }
-
-}  // namespace
-
 ContactStepper::ContactStepper(const scene::Scene& scene, collision::CollisionWorld& collision, int bisection_levels)
     : scene_(scene), collision_(collision), levels_(bisection_levels) {
   for (const scene::Body& body : scene.bodies) radius_.push_back(geometry::bounding_radius(body.collision));
@@ -54,6 +35,7 @@ void ContactStepper::add_contacts(std::size_t body, const RigidTransform& X_WO, 
     ContactRow& row = same == rows.end() ? rows.emplace_back() : *same;
     row.point = point;
     row.friction = std::sqrt(material(body).friction * material(point.other).friction);
+    row.compliance = scene::contact_compliance(material(body), material(point.other));
     row.gap = -point.depth;
   }
 }
@@ -112,9 +94,12 @@ bool ContactStepper::advance_in_contact(bodies::SteppedBody& body, double h, std
     std::vector<ContactRow> assumed = work;
     double worst = 0.0;
     for (std::size_t i = 0; i < work.size(); ++i) {
-      // What is deeper than the slack at the start comes out of it slowly: at once it would be thrown out.
-      const double left = std::max(slack, -starts[i].gap * std::exp(-h / recovery_time));
+      // What is deeper than the slack at the start comes out of it slowly: at once it would be thrown out. Compliant
+      // materials push it out with the force of their law.
+      const bool complies = work[i].compliance > 0.0;
+      const double left = complies ? slack : std::max(slack, -starts[i].gap * std::exp(-h / recovery_time));
       work[i].gap += left;
+      if (complies) work[i].gap += indentation(assumed, assumed[i]);
       worst = std::max(worst, -work[i].gap);
     }
     solve_contacts(C, work);
@@ -186,7 +171,9 @@ void ContactStepper::look_at_end(const bodies::SteppedBody& body, const RigidTra
     const Vector3d start = moved(X1, X0, row.point.p_W);
     const Vector3d path = row.point.p_W - start;
     // One that is open at first is for the sweep to find: what reverses would bounce from a load that holds it.
-    if (!known && body.reverses() && row.gap - path.dot(row.point.n_W) > closed) continue;
+    // A surface that is indented already holds it by the force of its depth.
+    const bool is_open = row.gap - path.dot(row.point.n_W) > closed;
+    if (!known && body.reverses() && is_open && !is_of_indented(row, work)) continue;
     if (!known) {
       work.emplace_back();
       starts.emplace_back();
@@ -209,7 +196,8 @@ double ContactStepper::chord_deviation(std::size_t body, const motion::MotionSta
 }
 
 ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const motion::MotionState& begin,
-                                                  const motion::MotionState& end, double h, double tolerance) const {
+                                                  const motion::MotionState& end, double h,
+                                                  const collision::Tolerance& admissible) const {
   const auto rates = [](const motion::MotionState& s) {
     return Vector3d(s.X.linear().transpose() * s.velocity.angular);
   };
@@ -217,8 +205,9 @@ ContactStepper::Obstruction ContactStepper::sweep(std::size_t body, const motion
                                    rates(end));
   const int count = static_cast<int>(std::ceil(std::sqrt(chord_deviation(body, begin, end, h) / most_chord_deviation)));
   std::vector<collision::ContactPoint> inside;  // what it is in already, it may not go deeper into
+  collision::Tolerance tolerance = admissible;
   collision_.find_contacts(body, begin.X, tolerance, inside);
-  for (const collision::ContactPoint& point : inside) tolerance = std::max(tolerance, point.depth + 1e-3 * touching);
+  for (const collision::ContactPoint& point : inside) tolerance.raise(point.depth + 1e-3 * touching);
   RigidTransform from = begin.X;
   for (int i = 0; i < std::max(count, 1); ++i) {
     const RigidTransform to = i + 1 < count ? path.at(h * (i + 1) / count).X : end.X;
@@ -262,7 +251,8 @@ ContactStepper::Piece ContactStepper::try_substep(bodies::SteppedBody& body, dou
       body.restore(start_);
       return {false, straight, {}};
     }
-    const Obstruction found = sweep(index, begin, end, h, in_contact ? closed : touching);
+    const Obstruction found =
+        sweep(index, begin, end, h, in_contact ? admissible_depths(rows, solved, bowed) : touching);
     ++outcome.queries;
     if (found.hit) {
       Piece substep{false, found.free, {}};
@@ -296,7 +286,7 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
   bool met = false;  // since the last substep that was done
   for (ContactRow& row : rows) row.impulse_W.setZero();
   refresh(body, rows, probe_depth, outcome);
-  collide(body, rows, Bounce::of_materials, h);
+  collide(body, rows, Bounce::of_materials, h, h);
   for (int i = 0; i < most_tries && left > shortest_share * h; ++i) {
     substep = std::min(substep, left);
     Piece tried = try_substep(body, substep, left == h ? may_go : on_the_way, rows, outcome);
@@ -307,12 +297,13 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
       met = false;
       if (left > shortest_share * h) {
         refresh(body, rows, probe_depth, outcome);
-        collide(body, rows, Bounce::none, h);
+        collide(body, rows, Bounce::none, h, std::min(substep, left));
       }
       continue;
     }
     double next = tried.next * substep;
-    const bool meets = next < near_share * h && !tried.touched.empty() && meet(body, tried.touched, h, rows, outcome);
+    const bool meets =
+        next < near_share * h && !tried.touched.empty() && meet(body, tried.touched, h, substep, rows, outcome);
     if (meets && !rows.empty()) next = std::exchange(met, true) ? shorter * substep : substep;
     if (next <= shortest_share * h) break;
     substep = next;
@@ -330,7 +321,7 @@ bool ContactStepper::step(bodies::SteppedBody& body, double h, const MayGo& may_
   return true;
 }
 
-bool ContactStepper::meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, double h,
+bool ContactStepper::meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, double h, double substep,
                           std::vector<ContactRow>& rows, ContactOutcome& outcome) const {
   const motion::MotionState s = body.object();
   bool met = false;
@@ -350,7 +341,7 @@ bool ContactStepper::meet(bodies::SteppedBody& body, const std::vector<ContactRo
   }
   if (!met) return false;
   refresh(body, rows, landing_depth, outcome);
-  collide(body, rows, Bounce::of_materials, std::max(h, landing_time));
+  collide(body, rows, Bounce::of_materials, std::max(h, landing_time), substep);
   return true;
 }
 

@@ -34,5 +34,8 @@ constexpr double first_penalty = 100.0, penalty_growth = 10.0, largest_penalty =
 /// infeasible, as between walls that leave no room; iterations about each set; halvings of each iteration's step. Test:
 /// ContactProblem.KeepsCoulombsLawHoweverUnlikeTheMassesAre at 0.
 constexpr int most_rounds = 20, most_stalled_rounds = 8, most_newton_iterations = 20, most_halvings = 8;
+/// Gauss–Seidel iterations for the friction of what bounces. Fewer: it takes less energy than it could. Test:
+/// RigidWorld.ARodThatBouncesOnAnEdgeKeepsPoissonsLaw at 0.
+constexpr int most_slides = 20;
 
 }  // namespace spring_workbench::friction

@@ -25,6 +25,13 @@ double unswept_on(double path) {
   return path < unswept_of_free ? std::numeric_limits<double>::infinity() : unswept_of_free;
 }
 
+/// One without mass may not: Bullet takes contacts of what cannot move for none.
+void let_move(btRigidBody& body, bool may_move) {
+  const double factor = may_move ? 1.0 : 0.0;
+  body.setLinearFactor(btVector3(factor, factor, factor));
+  body.setAngularFactor(factor);
+}
+
 geometry::StraightMotion path_between(const RigidTransform& X0, const RigidTransform& X1) {
   return {X0.translation(), X1.translation() - X0.translation(), X0.linear() * math::turn_between(X0, X1)};
 }
@@ -33,9 +40,6 @@ geometry::StraightMotion path_between(const RigidTransform& X0, const RigidTrans
 double reach(const geometry::StraightMotion& motion, const Vector3d& p_W, double radius) {
   return (p_W - motion.p_WO).norm() + motion.move_W.norm() + radius;
 }
-
-/// How far a point of a box can be from the origin, along each axis [m].
-Vector3d furthest(const Extent& box) { return box.min().cwiseAbs().cwiseMax(box.max().cwiseAbs()); }
 
 /// How far a body's points can go that are no further from its origin than `most_O`, along its own axes: in any
 /// direction, and along one [m].
@@ -126,15 +130,9 @@ void BulletWorld::make_bullet(std::size_t index) {
   item.bullet->setRestitution(std::sqrt(body.material.restitution));
   item.bullet->setUserIndex(static_cast<int>(index));
   if (item.massless) {
-    let_move(item, false);
+    let_move(*item.bullet, false);
     item.bullet->setFlags(item.bullet->getFlags() | BT_DISABLE_WORLD_GRAVITY);
   }
-}
-
-void BulletWorld::let_move(Item& item, bool may_move) {
-  const double factor = may_move ? 1.0 : 0.0;
-  item.bullet->setLinearFactor(btVector3(factor, factor, factor));
-  item.bullet->setAngularFactor(factor);
 }
 
 void BulletWorld::update_box(Item& item) {
@@ -255,7 +253,7 @@ void BulletWorld::begin_driving(std::vector<DrivenBody>& driven, double h) {
     put(d.body, d.X_WO, {d.displacement_W.linear / h, d.displacement_W.angular / h});
     item.bullet->setGravity(btVector3(0, 0, 0));
     item.bullet->forceActivationState(DISABLE_DEACTIVATION);
-    if (item.massless) let_move(item, true);
+    if (item.massless) let_move(*item.bullet, true);
     for_solver.push_back({item.bullet.get(), &d});
   }
   solver_.set_driven(std::move(for_solver), h);
@@ -266,7 +264,7 @@ void BulletWorld::end_driving(const std::vector<DrivenBody>& driven) {
     Item& item = items_[d.body];
     if (!item.driven) continue;
     item.driven = false;
-    item.massless ? let_move(item, false) : item.bullet->setGravity(world_.getGravity());
+    item.massless ? let_move(*item.bullet, false) : item.bullet->setGravity(world_.getGravity());
     item.bullet->forceActivationState(ACTIVE_TAG);
     put(d.body, d.X_WO, Twist());
   }
@@ -313,6 +311,7 @@ void BulletWorld::begin_step() {
 }
 
 void BulletWorld::undo_step() {
+  surfaces_.undo_step();
   for (const BeforeStep& r : before_step_) {
     put(r.body, r.X_WO, r.V_WO_W);
     items_[r.body].bullet->forceActivationState(r.activation);
@@ -374,7 +373,7 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
   if (item.leaf == nullptr) return 1.0;
   double part = 1.0;
   const Matrix3d R_OW = X0_WO.linear().transpose();
-  const Vector3d extent_O = furthest(item.box_O);
+  const Vector3d extent_O = item.box_O.min().cwiseAbs().cwiseMax(item.box_O.max().cwiseAbs());
   // Of a pair whose shapes are not both boxes, what the boxes around them say.
   const auto by_extent = [&](const geometry::BoxGap& gap, const auto& path, const Vector3d& most_O) {
     const double left = gap.gap - 2.0 * contact_skin;
@@ -383,15 +382,16 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
     const double allowed = std::max(left, untouched ? 0.0 : may_go_unswept);
     if (allowed < part * approach) part = allowed / approach;
   };
-  const auto tolerance = [&](const geometry::BoxGap& gap) {
-    return untouched ? 0.0 : std::max(deepest_on_path, same_depth - gap.gap);
+  const auto admissible = [&](std::size_t other) { return deepest_on_path + surfaces_.indentation(body, other); };
+  const auto tolerance = [&](const geometry::BoxGap& gap, std::size_t other) {
+    return untouched ? 0.0 : std::max(admissible(other), same_depth - gap.gap);
   };
   const geometry::StraightMotion path = path_between(X0_WO, X1_WO);
   for (const geometry::OutlineBox& own : item.outline_O) {
     const geometry::OutlineBox here{X0_WO * own.X, own.half, own.exact};
     const geometry::BoxGap above = geometry::gap_above(here, scene_.bench_height);
     if (own.exact) {
-      part = geometry::clear_above(here, path, {Vector3d::UnitZ(), scene_.bench_height}, tolerance(above), part);
+      part = geometry::clear_above(here, path, {Vector3d::UnitZ(), scene_.bench_height}, tolerance(above, bench), part);
     } else {
       by_extent(above, path, extent_O);
     }
@@ -410,14 +410,14 @@ double BulletWorld::free_fraction(std::size_t body, const RigidTransform& X0_WO,
         const geometry::OutlineBox there{X_before * box.X, box.half, box.exact};
         const geometry::BoxGap gap = geometry::gap_between(here, there);
         if (own.exact && box.exact) {
-          part = geometry::clear_of(here, relative, there, tolerance(gap), part);
+          part = geometry::clear_of(here, relative, there, tolerance(gap, i), part);
         } else {
           by_extent(gap, relative, most_O);
         }
       }
     }
     if (untouched || part < 1.0 || !item.shape || !other.shape) continue;
-    const double allowed = std::max(deepest_on_path, depth_between(body, i, contacts_)) + same_depth;
+    const double allowed = std::max(admissible(i), depth_between(body, i, contacts_)) + same_depth;
     const double moved = way(relative, R_OW, most_O);
     part = BulletShape::fraction_before(*item.shape, X0_WO * item.X_OB, X1_seen * item.X_OB, moved, *other.shape,
                                         X_before * other.X_OB, allowed);

@@ -95,7 +95,6 @@ class BulletWorld final : public RigidWorld {
   };
 
   void make_bullet(std::size_t index);
-  static void let_move(Item& item, bool may_move);  ///< one without mass: Bullet takes contacts of what cannot for none
   void enter(std::size_t index);
   void leave(std::size_t index);
   /// What is near an awake body, and what is near that: what one pushes may push the next one in the same step.
@@ -135,7 +134,8 @@ class BulletWorld final : public RigidWorld {
   ContactConfiguration configuration_;
   DispatcherForSleepers dispatcher_{&configuration_};
   BroadphaseOfAnyMemory broadphase_;
-  DrivenSolver solver_;
+  friction::Surfaces surfaces_{scene::compliances(scene_)};
+  DrivenSolver solver_{surfaces_};
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
   btStaticPlaneShape bench_shape_;
   std::unique_ptr<btRigidBody> bench_body_;

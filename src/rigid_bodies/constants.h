@@ -62,9 +62,6 @@ constexpr double closed = 5e-5;
 /// [s] in which a penetration by a driven body is corrected. Shorter: the correction becomes a velocity. Contact mode
 /// `stop` uses 5 ms: no reason known. Test: none: no value tried makes one fail.
 constexpr double recovery_time = 2e-3;
-/// Gauss–Seidel iterations for the friction of what bounces. Fewer: it takes less energy than it could. Test:
-/// RigidWorld.ARodThatBouncesOnAnEdgeKeepsPoissonsLaw at 0.
-constexpr int most_slides = 20;
 /// [m/s] approach speed of a driven body below which it counts as none. Test: none: no value tried makes one fail.
 constexpr double slow = 1e-7;
 

@@ -7,17 +7,9 @@
 #include "spring_workbench/scene/constants.h"
 
 namespace spring_workbench::rigid_bodies {
-namespace {
-
-/// [linear; angular].
-Vector6d both(const btVector3& linear, const btVector3& angular) {
-  return (Vector6d() << from_bullet(linear), from_bullet(angular)).finished();
-}
-
-}  // namespace
-
 void DrivenSolver::set_driven(std::vector<Driven> driven, double h) {
   driven_ = std::move(driven);
+  surfaces_.begin_step(h);
   impacts_.clear();
   residual_ = deepest_ = 0.0;
   h_ = h;
@@ -92,6 +84,35 @@ DrivenSolver::Contact DrivenSolver::make_contact(int index, const btContactSolve
   return contact;
 }
 
+std::vector<DrivenSolver::Contact> DrivenSolver::make_contacts(const btContactSolverInfo& info,
+                                                               btPersistentManifold** manifolds, int manifold_count) {
+  surfaces_.clear();
+  std::vector<Contact> contacts;
+  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) {
+    Contact& c = contacts.emplace_back(make_contact(i, info));
+    if (!surfaces_.none()) {
+      const auto [a, b] = bodies_of(*c.point, manifolds, manifold_count);
+      c.surface = surfaces_.between(a, b, closes_fast(c));
+      c.n_W = (a < b ? 1.0 : -1.0) * from_bullet(c.point->m_normalWorldOnB);
+    }
+    // An indentation is no penetration, neither a deep one nor one for Bullet to undo.
+    if (c.surface >= 0) m_tmpSolverContactConstraintPool[i].m_rhsPenetration = 0.0;
+    if (c.surface < 0) deepest_ = std::max(deepest_, -c.gap);
+  }
+  return contacts;
+}
+
+void DrivenSolver::obey_surfaces(std::vector<Contact>& contacts) {
+  for (Contact& c : contacts) {
+    if (surfaces_.complies(c.surface)) c.comply(h_);
+    if (surfaces_.collides(c.surface)) c.stops = !drives(c) && closes_fast(c);
+  }
+}
+
+bool DrivenSolver::closes_fast(const Contact& contact) const {
+  return -motion(contact, true)[0] > std::max(scene::rest_speed, contact.gap / h_);
+}
+
 double DrivenSolver::missing_along_normal(const Contact& contact, const btContactSolverInfo& info) const {
   const double left = contact.gap / h_;
   if (!drives(contact)) return -contact.motion[0] - std::max(0.0, left);  // a penetration is undone by Bullet
@@ -105,8 +126,7 @@ double DrivenSolver::restitution(const Contact& contact) const {
   // Driven bodies bounce where they are stopped. What is deeper than a path leads, between triangles that push to both
   // sides, does not: bounces off both have no end.
   if (drives(contact) || contact.gap < -unswept_of_free) return 0.0;
-  const double approach = -motion(contact, true)[0];
-  return approach > std::max(scene::rest_speed, contact.gap / h_) ? contact.point->m_combinedRestitution : 0.0;
+  return closes_fast(contact) ? contact.point->m_combinedRestitution : 0.0;
 }
 
 void DrivenSolver::solve_once(std::vector<Contact>& contacts, bool impact, bool bounces,
@@ -114,17 +134,21 @@ void DrivenSolver::solve_once(std::vector<Contact>& contacts, bool impact, bool 
   problem_.clear();
   const auto bodies = static_cast<std::size_t>(m_tmpSolverBodyPool.size());
   for (std::size_t i = 0; i < bodies; ++i) problem_.add_body(response(i, impact));
+  surfaces_.add_to(problem_, bounces);
   for (const Contact& c : contacts) {
     Vector3d rest = c.by(change) - c.missing;
-    if (bounces && c.restitution > 0.0) rest[0] = c.by(change)[0] + c.motion[0];
+    if (bounces && c.collides()) rest[0] = c.by(change)[0] + c.motion[0];
+    if (!bounces && c.surface >= 0) rest[0] += surfaces_.motion(c.surface, c.n_W);
     problem_.add_contact(c.friction, rest, bounces ? c.impulse : Vector3d::Zero());
     for (const auto& [body, J] : {std::pair(c.a, &c.J_a), std::pair(c.b, &c.J_b)}) {
       if (pushes(body) || driven_of(body) != nullptr) problem_.add_part(body, *J);
     }
+    surfaces_.add_part(problem_, c.surface, c.n_W);
   }
   residual_ = std::max(residual_, h_ * problem_.solve(solved_share, solved_to / h_).residual);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     contacts[i].impulse = (bounces ? Vector3d::Zero() : contacts[i].impulse) + problem_.load(i);
+    surfaces_.add_load(contacts[i].surface, contacts[i].n_W, problem_.load(i)[0]);
   }
   for (std::size_t i = 0; i < bodies; ++i) {
     if (pushes(i) || driven_of(i) != nullptr) change[i] += problem_.change(i);
@@ -134,12 +158,12 @@ void DrivenSolver::solve_once(std::vector<Contact>& contacts, bool impact, bool 
 void DrivenSolver::solve(std::vector<Contact>& contacts, bool impact, std::vector<Vector6d>& change) {
   const std::vector<Vector6d> before = change;
   solve_once(contacts, impact, true, change);
-  if (std::none_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.restitution > 0.0; })) return;
+  if (std::none_of(contacts.begin(), contacts.end(), [](const Contact& c) { return c.collides(); })) return;
   std::vector<Eigen::MatrixXd> responses;
   for (std::size_t i = 0; i < change.size(); ++i) responses.push_back(response(i, impact));
   for (Contact& c : contacts) c.motion += c.by(before);
   for (std::size_t i = 0; i < change.size(); ++i) change[i] -= before[i];
-  give_back(responses, contacts, change);
+  give_back(responses, bouncing(contacts), change);
   for (std::size_t i = 0; i < change.size(); ++i) change[i] += before[i];
   solve_once(contacts, impact, false, change);
 }
@@ -154,7 +178,8 @@ std::vector<Vector6d> DrivenSolver::stop_approaches(const std::vector<Contact>& 
     c.missing = -c.motion;
     c.impulse.setZero();
     approach = approach || (drives(c) && c.missing[0] > slow);
-    c.restitution = c.missing[0] > scene::rest_speed ? c.point->m_combinedRestitution : 0.0;
+    const bool bounces = c.missing[0] > scene::rest_speed && !surfaces_.complies(c.surface);
+    c.restitution = bounces ? c.point->m_combinedRestitution : 0.0;
     closed_ones.push_back(c);
   }
   std::vector<Vector6d> change(static_cast<std::size_t>(m_tmpSolverBodyPool.size()), Vector6d::Zero());
@@ -163,11 +188,11 @@ std::vector<Vector6d> DrivenSolver::stop_approaches(const std::vector<Contact>& 
   for (const Contact& c : closed_ones) {
     impacts_.push_back({c.point, c.J_a.leftCols<3>().transpose() * c.impulse});
     load_driven(c, c.impulse, &DrivenBody::impact_W);
+    if (drives(c)) surfaces_.stop(c.surface);
   }
   for (std::size_t i = 0; i < change.size(); ++i) {
-    const Driven* driven = driven_of(i);
-    if (driven == nullptr) continue;
-    change[i] = driven->body->displacement_by_impulse * to_vector(driven->body->impact_W) / h_;
+    if (const Driven* driven = driven_of(i))
+      change[i] = driven->body->displacement_by_impulse * to_vector(driven->body->impact_W) / h_;
   }
   return change;
 }
@@ -190,6 +215,8 @@ void DrivenSolver::hand_back(const std::vector<Contact>& contacts, const std::ve
     contact.point->m_appliedImpulseLateral1 = contact.impulse[1];
     contact.point->m_appliedImpulseLateral2 = contact.impulse[2];
     load_driven(contact, contact.impulse / h_, &DrivenBody::contact_W);
+    if (contact.impulse[0] > 0.0 && (surfaces_.complies(contact.surface) || !drives(contact)))
+      surfaces_.note_pressed(contact.surface, contact.n_W);
   }
 }
 
@@ -197,12 +224,11 @@ btScalar DrivenSolver::solveGroupCacheFriendlyIterations(btCollisionObject** bod
                                                          btPersistentManifold** manifolds, int manifold_count,
                                                          btTypedConstraint** constraints, int constraint_count,
                                                          const btContactSolverInfo& info, btIDebugDraw* debug) {
+  std::vector<Contact> contacts = make_contacts(info, manifolds, manifold_count);
   solveGroupCacheFriendlySplitImpulseIterations(bodies, body_count, manifolds, manifold_count, constraints,
                                                 constraint_count, info, debug);
-  std::vector<Contact> contacts;
-  for (int i = 0; i < m_tmpSolverContactConstraintPool.size(); ++i) contacts.push_back(make_contact(i, info));
-  for (const Contact& c : contacts) deepest_ = std::max(deepest_, -c.gap);
   std::vector<Vector6d> change = stop_approaches(contacts);
+  obey_surfaces(contacts);
   solve(contacts, false, change);
   hand_back(contacts, change);
   return 0.0;

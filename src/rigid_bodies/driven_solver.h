@@ -5,6 +5,7 @@
 #include "bullet_types.h"
 #include "solver_contact.h"
 #include "spring_workbench/friction/contact_problem.h"
+#include "spring_workbench/friction/surfaces.h"
 #include "spring_workbench/rigid_bodies/rigid_world.h"
 
 namespace spring_workbench::rigid_bodies {
@@ -18,6 +19,7 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
     const btRigidBody* bullet;
     DrivenBody* body;
   };
+  explicit DrivenSolver(friction::Surfaces& surfaces) : surfaces_(surfaces) {}
   /// The driven bodies of the next step, which lasts `h` [s].
   void set_driven(std::vector<Driven> driven, double h);
 
@@ -31,7 +33,7 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   double residual() const { return residual_; }
   /// Whether a body was driven in it.
   bool drove(const btRigidBody* bullet) const { return driven_of(bullet) != nullptr; }
-  /// Depth of its deepest contact, at its start [m].
+  /// Depth of its deepest contact of rigid materials, at its start [m].
   double deepest() const { return deepest_; }
 
  private:
@@ -42,6 +44,10 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
 
   using Contact = SolverContact;
   Contact make_contact(int index, const btContactSolverInfo& info) const;
+  std::vector<Contact> make_contacts(const btContactSolverInfo& info, btPersistentManifold** manifolds, int count);
+  /// Lets contacts with a surface obey its law.
+  void obey_surfaces(std::vector<Contact>& contacts);
+  bool closes_fast(const Contact& contact) const;  ///< above the speed at which it bounces
   double missing_along_normal(const Contact& contact, const btContactSolverInfo& info) const;
   double restitution(const Contact& contact) const;
   Vector6d velocity(std::size_t solver_body, bool at_start) const;
@@ -67,6 +73,7 @@ class DrivenSolver final : public btSequentialImpulseConstraintSolver {
   double h_ = 1.0;
   double residual_ = 0.0, deepest_ = 0.0;
   friction::ContactProblem problem_;
+  friction::Surfaces& surfaces_;
 };
 
 }  // namespace spring_workbench::rigid_bodies

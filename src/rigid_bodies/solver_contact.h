@@ -1,35 +1,38 @@
 #pragma once
 
-#include <Eigen/Core>
-#include <vector>
+#include <utility>
 
-#include "spring_workbench/math/spatial.h"
+#include "spring_workbench/friction/bounce.h"
 
 class btManifoldPoint;
+class btPersistentManifold;
 
 namespace spring_workbench::rigid_bodies {
 
 /// Contact between two bodies of a solver; vectors are along [normal, across, across].
-struct SolverContact {
-  using Jacobian = Eigen::Matrix<double, 3, 6>;
+struct SolverContact : friction::BouncingContact {
   btManifoldPoint* point = nullptr;
-  std::size_t a = 0, b = 0;  ///< solver bodies
-  Jacobian J_a, J_b;         ///< motion = J_a · V_a + J_b · V_b
-  Vector3d motion;           ///< without any impulse of this solve [m/s]
-  Vector3d missing;          ///< motion that its law asks for in addition to that [m/s]
-  Vector3d impulse;          ///< [N·s]
-  double friction = 0.0, gap = 0.0;
-  double restitution = 0.0;  ///< share of its normal impulse that it gives back
+  Vector3d missing;    ///< motion that its law asks for in addition to `motion` [m/s]
+  double gap = 0.0;    ///< [m]
+  bool stops = false;  ///< its approach ends though it is open yet and nothing is given back
+  int surface = -1;    ///< of friction::Surfaces
+  Vector3d n_W;        ///< normal, from the body with the lower user index; set if it has a surface
 
-  /// Its motion by changes of the velocities of all bodies.
-  Vector3d by(const std::vector<Vector6d>& change) const { return J_a * change[a] + J_b * change[b]; }
+  bool collides() const { return stops || restitution > 0.0; }
+  /// Asks for the law of a surface that complies, over a step of `h` [s].
+  void comply(double h) {
+    missing[0] = -motion[0] - gap / h;
+    restitution = 0.0;
+  }
 };
 
-/// Lets contacts bounce whose impulses have ended their approach and changed the velocities by `change`: each gives
-/// back its share of its normal impulse (Poisson's law), with the friction that takes the most energy. Unlike Newton's
-/// law, that returns at most what was lost; of several different shares it may be more: then all give back less.
-/// `responses`: of the bodies' velocities to impulses; of size 0 for those that do not move. Out: both sums.
-void give_back(const std::vector<Eigen::MatrixXd>& responses, std::vector<SolverContact>& contacts,
-               std::vector<Vector6d>& change);
+inline std::vector<friction::BouncingContact*> bouncing(std::vector<SolverContact>& contacts) {
+  std::vector<friction::BouncingContact*> all;
+  for (SolverContact& c : contacts) all.push_back(&c);
+  return all;
+}
+
+/// Returns the user indices of the two bodies of a contact, which is in one of the manifolds.
+std::pair<int, int> bodies_of(const btManifoldPoint& point, btPersistentManifold** manifolds, int manifold_count);
 
 }  // namespace spring_workbench::rigid_bodies

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "spring_workbench/scene/scene.h"
@@ -14,6 +16,27 @@ struct ContactPoint {
   Vector3d p_W = Vector3d::Zero();   ///< on the surface of the other body, in world [m]
   Vector3d n_W = Vector3d::UnitZ();  ///< unit normal, from the other body towards this one
   double depth = 0.0;                ///< how far this body is in the other along `n_W` [m]; > 0 is penetration
+};
+
+/// How deep a body may be in others before it touches them [m]: in all of them, except for those that yield.
+class Tolerance {
+ public:
+  Tolerance(double depth) : depth_(depth) {}  // NOLINT(google-explicit-constructor): usually one number for all
+  /// Sets another depth for one of them, by its index.
+  void set(std::size_t other, double depth) { of_.emplace_back(other, depth); }
+  /// Lets it be at least so deep in all that have no depth of their own.
+  void raise(double depth) { depth_ = std::max(depth_, depth); }
+  double depth() const { return depth_; }  ///< in all that have no depth of their own
+  double in(std::size_t other) const {
+    for (const auto& [body, depth] : of_) {
+      if (body == other) return depth;
+    }
+    return depth_;
+  }
+
+ private:
+  double depth_;
+  std::vector<std::pair<std::size_t, double>> of_;
 };
 
 /// Result of a sweep: how far a body may move from one pose to another before it touches something.
@@ -49,13 +72,13 @@ class CollisionWorld {
   /// Returns the bodies, the bench among them, that the boxes around come into `box_W`, in the order of their indices.
   virtual std::vector<std::size_t> near(const Eigen::AlignedBox3d& box_W) const;
 
-  /// Returns whether the body, placed at `X_WO`, penetrates another body or the bench by more than `tolerance` [m].
-  virtual bool touches(std::size_t body, const RigidTransform& X_WO, double tolerance) const;
+  /// Returns whether the body, placed at `X_WO`, penetrates another body or the bench by more than `tolerance`.
+  virtual bool touches(std::size_t body, const RigidTransform& X_WO, const Tolerance& tolerance) const;
 
-  /// Appends to `contacts` the contact points of the body, placed at `X_WO`, that are deeper than `tolerance` [m]. For
-  /// flat neighbours such as the bench, `tolerance` may be negative, which also gives points that are about to touch. A
+  /// Appends to `contacts` the contact points of the body, placed at `X_WO`, that are deeper than `tolerance`. For flat
+  /// neighbours such as the bench, `tolerance` may be negative, which also gives points that are about to touch. A
   /// flush box on a plane or on a box gives points that span the common face.
-  virtual void find_contacts(std::size_t body, const RigidTransform& X_WO, double tolerance,
+  virtual void find_contacts(std::size_t body, const RigidTransform& X_WO, const Tolerance& tolerance,
                              std::vector<ContactPoint>& contacts) const;
 
   /// Searches the whole path from `X0_WO` to `X1_WO` (straight in position, constant axis in rotation) for the first
@@ -64,7 +87,7 @@ class CollisionWorld {
   /// the free and the touching fraction are found by `levels` halvings, or, with 0, as the time of impact: by what is
   /// surely clear again (conservative advancement, Mirtich 1996).
   virtual SweepResult sweep(std::size_t body, const RigidTransform& X0_WO, const RigidTransform& X1_WO,
-                            double tolerance, double resolution, int levels) const;
+                            const Tolerance& tolerance, double resolution, int levels) const;
 
  private:
   struct Impl;

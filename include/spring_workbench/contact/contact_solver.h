@@ -12,21 +12,24 @@ namespace spring_workbench::contact {
 /// impulses, [velocity; angular velocity], in world axes.
 struct ContactRow {
   collision::ContactPoint point;
-  Vector3d lever_W = Vector3d::Zero();    ///< from the body's centre of mass to the point
-  double friction = 0.0;                  ///< of the pair
-  double gap = 0.0;                       ///< along the normal, for the load assumed so far: must not become negative
+  Vector3d lever_W = Vector3d::Zero();  ///< from the body's centre of mass to the point
+  double friction = 0.0;                ///< of the pair
+  double compliance = 0.0;  ///< of the pair's materials: motion along the normal per load; 0 if they are rigid
+  double gap = 0.0;         ///< along the normal, for the load assumed so far: must not become negative
   Vector3d slip_W = Vector3d::Zero();     ///< across the normal, for the load assumed so far: friction opposes it
   Vector3d load_W = Vector3d::Zero();     ///< force (impulse) on the body; in: assumed, out: solved
   Vector3d impulse_W = Vector3d::Zero();  ///< on the body in this step so far, of loads and impacts [N·s]
 
   void exchange(math::StateArchive& state) {
-    state(point.other, point.p_W, point.n_W, point.depth, lever_W, friction, gap, slip_W, load_W, impulse_W);
+    state(point.other, point.p_W, point.n_W, point.depth, lever_W, friction, compliance, gap, slip_W, load_W,
+          impulse_W);
   }
 };
 
 /// Finds the loads of Signorini's and Coulomb's laws: gap ≥ 0 ⊥ normal load ≥ 0, and either the slip is zero or the
 /// friction opposes it with μ times the normal load. `compliance` (6 × 6, symmetric, ≥ 0): change of the body's motion
-/// per wrench at the centre of mass. Projected Gauss–Seidel, contact by contact.
+/// per wrench at the centre of mass. Projected Gauss–Seidel, contact by contact; if a material is compliant,
+/// friction::ContactProblem.
 void solve_contacts(const Matrix6d& compliance, std::vector<ContactRow>& rows);
 
 /// Sum of the rows' loads as a wrench at the centre of mass, world axes.

@@ -40,8 +40,10 @@ class ContactStepper {
                     ContactOutcome& outcome) const;
   /// Removes the approach speed of the contacts, with the restitution of the materials or none. An open contact may
   /// approach so fast that it closes within `h` [s]: what lands on several points lands on all of them at once.
+  /// Compliant materials that are loaded already, or approach slowly, give way as over the next substep, of `substep`
+  /// [s].
   enum class Bounce { none, of_materials };
-  void collide(bodies::SteppedBody& body, std::vector<ContactRow>& rows, Bounce bounce, double h) const;
+  void collide(bodies::SteppedBody& body, std::vector<ContactRow>& rows, Bounce bounce, double h, double substep) const;
   /// Advances the body by `h` from the start of the present trial, under loads that leave the gaps of the rows closed
   /// or open. Returns false if the body then penetrates.
   bool advance_in_contact(bodies::SteppedBody& body, double h, std::vector<ContactRow>& rows,
@@ -69,8 +71,8 @@ class ContactStepper {
   /// none slips where friction, which is constant over it, has reversed its slip or could have held it.
   void settle(bodies::SteppedBody& body, std::vector<ContactRow>& rows, double h) const;
   /// Adds the contacts that are new and removes their approach speed. Returns false if none is new.
-  bool meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, double h, std::vector<ContactRow>& rows,
-            ContactOutcome& outcome) const;
+  bool meet(bodies::SteppedBody& body, const std::vector<ContactRow>& touched, double h, double substep,
+            std::vector<ContactRow>& rows, ContactOutcome& outcome) const;
   /// Returns the chord deviation [m] of the path between two states that are `h` [s] apart.
   double chord_deviation(std::size_t body, const motion::MotionState& begin, const motion::MotionState& end,
                          double h) const;
@@ -82,7 +84,7 @@ class ContactStepper {
   };
   /// Sweeps the Hermite interpolant between two states as straight segments, as many as its chord deviation requires.
   Obstruction sweep(std::size_t body, const motion::MotionState& begin, const motion::MotionState& end, double h,
-                    double tolerance) const;
+                    const collision::Tolerance& tolerance) const;
 
   const scene::Scene& scene_;
   collision::CollisionWorld& collision_;

@@ -79,15 +79,16 @@ class RigidWorld {
   virtual double collision_free_fraction(std::size_t body, const RigidTransform& X0_WO,
                                          const RigidTransform& X1_WO) const = 0;
   /// Fraction (0 … 1) of that path that the body can certainly travel without passing through anything and, between
-  /// boxes, without penetrating by more than 0.05 mm or its initial depth, whichever is larger. At most 0.5 if the last
-  /// step was not solved to 1 µm. The other bodies are assumed to have moved straight in the last step.
+  /// boxes, without penetrating by more than 0.05 mm (in addition to what compliant materials yield) or its initial
+  /// depth, whichever is larger. At most 0.5 if the last step was not solved to 1 µm. The other bodies are assumed to
+  /// have moved straight in the last step.
   virtual double admissible_fraction(std::size_t body, const RigidTransform& X0_WO,
                                      const RigidTransform& X1_WO) const = 0;
   /// Fraction (0 … 1) of the last step over which the free bodies have certainly not passed through anything 1 mm
   /// thick.
   virtual double admissible_fraction_of_free() const = 0;
-  /// Returns whether the contacts of the last step were solved to 1 µm, none was deeper than 0.1 mm at its start, and
-  /// none is known to be missing.
+  /// Returns whether the contacts of the last step were solved to 1 µm, none of rigid materials was deeper than 0.1 mm
+  /// at its start, and none is known to be missing.
   virtual bool solved() const = 0;
 
   /// Contacts of the last step that carried a load or were closed.

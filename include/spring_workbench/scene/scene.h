@@ -24,8 +24,11 @@ struct Material {
   double friction = 0.5;                                       ///< Coulomb coefficient, ≥ 0
   double restitution = 0.0;                                    ///< 0 … 1
   double density = 1000.0;                                     ///< [kg/m³], > 0
-  double stiffness = std::numeric_limits<double>::infinity();  ///< [N/m], read by the spring-probe; > 0
+  double stiffness = std::numeric_limits<double>::infinity();  ///< [N/m], > 0
 };
+
+/// Compliance of two materials in contact, in series [m/N]; 0: both are rigid.
+inline double contact_compliance(const Material& a, const Material& b) { return 1.0 / a.stiffness + 1.0 / b.stiffness; }
 
 /// One rigid body of the scene: a URDF link with all links that fixed joints attach to it.
 struct Body {
@@ -78,5 +81,13 @@ Scene load_scene(const std::string& path_or_uri, const std::vector<std::string>&
 
 /// Index of the body called `name`, or nothing.
 std::optional<std::size_t> find_body(const Scene& scene, const std::string& name);
+
+/// Compliances of the materials of all bodies, and of the bench as the last one [m/N].
+inline std::vector<double> compliances(const Scene& scene) {
+  std::vector<double> all;
+  for (const Body& body : scene.bodies) all.push_back(1.0 / body.material.stiffness);
+  all.push_back(1.0 / scene.bench_material.stiffness);
+  return all;
+}
 
 }  // namespace spring_workbench::scene

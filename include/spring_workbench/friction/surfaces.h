@@ -1,0 +1,70 @@
+#pragma once
+
+#include <array>
+#include <map>
+#include <vector>
+
+#include "spring_workbench/friction/contact_problem.h"
+#include "spring_workbench/math/state_archive.h"
+
+namespace spring_workbench::friction {
+
+/// Surfaces between bodies of which a material is compliant: bodies without mass, which all contact forces between two
+/// bodies indent together. Two bodies that carry no load yet and approach fast collide first, as if they were rigid.
+/// Bodies are numbered from 0; -1 is the ground.
+class Surfaces {
+ public:
+  /// `compliance` [m/N]: of each body's material, 0 if it is rigid; the last one is the ground's.
+  explicit Surfaces(std::vector<double> compliance);
+  bool none() const { return none_; }  ///< whether all materials are rigid
+
+  /// Begins a step of `h` [s]; restores the indentations before it.
+  void begin_step(double h);
+  void undo_step() { indented_ = indented_before_; }
+  void exchange(math::StateArchive& state) { state(indented_); }
+  /// Returns by how much contact has indented the surface between two bodies at the end of the last step [m].
+  double indentation(std::size_t a, std::size_t b) const;
+
+  /// Removes the surfaces of the contacts that were solved last.
+  void clear() { surfaces_.clear(); }
+  /// Returns the index of the surface between two bodies, or -1 if both are rigid. `fast`: a contact of theirs closes
+  /// at more than the speed at which bodies bounce.
+  int between(int a, int b, bool fast);
+  /// Returns whether it yields to contact: there is one, and its bodies do not collide.
+  bool complies(int surface) const { return surface >= 0 && !at(surface).collides; }
+  bool collides(int surface) const { return surface >= 0 && at(surface).collides; }
+  /// Ends a collision: from now on the surface complies.
+  void stop(int surface);
+
+  /// Adds the surfaces to a problem of velocities and impulses over the step; `unloaded`: they carry nothing yet.
+  void add_to(ContactProblem& problem, bool unloaded);
+  /// Lets the contact added last, of the normal `n` from the body with the lower index, move with a surface that
+  /// complies.
+  void add_part(ContactProblem& problem, int surface, const Eigen::Vector3d& n) const;
+  /// Adds the normal impulse of a contact [N·s] to what its surface carries, and returns the velocity of that along
+  /// `n`.
+  void add_load(int surface, const Eigen::Vector3d& n, double impulse);
+  double motion(int surface, const Eigen::Vector3d& n) const;
+  /// Notes that a contact presses, so that its bodies are loaded in the next step, and how deep.
+  void note_pressed(int surface, const Eigen::Vector3d& n);
+
+ private:
+  using Pair = std::array<int, 2>;  ///< bodies, ascending
+  struct Surface {
+    Pair bodies;
+    double response;  ///< velocity per impulse over the step [1/kg]
+    bool collides = false;
+    Eigen::Vector3d impulse = Eigen::Vector3d::Zero();
+  };
+  const Surface& at(int surface) const { return surfaces_[static_cast<std::size_t>(surface)]; }
+  double compliance_of(int body) const;
+
+  std::vector<double> compliance_;
+  bool none_;
+  double h_ = 1.0;
+  std::vector<Surface> surfaces_;
+  std::size_t first_ = 0;                              ///< of their bodies in the problem
+  std::map<Pair, double> indented_, indented_before_;  ///< of the pairs that press on each other [m]
+};
+
+}  // namespace spring_workbench::friction

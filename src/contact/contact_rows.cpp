@@ -1,0 +1,64 @@
+#include "contact_rows.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "spring_workbench/math/so3.h"
+
+namespace spring_workbench::contact {
+
+Vector3d moved(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& p_W) {
+  return X1 * (X0.inverse() * p_W);
+}
+
+double extent(const RigidTransform& X0, const RigidTransform& X1, double radius) {
+  return (X1.translation() - X0.translation()).norm() + radius * math::turn_between(X0, X1).norm();
+}
+
+bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b, double within) {
+  return a.other == b.other && a.n_W.dot(b.n_W) > 0.99 && (a.p_W - b.p_W).norm() < within;
+}
+
+bool is_of_indented(const ContactRow& row, const std::vector<ContactRow>& rows) {
+  return row.compliance > 0.0 &&
+         std::any_of(rows.begin(), rows.end(), [&](const ContactRow& r) { return r.point.other == row.point.other; });
+}
+
+double indentation(const std::vector<ContactRow>& rows, const ContactRow& at) {
+  double load = 0.0;
+  for (const ContactRow& row : rows) {
+    if (row.point.other == at.point.other) load += row.load_W.dot(row.point.n_W) * row.point.n_W.dot(at.point.n_W);
+  }
+  return at.compliance * load;
+}
+
+void let_yield(std::vector<ContactRow>& rows, const std::vector<bool>& hits, double h,
+               std::vector<double>& restitution) {
+  std::set<std::size_t> loaded, hit;  // others
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (rows[i].load_W != Vector3d::Zero() || has_given(rows[i])) loaded.insert(rows[i].point.other);
+    if (hits[i]) hit.insert(rows[i].point.other);
+  }
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const std::size_t other = rows[i].point.other;
+    if (loaded.count(other) == 0 && hit.count(other) > 0) rows[i].compliance = 0.0;
+    if (rows[i].compliance > 0.0) restitution[i] = 0.0;
+    rows[i].compliance /= h * h;
+  }
+}
+
+collision::Tolerance admissible_depths(const std::vector<ContactRow>& at_start, const std::vector<ContactRow>& at_end,
+                                       double chord_deviation) {
+  collision::Tolerance tolerance = closed;
+  std::map<std::size_t, double> deepest;
+  for (const auto* rows : {&at_start, &at_end}) {
+    for (const ContactRow& row : *rows) {
+      if (row.compliance > 0.0) deepest[row.point.other] = std::max(deepest[row.point.other], -row.gap);
+    }
+  }
+  for (const auto& [other, depth] : deepest) tolerance.set(other, closed + depth + chord_deviation);
+  return tolerance;
+}
+
+}  // namespace spring_workbench::contact

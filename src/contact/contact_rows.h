@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "constants.h"
+#include "spring_workbench/contact/contact_solver.h"
+
+namespace spring_workbench::contact {
+
+/// Position of a point `p_W` of a body at `X0` when the body is at `X1`.
+Vector3d moved(const RigidTransform& X0, const RigidTransform& X1, const Vector3d& p_W);
+/// Upper bound of the distance that a point within `radius` of the origin moves between two poses [m].
+double extent(const RigidTransform& X0, const RigidTransform& X1, double radius);
+
+bool is_same(const collision::ContactPoint& a, const collision::ContactPoint& b, double within = same_point);
+inline bool has_given(const ContactRow& row) { return row.impulse_W != Vector3d::Zero(); }
+/// Returns whether a row is compliant and there is a contact with the same other body.
+bool is_of_indented(const ContactRow& row, const std::vector<ContactRow>& rows);
+
+/// Returns by how much the materials at a contact are indented along its normal: their compliance times the normal
+/// loads of all contacts with the same body, which indent one surface together.
+double indentation(const std::vector<ContactRow>& rows, const ContactRow& at);
+
+/// Sets the compliance of rows to impulses over a substep of `h` [s]. Materials that carry no load yet are rigid if one
+/// of their contacts hits; those that yield give nothing back.
+void let_yield(std::vector<ContactRow>& rows, const std::vector<bool>& hits, double h,
+               std::vector<double>& restitution);
+
+/// Depths admissible on a path: that of a rigid contact, and in compliant ones that of the rows at both ends, with the
+/// chord deviation of the path [m].
+collision::Tolerance admissible_depths(const std::vector<ContactRow>& at_start, const std::vector<ContactRow>& at_end,
+                                       double chord_deviation);
+
+}  // namespace spring_workbench::contact
